@@ -51,9 +51,7 @@ Job tangentsJob(const Mesh& mesh, const TangentOptions& options) {
     auto outputs = std::make_shared<Outputs>();
     outputs->tangents.resize(mesh.cornerCount());
     return {outputs, [&mesh, outputs, options](const Execution& execution) {
-                TangentOptions with_execution = options;
-                with_execution.execution = execution;
-                orDie(generateTangents(mesh.view(), with_execution, {.tangents = outputs->tangents}));
+                orDie(generateTangents(mesh.view(), options, {.tangents = outputs->tangents}, execution));
             }};
 }
 
@@ -65,8 +63,8 @@ Job allFieldsJob(const Mesh& mesh) {
     outputs->magnitudes_t.resize(mesh.cornerCount());
     return {outputs, [&mesh, outputs](const Execution& execution) {
                 orDie(generateTangents(
-                    mesh.view(), {.convention = conventions::opengl, .execution = execution},
-                    {outputs->tangents, outputs->bitangents, outputs->magnitudes_s, outputs->magnitudes_t}));
+                    mesh.view(), {.convention = conventions::opengl},
+                    {outputs->tangents, outputs->bitangents, outputs->magnitudes_s, outputs->magnitudes_t}, execution));
             }};
 }
 
@@ -102,9 +100,8 @@ Job normalsJob(const Mesh& mesh, NormalWeighting weighting = NormalWeighting::an
     auto outputs = std::make_shared<Outputs>();
     outputs->normals.resize(mesh.cornerCount());
     return {outputs, [=, &mesh](const Execution& execution) {
-                orDie(generateNormals(mesh.view(),
-                                      {.weighting = weighting, .crease_angle_deg = crease_deg, .execution = execution},
-                                      outputs->normals));
+                orDie(generateNormals(mesh.view(), {.weighting = weighting, .crease_angle_deg = crease_deg},
+                                      outputs->normals, execution));
             }};
 }
 
@@ -159,7 +156,7 @@ Job makeJob(const std::string& name, const Mesh& mesh) {
     if (name == "normals_crease") return normalsJob(mesh, NormalWeighting::angle, 30);
     if (name == "mikktspace_all") return allFieldsJob(mesh);
     if (name == "mikktspace_corrected")
-        return tangentsJob(mesh, {.pairing = Pairing::corrected, .convention = conventions::opengl});
+        return tangentsJob(mesh, {.convention = conventions::opengl, .pairing = Pairing::corrected});
     if (name == "evaluate") return evaluateJob(mesh);
     if (name == "lengyel_vertex") return lengyelVertexJob(mesh);
     if (name == "normals") return normalsJob(mesh);

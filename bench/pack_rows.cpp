@@ -28,11 +28,11 @@ RowResult runPacking(const std::string& title, FrameFormat format, bool unpack, 
     const test::FrameList& frames = someFrames();
     test::FrameList out = frames;
     std::vector<std::byte> bytes(kFrames * frameBytes(format));
-    row.wrong = !packFrames(format, frames.normals, frames.tangents, bytes);
+    row.wrong = !packFrames(frames.normals, frames.tangents, format, bytes);
     Race race;
     const std::size_t runner = race.add([&] {
-        const bool done = unpack ? unpackFrames(format, bytes, out.normals, out.tangents).ok()
-                                 : packFrames(format, frames.normals, frames.tangents, bytes).ok();
+        const bool done = unpack ? unpackFrames(bytes, format, out.normals, out.tangents).ok()
+                                 : packFrames(frames.normals, frames.tangents, format, bytes).ok();
         row.wrong = row.wrong || !done;
     });
     const std::size_t copy = race.add([&] {

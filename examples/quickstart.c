@@ -35,12 +35,12 @@ int main(void) {
     TSPACE_INIT(options);
     options.tangents = &tangents;
     tspace_IndexedFrames* frames = NULL;
-    if (tspace_makeIndexedFrames(&mesh, &options, &frames, &error) != TSPACE_OK) return fail(&error);
+    if (tspace_makeIndexedFrames(&mesh, &options, NULL, &frames, &error) != TSPACE_OK) return fail(&error);
 
     /* Corners that disagree got a vertex of their own. */
     for (size_t v = 0; v < frames->vertex_count; ++v) {
         const float* t = frames->tangents + 4 * v;
-        printf("vertex %zu copies %u: tangent %g %g %g sign %g\n", v, (unsigned)frames->source_vertex[v], t[0], t[1],
+        printf("vertex %zu copies %u: tangent %g %g %g sign %g\n", v, (unsigned)frames->source_vertices[v], t[0], t[1],
                t[2], t[3]);
     }
     printf("%d vertices became %zu\n", VERTICES, frames->vertex_count);

@@ -46,7 +46,7 @@ int main() {
     for (std::size_t v = 0; v < frames->vertexCount(); ++v) {
         const tspace::Vec4& t = frames->tangents[v];
         std::printf("vertex %zu copies %u: tangent %g %g %g sign %g\n", v,
-                    static_cast<unsigned>(frames->source_vertex[v]), t.x, t.y, t.z, t.w);
+                    static_cast<unsigned>(frames->source_vertices[v]), t.x, t.y, t.z, t.w);
     }
     std::printf("%zu vertices became %zu\n", kVertices.size(), frames->vertexCount());
     return 0;

@@ -84,7 +84,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     options.reading.unit_vectors = (flags & 64) != 0;
     options.heat = (flags & 128) != 0;
     options.padding = in.byte() % 8u;
-    options.execution.thread_count = 1;
     const Meshes meshes(in);
     const Result<BakedMap> map = bakeMap(meshes.low(), meshes.high(), options);
     if (!map) return 0;
@@ -94,8 +93,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     }
     require(std::isfinite(map->error.mean_deg) && std::isfinite(map->error.max_deg), "errors are finite");
     require(map->hit_count + map->missed_count + map->padding_count <= map->texels.size(), "texels are counted once");
-    options.execution.thread_count = 2;
-    const Result<BakedMap> again = bakeMap(meshes.low(), meshes.high(), options);
+    const Result<BakedMap> again = bakeMap(meshes.low(), meshes.high(), options, {.thread_count = 2});
     require(again && std::memcmp(again->texels.data(), map->texels.data(), map->texels.size() * sizeof(Vec3)) == 0,
             "two threads give the same texels");
     return 0;

@@ -103,16 +103,13 @@ struct Outputs {
     }
 };
 
-void checkTangents(const MeshView& mesh, TangentOptions options) {
+void checkTangents(const MeshView& mesh, const TangentOptions& options) {
     Outputs one(mesh.cornerCount()), three(mesh.cornerCount()), evaluated(mesh.cornerCount());
-    options.execution = {.thread_count = 1};
-    options.execution.simd = SimdTarget::scalar;
-    const Result<TangentReport> done = generateTangents(mesh, options, one.spans());
+    const Result<TangentReport> done = generateTangents(mesh, options, one.spans(), {.simd = SimdTarget::scalar});
     require(done.ok() || !done.error().message.empty(), "an error has a message");
     if (!done) return;
-    TangentOptions other = options;
-    other.execution = {.thread_count = 3};
-    require(generateTangents(mesh, other, three.spans()).ok(), "threads do not decide about success");
+    require(generateTangents(mesh, options, three.spans(), {.thread_count = 3}).ok(),
+            "threads do not decide about success");
     require(one == three, "threads and SIMD change no bit");
     const Result<TangentPlan> plan = planTangents(mesh, options);
     require(plan.ok(), "what can be generated can be planned");
@@ -120,7 +117,7 @@ void checkTangents(const MeshView& mesh, TangentOptions options) {
             "a plan fits its own pose");
     require(one == evaluated, "generate gives the bits of plan and evaluate");
 
-    require(sanitizeTangents(mesh, std::span(one.tangents), {}).ok(), "any tangents can be sanitized");
+    require(sanitizeTangents(mesh, {}, std::span(one.tangents)).ok(), "any tangents can be sanitized");
     std::size_t corner = 0;
     for (const std::uint32_t size : mesh.face_sizes) {
         for (std::uint32_t k = 0; k < size; ++k, ++corner) {
@@ -143,7 +140,7 @@ void checkIndexedFrames(const MeshView& mesh, const TangentOptions& tangents, co
     require(frames->indices.size() == mesh.cornerCount(), "every corner has a vertex");
     for (const std::uint32_t vertex : frames->indices)
         require(vertex < frames->vertexCount(), "no index is out of range");
-    for (const std::uint32_t vertex : frames->source_vertex)
+    for (const std::uint32_t vertex : frames->source_vertices)
         require(vertex < mesh.vertexCount(), "every vertex has a source");
 }
 

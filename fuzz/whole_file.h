@@ -44,7 +44,7 @@ inline void runOnFile(const std::uint8_t* bytes, std::size_t count, const char* 
 
     GenerateOptions options{.all = true};
     options.existing = ExistingTangents::replace;
-    options.tangents.execution.thread_count = 1;
+    options.execution.thread_count = 1;
     const Result<GenerateReport> report = generateFile(input, output, options);
     std::error_code ignored;
     require(report.ok() == std::filesystem::exists(output, ignored),

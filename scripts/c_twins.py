@@ -52,6 +52,7 @@ CPP_ALONE = {
 # Fields whose default in C is zero (regular expressions) -> how it is that of C++.
 OTHER_DEFAULTS = {
     r"tspace_Mesh\.face_size": "0 means 3",
+    r"tspace_Execution\.thread_count": "0 and 1 are the same",
 }
 
 # Regular expressions -> how C says it.

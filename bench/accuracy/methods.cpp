@@ -35,7 +35,6 @@ Frames framesBy(Method method, const TestMesh& mesh, std::uint32_t refine) {
     TangentOptions options{.convention = conventions::opengl};
     options.method = method;
     options.refine = refine;
-    options.execution.thread_count = 1;
     TangentOutput out;
     out.tangents = frames.tangents;
     out.bitangents = frames.bitangents;
@@ -68,7 +67,6 @@ std::vector<Vec3> normalsBy(NormalWeighting weighting, const TestMesh& mesh, std
     NormalOptions options;
     options.weighting = weighting;
     options.refine = refine;
-    options.execution.thread_count = 1;
     stopOnError(generateNormals(mesh.view(), options, normals));
     return normals;
 }

@@ -63,10 +63,9 @@ void addSurface(const accuracy::Surface& surface, Charts charts, bool relief, st
     const LowMesh low = makeLow(surface, charts);
     const HighMesh high = makeHigh(surface, relief ? 512 : 256, relief);
     const auto baked = [&](unsigned bits, MapFit fit) {
-        BakeOptions options{.width = size, .height = size, .bits = bits, .fit = fit};
-        options.execution.thread_count = 2;
+        const BakeOptions options{.width = size, .height = size, .bits = bits, .fit = fit};
         const auto start = std::chrono::steady_clock::now();
-        Result<BakedMap> map = bakeMap(low.view(), high.view(), options);
+        Result<BakedMap> map = bakeMap(low.view(), high.view(), options, {.thread_count = 2});
         if (!map) stop(surface.name, map.error());
         const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
         means.slowest = std::max(means.slowest, took.count());

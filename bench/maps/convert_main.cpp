@@ -41,7 +41,7 @@ struct Map {
 
 Map converted(const Map& map, const MapSide& from, const MapSide& to, unsigned bits) {
     Map out{map.size, std::vector<Vec3>(map.texels.size())};
-    orStop(convertMap(map.image(), from, to, out.texels, {.bits = bits, .execution = {.thread_count = kAllThreads}}));
+    orStop(convertMap(map.image(), from, to, {.bits = bits}, out.texels, {.thread_count = kAllThreads}));
     return out;
 }
 
@@ -164,8 +164,7 @@ void measure(const accuracy::Surface& surface, Charts charts, bool relief, std::
     const HighMesh high = makeHigh(surface, relief ? 512 : 256, relief);
     const MapSide from = sideOf(mikk), to = sideOf(best);
     BakeOptions options{.width = size, .height = size, .bits = 16, .fit = MapFit::texel};
-    options.execution.thread_count = kAllThreads;
-    const BakedMap baked = orStop(bakeMap(mikk.view(), high.view(), options));
+    const BakedMap baked = orStop(bakeMap(mikk.view(), high.view(), options, {.thread_count = kAllThreads}));
     const Map map{size, baked.texels};
     const std::vector<DVec3> shown = pictureOf(map, mikk);
     const Map there = converted(map, from, to, 16);
@@ -176,14 +175,14 @@ void measure(const accuracy::Surface& surface, Charts charts, bool relief, std::
     rows.object_round_trip.add(
         apart(shown, pictureOf(converted(in_space, {.space = MapSpace::object}, from, 16), mikk)));
     options.bits = 8;
-    const Map eight{size, orStop(bakeMap(mikk.view(), high.view(), options)).texels};
+    const Map eight{size, orStop(bakeMap(mikk.view(), high.view(), options, {.thread_count = kAllThreads})).texels};
     const std::vector<DVec3> shown_eight = pictureOf(eight, mikk);
     rows.widened.add(apart(shown_eight, pictureOf(converted(eight, from, to, 16), best)));
     rows.narrow_unconverted.add(apart(shown_eight, pictureOf(eight, best)));
     rows.narrow.add(apart(shown_eight, pictureOf(converted(eight, from, to, 8), best)));
     options.bits = 16;
     options.space = MapSpace::object;
-    const Map object{size, orStop(bakeMap(mikk.view(), high.view(), options)).texels};
+    const Map object{size, orStop(bakeMap(mikk.view(), high.view(), options, {.thread_count = kAllThreads})).texels};
     const auto addObject = [&](Row& row, const Map& texels, MapSpace space) {
         const MapError error = orStop(measureMap(texels.image(), mikk.view(), high.view(), {.space = space}));
         row.add({error.mean_deg / baked.error.mean_deg, error.p99_deg / baked.error.p99_deg});

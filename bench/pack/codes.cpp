@@ -20,8 +20,8 @@ std::vector<Code> allCodes() {
         const std::size_t bytes = frameBytes(format);
         const auto words = std::make_shared<std::vector<std::byte>>(bytes * kBatch);
         codes.push_back({test::kFormatNames[f], std::string("tspace_decode") + kDecoders[f], bytes,
-                         [=](const FrameList& in) { (void)packFrames(format, in.normals, in.tangents, *words); },
-                         [=](FrameList& out) { (void)unpackFrames(format, *words, out.normals, out.tangents); }});
+                         [=](const FrameList& in) { (void)packFrames(in.normals, in.tangents, format, *words); },
+                         [=](FrameList& out) { (void)unpackFrames(*words, format, out.normals, out.tangents); }});
     }
     for (const Peer& peer : peers()) {
         const auto words = std::make_shared<std::vector<PeerWords>>(kBatch);

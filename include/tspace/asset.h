@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "tspace/callbacks.h"
+#include "tspace/execution.h"
 #include "tspace/normals.h"
 #include "tspace/pack.h"
 #include "tspace/result.h"
@@ -33,8 +35,9 @@ struct FileOptions {
     /// Path of tspace-import, the program that reads .fbx, .ply, .stl, .dae, .3ds and others; empty: such files are
     /// refused. It runs as a process of its own, so that a crash or a runaway there is an error here (invalidFile).
     std::string importer = {};
+    /// Files of more bytes are not given to the importer. The default is 2 GiB.
     std::uint64_t import_max_file_bytes = std::uint64_t{2} << 30;
-    /// Address space of the importer; a file gets 192 MiB and 256 times its size at most.
+    /// Address space of the importer, in bytes; a file gets 192 MiB and 256 times its size at most.
     std::uint64_t import_max_memory_bytes = std::uint64_t{16} << 30;
     /// What the importer may take of processor time, and on the clock. 0: by the size of the file, 2 s and one more for
     /// each MiB of it, and twice that on the clock.
@@ -61,15 +64,6 @@ struct FileOptions {
     /// nodes. true: no offset; the shape then loses what floats lose, and a warning says so.
     bool keep_coordinates = false;
 };
-
-/// Takes bytes of an output, in their order. Returns false when it can take no more. Called by one thread at a time, which
-/// need not be that of the call. What it throws ends the call (internal, or outOfMemory); so it is with Progress, FindFile and
-/// all that the caller has called: no exception leaves the library.
-using Sink = std::function<bool(std::span<const std::uint8_t>)>;
-
-/// Called now and then during long work. `done` of `total` steps; `what` names the step ("computing tangents"). It may
-/// throw Cancelled, which ends the call with ErrorCode::cancelled: nothing on disk has changed then.
-using Progress = std::function<void(const char* what, std::uint64_t done, std::uint64_t total)>;
 
 /// What becomes of tangents that are there and needed.
 enum class ExistingTangents : std::uint32_t {
@@ -111,7 +105,7 @@ enum class VectorFormat : std::uint32_t {
     snorm8 = 2,   ///< a quarter; the same
 };
 
-/// "frame32": the name of the enumerator, as options and reports have it; "" when `format` is none of them.
+/// "frame32", "snorm8_pair": the name that options and reports have; "" when `format` is none of the enumerators.
 const char* frameFormatName(FrameFormat format);
 
 /// What of NORMAL and TANGENT goes where a primitive has its frames packed.
@@ -137,6 +131,7 @@ enum class MorphNormals : std::uint32_t {
     all = 2,      ///< all get new ones
 };
 
+/// How generateFile works. The defaults add what glTF needs and change nothing else.
 struct GenerateOptions {
     bool all = false;    ///< also primitives whose material needs no tangents
     bool strip = false;  ///< take tangents away where no material needs them; not together with `all` (invalidOption)
@@ -145,16 +140,16 @@ struct GenerateOptions {
     bool bitangents = false;
     ExistingTangents existing = ExistingTangents::keep;
     TextureTransform texture_transform = TextureTransform::apply;
-    /// Its execution serves the whole file: primitives are computed at the same time, and normals and sanitize run
-    /// where their primitive does. With an allocator one primitive follows the other.
     TangentOptions tangents{.convention = conventions::gltf};
     /// For primitives without normals. The default is what glTF asks of a client.
     NormalOptions normals{.weighting = NormalWeighting::flat};
     /// OBJ files with `s` lines: missing normals follow those groups with angle weights (faces in group 0 are flat).
     /// false, or a file without `s` lines: `normals` alone decides.
     bool use_smoothing_groups = true;
+    /// Mend tangents that are not finite, zero, not unit, parallel to N, or of mixed sign inside a face. false: the file gets
+    /// them as the method gives them.
     bool sanitize = true;
-    SanitizeOptions sanitize_options = {};
+    SanitizeOptions sanitize_options = {};  ///< how, with `sanitize`
     /// PNG keeps its bits, JPEG is compressed once more, WebP is written without loss. An image that is something else as
     /// well, such as a base colour, stays, and the normal maps get one of their own; files beside a .gltf stay too, and
     /// the output names new ones.
@@ -181,6 +176,8 @@ struct GenerateOptions {
     /// is called (NAME.glb). Files that the model names beside it are not written. Where it returns false: cannotWrite.
     Sink sink = {};
     bool dry_run = false;  ///< everything but writing; the report says what would be written
+    /// Serves the whole file: primitives are computed at the same time. With an allocator one primitive follows the other.
+    Execution execution = {};
     Progress progress = {};
     /// What mikktspace is computed on; other methods take triangles. Which pairs are quads is chosen by the file's own
     /// tangents where these show it, else by shape. Polygons of an OBJ file are known: `quads` takes them as they are.

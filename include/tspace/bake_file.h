@@ -18,7 +18,7 @@ namespace tspace {
 enum class BakeInput : std::uint32_t { low = 0, high = 1, cage = 2, map = 3 };
 
 struct BakeFileOptions {
-    /// Its wrap modes are those of the low poly's textures. Its progress and stop serve the whole call. Its limit on memory is that of `file`, or 16 GB, where it is 0.
+    /// Its wrap modes are those of the low poly's textures. Its limit on memory is that of `file`, or 16 GB, where it is 0.
     BakeOptions map = {};
     /// Frames that the low poly lacks: as GenerateOptions has them.
     TangentOptions tangents{.convention = conventions::gltf};
@@ -35,6 +35,8 @@ struct BakeFileOptions {
     /// `map.reading.two_channels` says, whatever the reading.
     bool unit = false;
     bool udim = false;  ///< a file per tile of UVs: NAME.1001.png. Without it textures go on outside of 0 to 1
+    Execution execution = {};
+    Progress progress = {};
 };
 
 /// One image.
@@ -63,8 +65,7 @@ Result<BakeFileReport> bakeFile(const std::string& low, const std::string& high,
                                 const BakeFileOptions& options = {});
 
 struct MapErrorFileOptions {
-    /// What the map is taken for, and how it is measured. Its progress and stop serve the whole call.
-    MapErrorOptions map = {};
+    MapErrorOptions map = {};                                  ///< what the map is taken for, and how it is measured
     TangentOptions tangents{.convention = conventions::gltf};  ///< as BakeFileOptions
     NormalOptions normals{.weighting = NormalWeighting::flat};
     FileOptions file = {};
@@ -73,6 +74,8 @@ struct MapErrorFileOptions {
     std::string material = {};  ///< only triangles of the material with this name; empty: all
     std::uint32_t tile = 0;     ///< only triangles of this UDIM tile, 1001 and on; 0: all
     std::string heat = {};      ///< where to write a picture of the error; empty: nowhere
+    Execution execution = {};
+    Progress progress = {};
 };
 
 /// One way to read a map, and the error that it has then.

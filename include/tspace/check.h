@@ -103,25 +103,27 @@ struct Finding {
     std::string remedy = {};                   ///< how to mend it here; usually findingRemedy(code)
 };
 
+/// What is right. Angles are in degrees; no number may be negative or not finite.
 struct CheckOptions {
-    /// How far a tangent may lie outside the directions that the triangles around it give, in degrees. All common ways
-    /// to average lie between those directions.
+    /// How far a tangent may lie outside the directions that the triangles around it give, 0 to 180. All common ways
+    /// to average lie between those directions, so that the default is beyond every method.
     double direction_deg = 10;
-    /// From here on a direction is so wrong that it is an error.
+    /// From here on a direction is so wrong that it is an error, 0 to 180. The default is halfway to a right angle, where T
+    /// says nothing of u.
     double error_deg = 45;
-    /// How far a tangent may lean out of the plane of the surface, in degrees. Quantised normals make a degree.
+    /// How far a tangent may lean out of the plane of the surface, 0 to 90. Quantised normals make a degree.
     double orthogonal_deg = 3;
-    /// How much the tangents of equal vertices may differ, in degrees.
+    /// How much the tangents of equal vertices may differ, 0 to 180. Storing in 8 bits makes less than the default.
     double split_deg = 2;
     /// How far lengths may be from 1. The default is what storing in 8 bits takes, and what the glTF validator allows.
     double unit_tolerance = 0.00674;
-    /// What would be an error is a warning where it concerns less than this part of a primitive's surface.
+    /// What would be an error is a warning where it concerns less than this part of a primitive's surface, 0 to 1.
     double error_share = 0.001;
-    /// Whose signs are right for the data as they are in the file.
+    /// Whose signs are right for the data as they are in the file. The default is what glTF files hold.
     Convention convention = conventions::gltf;
     /// Look at normal maps (PNG, JPEG and WebP, where tspace was built with their decoders).
     bool images = true;
-    /// Larger images are not looked at.
+    /// Images of more pixels are not looked at. The default is 8192 x 8192.
     std::uint64_t most_pixels = std::uint64_t{1} << 26;
     FileOptions file = {};
     /// Primitives are checked at the same time. An allocator is not used.

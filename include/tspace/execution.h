@@ -37,8 +37,8 @@ enum class SimdTarget : std::uint32_t {
 /// For Execution::thread_count: as many as there are cores.
 inline constexpr std::uint32_t kAllThreads = 0xffffffffu;
 
-/// Where work runs and where its memory comes from. Passed by value inside option structs. What it points to must
-/// outlive the call (and a plan made with it).
+/// Where work runs and where its memory comes from. A call has one, for all that it does: the last argument of functions on
+/// arrays, a member of the options of functions on files. What it points to must outlive the call (and a plan made with it).
 struct Execution {
     std::uint32_t thread_count = 1;  ///< 0 and 1: the calling thread only; kAllThreads
     /// Runs all work, whatever thread_count says; null: threads that are started and joined within the call.

@@ -6,11 +6,11 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "tspace/callbacks.h"
 #include "tspace/result.h"
 
 namespace tspace {
@@ -34,7 +34,7 @@ struct FlipGreenOptions {
 
     std::span<const std::uint8_t> content = {};  ///< the image, in place of the file `input`; must stay while it runs
     /// As GenerateOptions::sink: gets the bytes in place of the file `output`, of which nothing is asked then.
-    std::function<bool(std::span<const std::uint8_t>)> sink = {};
+    Sink sink = {};
     bool dry_run = false;  ///< everything but writing
     bool sync = true;      ///< as FileOptions::sync
 };

@@ -68,8 +68,9 @@ struct PrimitiveIdentity {
 
 struct IdentifyOptions {
     FileOptions file = {};
-    double tolerance_deg = 1;  ///< tangents nearer than this count as the same
-    Execution execution = {};
+    /// Tangents nearer than this count as the same: degrees, 0 to 180. Storing in 8 bits turns them by less than the default.
+    double tolerance_deg = 1;
+    Execution execution = {};  ///< changes no figure
 };
 
 struct Identification {

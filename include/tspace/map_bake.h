@@ -21,7 +21,7 @@ enum class MapFit : std::uint32_t {
 struct BakeOptions {
     std::uint32_t width = 1024, height = 1024;  ///< 1 to 16384
     unsigned bits = 16;                         ///< of a channel: 8 or 16
-    MapSpace space = MapSpace::tangent;
+    MapSpace space = MapSpace::tangent;         ///< what its vectors are told in; the default is glTF's
     MapReading reading = {};  ///< what the map is made for. With two channels all texels have length 1
     /// How the texture goes on outside of 0 to 1. What reaches beyond the edge of a clamped one has no say.
     TextureWrap wrap_u = TextureWrap::repeat, wrap_v = TextureWrap::repeat;
@@ -29,9 +29,6 @@ struct BakeOptions {
     std::uint32_t padding = 16;  ///< texels around the triangles that continue them; 0 to 256
     double reach = 0;            ///< as MapErrorOptions::reach
     bool heat = false;           ///< MapError::heat
-    Execution execution = {};
-    MapProgress progress = {};
-    std::function<bool()> stop = {};  ///< as MapErrorOptions::stop
     /// Most memory that the call may take: bakeBytes is compared with it before any work (tooLarge). 0: no limit.
     std::uint64_t memory_limit_bytes = 0;
 };
@@ -59,11 +56,12 @@ struct BakedMap {
 };
 
 /// What a bake takes at its peak, about; with `solve` that of one whose texels all need rays between them.
-std::uint64_t bakeBytes(const BakeOptions& options, std::uint64_t low_triangles, std::uint64_t high_triangles);
+std::uint64_t bakeBytes(std::uint64_t low_triangles, std::uint64_t high_triangles, const BakeOptions& options);
 
 /// Bakes one image. The same texels for any thread count. Time: rays, about 1 microsecond
 /// each, 1 a texel or, with `solve`, 1 to 10; and with `solve` 1 to 3 microseconds a texel. Errors as measureMap;
 /// tooLarge; missingAttribute also where no line meets the high poly, or the UVs cover no texel. Thread-safe.
-Result<BakedMap> bakeMap(const LowPoly& low, const HighPoly& high, const BakeOptions& options = {});
+Result<BakedMap> bakeMap(const LowPoly& low, const HighPoly& high, const BakeOptions& options = {},
+                         const Execution& execution = {}, const Progress& progress = {});
 
 }  // namespace tspace

@@ -6,6 +6,7 @@
 // are smooth where filtering mixes texels, so one texel at a time is enough: what comes out is as exact as its numbers.
 #pragma once
 
+#include "tspace/callbacks.h"
 #include "tspace/execution.h"
 #include "tspace/map_image.h"
 #include "tspace/map_reading.h"
@@ -41,9 +42,6 @@ struct ConvertMapOptions {
     unsigned bits = 16;
     /// Texels around the triangles that are converted with the nearest one. 0: those alone that bilinear filtering reads.
     std::uint32_t padding = 0;
-    Execution execution = {};
-    MapProgress progress = {};        ///< called from the calling thread
-    std::function<bool()> stop = {};  ///< where it returns true, the call ends soon with cancelled
 };
 
 struct ConvertMapReport {
@@ -80,7 +78,8 @@ struct ConvertMapReport {
 /// missingAttribute (a mesh, normals or tangents that are needed), tooLarge (more than 2^32 texels, or UVs that show the image
 /// far too often), outOfMemory, cancelled. Time: linear. Memory: about 30 bytes a texel, 55 with 16 bits between
 /// tangent and object space. The same bits for any number of threads. Thread-safe.
-Result<ConvertMapReport> convertMap(const MapImage& map, const MapSide& from, const MapSide& to, std::span<Vec3> out,
-                                    const ConvertMapOptions& options = {});
+Result<ConvertMapReport> convertMap(const MapImage& map, const MapSide& from, const MapSide& to,
+                                    const ConvertMapOptions& options, std::span<Vec3> out,
+                                    const Execution& execution = {}, const Progress& progress = {});
 
 }  // namespace tspace

@@ -33,7 +33,7 @@ struct ConvertMapFileOptions {
     /// Of a channel: 8 or 16 in a PNG; 16 (half) or 32 (float) in an EXR. 0: the most that the format has.
     unsigned bits = 0;
     std::uint32_t padding = 0;  ///< ConvertMapOptions::padding
-    /// For meshes without tangents, which get them as generateFile gives them. Its execution serves the whole call.
+    /// For meshes without tangents, which get them as generateFile gives them.
     TangentOptions tangents{.convention = conventions::gltf};
     /// How models and the image are read. A limit on memory counts for the image too; without one, images of up to 2^24
     /// pixels are read whatever their files weigh.
@@ -41,6 +41,7 @@ struct ConvertMapFileOptions {
     std::span<const std::uint8_t> content = {};  ///< the image, in place of the file `input`; must stay while it runs
     Sink sink = {};                              ///< takes the output in place of a file
     bool dry_run = false;                        ///< everything but writing
+    Execution execution = {};
     Progress progress = {};
 };
 

@@ -9,10 +9,10 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <vector>
 
+#include "tspace/callbacks.h"
 #include "tspace/execution.h"
 #include "tspace/map_image.h"
 #include "tspace/map_reading.h"
@@ -43,16 +43,13 @@ struct HighPoly {
 };
 
 struct MapErrorOptions {
-    MapSpace space = MapSpace::tangent;
-    MapReading reading = {};
+    MapSpace space = MapSpace::tangent;  ///< what the map is taken for; the default is glTF's
+    MapReading reading = {};             ///< how it is taken to be read; the default is glTF's
     /// How far rays go from the surface, both ways; with a cage, how far beyond the surface. 0: chosen from the sizes of
     /// both meshes (chosenReach).
     double reach = 0;
     std::uint32_t point_count = 100000;  ///< spread evenly over the area of the low poly; 1 to 10,000,000
     bool heat = false;                   ///< also MapError::heat
-    Execution execution = {};
-    MapProgress progress = {};
-    std::function<bool()> stop = {};  ///< where it returns true, the call ends soon with cancelled: nothing was made
 };
 
 /// Angles between the shaded normal and the truth, in degrees.
@@ -77,7 +74,8 @@ double chosenReach(const LowPoly& low, const HighPoly& high);
 /// indexOutOfRange, invalidOption, missingAttribute (no UVs, normals or tangents; meshes that are nowhere near each other),
 /// unsupportedFile (no Embree), cancelled, outOfMemory. Thread-safe.
 Result<MapError> measureMap(const MapImage& map, const LowPoly& low, const HighPoly& high,
-                            const MapErrorOptions& options = {});
+                            const MapErrorOptions& options = {}, const Execution& execution = {},
+                            const Progress& progress = {});
 
 /// Another way to read a map.
 struct MapCandidate {
@@ -89,6 +87,7 @@ struct MapCandidate {
 /// The same for each of several readings, at the same points. Without `heat`. Errors as measureMap.
 Result<std::vector<MapError>> measureReadings(const MapImage& map, const LowPoly& low, const HighPoly& high,
                                               std::span<const MapCandidate> candidates,
-                                              const MapErrorOptions& options = {});
+                                              const MapErrorOptions& options = {}, const Execution& execution = {},
+                                              const Progress& progress = {});
 
 }  // namespace tspace

@@ -18,7 +18,6 @@ struct HeightToNormalOptions {
     Green green = Green::up;  ///< of the normal map
     /// Channels are rounded to n / (2^bits - 1), n whole. 32: as computed.
     unsigned bits = 16;
-    Execution execution = {};
 };
 
 struct HeightToNormalReport {
@@ -40,7 +39,8 @@ struct HeightToNormalReport {
 /// Errors: nullData, countMismatch, strideTooSmall, misaligned, invalidOption (bits; a strength that is not finite),
 /// missingAttribute (positions, normals or tangents of the mesh), tooLarge, outOfMemory. Time: linear. The same bits for any
 /// number of threads. Thread-safe.
-Result<HeightToNormalReport> heightToNormal(const HeightMap& map, const MapSide& mesh, std::span<Vec3> out,
-                                            const HeightToNormalOptions& options = {});
+Result<HeightToNormalReport> heightToNormal(const HeightMap& map, const MapSide& mesh,
+                                            const HeightToNormalOptions& options, std::span<Vec3> out,
+                                            const Execution& execution = {});
 
 }  // namespace tspace

@@ -24,6 +24,7 @@ struct HeightToNormalFileOptions {
     std::span<const std::uint8_t> content = {};                ///< the image, in place of the file `input`
     Sink sink = {};                                            ///< takes the output in place of a file
     bool dry_run = false;                                      ///< everything but writing
+    Execution execution = {};
 };
 
 struct HeightToNormalFileReport {

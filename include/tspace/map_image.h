@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <span>
 
 #include "tspace/texture_wrap.h"
@@ -23,8 +22,5 @@ struct MapImage {
     std::span<const Vec3> texels = {};  ///< width * height, channels from 0 to 1, row 0 is v = 0
     TextureWrap wrap_u = TextureWrap::repeat, wrap_v = TextureWrap::repeat;
 };
-
-/// Called now and then. `done` of `total` steps; `what` names the step. It may throw Cancelled: as where `stop` is true.
-using MapProgress = std::function<void(const char* what, std::uint64_t done, std::uint64_t total)>;
 
 }  // namespace tspace

@@ -36,9 +36,6 @@ struct IndexView {
 
     /// The vertex of corner c. Not checked.
     [[nodiscard]] std::uint32_t operator[](std::size_t c) const {
-#ifdef TSPACE_SMALL  // the bindings for JavaScript, which have no other types
-        return type == IndexType::u32 ? static_cast<const std::uint32_t*>(data)[c] : static_cast<std::uint32_t>(c);
-#else
         switch (type) {
             case IndexType::u8:
                 return static_cast<const std::uint8_t*>(data)[c];
@@ -51,7 +48,6 @@ struct IndexView {
                 break;
         }
         return static_cast<std::uint32_t>(c);
-#endif
     }
 };
 

@@ -26,11 +26,17 @@ enum class NormalWeighting : std::uint32_t {
     best = 6,
 };
 
+/// How normals are computed. First what all weightings have, then what some do not look at.
 struct NormalOptions {
-    NormalWeighting weighting = NormalWeighting::angle;
+    NormalWeighting weighting = NormalWeighting::angle;  ///< the default does not depend on how faces were cut
+    /// Its handedness and winding say which side is out; the default is glTF's.
+    Convention convention = {};
+
+    // All but `flat`:
+
     /// Degrees, 0..180. Two faces that share an edge are smoothed over it only when their normals differ by no more
-    /// than this (and 1e-6 rad for rounding). 180: never hard (except by smoothing groups); then all faces at a point
-    /// are smoothed together, also those that share no edge. `flat` looks at neither.
+    /// than this (and 1e-6 rad for rounding). 180, the default, because no angle fits all models: never hard (except by
+    /// smoothing groups); then all faces at a point are smoothed together, also those that share no edge.
     float crease_angle_deg = 180.0f;
     /// One number per face, or empty. Faces smooth together only when their numbers are equal and not 0 (OBJ `s`),
     /// or, with `smoothing_groups_are_masks`, when they have a bit in common (3ds Max). Connections pass on: where A is
@@ -39,11 +45,12 @@ struct NormalOptions {
     bool smoothing_groups_are_masks = false;
     /// true: vertices at the same position are one point (so UV seams stay smooth); false: only equal indices are.
     bool weld_positions = true;
-    Convention convention = {};  ///< handedness and winding say which side is out
-    Execution execution = {};
-    /// 0, 1 or 2 steps that `best` takes after its fit; other weightings take none. A step moves each normal so that,
-    /// interpolated along the edges around it, it is across them, as far as these agree. 1: a third less error at
-    /// vertices and in what is shaded between them. 2: another fifth less. 0: the fit alone.
+
+    // `best` alone:
+
+    /// 0, 1 or 2 steps after the fit. A step moves each normal so that, interpolated along the edges around it, it is
+    /// across them, as far as these agree. 1: a third less error at vertices and in what is shaded between them. 2:
+    /// another fifth less. 0: the fit alone.
     std::uint32_t refine = 1;
 };
 
@@ -63,12 +70,14 @@ struct NormalReport {
 /// mean of the other faces at the vertex; if there is none, (0, 0, 1). So every result is finite and unit.
 /// Corners of faces with fewer than 3 corners get (0, 0, 0).
 ///
-/// mesh      positions and indices; UVs and normals are not looked at
-/// out       one per corner (count == mesh.cornerCount()); must not overlap the inputs
+/// mesh       positions and indices; UVs and normals are not looked at
+/// out        one per corner (count == mesh.cornerCount()); must not overlap the inputs
+/// execution  threads and memory; changes no bit
 /// Errors: those of validate(); countMismatch (out, smoothing_groups), invalidOption, outOfMemory.
 /// Angles in triangles are good to 2e-7, those of polygons (face_sizes, or a face_size other than 3) are exact.
 /// O(corners). Scratch memory: about 36 bytes per vertex; with hard edges or polygons less for large meshes, up to 40
 /// bytes per triangle for small ones; `best` 28 bytes per corner more. Thread-safe; same bits for any thread count.
-Result<NormalReport> generateNormals(const MeshView& mesh, const NormalOptions& options, StridedSpan<Vec3> out);
+Result<NormalReport> generateNormals(const MeshView& mesh, const NormalOptions& options, StridedSpan<Vec3> out,
+                                     const Execution& execution = {});
 
 }  // namespace tspace

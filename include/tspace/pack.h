@@ -31,14 +31,14 @@ enum class FrameFormat : std::uint32_t {
     /// the sign.
     qtangent64 = 4,
     /// 8 bytes, 0.391: T.xyz, 127, N.xyz, sign as snorm8: the order of Unreal's TangentX and TangentZ.
-    snorm8_pair = 5,
+    snorm8Pair = 5,
     /// 16 bytes, 0.00152: the same as snorm16.
-    snorm16_pair = 6,
+    snorm16Pair = 6,
     /// 7 bytes, 0.391: TANGENT (4 snorm8), then NORMAL (3 snorm8), as KHR_mesh_quantization stores them, without
     /// padding.
-    gltf_snorm8 = 7,
+    gltfSnorm8 = 7,
     /// 14 bytes, 0.00152: the same as snorm16.
-    gltf_snorm16 = 8,
+    gltfSnorm16 = 8,
 };
 
 /// Bytes of one frame; 0 when `format` is none of the enumerators.
@@ -80,12 +80,12 @@ struct PackReport {
 /// out       exactly frameBytes(format) bytes per frame, without padding, any alignment; not over the inputs
 /// Errors: invalidOption (format), countMismatch (tangents, or the size of `out`), nullData, strideTooSmall,
 /// misaligned. Nothing is written then. O(frames).
-Result<PackReport> packFrames(FrameFormat format, StridedSpan<const Vec3> normals, StridedSpan<const Vec4> tangents,
+Result<PackReport> packFrames(StridedSpan<const Vec3> normals, StridedSpan<const Vec4> tangents, FrameFormat format,
                               std::span<std::byte> out);
 
 /// Unpacks frames. All bytes are frames: N and T are finite and unit within 5e-7, and w is +1 or -1. T is orthogonal to
-/// N within 5e-7 too, but for the formats that store N and T apart (snorm8_pair, snorm16_pair, gltf_snorm8,
-/// gltf_snorm16): there both are as stored, made unit, as a shader has them; a zero N reads as (0, 0, 1), a zero T as a
+/// N within 5e-7 too, but for the formats that store N and T apart (`snorm8Pair`, `snorm16Pair`,
+/// `gltfSnorm8`, `gltfSnorm16`): there both are as stored, made unit, as a shader has them; a zero N reads as (0, 0, 1), a zero T as a
 /// basis from N. Packing unpacked frames of frame32, frame48, frame64 or oct32 in the same format gives words that
 /// unpack to the same frames.
 ///
@@ -93,7 +93,7 @@ Result<PackReport> packFrames(FrameFormat format, StridedSpan<const Vec3> normal
 /// normals   one per frame, written
 /// tangents  one per frame, written; w is the sign
 /// Errors: as packFrames. O(frames).
-Result<Done> unpackFrames(FrameFormat format, std::span<const std::byte> bytes, StridedSpan<Vec3> normals,
+Result<Done> unpackFrames(std::span<const std::byte> bytes, FrameFormat format, StridedSpan<Vec3> normals,
                           StridedSpan<Vec4> tangents);
 
 }  // namespace tspace

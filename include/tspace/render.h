@@ -56,7 +56,7 @@ struct RenderOptions {
     /// How texels of normal maps become normals; its scale is multiplied with that of the material.
     MapReading reading = {};
     bool textures = true;  ///< false: surfaces in their plain colour, without normal maps
-    /// Larger images are not shown.
+    /// Images of more pixels are not shown. The default is 8192 x 8192.
     std::uint64_t most_pixels = std::uint64_t{1} << 26;
     FileOptions file = {};
     Execution execution = {};  ///< changes no bit of the picture; an allocator is not used

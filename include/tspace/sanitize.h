@@ -14,7 +14,6 @@ struct SanitizeOptions {
     /// bake made with the method's own tangents (quantised normals are not unit, so the reference's tangents can be
     /// off by up to a degree there).
     bool orthogonalize_all = false;
-    Execution execution = {};
 };
 
 /// Corners mended, by cause (the first that applies, in this order) and by cure.
@@ -56,11 +55,12 @@ struct SanitizeReport {
 /// the first of them with their sign.
 /// The result does not depend on how vertices are indexed, so mending a split mesh again changes nothing.
 ///
-/// mesh        positions and normals; UVs are not looked at
-/// tangents    one per corner, read and written; corners of faces with fewer than 3 corners are left alone
+/// mesh       positions and normals; UVs are not looked at
+/// tangents   one per corner, read and written; corners of faces with fewer than 3 corners are left alone
+/// execution  threads and memory; changes no bit
 /// Errors: those of validate(); missingAttribute (normals), countMismatch, nullData, outOfMemory.
 /// O(corners). Thread-safe; same bits for any thread count.
-Result<SanitizeReport> sanitizeTangents(const MeshView& mesh, StridedSpan<Vec4> tangents,
-                                        const SanitizeOptions& options = {});
+Result<SanitizeReport> sanitizeTangents(const MeshView& mesh, const SanitizeOptions& options,
+                                        StridedSpan<Vec4> tangents, const Execution& execution = {});
 
 }  // namespace tspace

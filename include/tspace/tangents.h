@@ -68,24 +68,31 @@ enum class FrameShape : std::uint32_t {
     symmetric = 1,
 };
 
+/// How tangents are computed. First what all methods have, then what one of them has alone and others do not look at.
 struct TangentOptions {
-    Method method = Method::mikktspace;
-    /// Degrees, meant for 0..360; `mikktspace` only. Faces of one group whose tangents (or bitangents) differ by this
-    /// or more are not averaged. 180 is the reference's default and what every baker uses. As in the reference, any
-    /// float is taken: only its cosine counts, and with NaN no two faces are averaged.
-    float angular_threshold_deg = 180.0f;
-    Pairing pairing = Pairing::reference;  ///< `mikktspace` only
-    Ngons ngons = Ngons::triangulate;
-    OutputDomain domain = OutputDomain::corner;  ///< `vertex` for `lengyel` and `basis` only
+    Method method = Method::mikktspace;  ///< the default is what bakers and glTF expect
     /// Decides the stored sign, and has no default: conventions::gltf for glTF; conventions::opengl stores the raw sign, as
     /// the reference does. invalidOption where it is not set.
     Convention convention = {};
-    Execution execution = {};
-    /// `symmetric` is refused for `mikktspace`, whose results are the reference's, and for `basis`, which has no UVs.
+    Ngons ngons = Ngons::triangulate;  ///< the default leaves no corner without a tangent
+    OutputDomain domain =
+        OutputDomain::corner;  ///< `vertex` for `lengyel` and `basis` only: others have no one result per vertex
+    /// `symmetric` is refused for `mikktspace`, whose results are the reference's, and for `basis`, which has no UVs. The
+    /// default is what bakers and engines expect.
     FrameShape frame = FrameShape::gramSchmidt;
-    /// 0, 1 or 2 steps that `best` takes after its fit; other methods take none. A step changes each frame so that,
-    /// interpolated along the edges around it, it gives these edges, as far as they agree. 1: a fifth less error in what
-    /// is shaded. 2: another twentieth less. 0: the fit alone.
+
+    // `mikktspace` alone:
+
+    /// Degrees, meant for 0..360. Faces of one group whose tangents (or bitangents) differ by this or more are not averaged.
+    /// 180 is the reference's default and what every baker uses. As in the reference, any float is taken: only its cosine
+    /// counts, and with NaN no two faces are averaged.
+    float angular_threshold_deg = 180.0f;
+    Pairing pairing = Pairing::reference;  ///< the default has the bits of every other MikkTSpace
+
+    // `best` alone:
+
+    /// 0, 1 or 2 steps after the fit. A step changes each frame so that, interpolated along the edges around it, it gives
+    /// these edges, as far as they agree. 1: a fifth less error in what is shaded. 2: another twentieth less. 0: the fit alone.
     std::uint32_t refine = 1;
 };
 
@@ -126,7 +133,8 @@ struct Pose {
 
 /// Everything about a mesh that does not change while it deforms: welding, neighbours, groups, splits, UVs.
 /// Owns its memory and keeps no pointer into the mesh it was made from. Immutable, so many threads may evaluate
-/// one plan at the same time. If it was made with an Allocator, that must outlive it.
+/// one plan at the same time. If it was made with an Allocator, that must outlive it. A plan that was moved from is that of a
+/// mesh without vertices.
 class TangentPlan {
   public:
     TangentPlan(TangentPlan&&) noexcept;
@@ -141,40 +149,49 @@ class TangentPlan {
     /// Bytes held by the plan.
     [[nodiscard]] std::size_t memoryBytes() const;
 
-    struct State;                        ///< private
-    explicit TangentPlan(State* state);  ///< private; deletes it in the end
-    [[nodiscard]] const State& state() const { return *state_; }
+    struct State;                              ///< private
+    explicit TangentPlan(State* state);        ///< private; deletes it in the end
+    [[nodiscard]] const State& state() const;  ///< private
 
   private:
     State* state_;
 };
 
-/// Tangents for a mesh in one call: the bits of planTangents and then evaluateTangents on the mesh's own pose, but most
-/// meshes take a shorter way.
+/// Tangents for a mesh in one call.
 ///
-/// mesh      positions; normals (all methods); UVs (all methods but `basis`)
-/// out       spans of mesh.cornerCount() entries (mesh.vertexCount() with OutputDomain::vertex); must not overlap the
-///           inputs or each other
-/// Corners of faces with fewer than 3 corners (and of n-gons with Ngons::skip) get 0 in every output.
-/// A mesh with several index lists (MeshView::normal_indices, uv_indices) is given one first, in about 40 bytes per
-/// corner of operator new; its results are those of the mesh that its caller would have unrolled.
+/// mesh       positions; normals (all methods); UVs (all methods but `basis`)
+/// options    the convention must be set
+/// out        spans of mesh.cornerCount() entries (mesh.vertexCount() with OutputDomain::vertex); must not overlap the
+///            inputs or each other
+/// execution  threads and memory; changes no bit
+/// Corners of faces with fewer than 3 corners (and of n-gons with Ngons::skip) get 0 in every output. Results are per
+/// corner: do not write them through the old index list, but split vertices whose corners disagree (splitVertices, or
+/// makeIndexedFrames for all in one). Tangents that are not finite or not unit stay as the method gives them:
+/// sanitizeTangents mends them.
+/// The bits are those of planTangents and then evaluateTangents on the mesh's own pose, but most meshes take a shorter way.
+/// A mesh with several index lists (MeshView::normal_indices, uv_indices) has the results of the mesh that its caller would
+/// have unrolled.
 /// Errors: those of validate(); missingAttribute, countMismatch (outputs), nullData, invalidOption, outOfMemory;
 /// tooLarge also for more than 715,827,882 triangles (the methods that group: mikktspace, uniform, angle, area, fast,
-/// best). Linear in the number of corners whatever the input (fans, books, collapsed faces). Thread-safe. Same bits for
-/// any thread count and SIMD target. Scratch memory on a mesh of triangles: `lengyel` 16 bytes per vertex, or 8 with
-/// OutputDomain::vertex (24 where the tangents' stride is not 16). `mikktspace`, `uniform`, `angle` and `area` about 36
-/// bytes per vertex without equal vertices, 46 with some, 80 when more than tangents is asked for, and 32 per triangle
-/// for unindexed corners (where the tangents' stride is not 16 some more: see docs/memory.md); up to about 130
-/// bytes per triangle for meshes that need the long way (thresholds, values that are not finite), and about 150 beside
-/// the first for each triangle around a vertex that needs a second look (several groups, doubtful splits, degenerate
-/// triangles). `fast` and `best` take about as much, and up to 2 MB per thread; `best` 32 bytes per group more for each
-/// of its steps. FrameShape::symmetric adds 12 bytes per output unless bitangents are asked for. Until the call returns,
-/// and when it fails, the outputs hold anything.
-Result<TangentReport> generateTangents(const MeshView& mesh, const TangentOptions& options, const TangentOutput& out);
+/// best). Until the call returns, and when it fails, the outputs hold anything.
+/// Linear in the number of corners whatever the input (fans, books, collapsed faces). Thread-safe. Same bits for any
+/// thread count and SIMD target.
+///
+/// Scratch memory on a mesh of triangles: `lengyel` 16 bytes per vertex, or 8 with OutputDomain::vertex (24 where the
+/// tangents' stride is not 16). `mikktspace`, `uniform`, `angle` and `area` about 36 bytes per vertex without equal
+/// vertices, 46 with some, 80 when more than tangents is asked for, and 32 per triangle for unindexed corners (where the
+/// tangents' stride is not 16 some more: see docs/memory.md); up to about 130 bytes per triangle for meshes that need the
+/// long way (thresholds, values that are not finite), and about 150 beside the first for each triangle around a vertex
+/// that needs a second look (several groups, doubtful splits, degenerate triangles). `fast` and `best` take about as much,
+/// and up to 2 MB per thread; `best` 32 bytes per group more for each of its steps. FrameShape::symmetric adds 12 bytes
+/// per output unless bitangents are asked for, and a mesh with several index lists about 40 bytes per corner of operator
+/// new.
+Result<TangentReport> generateTangents(const MeshView& mesh, const TangentOptions& options, const TangentOutput& out,
+                                       const Execution& execution = {});
 
 /// Makes the plan: welds equal vertices (position, normal and UV all equal), finds neighbours, groups and splits.
-/// Inputs, errors and complexity as generateTangents.
-Result<TangentPlan> planTangents(const MeshView& mesh, const TangentOptions& options);
+/// Inputs, errors and complexity as generateTangents. An allocator of `execution` must outlive the plan.
+Result<TangentPlan> planTangents(const MeshView& mesh, const TangentOptions& options, const Execution& execution = {});
 
 /// Computes frames for a pose with the plan's groups and splits. Each corner has the pose's position and normal of its
 /// own vertex, also where vertices that were equal on the mesh come apart. On the pose the plan was made from the

@@ -12,8 +12,10 @@
  *   has no other default is zero. Fields are only ever added at the end, and the size says which a program knows: one
  *   that was compiled with any older header works with a newer library, and gets the defaults of newer fields. A size
  *   that this version does not know is TSPACE_ERROR_INVALID_OPTION.
- * - Structs without `struct_size` that a program fills never change. tspace_Execution and tspace_Convention stand in
- *   the middle of others: what a later version adds to them is a field at the end of each struct that holds one.
+ * - Structs without `struct_size` that a program fills never change. tspace_Convention stands in the middle of others:
+ *   what a later version adds to it is a field at the end of each struct that holds one.
+ * - Arguments come in one order: inputs, options, outputs that the caller owns, execution, then what C++ returns (a
+ *   result or a report), and the error. Execution may be null: the default, which is the calling thread.
  * - Options and reports may be null: default options, no report wanted. (Tangents need options: a convention has no
  *   default.) A report is written only on success. Other pointers are not null, where nothing else is said: a function
  *   that can fail then fails with TSPACE_ERROR_NULL_DATA.
@@ -205,18 +207,20 @@ enum {
 /* For tspace_Execution.thread_count: as many as there are cores. */
 #define TSPACE_ALL_THREADS UINT32_MAX
 
-/* Where work runs and where its memory comes from. Passed by value inside option structs. What it points to must
- * outlive the call (and a plan made with it).
- * In C: the two structs are read during the call only; a plan needs the functions in them, and `user`. The layout of
- * this struct never changes. */
+/* Where work runs and where its memory comes from. A call has one, for all that it does: the last argument of
+ * functions on arrays, a member of the options of functions on files. What it points to must outlive the call (and a
+ * plan made with it).
+ * In C: the structs that it points to are read during the call only; a plan needs the functions in them, and `user`. */
 typedef struct tspace_Execution {
+    uint32_t struct_size;
+    uint32_t thread_count; /* 0 and 1: the calling thread only; TSPACE_ALL_THREADS */
     /* Runs all work, whatever thread_count says; null: threads that are started and joined within the call. */
     const tspace_Executor* executor;
     /* Only for scratch memory and plans. Null: operator new, and nothing is kept between calls. With a tspace_Arena
      * calls that follow each other take a tenth less time (tspace_generateTangents with more than 4096 corners). */
     const tspace_Allocator* allocator;
-    uint32_t thread_count;  /* 0 and 1: the calling thread only; TSPACE_ALL_THREADS */
     tspace_SimdTarget simd; /* For tests and measurements. What this CPU lacks becomes the best of a lower number. */
+    uint32_t reserved;
 } tspace_Execution;
 
 /* Scratch memory for calls that follow each other. Pass tspace_arenaAllocator in tspace_Execution.allocator; the
@@ -369,27 +373,29 @@ enum {
     TSPACE_FRAME_SYMMETRIC = 1
 };
 
+/* How tangents are computed. First what all methods have, then what one of them has alone and others do not look at. */
 typedef struct tspace_TangentOptions {
     uint32_t struct_size;
-    tspace_Method method;
-    /* Degrees, meant for 0..360; TSPACE_METHOD_MIKKTSPACE only. Faces of one group whose tangents (or bitangents)
-     * differ by this or more are not averaged. 180 is the reference's default and what every baker uses. As in the
-     * reference, any float is taken: only its cosine counts, and with NaN no two faces are averaged. Default: 180. */
-    float angular_threshold_deg;
-    tspace_Pairing pairing; /* TSPACE_METHOD_MIKKTSPACE only */
-    tspace_Ngons ngons;
-    tspace_OutputDomain domain; /* TSPACE_DOMAIN_VERTEX for TSPACE_METHOD_LENGYEL and TSPACE_METHOD_BASIS only */
+    tspace_Method method; /* the default is what bakers and glTF expect */
     /* Decides the stored sign, and has no default: "gltf" for glTF; "opengl" stores the raw sign, as the reference
      * does. INVALID_OPTION where it is not set.
      * In C: by tspace_findConvention. */
     tspace_Convention convention;
-    tspace_Execution execution;
+    tspace_Ngons ngons; /* the default leaves no corner without a tangent */
+    /* TSPACE_DOMAIN_VERTEX for TSPACE_METHOD_LENGYEL and TSPACE_METHOD_BASIS only: others have no one result per
+     * vertex */
+    tspace_OutputDomain domain;
     /* TSPACE_FRAME_SYMMETRIC is refused for TSPACE_METHOD_MIKKTSPACE, whose results are the reference's, and for
-     * TSPACE_METHOD_BASIS, which has no UVs. */
+     * TSPACE_METHOD_BASIS, which has no UVs. The default is what bakers and engines expect. */
     tspace_FrameShape frame;
-    /* 0, 1 or 2 steps that TSPACE_METHOD_BEST takes after its fit; other methods take none. A step changes each
-     * frame so that, interpolated along the edges around it, it gives these edges, as far as they agree. 1: a fifth
-     * less error in what is shaded. 2: another twentieth less. 0: the fit alone. Default: 1. */
+    /* Degrees, meant for 0..360. Faces of one group whose tangents (or bitangents) differ by this or more are not
+     * averaged. 180 is the reference's default and what every baker uses. As in the reference, any float is taken:
+     * only its cosine counts, and with NaN no two faces are averaged. Default: 180. */
+    float angular_threshold_deg;
+    tspace_Pairing pairing; /* the default has the bits of every other MikkTSpace */
+    /* 0, 1 or 2 steps after the fit. A step changes each frame so that, interpolated along the edges around it, it
+     * gives these edges, as far as they agree. 1: a fifth less error in what is shaded. 2: another twentieth less.
+     * 0: the fit alone. Default: 1. */
     uint32_t refine;
 } tspace_TangentOptions;
 
@@ -425,42 +431,52 @@ typedef struct tspace_TangentOutput {
     tspace_Span magnitudes_t; /* 1 float each: mean length of dP/dv; 1 for methods without */
 } tspace_TangentOutput;
 
-/* Tangents for a mesh in one call: the bits of tspace_planTangents and then tspace_evaluateTangents on the mesh's
- * own pose, but most meshes take a shorter way.
+/* Tangents for a mesh in one call.
  *
- * mesh      positions; normals (all methods); UVs (all methods but TSPACE_METHOD_BASIS)
- * out       spans of tspace_cornerCount(mesh) entries (mesh->positions.count with TSPACE_DOMAIN_VERTEX); must not
- *           overlap the inputs or each other
- * Corners of faces with fewer than 3 corners (and of n-gons with TSPACE_NGONS_SKIP) get 0 in every output.
- * A mesh with several index lists (tspace_Mesh.normal_indices, uv_indices) is given one first, in about 40 bytes per
- * corner of operator new; its results are those of the mesh that its caller would have unrolled.
+ * mesh       positions; normals (all methods); UVs (all methods but TSPACE_METHOD_BASIS)
+ * options    the convention must be set
+ * out        spans of tspace_cornerCount(mesh) entries (mesh->positions.count with TSPACE_DOMAIN_VERTEX); must not
+ *            overlap the inputs or each other
+ * execution  threads and memory; changes no bit
+ * Corners of faces with fewer than 3 corners (and of n-gons with TSPACE_NGONS_SKIP) get 0 in every output. Results
+ * are per corner: do not write them through the old index list, but split vertices whose corners disagree
+ * (tspace_splitVertices, or tspace_makeIndexedFrames for all in one). Tangents that are not finite or not unit stay
+ * as the method gives them: tspace_sanitizeTangents mends them.
+ * The bits are those of tspace_planTangents and then tspace_evaluateTangents on the mesh's own pose, but most meshes
+ * take a shorter way. A mesh with several index lists (tspace_Mesh.normal_indices, uv_indices) has the results of
+ * the mesh that its caller would have unrolled.
  * Errors: those of tspace_validate; MISSING_ATTRIBUTE, COUNT_MISMATCH (outputs), NULL_DATA, INVALID_OPTION,
  * OUT_OF_MEMORY; TOO_LARGE also for more than 715,827,882 triangles (the methods that group: mikktspace, uniform,
- * angle, area, fast, best). Linear in the number of corners whatever the input (fans, books, collapsed faces).
- * Thread-safe. Same bits for any thread count and SIMD target. Scratch memory on a mesh of triangles:
- * TSPACE_METHOD_LENGYEL 16 bytes per vertex, or 8 with TSPACE_DOMAIN_VERTEX (24 where the tangents' stride is not
- * 16). TSPACE_METHOD_MIKKTSPACE, TSPACE_METHOD_UNIFORM, TSPACE_METHOD_ANGLE and TSPACE_METHOD_AREA about 36 bytes
- * per vertex without equal vertices, 46 with some, 80 when more than tangents is asked for, and 32 per triangle for
- * unindexed corners (where the tangents' stride is not 16 some more: see docs/memory.md); up to about 130 bytes per
- * triangle for meshes that need the long way (thresholds, values that are not finite), and about 150 beside the
- * first for each triangle around a vertex that needs a second look (several groups, doubtful splits, degenerate
- * triangles). TSPACE_METHOD_FAST and TSPACE_METHOD_BEST take about as much, and up to 2 MB per thread;
- * TSPACE_METHOD_BEST 32 bytes per group more for each of its steps. TSPACE_FRAME_SYMMETRIC adds 12 bytes per output
- * unless bitangents are asked for. Until the call returns, and when it fails, the outputs hold anything. */
+ * angle, area, fast, best). Until the call returns, and when it fails, the outputs hold anything.
+ * Linear in the number of corners whatever the input (fans, books, collapsed faces). Thread-safe. Same bits for any
+ * thread count and SIMD target.
+ *
+ * Scratch memory on a mesh of triangles: TSPACE_METHOD_LENGYEL 16 bytes per vertex, or 8 with TSPACE_DOMAIN_VERTEX
+ * (24 where the tangents' stride is not 16). TSPACE_METHOD_MIKKTSPACE, TSPACE_METHOD_UNIFORM, TSPACE_METHOD_ANGLE
+ * and TSPACE_METHOD_AREA about 36 bytes per vertex without equal vertices, 46 with some, 80 when more than tangents
+ * is asked for, and 32 per triangle for unindexed corners (where the tangents' stride is not 16 some more: see
+ * docs/memory.md); up to about 130 bytes per triangle for meshes that need the long way (thresholds, values that are
+ * not finite), and about 150 beside the first for each triangle around a vertex that needs a second look (several
+ * groups, doubtful splits, degenerate triangles). TSPACE_METHOD_FAST and TSPACE_METHOD_BEST take about as much, and
+ * up to 2 MB per thread; TSPACE_METHOD_BEST 32 bytes per group more for each of its steps. TSPACE_FRAME_SYMMETRIC
+ * adds 12 bytes per output unless bitangents are asked for, and a mesh with several index lists about 40 bytes per
+ * corner of operator new. */
 tspace_ErrorCode tspace_generateTangents(const tspace_Mesh* mesh, const tspace_TangentOptions* options,
-                                         const tspace_TangentOutput* out, tspace_TangentReport* report,
-                                         tspace_Error* error) TSPACE_NOEXCEPT;
+                                         const tspace_TangentOutput* out, const tspace_Execution* execution,
+                                         tspace_TangentReport* report, tspace_Error* error) TSPACE_NOEXCEPT;
 
 /* Everything about a mesh that does not change while it deforms: welding, neighbours, groups, splits, UVs.
  * Owns its memory and keeps no pointer into the mesh it was made from. Immutable, so many threads may evaluate one
- * plan at the same time. If it was made with a tspace_Allocator, that must outlive it. */
+ * plan at the same time. If it was made with a tspace_Allocator, that must outlive it. A plan that was moved from is
+ * that of a mesh without vertices. */
 typedef struct tspace_TangentPlan tspace_TangentPlan;
 
 /* Makes the plan: welds equal vertices (position, normal and UV all equal), finds neighbours, groups and splits.
- * Inputs, errors and complexity as tspace_generateTangents.
+ * Inputs, errors and complexity as tspace_generateTangents. An allocator of `execution` must outlive the plan.
  * In C: *plan is null after an error. End it with tspace_destroyTangentPlan. */
 tspace_ErrorCode tspace_planTangents(const tspace_Mesh* mesh, const tspace_TangentOptions* options,
-                                     tspace_TangentPlan** plan, tspace_Error* error) TSPACE_NOEXCEPT;
+                                     const tspace_Execution* execution, tspace_TangentPlan** plan,
+                                     tspace_Error* error) TSPACE_NOEXCEPT;
 
 /* The shape of a mesh at one moment: what changes while a mesh deforms. Counts and meaning as in the tspace_Mesh
  * that the plan was made from, index lists included. */

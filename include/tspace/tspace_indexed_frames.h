@@ -20,7 +20,6 @@ typedef struct tspace_SanitizeOptions {
      * matches a bake made with the method's own tangents (quantised normals are not unit, so the reference's
      * tangents can be off by up to a degree there). */
     uint32_t orthogonalize_all;
-    tspace_Execution execution;
 } tspace_SanitizeOptions;
 
 /* Corners mended, by cause (the first that applies, in this order) and by cure. */
@@ -59,14 +58,15 @@ typedef struct tspace_SanitizeReport {
  * elsewhere get that of the first of them with their sign.
  * The result does not depend on how vertices are indexed, so mending a split mesh again changes nothing.
  *
- * mesh      positions and normals; UVs are not looked at
- * tangents  4 floats each: one per corner, read and written; corners of faces with fewer than 3 corners are left
- *           alone
+ * mesh       positions and normals; UVs are not looked at
+ * tangents   4 floats each: one per corner, read and written; corners of faces with fewer than 3 corners are left
+ *            alone
+ * execution  threads and memory; changes no bit
  * Errors: those of tspace_validate; MISSING_ATTRIBUTE (normals), COUNT_MISMATCH, NULL_DATA, OUT_OF_MEMORY.
  * O(corners). Thread-safe; same bits for any thread count. */
 tspace_ErrorCode tspace_sanitizeTangents(const tspace_Mesh* mesh, const tspace_SanitizeOptions* options,
-                                         tspace_Span tangents, tspace_SanitizeReport* report,
-                                         tspace_Error* error) TSPACE_NOEXCEPT;
+                                         tspace_Span tangents, const tspace_Execution* execution,
+                                         tspace_SanitizeReport* report, tspace_Error* error) TSPACE_NOEXCEPT;
 
 /* One attribute given per corner, as `component_count` floats. */
 typedef struct tspace_CornerAttribute {
@@ -125,11 +125,11 @@ typedef struct tspace_IndexedFramesOptions {
      * Default: 1. */
     uint32_t sanitize;
     uint32_t orthogonalize_all; /* 0 or 1. As tspace_SanitizeOptions.orthogonalize_all */
-    /* Its convention must be set; it also says which side of a face is out, and its execution serves all steps.
+    /* Its convention must be set; it also says which side of a face is out.
      * Results are per corner (`domain`): the split makes vertices of them.
      * In C: not null. */
     const tspace_TangentOptions* tangents;
-    /* Where normals are made. Its convention and execution are not looked at: those of `tangents` count.
+    /* Where normals are made. Its convention is not looked at: that of `tangents` counts.
      * In C: null: the defaults. */
     const tspace_NormalOptions* normals;
     /* Further attributes, one entry per corner, that must not be shared: corners that disagree get a vertex each.
@@ -139,15 +139,15 @@ typedef struct tspace_IndexedFramesOptions {
 } tspace_IndexedFramesOptions;
 
 /* A mesh with the faces of the given one. Gather every other vertex attribute, skin weight and morph target through
- * source_vertex, and attributes that have an index list of their own through the corner:
- * their_indices[source_corner].
+ * source_vertices, and attributes that have an index list of their own through the corner:
+ * their_indices[source_corners[v]].
  * In C: made by the library; later versions may append fields. */
 typedef struct tspace_IndexedFrames {
     const uint32_t* indices; /* one per corner: the new vertex */
     size_t corner_count;
-    const uint32_t* source_vertex; /* one per new vertex: the entry of `positions` that it copies */
+    const uint32_t* source_vertices; /* one per new vertex: the entry of `positions` that it copies */
     /* One per new vertex: the first corner that uses it, or TSPACE_NO_CORNER where none does. */
-    const uint32_t* source_corner;
+    const uint32_t* source_corners;
     const float* normals;  /* 3 floats each: one per new vertex: those of the mesh, bit for bit, or the ones made */
     const float* tangents; /* 4 floats each: one per new vertex: unit tangent and sign */
     size_t vertex_count;
@@ -165,11 +165,13 @@ typedef struct tspace_IndexedFrames {
  * new vertices in the order in which corners first use them, one for all corners with the same bits of position,
  * normal, UV, tangent and `keep_apart` (the zeros of a position are equal, as they are for normals).
  *
- * mesh      positions; normals or none; UVs (all methods but TSPACE_METHOD_BASIS)
+ * mesh       positions; normals or none; UVs (all methods but TSPACE_METHOD_BASIS)
+ * execution  threads and memory of all steps; changes no bit
  * Errors: those of the four calls. O(corners) expected. Thread-safe; same bits for any thread count.
  * In C: *frames is null after an error. Free it with tspace_destroyIndexedFrames. */
 tspace_ErrorCode tspace_makeIndexedFrames(const tspace_Mesh* mesh, const tspace_IndexedFramesOptions* options,
-                                          tspace_IndexedFrames** frames, tspace_Error* error) TSPACE_NOEXCEPT;
+                                          const tspace_Execution* execution, tspace_IndexedFrames** frames,
+                                          tspace_Error* error) TSPACE_NOEXCEPT;
 
 /* Frees a result of tspace_makeIndexedFrames. Null is allowed. */
 void tspace_destroyIndexedFrames(tspace_IndexedFrames* frames) TSPACE_NOEXCEPT;

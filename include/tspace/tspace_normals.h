@@ -30,30 +30,31 @@ enum {
     TSPACE_NORMAL_WEIGHTING_BEST = 6
 };
 
+/* How normals are computed. First what all weightings have, then what some do not look at. */
 typedef struct tspace_NormalOptions {
     uint32_t struct_size;
-    tspace_NormalWeighting weighting; /* Default: TSPACE_NORMAL_WEIGHTING_ANGLE. */
+    /* the default does not depend on how faces were cut. Default: TSPACE_NORMAL_WEIGHTING_ANGLE. */
+    tspace_NormalWeighting weighting;
+    tspace_Convention convention; /* Its handedness and winding say which side is out; the default is glTF's. */
     /* Degrees, 0..180. Two faces that share an edge are smoothed over it only when their normals differ by no more
-     * than this (and 1e-6 rad for rounding). 180: never hard (except by smoothing groups); then all faces at a point
-     * are smoothed together, also those that share no edge. TSPACE_NORMAL_WEIGHTING_FLAT looks at neither. Default:
+     * than this (and 1e-6 rad for rounding). 180, the default, because no angle fits all models: never hard (except
+     * by smoothing groups); then all faces at a point are smoothed together, also those that share no edge. Default:
      * 180. */
     float crease_angle_deg;
-    uint32_t smoothing_groups_are_masks; /* 0 or 1. */
     /* One number per face, or empty. Faces smooth together only when their numbers are equal and not 0 (OBJ `s`),
      * or, with `smoothing_groups_are_masks`, when they have a bit in common (3ds Max). Connections pass on: where A
      * is smooth with B and B with C around a point, all three share one normal. */
     const uint32_t* smoothing_groups;
-    size_t smoothing_group_count; /* entries of smoothing_groups */
+    size_t smoothing_group_count;        /* entries of smoothing_groups */
+    uint32_t smoothing_groups_are_masks; /* 0 or 1. */
     /* 0 or 1. 1: vertices at the same position are one point (so UV seams stay smooth); 0: only equal indices are.
      * Default: 1. */
     uint32_t weld_positions;
-    tspace_Convention convention; /* handedness and winding say which side is out */
-    tspace_Execution execution;
-    /* 0, 1 or 2 steps that TSPACE_NORMAL_WEIGHTING_BEST takes after its fit; other weightings take none. A step
-     * moves each normal so that, interpolated along the edges around it, it is across them, as far as these agree.
-     * 1: a third less error at vertices and in what is shaded between them. 2: another fifth less. 0: the fit alone.
-     * Default: 1. */
+    /* 0, 1 or 2 steps after the fit. A step moves each normal so that, interpolated along the edges around it, it is
+     * across them, as far as these agree. 1: a third less error at vertices and in what is shaded between them. 2:
+     * another fifth less. 0: the fit alone. Default: 1. */
     uint32_t refine;
+    uint32_t reserved;
 } tspace_NormalOptions;
 
 /* What was met. Broken input is counted here and never makes the call fail. */
@@ -75,15 +76,17 @@ typedef struct tspace_NormalReport {
  * every result is finite and unit.
  * Corners of faces with fewer than 3 corners get (0, 0, 0).
  *
- * mesh      positions and indices; UVs and normals are not looked at
- * out       3 floats each: one per corner (count == tspace_cornerCount(mesh)); must not overlap the inputs
+ * mesh       positions and indices; UVs and normals are not looked at
+ * out        3 floats each: one per corner (count == tspace_cornerCount(mesh)); must not overlap the inputs
+ * execution  threads and memory; changes no bit
  * Errors: those of tspace_validate; COUNT_MISMATCH (out, smoothing_groups), INVALID_OPTION, OUT_OF_MEMORY.
  * Angles in triangles are good to 2e-7, those of polygons (face_sizes, or a face_size other than 3) are exact.
  * O(corners). Scratch memory: about 36 bytes per vertex; with hard edges or polygons less for large meshes, up to 40
  * bytes per triangle for small ones; TSPACE_NORMAL_WEIGHTING_BEST 28 bytes per corner more. Thread-safe; same bits
  * for any thread count. */
 tspace_ErrorCode tspace_generateNormals(const tspace_Mesh* mesh, const tspace_NormalOptions* options, tspace_Span out,
-                                        tspace_NormalReport* report, tspace_Error* error) TSPACE_NOEXCEPT;
+                                        const tspace_Execution* execution, tspace_NormalReport* report,
+                                        tspace_Error* error) TSPACE_NOEXCEPT;
 
 /* For TSPACE_INIT: the defaults that are not zero. */
 static inline void tspace_setNormalDefaults(tspace_NormalOptions* options) {

@@ -80,21 +80,22 @@ typedef struct tspace_PackReport {
  * Errors: INVALID_OPTION (format), COUNT_MISMATCH (tangents, or the size of `out`), NULL_DATA, STRIDE_TOO_SMALL,
  * MISALIGNED. Nothing is written then. O(frames).
  * In C: out may be null when there are no frames. */
-tspace_ErrorCode tspace_packFrames(tspace_FrameFormat format, tspace_ConstSpan normals, tspace_ConstSpan tangents,
+tspace_ErrorCode tspace_packFrames(tspace_ConstSpan normals, tspace_ConstSpan tangents, tspace_FrameFormat format,
                                    void* out, size_t out_bytes, tspace_PackReport* report,
                                    tspace_Error* error) TSPACE_NOEXCEPT;
 
 /* Unpacks frames. All bytes are frames: N and T are finite and unit within 5e-7, and w is +1 or -1. T is orthogonal
- * to N within 5e-7 too, but for the formats that store N and T apart (snorm8_pair, snorm16_pair, gltf_snorm8,
- * gltf_snorm16): there both are as stored, made unit, as a shader has them; a zero N reads as (0, 0, 1), a zero T as
- * a basis from N. Packing unpacked frames of frame32, frame48, frame64 or oct32 in the same format gives words that
- * unpack to the same frames.
+ * to N within 5e-7 too, but for the formats that store N and T apart (TSPACE_FRAME_FORMAT_SNORM8_PAIR,
+ * TSPACE_FRAME_FORMAT_SNORM16_PAIR, TSPACE_FRAME_FORMAT_GLTF_SNORM8, TSPACE_FRAME_FORMAT_GLTF_SNORM16): there both
+ * are as stored, made unit, as a shader has them; a zero N reads as (0, 0, 1), a zero T as a basis from N. Packing
+ * unpacked frames of frame32, frame48, frame64 or oct32 in the same format gives words that unpack to the same
+ * frames.
  *
  * bytes     exactly tspace_frameBytes(format) bytes per frame
  * normals   3 floats each: one per frame, written
  * tangents  4 floats each: one per frame, written; w is the sign
  * Errors: as tspace_packFrames. O(frames). */
-tspace_ErrorCode tspace_unpackFrames(tspace_FrameFormat format, const void* bytes, size_t byte_count,
+tspace_ErrorCode tspace_unpackFrames(const void* bytes, size_t byte_count, tspace_FrameFormat format,
                                      tspace_Span normals, tspace_Span tangents, tspace_Error* error) TSPACE_NOEXCEPT;
 
 #ifdef __cplusplus

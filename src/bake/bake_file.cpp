@@ -165,7 +165,8 @@ class FileBaking {
                        .tile = tile,
                        .triangle_count = part.triangleCount(),
                        .map = aboutInput(BakeInput::low, [&] {
-                           return valueOrThrow(bakeMap(part.view(), models_.high.view(), options));
+                           return valueOrThrow(bakeMap(part.view(), models_.high.view(), options, options_.execution,
+                                                       options_.progress));
                        })};
         BakedMap& map = file.map;
         std::vector<std::uint8_t> png = pngOf(map.width, map.height, std::exchange(map.texels, {}), map.bits);

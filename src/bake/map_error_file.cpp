@@ -54,8 +54,8 @@ class FileMeasuring {
   public:
     explicit FileMeasuring(const MapErrorFileOptions& options) : options_(options) {
         options_.map.reading.two_channels = options_.map.reading.two_channels || options_.two_channels;
-        bake_.map.execution = options.map.execution;
-        bake_.map.progress = options.map.progress;
+        bake_.execution = options.execution;
+        bake_.progress = options.progress;
         bake_.tangents = options.tangents;
         bake_.normals = options.normals;
         bake_.file = options.file;
@@ -85,7 +85,8 @@ class FileMeasuring {
                             .wrap_v = options_.tile == 0 ? shown.wrap_v : TextureWrap::repeat};
         listReadings();
         const std::vector<MapError> errors = aboutInput(BakeInput::low, [&] {
-            return valueOrThrow(measureReadings(view, part.view(), models.high.view(), candidates_, options_.map));
+            return valueOrThrow(measureReadings(view, part.view(), models.high.view(), candidates_, options_.map,
+                                                options_.execution, options_.progress));
         });
         for (std::size_t i = 0; i < errors.size(); ++i) report_.readings[i].error = errors[i];
         // The first is what was asked for.
@@ -225,7 +226,8 @@ class FileMeasuring {
     void writeHeat(const MapImage& view, const LowPart& part, const HighModel& high) {
         MapErrorOptions options = options_.map;
         options.heat = true;
-        const MapError error = valueOrThrow(measureMap(view, part.view(), high.view(), options));
+        const MapError error =
+            valueOrThrow(measureMap(view, part.view(), high.view(), options, options_.execution, options_.progress));
         report_.heat_top_deg = error.p99_deg;
         const std::optional<std::vector<std::uint8_t>> png = encodePng(
             {.width = view.width, .height = view.height, .texels = pictureOfHeat(error.heat, error.p99_deg)}, 8);

@@ -40,11 +40,10 @@ Bytes generatedGlb(const std::string& low, const BakeFileOptions& options, Exist
     generate.existing = existing;
     generate.faces = faces;
     generate.tangents = options.tangents;
-    generate.tangents.execution = options.map.execution;
     generate.normals = options.normals;
-    generate.normals.execution = options.map.execution;
     generate.file = options.file;
-    generate.progress = options.map.progress;
+    generate.execution = options.execution;
+    generate.progress = options.progress;
     generate.sink = [&](std::span<const std::uint8_t> bytes) {
         glb.insert(glb.end(), bytes.begin(), bytes.end());
         return true;
@@ -250,10 +249,8 @@ void addSmooth(const ScenePrimitive& primitive, std::span<const Vec3> normals, c
 std::vector<Vec3> smoothNormals(const ScenePrimitive& primitive, const BakeFileOptions& options) {
     std::vector<Vec3> of_corners(primitive.corners.size()), normals(primitive.positions.size());
     const MeshView mesh{.positions = primitive.positions.span(), .indices = {primitive.corners.span()}};
-    valueOrThrow(generateNormals(
-        mesh,
-        {.weighting = NormalWeighting::angle, .convention = conventions::gltf, .execution = options.map.execution},
-        of_corners));
+    valueOrThrow(generateNormals(mesh, {.weighting = NormalWeighting::angle, .convention = conventions::gltf},
+                                 of_corners, options.execution));
     for (std::size_t i = 0; i < of_corners.size(); ++i) normals[primitive.corners[i]] = of_corners[i];
     return normals;
 }

@@ -67,8 +67,7 @@ tspace_ErrorCode finish(const Error& error, tspace_Error* out) noexcept {
     return code;
 }
 
-// Both stand in the middle of other structs, so that no field can ever be added to them.
-static_assert(sizeof(tspace_Execution) == 2 * sizeof(void*) + 2 * sizeof(std::uint32_t));
+// It stands in the middle of other structs, so that no field can ever be added to it.
 static_assert(sizeof(tspace_Convention) == 5 * sizeof(std::uint32_t));
 
 Error checkStructSize(std::uint32_t size, std::span<const std::size_t> known, const char* name) {
@@ -120,7 +119,9 @@ Error checkConvention(const tspace_Convention& convention) {
 
 Convention toConvention(const tspace_Convention& convention) { return std::bit_cast<Convention>(convention); }
 
-Error checkExecution(const tspace_Execution& execution) {
+Error checkExecution(const tspace_Execution* given) {
+    if (Error error = checkSized(given, "execution"); error.code != ErrorCode::ok) return error;
+    const tspace_Execution execution = orDefault(given);
     if (execution.executor != nullptr && execution.executor->run == nullptr) {
         return {ErrorCode::nullData, "execution.executor has no function run"};
     }
@@ -131,8 +132,10 @@ Error checkExecution(const tspace_Execution& execution) {
     return {ErrorCode::ok};
 }
 
-Hooks::Hooks(const tspace_Execution& execution)
-    : thread_count_(execution.thread_count), simd_(static_cast<SimdTarget>(execution.simd)) {
+Hooks::Hooks(const tspace_Execution* given) {
+    const tspace_Execution execution = orDefault(given);
+    thread_count_ = execution.thread_count;
+    simd_ = static_cast<SimdTarget>(execution.simd);
     if (const tspace_Executor* executor = execution.executor; executor != nullptr) {
         executor_ = {executor->run, executor->user, std::max(executor->concurrency, 1u)};
     }

@@ -50,12 +50,6 @@ inline constexpr std::size_t kSizes[] = {sizeof(Struct)};
 template <>
 inline constexpr std::size_t kSizes<tspace_Mesh>[] = {offsetof(tspace_Mesh, normal_indices), sizeof(tspace_Mesh)};
 template <>
-inline constexpr std::size_t kSizes<tspace_TangentOptions>[] = {offsetof(tspace_TangentOptions, frame),
-                                                                sizeof(tspace_TangentOptions)};
-template <>
-inline constexpr std::size_t kSizes<tspace_NormalOptions>[] = {offsetof(tspace_NormalOptions, refine),
-                                                               sizeof(tspace_NormalOptions)};
-template <>
 inline constexpr std::size_t kSizes<tspace_SanitizeReport>[] = {offsetof(tspace_SanitizeReport, placeholder_count),
                                                                 sizeof(tspace_SanitizeReport)};
 
@@ -125,9 +119,10 @@ Error checkMesh(const tspace_Mesh* mesh);
 Error checkConvention(const tspace_Convention& convention);
 Convention toConvention(const tspace_Convention& convention);
 
-Error checkExecution(const tspace_Execution& execution);
+/// Null: the default.
+Error checkExecution(const tspace_Execution* execution);
 
-/// Options without their execution, whose hooks need a place that lives longer. Null: defaults.
+/// Null: defaults.
 Error checkOptions(const tspace_NormalOptions* given);
 NormalOptions toOptions(const tspace_NormalOptions& options);
 Error checkOptions(const tspace_TangentOptions* given);
@@ -142,8 +137,8 @@ tspace_SanitizeReport toReport(const SanitizeReport& report);
 /// C++ copies of the caller's hooks. Must outlive the Execution it gives, so it neither moves nor is copied.
 class Hooks {
   public:
-    Hooks() = default;
-    explicit Hooks(const tspace_Execution& execution);
+    /// Null: the default.
+    explicit Hooks(const tspace_Execution* execution);
     Hooks(const Hooks&) = delete;
     Hooks& operator=(const Hooks&) = delete;
 

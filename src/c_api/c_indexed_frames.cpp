@@ -22,8 +22,8 @@ struct OwnedFrames : tspace_IndexedFrames {
           mended(toReport(frames.report.sanitize)) {
         indices = frames.indices.data();
         corner_count = frames.indices.size();
-        source_vertex = frames.source_vertex.data();
-        source_corner = frames.source_corner.data();
+        source_vertices = frames.source_vertices.data();
+        source_corners = frames.source_corners.data();
         normals = frames.normals.empty() ? nullptr : &frames.normals.front().x;
         tangents = frames.tangents.empty() ? nullptr : &frames.tangents.front().x;
         vertex_count = frames.vertexCount();
@@ -53,27 +53,27 @@ Error checkOptions(const tspace_IndexedFramesOptions* given) {
 }  // namespace
 
 tspace_ErrorCode tspace_makeIndexedFrames(const tspace_Mesh* mesh, const tspace_IndexedFramesOptions* options,
-                                          tspace_IndexedFrames** frames, tspace_Error* error) noexcept {
+                                          const tspace_Execution* execution, tspace_IndexedFrames** frames,
+                                          tspace_Error* error) noexcept {
     return atCBorder(error, [&]() -> Result<Done> {
         if (frames == nullptr) return Error{ErrorCode::nullData, "frames is null"};
         *frames = nullptr;
-        const Error e = firstError([&] { return checkMesh(mesh); }, [&] { return checkOptions(options); });
+        const Error e = firstError([&] { return checkMesh(mesh); }, [&] { return checkOptions(options); },
+                                   [&] { return checkExecution(execution); });
         if (e.code != ErrorCode::ok) return e;
         const tspace_IndexedFramesOptions given = orDefault(options);
         const Result<std::vector<CornerAttribute>> keep_apart =
             toAttributes(given.keep_apart, given.keep_apart_count, "keep_apart");
         if (!keep_apart) return keep_apart.error();
-        const tspace_TangentOptions tangents = orDefault(given.tangents);
-        const Hooks hooks(tangents.execution);
+        const Hooks hooks(execution);
         IndexedFramesOptions converted;
-        converted.tangents = toOptions(tangents);
-        converted.tangents.execution = hooks.execution();
+        converted.tangents = toOptions(orDefault(given.tangents));
         converted.normals = toOptions(orDefault(given.normals));
         converted.make_normals = given.make_normals != 0;
         converted.sanitize = given.sanitize != 0;
         converted.orthogonalize_all = given.orthogonalize_all != 0;
         converted.keep_apart = *keep_apart;
-        Result<IndexedFrames> made = makeIndexedFrames(toMesh(*mesh), converted);
+        Result<IndexedFrames> made = makeIndexedFrames(toMesh(*mesh), converted, hooks.execution());
         if (!made) return made.error();
         *frames = std::make_unique<OwnedFrames>(std::move(*made)).release();
         return Done{};

@@ -29,7 +29,6 @@ Error checkOptions(const tspace_NormalOptions* given) {
                       [&] { return checkChoice(options.smoothing_groups_are_masks, 1, "smoothing_groups_are_masks"); },
                       [&] { return checkChoice(options.weld_positions, 1, "weld_positions"); },
                       [&] { return checkConvention(options.convention); },
-                      [&] { return checkExecution(options.execution); },
                       [&]() -> Error {
                           if (options.smoothing_groups != nullptr || options.smoothing_group_count == 0)
                               return {ErrorCode::ok};
@@ -63,16 +62,15 @@ tspace_NormalReport toReport(const NormalReport& report) {
 }  // namespace tspace::c_api
 
 tspace_ErrorCode tspace_generateNormals(const tspace_Mesh* mesh, const tspace_NormalOptions* options, tspace_Span out,
-                                        tspace_NormalReport* report, tspace_Error* error) noexcept {
+                                        const tspace_Execution* execution, tspace_NormalReport* report,
+                                        tspace_Error* error) noexcept {
     return atCBorder(error, [&]() -> Result<Done> {
         Error e = firstError([&] { return checkMesh(mesh); }, [&] { return checkOptions(options); },
-                             [&] { return checkSized(report, "report"); });
+                             [&] { return checkExecution(execution); }, [&] { return checkSized(report, "report"); });
         if (e.code != ErrorCode::ok) return e;
-        const tspace_NormalOptions given = orDefault(options);
-        const Hooks hooks(given.execution);
-        NormalOptions converted = toOptions(given);
-        converted.execution = hooks.execution();
-        const Result<NormalReport> result = generateNormals(toMesh(*mesh), converted, toSpan<Vec3>(out));
+        const Hooks hooks(execution);
+        const Result<NormalReport> result =
+            generateNormals(toMesh(*mesh), toOptions(orDefault(options)), toSpan<Vec3>(out), hooks.execution());
         if (!result) return result.error();
         give(toReport(*result), report);
         return Done{};

@@ -11,10 +11,10 @@ static_assert(TSPACE_FRAME_FORMAT_FRAME48 == static_cast<std::uint32_t>(FrameFor
 static_assert(TSPACE_FRAME_FORMAT_FRAME64 == static_cast<std::uint32_t>(FrameFormat::frame64));
 static_assert(TSPACE_FRAME_FORMAT_OCT32 == static_cast<std::uint32_t>(FrameFormat::oct32));
 static_assert(TSPACE_FRAME_FORMAT_QTANGENT64 == static_cast<std::uint32_t>(FrameFormat::qtangent64));
-static_assert(TSPACE_FRAME_FORMAT_SNORM8_PAIR == static_cast<std::uint32_t>(FrameFormat::snorm8_pair));
-static_assert(TSPACE_FRAME_FORMAT_SNORM16_PAIR == static_cast<std::uint32_t>(FrameFormat::snorm16_pair));
-static_assert(TSPACE_FRAME_FORMAT_GLTF_SNORM8 == static_cast<std::uint32_t>(FrameFormat::gltf_snorm8));
-static_assert(TSPACE_FRAME_FORMAT_GLTF_SNORM16 == static_cast<std::uint32_t>(FrameFormat::gltf_snorm16));
+static_assert(TSPACE_FRAME_FORMAT_SNORM8_PAIR == static_cast<std::uint32_t>(FrameFormat::snorm8Pair));
+static_assert(TSPACE_FRAME_FORMAT_SNORM16_PAIR == static_cast<std::uint32_t>(FrameFormat::snorm16Pair));
+static_assert(TSPACE_FRAME_FORMAT_GLTF_SNORM8 == static_cast<std::uint32_t>(FrameFormat::gltfSnorm8));
+static_assert(TSPACE_FRAME_FORMAT_GLTF_SNORM16 == static_cast<std::uint32_t>(FrameFormat::gltfSnorm16));
 
 namespace {
 
@@ -44,26 +44,27 @@ tspace_FrameErrorBound tspace_frameErrorBound(tspace_FrameFormat format) noexcep
     return {bound.normal_deg, bound.tangent_deg};
 }
 
-tspace_ErrorCode tspace_packFrames(tspace_FrameFormat format, tspace_ConstSpan normals, tspace_ConstSpan tangents,
+tspace_ErrorCode tspace_packFrames(tspace_ConstSpan normals, tspace_ConstSpan tangents, tspace_FrameFormat format,
                                    void* out, size_t out_bytes, tspace_PackReport* report,
                                    tspace_Error* error) noexcept {
     return atCBorder(error, [&]() -> Result<Done> {
         const Error e =
             firstError([&] { return checkSized(report, "report"); }, [&] { return checkBytes(out, out_bytes); });
         if (e.code != ErrorCode::ok) return e;
-        const Result<PackReport> result = packFrames(static_cast<FrameFormat>(format), toSpan<Vec3>(normals),
-                                                     toSpan<Vec4>(tangents), {static_cast<std::byte*>(out), out_bytes});
+        const Result<PackReport> result =
+            packFrames(toSpan<Vec3>(normals), toSpan<Vec4>(tangents), static_cast<FrameFormat>(format),
+                       {static_cast<std::byte*>(out), out_bytes});
         if (!result) return result.error();
         writePackReport(*result, report);
         return Done{};
     });
 }
 
-tspace_ErrorCode tspace_unpackFrames(tspace_FrameFormat format, const void* bytes, size_t byte_count,
+tspace_ErrorCode tspace_unpackFrames(const void* bytes, size_t byte_count, tspace_FrameFormat format,
                                      tspace_Span normals, tspace_Span tangents, tspace_Error* error) noexcept {
     return atCBorder(error, [&]() -> Result<Done> {
         if (Error e = checkBytes(bytes, byte_count); e.code != ErrorCode::ok) return e;
-        return unpackFrames(static_cast<FrameFormat>(format), {static_cast<const std::byte*>(bytes), byte_count},
+        return unpackFrames({static_cast<const std::byte*>(bytes), byte_count}, static_cast<FrameFormat>(format),
                             toSpan<Vec3>(normals), toSpan<Vec4>(tangents));
     });
 }

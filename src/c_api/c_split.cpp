@@ -56,9 +56,8 @@ tspace_ErrorCode tspace_splitVertices(const tspace_Indices* indices, size_t vert
         *result = nullptr;
         const Result<std::vector<CornerAttribute>> converted = toAttributes(attributes, attribute_count, "attribute");
         if (!converted) return converted.error();
-        const tspace_Execution given = execution == nullptr ? tspace_Execution{} : *execution;
-        if (Error e = checkExecution(given); e.code != ErrorCode::ok) return e;
-        const Hooks hooks(given);
+        if (Error e = checkExecution(execution); e.code != ErrorCode::ok) return e;
+        const Hooks hooks(execution);
         const IndexView view = indices == nullptr ? IndexView() : toIndices(*indices);
         Result<SplitResult> split = splitVertices(view, vertex_count, corner_count, *converted, hooks.execution());
         if (!split) return split.error();

@@ -14,7 +14,7 @@ using namespace tspace::c_api;  // NOLINT
 
 /// A plan with the hooks it was made with: it releases its memory through them.
 struct tspace_TangentPlan {
-    explicit tspace_TangentPlan(const tspace_Execution& execution) : hooks(execution) {}
+    explicit tspace_TangentPlan(const tspace_Execution* execution) : hooks(execution) {}
 
     Hooks hooks;
     std::optional<TangentPlan> plan;
@@ -48,8 +48,7 @@ Error checkOptions(const tspace_TangentOptions* given) {
                       [&] { return checkChoice(options.ngons, TSPACE_NGONS_SKIP, "ngons"); },
                       [&] { return checkChoice(options.domain, TSPACE_DOMAIN_VERTEX, "domain"); },
                       [&] { return checkChoice(options.frame, TSPACE_FRAME_SYMMETRIC, "frame"); },
-                      [&] { return checkConvention(options.convention); },
-                      [&] { return checkExecution(options.execution); });
+                      [&] { return checkConvention(options.convention); });
 }
 
 TangentOptions toOptions(const tspace_TangentOptions& options) {
@@ -113,17 +112,16 @@ TangentOutput toOutput(const tspace_TangentOutput& out) {
 const char* tspace_methodName(tspace_Method method) noexcept { return methodName(static_cast<Method>(method)); }
 
 tspace_ErrorCode tspace_generateTangents(const tspace_Mesh* mesh, const tspace_TangentOptions* options,
-                                         const tspace_TangentOutput* out, tspace_TangentReport* report,
-                                         tspace_Error* error) noexcept {
+                                         const tspace_TangentOutput* out, const tspace_Execution* execution,
+                                         tspace_TangentReport* report, tspace_Error* error) noexcept {
     return atCBorder(error, [&]() -> Result<Done> {
         Error e = firstError([&] { return checkMesh(mesh); }, [&] { return checkOptions(options); },
-                             [&] { return checkNeeded(out, "out"); }, [&] { return checkSized(report, "report"); });
+                             [&] { return checkNeeded(out, "out"); }, [&] { return checkExecution(execution); },
+                             [&] { return checkSized(report, "report"); });
         if (e.code != ErrorCode::ok) return e;
-        const tspace_TangentOptions given = orDefault(options);
-        const Hooks hooks(given.execution);
-        TangentOptions converted = toOptions(given);
-        converted.execution = hooks.execution();
-        const Result<TangentReport> result = generateTangents(toMesh(*mesh), converted, toOutput(*out));
+        const Hooks hooks(execution);
+        const Result<TangentReport> result =
+            generateTangents(toMesh(*mesh), toOptions(orDefault(options)), toOutput(*out), hooks.execution());
         if (!result) return result.error();
         give(toReport(*result), report);
         return Done{};
@@ -131,17 +129,17 @@ tspace_ErrorCode tspace_generateTangents(const tspace_Mesh* mesh, const tspace_T
 }
 
 tspace_ErrorCode tspace_planTangents(const tspace_Mesh* mesh, const tspace_TangentOptions* options,
-                                     tspace_TangentPlan** plan, tspace_Error* error) noexcept {
+                                     const tspace_Execution* execution, tspace_TangentPlan** plan,
+                                     tspace_Error* error) noexcept {
     return atCBorder(error, [&]() -> Result<Done> {
         if (plan == nullptr) return Error{ErrorCode::nullData, "plan is null"};
         *plan = nullptr;
-        Error e = firstError([&] { return checkMesh(mesh); }, [&] { return checkOptions(options); });
+        Error e = firstError([&] { return checkMesh(mesh); }, [&] { return checkOptions(options); },
+                             [&] { return checkExecution(execution); });
         if (e.code != ErrorCode::ok) return e;
-        const tspace_TangentOptions given = orDefault(options);
-        auto made = std::make_unique<tspace_TangentPlan>(given.execution);
-        TangentOptions converted = toOptions(given);
-        converted.execution = made->hooks.execution();
-        Result<TangentPlan> result = planTangents(toMesh(*mesh), converted);
+        auto made = std::make_unique<tspace_TangentPlan>(execution);
+        Result<TangentPlan> result =
+            planTangents(toMesh(*mesh), toOptions(orDefault(options)), made->hooks.execution());
         if (!result) return result.error();
         made->plan.emplace(std::move(*result));
         *plan = made.release();
@@ -154,11 +152,10 @@ tspace_ErrorCode tspace_evaluateTangents(const tspace_TangentPlan* plan, const t
                                          tspace_TangentReport* report, tspace_Error* error) noexcept {
     return atCBorder(error, [&]() -> Result<Done> {
         if (plan == nullptr) return Error{ErrorCode::nullData, "plan is null"};
-        const tspace_Execution given = execution != nullptr ? *execution : tspace_Execution{};
         Error e = firstError([&] { return checkNeeded(pose, "pose"); }, [&] { return checkNeeded(out, "out"); },
-                             [&] { return checkExecution(given); }, [&] { return checkSized(report, "report"); });
+                             [&] { return checkExecution(execution); }, [&] { return checkSized(report, "report"); });
         if (e.code != ErrorCode::ok) return e;
-        const Hooks hooks(given);
+        const Hooks hooks(execution);
         const Pose converted{toSpan<Vec3>(pose->positions), toSpan<Vec3>(pose->normals)};
         const Result<TangentReport> result =
             evaluateTangents(*plan->plan, converted, toOutput(*out), hooks.execution());
@@ -188,19 +185,18 @@ tspace_ErrorCode tspace_describeTangentPlan(const tspace_TangentPlan* plan, tspa
 void tspace_destroyTangentPlan(tspace_TangentPlan* plan) noexcept { delete plan; }
 
 tspace_ErrorCode tspace_sanitizeTangents(const tspace_Mesh* mesh, const tspace_SanitizeOptions* options,
-                                         tspace_Span tangents, tspace_SanitizeReport* report,
-                                         tspace_Error* error) noexcept {
+                                         tspace_Span tangents, const tspace_Execution* execution,
+                                         tspace_SanitizeReport* report, tspace_Error* error) noexcept {
     return atCBorder(error, [&]() -> Result<Done> {
         Error e = firstError([&] { return checkMesh(mesh); }, [&] { return checkSized(options, "options"); },
-                             [&] { return checkSized(report, "report"); });
+                             [&] { return checkExecution(execution); }, [&] { return checkSized(report, "report"); });
         if (e.code != ErrorCode::ok) return e;
         const tspace_SanitizeOptions given = orDefault(options);
-        e = firstError([&] { return checkChoice(given.orthogonalize_all, 1, "orthogonalize_all"); },
-                       [&] { return checkExecution(given.execution); });
+        e = checkChoice(given.orthogonalize_all, 1, "orthogonalize_all");
         if (e.code != ErrorCode::ok) return e;
-        const Hooks hooks(given.execution);
-        const SanitizeOptions converted{given.orthogonalize_all != 0, hooks.execution()};
-        const Result<SanitizeReport> result = sanitizeTangents(toMesh(*mesh), toSpan<Vec4>(tangents), converted);
+        const Hooks hooks(execution);
+        const Result<SanitizeReport> result =
+            sanitizeTangents(toMesh(*mesh), {given.orthogonalize_all != 0}, toSpan<Vec4>(tangents), hooks.execution());
         if (!result) return result.error();
         give(toReport(*result), report);
         return Done{};

@@ -39,7 +39,7 @@ struct FrameChunk {
 
 void unpackInto(FrameFormat format, std::span<const std::byte> words, std::size_t count, FrameChunk& chunk) {
     valueOrThrow(
-        unpackFrames(format, words, std::span(chunk.normals).first(count), std::span(chunk.tangents).first(count)));
+        unpackFrames(words, format, std::span(chunk.normals).first(count), std::span(chunk.tangents).first(count)));
 }
 
 PackedErrors comparePacked(const ScenePrimitive& primitive, const ScenePacked& packed) {
@@ -53,8 +53,8 @@ PackedErrors comparePacked(const ScenePrimitive& primitive, const ScenePacked& p
     for (std::size_t begin = 0; begin < total; begin += kChunk) {
         const std::size_t count = std::min(kChunk, total - begin);
         const auto fine = std::span(buffer).first(count * frameBytes(kFinest));
-        valueOrThrow(packFrames(kFinest, primitive.normals.span().subspan(begin, count),
-                                primitive.tangents.span().subspan(begin, count), fine));
+        valueOrThrow(packFrames(primitive.normals.span().subspan(begin, count),
+                                primitive.tangents.span().subspan(begin, count), kFinest, fine));
         unpackInto(kFinest, fine, count, expected);
         unpackInto(packed.format, words.subspan(begin * word_bytes, count * word_bytes), count, stored);
         for (std::size_t i = 0; i < count; ++i) {

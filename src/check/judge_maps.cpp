@@ -89,7 +89,7 @@ std::vector<JudgedMap> judgeMaps(const Scene& scene, const std::vector<bool>& ke
                                  const GenerateOptions& options) {
     CheckOptions check;
     check.convention = options.tangents.convention;
-    check.execution = options.tangents.execution;
+    check.execution = options.execution;
     check.execution.allocator = nullptr;
     ImageFindings found = checkImages(scene, check);
     const std::vector<bool> cancelled = findCancelled(scene, found, keeps_tangents, check);

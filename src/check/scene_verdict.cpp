@@ -2,9 +2,12 @@
 #include "check/scene_verdict.h"
 
 #include <algorithm>
+#include <bit>
+#include <initializer_list>
 #include <map>
 #include <memory>
 #include <string>
+#include <tuple>
 #include <utility>
 
 #include "asset/file_error.h"
@@ -20,38 +23,42 @@ namespace {
 constexpr double kMostSigns = 2.0 / 3;
 
 /// Primitives with one key get the same findings. Arrays that a file shares have one address.
-std::string keyOf(const ScenePrimitive& primitive) {
-    std::string key = primitive.mode;
-    const auto append = [&key](const auto& value) { key.append(reinterpret_cast<const char*>(&value), sizeof(value)); };
-    append(primitive.is_unlit);
-    append(primitive.is_double_sided);
-    append(primitive.corners.data());
-    append(primitive.positions.data());
-    append(primitive.normals.data());
-    append(primitive.tangents.data());
-    for (const SharedArray<Vec2>& uvs : primitive.uv_sets) append(uvs.data());
-    append(primitive.position_step);
-    append(primitive.packedAlone() != nullptr);
-    append(primitive.other_reader.empty());
-    for (const SceneTangentFault& fault : primitive.tangent_faults) {
-        append(fault.target);
-        key += fault.why;
+class PrimitiveKey {
+  public:
+    explicit PrimitiveKey(const ScenePrimitive& primitive) {
+        words_.push_back(primitive.mode);
+        add({primitive.is_unlit, primitive.is_double_sided, primitive.packedAlone() != nullptr,
+             primitive.other_reader.empty(), primitive.uv_sets.size(), primitive.tangent_faults.size(),
+             primitive.morph_targets.size(), std::bit_cast<std::uint64_t>(primitive.position_step)});
+        arrays_ = {primitive.corners.data(), primitive.positions.data(), primitive.normals.data(),
+                   primitive.tangents.data()};
+        for (const SharedArray<Vec2>& uvs : primitive.uv_sets) arrays_.push_back(uvs.data());
+        for (const SceneTangentFault& fault : primitive.tangent_faults) {
+            add({static_cast<std::uint64_t>(fault.target)});
+            words_.push_back(fault.why);
+        }
+        for (const SceneMorphTarget& target : primitive.morph_targets)
+            arrays_.insert(arrays_.end(), {target.positions.data(), target.normals.data(), target.tangents.data()});
+        for (const TangentUse& use : primitive.uses) {
+            words_.push_back(use.needed_by);
+            add({use.has_texture, static_cast<std::uint64_t>(use.uv_set),
+                 std::bit_cast<std::uint64_t>(use.transform.rotation),
+                 std::bit_cast<std::uint64_t>(use.transform.scale[0]),
+                 std::bit_cast<std::uint64_t>(use.transform.scale[1])});
+        }
     }
-    append(primitive.morph_targets.size());
-    for (const SceneMorphTarget& target : primitive.morph_targets) {
-        append(target.positions.data());
-        append(target.normals.data());
-        append(target.tangents.data());
+
+    friend bool operator<(const PrimitiveKey& a, const PrimitiveKey& b) {
+        return std::tie(a.words_, a.arrays_, a.numbers_) < std::tie(b.words_, b.arrays_, b.numbers_);
     }
-    for (const TangentUse& use : primitive.uses) {
-        key += use.needed_by;
-        append(use.has_texture);
-        append(use.uv_set);
-        append(use.transform.rotation);
-        append(use.transform.scale);
-    }
-    return key;
-}
+
+  private:
+    void add(std::initializer_list<std::uint64_t> numbers) { numbers_.insert(numbers_.end(), numbers); }
+
+    std::vector<std::string> words_ = {};
+    std::vector<const void*> arrays_ = {};
+    std::vector<std::uint64_t> numbers_ = {};
+};
 
 /// Which primitives are checked, and whose findings each primitive gets.
 struct Work {
@@ -61,9 +68,9 @@ struct Work {
 
 Work collectWork(const Scene& scene) {
     Work work;
-    std::map<std::string, std::size_t> known;
+    std::map<PrimitiveKey, std::size_t> known;
     for (std::size_t i = 0; i < scene.primitives.size(); ++i) {
-        const auto [entry, is_new] = known.try_emplace(keyOf(scene.primitives[i]), work.primitives.size());
+        const auto [entry, is_new] = known.try_emplace(PrimitiveKey(scene.primitives[i]), work.primitives.size());
         if (is_new) work.primitives.push_back(i);
         work.result_of.push_back(entry->second);
     }

@@ -14,15 +14,12 @@ namespace {
 constexpr double kSettledDeg = 1;
 
 /// One per corner, mended as `generate` does.
-Result<std::vector<Vec4>> expectedTangents(const TangentView& mesh, TangentOptions options) {
+Result<std::vector<Vec4>> expectedTangents(const TangentView& mesh, const TangentOptions& options) {
     const MeshView view = mesh.triangles();
     std::vector<Vec4> tangents(mesh.corners.size());
-    options.execution.thread_count = 1;
     const Result<TangentReport> made = generateTangents(view, options, {.tangents = tangents});
     if (!made) return made.error();
-    SanitizeOptions sanitize;
-    sanitize.execution.thread_count = 1;
-    const Result<SanitizeReport> mended = sanitizeTangents(view, tangents, sanitize);
+    const Result<SanitizeReport> mended = sanitizeTangents(view, {}, std::span(tangents));
     if (!mended) return mended.error();
     return tangents;
 }

@@ -43,8 +43,7 @@ bool isSound(const Vec4& tangent) {
 Result<std::vector<Vec4>> referenceTangents(const TangentView& mesh) {
     const MeshView view = mesh.triangles();
     std::vector<Vec4> tangents(mesh.corners.size());
-    TangentOptions options{.pairing = Pairing::corrected, .convention = conventions::opengl};
-    options.execution.thread_count = 1;
+    const TangentOptions options{.convention = conventions::opengl, .pairing = Pairing::corrected};
     const Result<TangentReport> report = generateTangents(view, options, {.tangents = tangents});
     if (!report) return report.error();
     return tangents;

@@ -51,13 +51,13 @@ void gather(const StridedSpan<const T>& values, std::span<const std::uint32_t> s
 Result<Done> useOneList(const MeshView& mesh, const Execution& execution, OneListMesh& made,
                         std::span<const std::uint32_t> welded = {}, std::span<const CornerAttribute> further = {});
 
-/// call(view) of the mesh with one list. For functions that give one result per corner: these stay where they are.
-template <class Call>
-auto withOneList(const MeshView& mesh, const Execution& execution, Call&& call) -> decltype(call(mesh)) {
+/// body(view) of the mesh with one list. For functions that give one result per corner: these stay where they are.
+template <class Body>
+auto withOneList(const MeshView& mesh, const Execution& execution, Body&& body) -> decltype(body(mesh)) {
     if (Result<Done> valid = validate(mesh); !valid) return std::move(valid).error();
     OneListMesh made;
     if (Result<Done> done = useOneList(mesh, execution, made); !done) return std::move(done).error();
-    return call(made.view);
+    return body(made.view);
 }
 
 }  // namespace tspace

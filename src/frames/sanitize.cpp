@@ -138,15 +138,19 @@ struct SurelySound {
 
 class Sanitizer {
   public:
-    Sanitizer(const MeshView& mesh, StridedSpan<Vec4> tangents, const SanitizeOptions& options)
-        : mesh_(mesh), tangents_(tangents), options_(options), parallel_(options.execution, mesh.cornerCount()) {
+    Sanitizer(const MeshView& mesh, const SanitizeOptions& options, StridedSpan<Vec4> tangents,
+              const Execution& execution)
+        : mesh_(mesh),
+          tangents_(tangents),
+          options_(options),
+          allocator_(execution.allocator),
+          parallel_(execution, mesh.cornerCount()) {
         cutIntoBlocks();
     }
 
     SanitizeReport run() {
         if (!scan()) return {};
-        const Allocator* allocator = options_.execution.allocator;
-        causes_ = Buffer<Cause>(allocator, mesh_.cornerCount(), Cause::sound);
+        causes_ = Buffer<Cause>(allocator_, mesh_.cornerCount(), Cause::sound);
         forEachCandidate(
             [this](std::size_t first, std::uint32_t size, Counts& counts) { detect(first, size, counts); });
         if (countOf(Counted::seeker) != 0) lookAtPositions();
@@ -175,10 +179,9 @@ class Sanitizer {
 
     void cutIntoBlocks() {
         const std::size_t faces = mesh_.faceCount();
-        const Allocator* allocator = options_.execution.allocator;
-        candidates_ = Buffer<std::uint8_t>(allocator, (faces + kFacesPerBlock - 1) / kFacesPerBlock);
+        candidates_ = Buffer<std::uint8_t>(allocator_, (faces + kFacesPerBlock - 1) / kFacesPerBlock);
         if (mesh_.face_sizes.empty()) return;
-        block_corners_ = Buffer<std::uint32_t>(allocator, candidates_.size());
+        block_corners_ = Buffer<std::uint32_t>(allocator_, candidates_.size());
         forEachFace(mesh_, [&](std::size_t face, std::size_t first, std::uint32_t) {
             if (face % kFacesPerBlock == 0) {
                 block_corners_[face / kFacesPerBlock] = static_cast<std::uint32_t>(first);
@@ -292,9 +295,8 @@ class Sanitizer {
 
     /// Finds the first sound tangent at each position.
     void lookAtPositions() {
-        const Allocator* allocator = options_.execution.allocator;
-        points_ = weldPositions(mesh_, allocator, parallel_);
-        found_ = Buffer<Vec4>(allocator, mesh_.vertexCount(), Vec4{});
+        points_ = weldPositions(mesh_, allocator_, parallel_);
+        found_ = Buffer<Vec4>(allocator_, mesh_.vertexCount(), Vec4{});
         withIndices(mesh_.indices, [&](auto vertexOf) {
             forEachFace(mesh_, [&](std::size_t, std::size_t first, std::uint32_t size) {
                 for (std::size_t c = first; size >= 3 && c < first + size; ++c) {
@@ -388,6 +390,7 @@ class Sanitizer {
     const MeshView& mesh_;
     StridedSpan<Vec4> tangents_;
     const SanitizeOptions& options_;
+    const Allocator* allocator_;
     Parallel parallel_;
     Buffer<std::uint8_t> candidates_;      ///< one per block
     Buffer<std::uint32_t> block_corners_;  ///< each block's first corner; empty when all faces have one size
@@ -410,16 +413,16 @@ Error check(const MeshView& mesh, const StridedSpan<Vec4>& tangents) {
 
 }  // namespace
 
-Result<SanitizeReport> sanitizeTangents(const MeshView& mesh, StridedSpan<Vec4> tangents,
-                                        const SanitizeOptions& options) {
+Result<SanitizeReport> sanitizeTangents(const MeshView& mesh, const SanitizeOptions& options,
+                                        StridedSpan<Vec4> tangents, const Execution& execution) {
     return atBorder([&]() -> Result<SanitizeReport> {
         if (hasOwnLists(mesh)) {
-            return withOneList(mesh, options.execution, [&](const MeshView& with_one_list) {
-                return sanitizeTangents(with_one_list, tangents, options);
+            return withOneList(mesh, execution, [&](const MeshView& with_one_list) {
+                return sanitizeTangents(with_one_list, options, tangents, execution);
             });
         }
         if (Error e = check(mesh, tangents); e.code != ErrorCode::ok) return e;
-        return Sanitizer(mesh, tangents, options).run();
+        return Sanitizer(mesh, options, tangents, execution).run();
     });
 }
 

@@ -66,7 +66,7 @@ class FrameComputer {
         if (corner_count > kMaxCorners) {
             return Error{ErrorCode::tooLarge, "the primitives that share these vertices have more than 2^31-1 corners"};
         }
-        const Allocator* allocator = options_.tangents.execution.allocator;
+        const Allocator* allocator = options_.execution.allocator;
         if (generates_tangents_) tangents_ = Buffer<Vec4>(allocator, corner_count);
         if (generates_bitangents_) bitangents_ = Buffer<Vec3>(allocator, corner_count);
         for (std::size_t p = 0; p < primitives_.size(); ++p) {
@@ -124,7 +124,8 @@ class FrameComputer {
         NormalOptions options = options_.normals;
         options.smoothing_groups = primitive.smoothing_groups;
         normals.resize(mesh.indices.size());
-        Result<NormalReport> made = BorderedNormals(mesh, primitive.around.get(), options).base(normals);
+        Result<NormalReport> made =
+            BorderedNormals(mesh, primitive.around.get(), options, options_.execution).base(normals);
         if (!made) return std::move(made).error();
         roundUnits(normals, options_.format);
         report.normals = *made;
@@ -132,7 +133,7 @@ class FrameComputer {
 
         const CornerAttribute attribute = cornerAttribute(StridedSpan<const Vec3>(normals));
         Result<SplitResult> split = splitVertices(mesh.view().indices, mesh.positions.count, mesh.indices.size(),
-                                                  {&attribute, 1}, options_.normals.execution);
+                                                  {&attribute, 1}, options_.execution);
         if (!split) return std::move(split).error();
         mesh.own_positions = gather(mesh.positions, split->source_vertices);
         mesh.own_uvs = gather(mesh.uvs, split->source_vertices);
@@ -171,7 +172,7 @@ class FrameComputer {
             stored = keeps ? pool_.kept_tangents : pool_.old_tangents;
             if (!mesh.sources.empty()) stored = own = gather(stored, mesh.sources);
         }
-        return tspace::chooseFaces(mesh.view(), stored, pool_.is_blenders, faces, options_.tangents.execution);
+        return tspace::chooseFaces(mesh.view(), stored, pool_.is_blenders, faces, options_.execution);
     }
 
     /// The next ones of tangents() and bitangents().
@@ -197,13 +198,14 @@ class FrameComputer {
             out.bitangents = bitangents;
             report.bitangents_generated = true;
         }
-        Result<TangentReport> made = generateTangents(mesh.view(), options_.tangents, out);
+        Result<TangentReport> made = generateTangents(mesh.view(), options_.tangents, out, options_.execution);
         if (!made) return std::move(made).error();
         report.tangents = *made;
         if (!options_.sanitize) return Done{};
         std::vector<Vec4> computed;
         if (generates_bitangents_) computed.assign(tangents.begin(), tangents.end());
-        Result<SanitizeReport> mended = sanitizeTangents(mesh.view(), tangents, options_.sanitize_options);
+        Result<SanitizeReport> mended =
+            sanitizeTangents(mesh.view(), options_.sanitize_options, tangents, options_.execution);
         if (!mended) return std::move(mended).error();
         report.sanitize = *mended;
         if (generates_bitangents_) mendBitangents(mesh.normals, mesh.indices, computed, tangents, bitangents);
@@ -246,8 +248,8 @@ class FrameComputer {
         if (!normals_.empty()) attributes.push_back(cornerAttribute(StridedSpan<const Vec3>(normals_)));
         if (!tangents_.empty()) attributes.push_back(cornerAttribute(StridedSpan<const Vec4>(tangents())));
         if (!bitangents_.empty()) attributes.push_back(cornerAttribute(StridedSpan<const Vec3>(bitangents())));
-        Result<SplitResult> split = splitVertices(IndexView(corners_), pool_.positions.count, corners_.size(),
-                                                  attributes, options_.tangents.execution);
+        Result<SplitResult> split =
+            splitVertices(IndexView(corners_), pool_.positions.count, corners_.size(), attributes, options_.execution);
         if (!split) return std::move(split).error();
 
         PoolFrames frames;

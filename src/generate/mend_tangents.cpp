@@ -88,7 +88,7 @@ Result<Done> mendValues(const TangentView& mesh, bool along_normals, std::span<V
     std::vector<Vec4> of_corners;
     for (const std::uint32_t v : mesh.corners) of_corners.push_back(is_broken[v] ? Vec4{} : tangents[v]);
     if (!mesh.normals.empty() && !mesh.corners.empty()) {
-        const Result<SanitizeReport> mended = sanitizeTangents(mesh.triangles(), of_corners);
+        const Result<SanitizeReport> mended = sanitizeTangents(mesh.triangles(), {}, std::span(of_corners));
         if (!mended) return mended.error();
     }
     std::vector<Vec4> found(tangents.size(), Vec4{});

@@ -105,12 +105,12 @@ Vec3 offsetBetween(const Vec3& from, const Vec3& to) {
 }
 
 Result<Done> MorphTangents::add(LocalMesh&& mesh, PrimitiveReport& report) {
-    Result<TangentPlan> plan = planTangents(mesh.view(), options_.tangents);
+    Result<TangentPlan> plan = planTangents(mesh.view(), options_.tangents, options_.execution);
     if (!plan) return std::move(plan).error();
     const MeshView view = mesh.view();
     tangents_.resize(mesh.indices.size());
     const Result<TangentReport> made =
-        evaluateTangents(*plan, {view.positions, view.normals}, {.tangents = tangents_}, options_.tangents.execution);
+        evaluateTangents(*plan, {view.positions, view.normals}, {.tangents = tangents_}, options_.execution);
     if (!made) return made.error();
     WeldClasses classes(mesh);
     pieces_.push_back({std::move(mesh), *std::move(plan), std::move(classes), tangents_, &report});
@@ -138,7 +138,7 @@ Result<Done> MorphTangents::compute(std::span<const Vec4> tangents, MorphSplit& 
                 if (!kept->is_new[c]) offsets[c] = moved->tangents[kept->vertices[c]];
             }
         }
-        if (Result<Done> done = split.add(offsets, 0, options_.tangents.execution); !done) return done;
+        if (Result<Done> done = split.add(offsets, 0, options_.execution); !done) return done;
     }
     return Done{};
 }
@@ -160,8 +160,8 @@ Result<Done> MorphTangents::evaluate(const Piece& piece, std::span<const Vec4> b
     MeshView posed = piece.mesh.view();
     posed.positions = StridedSpan<const Vec3>(pose_.positions());
     posed.normals = StridedSpan<const Vec3>(pose_.normals());
-    const Result<TangentReport> made = evaluateTangents(piece.plan, {posed.positions, posed.normals},
-                                                        {.tangents = tangents_}, options_.tangents.execution);
+    const Result<TangentReport> made =
+        evaluateTangents(piece.plan, {posed.positions, posed.normals}, {.tangents = tangents_}, options_.execution);
     if (!made) return made.error();
     if (piece.classes.findApart(piece.mesh.indices, pose_.positions(), pose_.normals(), apart_)) {
         // A step reads the results of neighbours.
@@ -173,7 +173,8 @@ Result<Done> MorphTangents::evaluate(const Piece& piece, std::span<const Vec4> b
         // Mending looks around, and what moves elsewhere must not reach those that stay.
         for (std::size_t c = 0; c < base.size(); ++c) stays_[c] = staysAt(piece, c);
         carryOver(piece, base);
-        const Result<SanitizeReport> mended = sanitizeTangents(posed, tangents_, options_.sanitize_options);
+        const Result<SanitizeReport> mended =
+            sanitizeTangents(posed, options_.sanitize_options, tangents_, options_.execution);
         if (!mended) return mended.error();
     }
     for (std::size_t c = 0; c < base.size(); ++c) {
@@ -189,7 +190,8 @@ Result<Done> MorphTangents::evaluate(const Piece& piece, std::span<const Vec4> b
 /// plane), or the other sign, which no target can bring about, the tangent of the base's group is laid into the plane.
 Result<Done> MorphTangents::regroup(const Piece& piece, const MeshView& posed) {
     regrouped_.resize(tangents_.size());
-    const Result<TangentReport> made = generateTangents(posed, options_.tangents, {.tangents = regrouped_});
+    const Result<TangentReport> made =
+        generateTangents(posed, options_.tangents, {.tangents = regrouped_}, options_.execution);
     if (!made) return made.error();
     for (std::size_t c = 0; c < tangents_.size(); ++c) {
         const std::uint32_t v = piece.mesh.indices[c];

@@ -30,7 +30,7 @@ class PoolNormals {
         roundUnits(written_, options_.format);
         const CornerAttribute attribute = cornerAttribute(StridedSpan<const Vec3>(written_));
         Result<SplitResult> split = splitVertices(IndexView(spanOf(indices_)), pool_.positions.count, indices_.size(),
-                                                  {&attribute, 1}, options_.normals.execution);
+                                                  {&attribute, 1}, options_.execution);
         if (!split) return std::move(split).error();
         MorphSplit morph_split(*std::move(split), true);
         for (std::size_t target = 0; target < pool_.targets.count; ++target) {
@@ -56,7 +56,7 @@ class PoolNormals {
             indices_.insert(indices_.end(), corners.begin(), corners.end());
             normals_.resize(indices_.size());
             meshes_.push_back(local.make(primitives_[p]));
-            makers_.emplace_back(meshes_[p], primitives_[p].around.get(), options_of_[p]);
+            makers_.emplace_back(meshes_[p], primitives_[p].around.get(), options_of_[p], options_.execution);
             if (corners.empty()) continue;
             const Result<NormalReport> made = makers_[p].base(std::span(normals_).subspan(first));
             if (!made) return made.error();
@@ -85,7 +85,7 @@ class PoolNormals {
             if (!made) return made.error();
             for (std::size_t c = 0; c < own.size(); ++c) own[c] = offsetBetween(normals_[first + c], own[c]);
         }
-        return split.add(offsets, kTolerance, options_.normals.execution);
+        return split.add(offsets, kTolerance, options_.execution);
     }
 
     void write(MorphSplit& morph_split, PoolWithNormals& result) const {

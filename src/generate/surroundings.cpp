@@ -24,8 +24,9 @@ constexpr double kMostTakenDeg = 30;
 
 }  // namespace
 
-BorderedNormals::BorderedNormals(const LocalMesh& mesh, const Surroundings* around, const NormalOptions& options)
-    : mesh_(mesh), around_(around), options_(options) {
+BorderedNormals::BorderedNormals(const LocalMesh& mesh, const Surroundings* around, const NormalOptions& options,
+                                 const Execution& execution)
+    : mesh_(mesh), around_(around), options_(options), execution_(execution) {
     if (around_ == nullptr) return;
     positions_.reserve(mesh.positions.count + around->positions.size());
     for (std::size_t v = 0; v < mesh.positions.count; ++v) positions_.push_back(mesh.positions[v]);
@@ -46,7 +47,7 @@ MeshView BorderedNormals::whole() const {
 }
 
 Result<NormalReport> BorderedNormals::base(StridedSpan<Vec3> out) {
-    if (around_ == nullptr) return generateNormals(mesh_.view(), options_, out);
+    if (around_ == nullptr) return generateNormals(mesh_.view(), options_, out, execution_);
     // Those around it are not to be counted.
     MeshView others;
     others.positions = StridedSpan<const Vec3>(std::span<const Vec3>(around_->positions));
@@ -54,12 +55,12 @@ Result<NormalReport> BorderedNormals::base(StridedSpan<Vec3> out) {
     std::vector<Vec3> normals(around_->indices.size());
     NormalOptions flat = options_;
     flat.weighting = NormalWeighting::flat;
-    const Result<NormalReport> counted = generateNormals(others, flat, normals);
+    const Result<NormalReport> counted = generateNormals(others, flat, normals, execution_);
     if (!counted) return counted;
     degenerate_around_ = counted->degenerate_face_count;
 
     normals.resize(indices_.size());
-    const Result<NormalReport> made = generateNormals(whole(), options_, normals);
+    const Result<NormalReport> made = generateNormals(whole(), options_, normals, execution_);
     if (!made) return made;
     choose(std::span<const Vec3>(normals).subspan(first_corner_, mesh_.indices.size()));
     const NormalReport report = take(*made, normals, out);
@@ -74,7 +75,7 @@ Result<NormalReport> BorderedNormals::base(StridedSpan<Vec3> out) {
 
 Result<NormalReport> BorderedNormals::pose(const StridedSpan<const Vec3>& positions, std::size_t target,
                                            StridedSpan<Vec3> out) {
-    if (around_ == nullptr) return generatePoseNormals(mesh_.view(), positions, options_, out);
+    if (around_ == nullptr) return generatePoseNormals(mesh_.view(), positions, options_, out, execution_);
     MorphOffsets offsets;
     if (around_->read) {
         Result<MorphOffsets> read = around_->read(target);
@@ -86,8 +87,8 @@ Result<NormalReport> BorderedNormals::pose(const StridedSpan<const Vec3>& positi
     for (std::size_t v = 0; v < own; ++v) moved[v] = positions[v];
     for (std::size_t v = 0; v < offsets.positions.size(); ++v) moved[own + v] = moved[own + v] + offsets.positions[v];
     std::vector<Vec3> normals(indices_.size());
-    const Result<NormalReport> made =
-        generatePoseNormals(whole(), StridedSpan<const Vec3>(std::span<const Vec3>(moved)), options_, normals);
+    const Result<NormalReport> made = generatePoseNormals(
+        whole(), StridedSpan<const Vec3>(std::span<const Vec3>(moved)), options_, normals, execution_);
     if (!made) return made;
     const NormalReport report = take(*made, normals, out);
     for (std::size_t c = 0; c < stays_.size(); ++c) {

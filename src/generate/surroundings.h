@@ -27,7 +27,8 @@ struct Surroundings {
 class BorderedNormals {
   public:
     /// `around`: null where nothing is around the mesh, which has polygons only then. All must outlive this.
-    BorderedNormals(const LocalMesh& mesh, const Surroundings* around, const NormalOptions& options);
+    BorderedNormals(const LocalMesh& mesh, const Surroundings* around, const NormalOptions& options,
+                    const Execution& execution);
 
     /// generateNormals of the mesh, one per corner of it. Where a vertex around the mesh has a normal that stays, and that is
     /// within 30 degrees (and within the crease angle) of the one that would be made at the same position, it is taken.
@@ -44,6 +45,7 @@ class BorderedNormals {
     const LocalMesh& mesh_;
     const Surroundings* around_;
     const NormalOptions& options_;
+    const Execution& execution_;
     std::vector<Vec3> positions_ = {};  ///< of the mesh, then of what is around it
     std::vector<std::uint32_t> indices_ = {};
     std::size_t first_corner_ = 0;           ///< of the mesh

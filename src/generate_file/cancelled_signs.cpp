@@ -77,7 +77,7 @@ Cancelled countCancelled(const Document& document, std::span<const Primitive> pr
     }
     CheckOptions check;
     check.convention = options.tangents.convention;
-    check.execution = options.tangents.execution;
+    check.execution = options.execution;
     check.execution.allocator = nullptr;
     readImages(document, scene);
     std::vector<PrimitiveJudgement> judgements = judgePrimitives(scene, check);

@@ -137,8 +137,8 @@ NewMap convertFor(const MapGroup& group, const FloatImage& image, const Generate
     const MapImage map{image.width, image.height, image.texels, first.from.wrap_u, first.from.wrap_v};
     FloatImage converted{image.width, image.height, image.bits, std::vector<Vec3>(image.texels.size()), image.alpha};
     const MapSide from_side = sideOf(from, scale), to_side = sideOf(to, scale);
-    const ConvertMapReport texels = valueOrThrow(convertMap(
-        map, from_side, to_side, converted.texels, {.bits = image.bits, .execution = options.tangents.execution}));
+    const ConvertMapReport texels =
+        valueOrThrow(convertMap(map, from_side, to_side, {.bits = image.bits}, converted.texels, options.execution));
     report.changed = texels.changed;
     if (texels.changed == 0) {
         const bool is_bright =
@@ -146,7 +146,7 @@ NewMap convertFor(const MapGroup& group, const FloatImage& image, const Generate
         report.reason = is_bright ? "new normals change the picture on purpose" : "the new tangents show it as before";
         return made;
     }
-    Parallel parallel(options.tangents.execution);
+    Parallel parallel(options.execution);
     const CarriedError error = measureCarried(map, converted.texels, from_side, to_side, parallel);
     report.mean_error_deg = error.mean_deg;
     report.mean_error_unconverted_deg = error.mean_unconverted_deg;
@@ -228,12 +228,12 @@ class OneMap {
 
     void prepare(ShownMap& one, const Source& source, const FloatImage& image) const {
         // What viewers make of a file without tangents.
-        const TangentOptions viewers{.convention = conventions::gltf, .execution = options_.tangents.execution};
+        const TangentOptions viewers{.convention = conventions::gltf};
         const TangentUse& use = *one.user.use;
-        addMapCorners(*source.before, &use, viewers, one.from);
+        addMapCorners(*source.before, &use, viewers, options_.execution, one.from);
         one.from.wrap_u = use.wrap_u;
         one.from.wrap_v = use.wrap_v;
-        addMapCorners(*source.after, &use, viewers, one.to);
+        addMapCorners(*source.after, &use, viewers, options_.execution, one.to);
         if (one.is_bright || one.from.uvs != one.to.uvs) one.from = one.to;
         std::vector<std::uint32_t> corners(one.from.uvs.size());
         for (std::size_t i = 0; i < corners.size(); ++i) corners[i] = static_cast<std::uint32_t>(i);

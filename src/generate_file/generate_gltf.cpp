@@ -70,7 +70,7 @@ GenerateReport generate(const std::string& input, const std::string& output_path
     GenerateOptions options = requested;
     inputs.watch(options.file);
     tell(options, "reading", 0, 1);
-    Document document = loadDocument(input, options.file, options.tangents.execution, options.progress);
+    Document document = loadDocument(input, options.file, options.execution, options.progress);
     // Other formats leave open whose conventions their tangents follow: only those stay that are right in glTF.
     if (document.imported && options.existing == ExistingTangents::keep) options.existing = ExistingTangents::repair;
     const OutputTarget target = outputTarget(document, output_path, options.sink != nullptr);
@@ -116,8 +116,7 @@ GenerateReport generate(const std::string& input, const std::string& output_path
     PoolComputer computer(document, primitives, options);
     for (std::span<const Pool> rest = plan.pools; !rest.empty();) {
         tell(options, "computing tangents", done, total);
-        const std::span<const Pool> pools =
-            rest.first(countTogether(rest, document, primitives, options.tangents.execution));
+        const std::span<const Pool> pools = rest.first(countTogether(rest, document, primitives, options.execution));
         rest = rest.subspan(pools.size());
         std::vector<PoolElements> elements = computer.compute(pools, plan.reports);
         for (std::size_t i = 0; i < pools.size(); ++i) {
@@ -149,7 +148,7 @@ GenerateReport generate(const std::string& input, const std::string& output_path
     tell(options, "writing", 0, 1);
     report.changed = editor.changed() || converted || unpacked || packed;
     if (report.changed) {
-        writeDocument(document, target, files, report.warnings, options.tangents.execution);
+        writeDocument(document, target, files, report.warnings, options.execution);
     } else {
         writeUnchanged(document, target, files, report.warnings);
     }

@@ -83,7 +83,7 @@ void packWritten(const GenerateOptions& options, FinishedPrimitive& finished, Pr
     roundUnits(std::span(finished.tangents), finished.tangent_format);
     const gltf::PackedLayout& layout = gltf::packedLayout(*options.pack);
     const Bytes words =
-        gltf::packWords(layout.format, finished.normals, finished.tangents, options.tangents.execution, report.packing);
+        gltf::packWords(layout.format, finished.normals, finished.tangents, options.execution, report.packing);
     for (const gltf::PackedPart& part : layout.parts)
         finished.packed.push_back({part, takePart(words, layout.format, part)});
     report.frames_packed = true;

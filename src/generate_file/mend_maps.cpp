@@ -64,14 +64,14 @@ bool isPicture(const FloatImage& image) {
 template <class IsUser>
 MapMesh meshOf(const Scene& scene, const GenerateOptions& options, const IsUser& isUser) {
     MapMesh mesh;
-    TangentOptions tangents = options.tangents;
-    tangents.execution.allocator = nullptr;
+    Execution execution = options.execution;
+    execution.allocator = nullptr;
     for (ScenePrimitive primitive : scene.primitives) {
         if (options.existing == ExistingTangents::replace) primitive.tangents = {};
         for (const TangentUse& use : primitive.uses) {
             const bool has_uvs = use.uv_set < primitive.uv_sets.size() && !primitive.uv_sets[use.uv_set].empty();
             if (!isUser(use) || !showsNormals(use) || primitive.corners.empty() || !has_uvs) continue;
-            addMapCorners(primitive, &use, tangents, mesh);
+            addMapCorners(primitive, &use, options.tangents, execution, mesh);
             mesh.wrap_u = use.wrap_u;
             mesh.wrap_v = use.wrap_v;
             mesh.report.scale = use.scale;
@@ -85,8 +85,8 @@ void toTangentSpace(const Scene& scene, std::size_t image_number, const Generate
     MapSide to = tangentSide(mesh);
     to.reading.scale = static_cast<float>(mesh.report.scale);
     const MapImage map{image.width, image.height, image.texels, mesh.wrap_u, mesh.wrap_v};
-    valueOrThrow(convertMap(map, {.space = MapSpace::object}, to, image.texels,
-                            {.bits = image.bits, .padding = 16, .execution = options.tangents.execution}));
+    valueOrThrow(convertMap(map, {.space = MapSpace::object}, to, {.bits = image.bits, .padding = 16}, image.texels,
+                            options.execution));
 }
 
 }  // namespace
@@ -138,12 +138,12 @@ MadeOfHeights makeOfHeights(const Scene& scene, std::size_t material, std::size_
         made.why_not = "its faces have no texture coordinates";
         return made;
     }
-    Execution execution = options.tangents.execution;
+    Execution execution = options.execution;
     execution.allocator = nullptr;
     const std::vector<float> values = heightsOf(*heights);
     const HeightToNormalReport report =
-        valueOrThrow(heightToNormal({heights->width, heights->height, values}, tangentSide(mesh), heights->texels,
-                                    {.strength = strength, .bits = heights->bits, .execution = execution}));
+        valueOrThrow(heightToNormal({heights->width, heights->height, values}, tangentSide(mesh),
+                                    {.strength = strength, .bits = heights->bits}, heights->texels, execution));
     heights->alpha.clear();
     const auto file = encodePng(*heights, heights->bits);
     if (!file) {

@@ -122,7 +122,7 @@ std::vector<Verdict> judge(const Document& document, std::span<const Primitive> 
     const std::int64_t left = document.memory->left();
     CheckOptions check;
     check.convention = options.tangents.convention;
-    check.execution = options.tangents.execution;
+    check.execution = options.execution;
     check.execution.allocator = nullptr;
     Scene scene = sceneOf(document, primitives);
     readAsAsked(options, scene);

@@ -121,9 +121,8 @@ class Explainer {
     Result<Done> tryMethod(Method method, std::span<Vec4> computed, std::vector<Explanation>& explanations) const {
         Explanation most;
         for (const std::uint32_t refine : {1u, 0u, 2u}) {
-            const TangentOptions how{
-                .method = method, .convention = conventions::opengl, .execution = options_.execution, .refine = refine};
-            const Result<TangentReport> done = generateTangents(mesh_, how, {.tangents = computed});
+            const TangentOptions how{.method = method, .convention = conventions::opengl, .refine = refine};
+            const Result<TangentReport> done = generateTangents(mesh_, how, {.tangents = computed}, options_.execution);
             if (!done) return done.error();
             const Explanation explanation = explainedBy(method, Faces::triangles, computed);
             if (refine == 1 || explanation.near_count > most.near_count) most = explanation;

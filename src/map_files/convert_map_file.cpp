@@ -28,7 +28,7 @@ Meshes readMeshes(const std::string& input, const ConvertMapFileOptions& options
     const bool in_world = options.from == MapFileSpace::world || options.to == MapFileSpace::world;
     const MapMeshChoice choice{options.material, fileNameOf(input), in_world, options.tile};
     const auto read = [&](const std::string& model) {
-        return readNamedMapMesh(model, choice, options.tangents, options.file);
+        return readNamedMapMesh(model, choice, options.tangents, options.file, options.execution);
     };
     const bool from_tangent = options.from == MapFileSpace::tangent, to_tangent = options.to == MapFileSpace::tangent;
     const std::string& to_mesh = options.to_mesh.empty() ? options.mesh : options.to_mesh;
@@ -180,12 +180,10 @@ ConvertMapFileReport convert(const std::string& input, const std::string& output
                        .texels = image.texels,
                        .wrap_u = any == nullptr ? TextureWrap::repeat : any->wrap_u,
                        .wrap_v = any == nullptr ? TextureWrap::repeat : any->wrap_v};
-    const ConvertMapOptions chosen{.bits = format == ImageFormat::png ? bits : 32,
-                                   .padding = options.padding,
-                                   .execution = options.tangents.execution,
-                                   .progress = options.progress};
+    const ConvertMapOptions chosen{.bits = format == ImageFormat::png ? bits : 32, .padding = options.padding};
     const MapSides sides = sidesOf(meshes, options);
-    report.texels = valueOrThrow(convertMap(map, sides.from, sides.to, image.texels, chosen));
+    report.texels =
+        valueOrThrow(convertMap(map, sides.from, sides.to, chosen, image.texels, options.execution, options.progress));
     if (!before.empty()) countLayout(before, image.texels, any == nullptr, report.texels);
     if (image.not_finite > 0)
         report.warnings.push_back(std::to_string(image.not_finite) +

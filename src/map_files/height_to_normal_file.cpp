@@ -48,18 +48,15 @@ HeightToNormalFileReport convertHeights(const std::string& input, const std::str
     MapMesh mesh;
     if (!options.mesh.empty()) {
         mesh = readNamedMapMesh(options.mesh, {.material = options.material, .image_name = fileNameOf(input)},
-                                options.tangents, options.file);
+                                options.tangents, options.file, options.execution);
         report.mesh = mesh.report;
     }
     const std::vector<float> heights = heightsOf(image);
     const TextureWrap wrap_u = options.clamp ? TextureWrap::clamp : mesh.wrap_u;
     const TextureWrap wrap_v = options.clamp ? TextureWrap::clamp : mesh.wrap_v;
-    report.texels = valueOrThrow(heightToNormal({image.width, image.height, heights, wrap_u, wrap_v}, tangentSide(mesh),
-                                                image.texels,
-                                                {.strength = options.strength,
-                                                 .green = options.green,
-                                                 .bits = options.bits,
-                                                 .execution = options.tangents.execution}));
+    report.texels = valueOrThrow(heightToNormal(
+        {image.width, image.height, heights, wrap_u, wrap_v}, tangentSide(mesh),
+        {.strength = options.strength, .green = options.green, .bits = options.bits}, image.texels, options.execution));
     addHeightWarnings(options, report);
     image.alpha.clear();
     writeMapImage(image, ImageFormat::png, options.bits, output,

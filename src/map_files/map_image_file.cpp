@@ -36,9 +36,9 @@ FloatImage readMapImage(const std::string& input, ByteSpan content, const FileOp
 }
 
 MapMesh readNamedMapMesh(const std::string& model, const MapMeshChoice& choice, const TangentOptions& tangents,
-                         const FileOptions& file) {
+                         const FileOptions& file, const Execution& execution) {
     try {
-        return readMapMesh(model, choice, tangents, file);
+        return readMapMesh(model, choice, tangents, file, execution);
     } catch (FileError& failure) {
         failure.error.message = "the model " + pathInQuotes(model) + ": " + failure.error.message;
         throw;

@@ -17,7 +17,7 @@ FloatImage readMapImage(const std::string& input, ByteSpan content, const FileOp
 
 /// readMapMesh, whose errors name the model: those of a call are printed with the name of the image.
 MapMesh readNamedMapMesh(const std::string& model, const MapMeshChoice& choice, const TangentOptions& tangents,
-                         const FileOptions& file);
+                         const FileOptions& file, const Execution& execution);
 
 /// The path without folders.
 std::string fileNameOf(const std::string& path);

@@ -73,7 +73,7 @@ void gatherCorners(std::span<const T> from, std::span<const std::uint32_t> indic
 }
 
 void addFrames(const ScenePrimitive& primitive, std::span<const Vec2> uvs, const TangentOptions& options,
-               MapMesh& mesh) {
+               const Execution& execution, MapMesh& mesh) {
     if (!primitive.normals.empty() && !primitive.tangents.empty()) {
         gatherCorners(primitive.normals.span(), primitive.corners.span(), mesh.normals);
         gatherCorners(primitive.tangents.span(), primitive.corners.span(), mesh.tangents);
@@ -84,7 +84,7 @@ void addFrames(const ScenePrimitive& primitive, std::span<const Vec2> uvs, const
                         .uvs = uvs,
                         .indices = primitive.corners.span()};
     IndexedFramesOptions frames{.tangents = options, .normals = {.weighting = NormalWeighting::flat}};
-    const IndexedFrames made = valueOrThrow(makeIndexedFrames(view, frames));
+    const IndexedFrames made = valueOrThrow(makeIndexedFrames(view, frames, execution));
     gatherCorners(std::span<const Vec3>(made.normals), made.indices, mesh.normals);
     gatherCorners(std::span<const Vec4>(made.tangents), made.indices, mesh.tangents);
     mesh.report.tangents_made = true;
@@ -169,7 +169,7 @@ void keepTile(std::uint32_t tile, std::size_t first, MapMesh& mesh) {
 bool showsNormals(const TangentUse& use) { return use.needed_by != "anisotropy"; }
 
 void addMapCorners(const ScenePrimitive& primitive, const TangentUse* use, const TangentOptions& tangents,
-                   MapMesh& mesh) {
+                   const Execution& execution, MapMesh& mesh) {
     const auto uvs_of = [&](const TangentUse& of) {
         return textureUvs(primitive.uv_sets[of.uv_set].span(), of.transform);
     };
@@ -179,7 +179,7 @@ void addMapCorners(const ScenePrimitive& primitive, const TangentUse* use, const
     const TangentUse* const first = primitive.uses.empty() ? nullptr : &primitive.uses.front();
     const bool has_first =
         first != nullptr && first->uv_set < primitive.uv_sets.size() && !primitive.uv_sets[first->uv_set].empty();
-    addFrames(primitive, has_first ? uvs_of(*first) : uvs, tangents, mesh);
+    addFrames(primitive, has_first ? uvs_of(*first) : uvs, tangents, execution, mesh);
     gatherCorners(std::span<const Vec2>(uvs), primitive.corners.span(), mesh.uvs);
     gatherCorners(primitive.positions.span(), primitive.corners.span(), mesh.positions);
     std::vector<std::string>& materials = mesh.report.materials;
@@ -190,7 +190,7 @@ void addMapCorners(const ScenePrimitive& primitive, const TangentUse* use, const
 }
 
 MapMesh readMapMesh(const std::string& model, const MapMeshChoice& choice, const TangentOptions& tangents,
-                    const FileOptions& file) {
+                    const FileOptions& file, const Execution& execution) {
     const DrawnScene drawn = readDrawnScene(model, file, false);
     const Scene& scene = drawn.scene;
     const std::vector<ChosenPrimitive> chosen = choosePrimitives(scene, choice);
@@ -216,7 +216,7 @@ MapMesh readMapMesh(const std::string& model, const MapMeshChoice& choice, const
         const std::size_t first = mesh.normals.size();
         scene.memory->take(4 * kCornerBytes * one.primitive->corners.size(), one.primitive->place);
         const MapMeshReport before = mesh.report;
-        addMapCorners(*one.primitive, one.use, tangents, mesh);
+        addMapCorners(*one.primitive, one.use, tangents, execution, mesh);
         if (choice.tile != 0) keepTile(choice.tile, first, mesh);
         if (mesh.uvs.size() == first) mesh.report = before;
         if (place) placeCorners(*place, first, mesh);

@@ -27,7 +27,7 @@ bool showsNormals(const TangentUse& use);
 /// Appends the corners of a primitive as a map is read there; `use`: what reads it, null for the first UVs as they are. Missing
 /// frames are made, along the UVs that generate takes. Throws FileError.
 void addMapCorners(const ScenePrimitive& primitive, const TangentUse* use, const TangentOptions& tangents,
-                   MapMesh& mesh);
+                   const Execution& execution, MapMesh& mesh);
 
 struct MapMeshChoice {
     std::string material = {};    ///< ConvertMapFileOptions::material
@@ -39,6 +39,6 @@ struct MapMeshChoice {
 /// Reads a model and takes the triangles that show the map. Throws FileError: invalidFile where there are none, where their
 /// materials give the map several scales or none, and, in the world, where they stand there in several ways or not at all.
 MapMesh readMapMesh(const std::string& model, const MapMeshChoice& choice, const TangentOptions& tangents,
-                    const FileOptions& file);
+                    const FileOptions& file, const Execution& execution);
 
 }  // namespace tspace

@@ -9,7 +9,6 @@
 #include "maps/carried_error.h"
 #include "maps/convert_texel.h"
 #include "maps/corner_triangles.h"
-#include "maps/map_stop.h"
 #include "maps/matched_triangles.h"
 #include "maps/solve_texels.h"
 #include "tspace/map_convert.h"
@@ -47,21 +46,22 @@ struct Sums {
 class Conversion {
   public:
     Conversion(const MapImage& map, const MapSide& from, const MapSide& to, std::span<Vec3> out,
-               const ConvertMapOptions& options, Parallel& parallel)
+               const ConvertMapOptions& options, const Allocator* allocator, Parallel& parallel)
         : map_(map),
           from_(from),
           to_(to),
           out_(out),
           options_(options),
+          allocator_(allocator),
           parallel_(parallel),
           // Where one side alone has frames, they are those of the other too.
           one_mesh_(!(hasFrames(from) && hasFrames(to))),
           main_(from.uvs.empty() || (to.space == MapSpace::tangent && from.space == MapSpace::object) ? to : from),
           other_(&main_ == &from ? to : from),
-          main_corners_(main_, options.execution.allocator),
-          other_corners_(one_mesh_ ? MapSide{} : other_, options.execution.allocator) {}
+          main_corners_(main_, allocator),
+          other_corners_(one_mesh_ ? MapSide{} : other_, allocator) {}
 
-    Result<ConvertMapReport> run() {
+    Result<ConvertMapReport> run(const Progress& progress) {
         if (!main_.uvs.empty()) {
             if (!findPlaces()) {
                 return makeError(ErrorCode::tooLarge, kNoElement, "the UVs show the image far too often");
@@ -70,13 +70,12 @@ class Conversion {
         const std::size_t texels = map_.texels.size(), tasks = (texels + kTexelsOfTask - 1) / kTexelsOfTask;
         if (options_.bits == 8) findSpreads();
         if (options_.bits == 16 && from_.space != to_.space) {
-            vectors_ = Buffer<Vec3>(options_.execution.allocator, texels);
-            keeps_ = Buffer<bool>(options_.execution.allocator, texels, true);
+            vectors_ = Buffer<Vec3>(allocator_, texels);
+            keeps_ = Buffer<bool>(allocator_, texels, true);
         }
-        Buffer<Sums> sums(options_.execution.allocator, tasks, Sums{});
+        Buffer<Sums> sums(allocator_, tasks, Sums{});
         for (std::size_t first = 0; first < tasks; first += kTasksOfStep) {
-            if (options_.stop && options_.stop()) return stoppedError();
-            if (options_.progress) options_.progress("converting texels", first, tasks);
+            if (progress) progress("converting texels", first, tasks);
             parallel_.forTasks(std::min(kTasksOfStep, tasks - first), [&](std::size_t task) {
                 const std::size_t begin = (first + task) * kTexelsOfTask;
                 for (std::size_t i = begin; i < std::min(begin + kTexelsOfTask, texels); ++i) {
@@ -93,22 +92,21 @@ class Conversion {
   private:
     /// False: too much work.
     bool findPlaces() {
-        const Allocator* allocator = options_.execution.allocator;
         const UvTriangles triangles = main_corners_.triangles(map_);
         // The texels that filtering reads are found within two.
         const std::uint32_t padding = std::max<std::uint32_t>(options_.padding, 2);
-        auto places = findTexelTriangles(triangles, map_.width, map_.height, padding, parallel_, allocator);
+        auto places = findTexelTriangles(triangles, map_.width, map_.height, padding, parallel_, allocator_);
         if (!places) return false;
         places_ = std::move(*places);
         if (one_mesh_) return true;
-        matches_ = matchTriangles(main_, other_, allocator);
+        matches_ = matchTriangles(main_, other_, allocator_);
         if (std::find(matches_.begin(), matches_.end(), kNoTriangle) == matches_.end()) return true;
         const UvTriangles others = other_corners_.triangles(map_);
-        auto other_places = findTexelTriangles(others, map_.width, map_.height, padding, parallel_, allocator);
+        auto other_places = findTexelTriangles(others, map_.width, map_.height, padding, parallel_, allocator_);
         if (!other_places) return false;
         other_places_ = std::move(*other_places);
         if (other_places_.counts.overlapping > 0 && !main_.positions.empty() && !other_.positions.empty()) {
-            chooseByPosition(main_, triangles, places_, other_, others, other_places_, allocator);
+            chooseByPosition(main_, triangles, places_, other_, others, other_places_, allocator_);
         }
         return true;
     }
@@ -116,7 +114,7 @@ class Conversion {
     /// Of the texels as they come: `out_` may be where they are.
     void findSpreads() {
         const std::size_t rows = map_.height;
-        spreads_ = Buffer<float>(options_.execution.allocator, map_.texels.size());
+        spreads_ = Buffer<float>(allocator_, map_.texels.size());
         parallel_.forRanges(rows, 16, [&](std::size_t begin, std::size_t end) {
             for (std::size_t y = begin; y < end; ++y) {
                 for (std::size_t x = 0; x < map_.width; ++x) spreads_[y * map_.width + x] = spreadAt(x, y);
@@ -148,7 +146,7 @@ class Conversion {
         const std::span<Vec3> vectors(vectors_.data(), vectors_.size());
         roundTexels(vectors, map_.width,
                     {.keeps_lengths = to_.reading.two_channels, .keeps = {keeps_.data(), keeps_.size()}}, parallel_,
-                    options_.execution.allocator);
+                    allocator_);
         std::uint64_t changed = 0;
         for (std::size_t i = 0; i < vectors.size(); ++i) {
             if (keeps_[i]) continue;
@@ -251,6 +249,7 @@ class Conversion {
     const MapSide &from_, &to_;
     std::span<Vec3> out_;
     const ConvertMapOptions& options_;
+    const Allocator* allocator_;
     Parallel& parallel_;
     bool one_mesh_;
     const MapSide &main_, &other_;  ///< texels go by the triangles of the first
@@ -319,12 +318,13 @@ Error checkCall(const MapImage& map, const MapSide& from, const MapSide& to, std
 
 }  // namespace
 
-Result<ConvertMapReport> convertMap(const MapImage& map, const MapSide& from, const MapSide& to, std::span<Vec3> out,
-                                    const ConvertMapOptions& options) {
+Result<ConvertMapReport> convertMap(const MapImage& map, const MapSide& from, const MapSide& to,
+                                    const ConvertMapOptions& options, std::span<Vec3> out, const Execution& execution,
+                                    const Progress& progress) {
     return atBorder([&]() -> Result<ConvertMapReport> {
         if (Error error = checkCall(map, from, to, out, options); error.code != ErrorCode::ok) return error;
-        Parallel parallel(options.execution);
-        return Conversion(map, from, to, out, options, parallel).run();
+        Parallel parallel(execution);
+        return Conversion(map, from, to, out, options, execution.allocator, parallel).run(progress);
     });
 }
 

@@ -54,25 +54,25 @@ bool edgesOf(const MapSide& mesh, std::size_t triangle, const HeightMap& map, Te
 class Heights {
   public:
     Heights(const HeightMap& map, const MapSide& mesh, std::span<Vec3> out, const HeightToNormalOptions& options,
-            Parallel& parallel)
+            const Allocator* allocator, Parallel& parallel)
         : map_(map),
           mesh_(mesh),
           out_(out),
           options_(options),
+          allocator_(allocator),
           parallel_(parallel),
-          corners_(mesh, options.execution.allocator) {}
+          corners_(mesh, allocator) {}
 
     Result<HeightToNormalReport> run() {
         const UvTriangles triangles = corners_.triangles(map_.wrap_u, map_.wrap_v);
         if (!mesh_.uvs.empty()) {
             // Filtering reads texels up to two away from a triangle.
-            auto places =
-                findTexelTriangles(triangles, map_.width, map_.height, 2, parallel_, options_.execution.allocator);
+            auto places = findTexelTriangles(triangles, map_.width, map_.height, 2, parallel_, allocator_);
             if (!places) return makeError(ErrorCode::tooLarge, kNoElement, "uvs: they show the image far too often");
             places_ = std::move(*places);
             findTexelSize();
         }
-        Buffer<Leans> leans(options_.execution.allocator, map_.height);
+        Buffer<Leans> leans(allocator_, map_.height);
         parallel_.forRanges(map_.height, kRowsOfTask, [&](std::size_t begin, std::size_t end) {
             for (std::size_t row = begin; row < end; ++row) {
                 leans[row] = {};
@@ -159,6 +159,7 @@ class Heights {
     const MapSide& mesh_;
     std::span<Vec3> out_;
     const HeightToNormalOptions& options_;
+    const Allocator* allocator_;
     Parallel& parallel_;
     CornerTriangles corners_;
     TexelTriangles places_ = {};
@@ -190,12 +191,13 @@ Error checkCall(const HeightMap& map, const MapSide& mesh, std::span<Vec3> out, 
 
 }  // namespace
 
-Result<HeightToNormalReport> heightToNormal(const HeightMap& map, const MapSide& mesh, std::span<Vec3> out,
-                                            const HeightToNormalOptions& options) {
+Result<HeightToNormalReport> heightToNormal(const HeightMap& map, const MapSide& mesh,
+                                            const HeightToNormalOptions& options, std::span<Vec3> out,
+                                            const Execution& execution) {
     return atBorder([&]() -> Result<HeightToNormalReport> {
         if (Error error = checkCall(map, mesh, out, options); error.code != ErrorCode::ok) return error;
-        Parallel parallel(options.execution);
-        return Heights(map, mesh, out, options, parallel).run();
+        Parallel parallel(execution);
+        return Heights(map, mesh, out, options, execution.allocator, parallel).run();
     });
 }
 

@@ -6,7 +6,6 @@
 
 #include "core/border.h"
 #include "maps/map_calls.h"
-#include "maps/map_stop.h"
 #include "maps/quantize.h"
 #include "maps/solve_texels.h"
 #include "maps/texel_plan.h"
@@ -26,12 +25,14 @@ constexpr unsigned kIntegerRounds = 3;
 
 class Baking {
   public:
-    Baking(const LowPoly& low, const HighPoly& high, const BakeOptions& options)
+    Baking(const LowPoly& low, const HighPoly& high, const BakeOptions& options, const Execution& execution,
+           const Progress& progress)
         : low_(low),
           high_(high),
           options_(options),
-          allocator_(options.execution.allocator),
-          parallel_(options.execution) {}
+          allocator_(execution.allocator),
+          parallel_(execution),
+          work_{execution.allocator, parallel_, progress} {}
 
     Result<BakedMap> run() {
         Result<MapSurfaces> surfaces = MapSurfaces::make(low_, high_, options_.reach, parallel_);
@@ -46,11 +47,15 @@ class Baking {
                              "the triangles of the low poly cover the image too often");
         if (triangles->counts.inside == 0)
             return makeError(ErrorCode::missingAttribute, kNoElement, "the UVs of the low poly cover no texel");
-        if (!traceTexels(*surfaces, *triangles, options_, parallel_, traced_)) return stoppedError();
+        traceTexels(*surfaces, *triangles, options_, work_, traced_);
         if (Error error = countOrigins(*triangles); error.code != ErrorCode::ok) return error;
         fillFromNeighbours(traced_, triangles->shape);
-        if (solves() ? !solve(*surfaces, *triangles) : !isGoingOn()) return stoppedError();
-        if (!solves() && options_.bits == 8) takeNearest();
+        if (solves()) {
+            solve(*surfaces, *triangles);
+        } else {
+            tellOfFitting();
+            if (options_.bits == 8) takeNearest();
+        }
         writeTexels();
         return measured(*surfaces);
     }
@@ -75,26 +80,24 @@ class Baking {
         return makeError(ErrorCode::missingAttribute, kNoElement, "no line from the low poly meets the high poly");
     }
 
-    [[nodiscard]] bool isGoingOn() const {
-        if (options_.stop && options_.stop()) return false;
-        if (options_.progress) options_.progress("fitting", 0, 1);
-        return true;
+    void tellOfFitting() const {
+        if (work_.progress) work_.progress("fitting", 0, 1);
     }
 
-    /// False when stopped.
-    bool solve(const MapSurfaces& surfaces, const TexelTriangles& triangles) {
+    void solve(const MapSurfaces& surfaces, const TexelTriangles& triangles) {
         const std::span<Vec3> texels(traced_.wanted.data(), traced_.wanted.size());
         const bool has_integers = options_.bits == 8;
         const CellSampling sampling = samplingOf(options_);
         const TexelPlan plan = planTexels(traced_, triangles, sampling.tolerance, has_integers, parallel_, allocator_);
         TexelSystem system(allocator_, options_.width, options_.height, {plan.roles.data(), plan.roles.size()});
-        if (!traceBetween(surfaces, plan, sampling.points, options_, parallel_, system) || !isGoingOn()) return false;
+        traceBetween(surfaces, plan, sampling.points, options_, work_, system);
+        tellOfFitting();
         sharpenTexels(plan, texels, parallel_, allocator_);
         if (has_integers) {
             addSmoothCells(plan, texels, options_, parallel_, system);
             const IntegerChoice choice{.is_two_channel = options_.reading.two_channels};
             chooseIntegers(system, choice, texels, kIntegerRounds, parallel_, allocator_);
-            return true;
+            return;
         }
         if (!options_.reading.two_channels) {
             for (Vec3& texel : texels) texel = kWantedLength * texel;
@@ -102,7 +105,6 @@ class Baking {
         solveTexels(system, texels, parallel_, allocator_);
         roundTexels(texels, options_.width, {.keeps_lengths = options_.reading.two_channels}, parallel_, allocator_);
         if (options_.reading.two_channels) settleThirds(texels);
-        return true;
     }
 
     /// z follows from x and y, which may be those of no unit vector by then.
@@ -141,21 +143,11 @@ class Baking {
     }
 
     Result<BakedMap> measured(const MapSurfaces& surfaces) {
-        const MapErrorOptions options{.space = options_.space,
-                                      .reading = options_.reading,
-                                      .execution = options_.execution,
-                                      .progress = options_.progress,
-                                      .stop = options_.stop};
-        const std::optional<MeasurePoints> points =
-            MeasurePoints::spread(surfaces, options.point_count, parallel_, options);
-        if (!points) return stoppedError();
+        const MeasurePoints points = MeasurePoints::spread(surfaces, MapErrorOptions{}.point_count, work_);
         const MapImage image{map_.width, map_.height, map_.texels, options_.wrap_u, options_.wrap_v};
         const MapCandidate candidate{options_.space, options_.reading, {}};
-        map_.error = points->measure(image, surfaces, candidate, parallel_);
-        if (options_.heat) {
-            map_.error.heat = heatOf(image, surfaces, candidate, parallel_, options);
-            if (map_.error.heat.empty()) return stoppedError();
-        }
+        map_.error = points.measure(image, surfaces, candidate, parallel_);
+        if (options_.heat) map_.error.heat = heatOf(image, surfaces, candidate, work_);
         return std::move(map_);
     }
 
@@ -164,6 +156,7 @@ class Baking {
     const BakeOptions& options_;
     const Allocator* allocator_;
     Parallel parallel_;
+    MapWork work_;
     TracedTexels traced_ = {};
     BakedMap map_ = {};
 };
@@ -180,7 +173,7 @@ Error checkBakeOptions(const BakeOptions& options, std::size_t low_triangles, st
     if (options.reading.scale != 1) return wrong("maps are baked for a scale of 1");
     if (options.space == MapSpace::object && options.reading.two_channels)
         return wrong("normals of the object need three channels");
-    const std::uint64_t bytes = bakeBytes(options, low_triangles, high_triangles);
+    const std::uint64_t bytes = bakeBytes(low_triangles, high_triangles, options);
     if (options.memory_limit_bytes != 0 && bytes > options.memory_limit_bytes) {
         return makeError(ErrorCode::tooLarge, kNoElement,
                          "a map of %u x %u texels takes %zu MB, and the limit is %zu MB", options.width, options.height,
@@ -190,7 +183,7 @@ Error checkBakeOptions(const BakeOptions& options, std::size_t low_triangles, st
     return {ErrorCode::ok};
 }
 
-std::uint64_t bakeBytes(const BakeOptions& options, std::uint64_t low_triangles, std::uint64_t high_triangles) {
+std::uint64_t bakeBytes(std::uint64_t low_triangles, std::uint64_t high_triangles, const BakeOptions& options) {
     // TexelTriangles, the vectors and their votes, the result; and the system with what solving it needs.
     constexpr std::uint64_t kPlain = 26 + 16 + 13, kSolve = sizeof(TexelRow) + 36, kHeat = 6;
     const std::uint64_t texel = kPlain + (options.fit == MapFit::solve ? kSolve : 0) + (options.heat ? kHeat : 0);
@@ -199,12 +192,13 @@ std::uint64_t bakeBytes(const BakeOptions& options, std::uint64_t low_triangles,
     return texel * options.width * options.height + kLow * low_triangles + kHigh * high_triangles + kPoints;
 }
 
-Result<BakedMap> bakeMap(const LowPoly& low, const HighPoly& high, const BakeOptions& options) {
+Result<BakedMap> bakeMap(const LowPoly& low, const HighPoly& high, const BakeOptions& options,
+                         const Execution& execution, const Progress& progress) {
     return atBorder([&]() -> Result<BakedMap> {
         Error error = checkBakeOptions(options, low.positions.count / 3, high.corners.size() / 3);
         if (error.code == ErrorCode::ok) error = checkSurfaces(low, high, options.space == MapSpace::tangent);
         if (error.code != ErrorCode::ok) return error;
-        return Baking(low, high, options).run();
+        return Baking(low, high, options, execution, progress).run();
     });
 }
 

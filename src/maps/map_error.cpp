@@ -2,7 +2,6 @@
 #include "tspace/map_error.h"
 
 #include "core/border.h"
-#include "maps/map_stop.h"
 #include "maps/measure_points.h"
 
 namespace tspace {
@@ -21,7 +20,8 @@ Error checkMap(const MapImage& map, const MapErrorOptions& options) {
 }
 
 Result<std::vector<MapError>> measureAll(const MapImage& map, const LowPoly& low, const HighPoly& high,
-                                         std::span<const MapCandidate> candidates, const MapErrorOptions& options) {
+                                         std::span<const MapCandidate> candidates, const MapErrorOptions& options,
+                                         const Execution& execution, const Progress& progress) {
     if (Error error = checkMap(map, options); error.code != ErrorCode::ok) return error;
     for (const MapCandidate& candidate : candidates) {
         const bool needs_tangents = candidate.space == MapSpace::tangent && candidate.tangents.empty();
@@ -30,18 +30,15 @@ Result<std::vector<MapError>> measureAll(const MapImage& map, const LowPoly& low
         Error error = checkSpan(candidate.tangents, low.positions.count, "candidate.tangents");
         if (error.code != ErrorCode::ok) return error;
     }
-    Parallel parallel(options.execution);
+    Parallel parallel(execution);
+    const MapWork work{execution.allocator, parallel, progress};
     Result<MapSurfaces> surfaces = MapSurfaces::make(low, high, options.reach, parallel);
     if (!surfaces) return std::move(surfaces).error();
-    const std::optional<MeasurePoints> points =
-        MeasurePoints::spread(*surfaces, options.point_count, parallel, options);
-    if (!points) return stoppedError();
+    const MeasurePoints points = MeasurePoints::spread(*surfaces, options.point_count, work);
     std::vector<MapError> errors;
     for (const MapCandidate& candidate : candidates) {
-        errors.push_back(points->measure(map, *surfaces, candidate, parallel));
-        if (!options.heat) continue;
-        errors.back().heat = heatOf(map, *surfaces, candidate, parallel, options);
-        if (errors.back().heat.empty()) return stoppedError();
+        errors.push_back(points.measure(map, *surfaces, candidate, parallel));
+        if (options.heat) errors.back().heat = heatOf(map, *surfaces, candidate, work);
     }
     return errors;
 }
@@ -49,22 +46,23 @@ Result<std::vector<MapError>> measureAll(const MapImage& map, const LowPoly& low
 }  // namespace
 
 Result<MapError> measureMap(const MapImage& map, const LowPoly& low, const HighPoly& high,
-                            const MapErrorOptions& options) {
+                            const MapErrorOptions& options, const Execution& execution, const Progress& progress) {
     return atBorder([&]() -> Result<MapError> {
         const MapCandidate candidate{options.space, options.reading, {}};
-        Result<std::vector<MapError>> errors = measureAll(map, low, high, {&candidate, 1}, options);
+        Result<std::vector<MapError>> errors =
+            measureAll(map, low, high, {&candidate, 1}, options, execution, progress);
         if (!errors) return std::move(errors).error();
         return std::move(errors->front());
     });
 }
 
 Result<std::vector<MapError>> measureReadings(const MapImage& map, const LowPoly& low, const HighPoly& high,
-                                              std::span<const MapCandidate> candidates,
-                                              const MapErrorOptions& options) {
+                                              std::span<const MapCandidate> candidates, const MapErrorOptions& options,
+                                              const Execution& execution, const Progress& progress) {
     return atBorder([&] {
         MapErrorOptions without_heat = options;
         without_heat.heat = false;
-        return measureAll(map, low, high, candidates, without_heat);
+        return measureAll(map, low, high, candidates, without_heat, execution, progress);
     });
 }
 

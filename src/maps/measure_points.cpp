@@ -63,8 +63,7 @@ DVec3 shadedAt(const MapImage& map, const MapCandidate& candidate, const CornerF
     return shadedNormal(shadingFrame(corners, weights, candidate.reading), vector);
 }
 
-std::optional<MeasurePoints> MeasurePoints::spread(const MapSurfaces& surfaces, std::uint32_t count, Parallel& parallel,
-                                                   const MapErrorOptions& options) {
+MeasurePoints MeasurePoints::spread(const MapSurfaces& surfaces, std::uint32_t count, const MapWork& work) {
     MeasurePoints made;
     made.findBorders(surfaces.low());
     std::vector<double> ends(surfaces.triangleCount());
@@ -97,7 +96,7 @@ std::optional<MeasurePoints> MeasurePoints::spread(const MapSurfaces& surfaces, 
         }
     };
     const std::size_t tasks = (count + kPointsOfTask - 1) / kPointsOfTask;
-    if (!forTasksTold(parallel, tasks, "measuring", options.progress, options.stop, spreadTask)) return std::nullopt;
+    forTasksTold(work, tasks, "measuring", spreadTask);
     return made;
 }
 
@@ -177,11 +176,10 @@ MapError MeasurePoints::measure(const MapImage& map, const MapSurfaces& surfaces
 }
 
 std::vector<float> heatOf(const MapImage& map, const MapSurfaces& surfaces, const MapCandidate& candidate,
-                          Parallel& parallel, const MapErrorOptions& options) {
+                          const MapWork& work) {
     constexpr std::uint32_t kSide = 2;  // points of a texel in a row
-    const Allocator* const allocator = options.execution.allocator;
-    const LowUvs uvs(surfaces.low(), allocator);
-    const SampleBands bands(uvs.triangles(map.wrap_u, map.wrap_v), map.width, map.height, kSide, 0, allocator);
+    const LowUvs uvs(surfaces.low(), work.allocator);
+    const SampleBands bands(uvs.triangles(map.wrap_u, map.wrap_v), map.width, map.height, kSide, 0, work.allocator);
     const StridedSpan<const Vec4>& tangents = candidate.tangents.empty() ? surfaces.low().tangents : candidate.tangents;
     std::vector<float> heat(std::size_t{map.width} * map.height, 0);
     std::vector<std::uint16_t> counts(heat.size(), 0);
@@ -199,8 +197,7 @@ std::vector<float> heatOf(const MapImage& map, const MapSurfaces& surfaces, cons
             ++counts[texel];
         });
     };
-    if (!forTasksTold(parallel, bands.bandCount(), "drawing the error", options.progress, options.stop, fillBand))
-        return {};
+    forTasksTold(work, bands.bandCount(), "drawing the error", fillBand);
     for (std::size_t i = 0; i < heat.size(); ++i) heat[i] = counts[i] > 0 ? heat[i] / counts[i] : -1;
     return heat;
 }

@@ -2,18 +2,22 @@
 // Points spread over a low poly, the truth at each, and how far a map is from it.
 #pragma once
 
-#include <optional>
-
 #include "core/parallel.h"
 #include "maps/map_surfaces.h"
 
 namespace tspace {
 
+/// What a call works with.
+struct MapWork {
+    const Allocator* allocator;
+    Parallel& parallel;
+    const Progress& progress;
+};
+
 class MeasurePoints {
   public:
-    /// Shoots a ray for each of `count` points. Nothing where `stop` says so. Memory: 48 bytes a point.
-    static std::optional<MeasurePoints> spread(const MapSurfaces& surfaces, std::uint32_t count, Parallel& parallel,
-                                               const MapErrorOptions& options);
+    /// Shoots a ray for each of `count` points. Memory: 48 bytes a point.
+    static MeasurePoints spread(const MapSurfaces& surfaces, std::uint32_t count, const MapWork& work);
 
     /// Without heat. `tangents` as MapCandidate.
     [[nodiscard]] MapError measure(const MapImage& map, const MapSurfaces& surfaces, const MapCandidate& candidate,
@@ -38,23 +42,19 @@ class MeasurePoints {
 DVec3 shadedAt(const MapImage& map, const MapCandidate& candidate, const CornerFrames& corners,
                const std::array<double, 3>& weights, const Vec2& uv);
 
-/// Degrees per texel: the mean of four points of it, -1 where none is in a triangle or meets the high poly. Empty where
-/// `stop` says so.
+/// Degrees per texel: the mean of four points of it, -1 where none is in a triangle or meets the high poly.
 std::vector<float> heatOf(const MapImage& map, const MapSurfaces& surfaces, const MapCandidate& candidate,
-                          Parallel& parallel, const MapErrorOptions& options);
+                          const MapWork& work);
 
 /// Bodies of parallel loops see nothing of the caller. Calls task(i) for each i below `count`, and now and then `progress`
-/// and `stop` from the calling thread. False when stopped.
+/// from the calling thread.
 template <class Task>
-bool forTasksTold(Parallel& parallel, std::size_t count, const char* what, const MapProgress& progress,
-                  const std::function<bool()>& stop, Task&& task) {
-    const std::size_t at_once = std::size_t{parallel.width()} * 4;
+void forTasksTold(const MapWork& work, std::size_t count, const char* what, Task&& task) {
+    const std::size_t at_once = std::size_t{work.parallel.width()} * 4;
     for (std::size_t begin = 0; begin < count; begin += at_once) {
-        if (stop && stop()) return false;
-        if (progress) progress(what, begin, count);
-        parallel.forTasks(std::min(at_once, count - begin), [&](std::size_t i) { task(begin + i); });
+        if (work.progress) work.progress(what, begin, count);
+        work.parallel.forTasks(std::min(at_once, count - begin), [&](std::size_t i) { task(begin + i); });
     }
-    return true;
 }
 
 }  // namespace tspace

@@ -16,8 +16,10 @@ inline constexpr float kHold = 0.004F;
 /// Things in a ring, of which no two at the same time are beside each other: some(first, number) for every second one from
 /// `first` on, of the even ones, then the odd ones, then the last of an odd number. False as soon as some() says so.
 template <class Some>
-bool forApart(std::size_t count, const Some& some) {
-    return some(std::size_t{0}, count / 2) && some(std::size_t{1}, count / 2) && some(count - 1, count % 2);
+void forApart(std::size_t count, const Some& some) {
+    some(std::size_t{0}, count / 2);
+    some(std::size_t{1}, count / 2);
+    some(count - 1, count % 2);
 }
 
 /// row(y) for all rows of an image that repeats.
@@ -27,7 +29,6 @@ void forRowsApart(Parallel& parallel, std::uint32_t height, const Row& row) {
         parallel.forRanges(number, 4, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) row(static_cast<std::uint32_t>(first + 2 * i));
         });
-        return true;
     });
 }
 

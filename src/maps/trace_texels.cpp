@@ -66,27 +66,28 @@ BetweenTexels betweenTexels(std::uint32_t at, std::uint32_t n, std::uint32_t siz
 class Tracing {
   public:
     Tracing(const MapSurfaces& surfaces, const TexelTriangles& triangles, const BakeOptions& options,
-            Parallel& parallel, TracedTexels& traced)
+            const MapWork& work, TracedTexels& traced)
         : surfaces_(surfaces),
           triangles_(triangles),
           options_(options),
-          parallel_(parallel),
+          work_(work),
           traced_(traced),
-          uvs_(surfaces.low(), options.execution.allocator) {}
+          uvs_(surfaces.low(), work.allocator) {}
 
-    bool run() {
-        const Allocator* const allocator = options_.execution.allocator;
+    void run() {
+        const Allocator* const allocator = work_.allocator;
         const std::size_t texels = std::size_t{options_.width} * options_.height;
         traced_.wanted = Buffer<Vec3>(allocator, texels, Vec3{});
         traced_.origins = Buffer<TexelOrigin>(allocator, texels, TexelOrigin::background);
         votes_ = Buffer<std::uint16_t>(allocator, texels, std::uint16_t{0});
-        return traceInside() && traceBeside();
+        traceInside();
+        traceBeside();
     }
 
   private:
-    bool traceInside() {
+    void traceInside() {
         const SampleBands bands(uvs_.triangles(options_.wrap_u, options_.wrap_v), options_.width, options_.height, 1, 0,
-                                options_.execution.allocator);
+                                work_.allocator);
         const auto traceBand = [&](std::size_t band) {
             WantedVectors vectors(surfaces_, options_);
             bands.forSamples(band, [&](const BandSample& sample) {
@@ -95,10 +96,8 @@ class Tracing {
                 vote(std::size_t{sample.row} * options_.width + sample.column, is_hit, wanted);
             });
         };
-        if (!forTasksTold(parallel_, bands.bandCount(), "tracing", options_.progress, options_.stop, traceBand))
-            return false;
+        forTasksTold(work_, bands.bandCount(), "tracing", traceBand);
         settleVotes();
-        return true;
     }
 
     void vote(std::size_t texel, bool is_hit, const Vec3& wanted) {
@@ -119,7 +118,7 @@ class Tracing {
         }
     }
 
-    bool traceBeside() {
+    void traceBeside() {
         const TextureShape& shape = triangles_.shape;
         constexpr std::size_t kRows = 8;
         const auto trace = [&](std::size_t task) {
@@ -137,13 +136,13 @@ class Tracing {
             }
         };
         const std::size_t tasks = (shape.height + kRows - 1) / kRows;
-        return forTasksTold(parallel_, tasks, "padding", options_.progress, options_.stop, trace);
+        forTasksTold(work_, tasks, "padding", trace);
     }
 
     const MapSurfaces& surfaces_;
     const TexelTriangles& triangles_;
     const BakeOptions& options_;
-    Parallel& parallel_;
+    const MapWork& work_;
     TracedTexels& traced_;
     LowUvs uvs_;
     Buffer<std::uint16_t> votes_ = {};
@@ -151,16 +150,16 @@ class Tracing {
 
 }  // namespace
 
-bool traceTexels(const MapSurfaces& surfaces, const TexelTriangles& triangles, const BakeOptions& options,
-                 Parallel& parallel, TracedTexels& traced) {
-    return Tracing(surfaces, triangles, options, parallel, traced).run();
+void traceTexels(const MapSurfaces& surfaces, const TexelTriangles& triangles, const BakeOptions& options,
+                 const MapWork& work, TracedTexels& traced) {
+    Tracing(surfaces, triangles, options, work, traced).run();
 }
 
-bool traceBetween(const MapSurfaces& surfaces, const TexelPlan& plan, std::uint32_t n, const BakeOptions& options,
-                  Parallel& parallel, TexelSystem& system) {
-    const LowUvs uvs(surfaces.low(), options.execution.allocator);
+void traceBetween(const MapSurfaces& surfaces, const TexelPlan& plan, std::uint32_t n, const BakeOptions& options,
+                  const MapWork& work, TexelSystem& system) {
+    const LowUvs uvs(surfaces.low(), work.allocator);
     const SampleBands bands(uvs.triangles(options.wrap_u, options.wrap_v), options.width, options.height, n, n / 2,
-                            options.execution.allocator);
+                            work.allocator);
     const auto traceBand = [&](std::size_t band) {
         WantedVectors vectors(surfaces, options);
         bands.forSamples(band, [&](const BandSample& sample) {
@@ -174,9 +173,8 @@ bool traceBetween(const MapSurfaces& surfaces, const TexelPlan& plan, std::uint3
         });
     };
     // Bands beside each other share a row of texels.
-    return forApart(bands.bandCount(), [&](std::size_t begin, std::size_t number) {
-        return forTasksTold(parallel, number, "tracing between texels", options.progress, options.stop,
-                            [&](std::size_t i) { traceBand(begin + 2 * i); });
+    forApart(bands.bandCount(), [&](std::size_t begin, std::size_t number) {
+        forTasksTold(work, number, "tracing between texels", [&](std::size_t i) { traceBand(begin + 2 * i); });
     });
 }
 

@@ -16,16 +16,15 @@ struct TracedTexels {
     std::uint64_t conflict_count = 0;  ///< texels whose triangles want over 2 degrees different vectors
 };
 
-/// A ray at the centre of each texel that a triangle shows or that continues one. False when stopped.
-bool traceTexels(const MapSurfaces& surfaces, const TexelTriangles& triangles, const BakeOptions& options,
-                 Parallel& parallel, TracedTexels& traced);
+/// A ray at the centre of each texel that a triangle shows or that continues one.
+void traceTexels(const MapSurfaces& surfaces, const TexelTriangles& triangles, const BakeOptions& options,
+                 const MapWork& work, TracedTexels& traced);
 
 struct TexelPlan;
 
-/// Rays at n x n points a texel in the cells of the plan that are asked or rough; what they say is added to the system. False when
-/// stopped.
-bool traceBetween(const MapSurfaces& surfaces, const TexelPlan& plan, std::uint32_t n, const BakeOptions& options,
-                  Parallel& parallel, TexelSystem& system);
+/// Rays at n x n points a texel in the cells of the plan that are asked or rough; what they say is added to the system.
+void traceBetween(const MapSurfaces& surfaces, const TexelPlan& plan, std::uint32_t n, const BakeOptions& options,
+                  const MapWork& work, TexelSystem& system);
 
 /// Adds what `texels`, filtered, say in the smooth cells of the plan.
 void addSmoothCells(const TexelPlan& plan, std::span<const Vec3> texels, const BakeOptions& options, Parallel& parallel,

@@ -16,8 +16,8 @@ namespace {
 
 class FramesMaker {
   public:
-    FramesMaker(const MeshView& mesh, const IndexedFramesOptions& options)
-        : mesh_(mesh), options_(options), execution_(options.tangents.execution) {}
+    FramesMaker(const MeshView& mesh, const IndexedFramesOptions& options, const Execution& execution)
+        : mesh_(mesh), options_(options), execution_(execution) {}
 
     Result<IndexedFrames> make() {
         if (options_.tangents.domain != OutputDomain::corner) {
@@ -44,9 +44,8 @@ class FramesMaker {
     Result<Done> makeNormals() {
         NormalOptions options = options_.normals;
         options.convention = options_.tangents.convention;
-        options.execution = execution_;
         corner_normals_.resize(mesh_.cornerCount());
-        Result<NormalReport> made = generateNormals(mesh_, options, corner_normals_);
+        Result<NormalReport> made = generateNormals(mesh_, options, corner_normals_, execution_);
         if (!made) return std::move(made).error();
         frames_.report.normals = *made;
         frames_.report.normals_made = true;
@@ -66,11 +65,11 @@ class FramesMaker {
 
     Result<Done> makeTangents() {
         tangents_.resize(mesh_.cornerCount());
-        Result<TangentReport> made = generateTangents(mesh_, options_.tangents, {.tangents = tangents_});
+        Result<TangentReport> made = generateTangents(mesh_, options_.tangents, {.tangents = tangents_}, execution_);
         if (!made) return std::move(made).error();
         frames_.report.tangents = *made;
         if (!options_.sanitize) return Done{};
-        Result<SanitizeReport> mended = sanitizeTangents(mesh_, tangents_, {options_.orthogonalize_all, execution_});
+        Result<SanitizeReport> mended = sanitizeTangents(mesh_, {options_.orthogonalize_all}, tangents_, execution_);
         if (!mended) return std::move(mended).error();
         frames_.report.sanitize = *mended;
         return Done{};
@@ -82,8 +81,8 @@ class FramesMaker {
             splitVertices(mesh_.indices, mesh_.vertexCount(), tangents_.size(), {&attribute, 1}, execution_);
         if (!made) return std::move(made).error();
         frames_.indices = std::move(made->indices);
-        frames_.source_vertex = std::move(made->source_vertices);
-        frames_.source_corner = std::move(made->source_corners);
+        frames_.source_vertices = std::move(made->source_vertices);
+        frames_.source_corners = std::move(made->source_corners);
         return Done{};
     }
 
@@ -93,21 +92,21 @@ class FramesMaker {
         for (std::uint32_t& vertex : frames_.indices) {
             if (number[vertex] == kNoCorner) {
                 number[vertex] = static_cast<std::uint32_t>(vertices.size());
-                vertices.push_back(frames_.source_vertex[vertex]);
-                corners.push_back(frames_.source_corner[vertex]);
+                vertices.push_back(frames_.source_vertices[vertex]);
+                corners.push_back(frames_.source_corners[vertex]);
             }
             vertex = number[vertex];
         }
-        frames_.source_vertex = std::move(vertices);
-        frames_.source_corner = std::move(corners);
+        frames_.source_vertices = std::move(vertices);
+        frames_.source_corners = std::move(corners);
     }
 
     void gather() {
         frames_.normals.resize(frames_.vertexCount());
         frames_.tangents.resize(frames_.vertexCount());
         for (std::size_t v = 0; v < frames_.vertexCount(); ++v) {
-            const std::uint32_t corner = frames_.source_corner[v];
-            std::uint32_t& vertex = frames_.source_vertex[v];
+            const std::uint32_t corner = frames_.source_corners[v];
+            std::uint32_t& vertex = frames_.source_vertices[v];
             frames_.normals[v] = mesh_.normals[vertex];
             if (corner == kNoCorner) {
                 if (frames_.report.normals_made) frames_.normals[v] = {0, 0, 1};
@@ -137,8 +136,9 @@ class FramesMaker {
 
 }  // namespace
 
-Result<IndexedFrames> makeIndexedFrames(const MeshView& mesh, const IndexedFramesOptions& options) {
-    return atBorder([&] { return FramesMaker(mesh, options).make(); });
+Result<IndexedFrames> makeIndexedFrames(const MeshView& mesh, const IndexedFramesOptions& options,
+                                        const Execution& execution) {
+    return atBorder([&] { return FramesMaker(mesh, options, execution).make(); });
 }
 
 }  // namespace tspace

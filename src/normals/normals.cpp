@@ -34,9 +34,9 @@ NormalReport averageNormals(const NormalsCall& call) {
 }
 
 /// Corners of degenerate faces get the mean of the others there. Where there are none, nothing at points matters.
-NormalReport flatNormals(const MeshView& mesh, const MeshView& posed, const NormalOptions& options,
+NormalReport flatNormals(const MeshView& mesh, const MeshView& posed, const Call<NormalOptions>& options,
                          StridedSpan<Vec3> out, Parallel& parallel) {
-    NormalOptions means = options;
+    Call<NormalOptions> means = options;
     means.weighting = NormalWeighting::uniform;
     means.crease_angle_deg = 180;
     means.smoothing_groups = {};
@@ -49,7 +49,7 @@ NormalReport flatNormals(const MeshView& mesh, const MeshView& posed, const Norm
     return writeFaceNormals(call);
 }
 
-Result<NormalReport> checkAndGenerate(const MeshView& mesh, const MeshView& posed, const NormalOptions& options,
+Result<NormalReport> checkAndGenerate(const MeshView& mesh, const MeshView& posed, const Call<NormalOptions>& options,
                                       StridedSpan<Vec3> out) {
     // Cones and patches of faces are looked for at each point.
     constexpr std::uint64_t kSlow = 4;
@@ -64,16 +64,18 @@ Result<NormalReport> checkAndGenerate(const MeshView& mesh, const MeshView& pose
 
 }  // namespace
 
-Result<NormalReport> generateNormals(const MeshView& mesh, const NormalOptions& options, StridedSpan<Vec3> out) {
-    return atBorder([&] { return checkAndGenerate(mesh, mesh, options, out); });
+Result<NormalReport> generateNormals(const MeshView& mesh, const NormalOptions& options, StridedSpan<Vec3> out,
+                                     const Execution& execution) {
+    return atBorder([&] { return checkAndGenerate(mesh, mesh, {options, execution}, out); });
 }
 
 Result<NormalReport> generatePoseNormals(const MeshView& mesh, const StridedSpan<const Vec3>& positions,
-                                         const NormalOptions& options, StridedSpan<Vec3> out) {
+                                         const NormalOptions& options, StridedSpan<Vec3> out,
+                                         const Execution& execution) {
     return atBorder([&] {
         MeshView posed = mesh;
         posed.positions = positions;
-        return checkAndGenerate(mesh, posed, options, out);
+        return checkAndGenerate(mesh, posed, {options, execution}, out);
     });
 }
 

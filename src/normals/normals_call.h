@@ -2,6 +2,7 @@
 // What both ways to smooth normals read, these ways, and the rounds of NormalWeighting::best, which both end with.
 #pragma once
 
+#include "core/call.h"
 #include "core/memory.h"
 #include "core/parallel.h"
 #include "core/weld.h"
@@ -13,7 +14,8 @@ namespace tspace {
 
 /// A call whose mesh and options have been checked.
 struct NormalsCall {
-    NormalsCall(const MeshView& m, const MeshView& p, const NormalOptions& o, StridedSpan<Vec3> to, Parallel& threads)
+    NormalsCall(const MeshView& m, const MeshView& p, const Call<NormalOptions>& o, StridedSpan<Vec3> to,
+                Parallel& threads)
         : mesh(m),
           posed(p),
           options(o),
@@ -42,7 +44,7 @@ struct NormalsCall {
     }
 
     const MeshView &mesh, &posed;  ///< what is one point and what is hard is decided by the mesh, all else by the pose
-    const NormalOptions& options;
+    const Call<NormalOptions>& options;
     StridedSpan<Vec3> out;
     const Allocator* allocator;
     Parallel& parallel;

@@ -14,6 +14,7 @@ namespace tspace {
 /// positions   one per vertex of the mesh
 /// Errors, complexity, memory and threads: as generateNormals.
 Result<NormalReport> generatePoseNormals(const MeshView& mesh, const StridedSpan<const Vec3>& positions,
-                                         const NormalOptions& options, StridedSpan<Vec3> out);
+                                         const NormalOptions& options, StridedSpan<Vec3> out,
+                                         const Execution& execution = {});
 
 }  // namespace tspace

@@ -110,7 +110,7 @@ OptionList bakeOptions(BakeFileOptions& options) {
         choice("--method", "NAME", kMethods, options.tangents.method,
                "How tangents are made for a low poly that has none, as generate makes them. Those that are in the file "
                "stay."));
-    addThreads(list, options.map.execution,
+    addThreads(list, options.execution,
                "Number of threads; 0: as many as there are cores. Changes no bit of the result.");
     addLimits(list, options.file);
     addSync(list, options.file.sync);
@@ -139,7 +139,7 @@ OptionList mapErrorOptions(MapErrorFileOptions& options) {
              "z is made from x and y, as of BC5 and DXT5nm; blue is not read."));
     add(list, "Rays", reachOption(options.map.reach));
     add(list, "Rays", cageOption(options.cage));
-    addThreads(list, options.map.execution, "Number of threads; 0: as many as there are cores. Changes no figure.");
+    addThreads(list, options.execution, "Number of threads; 0: as many as there are cores. Changes no figure.");
     addLimits(list, options.file);
     addSync(list, options.file.sync);
     return list;

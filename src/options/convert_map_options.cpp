@@ -105,7 +105,7 @@ OptionList convertMapOptions(ConvertMapFileOptions& options) {
     add(list, group,
         choice("--method", "NAME", kMethods, options.tangents.method,
                "How tangents are made for a model that has none."));
-    addThreads(list, options.tangents.execution,
+    addThreads(list, options.execution,
                "Threads; 0: as many as there are cores. The output is the same for any number.");
     addLimits(list, options.file);
     addSync(list, options.file.sync);

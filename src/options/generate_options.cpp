@@ -39,11 +39,11 @@ constexpr Named<VectorFormat> kFormats[] = {
     {"snorm8", VectorFormat::snorm8},
 };
 constexpr Named<std::optional<FrameFormat>> kPackFormats[] = {
-    {"frame32", FrameFormat::frame32},           {"frame48", FrameFormat::frame48},
-    {"frame64", FrameFormat::frame64},           {"oct32", FrameFormat::oct32},
-    {"qtangent64", FrameFormat::qtangent64},     {"snorm8_pair", FrameFormat::snorm8_pair},
-    {"snorm16_pair", FrameFormat::snorm16_pair}, {"gltf_snorm8", FrameFormat::gltf_snorm8},
-    {"gltf_snorm16", FrameFormat::gltf_snorm16},
+    {"frame32", FrameFormat::frame32},          {"frame48", FrameFormat::frame48},
+    {"frame64", FrameFormat::frame64},          {"oct32", FrameFormat::oct32},
+    {"qtangent64", FrameFormat::qtangent64},    {"snorm8_pair", FrameFormat::snorm8Pair},
+    {"snorm16_pair", FrameFormat::snorm16Pair}, {"gltf_snorm8", FrameFormat::gltfSnorm8},
+    {"gltf_snorm16", FrameFormat::gltfSnorm16},
 };
 constexpr Named<MorphNormals> kMorphNormals[] = {
     {"keep", MorphNormals::keep},
@@ -220,7 +220,7 @@ void addOtherOptions(OptionList& list, GenerateOptions& options) {
         flag("--orthogonalize", options.sanitize_options.orthogonalize_all,
              "Also make every sound tangent unit and orthogonal to its normal. The result then no "
              "longer matches bakes exactly where normals are not unit."));
-    addThreads(list, options.tangents.execution,
+    addThreads(list, options.execution,
                "Number of threads; 0: as many as there are cores. Changes no bit of the result.");
     addLimits(list, options.file);
     addSync(list, options.file.sync);
@@ -254,8 +254,6 @@ std::string finish(const Given& given, GenerateOptions& options) {
         options.normals.weighting = NormalWeighting::angle;
     }
     options.normals.refine = options.tangents.refine;
-    options.normals.execution = options.tangents.execution;
-    options.sanitize_options.execution = options.tangents.execution;
     return {};
 }
 

@@ -47,7 +47,7 @@ OptionList heightToNormalOptions(HeightToNormalFileOptions& options) {
     add(list, "Map",
         choice("--method", "NAME", kMethods, options.tangents.method,
                "How tangents are made for a model that has none."));
-    addThreads(list, options.tangents.execution,
+    addThreads(list, options.execution,
                "Threads; 0: as many as there are cores. The output is the same for any number.");
     addLimits(list, options.file);
     addSync(list, options.file.sync);

@@ -180,7 +180,7 @@ FrameErrorBound frameErrorBound(FrameFormat format) {
     return known != nullptr ? known->bound : FrameErrorBound{};
 }
 
-Result<PackReport> packFrames(FrameFormat format, StridedSpan<const Vec3> normals, StridedSpan<const Vec4> tangents,
+Result<PackReport> packFrames(StridedSpan<const Vec3> normals, StridedSpan<const Vec4> tangents, FrameFormat format,
                               std::span<std::byte> out) {
     return atBorder([&]() -> Result<PackReport> {
         if (Error e = pack::check(format, normals, tangents, out.data(), out.size()); e.code != ErrorCode::ok) return e;
@@ -188,7 +188,7 @@ Result<PackReport> packFrames(FrameFormat format, StridedSpan<const Vec3> normal
     });
 }
 
-Result<Done> unpackFrames(FrameFormat format, std::span<const std::byte> bytes, StridedSpan<Vec3> normals,
+Result<Done> unpackFrames(std::span<const std::byte> bytes, FrameFormat format, StridedSpan<Vec3> normals,
                           StridedSpan<Vec4> tangents) {
     return atBorder([&]() -> Result<Done> {
         if (Error e = pack::check(format, normals, tangents, bytes.data(), bytes.size()); e.code != ErrorCode::ok) {

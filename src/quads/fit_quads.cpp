@@ -172,7 +172,7 @@ Result<std::vector<Vec4>> tangentsOnFaces(const MeshView& triangles, const QuadF
     mesh.face_sizes = faces.sizes;
     std::vector<Vec4> on_faces(indices.size());
     const Result<TangentReport> made =
-        generateTangents(mesh, {.convention = conventions::opengl, .execution = execution}, {.tangents = on_faces});
+        generateTangents(mesh, {.convention = conventions::opengl}, {.tangents = on_faces}, execution);
     if (!made) return made.error();
     std::vector<Vec4> tangents(faces.face_corners.size());
     for (std::size_t c = 0; c < tangents.size(); ++c) tangents[c] = on_faces[faces.face_corners[c]];
@@ -187,8 +187,8 @@ Result<QuadFit> fitQuads(const MeshView& triangles, std::span<const Vec4> stored
     std::vector<Vec4> computed;
     if (on_triangles.empty()) {
         computed.resize(triangles.cornerCount());
-        const Result<TangentReport> made = generateTangents(
-            triangles, {.convention = conventions::opengl, .execution = execution}, {.tangents = computed});
+        const Result<TangentReport> made =
+            generateTangents(triangles, {.convention = conventions::opengl}, {.tangents = computed}, execution);
         if (!made) return made.error();
         on_triangles = computed;
     }

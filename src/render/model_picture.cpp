@@ -115,9 +115,9 @@ std::vector<Vec4> computeCornerTangents(const ScenePrimitive& primitive, const C
                 .uvs = std::span<const Vec2>(uvs)};
     }
     std::vector<Vec4> tangents(primitive.corners.size());
-    valueOrThrow(generateTangents(mesh, {.method = method, .convention = conventions::gltf, .execution = execution},
-                                  {.tangents = tangents}));
-    valueOrThrow(sanitizeTangents(mesh, std::span(tangents), {.execution = execution}));
+    valueOrThrow(
+        generateTangents(mesh, {.method = method, .convention = conventions::gltf}, {.tangents = tangents}, execution));
+    valueOrThrow(sanitizeTangents(mesh, {}, std::span(tangents), execution));
     return tangents;
 }
 

@@ -88,7 +88,7 @@ std::size_t IndexedPlan::memoryBytes() const {
            sizeof(Vec2) * kept_uvs.size();
 }
 
-IndexedPlan planIndexed(const MeshView& mesh, const TangentOptions& options, Parallel& parallel, PlanUse use) {
+IndexedPlan planIndexed(const MeshView& mesh, const Call<TangentOptions>& options, Parallel& parallel, PlanUse use) {
     const Allocator* const allocator = options.execution.allocator;
     IndexedPlan plan;
     plan.method = options.method;

@@ -2,6 +2,7 @@
 // The plan of the methods that need no groups: lengyel, flat and basis.
 #pragma once
 
+#include "core/call.h"
 #include "core/memory.h"
 #include "core/parallel.h"
 #include "tangents/method_kind.h"
@@ -42,7 +43,7 @@ struct IndexedPlan {
 
 /// Makes the plan; the mesh has been validated and has the attributes that the method needs. With
 /// PlanUse::once it holds 0 bytes for a mesh of triangles. Throws OutOfMemory.
-IndexedPlan planIndexed(const MeshView& mesh, const TangentOptions& options, Parallel& parallel,
+IndexedPlan planIndexed(const MeshView& mesh, const Call<TangentOptions>& options, Parallel& parallel,
                         PlanUse use = PlanUse::kept);
 
 /// Evaluates one pose into checked outputs; returns the plan's report with the counts that depend on the pose

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/border.h"
+#include "core/call.h"
 #include "core/parallel.h"
 #include "frames/one_list.h"
 #include "tangents/estimators/group_estimates.h"
@@ -111,7 +112,7 @@ Error checkOutput(const TangentOutput& out, std::size_t output_count) {
     return optional(out.magnitudes_t, "magnitudes_t");
 }
 
-TangentReport generateFrames(const MeshView& mesh, const TangentOptions& options, const TangentOutput& out,
+TangentReport generateFrames(const MeshView& mesh, const Call<TangentOptions>& options, const TangentOutput& out,
                              Parallel& parallel) {
     if (isGrouped(options.method)) return mikk::generateGrouped(mesh, options, out, parallel);
     const IndexedPlan plan = planIndexed(mesh, options, parallel, PlanUse::once);
@@ -141,7 +142,7 @@ Error checkDomain(const TangentOptions& options) {
     return {ErrorCode::invalidOption, "results per vertex need a mesh with one index list"};
 }
 
-Result<std::unique_ptr<TangentPlan::State>> makePlan(const MeshView& mesh, const TangentOptions& options) {
+Result<std::unique_ptr<TangentPlan::State>> makePlan(const MeshView& mesh, const Call<TangentOptions>& options) {
     Parallel parallel(options.execution, work(options.method, mesh.cornerCount()));
     if (Error e = checkInput(mesh, options, parallel); e.code != ErrorCode::ok) return e;
     auto state = std::make_unique<TangentPlan::State>();
@@ -162,7 +163,7 @@ Result<std::unique_ptr<TangentPlan::State>> makePlan(const MeshView& mesh, const
 }
 
 /// The plan of a mesh with several index lists: that of the mesh with one, and where its vertices come from.
-Result<std::unique_ptr<TangentPlan::State>> planLists(const MeshView& mesh, const TangentOptions& options) {
+Result<std::unique_ptr<TangentPlan::State>> planLists(const MeshView& mesh, const Call<TangentOptions>& options) {
     if (Error e = checkDomain(options); e.code != ErrorCode::ok) return e;
     if (Result<Done> valid = validate(mesh); !valid) return std::move(valid).error();
     OneListMesh made;
@@ -189,36 +190,44 @@ const char* methodName(Method method) {
 TangentPlan::TangentPlan(State* state) : state_(state) {}
 TangentPlan::TangentPlan(TangentPlan&& other) noexcept : state_(std::exchange(other.state_, nullptr)) {}
 TangentPlan& TangentPlan::operator=(TangentPlan&& other) noexcept {
-    std::swap(state_, other.state_);
+    TangentPlan taken(std::move(other));
+    std::swap(state_, taken.state_);
     return *this;
 }
 TangentPlan::~TangentPlan() { delete state_; }
 
-std::size_t TangentPlan::vertexCount() const { return state_->vertex_count; }
-std::size_t TangentPlan::cornerCount() const { return state_->corner_count; }
-std::size_t TangentPlan::outputCount() const { return state_->output_count; }
-Method TangentPlan::method() const { return state_->method; }
+const TangentPlan::State& TangentPlan::state() const {
+    static const State kMovedFrom;
+    return state_ == nullptr ? kMovedFrom : *state_;
+}
+
+std::size_t TangentPlan::vertexCount() const { return state().vertex_count; }
+std::size_t TangentPlan::cornerCount() const { return state().corner_count; }
+std::size_t TangentPlan::outputCount() const { return state().output_count; }
+Method TangentPlan::method() const { return state().method; }
 std::size_t TangentPlan::memoryBytes() const {
     const std::size_t indices =
-        state_->corner_vertices.size() + state_->source_vertices.size() + state_->source_normals.size();
-    return std::visit([](const auto& plan) { return plan.memoryBytes(); }, state_->plan) +
+        state().corner_vertices.size() + state().source_vertices.size() + state().source_normals.size();
+    return std::visit([](const auto& plan) { return plan.memoryBytes(); }, state().plan) +
            indices * sizeof(std::uint32_t);
 }
 
-Result<TangentReport> generateTangents(const MeshView& mesh, const TangentOptions& options, const TangentOutput& out) {
+Result<TangentReport> generateTangents(const MeshView& mesh, const TangentOptions& options, const TangentOutput& out,
+                                       const Execution& execution) {
     return atBorder([&]() -> Result<TangentReport> {
         if (hasOwnLists(mesh)) {
             if (Error e = checkDomain(options); e.code != ErrorCode::ok) return e;
-            return withOneList(mesh, options.execution, [&](const MeshView& with_one_list) {
-                return generateTangents(with_one_list, options, out);
+            return withOneList(mesh, execution, [&](const MeshView& with_one_list) {
+                return generateTangents(with_one_list, options, out, execution);
             });
         }
-        Parallel parallel(options.execution, work(options.method, mesh.cornerCount()));
+        const Call<TangentOptions> call{options, execution};
+        Parallel parallel(execution, work(options.method, mesh.cornerCount()));
         if (Error e = checkInput(mesh, options, parallel); e.code != ErrorCode::ok) return e;
         if (Error e = checkOutput(out, outputCount(mesh, options)); e.code != ErrorCode::ok) return e;
-        if (options.frame == FrameShape::gramSchmidt) return generateFrames(mesh, options, out, parallel);
-        const NeededBitangents needed(out, options.execution.allocator);
-        const TangentReport report = generateFrames(mesh, options, needed.out, parallel);
+        if (options.frame == FrameShape::gramSchmidt) return generateFrames(mesh, call, out, parallel);
+        const NeededBitangents needed(out, execution.allocator);
+        const TangentReport report = generateFrames(mesh, call, needed.out, parallel);
         const bool per_vertex = options.domain == OutputDomain::vertex;
         makeSymmetric(
             out.tangents, needed.out.bitangents,
@@ -227,10 +236,11 @@ Result<TangentReport> generateTangents(const MeshView& mesh, const TangentOption
     });
 }
 
-Result<TangentPlan> planTangents(const MeshView& mesh, const TangentOptions& options) {
+Result<TangentPlan> planTangents(const MeshView& mesh, const TangentOptions& options, const Execution& execution) {
     return atBorder([&]() -> Result<TangentPlan> {
+        const Call<TangentOptions> call{options, execution};
         Result<std::unique_ptr<TangentPlan::State>> state =
-            hasOwnLists(mesh) ? planLists(mesh, options) : makePlan(mesh, options);
+            hasOwnLists(mesh) ? planLists(mesh, call) : makePlan(mesh, call);
         if (!state) return std::move(state).error();
         return TangentPlan((*state).release());
     });

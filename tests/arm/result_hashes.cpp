@@ -145,26 +145,25 @@ void addTangents(const Mesh& mesh, Method method, const Execution& execution, Re
     const TangentOutput out{tangents, bitangents, magnitudes_s, magnitudes_t};
     TangentOptions options{.convention = conventions::opengl};
     options.method = method;
-    options.execution = execution;
     const std::string name = methodName(method);
     const auto addOutputs = [&](const std::string& way) {
         Hash& hash = results.hashes[name + " " + way];
         hash.add(tangents), hash.add(bitangents), hash.add(magnitudes_s), hash.add(magnitudes_t);
     };
-    results.all_worked &= generateTangents(view, options, out).ok();
+    results.all_worked &= generateTangents(view, options, out, execution).ok();
     addOutputs("all");
-    const auto plan = planTangents(view, options);
+    const auto plan = planTangents(view, options, execution);
     results.all_worked &= plan && evaluateTangents(*plan, {view.positions, view.normals}, out).ok();
     addOutputs("evaluated");
-    results.all_worked &= generateTangents(view, options, {.tangents = tangents}).ok();
+    results.all_worked &= generateTangents(view, options, {.tangents = tangents}, execution).ok();
     results.hashes[name + " tangents"].add(tangents);
-    results.all_worked &= sanitizeTangents(view, tangents, {.execution = execution}).ok();
+    results.all_worked &= sanitizeTangents(view, {}, tangents, execution).ok();
     results.hashes[name + " sanitized"].add(tangents);
 }
 
 void addNormals(const Mesh& mesh, NormalWeighting weighting, const Execution& execution, Results& results) {
     std::vector<Vec3> normals(mesh.indices.size());
-    results.all_worked &= generateNormals(mesh.view(), {.weighting = weighting, .execution = execution}, normals).ok();
+    results.all_worked &= generateNormals(mesh.view(), {.weighting = weighting}, normals, execution).ok();
     results.hashes["normals " + std::to_string(static_cast<unsigned>(weighting))].add(normals);
 }
 
@@ -174,9 +173,9 @@ void addPacked(const Mesh& mesh, FrameFormat format, Results& results) {
     std::vector<Vec4> tangents;
     for (const Vec3& p : mesh.positions) tangents.push_back({p.y, p.z, p.x, p.x < p.y ? -1.0f : 1.0f});
     std::vector<std::byte> bytes(count * frameBytes(format));
-    results.all_worked &= packFrames(format, mesh.normals, tangents, bytes).ok();
+    results.all_worked &= packFrames(mesh.normals, tangents, format, bytes).ok();
     std::vector<Vec3> normals(count);
-    results.all_worked &= unpackFrames(format, bytes, normals, tangents).ok();
+    results.all_worked &= unpackFrames(bytes, format, normals, tangents).ok();
     Hash& hash = results.hashes["packed " + std::to_string(static_cast<unsigned>(format))];
     for (const std::byte byte : bytes) hash.add(std::to_integer<std::uint32_t>(byte));
     hash.add(normals), hash.add(tangents);
@@ -195,7 +194,7 @@ bool print(SimdTarget target) {
              w <= static_cast<std::uint32_t>(NormalWeighting::best); ++w)
             addNormals(mesh, NormalWeighting{w}, execution, results);
         for (auto f = static_cast<std::uint32_t>(FrameFormat::frame32);
-             f <= static_cast<std::uint32_t>(FrameFormat::gltf_snorm16); ++f)
+             f <= static_cast<std::uint32_t>(FrameFormat::gltfSnorm16); ++f)
             addPacked(mesh, FrameFormat{f}, results);
     }
     for (const auto& [name, hash] : results.hashes)

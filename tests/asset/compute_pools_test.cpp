@@ -54,7 +54,7 @@ GltfBuilder manyPools() {
 
 GenerateOptions withExecution(const Execution& execution) {
     GenerateOptions options{.all = true};
-    options.tangents.execution = options.normals.execution = options.sanitize_options.execution = execution;
+    options.execution = execution;
     return options;
 }
 

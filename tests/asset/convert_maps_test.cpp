@@ -377,7 +377,7 @@ TEST(ConvertMaps, KeepThePicturesOfModels) {
         if (!std::filesystem::exists(file)) GTEST_SKIP() << "no model " << file;
         const TempFolder folder;
         GenerateOptions options = methodOptions(Method::best);
-        options.tangents.execution.thread_count = 2;
+        options.execution.thread_count = 2;
         const Converted made = convertedModel(folder, file.string(), options);
         double off = 0, unconverted = 0;
         for (std::size_t i = 0; i < made.off.size(); ++i) {

@@ -18,9 +18,9 @@ using gltf::Json;
 using gltf::Primitive;
 using namespace test;
 
-constexpr FrameFormat kFormats[] = {FrameFormat::frame32,      FrameFormat::frame48,     FrameFormat::frame64,
-                                    FrameFormat::oct32,        FrameFormat::qtangent64,  FrameFormat::snorm8_pair,
-                                    FrameFormat::snorm16_pair, FrameFormat::gltf_snorm8, FrameFormat::gltf_snorm16};
+constexpr FrameFormat kFormats[] = {FrameFormat::frame32,     FrameFormat::frame48,    FrameFormat::frame64,
+                                    FrameFormat::oct32,       FrameFormat::qtangent64, FrameFormat::snorm8Pair,
+                                    FrameFormat::snorm16Pair, FrameFormat::gltfSnorm8, FrameFormat::gltfSnorm16};
 
 GenerateOptions packing(FrameFormat format, PackDrop drop = PackDrop::nothing) {
     GenerateOptions options;
@@ -38,7 +38,7 @@ Frames unpacked(const gltf::Document& document, const Primitive& primitive, Fram
     const Bytes words = readPackedWords(document, primitive, gltf::packedLayout(format));
     Frames frames{std::vector<Vec3>(primitive.vertex_count), std::vector<Vec4>(primitive.vertex_count)};
     EXPECT_TRUE(
-        unpackFrames(format, std::as_bytes(std::span(words)), std::span(frames.normals), std::span(frames.tangents)));
+        unpackFrames(std::as_bytes(std::span(words)), format, std::span(frames.normals), std::span(frames.tangents)));
     return frames;
 }
 
@@ -217,7 +217,7 @@ TEST(PackedGltf, GivesUpNothingThatOthersUse) {
     other["material"] = 1;
     const TempFolder folder;
     const std::string input = folder.write("in.glb", model.glb()), output = folder.path("out.glb").string();
-    ASSERT_TRUE(generateFile(input, output, packing(FrameFormat::snorm8_pair, PackDrop::all)));
+    ASSERT_TRUE(generateFile(input, output, packing(FrameFormat::snorm8Pair, PackDrop::all)));
     const gltf::Document before = gltf::loadDocument(input, {}), after = gltf::loadDocument(output, {});
     const std::vector<Primitive> a = readPrimitives(before), b = readPrimitives(after);
     EXPECT_FALSE(b.at(0).find("NORMAL"));
@@ -292,7 +292,7 @@ TEST(PackedGltf, HasTheSameBytesForAnyNumberOfThreads) {
     Bytes first;
     for (const unsigned threads : {1u, 2u, 3u}) {
         GenerateOptions options = packing(FrameFormat::frame32);
-        options.tangents.execution.thread_count = threads;
+        options.execution.thread_count = threads;
         const std::string output = folder.path("out.glb").string();
         ASSERT_TRUE(generateFile(input, output, options));
         if (first.empty()) first = readFile(output);

@@ -85,7 +85,7 @@ TEST(CApi, GivesTheTangentsOfTheCppApiForEveryMethod) {
         const tspace_TangentOutput out = c.c();
         tspace_TangentReport report;
         TSPACE_INIT(report);
-        ASSERT_EQ(TSPACE_OK, tspace_generateTangents(&c_mesh, &c_options, &out, &report, nullptr)) << method;
+        ASSERT_EQ(TSPACE_OK, tspace_generateTangents(&c_mesh, &c_options, &out, nullptr, &report, nullptr)) << method;
         expectSame(cpp, c);
         expectSame(*expected, report);
     }
@@ -103,13 +103,13 @@ TEST(CApi, GivesTangentsPerVertexAsTheCppApi) {
     for (const Method method : {Method::lengyel, Method::basis}) {
         Outputs cpp(vertex_count), c(vertex_count);
         ASSERT_TRUE(generateTangents(
-            mesh.view(), {.method = method, .domain = OutputDomain::vertex, .convention = conventions::opengl},
+            mesh.view(), {.method = method, .convention = conventions::opengl, .domain = OutputDomain::vertex},
             cpp.view()));
         tspace_TangentOptions options = tangentOptions();
         options.method = static_cast<tspace_Method>(method);
         options.domain = TSPACE_DOMAIN_VERTEX;
         tspace_TangentPlan* plan = nullptr;
-        ASSERT_EQ(TSPACE_OK, tspace_planTangents(&c_mesh, &options, &plan, nullptr));
+        ASSERT_EQ(TSPACE_OK, tspace_planTangents(&c_mesh, &options, nullptr, &plan, nullptr));
         tspace_TangentPlanInfo info;
         TSPACE_INIT(info);
         ASSERT_EQ(TSPACE_OK, tspace_describeTangentPlan(plan, &info, nullptr));
@@ -129,11 +129,13 @@ TEST(CApi, DefaultsOfTangentsAreThoseOfCpp) {
     const tspace_Mesh c_mesh = mesh.c();
     const tspace_TangentOutput out = c.c();
     const tspace_TangentOptions options = tangentOptions();
-    ASSERT_EQ(TSPACE_OK, tspace_generateTangents(&c_mesh, &options, &out, nullptr, nullptr));
+    ASSERT_EQ(TSPACE_OK, tspace_generateTangents(&c_mesh, &options, &out, nullptr, nullptr, nullptr));
     expectSame(cpp, c);
     EXPECT_EQ(TangentOptions{}.angular_threshold_deg, options.angular_threshold_deg);
     EXPECT_EQ(TangentOptions{}.refine, options.refine);
-    EXPECT_EQ(0u, options.execution.thread_count);  // as 1, the default of C++
+    tspace_Execution execution;
+    TSPACE_INIT(execution);
+    EXPECT_EQ(0u, execution.thread_count);  // as 1, the default of C++
     tspace_NormalOptions normals;
     TSPACE_INIT(normals);
     EXPECT_EQ(static_cast<std::uint32_t>(NormalOptions{}.weighting), normals.weighting);
@@ -156,10 +158,10 @@ TEST(CApi, TheConventionHasNoDefault) {
     for (const tspace_TangentOptions* given :
          {static_cast<const tspace_TangentOptions*>(nullptr), &std::as_const(options)}) {
         tspace_Error error;
-        EXPECT_EQ(TSPACE_ERROR_INVALID_OPTION, tspace_generateTangents(&c_mesh, given, &out, nullptr, &error));
+        EXPECT_EQ(TSPACE_ERROR_INVALID_OPTION, tspace_generateTangents(&c_mesh, given, &out, nullptr, nullptr, &error));
         EXPECT_NE(nullptr, std::strstr(error.message, "convention")) << error.message;
         tspace_TangentPlan* plan = nullptr;
-        EXPECT_EQ(TSPACE_ERROR_INVALID_OPTION, tspace_planTangents(&c_mesh, given, &plan, nullptr));
+        EXPECT_EQ(TSPACE_ERROR_INVALID_OPTION, tspace_planTangents(&c_mesh, given, nullptr, &plan, nullptr));
     }
     EXPECT_EQ(ErrorCode::invalidOption, generateTangents(mesh.view(), {}, c.view()).error().code);
 }
@@ -169,11 +171,11 @@ TEST(CApi, ZeroDegreesCanBeSaid) {
     const tspace_Mesh c_mesh = mesh.c();
     Outputs cpp(mesh.cornerCount()), c(mesh.cornerCount());
     ASSERT_TRUE(
-        generateTangents(mesh.view(), {.angular_threshold_deg = 0, .convention = conventions::opengl}, cpp.view()));
+        generateTangents(mesh.view(), {.convention = conventions::opengl, .angular_threshold_deg = 0}, cpp.view()));
     tspace_TangentOptions options = tangentOptions();
     options.angular_threshold_deg = 0;
     const tspace_TangentOutput out = c.c();
-    ASSERT_EQ(TSPACE_OK, tspace_generateTangents(&c_mesh, &options, &out, nullptr, nullptr));
+    ASSERT_EQ(TSPACE_OK, tspace_generateTangents(&c_mesh, &options, &out, nullptr, nullptr, nullptr));
     expectSame(cpp, c);
     std::vector<Vec3> hard(mesh.cornerCount()), hard_in_c(mesh.cornerCount()), smooth(mesh.cornerCount());
     ASSERT_TRUE(generateNormals(mesh.view(), {.crease_angle_deg = 0}, hard));
@@ -181,8 +183,8 @@ TEST(CApi, ZeroDegreesCanBeSaid) {
     tspace_NormalOptions normals;
     TSPACE_INIT(normals);
     normals.crease_angle_deg = 0;
-    ASSERT_EQ(TSPACE_OK,
-              tspace_generateNormals(&c_mesh, &normals, {&hard_in_c[0].x, hard_in_c.size(), 0}, nullptr, nullptr));
+    ASSERT_EQ(TSPACE_OK, tspace_generateNormals(&c_mesh, &normals, {&hard_in_c[0].x, hard_in_c.size(), 0}, nullptr,
+                                                nullptr, nullptr));
     EXPECT_TRUE(sameBits(hard, hard_in_c));
     EXPECT_FALSE(sameBits(smooth, hard_in_c));
 }
@@ -198,7 +200,7 @@ TEST(CApi, GivesTheNormalsOfTheCppApi) {
         tspace_NormalOptions c_options;
         TSPACE_INIT(c_options);
         if (weighting != kDefault) {
-            options = {static_cast<NormalWeighting>(weighting), 50.0f, groups, true, false, conventions::unity, {}};
+            options = {static_cast<NormalWeighting>(weighting), conventions::unity, 50.0f, groups, true, false};
             c_options.weighting = weighting;
             c_options.crease_angle_deg = 50.0f;
             c_options.smoothing_groups = groups.data();
@@ -212,7 +214,8 @@ TEST(CApi, GivesTheNormalsOfTheCppApi) {
         const tspace_Mesh c_mesh = mesh.c();
         tspace_NormalReport report;
         TSPACE_INIT(report);
-        ASSERT_EQ(TSPACE_OK, tspace_generateNormals(&c_mesh, &c_options, {&c[0].x, c.size(), 0}, &report, nullptr));
+        ASSERT_EQ(TSPACE_OK,
+                  tspace_generateNormals(&c_mesh, &c_options, {&c[0].x, c.size(), 0}, nullptr, &report, nullptr));
         EXPECT_TRUE(sameBits(cpp, c)) << weighting;
         EXPECT_EQ(expected->face_count, report.face_count);
         EXPECT_EQ(expected->degenerate_face_count, report.degenerate_face_count);
@@ -231,7 +234,7 @@ TEST(CApi, RefinesTangentsAsTheCppApi) {
         options.refine = refine;
         const tspace_Mesh c_mesh = mesh.c();
         const tspace_TangentOutput out = c.c();
-        ASSERT_EQ(TSPACE_OK, tspace_generateTangents(&c_mesh, &options, &out, nullptr, nullptr));
+        ASSERT_EQ(TSPACE_OK, tspace_generateTangents(&c_mesh, &options, &out, nullptr, nullptr, nullptr));
         expectSame(cpp, c);
     }
 }
@@ -245,7 +248,8 @@ TEST(CApi, RefinesNormalsAsTheCppApi) {
         options.weighting = TSPACE_NORMAL_WEIGHTING_BEST;
         options.refine = refine;
         const tspace_Mesh c_mesh = mesh.c();
-        EXPECT_EQ(TSPACE_OK, tspace_generateNormals(&c_mesh, &options, {&out[0].x, out.size(), 0}, nullptr, nullptr));
+        EXPECT_EQ(TSPACE_OK,
+                  tspace_generateNormals(&c_mesh, &options, {&out[0].x, out.size(), 0}, nullptr, nullptr, nullptr));
         return out;
     };
     for (const std::uint32_t refine : {0u, 1u, 2u}) {
@@ -266,7 +270,7 @@ TEST(CApi, MendsAsTheCppApi) {
         std::vector<Vec4> c = cpp;
         SanitizeOptions options;
         options.orthogonalize_all = all != 0;
-        const auto expected = sanitizeTangents(mesh.view(), cpp, options);
+        const auto expected = sanitizeTangents(mesh.view(), options, cpp);
         ASSERT_TRUE(expected);
         tspace_SanitizeOptions c_options;
         TSPACE_INIT(c_options);
@@ -274,7 +278,8 @@ TEST(CApi, MendsAsTheCppApi) {
         const tspace_Mesh c_mesh = mesh.c();
         tspace_SanitizeReport report;
         TSPACE_INIT(report);
-        ASSERT_EQ(TSPACE_OK, tspace_sanitizeTangents(&c_mesh, &c_options, {&c[0].x, c.size(), 0}, &report, nullptr));
+        ASSERT_EQ(TSPACE_OK,
+                  tspace_sanitizeTangents(&c_mesh, &c_options, {&c[0].x, c.size(), 0}, nullptr, &report, nullptr));
         EXPECT_TRUE(sameBits(cpp, c));
         EXPECT_EQ(expected->mendedCount(), report.mended_count);
         EXPECT_EQ(expected->not_unit_count, report.not_unit_count);
@@ -336,22 +341,24 @@ TEST(CApi, MakesIndexedFramesAsTheCppApi) {
         options.make_normals = make_normals;
         tspace_IndexedFrames* frames = nullptr;
         tspace_Error error;
-        ASSERT_EQ(TSPACE_OK, tspace_makeIndexedFrames(&c_mesh, &options, &frames, &error)) << error.message;
+        ASSERT_EQ(TSPACE_OK, tspace_makeIndexedFrames(&c_mesh, &options, nullptr, &frames, &error)) << error.message;
         ASSERT_EQ(frames->vertex_count, expected->vertexCount());
         ASSERT_EQ(frames->corner_count, expected->indices.size());
         EXPECT_TRUE(std::equal(expected->indices.begin(), expected->indices.end(), frames->indices));
-        EXPECT_TRUE(std::equal(expected->source_vertex.begin(), expected->source_vertex.end(), frames->source_vertex));
-        EXPECT_TRUE(std::equal(expected->source_corner.begin(), expected->source_corner.end(), frames->source_corner));
+        EXPECT_TRUE(
+            std::equal(expected->source_vertices.begin(), expected->source_vertices.end(), frames->source_vertices));
+        EXPECT_TRUE(
+            std::equal(expected->source_corners.begin(), expected->source_corners.end(), frames->source_corners));
         EXPECT_EQ(0, std::memcmp(expected->normals.data(), frames->normals, sizeof(Vec3) * frames->vertex_count));
         EXPECT_EQ(0, std::memcmp(expected->tangents.data(), frames->tangents, sizeof(Vec4) * frames->vertex_count));
         EXPECT_EQ(make_normals != 0, frames->normal_report != nullptr);
         expectSame(expected->report.tangents, *frames->tangent_report);
         EXPECT_EQ(expected->report.sanitize.mendedCount(), frames->sanitize_report->mended_count);
         tspace_destroyIndexedFrames(frames);
-        EXPECT_EQ(TSPACE_ERROR_NULL_DATA, tspace_makeIndexedFrames(&c_mesh, nullptr, &frames, nullptr));
+        EXPECT_EQ(TSPACE_ERROR_NULL_DATA, tspace_makeIndexedFrames(&c_mesh, nullptr, nullptr, &frames, nullptr));
         EXPECT_EQ(frames, nullptr);
         options.tangents = nullptr;  // no convention
-        EXPECT_EQ(TSPACE_ERROR_INVALID_OPTION, tspace_makeIndexedFrames(&c_mesh, &options, &frames, nullptr));
+        EXPECT_EQ(TSPACE_ERROR_INVALID_OPTION, tspace_makeIndexedFrames(&c_mesh, &options, nullptr, &frames, nullptr));
     }
     tspace_destroyIndexedFrames(nullptr);
 }
@@ -417,11 +424,13 @@ TEST(CApi, UsesTheCallersExecutorAndAllocator) {
     const tspace_Executor executor = {runInReverse, &run_count, 4};
     const tspace_Allocator allocator = memory.hooks();
     tspace_TangentOptions options = tangentOptions();
-    options.execution.executor = &executor;
-    options.execution.allocator = &allocator;
+    tspace_Execution execution;
+    TSPACE_INIT(execution);
+    execution.executor = &executor;
+    execution.allocator = &allocator;
     const tspace_Mesh c_mesh = mesh.c();
     const tspace_TangentOutput out = c.c();
-    ASSERT_EQ(TSPACE_OK, tspace_generateTangents(&c_mesh, &options, &out, nullptr, nullptr));
+    ASSERT_EQ(TSPACE_OK, tspace_generateTangents(&c_mesh, &options, &out, &execution, nullptr, nullptr));
     expectSame(expected, c);
     EXPECT_GT(run_count, 0);
     EXPECT_GT(memory.given, 0u);
@@ -436,20 +445,22 @@ TEST(CApi, AnArenaServesASecondCallFromWhatItHolds) {
     ASSERT_EQ(TSPACE_OK, tspace_createArena(&arena, nullptr));
     EXPECT_EQ(tspace_arenaHeldBytes(arena), 0u);
     tspace_TangentOptions options = tangentOptions();
-    options.execution.allocator = tspace_arenaAllocator(arena);
+    tspace_Execution execution;
+    TSPACE_INIT(execution);
+    execution.allocator = tspace_arenaAllocator(arena);
     const tspace_Mesh c_mesh = mesh.c();
     const tspace_TangentOutput out = c.c();
-    ASSERT_EQ(TSPACE_OK, tspace_generateTangents(&c_mesh, &options, &out, nullptr, nullptr));
+    ASSERT_EQ(TSPACE_OK, tspace_generateTangents(&c_mesh, &options, &out, &execution, nullptr, nullptr));
     expectSame(expected, c);
     const std::size_t held = tspace_arenaHeldBytes(arena);
     EXPECT_GT(held, 0u);
     EXPECT_EQ(tspace_arenaUsedBytes(arena), 0u);
     tspace_TangentPlan* plan = nullptr;
-    ASSERT_EQ(TSPACE_OK, tspace_planTangents(&c_mesh, &options, &plan, nullptr));
+    ASSERT_EQ(TSPACE_OK, tspace_planTangents(&c_mesh, &options, &execution, &plan, nullptr));
     EXPECT_GT(tspace_arenaUsedBytes(arena), 0u);
     tspace_destroyTangentPlan(plan);
     EXPECT_EQ(tspace_arenaUsedBytes(arena), 0u);
-    ASSERT_EQ(TSPACE_OK, tspace_generateTangents(&c_mesh, &options, &out, nullptr, nullptr));
+    ASSERT_EQ(TSPACE_OK, tspace_generateTangents(&c_mesh, &options, &out, &execution, nullptr, nullptr));
     expectSame(expected, c);
     EXPECT_EQ(tspace_arenaHeldBytes(arena), held);
     tspace_trimArena(arena);
@@ -470,8 +481,10 @@ TEST(CApi, APlanOutlivesTheStructsItWasMadeWith) {
         const auto allocator = std::make_unique<tspace_Allocator>(memory.hooks());
         const auto c_mesh = std::make_unique<tspace_Mesh>(mesh.c());
         tspace_TangentOptions options = tangentOptions();
-        options.execution.allocator = allocator.get();
-        ASSERT_EQ(TSPACE_OK, tspace_planTangents(c_mesh.get(), &options, &plan, nullptr));
+        const auto execution = std::make_unique<tspace_Execution>();
+        TSPACE_INIT(*execution);
+        execution->allocator = allocator.get();
+        ASSERT_EQ(TSPACE_OK, tspace_planTangents(c_mesh.get(), &options, execution.get(), &plan, nullptr));
     }
     const tspace_Mesh c_mesh = mesh.c();
     tspace_Pose pose;
@@ -500,9 +513,11 @@ TEST(CApi, EveryAllocationThatFailsGivesOutOfMemoryAndLeaksNothing) {
         CountingMemory memory;
         memory.allowed = allowed;
         const tspace_Allocator allocator = memory.hooks();
-        tspace_TangentOptions options = tangentOptions();
-        options.execution.allocator = &allocator;
-        code = tspace_generateTangents(&c_mesh, &options, &out, nullptr, nullptr);
+        const tspace_TangentOptions options = tangentOptions();
+        tspace_Execution execution;
+        TSPACE_INIT(execution);
+        execution.allocator = &allocator;
+        code = tspace_generateTangents(&c_mesh, &options, &out, &execution, nullptr, nullptr);
         EXPECT_TRUE(code == TSPACE_OK || code == TSPACE_ERROR_OUT_OF_MEMORY) << code;
         EXPECT_EQ(memory.live, 0u);
     }

@@ -34,4 +34,4 @@ finds "tspace_methodTitle has no twin in C++" tspace.h "^const char\* tspace_met
 finds "tspace_TangentOptions.refine: C has the default 1, C++ 2" tangents.h "refine = 1" "refine = 2"
 finds "TSPACE_METHOD_FAST" tangents.h "fast = 7" "fast = 9"
 finds "what is \"kLimit\" in C?" mesh.h "sizes within kMaxCorners" "sizes within kLimit"
-finds "has no parameter \"meshes\"" tangents.h "^/// mesh      positions" "/// meshes    positions"
+finds "has no parameter \"meshes\"" tangents.h "^/// mesh       positions" "/// meshes     positions"

@@ -28,7 +28,7 @@ class CErrors : public testing::Test {
     }
 
     tspace_ErrorCode generate(const tspace_TangentOptions* options) {
-        return tspace_generateTangents(&c_mesh, options, &out, nullptr, &error);
+        return tspace_generateTangents(&c_mesh, options, &out, nullptr, nullptr, &error);
     }
     tspace_Span span(std::size_t floats) { return {tangents.data(), tangents.size() / floats, 0}; }
 
@@ -86,7 +86,7 @@ TEST_F(CErrors, RefuseSizesOfStructsThatThisVersionDoesNotKnow) {
     tspace_TangentReport tangent_report;
     TSPACE_INIT(tangent_report);
     const auto generate_all = [&] {
-        return tspace_generateTangents(&c_mesh, &tangent_options, &out, &tangent_report, &error);
+        return tspace_generateTangents(&c_mesh, &tangent_options, &out, nullptr, &tangent_report, &error);
     };
     expectSizeChecked("mesh", c_mesh, generate_all);
     expectSizeChecked("options", tangent_options, generate_all);
@@ -100,8 +100,8 @@ TEST_F(CErrors, RefuseSizesOfStructsThatThisVersionDoesNotKnow) {
     TSPACE_INIT(normal_report);
     std::vector<float> normals(3 * mesh.cornerCount());
     const auto normals_all = [&] {
-        return tspace_generateNormals(&c_mesh, &normal_options, {normals.data(), mesh.cornerCount(), 0}, &normal_report,
-                                      nullptr);
+        return tspace_generateNormals(&c_mesh, &normal_options, {normals.data(), mesh.cornerCount(), 0}, nullptr,
+                                      &normal_report, nullptr);
     };
     expectSizeChecked("normal options", normal_options, normals_all);
     expectSizeChecked("normal report", normal_report, normals_all);
@@ -111,13 +111,13 @@ TEST_F(CErrors, RefuseSizesOfStructsThatThisVersionDoesNotKnow) {
     tspace_SanitizeReport sanitize_report;
     TSPACE_INIT(sanitize_report);
     const auto sanitize_all = [&] {
-        return tspace_sanitizeTangents(&c_mesh, &sanitize_options, span(4), &sanitize_report, nullptr);
+        return tspace_sanitizeTangents(&c_mesh, &sanitize_options, span(4), nullptr, &sanitize_report, nullptr);
     };
     expectSizeChecked("sanitize options", sanitize_options, sanitize_all);
     expectSizeChecked("sanitize report", sanitize_report, sanitize_all);
 
     tspace_TangentPlan* plan = nullptr;
-    ASSERT_EQ(TSPACE_OK, tspace_planTangents(&c_mesh, &tangent_options, &plan, nullptr));
+    ASSERT_EQ(TSPACE_OK, tspace_planTangents(&c_mesh, &tangent_options, nullptr, &plan, nullptr));
     expectSizeChecked("pose", pose,
                       [&] { return tspace_evaluateTangents(plan, &pose, &out, nullptr, &tangent_report, nullptr); });
     tspace_TangentPlanInfo info;
@@ -149,8 +149,7 @@ TEST_F(CErrors, ServeCallersThatWereCompiledWithAnOlderHeader) {
     ASSERT_EQ(TSPACE_OK, generate(&now));
     const std::vector<float> expected = tangents;
     AsOldCaller<tspace_Mesh> old_mesh(c_mesh, offsetof(tspace_Mesh, normal_indices));
-    AsOldCaller<tspace_TangentOptions> old_options(now, offsetof(tspace_TangentOptions, frame));
-    ASSERT_EQ(TSPACE_OK, tspace_generateTangents(&old_mesh.get(), &old_options.get(), &out, nullptr, &error))
+    ASSERT_EQ(TSPACE_OK, tspace_generateTangents(&old_mesh.get(), &now, &out, nullptr, nullptr, &error))
         << error.message;
     EXPECT_EQ(tangents, expected);
     EXPECT_EQ(tspace_cornerCount(&old_mesh.get()), mesh.cornerCount());
@@ -159,16 +158,11 @@ TEST_F(CErrors, ServeCallersThatWereCompiledWithAnOlderHeader) {
     TSPACE_INIT(report);
     AsOldCaller<tspace_SanitizeReport> old_report(report, offsetof(tspace_SanitizeReport, placeholder_count));
     tangents[0] = NAN;
-    ASSERT_EQ(TSPACE_OK, tspace_sanitizeTangents(&old_mesh.get(), nullptr, out.tangents, &old_report.get(), &error));
+    ASSERT_EQ(TSPACE_OK,
+              tspace_sanitizeTangents(&old_mesh.get(), nullptr, out.tangents, nullptr, &old_report.get(), &error));
     EXPECT_EQ(old_report.get().not_finite_count, 1u);
     EXPECT_EQ(old_report.get().struct_size, offsetof(tspace_SanitizeReport, placeholder_count));
     EXPECT_TRUE(old_report.isRestUntouched());
-
-    tspace_NormalOptions normals;
-    TSPACE_INIT(normals);
-    AsOldCaller<tspace_NormalOptions> old_normals(normals, offsetof(tspace_NormalOptions, refine));
-    EXPECT_EQ(TSPACE_OK, tspace_generateNormals(&old_mesh.get(), &old_normals.get(),
-                                                {tangents.data(), mesh.cornerCount(), 0}, nullptr, &error));
 }
 
 TEST_F(CErrors, KnowEverySizeThatAStructHad) {
@@ -185,14 +179,15 @@ TEST_F(CErrors, KnowEverySizeThatAStructHad) {
     };
     if (sizeof(void*) != 8) return;
     expectKnown(c_api::kSizes<tspace_Mesh>, {120, 168});
-    expectKnown(c_api::kSizes<tspace_TangentOptions>, {72, 80});
+    expectKnown(c_api::kSizes<tspace_Execution>, {32});
+    expectKnown(c_api::kSizes<tspace_TangentOptions>, {52});
     expectKnown(c_api::kSizes<tspace_TangentReport>, {72});
     expectKnown(c_api::kSizes<tspace_TangentOutput>, {104});
     expectKnown(c_api::kSizes<tspace_TangentPlanInfo>, {40});
     expectKnown(c_api::kSizes<tspace_Pose>, {56});
-    expectKnown(c_api::kSizes<tspace_NormalOptions>, {80, 88});
+    expectKnown(c_api::kSizes<tspace_NormalOptions>, {64});
     expectKnown(c_api::kSizes<tspace_NormalReport>, {32});
-    expectKnown(c_api::kSizes<tspace_SanitizeOptions>, {32});
+    expectKnown(c_api::kSizes<tspace_SanitizeOptions>, {8});
     expectKnown(c_api::kSizes<tspace_SanitizeReport>, {104, 112});
     expectKnown(c_api::kSizes<tspace_IndexedFramesOptions>, {48});
     expectKnown(c_api::kSizes<tspace_PackReport>, {72});
@@ -201,11 +196,11 @@ TEST_F(CErrors, KnowEverySizeThatAStructHad) {
 TEST_F(CErrors, RefuseNullWhereSomethingIsNeeded) {
     EXPECT_EQ(TSPACE_ERROR_NULL_DATA, tspace_validate(nullptr, &error));
     EXPECT_STREQ("mesh is null", error.message);
-    EXPECT_EQ(TSPACE_ERROR_NULL_DATA, tspace_generateNormals(nullptr, nullptr, span(3), nullptr, nullptr));
-    EXPECT_EQ(TSPACE_ERROR_NULL_DATA, tspace_generateTangents(nullptr, nullptr, &out, nullptr, nullptr));
-    EXPECT_EQ(TSPACE_ERROR_NULL_DATA, tspace_generateTangents(&c_mesh, nullptr, nullptr, nullptr, nullptr));
-    EXPECT_EQ(TSPACE_ERROR_NULL_DATA, tspace_sanitizeTangents(nullptr, nullptr, span(4), nullptr, nullptr));
-    EXPECT_EQ(TSPACE_ERROR_NULL_DATA, tspace_planTangents(&c_mesh, nullptr, nullptr, nullptr));
+    EXPECT_EQ(TSPACE_ERROR_NULL_DATA, tspace_generateNormals(nullptr, nullptr, span(3), nullptr, nullptr, nullptr));
+    EXPECT_EQ(TSPACE_ERROR_NULL_DATA, tspace_generateTangents(nullptr, nullptr, &out, nullptr, nullptr, nullptr));
+    EXPECT_EQ(TSPACE_ERROR_NULL_DATA, tspace_generateTangents(&c_mesh, nullptr, nullptr, nullptr, nullptr, nullptr));
+    EXPECT_EQ(TSPACE_ERROR_NULL_DATA, tspace_sanitizeTangents(nullptr, nullptr, span(4), nullptr, nullptr, nullptr));
+    EXPECT_EQ(TSPACE_ERROR_NULL_DATA, tspace_planTangents(&c_mesh, nullptr, nullptr, nullptr, nullptr));
     EXPECT_EQ(TSPACE_ERROR_NULL_DATA, tspace_evaluateTangents(nullptr, &pose, &out, nullptr, nullptr, nullptr));
     EXPECT_EQ(TSPACE_ERROR_NULL_DATA, tspace_splitVertices(nullptr, 3, 3, nullptr, 1, nullptr, nullptr, nullptr));
     EXPECT_EQ(TSPACE_ERROR_NULL_DATA, tspace_triangulate(&c_mesh, nullptr, nullptr));
@@ -227,7 +222,7 @@ TEST_F(CErrors, SetResultsToNull) {
     const tspace_TangentOptions options = tangentOptions();
     c_mesh.positions.data = nullptr;
     auto* plan = reinterpret_cast<tspace_TangentPlan*>(&c_mesh);
-    EXPECT_EQ(TSPACE_ERROR_NULL_DATA, tspace_planTangents(&c_mesh, &options, &plan, nullptr));
+    EXPECT_EQ(TSPACE_ERROR_NULL_DATA, tspace_planTangents(&c_mesh, &options, nullptr, &plan, nullptr));
     EXPECT_EQ(nullptr, plan);
     auto* cut = reinterpret_cast<tspace_Triangulation*>(&c_mesh);
     EXPECT_EQ(TSPACE_ERROR_NULL_DATA, tspace_triangulate(&c_mesh, &cut, nullptr));
@@ -263,32 +258,41 @@ TEST_F(CErrors, RefuseChoicesThatDoNotExist) {
     TSPACE_INIT(options);
     c_mesh = mesh.c();
     options.weighting = TSPACE_NORMAL_WEIGHTING_BEST + 1;
-    EXPECT_EQ(TSPACE_ERROR_INVALID_OPTION, tspace_generateNormals(&c_mesh, &options, span(3), nullptr, &error));
+    EXPECT_EQ(TSPACE_ERROR_INVALID_OPTION,
+              tspace_generateNormals(&c_mesh, &options, span(3), nullptr, nullptr, &error));
     EXPECT_NE(nullptr, std::strstr(error.message, "weighting")) << error.message;
     options.weighting = TSPACE_NORMAL_WEIGHTING_BEST;
     options.refine = 3;
-    EXPECT_EQ(TSPACE_ERROR_INVALID_OPTION, tspace_generateNormals(&c_mesh, &options, span(3), nullptr, &error));
+    EXPECT_EQ(TSPACE_ERROR_INVALID_OPTION,
+              tspace_generateNormals(&c_mesh, &options, span(3), nullptr, nullptr, &error));
     EXPECT_NE(nullptr, std::strstr(error.message, "refine")) << error.message;
 }
 
 TEST_F(CErrors, RefuseHooksWithoutFunctions) {
     const tspace_Executor executor = {nullptr, nullptr, 1};
     const tspace_Allocator allocator = {nullptr, nullptr, nullptr};
-    tspace_TangentOptions options = tangentOptions();
-    options.execution.executor = &executor;
-    EXPECT_EQ(TSPACE_ERROR_NULL_DATA, generate(&options));
-    options.execution = {nullptr, &allocator, 0, TSPACE_SIMD_BEST};
-    EXPECT_EQ(TSPACE_ERROR_NULL_DATA, generate(&options));
+    const tspace_TangentOptions options = tangentOptions();
+    tspace_Execution execution;
+    TSPACE_INIT(execution);
+    const auto codeOf = [&] { return tspace_generateTangents(&c_mesh, &options, &out, &execution, nullptr, &error); };
+    EXPECT_EQ(TSPACE_OK, codeOf());
+    execution.executor = &executor;
+    EXPECT_EQ(TSPACE_ERROR_NULL_DATA, codeOf());
+    execution.executor = nullptr;
+    execution.allocator = &allocator;
+    EXPECT_EQ(TSPACE_ERROR_NULL_DATA, codeOf());
+    execution.struct_size = 3;
+    EXPECT_EQ(TSPACE_ERROR_INVALID_OPTION, codeOf());
 }
 
 TEST_F(CErrors, PassOnWhatTheLibraryFinds) {
     const tspace_TangentOptions options = tangentOptions();
     tspace_Mesh bad = c_mesh;
     bad.normals = {};
-    EXPECT_EQ(TSPACE_ERROR_MISSING_ATTRIBUTE, tspace_generateTangents(&bad, &options, &out, nullptr, nullptr));
+    EXPECT_EQ(TSPACE_ERROR_MISSING_ATTRIBUTE, tspace_generateTangents(&bad, &options, &out, nullptr, nullptr, nullptr));
     bad = c_mesh;
     bad.uvs.count -= 1;
-    EXPECT_EQ(TSPACE_ERROR_COUNT_MISMATCH, tspace_generateTangents(&bad, &options, &out, nullptr, nullptr));
+    EXPECT_EQ(TSPACE_ERROR_COUNT_MISMATCH, tspace_generateTangents(&bad, &options, &out, nullptr, nullptr, nullptr));
     bad = c_mesh;
     bad.positions.stride_bytes = 8;
     EXPECT_EQ(TSPACE_ERROR_STRIDE_TOO_SMALL, tspace_validate(&bad, nullptr));

@@ -9,7 +9,7 @@ static const float tangents[] = {1, 0, 0, -1, 0, 2, 0, 1};
 
 static tspace_ErrorCode pack(tspace_FrameFormat format, void* out, size_t out_bytes, tspace_PackReport* report) {
     const tspace_ConstSpan n = {normals, 2, 0}, t = {tangents, 2, 0};
-    return tspace_packFrames(format, n, t, out, out_bytes, report, NULL);
+    return tspace_packFrames(n, t, format, out, out_bytes, report, NULL);
 }
 
 static void checkRoundTrip(tspace_FrameFormat format) {
@@ -23,10 +23,10 @@ static void checkRoundTrip(tspace_FrameFormat format) {
 
     float n[6], t[8];
     const tspace_Span n_out = {n, 2, 0}, t_out = {t, 2, 0};
-    CHECK(tspace_unpackFrames(format, bytes, size, n_out, t_out, NULL) == TSPACE_OK);
+    CHECK(tspace_unpackFrames(bytes, size, format, n_out, t_out, NULL) == TSPACE_OK);
     CHECK(n[2] > 0.9999f && n[3] > 0.9999f && t[0] > 0.9999f && t[5] > 0.9999f);
     CHECK(t[3] == -1 && t[7] == 1);
-    CHECK(tspace_unpackFrames(format, bytes, size - 1, n_out, t_out, NULL) == TSPACE_ERROR_COUNT_MISMATCH);
+    CHECK(tspace_unpackFrames(bytes, size - 1, format, n_out, t_out, NULL) == TSPACE_ERROR_COUNT_MISMATCH);
 }
 
 static void checkErrors(void) {

@@ -66,7 +66,7 @@ static void checkNormals(void) {
     tspace_Span out = {&normals[0][0], 8, 0};
     tspace_NormalReport report;
     TSPACE_INIT(report);
-    CHECK(tspace_generateNormals(&mesh, NULL, out, &report, NULL) == TSPACE_OK);
+    CHECK(tspace_generateNormals(&mesh, NULL, out, NULL, &report, NULL) == TSPACE_OK);
     CHECK(report.face_count == 2 && report.degenerate_face_count == 0);
     for (int c = 0; c < 8; ++c) CHECK(normals[c][0] == 0 && normals[c][1] == 0 && normals[c][2] == 1);
 }
@@ -82,9 +82,9 @@ static void checkTangents(float tangents[8][4]) {
     tspace_TangentOptions options;
     TSPACE_INIT(options);
     CHECK(options.angular_threshold_deg == 180.0f && options.refine == 1);
-    CHECK(tspace_generateTangents(&mesh, &options, &out, &report, NULL) == TSPACE_ERROR_INVALID_OPTION);
+    CHECK(tspace_generateTangents(&mesh, &options, &out, NULL, &report, NULL) == TSPACE_ERROR_INVALID_OPTION);
     CHECK(tspace_findConvention("opengl", &options.convention, NULL) == TSPACE_OK);
-    CHECK(tspace_generateTangents(&mesh, &options, &out, &report, NULL) == TSPACE_OK);
+    CHECK(tspace_generateTangents(&mesh, &options, &out, NULL, &report, NULL) == TSPACE_OK);
     CHECK(report.triangle_count == 4 && report.mirrored_count == 2);
     for (int c = 0; c < 8; ++c) {
         const float sign = c < 4 ? 1.0f : -1.0f;
@@ -92,7 +92,7 @@ static void checkTangents(float tangents[8][4]) {
     }
 
     tspace_TangentPlan* plan = NULL;
-    CHECK(tspace_planTangents(&mesh, &options, &plan, NULL) == TSPACE_OK);
+    CHECK(tspace_planTangents(&mesh, &options, NULL, &plan, NULL) == TSPACE_OK);
     tspace_TangentPlanInfo info;
     TSPACE_INIT(info);
     CHECK(tspace_describeTangentPlan(plan, &info, NULL) == TSPACE_OK);
@@ -116,7 +116,7 @@ static void checkSanitize(float tangents[8][4]) {
     tspace_Span span = {&tangents[0][0], 8, 0};
     tspace_SanitizeReport report;
     TSPACE_INIT(report);
-    CHECK(tspace_sanitizeTangents(&mesh, NULL, span, &report, NULL) == TSPACE_OK);
+    CHECK(tspace_sanitizeTangents(&mesh, NULL, span, NULL, &report, NULL) == TSPACE_OK);
     CHECK(report.zero_count == 1 && report.mended_count == 1 && report.from_neighbor_count == 1);
     CHECK(tangents[2][0] == 1.0f && tangents[2][3] == 1.0f);
 }

@@ -16,9 +16,9 @@ namespace {
 using gltf::Json;
 using namespace test;
 
-constexpr FrameFormat kAllFormats[] = {FrameFormat::frame32,      FrameFormat::frame48,     FrameFormat::frame64,
-                                       FrameFormat::oct32,        FrameFormat::qtangent64,  FrameFormat::snorm8_pair,
-                                       FrameFormat::snorm16_pair, FrameFormat::gltf_snorm8, FrameFormat::gltf_snorm16};
+constexpr FrameFormat kAllFormats[] = {FrameFormat::frame32,     FrameFormat::frame48,    FrameFormat::frame64,
+                                       FrameFormat::oct32,       FrameFormat::qtangent64, FrameFormat::snorm8Pair,
+                                       FrameFormat::snorm16Pair, FrameFormat::gltfSnorm8, FrameFormat::gltfSnorm16};
 
 void pack(const std::string& input, const std::string& output, FrameFormat format, PackDrop drop = PackDrop::nothing) {
     GenerateOptions options;
@@ -52,7 +52,7 @@ class PackedGrid {
         const std::vector<Vec3> normals(25, {0, 0, 1});
         const std::vector<Vec4> tangents(25, {1, 0, 0, 1});
         std::vector<std::uint8_t> words(100);
-        EXPECT_TRUE(packFrames(FrameFormat::frame32, std::span(normals), std::span(tangents),
+        EXPECT_TRUE(packFrames(std::span(normals), std::span(tangents), FrameFormat::frame32,
                                std::as_writable_bytes(std::span(words))));
         std::vector<float> numbers;
         for (const Vec4& t : tangents) numbers.insert(numbers.end(), {t.x, t.y, t.z, t.w});
@@ -134,7 +134,7 @@ TEST(CheckPacked, FindsFramesAndSignsOfOthers) {
         const std::vector<Vec3> normals(1, {0, 0, 1});
         const std::vector<Vec4> tangents(1, {0, 1, 0, -1});
         std::uint8_t* words = model.bytes().data() + model.bytes().size() - 100;
-        ASSERT_TRUE(packFrames(FrameFormat::frame32, std::span(normals), std::span(tangents),
+        ASSERT_TRUE(packFrames(std::span(normals), std::span(tangents), FrameFormat::frame32,
                                std::as_writable_bytes(std::span(words + 4 * 7, 4))));
         words[4 * 9] ^= 1;  // the lowest bit is the sign
     });
@@ -159,7 +159,7 @@ TEST(CheckPacked, SmallDifferencesAreANote) {
         const std::vector<Vec3> normals(1, {0, 0.00873f, 0.99996f});  // half a degree
         const std::vector<Vec4> tangents(1, {1, 0, 0, 1});
         std::uint8_t* words = model.bytes().data() + model.bytes().size() - 100;
-        ASSERT_TRUE(packFrames(FrameFormat::frame32, std::span(normals), std::span(tangents),
+        ASSERT_TRUE(packFrames(std::span(normals), std::span(tangents), FrameFormat::frame32,
                                std::as_writable_bytes(std::span(words, 4))));
     });
     const CheckReport report = check(leaning.file());

@@ -364,7 +364,7 @@ TEST(Check, HoldsNothingAgainstWhatGenerateGives) {
         mesh.normals = patch.normals.span();
         mesh.uvs = patch.uv_sets[0].span();
         mesh.indices = patch.corners.span();
-        (void)sanitizeTangents(mesh, tangents);
+        (void)sanitizeTangents(mesh, {}, tangents);
         patch.tangents = std::move(tangents);
         for (const Finding& finding : findingsOf(patch)) {
             RC_ASSERT(finding.code == FindingCode::uvsDegenerate);

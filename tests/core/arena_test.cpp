@@ -206,13 +206,12 @@ const std::vector<Method> kMethods{Method::mikktspace, Method::lengyel, Method::
 void computeAll(const Torus& torus, Method method, const Allocator* allocator) {
     const Execution execution{.thread_count = 1, .allocator = allocator};
     std::vector<Vec3> normals(torus.indices.size());
-    ASSERT_TRUE(generateNormals(torus.view(), {.crease_angle_deg = 30, .execution = execution}, normals));
+    ASSERT_TRUE(generateNormals(torus.view(), {.crease_angle_deg = 30}, normals, execution));
     std::vector<Vec4> tangents(torus.indices.size());
-    ASSERT_TRUE(generateTangents(torus.view(),
-                                 {.method = method, .convention = conventions::opengl, .execution = execution},
-                                 {.tangents = tangents}));
+    ASSERT_TRUE(generateTangents(torus.view(), {.method = method, .convention = conventions::opengl},
+                                 {.tangents = tangents}, execution));
     tangents[5] = {};
-    ASSERT_TRUE(sanitizeTangents(torus.view(), tangents, {.execution = execution}));
+    ASSERT_TRUE(sanitizeTangents(torus.view(), {}, tangents, execution));
 }
 
 #if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
@@ -226,9 +225,8 @@ TEST(Arena, IsWhatKeepsMemoryAndNoThreadDoes) {
             for (int call = 0; call < 4; ++call) {
                 rusage before{}, after{};
                 getrusage(RUSAGE_THREAD, &before);
-                EXPECT_TRUE(generateTangents(torus.view(),
-                                             {.convention = conventions::opengl, .execution = {.allocator = allocator}},
-                                             {.tangents = tangents}));
+                EXPECT_TRUE(generateTangents(torus.view(), {.convention = conventions::opengl}, {.tangents = tangents},
+                                             {.allocator = allocator}));
                 getrusage(RUSAGE_THREAD, &after);
                 faults = after.ru_minflt - before.ru_minflt;
             }
@@ -261,8 +259,7 @@ TEST(Arena, ServesEvaluationsBesideThePlanThatItHolds) {
     const Arena arena;
     const Execution execution{.thread_count = 1, .allocator = arena.allocator()};
     {
-        const Result<TangentPlan> plan =
-            planTangents(torus.view(), {.convention = conventions::opengl, .execution = execution});
+        const Result<TangentPlan> plan = planTangents(torus.view(), {.convention = conventions::opengl}, execution);
         ASSERT_TRUE(plan);
         std::size_t held = 0;
         for (int frame = 0; frame < 3; ++frame) {

@@ -176,15 +176,14 @@ TEST(Parallel, IsNotUsedForAMeshOf200Triangles) {
                             .concurrency = 8};
     const Execution execution{.executor = &executor};
     std::vector<Vec3> made_normals(indices.size());
-    ASSERT_TRUE(generateNormals(mesh, {.crease_angle_deg = 30, .execution = execution}, made_normals));
+    ASSERT_TRUE(generateNormals(mesh, {.crease_angle_deg = 30}, made_normals, execution));
     for (const Method method : {Method::mikktspace, Method::lengyel, Method::uniform, Method::angle, Method::area,
                                 Method::flat, Method::basis, Method::fast, Method::best}) {
         std::vector<Vec4> tangents(indices.size());
-        ASSERT_TRUE(generateTangents(mesh,
-                                     {.method = method, .convention = conventions::opengl, .execution = execution},
-                                     {.tangents = tangents}));
+        ASSERT_TRUE(generateTangents(mesh, {.method = method, .convention = conventions::opengl},
+                                     {.tangents = tangents}, execution));
         tangents[7] = {};
-        ASSERT_TRUE(sanitizeTangents(mesh, tangents, {.execution = execution}));
+        ASSERT_TRUE(sanitizeTangents(mesh, {}, tangents, execution));
         const CornerAttribute attribute = cornerAttribute(StridedSpan<const Vec4>(tangents));
         ASSERT_TRUE(splitVertices(mesh.indices, positions.size(), indices.size(), {&attribute, 1}, execution));
     }

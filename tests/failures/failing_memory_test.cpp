@@ -130,7 +130,7 @@ TEST_F(FailingMemory, OfGenerate) {
             GenerateOptions options;
             options.all = true;
             options.existing = ExistingTangents::replace;
-            options.tangents.execution.thread_count = threads;
+            options.execution.thread_count = threads;
             return codeOf(generateFile(at("plain.glb"), at("new.glb"), options));
         });
     }
@@ -229,12 +229,12 @@ TEST_F(FailingMemory, OfTheCFunctionsAlsoWhereTheCallIsWrong) {
         tspace_TangentOutput out;
         TSPACE_INIT(out);
         out.tangents = {tangents.data(), 6, 0};
-        return code(tspace_generateTangents(&square.mesh, &options, &out, nullptr, &error));
+        return code(tspace_generateTangents(&square.mesh, &options, &out, nullptr, nullptr, &error));
     });
     EXPECT_STREQ(error.message, "");
     onlyReads("plan", [&] {
         tspace_TangentPlan* plan = nullptr;
-        const ErrorCode made = code(tspace_planTangents(&square.mesh, &options, &plan, &error));
+        const ErrorCode made = code(tspace_planTangents(&square.mesh, &options, nullptr, &plan, &error));
         tspace_destroyTangentPlan(plan);
         return made;
     });
@@ -244,7 +244,7 @@ TEST_F(FailingMemory, OfTheCFunctionsAlsoWhereTheCallIsWrong) {
         TSPACE_INIT(chosen);
         chosen.convention = options.convention;
         chosen.weighting = TSPACE_NORMAL_WEIGHTING_BEST;
-        return code(tspace_generateNormals(&square.mesh, &chosen, {normals.data(), 6, 0}, nullptr, &error));
+        return code(tspace_generateNormals(&square.mesh, &chosen, {normals.data(), 6, 0}, nullptr, nullptr, &error));
     });
     onlyReads("triangulate", [&] {
         tspace_Triangulation* made = nullptr;
@@ -266,7 +266,7 @@ TEST_F(FailingMemory, OfTheCFunctionsAlsoWhereTheCallIsWrong) {
         chosen.tangents = &options;
         chosen.sanitize = 1;
         tspace_IndexedFrames* made = nullptr;
-        const ErrorCode said = code(tspace_makeIndexedFrames(&square.mesh, &chosen, &made, &error));
+        const ErrorCode said = code(tspace_makeIndexedFrames(&square.mesh, &chosen, nullptr, &made, &error));
         tspace_destroyIndexedFrames(made);
         return said;
     });
@@ -295,7 +295,7 @@ TEST_F(FailingMemory, OfTheCFunctionsAlsoWhereTheCallIsWrong) {
             tspace_Bytes bytes{};
             tspace_Mesh wrong = square.mesh;
             wrong.struct_size = 7;
-            fails([&] { return tspace_generateTangents(&wrong, nullptr, nullptr, nullptr, &error); });
+            fails([&] { return tspace_generateTangents(&wrong, nullptr, nullptr, nullptr, nullptr, &error); });
             fails([&] { return tspace_validate(&wrong, &error); });
             fails([&] { return tspace_validate(nullptr, &error); });
             fails([&] { return tspace_checkFile(nullptr, nullptr, &bytes, &error); });
@@ -331,7 +331,7 @@ TEST_F(FailingMemory, ASinkThatThrowsEndsTheCallWithAnError) {
         for (int round = 0; round < 10; ++round) {
             GenerateOptions options;
             options.all = true;
-            options.tangents.execution.thread_count = threads;
+            options.execution.thread_count = threads;
             int calls = 0;
             options.sink = [&](std::span<const std::uint8_t>) -> bool {
                 if (++calls > round % 2) throw std::runtime_error("the caller's own");

@@ -39,8 +39,8 @@ struct Scene {
         mesh.face_sizes = face_sizes;
         return mesh;
     }
-    SanitizeReport sanitize(const SanitizeOptions& options = {}) {
-        const Result<SanitizeReport> report = sanitizeTangents(view(), tangents, options);
+    SanitizeReport sanitize(const SanitizeOptions& options = {}, const Execution& execution = {}) {
+        const Result<SanitizeReport> report = sanitizeTangents(view(), options, tangents, execution);
         EXPECT_TRUE(report.ok());
         return *report;
     }
@@ -283,11 +283,11 @@ TEST(Sanitize, RefusesWhatItCannotRead) {
     Scene scene = twoTriangles();
     MeshView mesh = scene.view();
     mesh.normals = {};
-    EXPECT_EQ(sanitizeTangents(mesh, scene.tangents).error().code, ErrorCode::missingAttribute);
+    EXPECT_EQ(sanitizeTangents(mesh, {}, scene.tangents).error().code, ErrorCode::missingAttribute);
     scene.tangents.pop_back();
-    EXPECT_EQ(sanitizeTangents(scene.view(), scene.tangents).error().code, ErrorCode::countMismatch);
-    EXPECT_EQ(sanitizeTangents(scene.view(), {nullptr, 6}).error().code, ErrorCode::nullData);
-    EXPECT_TRUE(sanitizeTangents(MeshView{}, {}).ok());
+    EXPECT_EQ(sanitizeTangents(scene.view(), {}, scene.tangents).error().code, ErrorCode::countMismatch);
+    EXPECT_EQ(sanitizeTangents(scene.view(), {}, {nullptr, 6}).error().code, ErrorCode::nullData);
+    EXPECT_TRUE(sanitizeTangents(MeshView{}, {}, {}).ok());
 }
 
 float anyValue() {
@@ -392,10 +392,10 @@ TEST(Sanitize, GivesTheSameBitsForAnyThreadCount) {
         }
     }
     Scene serial = scene;
-    const SanitizeReport expected = serial.sanitize({.execution = {.thread_count = 1}});
+    const SanitizeReport expected = serial.sanitize();
     for (const unsigned threads : {2u, 3u, 8u}) {
         Scene parallel = scene;
-        const SanitizeReport report = parallel.sanitize({.execution = {.executor = test::threadTeam(threads)}});
+        const SanitizeReport report = parallel.sanitize({}, {.executor = test::threadTeam(threads)});
         EXPECT_TRUE(sameBits(parallel.tangents, serial.tangents));
         EXPECT_EQ(report.mendedCount(), expected.mendedCount());
         EXPECT_EQ(report.from_neighbor_count, expected.from_neighbor_count);
@@ -424,7 +424,7 @@ TEST(Sanitize, ReportsThatMemoryRanOutAndGivesAllOfItBack) {
                                       },
                                   .user = &memory};
         std::vector<Vec4> tangents = scene.tangents;
-        const auto result = sanitizeTangents(scene.view(), tangents, {.execution = {.allocator = &allocator}});
+        const auto result = sanitizeTangents(scene.view(), {}, tangents, {.allocator = &allocator});
         EXPECT_EQ(memory.held, 0);
         if (result.ok()) {
             EXPECT_GT(allowed, 2);

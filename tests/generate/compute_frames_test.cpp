@@ -229,8 +229,6 @@ TEST(ComputeFramesTime, StaysLinearWhenManyPrimitivesShareALargePool) {
         }
     }
     GenerateOptions options;
-    options.tangents.execution.thread_count = 1;
-    options.sanitize_options.execution.thread_count = 1;
     EXPECT_FALSE(compute(pool, primitives, options).frames.wasSplit(pool.positions.size()));
 }
 

@@ -127,9 +127,9 @@ TEST(Faces, ChangeNothingWithTheNumberOfThreads) {
     const ModelData data = trianglesOf(hills(60), kFan);
     const PrimitiveGeometry geometry{.indices = data.indices};
     GenerateOptions options = onFaces(Faces::quads);
-    options.tangents.execution.thread_count = 1;
+    options.execution.thread_count = 1;
     const Outcome one = compute(poolOf(data), {geometry}, options);
-    options.tangents.execution.thread_count = 4;
+    options.execution.thread_count = 4;
     EXPECT_TRUE(sameBits(one.frames.tangents, compute(poolOf(data), {geometry}, options).frames.tangents));
 }
 

@@ -205,7 +205,7 @@ std::vector<Vec4> evaluated(VertexPool pool, const PrimitiveGeometry& primitive,
         collapsed.push_back(c);
         tangents[c] = carried(base[primitive.indices[c]], primitive.indices[c]);
     }
-    RC_ASSERT(sanitizeTangents(mesh, tangents).ok());
+    RC_ASSERT(sanitizeTangents(mesh, {}, tangents).ok());
     for (const std::size_t c : unmoved) tangents[c] = base[primitive.indices[c]];
     for (const std::size_t c : collapsed) tangents[c] = {kAnyDirection, 0, 0, 1};
     return tangents;

@@ -102,10 +102,11 @@ constexpr std::uint32_t kSize = 32;
 MapImage imageOf(const std::vector<Vec3>& texels, std::uint32_t size = kSize) { return {size, size, texels}; }
 
 std::vector<Vec3> converted(const std::vector<Vec3>& texels, const MapSide& from, const MapSide& to,
-                            const ConvertMapOptions& options = {}, ConvertMapReport* report = nullptr) {
+                            const ConvertMapOptions& options = {}, ConvertMapReport* report = nullptr,
+                            const Execution& execution = {}) {
     std::vector<Vec3> out(texels.size());
     const auto size = static_cast<std::uint32_t>(std::lround(std::sqrt(static_cast<double>(texels.size()))));
-    const Result<ConvertMapReport> done = convertMap(imageOf(texels, size), from, to, out, options);
+    const Result<ConvertMapReport> done = convertMap(imageOf(texels, size), from, to, options, out, execution);
     EXPECT_TRUE(done.ok()) << (done ? "" : done.error().message);
     if (done && report != nullptr) *report = *done;
     return out;
@@ -279,7 +280,7 @@ TEST(ConvertMap, GoesToObjectSpaceAndBack) {
     MapSide turned = object;
     turned.axes = axes;
     std::vector<Vec3> none(texels.size());
-    EXPECT_FALSE(convertMap(imageOf(in_object), object, turned, none).ok()) << "no mesh says where the axes count";
+    EXPECT_FALSE(convertMap(imageOf(in_object), object, turned, {}, none).ok()) << "no mesh says where the axes count";
     MapSide with_mesh = turned;
     with_mesh.uvs = mesh.uvs;
     const auto out = converted(in_object, object, with_mesh);
@@ -410,18 +411,19 @@ TEST(ConvertMap, GivesTheSameTexelsForAnyNumberOfThreads) {
     const auto texels = randomTexels(200 * 200, 16, 11);
     ConvertMapReport one, four;
     const auto a = converted(texels, from.side(), to.side(), {.padding = 9}, &one);
-    const auto b = converted(texels, from.side(), to.side(), {.padding = 9, .execution = {.thread_count = 4}}, &four);
+    const auto b = converted(texels, from.side(), to.side(), {.padding = 9}, &four, {.thread_count = 4});
     EXPECT_EQ(a, b);
     EXPECT_EQ(one.mean_change_deg, four.mean_change_deg);
     const MapSide object{.space = MapSpace::object};
     EXPECT_EQ(converted(texels, object, to.side()),
-              converted(texels, object, to.side(), {.execution = {.thread_count = 4}}));
+              converted(texels, object, to.side(), {}, nullptr, {.thread_count = 4}));
 }
 
 TEST(ConvertMap, StopsWhenAskedTo) {
     const auto texels = randomTexels(16, 16, 12);
     std::vector<Vec3> out(16);
-    const auto stopped = convertMap({4, 4, texels}, {}, {}, out, {.stop = [] { return true; }});
+    const auto cancel = [](const char*, std::uint64_t, std::uint64_t) { throw Cancelled{}; };
+    const auto stopped = convertMap({4, 4, texels}, {}, {}, {}, out, {}, cancel);
     ASSERT_FALSE(stopped.ok());
     EXPECT_EQ(stopped.error().code, ErrorCode::cancelled);
 }
@@ -430,7 +432,7 @@ TEST(ConvertMap, RefusesWhatMakesNoSense) {
     const auto texels = randomTexels(16, 16, 12);
     std::vector<Vec3> out(16);
     const auto codeOf = [&](const MapSide& from, const MapSide& to, const ConvertMapOptions& options = {}) {
-        const auto done = convertMap({4, 4, texels}, from, to, out, options);
+        const auto done = convertMap({4, 4, texels}, from, to, options, out);
         return done ? ErrorCode::ok : done.error().code;
     };
     const Corners mesh = cornersOf({});
@@ -447,8 +449,8 @@ TEST(ConvertMap, RefusesWhatMakesNoSense) {
     side = mesh.side();
     side.normals.count -= 1;
     EXPECT_EQ(codeOf(mesh.side(), side), ErrorCode::countMismatch);
-    EXPECT_FALSE(convertMap({4, 5, texels}, {}, {}, out).ok());
-    EXPECT_FALSE(convertMap({0, 5, {}}, {}, {}, {}).ok());
+    EXPECT_FALSE(convertMap({4, 5, texels}, {}, {}, {}, out).ok());
+    EXPECT_FALSE(convertMap({0, 5, {}}, {}, {}, {}, {}).ok());
 }
 
 RC_GTEST_PROP(NearestIntegers, PointAsWellAsAnyThatAreLongEnough, ()) {

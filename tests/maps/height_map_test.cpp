@@ -26,14 +26,14 @@ struct Made {
 
 template <class Height>
 Made make(const Height& height, const MapSide& mesh, HeightToNormalOptions options,
-          TextureWrap wrap = TextureWrap::repeat) {
+          TextureWrap wrap = TextureWrap::repeat, const Execution& execution = {}) {
     std::vector<float> heights;
     for (std::uint32_t row = 0; row < kSize; ++row) {
         for (std::uint32_t column = 0; column < kSize; ++column)
             heights.push_back(static_cast<float>(height((column + .5) / kSize, (row + .5) / kSize)));
     }
     Made made;
-    const auto report = heightToNormal({kSize, kSize, heights, wrap, wrap}, mesh, made.texels, options);
+    const auto report = heightToNormal({kSize, kSize, heights, wrap, wrap}, mesh, options, made.texels, execution);
     EXPECT_TRUE(report) << report.error().message;
     if (report) made.report = *report;
     return made;
@@ -134,21 +134,20 @@ TEST(HeightToNormal, GivesTheNormalsOfTheRaisedSurface) {
 TEST(HeightToNormal, GivesTheSameBitsForAnyNumberOfThreads) {
     const Sheet sheet(false);
     const Made one = make(waves, sheet.side(), {.strength = .3});
-    HeightToNormalOptions options{.strength = .3};
-    options.execution.thread_count = 4;
-    EXPECT_EQ(make(waves, sheet.side(), options).texels, one.texels);
+    const Made four = make(waves, sheet.side(), {.strength = .3}, TextureWrap::repeat, {.thread_count = 4});
+    EXPECT_EQ(four.texels, one.texels);
 }
 
 TEST(HeightToNormal, RefusesWhatItCannotDo) {
     const std::vector<float> heights(16);
     std::vector<Vec3> out(16);
-    EXPECT_EQ(heightToNormal({4, 5, heights}, {}, out).error().code, ErrorCode::countMismatch);
-    EXPECT_EQ(heightToNormal({0, 0, {}}, {}, {}).error().code, ErrorCode::tooLarge);
-    EXPECT_EQ(heightToNormal({4, 4, heights}, {}, out, {.bits = 12}).error().code, ErrorCode::invalidOption);
-    EXPECT_EQ(heightToNormal({4, 4, heights}, {}, out, {.strength = std::nan("")}).error().code,
+    EXPECT_EQ(heightToNormal({4, 5, heights}, {}, {}, out).error().code, ErrorCode::countMismatch);
+    EXPECT_EQ(heightToNormal({0, 0, {}}, {}, {}, {}).error().code, ErrorCode::tooLarge);
+    EXPECT_EQ(heightToNormal({4, 4, heights}, {}, {.bits = 12}, out).error().code, ErrorCode::invalidOption);
+    EXPECT_EQ(heightToNormal({4, 4, heights}, {}, {.strength = std::nan("")}, out).error().code,
               ErrorCode::invalidOption);
     const std::vector<Vec2> uvs(3);
-    EXPECT_EQ(heightToNormal({4, 4, heights}, {.uvs = uvs}, out).error().code, ErrorCode::missingAttribute);
+    EXPECT_EQ(heightToNormal({4, 4, heights}, {.uvs = uvs}, {}, out).error().code, ErrorCode::missingAttribute);
 }
 
 }  // namespace

@@ -44,8 +44,9 @@ class MapBake : public testing::Test {
         if (!map && map.error().code == ErrorCode::unsupportedFile) GTEST_SKIP() << map.error().message;
     }
 
-    static BakedMap baked(const LowPoly& low, const HighPoly& high, const BakeOptions& options) {
-        const Result<BakedMap> map = bakeMap(low, high, options);
+    static BakedMap baked(const LowPoly& low, const HighPoly& high, const BakeOptions& options,
+                          const Execution& execution = {}) {
+        const Result<BakedMap> map = bakeMap(low, high, options, execution);
         EXPECT_TRUE(map) << map.error().message;
         return map ? *map : BakedMap{};
     }
@@ -100,8 +101,7 @@ TEST_F(MapBake, GivesTheSameTexelsForAnyNumberOfThreads) {
         options.heat = true;
         const BakedMap one = baked(low.view(), high.view(), options);
         for (const unsigned threads : {2U, 5U}) {
-            options.execution.executor = threadTeam(threads);
-            const BakedMap more = baked(low.view(), high.view(), options);
+            const BakedMap more = baked(low.view(), high.view(), options, {.executor = threadTeam(threads)});
             EXPECT_TRUE(one.texels == more.texels);
             EXPECT_TRUE(one.origins == more.origins);
             EXPECT_EQ(one.error.mean_deg, more.error.mean_deg);
@@ -389,9 +389,8 @@ TEST_F(MapBake, SaysWhatIsWrongWithOptionsAndMeshes) {
     EXPECT_EQ(codeOf({.padding = 257}), ErrorCode::invalidOption);
     EXPECT_EQ(codeOf({.reach = -1}), ErrorCode::invalidOption);
     EXPECT_EQ(codeOf({.width = 4096, .height = 4096, .memory_limit_bytes = 1 << 26}), ErrorCode::tooLarge);
-    EXPECT_EQ(codeOf({.stop = [] { return true; }}), ErrorCode::cancelled);
-    EXPECT_EQ(codeOf({.progress = [](const char*, std::uint64_t, std::uint64_t) { throw Cancelled{}; }}),
-              ErrorCode::cancelled);
+    const auto cancel = [](const char*, std::uint64_t, std::uint64_t) { throw Cancelled{}; };
+    EXPECT_EQ(bakeMap(low.view(), high.view(), {}, {}, cancel).error().code, ErrorCode::cancelled);
     LowPoly without_uvs = low.view();
     without_uvs.uvs = {};
     EXPECT_EQ(bakeMap(without_uvs, high.view(), sized(8)).error().code, ErrorCode::missingAttribute);
@@ -463,11 +462,9 @@ TEST_F(MapBake, LimitsOfAHostThatUsesTbbStayAsTheyAre) {
         if (of_host != 0) control.emplace(tbb::global_control::max_allowed_parallelism, of_host);
         const std::size_t before = limit();
         for (const std::uint32_t threads : {1U, 2U, 5U}) {
-            BakeOptions options = sized(32);
-            options.execution.thread_count = threads;
             std::set<std::size_t> seen;
-            options.progress = [&](const char*, std::uint64_t, std::uint64_t) { seen.insert(limit()); };
-            ASSERT_TRUE(bakeMap(low.view(), high.view(), options));
+            const auto look = [&](const char*, std::uint64_t, std::uint64_t) { seen.insert(limit()); };
+            ASSERT_TRUE(bakeMap(low.view(), high.view(), sized(32), {.thread_count = threads}, look));
             EXPECT_EQ(seen, (std::set<std::size_t>{before})) << threads;
             EXPECT_EQ(limit(), before) << threads;
         }

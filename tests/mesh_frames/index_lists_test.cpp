@@ -98,10 +98,10 @@ TEST(IndexLists, AreTakenByNormalsSanitizeAndTriangulate) {
     EXPECT_TRUE(sameBits(normals, wanted_normals));
     std::vector<Vec4> tangents(mesh.cornerCount(), Vec4{1, 0, 0, 1});
     std::vector<Vec4> wanted_tangents = tangents;
-    const auto report = sanitizeTangents(mesh.view(), tangents, {.orthogonalize_all = true});
+    const auto report = sanitizeTangents(mesh.view(), {.orthogonalize_all = true}, tangents);
     ASSERT_TRUE(report);
     EXPECT_GT(report->mendedCount(), 0u);
-    ASSERT_TRUE(sanitizeTangents(unrolled.view(), wanted_tangents, {.orthogonalize_all = true}));
+    ASSERT_TRUE(sanitizeTangents(unrolled.view(), {.orthogonalize_all = true}, wanted_tangents));
     EXPECT_TRUE(sameBits(tangents, wanted_tangents));
     const auto cut = triangulate(mesh.view()), wanted_cut = triangulate(unrolled.view());
     ASSERT_TRUE(cut && wanted_cut);
@@ -146,7 +146,7 @@ TEST(IndexLists, HaveNoResultsPerVertex) {
     const ListsMesh mesh(8, 20);
     std::vector<Vec4> tangents(mesh.positions.size());
     const TangentOptions options{
-        .method = Method::lengyel, .domain = OutputDomain::vertex, .convention = conventions::opengl};
+        .method = Method::lengyel, .convention = conventions::opengl, .domain = OutputDomain::vertex};
     EXPECT_EQ(generateTangents(mesh.view(), options, {tangents}).error().code, ErrorCode::invalidOption);
     EXPECT_EQ(planTangents(mesh.view(), options).error().code, ErrorCode::invalidOption);
 }

@@ -19,9 +19,10 @@ using test::SimpleMesh;
 
 constexpr double kPi = 3.14159265358979323846;
 
-std::vector<Vec3> normalsOf(const MeshView& mesh, const NormalOptions& options, NormalReport* report = nullptr) {
+std::vector<Vec3> normalsOf(const MeshView& mesh, const NormalOptions& options, NormalReport* report = nullptr,
+                            const Execution& execution = {}) {
     std::vector<Vec3> out(mesh.cornerCount());
-    const Result<NormalReport> result = generateNormals(mesh, options, out);
+    const Result<NormalReport> result = generateNormals(mesh, options, out, execution);
     EXPECT_TRUE(result.ok());
     if (report != nullptr && result) *report = *result;
     return out;
@@ -121,17 +122,17 @@ TEST(Threads, DoNotChangeABit) {
         mesh.addFace({a, b, c, vertex()});
         groups.push_back(random() % 4);
     }
-    const auto expectSameBits = [&](NormalOptions options) {
+    const auto expectSameBits = [&](const NormalOptions& options) {
         const std::vector<Vec3> one = normalsOf(mesh.view(), options);
         for (const unsigned threads : {2u, 3u, 8u}) {
-            options.execution = {.executor = test::threadTeam(threads)};
-            const std::vector<Vec3> many = normalsOf(mesh.view(), options);
+            const std::vector<Vec3> many =
+                normalsOf(mesh.view(), options, nullptr, {.executor = test::threadTeam(threads)});
             ASSERT_EQ(std::memcmp(one.data(), many.data(), one.size() * sizeof(Vec3)), 0) << threads;
         }
     };
     for (const NormalWeighting weighting : {NormalWeighting::angle, NormalWeighting::best}) {
         for (const float crease : {180.0f, 120.0f}) {
-            NormalOptions options{.weighting = weighting, .crease_angle_deg = crease, .execution = {.thread_count = 1}};
+            NormalOptions options{.weighting = weighting, .crease_angle_deg = crease};
             options.refine = 2;
             expectSameBits(options);
             options.smoothing_groups = groups;
@@ -159,7 +160,7 @@ TEST(Threads, DoNotChangeABitOfTriangles) {
     }
     for (const bool weld : {false, true}) {
         for (const NormalWeighting weighting : {NormalWeighting::angle, NormalWeighting::area, NormalWeighting::best}) {
-            NormalOptions options{.weighting = weighting, .weld_positions = weld, .execution = {.thread_count = 1}};
+            NormalOptions options{.weighting = weighting, .weld_positions = weld};
             options.refine = 2;
             NormalReport one_report, report;
             const std::vector<Vec3> one = normalsOf(mesh.view(), options, &one_report);
@@ -167,8 +168,8 @@ TEST(Threads, DoNotChangeABitOfTriangles) {
                 EXPECT_GT(one_report.fallback_corner_count, 10'000u);
             }
             for (const unsigned threads : {2u, 3u, 8u}) {
-                options.execution = {.executor = test::threadTeam(threads)};
-                const std::vector<Vec3> many = normalsOf(mesh.view(), options, &report);
+                const std::vector<Vec3> many =
+                    normalsOf(mesh.view(), options, &report, {.executor = test::threadTeam(threads)});
                 ASSERT_EQ(std::memcmp(one.data(), many.data(), one.size() * sizeof(Vec3)), 0) << threads;
                 EXPECT_EQ(report.degenerate_face_count, one_report.degenerate_face_count);
                 EXPECT_EQ(report.fallback_corner_count, one_report.fallback_corner_count);

@@ -180,7 +180,6 @@ struct RandomOptions {
             for (std::size_t f = 0; f < face_count; ++f) groups.push_back(static_cast<std::uint32_t>(randomInt(0, 4)));
         }
         options.refine = static_cast<std::uint32_t>(randomInt(0, 3));
-        options.execution.thread_count = 1;
     }
     NormalOptions& get() {
         options.smoothing_groups = groups;

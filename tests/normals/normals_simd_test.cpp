@@ -30,9 +30,9 @@ struct Outcome {
     NormalReport report;
 };
 
-Outcome compute(const MeshView& mesh, const NormalOptions& options) {
+Outcome compute(const MeshView& mesh, const NormalOptions& options, const Execution& execution = {}) {
     Outcome outcome{std::vector<Vec3>(mesh.cornerCount()), {}};
-    const Result<NormalReport> report = generateNormals(mesh, options, outcome.normals);
+    const Result<NormalReport> report = generateNormals(mesh, options, outcome.normals, execution);
     EXPECT_TRUE(report.ok());
     if (report) outcome.report = *report;
     return outcome;
@@ -111,13 +111,12 @@ std::vector<SimpleMesh> meshes() {
 TEST(Simd, EveryTargetGivesTheNormalsOfPlainCode) {
     for (const SimpleMesh& mesh : meshes()) {
         for (NormalOptions options : kKinds) {
-            options.execution = {.simd = SimdTarget::scalar};
-            const Outcome plain = compute(mesh.view(), options);
+            const Outcome plain = compute(mesh.view(), options, {.simd = SimdTarget::scalar});
             for (const SimdTarget target : kTargets) {
                 for (const unsigned threads : {1u, 3u}) {
-                    options.execution = {.executor = test::threadTeam(threads), .simd = target};
                     SCOPED_TRACE(static_cast<int>(target));
-                    expectSameBits(plain, compute(mesh.view(), options));
+                    const Execution execution{.executor = test::threadTeam(threads), .simd = target};
+                    expectSameBits(plain, compute(mesh.view(), options, execution));
                 }
             }
         }
@@ -132,12 +131,10 @@ TEST(HardEdges, GiveTheSameBitsForAnyTargetAndNumberOfThreads) {
         kinds.push_back({.weighting = NormalWeighting::max});
         for (NormalOptions options : kinds) {
             options.crease_angle_deg = 40;
-            options.execution = {.thread_count = 1, .simd = SimdTarget::scalar};
-            const Outcome plain = compute(mesh.view(), options);
+            const Outcome plain = compute(mesh.view(), options, {.simd = SimdTarget::scalar});
             for (const SimdTarget target : kTargets) {
-                options.execution = {.thread_count = 3, .simd = target};
                 SCOPED_TRACE(static_cast<int>(target));
-                expectSameBits(plain, compute(mesh.view(), options));
+                expectSameBits(plain, compute(mesh.view(), options, {.thread_count = 3, .simd = target}));
             }
         }
     }
@@ -172,12 +169,8 @@ TEST(Simd, AnyNumberOfTrianglesAndVerticesIsDone) {
         mesh.indices.resize(3 * count);
         for (std::uint32_t& v : mesh.indices) v %= static_cast<std::uint32_t>(count + 2);
         mesh.positions.resize(count + 2);
-        NormalOptions options{.execution = {.thread_count = 1, .simd = SimdTarget::scalar}};
-        const Outcome plain = compute(mesh.view(), options);
-        for (const SimdTarget target : kTargets) {
-            options.execution.simd = target;
-            expectSameBits(plain, compute(mesh.view(), options));
-        }
+        const Outcome plain = compute(mesh.view(), {}, {.simd = SimdTarget::scalar});
+        for (const SimdTarget target : kTargets) expectSameBits(plain, compute(mesh.view(), {}, {.simd = target}));
     }
 }
 
@@ -190,8 +183,7 @@ TEST(Simd, ReadsInterleavedPositionsUpToTheLastByteOnly) {
     MeshView view = mesh.view();
     view.positions = vec3Span(exact.data() + 2, count, 20);
     for (const SimdTarget target : kTargets) {
-        const NormalOptions options{.execution = {.simd = target}};
-        expectSameBits(compute(mesh.view(), options), compute(view, options));
+        expectSameBits(compute(mesh.view(), {}, {.simd = target}), compute(view, {}, {.simd = target}));
     }
 }
 
@@ -252,9 +244,8 @@ TEST(Indices, BeyondTheVerticesAreFoundInMeshesOfAnySizeAndOrder) {
                 std::vector<Vec3> out(broken.indices.size(), Vec3{7, 7, 7});
                 for (const unsigned threads : {1u, 3u}) {
                     for (const bool weld : {false, true}) {
-                        const auto result = generateNormals(
-                            broken.view(),
-                            {.weld_positions = weld, .execution = {.executor = test::threadTeam(threads)}}, out);
+                        const auto result = generateNormals(broken.view(), {.weld_positions = weld}, out,
+                                                            {.executor = test::threadTeam(threads)});
                         ASSERT_FALSE(result.ok());
                         EXPECT_EQ(result.error().code, ErrorCode::indexOutOfRange);
                         EXPECT_EQ(out[0], (Vec3{7, 7, 7}));
@@ -273,8 +264,8 @@ TEST(Welding, OfAnIndexedMeshIsThatOfTheSameVerticesWithoutIndices) {
         MeshView view = soup.view();
         view.indices = {};
         for (const unsigned threads : {1u, 3u}) {
-            const NormalOptions options{.execution = {.executor = test::threadTeam(threads)}};
-            expectSameBits(compute(mesh.view(), options), compute(view, options));
+            const Execution execution{.executor = test::threadTeam(threads)};
+            expectSameBits(compute(mesh.view(), {}, execution), compute(view, {}, execution));
         }
     }
 }

@@ -23,8 +23,9 @@ std::vector<Vec3> normalsOf(const MeshView& mesh, const NormalOptions& options =
     return out;
 }
 
-ErrorCode errorOf(const MeshView& mesh, const NormalOptions& options, StridedSpan<Vec3> out) {
-    const Result<NormalReport> result = generateNormals(mesh, options, out);
+ErrorCode errorOf(const MeshView& mesh, const NormalOptions& options, StridedSpan<Vec3> out,
+                  const Execution& execution = {}) {
+    const Result<NormalReport> result = generateNormals(mesh, options, out, execution);
     return result ? ErrorCode::ok : result.error().code;
 }
 
@@ -337,9 +338,8 @@ TEST(Border, RunningOutOfMemoryIsAnErrorAtEveryAllocation) {
                                       ::operator delete(memory, std::align_val_t(alignment));
                                   },
                                   &state};
-        const NormalOptions options{
-            .weighting = NormalWeighting::best, .crease_angle_deg = 30, .execution = {.allocator = &allocator}};
-        const ErrorCode code = errorOf(cube.view(), options, out);
+        const NormalOptions options{.weighting = NormalWeighting::best, .crease_angle_deg = 30};
+        const ErrorCode code = errorOf(cube.view(), options, out, {.allocator = &allocator});
         if (code == ErrorCode::ok) {
             EXPECT_GT(budget, 5);
             break;

@@ -16,9 +16,9 @@
 namespace tspace::test {
 
 inline constexpr FrameFormat kAllFormats[] = {
-    FrameFormat::frame32,      FrameFormat::frame48,     FrameFormat::frame64,
-    FrameFormat::oct32,        FrameFormat::qtangent64,  FrameFormat::snorm8_pair,
-    FrameFormat::snorm16_pair, FrameFormat::gltf_snorm8, FrameFormat::gltf_snorm16};
+    FrameFormat::frame32,     FrameFormat::frame48,    FrameFormat::frame64,
+    FrameFormat::oct32,       FrameFormat::qtangent64, FrameFormat::snorm8Pair,
+    FrameFormat::snorm16Pair, FrameFormat::gltfSnorm8, FrameFormat::gltfSnorm16};
 /// Those that promise to find each unpacked frame again.
 inline constexpr FrameFormat kExactFormats[] = {FrameFormat::frame32, FrameFormat::frame48, FrameFormat::frame64,
                                                 FrameFormat::oct32};
@@ -33,14 +33,14 @@ inline long frameCount(long otherwise) {
 
 inline std::vector<std::byte> packed(FrameFormat format, const FrameList& frames) {
     std::vector<std::byte> bytes(frames.size() * frameBytes(format));
-    EXPECT_TRUE(packFrames(format, frames.normals, frames.tangents, bytes));
+    EXPECT_TRUE(packFrames(frames.normals, frames.tangents, format, bytes));
     return bytes;
 }
 
 inline FrameList unpacked(FrameFormat format, const std::vector<std::byte>& bytes) {
     FrameList frames;
     frames.resize(bytes.size() / frameBytes(format));
-    EXPECT_TRUE(unpackFrames(format, bytes, frames.normals, frames.tangents));
+    EXPECT_TRUE(unpackFrames(bytes, format, frames.normals, frames.tangents));
     return frames;
 }
 

@@ -213,7 +213,7 @@ TEST_P(PackExact, KeepsTheBitsOfFramesAlongAxes) {
 TEST(PackBounds, AreNotMetByCoarserCodes) {
     // The measure can fail: N and T in 8 bits each are outside of what frame32 promises.
     RandomBits random(6);
-    const PackErrors errors = errorsOf(FrameFormat::snorm8_pair, randomFrames(random, 10'000));
+    const PackErrors errors = errorsOf(FrameFormat::snorm8Pair, randomFrames(random, 10'000));
     EXPECT_GT(errors.normal_deg, frameErrorBound(FrameFormat::frame32).normal_deg);
     EXPECT_GT(errors.tangent_deg, frameErrorBound(FrameFormat::frame32).tangent_deg);
 }

@@ -18,7 +18,7 @@ constexpr auto kNoFormat = static_cast<FrameFormat>(9);
 
 PackReport reportOf(const Vec3& normal, const Vec4& tangent, FrameFormat format = FrameFormat::frame64) {
     std::vector<std::byte> bytes(frameBytes(format));
-    const Result<PackReport> report = packFrames(format, {&normal, 1}, {&tangent, 1}, bytes);
+    const Result<PackReport> report = packFrames({&normal, 1}, {&tangent, 1}, format, bytes);
     EXPECT_TRUE(report);
     return report ? *report : PackReport{};
 }
@@ -56,9 +56,9 @@ TEST(PackFrames, StoresWhatTheFormatSays) {
     EXPECT_EQ(bytesOf(FrameFormat::frame32, z, x_mirrored)[0], 0x59);
     EXPECT_EQ(bytesOf(FrameFormat::qtangent64, z, x), (std::vector{0, 0, 0, 0, 0, 0, 0xff, 0x7f}));
     EXPECT_EQ(bytesOf(FrameFormat::qtangent64, z, x_mirrored), (std::vector{0, 0, 0, 0, 0, 0, 0x01, 0x80}));
-    EXPECT_EQ(bytesOf(FrameFormat::snorm8_pair, z, x_mirrored), (std::vector{127, 0, 0, 127, 0, 0, 127, 0x81}));
-    EXPECT_EQ(bytesOf(FrameFormat::gltf_snorm8, z, x_mirrored), (std::vector{127, 0, 0, 0x81, 0, 0, 127}));
-    EXPECT_EQ(bytesOf(FrameFormat::gltf_snorm16, z, x),
+    EXPECT_EQ(bytesOf(FrameFormat::snorm8Pair, z, x_mirrored), (std::vector{127, 0, 0, 127, 0, 0, 127, 0x81}));
+    EXPECT_EQ(bytesOf(FrameFormat::gltfSnorm8, z, x_mirrored), (std::vector{127, 0, 0, 0x81, 0, 0, 127}));
+    EXPECT_EQ(bytesOf(FrameFormat::gltfSnorm16, z, x),
               (std::vector{0xff, 0x7f, 0, 0, 0, 0, 0xff, 0x7f, 0, 0, 0, 0, 0xff, 0x7f}));
 }
 
@@ -135,11 +135,11 @@ TEST(PackFrames, ReadsAndWritesWithStrides) {
     for (std::size_t i = 0; i < 100; ++i) vertices[i] = {frames.normals[i], 7, frames.tangents[i]};
     for (const FrameFormat format : kAllFormats) {
         std::vector<std::byte> bytes(100 * frameBytes(format));
-        ASSERT_TRUE(packFrames(format, StridedSpan<const Vec3>{&vertices[0].normal, 100, sizeof(Vertex)},
-                               StridedSpan<const Vec4>{&vertices[0].tangent, 100, sizeof(Vertex)}, bytes));
+        ASSERT_TRUE(packFrames(StridedSpan<const Vec3>{&vertices[0].normal, 100, sizeof(Vertex)},
+                               StridedSpan<const Vec4>{&vertices[0].tangent, 100, sizeof(Vertex)}, format, bytes));
         EXPECT_TRUE(bytes == packed(format, frames));
         std::vector<Vertex> out(100);
-        ASSERT_TRUE(unpackFrames(format, bytes, StridedSpan<Vec3>{&out[0].normal, 100, sizeof(Vertex)},
+        ASSERT_TRUE(unpackFrames(bytes, format, StridedSpan<Vec3>{&out[0].normal, 100, sizeof(Vertex)},
                                  StridedSpan<Vec4>{&out[0].tangent, 100, sizeof(Vertex)}));
         const FrameList want = unpacked(format, bytes);
         for (std::size_t i = 0; i < 100; ++i) {
@@ -155,8 +155,8 @@ TEST(PackFrames, RefusesArraysThatDoNotFit) {
     std::array<Vec4, 2> tangents{{{1, 0, 0, 1}, {1, 0, 0, 1}}};
     std::array<std::byte, 16> bytes{};
     const auto code = [&](FrameFormat format, StridedSpan<Vec3> n, StridedSpan<Vec4> t, std::span<std::byte> b) {
-        const Result<PackReport> packed = packFrames(format, n, t, b);
-        const Result<Done> unpacked = unpackFrames(format, b, n, t);
+        const Result<PackReport> packed = packFrames(n, t, format, b);
+        const Result<Done> unpacked = unpackFrames(b, format, n, t);
         const ErrorCode c = packed ? ErrorCode::ok : packed.error().code;
         EXPECT_EQ(unpacked ? ErrorCode::ok : unpacked.error().code, c);
         return c;
@@ -179,7 +179,7 @@ TEST(PackFrames, TakesBytesAtAnyAddress) {
     for (const FrameFormat format : kAllFormats) {
         std::vector<std::byte> bytes(10 * frameBytes(format) + 1);
         const std::span<std::byte> odd = std::span(bytes).subspan(1);
-        ASSERT_TRUE(packFrames(format, frames.normals, frames.tangents, odd));
+        ASSERT_TRUE(packFrames(frames.normals, frames.tangents, format, odd));
         EXPECT_TRUE(std::equal(odd.begin(), odd.end(), packed(format, frames).begin()));
     }
 }

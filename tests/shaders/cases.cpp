@@ -71,7 +71,7 @@ std::vector<std::byte> someWords(FrameFormat format, std::size_t count) {
     const std::size_t bytes = frameBytes(format), others = count / 10;
     const test::FrameList frames = test::randomFrames(random, count);
     std::vector<std::byte> words(bytes * (count + others));
-    if (!packFrames(format, frames.normals, frames.tangents, std::span(words).first(bytes * count))) return {};
+    if (!packFrames(frames.normals, frames.tangents, format, std::span(words).first(bytes * count))) return {};
     for (std::size_t i = 0; i < others; ++i) {
         const bool is_sparse = i % 2 == 0, is_inverted = i % 4 == 0;
         for (std::size_t b = 0; b < bytes; ++b) {
@@ -98,7 +98,7 @@ Case formatCase(std::string name, std::uint32_t number, FrameFormat format, std:
     Case c{.name = std::move(name), .number = number, .item_words = (each + unit_bytes - 1) / unit_bytes};
     test::FrameList frames;
     frames.resize(items);
-    if (!unpackFrames(format, bytes, frames.normals, frames.tangents)) return c;
+    if (!unpackFrames(bytes, format, frames.normals, frames.tangents)) return c;
     c.buffer.assign(items * c.item_words, 0);
     for (std::size_t i = 0; i < items; ++i) {
         for (std::size_t b = 0; b < each; ++b) {

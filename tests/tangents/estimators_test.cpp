@@ -232,8 +232,8 @@ TEST(Estimators, GiveFiniteTangentsOnTheGoldenMeshesAndSanitizeMendsTheRest) {
             Outputs got = generate(golden.shape, method);
             for (std::size_t c = 0; c < got.tangents.size(); ++c)
                 ASSERT_TRUE(std::isfinite(got.tangents[c].x)) << "corner " << c;
-            ASSERT_TRUE(sanitizeTangents(golden.shape.view(), got.tangents));
-            const auto again = sanitizeTangents(golden.shape.view(), got.tangents);
+            ASSERT_TRUE(sanitizeTangents(golden.shape.view(), {}, got.tangents));
+            const auto again = sanitizeTangents(golden.shape.view(), {}, got.tangents);
             ASSERT_TRUE(again);
             EXPECT_EQ(again->mendedCount(), 0u);
         }

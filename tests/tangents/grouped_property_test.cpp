@@ -46,13 +46,12 @@ TangentOptions randomOptions() {
     options.angular_threshold_deg = *rc::gen::element(180.0f, 180.0f, 60.0f, 20.0f, 0.0f, 300.0f);
     options.pairing = *rc::gen::element(Pairing::reference, Pairing::corrected);
     options.refine = *rc::gen::element(0u, 1u, 2u);
-    options.execution.thread_count = 1;
     return options;
 }
 
-Outputs generate(const MeshView& mesh, const TangentOptions& options) {
+Outputs generate(const MeshView& mesh, const TangentOptions& options, const Execution& execution = {}) {
     Outputs outputs(mesh.cornerCount());
-    const Result<TangentReport> result = generateTangents(mesh, options, outputs.view());
+    const Result<TangentReport> result = generateTangents(mesh, options, outputs.view(), execution);
     RC_ASSERT(result.ok());
     outputs.report = *result;
     return outputs;
@@ -176,17 +175,15 @@ TEST(GroupedThreads, GiveTheSameBits) {
     for (std::size_t v = 0; v < shapes.back().normals.size(); v += 3) shapes.back().normals[v].x = -0.0f;
     const Convention convention = conventions::opengl;
     const TangentOptions ways[] = {{.convention = convention},
-                                   {.angular_threshold_deg = 10.0f, .convention = convention},
+                                   {.convention = convention, .angular_threshold_deg = 10.0f},
                                    {.method = Method::fast, .convention = convention},
                                    {.method = Method::best, .convention = convention},
                                    {.method = Method::best, .convention = convention, .refine = 2}};
     for (const Shape& shape : shapes) {
-        for (TangentOptions options : ways) {
-            options.execution = {.thread_count = 1};
+        for (const TangentOptions& options : ways) {
             const Outputs want = generate(shape.view(), options);
             for (const unsigned threads : {2u, 3u, 8u}) {
-                options.execution = {.executor = test::threadTeam(threads)};
-                const Outputs got = generate(shape.view(), options);
+                const Outputs got = generate(shape.view(), options, {.executor = test::threadTeam(threads)});
                 EXPECT_TRUE(sameBits(want, got)) << threads << " threads";
                 EXPECT_EQ(want.report.group_count, got.report.group_count);
                 EXPECT_EQ(want.report.not_finite_count, got.report.not_finite_count);

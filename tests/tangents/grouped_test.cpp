@@ -14,16 +14,18 @@ namespace {
 
 constexpr std::array kGrouping{Method::mikktspace, Method::uniform, Method::angle, Method::area};
 
-TangentReport generate(const Shape& shape, const TangentOptions& options, Outputs& outputs) {
-    const Result<TangentReport> result = generateTangents(shape.view(), options, outputs.view());
+TangentReport generate(const Shape& shape, const TangentOptions& options, Outputs& outputs,
+                       const Execution& execution = {}) {
+    const Result<TangentReport> result = generateTangents(shape.view(), options, outputs.view(), execution);
     EXPECT_TRUE(result) << (result ? "" : result.error().message);
     outputs.report = result ? *result : TangentReport{};
     return outputs.report;
 }
 
-Outputs generate(const Shape& shape, const TangentOptions& options = {.convention = conventions::opengl}) {
+Outputs generate(const Shape& shape, const TangentOptions& options = {.convention = conventions::opengl},
+                 const Execution& execution = {}) {
     Outputs outputs(shape.cornerCount());
-    generate(shape, options, outputs);
+    generate(shape, options, outputs, execution);
     return outputs;
 }
 
@@ -95,7 +97,7 @@ TEST(Grouped, NgonsAreCutOrSkipped) {
     for (const Method method : kGrouping) {
         const Outputs cut = generate(shape, {.method = method, .convention = conventions::opengl});
         const Outputs skipped =
-            generate(shape, {.method = method, .ngons = Ngons::skip, .convention = conventions::opengl});
+            generate(shape, {.method = method, .convention = conventions::opengl, .ngons = Ngons::skip});
         EXPECT_EQ(cut.report.triangle_count, 4u);
         EXPECT_EQ(skipped.report.skipped_face_count, 1u);
         for (std::size_t c = 0; c < 6; ++c) {
@@ -172,7 +174,7 @@ TEST(Grouped, ASmallThresholdSplitsAGroup) {
     Shape bent = shape;
     for (std::size_t i = 33; i < bent.uvs.size(); ++i) bent.uvs[i].x = 0.5f + (bent.uvs[i].x - 0.5f) * 0.1f;
     const auto tangentsAtApex = [&](float threshold) {
-        const Outputs got = generate(bent, {.angular_threshold_deg = threshold, .convention = conventions::opengl});
+        const Outputs got = generate(bent, {.convention = conventions::opengl, .angular_threshold_deg = threshold});
         std::vector<Vec4> all;
         for (std::size_t t = 0; t < 64; ++t) {
             const Vec4& tangent = got.tangents[3 * t];
@@ -188,7 +190,7 @@ TEST(TangentPlan, GivesTheBitsOfTheOneCallOnItsOwnPose) {
     for (const Method method : kGrouping) {
         for (const Shape& shape : {someDegenerate(800), checkerboard(800), someWithoutUvArea(800), notFinite(800)}) {
             const TangentOptions options{
-                .method = method, .angular_threshold_deg = 60, .convention = conventions::opengl};
+                .method = method, .convention = conventions::opengl, .angular_threshold_deg = 60};
             const Outputs direct = generate(shape, options);
             const Result<TangentPlan> plan = planTangents(shape.view(), options);
             ASSERT_TRUE(plan);
@@ -271,9 +273,9 @@ TEST(TangentBorder, NamesWhatIsWrong) {
     EXPECT_EQ(code(mesh, {.convention = conventions::opengl}, outputs.view()), ErrorCode::ok);
     EXPECT_EQ(code(mesh, {.method = static_cast<Method>(77), .convention = conventions::opengl}, outputs.view()),
               ErrorCode::invalidOption);
-    EXPECT_EQ(code(mesh, {.pairing = static_cast<Pairing>(2), .convention = conventions::opengl}, outputs.view()),
+    EXPECT_EQ(code(mesh, {.convention = conventions::opengl, .pairing = static_cast<Pairing>(2)}, outputs.view()),
               ErrorCode::invalidOption);
-    EXPECT_EQ(code(mesh, {.ngons = static_cast<Ngons>(2), .convention = conventions::opengl}, outputs.view()),
+    EXPECT_EQ(code(mesh, {.convention = conventions::opengl, .ngons = static_cast<Ngons>(2)}, outputs.view()),
               ErrorCode::invalidOption);
     TangentOutput out = outputs.view();
     out.tangents.count -= 1;
@@ -324,18 +326,17 @@ struct CountingAllocator {
 /// Returns how many allocations a call makes.
 std::size_t letEachAllocationFail(const Shape& shape, float threshold, Method method = Method::mikktspace) {
     CountingAllocator counting;
-    const TangentOptions options{.method = method,
-                                 .angular_threshold_deg = threshold,
-                                 .convention = conventions::opengl,
-                                 .execution = {.thread_count = 1, .allocator = &counting.allocator}};
-    const Outputs want = generate(shape, options);
+    const Execution execution{.allocator = &counting.allocator};
+    const TangentOptions options{
+        .method = method, .convention = conventions::opengl, .angular_threshold_deg = threshold};
+    const Outputs want = generate(shape, options, execution);
     EXPECT_EQ(counting.live_bytes, 0u);
     const std::size_t calls = counting.calls;
     for (std::size_t n = 0; n < calls; ++n) {
         counting.calls = 0;
         counting.fails_at = n;
         Outputs outputs(shape.cornerCount());
-        const Result<TangentReport> result = generateTangents(shape.view(), options, outputs.view());
+        const Result<TangentReport> result = generateTangents(shape.view(), options, outputs.view(), execution);
         EXPECT_FALSE(result) << "allocation " << n;
         if (!result) {
             EXPECT_EQ(result.error().code, ErrorCode::outOfMemory);
@@ -364,10 +365,8 @@ TEST(TangentMemory, UnindexedCornersTakeAtMost32BytesPerTriangle) {
     for (const unsigned threads : {1u, 2u}) {
         CountingAllocator counting;
         std::vector<Vec4> tangents(corners.positions.size());
-        ASSERT_TRUE(generateTangents(mesh,
-                                     {.convention = conventions::opengl,
-                                      .execution = {.thread_count = threads, .allocator = &counting.allocator}},
-                                     {.tangents = tangents}));
+        ASSERT_TRUE(generateTangents(mesh, {.convention = conventions::opengl}, {.tangents = tangents},
+                                     {.thread_count = threads, .allocator = &counting.allocator}));
         EXPECT_LE(counting.peak_bytes, 32 * (tangents.size() / 3)) << threads << " threads";
     }
 }
@@ -383,10 +382,8 @@ TEST(TangentMemory, SecondTrianglesOfQuadsMayFollowAllFirstOnes) {
     }
     CountingAllocator counting;
     std::vector<Vec4> tangents(sweeps.cornerCount());
-    ASSERT_TRUE(generateTangents(
-        sweeps.view(),
-        {.convention = conventions::opengl, .execution = {.thread_count = 1, .allocator = &counting.allocator}},
-        {.tangents = tangents}));
+    ASSERT_TRUE(generateTangents(sweeps.view(), {.convention = conventions::opengl}, {.tangents = tangents},
+                                 {.thread_count = 1, .allocator = &counting.allocator}));
     EXPECT_LE(counting.peak_bytes, 32 * (tangents.size() / 3));
     const Result<TangentPlan> plan = planTangents(sweeps.view(), {.convention = conventions::opengl});
     std::vector<Vec4> planned(tangents.size());

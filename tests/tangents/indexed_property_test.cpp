@@ -36,7 +36,7 @@ Outputs tangentsOf(const MeshView& mesh, Method method, Convention convention = 
     Outputs out{std::vector<Vec4>(corners), std::vector<Vec3>(corners), std::vector<float>(corners),
                 std::vector<float>(corners)};
     Parallel parallel(Execution{.thread_count = 1});
-    const IndexedPlan plan = planIndexed(mesh, {.method = method, .convention = convention}, parallel);
+    const IndexedPlan plan = planIndexed(mesh, {{.method = method, .convention = convention}}, parallel);
     evaluateIndexed(plan, {mesh.positions, mesh.normals},
                     {out.tangents, out.bitangents, out.magnitudes_s, out.magnitudes_t}, {}, parallel);
     return out;
@@ -156,8 +156,7 @@ RC_GTEST_PROP(IndexedProperty, VertexDomainAndPlanGiveTheBitsOfTheOneCallPerCorn
             };
             Outputs one_call = outputs(corners), per_vertex = outputs(vertices), planned = outputs(corners),
                     planned_per_vertex = outputs(vertices);
-            TangentOptions options{
-                .method = method, .convention = conventions::opengl, .execution = {.thread_count = 1}};
+            TangentOptions options{.method = method, .convention = conventions::opengl};
             const auto corner_report = generateTangents(view, options, spans(one_call));
             const auto corner_plan = planTangents(view, options);
             options.domain = OutputDomain::vertex;

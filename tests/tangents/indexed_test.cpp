@@ -27,15 +27,15 @@ struct Outputs {
     TangentReport report;
 };
 
-Outputs tangentsOf(const MeshView& mesh, const TangentOptions& options) {
+Outputs tangentsOf(const MeshView& mesh, const TangentOptions& options, const Execution& execution = {}) {
     const std::size_t corners = mesh.cornerCount();
     Outputs out{std::vector<Vec4>(corners, Vec4{9, 9, 9, 9}),
                 std::vector<Vec3>(corners, Vec3{9, 9, 9}),
                 std::vector<float>(corners, 9.0f),
                 std::vector<float>(corners, 9.0f),
                 {}};
-    Parallel parallel(options.execution);
-    const IndexedPlan plan = planIndexed(mesh, options, parallel);
+    Parallel parallel(execution);
+    const IndexedPlan plan = planIndexed(mesh, {options, execution}, parallel);
     EXPECT_GE(plan.memoryBytes(), 4 * corners);
     out.report = evaluateIndexed(plan, {mesh.positions, mesh.normals},
                                  {out.tangents, out.bitangents, out.magnitudes_s, out.magnitudes_t}, {}, parallel);
@@ -213,7 +213,7 @@ TEST(Faces, ThatAreSkippedGetZeroInEveryOutput) {
     mesh.addFace({0, 1, 2, 3, 0});
     for (const Method method : {Method::lengyel, Method::flat, Method::basis}) {
         const Outputs out =
-            tangentsOf(mesh.view(), {.method = method, .ngons = Ngons::skip, .convention = conventions::opengl});
+            tangentsOf(mesh.view(), {.method = method, .convention = conventions::opengl, .ngons = Ngons::skip});
         for (std::size_t c = 6; c < 14; ++c) {
             EXPECT_EQ(out.tangents[c], Vec4{});
             EXPECT_EQ(out.bitangents[c], Vec3{});
@@ -264,7 +264,7 @@ TEST(VertexDomain, GivesUnusedVerticesZeroAndCountsOutputs) {
         std::vector<Vec4> tangents(7, Vec4{9, 9, 9, 9});
         std::vector<Vec3> bitangents(7, Vec3{9, 9, 9});
         const auto report = generateTangents(
-            mesh.view(), {.method = method, .domain = OutputDomain::vertex, .convention = conventions::opengl},
+            mesh.view(), {.method = method, .convention = conventions::opengl, .domain = OutputDomain::vertex},
             {.tangents = tangents, .bitangents = bitangents});
         ASSERT_TRUE(report);
         EXPECT_EQ(report->group_count, 5u);
@@ -284,7 +284,7 @@ TEST(VertexDomain, IsRefusedForMethodsThatMaySplitAVertex) {
     const auto codeOf = [&](Method method, OutputDomain domain, std::size_t count) {
         const StridedSpan<Vec4> out(tangents.data(), count);
         const auto result = generateTangents(
-            mesh.view(), {.method = method, .domain = domain, .convention = conventions::opengl}, {.tangents = out});
+            mesh.view(), {.method = method, .convention = conventions::opengl, .domain = domain}, {.tangents = out});
         return result ? ErrorCode::ok : result.error().code;
     };
     for (const Method method : {Method::mikktspace, Method::uniform, Method::angle, Method::area, Method::flat}) {
@@ -316,11 +316,8 @@ TEST(OneCall, CopiesNeitherIndicesNorUvs) {
         const StridedSpan<Vec4> out(tangents.data(), domain == OutputDomain::vertex ? 4 : 6);
         count.peak = 0;
         ASSERT_TRUE(generateTangents(mesh.view(),
-                                     {.method = Method::lengyel,
-                                      .domain = domain,
-                                      .convention = conventions::opengl,
-                                      .execution = {.thread_count = 1, .allocator = &allocator}},
-                                     {.tangents = out}));
+                                     {.method = Method::lengyel, .convention = conventions::opengl, .domain = domain},
+                                     {.tangents = out}, {.thread_count = 1, .allocator = &allocator}));
         // A part of each vertex's sum; the other part is where the outputs come to later. Per corner also a mark.
         EXPECT_EQ(count.peak, 4 * (domain == OutputDomain::vertex ? 8u : 17u));
     }
@@ -376,10 +373,39 @@ TEST(Plan, EvaluatesAnotherPoseWithItsOwnUvs) {
     bent.normals.assign(4, {1, 0, 0});
     Parallel parallel(Execution{.thread_count = 1});
     for (const Method method : {Method::lengyel, Method::flat, Method::basis}) {
-        const IndexedPlan plan = planIndexed(rest.view(), {.method = method}, parallel);
+        const IndexedPlan plan = planIndexed(rest.view(), {{.method = method}}, parallel);
         std::vector<Vec4> tangents(6);
         evaluateIndexed(plan, {bent.view().positions, bent.view().normals}, {.tangents = tangents}, {}, parallel);
         EXPECT_EQ(tangents, tangentsOf(bent.view(), {.method = method, .convention = conventions::opengl}).tangents);
+    }
+}
+
+TEST(Plan, ThatWasMovedFromIsThatOfAMeshWithoutVertices) {
+    const SimpleMesh mesh = square();
+    const MeshView view = mesh.view();
+    std::vector<Vec4> tangents(view.cornerCount());
+    const Pose pose{view.positions, view.normals};
+    for (const Method method : {Method::mikktspace, Method::best, Method::lengyel}) {
+        Result<TangentPlan> made = planTangents(view, {.method = method, .convention = conventions::gltf});
+        Result<TangentPlan> other = planTangents(view, {.convention = conventions::gltf});
+        ASSERT_TRUE(made && other);
+        *other = *std::move(made);
+        EXPECT_EQ(other->method(), method);
+        EXPECT_TRUE(evaluateTangents(*other, pose, {.tangents = tangents}));
+        const TangentPlan& left = *made;
+        EXPECT_EQ(left.vertexCount(), 0u);
+        EXPECT_EQ(left.cornerCount(), 0u);
+        EXPECT_EQ(left.outputCount(), 0u);
+        EXPECT_LT(left.memoryBytes(), 100u);
+        EXPECT_EQ(evaluateTangents(left, pose, {.tangents = tangents}).error().code, ErrorCode::planMismatch);
+        EXPECT_TRUE(evaluateTangents(left, {}, {}));
+        // It takes another plan again, also its own.
+        *made = *std::move(other);
+        EXPECT_TRUE(evaluateTangents(*made, pose, {.tangents = tangents}));
+        TangentPlan& same = *made;
+        *made = std::move(same);
+        EXPECT_EQ(made->method(), method);
+        EXPECT_EQ(made->cornerCount(), view.cornerCount());
     }
 }
 
@@ -401,7 +427,7 @@ TEST(Plan, RunsOutOfMemoryByItsOwnExceptionOnly) {
         budget = failures;
         try {
             const IndexedPlan plan =
-                planIndexed(mesh.view(), {.method = Method::lengyel, .execution = {.allocator = &allocator}}, parallel);
+                planIndexed(mesh.view(), {{.method = Method::lengyel}, {.allocator = &allocator}}, parallel);
             evaluateIndexed(plan, {mesh.view().positions, mesh.view().normals}, {.tangents = tangents},
                             {.allocator = &allocator}, parallel);
             done = true;
@@ -418,10 +444,8 @@ TEST(Threads, FindTheFirstBadIndexOfALargeMesh) {
     mesh.indices.assign(900'000, 1);
     std::vector<Vec4> tangents(mesh.indices.size());
     const auto run = [&](unsigned threads) {
-        return generateTangents(
-            mesh.view(),
-            {.method = Method::lengyel, .convention = conventions::opengl, .execution = {.thread_count = threads}},
-            {.tangents = tangents});
+        return generateTangents(mesh.view(), {.method = Method::lengyel, .convention = conventions::opengl},
+                                {.tangents = tangents}, {.thread_count = threads});
     };
     EXPECT_TRUE(run(3));
     mesh.indices[700'001] = mesh.indices[899'999] = 4;
@@ -452,12 +476,10 @@ TEST(Threads, DoNotChangeABit) {
             mesh.addFace({a, b, c});
     }
     for (const Method method : {Method::lengyel, Method::flat, Method::basis}) {
-        const Outputs one = tangentsOf(
-            mesh.view(), {.method = method, .convention = conventions::opengl, .execution = {.thread_count = 1}});
+        const TangentOptions options{.method = method, .convention = conventions::opengl};
+        const Outputs one = tangentsOf(mesh.view(), options);
         for (const unsigned threads : {2u, 3u, 8u}) {
-            const Outputs many = tangentsOf(mesh.view(), {.method = method,
-                                                          .convention = conventions::opengl,
-                                                          .execution = {.executor = test::threadTeam(threads)}});
+            const Outputs many = tangentsOf(mesh.view(), options, {.executor = test::threadTeam(threads)});
             EXPECT_EQ(std::memcmp(one.tangents.data(), many.tangents.data(), one.tangents.size() * sizeof(Vec4)), 0);
             EXPECT_EQ(std::memcmp(one.bitangents.data(), many.bitangents.data(), one.bitangents.size() * sizeof(Vec3)),
                       0);

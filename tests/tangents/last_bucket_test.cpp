@@ -144,10 +144,8 @@ class AllEdges {
 
 std::vector<Vec4> tangents(const MeshView& mesh, Pairing pairing) {
     std::vector<Vec4> result(mesh.cornerCount());
-    EXPECT_TRUE(generateTangents(
-        mesh,
-        {.pairing = pairing, .ngons = Ngons::skip, .convention = conventions::opengl, .execution = {.thread_count = 1}},
-        {.tangents = result}));
+    EXPECT_TRUE(generateTangents(mesh, {.convention = conventions::opengl, .ngons = Ngons::skip, .pairing = pairing},
+                                 {.tangents = result}, {.thread_count = 1}));
     return result;
 }
 

@@ -31,11 +31,10 @@ std::vector<GoldenCase> goldenCases() {
     return cases;
 }
 
-TangentOptions goldenOptions(const GoldenMesh& golden, unsigned threads) {
+TangentOptions goldenOptions(const GoldenMesh& golden) {
     TangentOptions options{.convention = conventions::opengl};
     options.angular_threshold_deg = golden.angular_threshold_deg;
     options.ngons = Ngons::skip;
-    options.execution.executor = test::threadTeam(threads);
     return options;
 }
 
@@ -61,7 +60,7 @@ TEST(MikktspaceGolden, EveryWordEqualsTheReference) {
     std::size_t passed = 0;
     for (const auto& [path, golden] : cases) {
         Outputs outputs(golden.shape.cornerCount());
-        ASSERT_TRUE(generateTangents(golden.shape.view(), goldenOptions(golden, 1), outputs.view())) << path;
+        ASSERT_TRUE(generateTangents(golden.shape.view(), goldenOptions(golden), outputs.view())) << path;
         const std::size_t wrong = wrongCorners(golden, outputs);
         EXPECT_EQ(wrong, 0u) << path;
         passed += wrong == 0;
@@ -73,7 +72,7 @@ TEST(MikktspaceGolden, PlanAndEvaluateGiveTheSameWords) {
     TSPACE_NEEDS_SHARED("golden/mikktspace");
     for (const auto& [path, golden] : goldenCases()) {
         const MeshView mesh = golden.shape.view();
-        const Result<TangentPlan> plan = planTangents(mesh, goldenOptions(golden, 1));
+        const Result<TangentPlan> plan = planTangents(mesh, goldenOptions(golden));
         ASSERT_TRUE(plan) << path;
         Outputs outputs(golden.shape.cornerCount());
         ASSERT_TRUE(evaluateTangents(*plan, {mesh.positions, mesh.normals}, outputs.view())) << path;

@@ -52,7 +52,7 @@ struct Grid {
         mesh.indices = IndexView(std::span<const std::uint32_t>(indices));
         std::vector<Vec4> moved(indices.size()), result(indices.size());
         EXPECT_TRUE(
-            generateTangents(mesh, {.pairing = pairing, .convention = conventions::opengl}, {.tangents = moved}));
+            generateTangents(mesh, {.convention = conventions::opengl, .pairing = pairing}, {.tangents = moved}));
         for (std::size_t i = 0; i < order.size(); ++i) std::copy_n(&moved[3 * i], 3, &result[3 * order[i]]);
         return result;
     }

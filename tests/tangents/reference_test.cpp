@@ -186,12 +186,9 @@ long countDifferent(long first, long count, Pairing pairing) {
         const float threshold = randomThreshold(dice);
         Outputs want(shape.cornerCount()), got(shape.cornerCount());
         runReference(shape, threshold, want);
-        const auto report = generateTangents(shape.view(),
-                                             {.angular_threshold_deg = threshold,
-                                              .pairing = pairing,
-                                              .convention = conventions::opengl,
-                                              .execution = {.thread_count = 1}},
-                                             got.view());
+        const auto report = generateTangents(
+            shape.view(), {.convention = conventions::opengl, .angular_threshold_deg = threshold, .pairing = pairing},
+            got.view(), {.thread_count = 1});
         if (report && (sameBits(want, got) || !hasPromisedBits(shape))) continue;
         ++different;
         if (pairing == Pairing::reference) ADD_FAILURE() << "mesh " << mesh << ", threshold " << threshold;
@@ -211,8 +208,8 @@ TEST(MikktspaceReference, HasTheSameBitsOnTori) {
             shape.face_sizes.assign(shape.indices.size() / 3, 3);
             Outputs want(shape.cornerCount()), got(shape.cornerCount());
             runReference(shape, 180, want);
-            ASSERT_TRUE(generateTangents(
-                shape.view(), {.convention = conventions::opengl, .execution = {.thread_count = 1}}, got.view()));
+            ASSERT_TRUE(
+                generateTangents(shape.view(), {.convention = conventions::opengl}, got.view(), {.thread_count = 1}));
             EXPECT_TRUE(sameBits(want, got)) << columns << " " << rows;
         }
     }

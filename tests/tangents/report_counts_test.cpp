@@ -53,15 +53,13 @@ RC_GTEST_PROP(ReportCounts, AreTheSameInOneCallAndByPlanAndEvaluation, ()) {
     for (const Method method : {Method::mikktspace, Method::uniform, Method::angle, Method::area, Method::fast,
                                 Method::best, Method::lengyel, Method::flat, Method::basis}) {
         for (const unsigned threads : {1u, 3u}) {
-            const TangentOptions options{.method = method,
-                                         .convention = conventions::opengl,
-                                         .execution = {.executor = test::threadTeam(threads)}};
+            const TangentOptions options{.method = method, .convention = conventions::opengl};
+            const Execution execution{.executor = test::threadTeam(threads)};
             Outputs one_call(mesh.cornerCount()), planned(mesh.cornerCount());
-            const auto report = generateTangents(mesh, options, one_call.view());
-            const auto plan = planTangents(mesh, options);
+            const auto report = generateTangents(mesh, options, one_call.view(), execution);
+            const auto plan = planTangents(mesh, options, execution);
             RC_ASSERT(report.ok() && plan.ok());
-            const auto evaluated =
-                evaluateTangents(*plan, {mesh.positions, mesh.normals}, planned.view(), options.execution);
+            const auto evaluated = evaluateTangents(*plan, {mesh.positions, mesh.normals}, planned.view(), execution);
             RC_ASSERT(evaluated.ok());
             expectEqualCounts(*report, *evaluated);
         }

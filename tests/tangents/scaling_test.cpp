@@ -39,9 +39,8 @@ double seconds(const Shape& shape, Method method, int tries) {
     for (int i = 0; i < tries; ++i) {
         Outputs outputs(shape.cornerCount());
         const std::clock_t start = std::clock();
-        const auto result = generateTangents(
-            shape.view(), {.method = method, .convention = conventions::opengl, .execution = {.thread_count = 1}},
-            outputs.view());
+        const auto result = generateTangents(shape.view(), {.method = method, .convention = conventions::opengl},
+                                             outputs.view(), {.thread_count = 1});
         best = std::min(best, static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
         EXPECT_TRUE(result);
     }
@@ -75,8 +74,7 @@ TEST_P(Scaling, AStackOf64KilobytesIsEnough) {
         const Shape& mesh = *static_cast<const Shape*>(data);
         Outputs outputs(mesh.cornerCount());
         for (const Method method : {Method::mikktspace, Method::fast, Method::best}) {
-            const TangentOptions options{
-                .method = method, .convention = conventions::opengl, .execution = {.thread_count = 1}};
+            const TangentOptions options{.method = method, .convention = conventions::opengl};
             EXPECT_TRUE(generateTangents(mesh.view(), options, outputs.view()));
         }
         return nullptr;
@@ -95,7 +93,7 @@ TEST(SortBudget, AnOrderMadeAgainstTheReferencesSortFallsBackToCorrectedPairing)
     const auto report = generateTangents(shape.view(), {.convention = conventions::opengl}, reference.view());
     ASSERT_TRUE(report);
     EXPECT_TRUE(report->reference_order_abandoned);
-    ASSERT_TRUE(generateTangents(shape.view(), {.pairing = Pairing::corrected, .convention = conventions::opengl},
+    ASSERT_TRUE(generateTangents(shape.view(), {.convention = conventions::opengl, .pairing = Pairing::corrected},
                                  corrected.view()));
     EXPECT_TRUE(sameBits(reference, corrected));
 }

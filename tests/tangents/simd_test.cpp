@@ -115,9 +115,9 @@ std::vector<Shape> shapes() {
     return list;
 }
 
-Outputs generate(const Shape& shape, const TangentOptions& options) {
+Outputs generate(const Shape& shape, const TangentOptions& options, const Execution& execution = {}) {
     Outputs outputs(shape.cornerCount());
-    const auto report = generateTangents(shape.view(), options, outputs.view());
+    const auto report = generateTangents(shape.view(), options, outputs.view(), execution);
     EXPECT_TRUE(report.ok());
     if (report) outputs.report = *report;
     return outputs;
@@ -129,11 +129,9 @@ TEST(Simd, EveryTargetGivesTheBitsOfPlainCode) {
             TangentOptions options{.convention = conventions::opengl};
             options.method = method;
             options.refine = 2;
-            options.execution.simd = SimdTarget::scalar;
-            const Outputs want = generate(shape, options);
+            const Outputs want = generate(shape, options, {.simd = SimdTarget::scalar});
             for (const SimdTarget target : kTargets) {
-                options.execution.simd = target;
-                ASSERT_TRUE(sameBits(want, generate(shape, options)))
+                ASSERT_TRUE(sameBits(want, generate(shape, options, {.simd = target})))
                     << "target " << static_cast<int>(target) << ", method " << static_cast<int>(method);
             }
         }
@@ -171,8 +169,7 @@ TEST(OnePass, GivesTheBitsOfPlanAndEvaluationForAnyNumberOfThreads) {
             Outputs want(shape.cornerCount());
             ASSERT_NO_FATAL_FAILURE(planAndEvaluate(shape, options, want));
             for (const unsigned threads : {1u, 2u, 3u, 8u}) {
-                options.execution.executor = test::threadTeam(threads);
-                ASSERT_TRUE(sameBits(want, generate(shape, options)))
+                ASSERT_TRUE(sameBits(want, generate(shape, options, {.executor = test::threadTeam(threads)})))
                     << threads << " threads, method " << static_cast<int>(method);
             }
         }
@@ -216,7 +213,7 @@ Shape ring(std::uint32_t rows, std::uint32_t columns) {
 }
 
 /// The outputs of one pass. `range_shift`: ranges of so many nodes.
-Outputs onePass(const Shape& shape, const TangentOptions& options, bool tangents_only, unsigned range_shift = 0) {
+Outputs onePass(const Shape& shape, const Call<TangentOptions>& options, bool tangents_only, unsigned range_shift = 0) {
     const MeshView mesh = shape.view();
     Parallel parallel(options.execution);
     const mikk::TriangleList triangles = mikk::cutFaces(mesh, options.ngons, nullptr);
@@ -240,14 +237,13 @@ TEST(OnePass, AndAPlanGiveTheSameBits) {
             TangentOptions options{.convention = conventions::opengl};
             options.method = method;
             options.pairing = Pairing::corrected;
-            options.execution.executor = nullptr;
             Outputs want(shape.cornerCount());
             ASSERT_NO_FATAL_FAILURE(planAndEvaluate(shape, options, want));
-            options.execution.executor = test::threadTeam(1 + compared % 3);
-            const auto got = onePass(shape, options, false);
+            const Call<TangentOptions> call{options, {.executor = test::threadTeam(1 + compared % 3)}};
+            const auto got = onePass(shape, call, false);
             ++compared;
             ASSERT_TRUE(sameBits(want, got));
-            const auto tangents = onePass(shape, options, true);
+            const auto tangents = onePass(shape, call, true);
             for (std::size_t c = 0; c < shape.cornerCount(); ++c) {
                 ASSERT_EQ((std::bit_cast<std::array<std::uint32_t, 4>>(tangents.tangents[c])),
                           (std::bit_cast<std::array<std::uint32_t, 4>>(want.tangents[c])));
@@ -276,8 +272,8 @@ TEST(OnePass, InRangesOfNodesGivesTheSameBits) {
             Outputs want(shape.cornerCount());
             ASSERT_NO_FATAL_FAILURE(planAndEvaluate(shape, options, want));
             for (const unsigned shift : {6u, 9u, 13u}) {
-                options.execution.executor = test::threadTeam(1 + compared % 3);
-                const auto got = onePass(shape, options, compared % 2 != 0, shift);
+                const Call<TangentOptions> call{options, {.executor = test::threadTeam(1 + compared % 3)}};
+                const auto got = onePass(shape, call, compared % 2 != 0, shift);
                 ++compared;
                 for (std::size_t c = 0; c < shape.cornerCount(); ++c) {
                     ASSERT_EQ((std::bit_cast<std::array<std::uint32_t, 4>>(got.tangents[c])),
@@ -319,10 +315,10 @@ TEST(OnePass, WritesLargeOutputsAsItWritesOthers) {
     const StridedSpan<Vec4> with_gaps(&padded[0].tangent, corners, sizeof(Padded));
     ASSERT_TRUE(generateTangents(shape.view(), {.convention = conventions::opengl}, {.tangents = with_gaps}).ok());
     for (const unsigned threads : {1u, 2u}) {
-        TangentOptions options{.convention = conventions::opengl};
-        options.execution.executor = test::threadTeam(threads);
         std::vector<Vec4> tangents(corners);
-        ASSERT_TRUE(generateTangents(shape.view(), options, {.tangents = tangents}).ok());
+        ASSERT_TRUE(generateTangents(shape.view(), {.convention = conventions::opengl}, {.tangents = tangents},
+                                     {.executor = test::threadTeam(threads)})
+                        .ok());
         std::size_t different = 0;
         for (std::size_t c = 0; c < corners; ++c) {
             different += std::memcmp(&tangents[c], &padded[c].tangent, sizeof(Vec4)) != 0 || padded[c].other != 7;

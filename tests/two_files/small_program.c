@@ -56,20 +56,21 @@ int main(void) {
     out.tangents = (tspace_Span){&tangents[0][0], CORNERS, 0};
     for (tspace_Method method = TSPACE_METHOD_MIKKTSPACE; method <= TSPACE_METHOD_BEST; ++method) {
         options.method = method;
-        CHECK(tspace_generateTangents(&mesh, &options, &out, NULL, &error));
+        CHECK(tspace_generateTangents(&mesh, &options, &out, NULL, NULL, &error));
         printf("method %u: %016llx\n", (unsigned)method, (unsigned long long)hashOf(tangents, sizeof tangents));
     }
     const tspace_Span at_corners = {&made_normals[0][0], CORNERS, 0};
-    CHECK(tspace_generateNormals(&mesh, NULL, at_corners, NULL, &error));
+    CHECK(tspace_generateNormals(&mesh, NULL, at_corners, NULL, NULL, &error));
     printf("normals: %016llx\n", (unsigned long long)hashOf(made_normals, sizeof made_normals));
-    CHECK(tspace_packFrames(TSPACE_FRAME_FORMAT_FRAME32, (tspace_ConstSpan){&made_normals[0][0], CORNERS, 0},
-                            (tspace_ConstSpan){&tangents[0][0], CORNERS, 0}, words, sizeof words, NULL, &error));
+    CHECK(tspace_packFrames((tspace_ConstSpan){&made_normals[0][0], CORNERS, 0},
+                            (tspace_ConstSpan){&tangents[0][0], CORNERS, 0}, TSPACE_FRAME_FORMAT_FRAME32, words,
+                            sizeof words, NULL, &error));
     printf("frame32: %016llx\n", (unsigned long long)hashOf(words, sizeof words));
     tspace_IndexedFramesOptions frames_options;
     TSPACE_INIT(frames_options);
     frames_options.tangents = &options;
     tspace_IndexedFrames* frames = NULL;
-    CHECK(tspace_makeIndexedFrames(&mesh, &frames_options, &frames, &error));
+    CHECK(tspace_makeIndexedFrames(&mesh, &frames_options, NULL, &frames, &error));
     printf("indices: %016llx\n", (unsigned long long)hashOf(frames->indices, sizeof(uint32_t) * frames->corner_count));
     tspace_destroyIndexedFrames(frames);
     return 0;

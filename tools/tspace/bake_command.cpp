@@ -55,11 +55,10 @@ Result<BakeFileReport> bake(const BakeArguments& arguments, InputFiles& read) {
     BakeFileOptions options = arguments.options;
     read.watch(options.file);
     ProgressLine progress(1, !arguments.quiet);
-    options.map.progress = [&](const char* what, std::uint64_t done, std::uint64_t total) {
+    options.progress = [&](const char* what, std::uint64_t done, std::uint64_t total) {
         if (wasInterrupted()) throw Cancelled{};
         progress.update(arguments.low, what, done, total);
     };
-    options.map.stop = wasInterrupted;
     const KeptFiles kept({arguments.report});
     return bakeFile(arguments.low, arguments.high, arguments.output, options);
 }

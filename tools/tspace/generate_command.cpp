@@ -107,10 +107,7 @@ class GenerateRun {
     Result<GenerateReport> generate(const Job& job) {
         if (job.error.code != ErrorCode::ok) return job.error;
         GenerateOptions options = arguments_.options;
-        const unsigned threads = threadsPerFile(options.tangents.execution.thread_count, workers_);
-        options.tangents.execution.thread_count = threads;
-        options.normals.execution.thread_count = threads;
-        options.sanitize_options.execution.thread_count = threads;
+        options.execution.thread_count = threadsPerFile(options.execution.thread_count, workers_);
         options.progress = [&](const char* what, std::uint64_t done, std::uint64_t total) {
             if (wasInterrupted()) throw Cancelled{};
             progress_.update(job.input, what, done, total);

@@ -49,11 +49,10 @@ ExitCode runMapError(const MapErrorArguments& arguments) {
     catchInterrupts();
     MapErrorFileOptions options = arguments.options;
     ProgressLine progress(1, !arguments.quiet);
-    options.map.progress = [&](const char* what, std::uint64_t done, std::uint64_t total) {
+    options.progress = [&](const char* what, std::uint64_t done, std::uint64_t total) {
         if (wasInterrupted()) throw Cancelled{};
         progress.update(arguments.map, what, done, total);
     };
-    options.map.stop = wasInterrupted;
     const Result<MapErrorFileReport> result = mapErrorFile(arguments.map, arguments.low, arguments.high, options);
     progress.clear();
     if (!result && wasInterrupted()) endByInterrupt();

@@ -89,10 +89,10 @@ Command identifyCommand(IdentifyArguments& arguments) {
 ToolTable toolTable(AllArguments& arguments) {
     ToolTable tool;
     for (Execution* execution :
-         {&arguments.generate.options.tangents.execution, &arguments.check.request.options.execution,
+         {&arguments.generate.options.execution, &arguments.check.request.options.execution,
           &arguments.identify.options.execution, &arguments.render.options.execution,
-          &arguments.convert_map.options.tangents.execution, &arguments.height_to_normal.options.tangents.execution,
-          &arguments.bake.options.map.execution, &arguments.map_error.options.map.execution}) {
+          &arguments.convert_map.options.execution, &arguments.height_to_normal.options.execution,
+          &arguments.bake.options.execution, &arguments.map_error.options.execution}) {
         execution->thread_count = kAllThreads;
     }
     tool.commands = {generateCommand(arguments.generate),

@@ -40,10 +40,10 @@ function makeCrate(source) {
   const frames = makeIndexedFrames(mesh, { convention: "gltf" });
   const builder = new GlbBuilder();
   const made = {
-    POSITION: builder.addAccessor(gathered(mesh.positions, 3, frames.sourceVertex), "VEC3"),
+    POSITION: builder.addAccessor(gathered(mesh.positions, 3, frames.sourceVertices), "VEC3"),
     NORMAL: builder.addAccessor(frames.normals, "VEC3"),
     TANGENT: builder.addAccessor(frames.tangents, "VEC4"),
-    TEXCOORD_0: builder.addAccessor(gathered(mesh.uvs, 2, frames.sourceVertex), "VEC2"),
+    TEXCOORD_0: builder.addAccessor(gathered(mesh.uvs, 2, frames.sourceVertices), "VEC2"),
   };
   const index = builder.addAccessor(frames.indices, "SCALAR");
   const images = source.json.images.map((image) => {

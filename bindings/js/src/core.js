@@ -63,8 +63,8 @@ export function makeIndexedFrames(mesh, options = {}) {
     Object.assign(options.report ?? {}, report);
     return {
       indices: take(Uint32Array, 0, 1),
-      sourceVertex: take(Uint32Array, 1, 1),
-      sourceCorner: take(Uint32Array, 2, 1),
+      sourceVertices: take(Uint32Array, 1, 1),
+      sourceCorners: take(Uint32Array, 2, 1),
       normals: take(Float32Array, 3, 3),
       tangents: take(Float32Array, 4, 4),
       report,

@@ -80,7 +80,7 @@ function addTangents(document, primitive, options) {
   const frames = makeIndexedFrames(mesh, { ...options, convention: "gltf" });
   if (!normal) {
     // Made per corner: from here on the vertices are those of the result.
-    rewrite(document, primitive, frames.indices, frames.sourceVertex);
+    rewrite(document, primitive, frames.indices, frames.sourceVertices);
     const buffer = primitive.getAttribute("POSITION").getBuffer();
     primitive.setAttribute("NORMAL", document.createAccessor().setType("VEC3").setArray(frames.normals).setBuffer(buffer));
     return addTangents(document, primitive, options);

@@ -64,9 +64,9 @@ export interface IndexedFrames {
   /** The new vertex of each corner. */
   indices: Uint32Array;
   /** The entry of `positions` that each new vertex copies. Gather every other attribute and morph target through it. */
-  sourceVertex: Uint32Array;
+  sourceVertices: Uint32Array;
   /** The first corner of each new vertex; 4294967295 for one that no corner uses. */
-  sourceCorner: Uint32Array;
+  sourceCorners: Uint32Array;
   /** Three numbers per new vertex. */
   normals: Float32Array;
   /** Four numbers per new vertex. */

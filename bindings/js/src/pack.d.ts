@@ -39,8 +39,8 @@ export function frameBytes(format: FrameFormat): number;
  * @returns `frameBytes(format)` bytes per frame, for the shaders of tspace or unpackFrames
  */
 export function packFrames(
-  format: FrameFormat, normals: Float32Array, tangents: Float32Array, options?: { report?: PackReport },
+  normals: Float32Array, tangents: Float32Array, format: FrameFormat, options?: { report?: PackReport },
 ): Uint8Array;
 
 /** Unpacks frames: any bytes are frames, finite and unit. */
-export function unpackFrames(format: FrameFormat, frames: Uint8Array): { normals: Float32Array; tangents: Float32Array };
+export function unpackFrames(frames: Uint8Array, format: FrameFormat): { normals: Float32Array; tangents: Float32Array };

@@ -22,7 +22,7 @@ const numberOf = (format) => choice(format, "format", frameFormats);
 
 export const frameBytes = (format) => wasm.exports.frameBytes(numberOf(format));
 
-export function packFrames(format, normals, tangents, options = {}) {
+export function packFrames(normals, tangents, format, options = {}) {
   const number = numberOf(format);
   optionsOf(options, ["report"]);
   const [givenNormals, givenTangents] = [floats(normals, "normals", 3, true), floats(tangents, "tangents", 4, true)];
@@ -30,13 +30,13 @@ export function packFrames(format, normals, tangents, options = {}) {
   return wasm.run((call) => {
     const bytes = count * call.wasm.frameBytes(number);
     const [n, t, out] = [call.put(givenNormals), call.put(givenTangents), call.allocate(bytes + 16)];
-    call.check(call.wasm.packFrames(number, n, count, t, givenTangents.length / 4, out, bytes));
+    call.check(call.wasm.packFrames(n, count, t, givenTangents.length / 4, number, out, bytes));
     if (options.report) call.report(packCounts, options.report);
     return call.get(Uint8Array, out, bytes);
   });
 }
 
-export function unpackFrames(format, frames) {
+export function unpackFrames(frames, format) {
   const number = numberOf(format);
   const bytes = bytesOf(frames, "frames");
   return wasm.run((call) => {
@@ -45,7 +45,7 @@ export function unpackFrames(format, frames) {
       fail("countMismatch", `frames has ${bytes.length} bytes, which is no multiple of the ${size} of a frame`);
     const count = bytes.length / size;
     const [from, n, t] = [call.put(bytes), call.allocate(count * 12 + 16), call.allocate(count * 16 + 16)];
-    call.check(call.wasm.unpackFrames(number, from, bytes.length, n, t, count));
+    call.check(call.wasm.unpackFrames(from, bytes.length, number, n, t, count));
     return { normals: call.get(Float32Array, n, count * 3), tangents: call.get(Float32Array, t, count * 4) };
   });
 }

@@ -44,9 +44,9 @@ export function computeTangents(geometry, options) {
   const result = new BufferGeometry();
   result.name = geometry.name;
   result.userData = { ...geometry.userData };
-  for (const [name, attribute] of Object.entries(geometry.attributes)) result.setAttribute(name, gathered(attribute, made.sourceVertex));
+  for (const [name, attribute] of Object.entries(geometry.attributes)) result.setAttribute(name, gathered(attribute, made.sourceVertices));
   for (const [name, list] of Object.entries(geometry.morphAttributes))
-    result.morphAttributes[name] = list.map((attribute) => gathered(attribute, made.sourceVertex));
+    result.morphAttributes[name] = list.map((attribute) => gathered(attribute, made.sourceVertices));
   result.morphTargetsRelative = geometry.morphTargetsRelative;
   result.setIndex(new BufferAttribute(made.indices, 1));
   if (!normal || options.makeNormals) result.setAttribute("normal", new BufferAttribute(made.normals, 3));

@@ -85,7 +85,7 @@ describe("a transform of glTF-Transform", { skip: absent(core, "glTF-Transform")
     const frames = makeIndexedFrames(mesh, { convention: "gltf" });
     assert.deepEqual([...primitive.getIndices().getArray()], [...frames.indices]);
     assert.deepEqual(primitive.getAttribute("TANGENT").getArray(), frames.tangents);
-    assert.equal(primitive.getAttribute("POSITION").getCount(), frames.sourceVertex.length);
+    assert.equal(primitive.getAttribute("POSITION").getCount(), frames.sourceVertices.length);
   });
 
   it("indexes what is not indexed", async () => {

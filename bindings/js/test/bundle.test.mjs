@@ -22,7 +22,7 @@ Promise.all([ready, small.ready, files.ready, packReady]).then(() => {
   const { tangents, normals } = makeIndexedFrames(mesh, { convention: "gltf" });
   small.generateTangents({ ...mesh, normals }, { convention: "gltf" });
   const { exitCode } = files.check(new TextEncoder().encode(${JSON.stringify(gridModel().model.toString())}));
-  console.log(tangents.length, packFrames("frame32", normals, tangents).length, exitCode);
+  console.log(tangents.length, packFrames(normals, tangents, "frame32").length, exitCode);
 });
 `;
 

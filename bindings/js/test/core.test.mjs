@@ -162,17 +162,17 @@ describe("indexed frames in one call", () => {
     assert.equal(frames.indices.length, mesh.indices.length);
     frames.indices.forEach((v, c) => {
       assert.deepEqual(frames.tangents.subarray(4 * v, 4 * v + 4), wanted.subarray(4 * c, 4 * c + 4));
-      assert.equal(frames.sourceVertex[v], mesh.indices[c]);
+      assert.equal(frames.sourceVertices[v], mesh.indices[c]);
       assert.deepEqual(frames.normals.subarray(3 * v, 3 * v + 3), mesh.normals.subarray(3 * mesh.indices[c], 3 * mesh.indices[c] + 3));
     });
     assert.equal(frames.report.triangleCount, mesh.indices.length / 3);
-    assert.equal(frames.sourceCorner.length, frames.sourceVertex.length);
+    assert.equal(frames.sourceCorners.length, frames.sourceVertices.length);
   });
 
   it("make normals where there are none, and take an index list per attribute", () => {
     const { positions, uvs, indices } = mesh;
     const frames = makeIndexedFrames({ positions, uvs, indices }, { convention: "gltf", normals: { weighting: "area" } });
-    assert.equal(frames.normals.length, 3 * frames.sourceVertex.length);
+    assert.equal(frames.normals.length, 3 * frames.sourceVertices.length);
     const lists = { ...mesh, normalIndices: indices, uvIndices: Uint16Array.from(indices) };
     assert.deepEqual(generateTangents(lists, { convention: "gltf" }), generateTangents(mesh, { convention: "gltf" }));
     assert.throws(() => makeIndexedFrames(mesh, {}), { code: "invalidOption" });

@@ -37,8 +37,8 @@ describe("packed frames", () => {
     assert.deepEqual(Object.keys(inCpp), [...frameFormats]);
     for (const [format, wanted] of Object.entries(inCpp)) {
       const report = {};
-      const frames = packFrames(format, normals, tangents, { report });
-      const back = unpackFrames(format, frames);
+      const frames = packFrames(normals, tangents, format, { report });
+      const back = unpackFrames(frames, format);
       assert.deepEqual([frameBytes(format), hashOf(frames), hashOf(back.normals, back.tangents)], wanted, format);
       assert.ok(report.mendedCount > 0 && report.notUnitCount > 0);
       for (let i = 0; i < count; ++i) assert.equal(back.tangents[4 * i + 3], tangents[4 * i + 3], "every sign survives");
@@ -47,25 +47,25 @@ describe("packed frames", () => {
 
   it("stay what they are when they are packed again", () => {
     for (const format of ["frame32", "frame48", "frame64", "oct32"]) {
-      const frames = packFrames(format, normals, tangents);
-      const back = unpackFrames(format, frames);
-      const again = unpackFrames(format, packFrames(format, back.normals, back.tangents));
+      const frames = packFrames(normals, tangents, format);
+      const back = unpackFrames(frames, format);
+      const again = unpackFrames(packFrames(back.normals, back.tangents, format), format);
       assert.deepEqual(again, back, format);
     }
   });
 
   it("say what is wrong with their input, and go on", () => {
     const refused = (body, code) => assert.throws(body, (error) => error instanceof TspaceError && error.code === code);
-    refused(() => packFrames("frame31", normals, tangents), "invalidOption");
-    refused(() => packFrames("frame32", [0, 0, 1], tangents), "wrongType");
-    refused(() => packFrames("frame32", normals, tangents.subarray(4)), "countMismatch");
-    refused(() => packFrames("frame32", undefined, tangents), "missingAttribute");
-    refused(() => unpackFrames("frame32", new Uint8Array(5)), "countMismatch");
-    refused(() => unpackFrames("frame32", "words"), "wrongType");
+    refused(() => packFrames(normals, tangents, "frame31"), "invalidOption");
+    refused(() => packFrames([0, 0, 1], tangents, "frame32"), "wrongType");
+    refused(() => packFrames(normals, tangents.subarray(4), "frame32"), "countMismatch");
+    refused(() => packFrames(undefined, tangents, "frame32"), "missingAttribute");
+    refused(() => unpackFrames(new Uint8Array(5), "frame32"), "countMismatch");
+    refused(() => unpackFrames("words", "frame32"), "wrongType");
     refused(() => frameBytes("frame31"), "invalidOption");
-    assert.equal(packFrames("frame32", new Float32Array(0), new Float32Array(0)).length, 0);
-    const broken = packFrames("frame32", new Float32Array([NaN, 0, 0]), new Float32Array([Infinity, 0, 0, 7]));
-    const back = unpackFrames("frame32", broken);
+    assert.equal(packFrames(new Float32Array(0), new Float32Array(0), "frame32").length, 0);
+    const broken = packFrames(new Float32Array([NaN, 0, 0]), new Float32Array([Infinity, 0, 0, 7]), "frame32");
+    const back = unpackFrames(broken, "frame32");
     assert.ok([...back.normals, ...back.tangents].every(Number.isFinite));
   });
 });

@@ -54,7 +54,7 @@ void setMesh(const float* positions, std::size_t position_count, const float* no
 TSPACE_JS_EXPORT(sanitizeTangents) std::uint32_t sanitize(float* tangents, std::size_t count, bool orthogonalize_all) {
     SanitizeOptions options;
     options.orthogonalize_all = orthogonalize_all;
-    auto result = sanitizeTangents(mesh(), vec4Span(tangents, count), options);
+    auto result = sanitizeTangents(mesh(), options, vec4Span(tangents, count));
     if (!result) return codeOf(result);
     const SanitizeReport& r = *result;
     const std::uint64_t counts[] = {r.not_finite_count,  r.zero_count,       r.not_unit_count,

@@ -103,8 +103,8 @@ std::uint32_t frames(std::uint32_t method, float threshold_deg, std::uint32_t pa
     auto made = makeIndexedFrames(mesh(), options);
     if (!made) return codeOf(made);
     giveArray(made->indices, result);
-    giveArray(made->source_vertex, result + 2);
-    giveArray(made->source_corner, result + 4);
+    giveArray(made->source_vertices, result + 2);
+    giveArray(made->source_corners, result + 4);
     giveArray(made->normals, result + 6);
     giveArray(made->tangents, result + 8);
     keep(made->report.tangents);

@@ -15,10 +15,10 @@ TSPACE_JS_EXPORT(frameBytes) std::size_t bytesOf(std::uint32_t format) {
 
 /// Three floats for each normal, four for each tangent.
 TSPACE_JS_EXPORT(packFrames)
-std::uint32_t pack(std::uint32_t format, const float* normals, std::size_t normal_count, const float* tangents,
-                   std::size_t tangent_count, std::byte* out, std::size_t out_bytes) {
-    auto result = packFrames(static_cast<FrameFormat>(format), vec3Span(normals, normal_count),
-                             vec4Span(tangents, tangent_count), {out, out_bytes});
+std::uint32_t pack(const float* normals, std::size_t normal_count, const float* tangents, std::size_t tangent_count,
+                   std::uint32_t format, std::byte* out, std::size_t out_bytes) {
+    auto result = packFrames(vec3Span(normals, normal_count), vec4Span(tangents, tangent_count),
+                             static_cast<FrameFormat>(format), {out, out_bytes});
     if (!result) return codeOf(result);
     const PackReport& r = *result;
     const std::uint64_t counts[] = {r.bad_normal_count, r.not_finite_count,     r.zero_count,     r.parallel_count,
@@ -28,9 +28,9 @@ std::uint32_t pack(std::uint32_t format, const float* normals, std::size_t norma
 }
 
 TSPACE_JS_EXPORT(unpackFrames)
-std::uint32_t unpack(std::uint32_t format, const std::byte* bytes, std::size_t byte_count, float* normals,
+std::uint32_t unpack(const std::byte* bytes, std::size_t byte_count, std::uint32_t format, float* normals,
                      float* tangents, std::size_t count) {
-    auto result = unpackFrames(static_cast<FrameFormat>(format), {bytes, byte_count}, vec3Span(normals, count),
+    auto result = unpackFrames({bytes, byte_count}, static_cast<FrameFormat>(format), vec3Span(normals, count),
                                vec4Span(tangents, count));
     return codeOf(result);
 }

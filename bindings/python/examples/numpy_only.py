@@ -20,10 +20,10 @@ def vase(rows, columns):
 def main():
     positions, uvs, quads = vase(24, 32)
     mesh = tspace.make_indexed_frames(positions, None, uvs, quads, convention="opengl", method="best")
-    print(f"{len(positions)} vertices became {len(mesh.source_vertex)}: the rest copies those at the seam")
+    print(f"{len(positions)} vertices became {len(mesh.source_vertices)}: the rest copies those at the seam")
 
     # Everything else that hangs on vertices is gathered in the same way.
-    new_positions, new_uvs = positions[mesh.source_vertex], uvs[mesh.source_vertex]
+    new_positions, new_uvs = positions[mesh.source_vertices], uvs[mesh.source_vertices]
     assert len(new_positions) == len(new_uvs) == len(mesh.normals) == len(mesh.tangents)
 
     # What a shader does: a texel (red, green, blue) leans along T, B and N.

@@ -15,9 +15,9 @@ def with_frames(mesh, convention="opengl"):
     made = tspace.make_indexed_frames(positions, normals, uvs, triangles, uv_indices="corners", convention=convention)
 
     result = open3d.t.geometry.TriangleMesh()
-    result.vertex.positions = open3d.core.Tensor(positions[made.source_vertex].astype(numpy.float32))
+    result.vertex.positions = open3d.core.Tensor(positions[made.source_vertices].astype(numpy.float32))
     result.vertex.normals = open3d.core.Tensor(made.normals)
-    result.vertex.texture_uvs = open3d.core.Tensor(uvs[made.source_corner].astype(numpy.float32))
+    result.vertex.texture_uvs = open3d.core.Tensor(uvs[made.source_corners].astype(numpy.float32))
     result.vertex.tangents = open3d.core.Tensor(made.tangents)
     result.triangle.indices = open3d.core.Tensor(made.indices.reshape(-1, 3).astype(numpy.int32))
     return result

@@ -11,10 +11,10 @@ def with_frames(mesh, convention="opengl"):
     uvs = mesh.visual.uv
     made = tspace.make_indexed_frames(mesh.vertices, mesh.vertex_normals, uvs, mesh.faces, convention=convention)
     result = trimesh.Trimesh(
-        vertices=mesh.vertices[made.source_vertex],
+        vertices=mesh.vertices[made.source_vertices],
         faces=made.indices.reshape(-1, 3),
         vertex_normals=made.normals,
-        visual=trimesh.visual.TextureVisuals(uv=uvs[made.source_vertex], material=mesh.visual.material),
+        visual=trimesh.visual.TextureVisuals(uv=uvs[made.source_vertices], material=mesh.visual.material),
         process=False,  # it would merge the vertices that were split
     )
     result.vertex_attributes["tangent"] = made.tangents

@@ -120,7 +120,7 @@ class Look(Files):
 
     def test_check_gives_findings_as_objects(self):
         made = by_library(self.shape)
-        arrays = [array[made.source_vertex] for array in (self.shape.positions, self.shape.normals, self.shape.uvs)]
+        arrays = [array[made.source_vertices] for array in (self.shape.positions, self.shape.normals, self.shape.uvs)]
         shape = type(self.shape)(*arrays, made.indices)
         half = numpy.where(arrays[0][:, :1] > 0, numpy.float32([[1, 1, 1, -1]]), numpy.float32(1))
         broken = make_glb(shape, made.tangents * half)

@@ -252,8 +252,8 @@ class After(unittest.TestCase):
         shape = torus(8, 9)
         tangents = tspace.tangents(*shape, method="flat", convention="gltf")
         split = tspace.split(shape.indices, len(shape.positions), [tangents])
-        self.assertTrue((split.source_vertex[split.indices] == shape.indices).all())
-        self.assertTrue(same_bits(tangents[split.source_corner[split.indices]], tangents))
+        self.assertTrue((split.source_vertices[split.indices] == shape.indices).all())
+        self.assertTrue(same_bits(tangents[split.source_corners[split.indices]], tangents))
         used = len(numpy.unique(numpy.column_stack([shape.indices, tangents.view(numpy.uint32)]), axis=0))
         self.assertEqual(len(numpy.unique(split.indices)), used)
         loose = tspace.split(shape.indices, len(shape.positions), [tangents], tolerance=10)
@@ -261,7 +261,7 @@ class After(unittest.TestCase):
 
     def test_split_marks_vertices_that_no_corner_uses(self):
         split = tspace.split([0, 1, 2], 4, [numpy.zeros((3, 4))])
-        self.assertEqual(split.source_corner.tolist(), [0, 1, 2, 0xFFFFFFFF])
+        self.assertEqual(split.source_corners.tolist(), [0, 1, 2, 0xFFFFFFFF])
 
     def test_triangles_cover_polygons(self):
         positions = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [2, 0.5, 0]]

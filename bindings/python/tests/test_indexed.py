@@ -24,14 +24,14 @@ class IndexedFrames(unittest.TestCase):
             tangents = tspace.tangents(*shape, method=method, convention="gltf")
             mended = tspace.sanitize(tangents, shape.positions, shape.normals, shape.indices)
             self.assertTrue(same_bits(made.tangents[made.indices], mended))
-            self.assertTrue((made.source_vertex[made.indices] == shape.indices).all())
+            self.assertTrue((made.source_vertices[made.indices] == shape.indices).all())
             self.assertTrue(same_bits(made.normals[made.indices], shape.normals[shape.indices]))
             self.assertIsNone(made.report.normals)
 
     def test_vertices_whose_corners_disagree_are_copied(self):
         positions, normals, uvs, quads = mirrored_strip()
         made = tspace.make_indexed_frames(positions, normals, uvs, quads, convention="opengl")
-        self.assertEqual(made.source_vertex.tolist(), [0, 1, 2, 3, 4, 5, 1, 4])
+        self.assertEqual(made.source_vertices.tolist(), [0, 1, 2, 3, 4, 5, 1, 4])
         self.assertTrue((numpy.sign(made.tangents[made.indices, 0]) == [1, 1, 1, 1, -1, -1, -1, -1]).all())
         self.assertEqual(made.report.tangents.mirrored_count, 2)
         self.assertEqual(made.report.sanitize.mended_count, 0)
@@ -50,8 +50,8 @@ class IndexedFrames(unittest.TestCase):
         shape = torus(10, 12)
         arrays = shape.positions[shape.indices], shape.normals[shape.indices], shape.uvs[shape.indices]
         made = tspace.make_indexed_frames(*arrays, convention="gltf")
-        self.assertEqual(len(made.source_vertex), len(shape.positions))
-        self.assertTrue(same_bits(arrays[0][made.source_vertex[made.indices]], arrays[0]))
+        self.assertEqual(len(made.source_vertices), len(shape.positions))
+        self.assertTrue(same_bits(arrays[0][made.source_vertices[made.indices]], arrays[0]))
         colours = numpy.arange(len(shape.indices), dtype=numpy.float32)[:, None]
         apart = tspace.make_indexed_frames(*arrays, convention="gltf", keep_apart=[colours])
         self.assertEqual(apart.indices.tolist(), list(range(len(shape.indices))))
@@ -119,9 +119,9 @@ class IndexLists(unittest.TestCase):
             convention="gltf",
         )
         self.assertTrue(same_bits(made.tangents[made.indices], self.want))
-        uvs = self.uvs[self.uv_indices[made.source_corner]]
+        uvs = self.uvs[self.uv_indices[made.source_corners]]
         self.assertTrue(same_bits(uvs[made.indices], self.shape.uvs[self.shape.indices]))
-        self.assertEqual(len(made.source_vertex), len(self.shape.positions))
+        self.assertEqual(len(made.source_vertices), len(self.shape.positions))
 
     def test_wrong_lists_are_refused(self):
         arrays = self.positions, self.normals, self.uvs, self.position_indices

@@ -69,10 +69,6 @@ void copyReport(const PrimitiveReport& computed, bool keeps_tangents, PrimitiveR
     report.quad_count = computed.quad_count;
 }
 
-void setExecution(GenerateOptions& options, const Execution& execution) {
-    options.tangents.execution = options.normals.execution = options.sanitize_options.execution = execution;
-}
-
 /// What the tangents of a pool are computed from, without copies where that is possible. `copies` must outlive the
 /// result, and get what cannot be lent. `first`: any primitive of the pool.
 PoolView lendVertices(const Document& document, const Primitive& first, const Pool& pool, VertexPool& copies) {
@@ -243,7 +239,7 @@ PoolComputer::~PoolComputer() = default;
 PoolElements PoolComputer::computeOne(const Pool& pool, const Execution& execution,
                                       std::span<PrimitiveReport> reports) {
     GenerateOptions options = options_;
-    setExecution(options, execution);
+    options.execution = execution;
     const Primitive& first = primitives_[pool.primitives[0]];
     VertexPool copies;
     PoolView vertices = lendVertices(document_, first, pool, copies);
@@ -305,7 +301,7 @@ PoolElements PoolComputer::computeOne(const Pool& pool, const Execution& executi
 std::vector<PoolElements> PoolComputer::compute(std::span<const Pool> pools, std::span<PrimitiveReport> reports) {
     std::vector<PoolElements> elements(pools.size());
     std::vector<std::exception_ptr> failures(pools.size());
-    const Execution& execution = options_.tangents.execution;
+    const Execution& execution = options_.execution;
     const auto compute = [&](std::size_t i, const Execution& given) noexcept {
         try {
             if (given.allocator != nullptr) {

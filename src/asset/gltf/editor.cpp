@@ -189,7 +189,7 @@ Editor::Form Editor::formLike(std::optional<std::size_t> accessor) const {
     return form;
 }
 
-std::size_t Editor::storeView(ElementData&& data, const Form& form) {
+std::size_t Editor::storeView(ElementData& data, const Form& form) {
     // Vertex attributes start at multiples of 4 bytes each; indices are packed.
     const std::size_t stride = data.target == kVertexTarget ? (data.element_bytes + 3) / 4 * 4 : data.element_bytes;
     const std::size_t count = data.byteCount() / data.element_bytes;
@@ -223,8 +223,8 @@ std::size_t Editor::storeView(ElementData&& data, const Form& form) {
 }
 
 /// The member `sparse` of an accessor with these elements.
-Json Editor::storeSparse(ElementData&& data) {
-    const std::vector<std::uint32_t> places = *std::move(data.places);
+Json Editor::storeSparse(ElementData& data) {
+    const std::vector<std::uint32_t>& places = *data.places;
     ElementData indices;
     indices.component = places.back() <= 0xffff ? ComponentType::u16 : ComponentType::u32;
     indices.element_bytes = bytesOf(indices.component);
@@ -235,9 +235,9 @@ Json Editor::storeSparse(ElementData&& data) {
     indices.target = data.target = kNoTarget;
     Json sparse = Json::object();
     sparse["count"] = places.size();
-    sparse["indices"]["bufferView"] = storeView(std::move(indices), {});
+    sparse["indices"]["bufferView"] = storeView(indices, {});
     sparse["indices"]["componentType"] = static_cast<std::uint32_t>(indices.component);
-    sparse["values"]["bufferView"] = storeView(std::move(data), {});
+    sparse["values"]["bufferView"] = storeView(data, {});
     return sparse;
 }
 
@@ -253,9 +253,9 @@ std::size_t Editor::store(ElementData&& data, std::optional<std::size_t> replace
     if (form.is_draco) {
         // Its bytes go to the elements, below.
     } else if (!data.places) {
-        view = storeView(std::move(data), form);
+        view = storeView(data, form);
     } else if (!data.places->empty()) {
-        sparse = storeSparse(std::move(data));
+        sparse = storeSparse(data);
     }
     Json& accessors = editableRootArray(document_, "accessors");
     const std::size_t index = replaces ? *replaces : accessors.size();

@@ -115,8 +115,9 @@ class Editor {
     [[nodiscard]] Form formLike(std::optional<std::size_t> accessor) const;
     std::size_t targetBuffer();
     std::size_t appendBytes(std::size_t buffer, Bytes bytes, std::size_t element_bytes, std::size_t stride);
-    std::size_t storeView(ElementData&& data, const Form& form);
-    Json storeSparse(ElementData&& data);
+    /// These take the bytes of `data`; what describes them stays.
+    std::size_t storeView(ElementData& data, const Form& form);
+    Json storeSparse(ElementData& data);
     std::size_t newView();
     std::size_t fallbackBuffer();
     /// One reference to a view less; `begin` to `end` of it are free. A view without any is spare.

@@ -33,11 +33,11 @@ constexpr PackedPart kGltfSnorm16Parts[] = {{"_GLTF_SNORM16_TANGENT", kI16, "VEC
                                             {"_GLTF_SNORM16_NORMAL", kI16, "VEC3", true, 8, 6}};
 
 constexpr PackedLayout kLayouts[] = {
-    {FrameFormat::frame32, kFrame32Parts},          {FrameFormat::frame48, kFrame48Parts},
-    {FrameFormat::frame64, kFrame64Parts},          {FrameFormat::oct32, kOct32Parts},
-    {FrameFormat::qtangent64, kQtangent64Parts},    {FrameFormat::snorm8_pair, kSnorm8PairParts},
-    {FrameFormat::snorm16_pair, kSnorm16PairParts}, {FrameFormat::gltf_snorm8, kGltfSnorm8Parts},
-    {FrameFormat::gltf_snorm16, kGltfSnorm16Parts},
+    {FrameFormat::frame32, kFrame32Parts},         {FrameFormat::frame48, kFrame48Parts},
+    {FrameFormat::frame64, kFrame64Parts},         {FrameFormat::oct32, kOct32Parts},
+    {FrameFormat::qtangent64, kQtangent64Parts},   {FrameFormat::snorm8Pair, kSnorm8PairParts},
+    {FrameFormat::snorm16Pair, kSnorm16PairParts}, {FrameFormat::gltfSnorm8, kGltfSnorm8Parts},
+    {FrameFormat::gltfSnorm16, kGltfSnorm16Parts},
 };
 
 }  // namespace

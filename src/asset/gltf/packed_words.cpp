@@ -36,7 +36,7 @@ Bytes packWords(FrameFormat format, std::span<const Vec3> normals, std::span<con
     parallel.forRanges(normals.size(), kPackGrain, [&](std::size_t begin, std::size_t end) {
         const std::size_t count = end - begin;
         const Result<PackReport> packed =
-            tspace::packFrames(format, normals.subspan(begin, count), tangents.subspan(begin, count),
+            tspace::packFrames(normals.subspan(begin, count), tangents.subspan(begin, count), format,
                                out.subspan(begin * word_bytes, count * word_bytes));
         const std::lock_guard lock(mutex);
         if (packed) {

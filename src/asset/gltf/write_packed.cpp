@@ -118,7 +118,7 @@ class PackedWriter {
         document_.memory->require(kWorkBytes * first.vertex_count, first.place());
         PackReport packing;
         const Bytes words = packWords(layout_.format, readVec3(document_, first, "NORMAL"),
-                                      readTangents(document_, first), options_.tangents.execution, packing);
+                                      readTangents(document_, first), options_.execution, packing);
         const Dropped dropped = droppedFrom(first, options_.pack_drop);
         std::vector<std::size_t> spare = drop(numbers, dropped);
         for (const PackedPart& part : layout_.parts) {

@@ -64,7 +64,8 @@ Result<NormalReport> completeFaces(Model& model, std::span<const std::uint32_t> 
     view.indices = std::span<const std::uint32_t>(bare.indices);
     view.face_sizes = bare.face_sizes;
     std::vector<Vec3> normals(bare.indices.size());
-    Result<NormalReport> report = generateNormals(view, normalOptions(model, bare, options), normals);
+    Result<NormalReport> report =
+        generateNormals(view, normalOptions(model, bare, options), normals, options.execution);
     if (!report) return report;
 
     std::size_t next = 0;

@@ -3,6 +3,7 @@
 // result each corner of the mesh holds.
 #pragma once
 
+#include "core/call.h"
 #include "core/input_scale.h"
 #include "core/memory.h"
 #include "tangents/method_kind.h"
@@ -68,7 +69,7 @@ struct EvaluationPlan {
 };
 
 /// Plans a validated mesh with normals and UVs and at most kMaxHalfEdges, to be kept. Throws OutOfMemory.
-EvaluationPlan planGrouped(const MeshView& mesh, const TangentOptions& options, Parallel& parallel,
+EvaluationPlan planGrouped(const MeshView& mesh, const Call<TangentOptions>& options, Parallel& parallel,
                            PlanUse use = PlanUse::kept);
 
 /// Evaluates one pose into checked outputs and completes the plan's report. `uvs`: one per vertex. Scratch memory: 12
@@ -80,7 +81,7 @@ TangentReport evaluateGroups(const EvaluationPlan& plan, const Pose& pose, const
 
 /// The bits of planGrouped and evaluateGroups on the mesh's own pose, in one call, into checked outputs. Throws
 /// OutOfMemory.
-TangentReport generateGrouped(const MeshView& mesh, const TangentOptions& options, const TangentOutput& out,
+TangentReport generateGrouped(const MeshView& mesh, const Call<TangentOptions>& options, const TangentOutput& out,
                               Parallel& parallel);
 
 }  // namespace tspace::mikk

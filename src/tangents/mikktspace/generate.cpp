@@ -31,20 +31,20 @@ std::span<std::byte> unwritten(const TangentOutput& out) {
 }
 
 /// Where it is asked for. What is not finite has no order there.
-LastBucket lastBucketOf(const WeldedMesh& welded, const TangentOptions& options, const Allocator* transient,
+LastBucket lastBucketOf(const WeldedMesh& welded, const Call<TangentOptions>& options, const Allocator* transient,
                         Parallel& parallel) {
     if (!isMikktspace(options.method) || options.pairing != Pairing::reference || !welded.nodes.all_finite) return {};
     return findLastBucket(welded, transient, options.execution.allocator, parallel);
 }
 
 /// By a plan for this call alone.
-TangentReport planAndEvaluate(const MeshView& mesh, const TangentOptions& options, const TangentOutput& out,
+TangentReport planAndEvaluate(const MeshView& mesh, const Call<TangentOptions>& options, const TangentOutput& out,
                               Parallel& parallel) {
     const EvaluationPlan plan = planGrouped(mesh, options, parallel, PlanUse::once);
     return evaluateGroups(plan, {mesh.positions, mesh.normals}, mesh.uvs, out, options.execution, parallel);
 }
 
-TangentReport generateWith(const MeshView& mesh, const TangentOptions& options, const TangentOutput& out,
+TangentReport generateWith(const MeshView& mesh, const Call<TangentOptions>& options, const TangentOutput& out,
                            Parallel& parallel) {
     if (isMikktspace(options.method) && thresholdCosine(options.angular_threshold_deg) != -1.0f)
         return planAndEvaluate(mesh, options, out, parallel);
@@ -59,7 +59,7 @@ TangentReport generateWith(const MeshView& mesh, const TangentOptions& options, 
 
 }  // namespace
 
-TangentReport generateGrouped(const MeshView& mesh, const TangentOptions& options, const TangentOutput& out,
+TangentReport generateGrouped(const MeshView& mesh, const Call<TangentOptions>& options, const TangentOutput& out,
                               Parallel& parallel) {
     if (!kHasOnePass) return planAndEvaluate(mesh, options, out, parallel);
     const std::size_t corners = mesh.cornerCount();
@@ -69,12 +69,12 @@ TangentReport generateGrouped(const MeshView& mesh, const TangentOptions& option
     alignas(kMemoryAlignment) std::byte room[kStackRoom];
     ScratchBlock scratch =
         bytes <= kStackRoom ? ScratchBlock(allocator, std::span(room)) : ScratchBlock(allocator, bytes);
-    TangentOptions small = options;
+    Call<TangentOptions> small = options;
     small.execution.allocator = scratch.allocator();
     return generateWith(mesh, small, out, parallel);
 }
 
-EvaluationPlan planGrouped(const MeshView& mesh, const TangentOptions& options, Parallel& parallel, PlanUse use) {
+EvaluationPlan planGrouped(const MeshView& mesh, const Call<TangentOptions>& options, Parallel& parallel, PlanUse use) {
     const Allocator* allocator = options.execution.allocator;
     TriangleList triangles = cutFaces(mesh, options.ngons, allocator);
     Nodes nodes = weld(mesh, triangles, allocator, parallel);

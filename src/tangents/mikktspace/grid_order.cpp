@@ -34,7 +34,7 @@ struct alignas(16) CellElement {
     std::uint32_t entry;  ///< kTopBit: its node's representative is wanted
 };
 
-float component(const Vec3& v, int axis) { return (&v.x)[axis]; }
+float component(const Vec3& v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
 /// x, y, z and z again.
 Float4 loadVec3(const Vec3& v) {
     const Float4 xyyz = joinPairs(&v.x, &v.y);

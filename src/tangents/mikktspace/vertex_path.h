@@ -19,7 +19,7 @@ namespace tspace::mikk {
 
 /// What to compute of the nodes of a mesh.
 struct NodeSetting : WeldedMesh {  ///< nodes.vertex() must be valid
-    const TangentOptions& options;
+    const Call<TangentOptions>& options;
     const LastBucket& bucket;
 
     [[nodiscard]] bool hasPolygons() const { return !triangles.faces.empty(); }

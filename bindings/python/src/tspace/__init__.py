@@ -14,7 +14,7 @@ An indexed mesh with tangents, in one call:
 >>> mesh = tspace.make_indexed_frames(positions, None, uvs, indices, convention="gltf")
 >>> mesh.indices.tolist(), mesh.normals[0].tolist(), mesh.tangents[0].tolist()
 ([0, 1, 2, 0, 2, 3], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0, 1.0])
->>> new_positions, new_uvs = positions[mesh.source_vertex], uvs[mesh.source_vertex]
+>>> new_positions, new_uvs = positions[mesh.source_vertices], uvs[mesh.source_vertices]
 
 The same in steps: tangents per corner, mended, then split:
 
@@ -24,7 +24,7 @@ The same in steps: tangents per corner, mended, then split:
 (6, 4)
 >>> mended = tspace.sanitize(tangents, positions, normals, indices)
 >>> mesh = tspace.split(indices, len(positions), [mended])
->>> positions[mesh.source_vertex].shape, mended[mesh.source_corner].shape
+>>> positions[mesh.source_vertices].shape, mended[mesh.source_corners].shape
 ((4, 3), (4, 4))
 
 A mesh that deforms:

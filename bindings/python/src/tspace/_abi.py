@@ -79,7 +79,14 @@ class Mesh(Structure):
 
 
 class Execution(Structure):
-    _fields_ = [("executor", c_void_p), ("allocator", c_void_p), ("thread_count", c_uint32), ("simd", c_uint32)]
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("thread_count", c_uint32),
+        ("executor", c_void_p),
+        ("allocator", c_void_p),
+        ("simd", c_uint32),
+        ("reserved", c_uint32),
+    ]
 
 
 class Convention(Structure):
@@ -96,14 +103,14 @@ class NormalOptions(Structure):
     _fields_ = [
         ("struct_size", c_uint32),
         ("weighting", c_uint32),
+        ("convention", Convention),
         ("crease_angle_deg", c_float),
-        ("smoothing_groups_are_masks", c_uint32),
         ("smoothing_groups", c_void_p),
         ("smoothing_group_count", c_size_t),
+        ("smoothing_groups_are_masks", c_uint32),
         ("weld_positions", c_uint32),
-        ("convention", Convention),
-        ("execution", Execution),
         ("refine", c_uint32),
+        ("reserved", c_uint32),
     ]
 
 
@@ -121,13 +128,12 @@ class TangentOptions(Structure):
     _fields_ = [
         ("struct_size", c_uint32),
         ("method", c_uint32),
-        ("angular_threshold_deg", c_float),
-        ("pairing", c_uint32),
+        ("convention", Convention),
         ("ngons", c_uint32),
         ("domain", c_uint32),
-        ("convention", Convention),
-        ("execution", Execution),
         ("frame", c_uint32),
+        ("angular_threshold_deg", c_float),
+        ("pairing", c_uint32),
         ("refine", c_uint32),
     ]
 
@@ -174,7 +180,7 @@ class TangentPlanInfo(Structure):
 
 
 class SanitizeOptions(Structure):
-    _fields_ = [("struct_size", c_uint32), ("orthogonalize_all", c_uint32), ("execution", Execution)]
+    _fields_ = [("struct_size", c_uint32), ("orthogonalize_all", c_uint32)]
 
 
 class SanitizeReport(Structure):
@@ -228,8 +234,8 @@ class IndexedFrames(Structure):
     _fields_ = [
         ("indices", c_void_p),
         ("corner_count", c_size_t),
-        ("source_vertex", c_void_p),
-        ("source_corner", c_void_p),
+        ("source_vertices", c_void_p),
+        ("source_corners", c_void_p),
         ("normals", c_void_p),
         ("tangents", c_void_p),
         ("vertex_count", c_size_t),
@@ -286,6 +292,7 @@ declare(
             POINTER(Mesh),
             POINTER(NormalOptions),
             Span,
+            POINTER(Execution),
             POINTER(NormalReport),
             POINTER(Error),
         ),
@@ -294,6 +301,7 @@ declare(
             POINTER(Mesh),
             POINTER(TangentOptions),
             POINTER(TangentOutput),
+            POINTER(Execution),
             POINTER(TangentReport),
             POINTER(Error),
         ),
@@ -301,6 +309,7 @@ declare(
             c_uint32,
             POINTER(Mesh),
             POINTER(TangentOptions),
+            POINTER(Execution),
             POINTER(c_void_p),
             POINTER(Error),
         ),
@@ -320,6 +329,7 @@ declare(
             POINTER(Mesh),
             POINTER(SanitizeOptions),
             Span,
+            POINTER(Execution),
             POINTER(SanitizeReport),
             POINTER(Error),
         ),
@@ -339,6 +349,7 @@ declare(
             c_uint32,
             POINTER(Mesh),
             POINTER(IndexedFramesOptions),
+            POINTER(Execution),
             POINTER(POINTER(IndexedFrames)),
             POINTER(Error),
         ),
@@ -348,14 +359,14 @@ declare(
         "tspace_frameBytes": (c_size_t, c_uint32),
         "tspace_packFrames": (
             c_uint32,
+            Span,
+            Span,
             c_uint32,
-            Span,
-            Span,
             c_void_p,
             c_size_t,
             POINTER(PackReport),
             POINTER(Error),
         ),
-        "tspace_unpackFrames": (c_uint32, c_uint32, c_void_p, c_size_t, Span, Span, POINTER(Error)),
+        "tspace_unpackFrames": (c_uint32, c_void_p, c_size_t, c_uint32, Span, Span, POINTER(Error)),
     },
 )

@@ -31,8 +31,8 @@ class IndexedFrames(NamedTuple):
     """A mesh with the faces of the given one, whose corners share a vertex only where they agree."""
 
     indices: numpy.ndarray  #: (corners,) uint32: the new vertex of each corner
-    source_vertex: numpy.ndarray  #: (new vertices,) uint32: the row of positions that each copies
-    source_corner: numpy.ndarray  #: (new vertices,) uint32: the first corner that uses each; 0xffffffff: none does
+    source_vertices: numpy.ndarray  #: (new vertices,) uint32: the row of positions that each copies
+    source_corners: numpy.ndarray  #: (new vertices,) uint32: the first corner that uses each; 0xffffffff: none does
     normals: numpy.ndarray  #: (new vertices, 3) float32: those of the mesh, bit for bit, or the ones made
     tangents: numpy.ndarray  #: (new vertices, 4) float32: unit tangent, and the sign
     report: IndexedFramesReport
@@ -68,8 +68,8 @@ def make_indexed_frames(
     """Makes an indexed mesh with normals and tangents: the usual case in one call.
 
     Normals are made where they are missing, then tangents, those that are broken are mended, and vertices whose corners
-    disagree are split. Gather what hangs on vertices (UVs, skin weights, morph targets) by `source_vertex`, and what has an
-    index list of its own by the corner: `uvs[uv_indices[source_corner]]`.
+    disagree are split. Gather what hangs on vertices (UVs, skin weights, morph targets) by `source_vertices`, and what has an
+    index list of its own by the corner: `uvs[uv_indices[source_corners]]`.
 
     positions:  (vertices, 3)
     normals:    (vertices, 3), unit; None: they are made
@@ -87,10 +87,10 @@ def make_indexed_frames(
     A mesh with one index list keeps its vertices in their places, and copies come behind them; others get new vertices in
     the order of their corners, one for all corners with the same bits.
     """
-    steps = execution(threads)
-    tangents = tangent_options(method, convention, threshold, pairing, ngons, "corner", frame, refine, threads)
+    run = execution(threads)
+    tangents = tangent_options(method, convention, threshold, pairing, ngons, "corner", frame, refine)
     groups = None if smoothing_groups is None else uint32_array("smoothing_groups", smoothing_groups)
-    made_by = normal_options(weighting, crease, groups, smoothing_masks, weld_positions, convention, refine, steps)
+    made_by = normal_options(weighting, crease, groups, smoothing_masks, weld_positions, convention, refine)
     mesh = Mesh(positions, normals, uvs, indices, face_sizes, normal_indices, uv_indices)
     rows, keep = corner_attributes("keep_apart", keep_apart, mesh.corner_count, 0.0)
     options = _abi.IndexedFramesOptions(
@@ -105,7 +105,7 @@ def make_indexed_frames(
     )
     result = POINTER(_abi.IndexedFrames)()
     error = _abi.Error()
-    if _library.tspace_makeIndexedFrames(byref(mesh.struct), byref(options), byref(result), byref(error)):
+    if _library.tspace_makeIndexedFrames(byref(mesh.struct), byref(options), byref(run), byref(result), byref(error)):
         mesh.fail(error)
     del keep
     try:
@@ -118,8 +118,8 @@ def _copied_frames(made: _abi.IndexedFrames, sanitized: bool) -> IndexedFrames:
     count = made.vertex_count
     return IndexedFrames(
         copied(made.indices, (made.corner_count,), UINT32),
-        copied(made.source_vertex, (count,), UINT32),
-        copied(made.source_corner, (count,), UINT32),
+        copied(made.source_vertices, (count,), UINT32),
+        copied(made.source_corners, (count,), UINT32),
         copied(made.normals, (count, 3), FLOAT32),
         copied(made.tangents, (count, 4), FLOAT32),
         IndexedFramesReport(

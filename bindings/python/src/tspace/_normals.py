@@ -29,19 +29,17 @@ def normal_options(
     weld_positions: Any,
     convention: Any,
     refine: Any,
-    execution: _abi.Execution,
 ) -> _abi.NormalOptions:
     """The struct of the C API, which points into `groups`."""
     return _abi.NormalOptions(
         ctypes.sizeof(_abi.NormalOptions),
         named("weighting", weighting, _abi.WEIGHTINGS),
+        _abi.Convention() if convention is None else convention_struct(convention),
         real("crease", crease),
-        bool(smoothing_masks),
         None if groups is None else groups.ctypes.data,
         0 if groups is None else groups.size,
+        bool(smoothing_masks),
         bool(weld_positions),
-        _abi.Convention() if convention is None else convention_struct(convention),
-        execution,
         small_number("refine", refine),
     )
 
@@ -126,15 +124,14 @@ def normals(
     """
     mesh = Mesh(positions, None, None, indices, face_sizes)
     groups = None if smoothing_groups is None else uint32_array("smoothing_groups", smoothing_groups)
-    options = normal_options(
-        weighting, crease, groups, smoothing_masks, weld_positions, convention, refine, execution(threads)
-    )
+    options = normal_options(weighting, crease, groups, smoothing_masks, weld_positions, convention, refine)
+    run = execution(threads)
     result = output_array(out, mesh.corner_count, 3)
     check_apart(out, mesh.arrays if groups is None else [*mesh.arrays, groups])
     counts = _abi.NormalReport(ctypes.sizeof(_abi.NormalReport))
     error = _abi.Error()
     if _abi.library.tspace_generateNormals(
-        byref(mesh.struct), byref(options), write_span(result), byref(counts), byref(error)
+        byref(mesh.struct), byref(options), write_span(result), byref(run), byref(counts), byref(error)
     ):
         mesh.fail(error)
     return NormalResult(result, report(NormalReport, counts)) if full else result

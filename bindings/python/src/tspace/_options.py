@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Options by their names, and conventions."""
 
+import ctypes
 import functools
 import math
 import numbers
@@ -92,7 +93,7 @@ def thread_count(threads: Union[int, str]) -> int:
 
 
 def execution(threads: Union[int, str]) -> _abi.Execution:
-    return _abi.Execution(None, None, thread_count(threads), 0)
+    return _abi.Execution(ctypes.sizeof(_abi.Execution), thread_count(threads))
 
 
 def real(option: str, value: Any) -> float:

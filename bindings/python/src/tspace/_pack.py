@@ -58,7 +58,7 @@ def pack_frames(
     counts = _abi.PackReport(ctypes.sizeof(_abi.PackReport))
     error = _abi.Error()
     if _library.tspace_packFrames(
-        number, normals_span, tangents_span, frames.ctypes.data, frames.size, byref(counts), byref(error)
+        normals_span, tangents_span, number, frames.ctypes.data, frames.size, byref(counts), byref(error)
     ):
         raise_error(error)
     return PackResult(frames, report(PackReport, counts)) if full else frames
@@ -86,7 +86,7 @@ def unpack_frames(frames: Any, format: str = "frame32") -> Tuple[numpy.ndarray, 
     normals, tangents = numpy.empty((count, 3), FLOAT32), numpy.empty((count, 4), FLOAT32)
     error = _abi.Error()
     if _library.tspace_unpackFrames(
-        number, frames.ctypes.data, frames.size, write_span(normals), write_span(tangents), byref(error)
+        frames.ctypes.data, frames.size, number, write_span(normals), write_span(tangents), byref(error)
     ):
         raise_error(error)
     return normals, tangents

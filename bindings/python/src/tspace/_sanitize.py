@@ -92,11 +92,12 @@ def sanitize(
     check_apart(out, mesh.arrays)
     if result is not source:
         result[...] = read_span("tangents", source)[1]
-    options = _abi.SanitizeOptions(ctypes.sizeof(_abi.SanitizeOptions), bool(orthogonalize_all), execution(threads))
+    options = _abi.SanitizeOptions(ctypes.sizeof(_abi.SanitizeOptions), bool(orthogonalize_all))
+    run = execution(threads)
     counts = _abi.SanitizeReport(ctypes.sizeof(_abi.SanitizeReport))
     error = _abi.Error()
     if _library.tspace_sanitizeTangents(
-        byref(mesh.struct), byref(options), write_span(result), byref(counts), byref(error)
+        byref(mesh.struct), byref(options), write_span(result), byref(run), byref(counts), byref(error)
     ):
         mesh.fail(error)
     return SanitizeResult(result, report(SanitizeReport, counts)) if full else result

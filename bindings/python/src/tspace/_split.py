@@ -58,8 +58,8 @@ class Split(NamedTuple):
     """A new index list, and where each new vertex comes from. Old vertices keep their place, copies are appended."""
 
     indices: numpy.ndarray  #: (corners,) uint32: the new vertex of each corner
-    source_vertex: numpy.ndarray  #: (new vertices,) uint32: the old vertex that each copies. Gather by it
-    source_corner: numpy.ndarray  #: (new vertices,) uint32: a corner whose values each has; 0xffffffff: no corner uses it
+    source_vertices: numpy.ndarray  #: (new vertices,) uint32: the old vertex that each copies. Gather by it
+    source_corners: numpy.ndarray  #: (new vertices,) uint32: a corner whose values each has; 0xffffffff: no corner uses it
 
 
 def split(
@@ -79,7 +79,7 @@ def split(
     threads:      1, another number, or "all"
 
     >>> s = tspace.split(indices, len(positions), [tangents])
-    >>> new_positions, new_tangents = positions[s.source_vertex], tangents[s.source_corner]
+    >>> new_positions, new_tangents = positions[s.source_vertices], tangents[s.source_corners]
     """
     if not isinstance(vertex_count, (int, numpy.integer)) or isinstance(vertex_count, bool):
         raise TypeError(f"vertex_count must be a number, not {shown(vertex_count)}")

@@ -13,7 +13,7 @@ from . import _abi
 from ._arrays import EMPTY_SPAN, check_apart, float_array, output_array, read_span, write_span
 from ._errors import InputError, raise_error
 from ._mesh import Mesh
-from ._options import ConventionLike, convention_struct, execution, named, real, small_number, thread_count
+from ._options import ConventionLike, convention_struct, execution, named, real, small_number
 from ._reports import TangentReport, report
 
 _library = _abi.library
@@ -40,10 +40,9 @@ def tangent_options(
     domain: Any,
     frame: Any,
     refine: Any,
-    threads: Any,
 ) -> _abi.TangentOptions:
     """The struct of the C API. It is shared, so nobody may write it."""
-    key = (method, convention, threshold, pairing, ngons, domain, frame, refine, thread_count(threads))
+    key = (method, convention, threshold, pairing, ngons, domain, frame, refine)
     try:
         hash(key)
     except TypeError:  # wrong types, as the function will say
@@ -61,18 +60,16 @@ def _tangent_options(
     domain: Any,
     frame: Any,
     refine: Any,
-    threads: int,
 ) -> _abi.TangentOptions:
     return _abi.TangentOptions(
         ctypes.sizeof(_abi.TangentOptions),
         named("method", method, _abi.METHODS),
-        real("threshold", threshold),
-        named("pairing", pairing, _abi.PAIRINGS),
+        convention_struct(convention),
         named("ngons", ngons, _abi.NGONS),
         named("domain", domain, _abi.DOMAINS),
-        convention_struct(convention),
-        _abi.Execution(None, None, threads, 0),
         named("frame", frame, _abi.FRAME_SHAPES),
+        real("threshold", threshold),
+        named("pairing", pairing, _abi.PAIRINGS),
         small_number("refine", refine),
     )
 
@@ -200,18 +197,23 @@ def tangents(
     Broken geometry (NaN, faces without area) is no error: it is counted in the report, and `sanitize` mends the result.
     Raises TypeError, or InputError (a ValueError) that says which argument is wrong, and where; MemoryError.
     """
-    options = tangent_options(method, convention, threshold, pairing, ngons, domain, frame, refine, threads)
+    options = tangent_options(method, convention, threshold, pairing, ngons, domain, frame, refine)
+    run = execution(threads)
     mesh = Mesh(positions, normals, uvs, indices, face_sizes, normal_indices, uv_indices)
     count = mesh.corner_count if options.domain == 0 else mesh.vertex_count
     output, arrays = _output(count, out, full)
     check_apart(out, mesh.arrays)
     error = _abi.Error()
     if not full:
-        if _library.tspace_generateTangents(byref(mesh.struct), byref(options), byref(output), None, byref(error)):
+        if _library.tspace_generateTangents(
+            byref(mesh.struct), byref(options), byref(output), byref(run), None, byref(error)
+        ):
             mesh.fail(error)
         return arrays[0]
     counts = _new_report()
-    if _library.tspace_generateTangents(byref(mesh.struct), byref(options), byref(output), byref(counts), byref(error)):
+    if _library.tspace_generateTangents(
+        byref(mesh.struct), byref(options), byref(output), byref(run), byref(counts), byref(error)
+    ):
         mesh.fail(error)
     return _full(arrays, counts)
 
@@ -247,11 +249,13 @@ class Plan:
         threads: Union[int, str] = 1,
     ):
         """Makes a plan; arguments as those of `tangents`."""
-        options = tangent_options(method, convention, threshold, pairing, ngons, domain, frame, refine, threads)
+        options = tangent_options(method, convention, threshold, pairing, ngons, domain, frame, refine)
         mesh = Mesh(positions, normals, uvs, indices, face_sizes, normal_indices, uv_indices)
         plan = ctypes.c_void_p()
         error = _abi.Error()
-        if _library.tspace_planTangents(byref(mesh.struct), byref(options), byref(plan), byref(error)):
+        if _library.tspace_planTangents(
+            byref(mesh.struct), byref(options), byref(execution(threads)), byref(plan), byref(error)
+        ):
             mesh.fail(error)
         weakref.finalize(self, _library.tspace_destroyTangentPlan, plan)
         info = _abi.TangentPlanInfo(ctypes.sizeof(_abi.TangentPlanInfo))
