@@ -8,7 +8,7 @@ import { tmpdir } from "node:os";
 import { basename, extname, join } from "node:path";
 import { after, before, describe, it } from "node:test";
 import { check, generate, identify, ready, TspaceError } from "tspace/gltf";
-import { filesIn, hasModels, ofTool, plain, shared, skip } from "./tool.mjs";
+import { besideOf, filesIn, hasModels, ofTool, plain, shared, skip } from "./tool.mjs";
 
 await ready;
 
@@ -43,11 +43,11 @@ const isAlone = (name) =>
 
 /** What both say of a file: the report, or the code of the error. */
 const ofFile = (file) => (file.ok ? plain(file) : { ok: false, code: file.error.code });
-function ofPackage(call, bytes, name) {
+function ofPackage(call, path) {
   try {
-    return plain(call(bytes, { name }));
+    return plain(call(readFileSync(path), { name: basename(path), resources: besideOf(path) }));
   } catch (error) {
-    assert.ok(error instanceof TspaceError, `${name}: ${error.stack}`);
+    assert.ok(error instanceof TspaceError, `${path}: ${error.stack}`);
     return { ok: false, code: error.code };
   }
 }
@@ -71,7 +71,7 @@ describe("files with random changes", { skip: skip || (!hasModels && "no ../shar
     rmSync(folder, { recursive: true });
   });
 
-  /** Calls compare(bytes, name, the tool's entry) for each file. */
+  /** Calls compare(path, the tool's entry) for each file. */
   function compareAll(verb, options, compare) {
     const { files } = ofTool(verb, folder, ...options);
     assert.equal(files.length, count);
@@ -79,35 +79,35 @@ describe("files with random changes", { skip: skip || (!hasModels && "no ../shar
     failed = true;
     for (const file of files) {
       sound += file.ok ? 1 : 0;
-      compare(readFileSync(file.input), basename(file.input), file);
+      compare(file.input, file);
     }
     failed = false;
     assert.ok(sound > count / 10 && sound < count, `${sound} of ${count} are sound, so one side is not tried`);
   }
 
   it("have the tool's findings", () => {
-    compareAll("check", ["--no-images"], (bytes, name, file) =>
-      assert.deepEqual(ofPackage((model, options) => check(model, { ...options, noImages: true }), bytes, name), ofFile(file), name));
+    compareAll("check", ["--no-images"], (path, file) =>
+      assert.deepEqual(ofPackage((model, options) => check(model, { ...options, noImages: true }), path), ofFile(file), path));
   });
 
   it("have the tool's methods", () => {
-    compareAll("identify", [], (bytes, name, file) => assert.deepEqual(ofPackage(identify, bytes, name), ofFile(file), name));
+    compareAll("identify", [], (path, file) => assert.deepEqual(ofPackage(identify, path), ofFile(file), path));
   });
 
   it("become the tool's outputs", () => {
     const out = join(folder, "out");
-    compareAll("generate", ["-o", out, "--container", "glb", "--all", "--overwrite"], (bytes, name, file) => {
+    compareAll("generate", ["-o", out, "--container", "glb", "--all", "--overwrite"], (path, file) => {
       let made;
       const report = ofPackage((model, options) => {
         made = generate(model, { ...options, all: true, overwrite: true });
         return made.report;
-      }, bytes, name);
-      assert.equal(report.ok, file.ok, `${name}: ${JSON.stringify(file.error ?? report)}`);
-      if (!file.ok) return assert.equal(report.code, file.error.code, name);
-      assert.deepEqual(report.primitives, file.primitives, name);
+      }, path);
+      assert.equal(report.ok, file.ok, `${path}: ${JSON.stringify(file.error ?? report)}`);
+      if (!file.ok) return assert.equal(report.code, file.error.code, path);
+      assert.deepEqual(report.primitives, file.primitives, path);
       // The tool copies files that lie beside a model.
       if (report.warnings?.length === file.warnings?.length && report.normalMaps?.length === file.normalMaps?.length)
-        assert.ok(Buffer.compare(made.bytes, readFileSync(file.output)) === 0, name);
+        assert.ok(Buffer.compare(made.bytes, readFileSync(file.output)) === 0, path);
     });
   });
 });
