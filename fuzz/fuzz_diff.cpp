@@ -41,8 +41,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     require(diff.ok() || !diff.error().message.empty(), "an error has a message");
     if (diff) {
         requireSound(*diff);
-        const Result<FrameDiff> back =
-            diffFiles("b.glb", "a.glb", {.file = *options.file_b, .file_b = options.file});
+        const Result<FrameDiff> back = diffFiles("b.glb", "a.glb", {.file = *options.file_b, .file_b = options.file});
         require(back && back->unpaired_triangle_count == diff->unpaired_triangle_count &&
                     back->corner_count == diff->corner_count,
                 "the order of the models does not decide who is paired");

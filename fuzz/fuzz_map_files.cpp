@@ -67,7 +67,8 @@ void convert(ByteReader& in, const Files& files) {
     options.to = static_cast<MapFileSpace>(in.byte() % 3);
     options.from_reading = readingOf(in);
     options.to_reading = readingOf(in);
-    if ((flags & 16) != 0) options.layout = {componentOf(in), componentOf(in), componentOf(in), static_cast<MapCurve>(in.byte() % 3)};
+    if ((flags & 16) != 0)
+        options.layout = {componentOf(in), componentOf(in), componentOf(in), static_cast<MapCurve>(in.byte() % 3)};
     options.padding = in.byte() % 4U;
     options.tangents.method = static_cast<Method>(in.byte() % 10);
     options.tangents.execution.thread_count = 1;

@@ -76,7 +76,8 @@ void requireSame(std::size_t texels, Call&& call) {
 void requireMeasured(ByteReader& in, const MapImage& map, const Corners& low, const Corners& high) {
     std::vector<std::uint32_t> corners(high.positions.size());
     for (std::size_t i = 0; i < corners.size(); ++i) corners[i] = static_cast<std::uint32_t>(i);
-    const LowPoly low_poly{.positions = low.positions, .normals = low.normals, .tangents = low.tangents, .uvs = low.uvs};
+    const LowPoly low_poly{
+        .positions = low.positions, .normals = low.normals, .tangents = low.tangents, .uvs = low.uvs};
     const HighPoly high_poly{.positions = high.positions, .normals = high.normals, .corners = corners};
     MapErrorOptions options{.reading = readingOf(in), .point_count = 50, .heat = true};
     options.execution.thread_count = 1;

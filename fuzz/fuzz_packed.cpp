@@ -75,11 +75,11 @@ void checkModel(ByteReader& in, FrameFormat format) {
         output.insert(output.end(), piece.begin(), piece.end());
         return true;
     };
-    (void)checkFile("a.glb", {.file = options.file});
+    const bool is_sound = checkFile("a.glb", {.file = options.file}).ok();
     const Result<GenerateReport> report = generateFile("a.glb", "b.glb", options);
     if (!report) return require(!report.error().message.empty(), "an error has a message");
-    // What needs nothing goes out as it came in, and is not looked at as closely as check does.
-    if (!report->changed) return;
+    // Primitives that stay as they are go out as they came in; indices out of range are found by check alone.
+    if (!is_sound) return;
     const Result<CheckReport> checked = checkFile("b.glb", {.file = {.content = output}});
     require(checked.ok(), "what was written can be read");
     for (const PrimitiveReport& primitive : report->primitives) {

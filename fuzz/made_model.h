@@ -29,8 +29,9 @@ class ModelMaker {
 
     std::vector<std::uint8_t> glb() {
         const std::string materials = this->materials(), meshes = this->meshes(), nodes = this->nodes();
-        std::string json = R"({"asset":{"version":"2.0"},"extensionsUsed":["KHR_mesh_quantization","KHR_texture_transform"],)"
-                           R"("extensionsRequired":["KHR_mesh_quantization"],"scene":0,"scenes":[{"nodes":[0]}],)";
+        std::string json =
+            R"({"asset":{"version":"2.0"},"extensionsUsed":["KHR_mesh_quantization","KHR_texture_transform"],)"
+            R"("extensionsRequired":["KHR_mesh_quantization"],"scene":0,"scenes":[{"nodes":[0]}],)";
         json += "\"nodes\":[" + nodes + "],\"meshes\":[" + meshes + "],\"materials\":[" + materials + "],";
         if (!image_.empty()) {
             const std::size_t view = addView(image_);
@@ -38,8 +39,8 @@ class ModelMaker {
                     ",\"wrapT\":" + wrap() + R"(}],"images":[{"mimeType":"image/png","bufferView":)" +
                     std::to_string(view) + "}],";
         }
-        json += "\"accessors\":[" + accessors_ + "],\"bufferViews\":[" + views_ + "],\"buffers\":[{\"byteLength\":" +
-                std::to_string(bytes_.size()) + "}]}";
+        json += "\"accessors\":[" + accessors_ + "],\"bufferViews\":[" + views_ +
+                "],\"buffers\":[{\"byteLength\":" + std::to_string(bytes_.size()) + "}]}";
         const gltf::GlbFrame frame = gltf::frameGlb(json, bytes_.size(), {});
         std::vector<std::uint8_t> file(frame.head.begin(), frame.head.end());
         file.insert(file.end(), bytes_.begin(), bytes_.end());
@@ -79,7 +80,8 @@ class ModelMaker {
     }
 
     /// Elements of `width` numbers, each at a multiple of four bytes where `is_aligned`. Returns the accessor.
-    std::size_t addAccessor(const Numbers& kind, const char* type, std::size_t width, std::size_t count, bool is_aligned) {
+    std::size_t addAccessor(const Numbers& kind, const char* type, std::size_t width, std::size_t count,
+                            bool is_aligned) {
         const std::size_t stride = is_aligned ? (kind.bytes() * width + 3) / 4 * 4 : kind.bytes() * width;
         std::vector<std::uint8_t> content(stride * count);
         for (std::size_t i = 0; i < count; ++i) {
@@ -103,8 +105,9 @@ class ModelMaker {
             views_ += ",\"byteStride\":" + std::to_string(stride) + "}";
         }
         accessors_ += (accessors_.empty() ? "" : ",") + std::string("{\"bufferView\":") + std::to_string(view) +
-                      ",\"componentType\":" + std::to_string(static_cast<int>(kind.component)) + ",\"count\":" + std::to_string(count) +
-                      ",\"type\":\"" + type + "\"" + (kind.is_normalized ? ",\"normalized\":true" : "") + "}";
+                      ",\"componentType\":" + std::to_string(static_cast<int>(kind.component)) +
+                      ",\"count\":" + std::to_string(count) + ",\"type\":\"" + type + "\"" +
+                      (kind.is_normalized ? ",\"normalized\":true" : "") + "}";
         return accessor_count_++;
     }
 
@@ -115,13 +118,15 @@ class ModelMaker {
         return kKinds[in_.byte() % 5];
     }
     Numbers uvNumbers() {
-        constexpr Numbers kKinds[] = {kFloat, kFloat, kFloat, {ComponentType::u8, true}, {ComponentType::u16, true}, {ComponentType::i16, true}};
+        constexpr Numbers kKinds[] = {
+            kFloat, kFloat, kFloat, {ComponentType::u8, true}, {ComponentType::u16, true}, {ComponentType::i16, true}};
         return kKinds[in_.byte() % 6];
     }
 
-    void addAttribute(std::string& list, const std::string& name, const Numbers& kind, const char* type, std::size_t width,
-                      std::size_t count) {
-        list += (list.empty() ? "\"" : ",\"") + name + "\":" + std::to_string(addAccessor(kind, type, width, count, true));
+    void addAttribute(std::string& list, const std::string& name, const Numbers& kind, const char* type,
+                      std::size_t width, std::size_t count) {
+        list +=
+            (list.empty() ? "\"" : ",\"") + name + "\":" + std::to_string(addAccessor(kind, type, width, count, true));
     }
 
     std::size_t addIndices(std::size_t vertex_count) {
@@ -133,7 +138,8 @@ class ModelMaker {
         for (std::size_t i = 0; i < count; ++i) {
             std::size_t index = in_.byte();
             if (is_sound) index %= vertex_count;
-            for (std::size_t b = 0; b < kind.bytes(); ++b) content.push_back(static_cast<std::uint8_t>(b == 0 ? index : 0));
+            for (std::size_t b = 0; b < kind.bytes(); ++b)
+                content.push_back(static_cast<std::uint8_t>(b == 0 ? index : 0));
         }
         return addAccessor(content, 0, kind, "SCALAR", count);
     }
@@ -151,7 +157,8 @@ class ModelMaker {
         const unsigned has = in_.byte();
         const std::size_t vertex_count = 1 + in_.byte() % 24u;
         std::string attributes, targets;
-        addAttribute(attributes, "POSITION", one(8) ? Numbers{ComponentType::i16, true} : kFloat, "VEC3", 3, vertex_count);
+        addAttribute(attributes, "POSITION", one(8) ? Numbers{ComponentType::i16, true} : kFloat, "VEC3", 3,
+                     vertex_count);
         if ((has & 1) == 0) addAttribute(attributes, "TEXCOORD_0", uvNumbers(), "VEC2", 2, vertex_count);
         if ((has & 2) == 0) addAttribute(attributes, "NORMAL", vectorNumbers(), "VEC3", 3, vertex_count);
         if ((has & 4) == 0) addAttribute(attributes, "TANGENT", vectorNumbers(), "VEC4", 4, vertex_count);

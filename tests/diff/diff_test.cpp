@@ -128,8 +128,8 @@ TEST(Diff, WhatIsNoSignDiffersFromSignsButNotFromItself) {
     EXPECT_EQ(diffOf({other}, {other}).sign_change_count, 0U);
     const FrameDiff diff = diffOf({sheet()}, {other});
     const auto& corners = other.indices;
-    EXPECT_EQ(diff.sign_change_count,
-              std::uint64_t(std::count(corners.begin(), corners.end(), 0U) + std::count(corners.begin(), corners.end(), 1U)));
+    EXPECT_EQ(diff.sign_change_count, std::uint64_t(std::count(corners.begin(), corners.end(), 0U) +
+                                                    std::count(corners.begin(), corners.end(), 1U)));
 }
 
 TEST(Diff, TheWorstPlacesAreTheWorst) {

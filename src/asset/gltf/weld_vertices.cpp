@@ -29,7 +29,8 @@ void refine(const Document& document, const Accessor& accessor, std::vector<std:
             std::array<std::uint32_t, 5> key = {};
             std::memcpy(key.data(), bytes.data() + v * accessor.element_bytes + begin, size);
             if (accessor.component == ComponentType::f32) {
-                for (std::uint32_t& word : key) word = weldBits(loadLittleEndian<float>(reinterpret_cast<const std::uint8_t*>(&word)));
+                for (std::uint32_t& word : key)
+                    word = weldBits(loadLittleEndian<float>(reinterpret_cast<const std::uint8_t*>(&word)));
             }
             key[4] = class_of[v];
             class_of[v] = keys.indexOf(key);
