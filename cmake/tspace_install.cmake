@@ -2,38 +2,29 @@
 # it is part of the build; tspace_tool the programs. Consumers: find_package(tspace [COMPONENTS core asset]) and pkg-config.
 include(CMakePackageConfigHelpers)
 
-set(TSPACE_CMAKE_DIR "${CMAKE_INSTALL_LIBDIR}/cmake/tspace")
-
-install(TARGETS tspace EXPORT tspace_core
-        ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT tspace_core
-        LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT tspace_core)
+tspace_install_built(tspace tspace_core EXPORT tspace_core ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/include/tspace" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" COMPONENT tspace_core
         FILES_MATCHING PATTERN "*.h" PATTERN "*.hpp"
-        PATTERN "asset.h" EXCLUDE PATTERN "check.h" EXCLUDE PATTERN "diff.h" EXCLUDE PATTERN "identify.h" EXCLUDE PATTERN "maps.h" EXCLUDE PATTERN "map_*.h" EXCLUDE PATTERN "flip_green.h" EXCLUDE PATTERN "render.h" EXCLUDE PATTERN "tspace_files.h" EXCLUDE)
+        PATTERN "asset.h" EXCLUDE PATTERN "bake_file.h" EXCLUDE PATTERN "check.h" EXCLUDE PATTERN "diff.h" EXCLUDE PATTERN "identify.h" EXCLUDE PATTERN "maps.h" EXCLUDE PATTERN "map_*.h" EXCLUDE PATTERN "flip_green.h" EXCLUDE PATTERN "render.h" EXCLUDE PATTERN "tspace_files.h" EXCLUDE)
 install(FILES "${PROJECT_BINARY_DIR}/include/tspace/version.h" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/tspace"
         COMPONENT tspace_core)
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/shaders" DESTINATION "${CMAKE_INSTALL_DATADIR}/tspace" COMPONENT tspace_core)
-install(EXPORT tspace_core NAMESPACE tspace:: FILE tspace-core.cmake DESTINATION "${TSPACE_CMAKE_DIR}"
-        COMPONENT tspace_core)
+tspace_install_export(core tspace_core tspace)
 
 if(TARGET tspace_asset)
-    install(TARGETS tspace_asset tspace_files tspace_maps EXPORT tspace_asset
-            ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT tspace_asset
-            LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT tspace_asset)
+    tspace_install_built(tspace_maps tspace_asset EXPORT tspace_asset ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
+    tspace_install_built(tspace_asset tspace_asset EXPORT tspace_asset ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
+    tspace_install_built(tspace_files tspace_asset EXPORT tspace_files ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
     install(DIRECTORY "${PROJECT_SOURCE_DIR}/include/tspace" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}"
-            COMPONENT tspace_asset FILES_MATCHING PATTERN "asset.h" PATTERN "check.h" PATTERN "diff.h" PATTERN "identify.h"
+            COMPONENT tspace_asset FILES_MATCHING PATTERN "asset.h" PATTERN "bake_file.h" PATTERN "check.h" PATTERN "diff.h" PATTERN "identify.h"
             PATTERN "maps.h" PATTERN "map_*.h" PATTERN "flip_green.h" PATTERN "render.h" PATTERN "tspace_files.h")
-    install(EXPORT tspace_asset NAMESPACE tspace:: FILE tspace-asset.cmake DESTINATION "${TSPACE_CMAKE_DIR}"
-            COMPONENT tspace_asset)
+    tspace_install_export(asset tspace_asset tspace tspace_maps tspace_asset)
+    tspace_install_export(files tspace_asset tspace tspace_maps tspace_asset tspace_files)
 endif()
 
-# A program that was not built, as scripts/demo does not build tspace-import, is left out, and said so.
 foreach(program tspace_tool tspace_import)
     if(TARGET ${program})
-        install(CODE "if(NOT EXISTS \"$<TARGET_FILE:${program}>\")
-            message(STATUS \"Left out, because it was not built: $<TARGET_FILE_NAME:${program}>\")
-        endif()" COMPONENT tspace_tool)
-        install(TARGETS ${program} RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT tspace_tool OPTIONAL)
+        tspace_install_built(${program} tspace_tool RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
     endif()
 endforeach()
 
@@ -76,14 +67,13 @@ else()
     set(TSPACE_PC_INCLUDEDIR "\${prefix}/${CMAKE_INSTALL_INCLUDEDIR}")
 endif()
 
-# tspace_pkg_config(NAME COMPONENT DESCRIPTION LIBS)
-function(tspace_pkg_config TSPACE_PC_NAME component TSPACE_PC_DESCRIPTION TSPACE_PC_LIBS)
+# tspace_pkg_config(NAME TARGET COMPONENT DESCRIPTION LIBS)
+function(tspace_pkg_config TSPACE_PC_NAME target component TSPACE_PC_DESCRIPTION TSPACE_PC_LIBS)
     configure_file("${PROJECT_SOURCE_DIR}/cmake/tspace.pc.in" "${PROJECT_BINARY_DIR}/package/${TSPACE_PC_NAME}.pc" @ONLY)
-    install(FILES "${PROJECT_BINARY_DIR}/package/${TSPACE_PC_NAME}.pc" DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig"
-            COMPONENT ${component})
+    tspace_install_file_of(${target} ${component} "${CMAKE_INSTALL_LIBDIR}/pkgconfig" "${PROJECT_BINARY_DIR}/package/${TSPACE_PC_NAME}.pc")
 endfunction()
-tspace_pkg_config(tspace tspace_core "${PROJECT_DESCRIPTION}" "-ltspace ${TSPACE_PC_CXX_RUNTIME} -lm -pthread")
+tspace_pkg_config(tspace tspace tspace_core "${PROJECT_DESCRIPTION}" "-ltspace ${TSPACE_PC_CXX_RUNTIME} -lm -pthread")
 # The static library of files needs other libraries, which this one has found already.
 if(TARGET tspace_files_shared)
-    tspace_pkg_config(tspace-files tspace_files_shared_link "${PROJECT_DESCRIPTION}: model files, in C" "-ltspace-files")
+    tspace_pkg_config(tspace-files tspace_files_shared tspace_files_shared_link "${PROJECT_DESCRIPTION}: model files, in C" "-ltspace-files")
 endif()

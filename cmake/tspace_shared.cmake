@@ -25,9 +25,9 @@ function(tspace_shared_library target output_name)
     if(TARGET ${output_name})
         set(script "${PROJECT_BINARY_DIR}/package/lib${output_name}.so")
         file(WRITE "${script}" "GROUP ( AS_NEEDED ( lib${output_name}.so.0 ) lib${output_name}.a )\n")
-        install(FILES "${script}" DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT ${target}_link)
+        tspace_install_file_of(${target} ${target}_link "${CMAKE_INSTALL_LIBDIR}" "${script}")
         set(namelink NAMELINK_SKIP)
     endif()
-    install(TARGETS ${target} LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT ${target}
-            NAMELINK_COMPONENT ${target}_link ${namelink})
+    tspace_install_built(${target} ${target} LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}" NAMELINK_COMPONENT ${target}_link
+                         ${namelink})
 endfunction()

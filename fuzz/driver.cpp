@@ -3,6 +3,7 @@
 // with random changes until the time is up. The same order every time. What kills the program is left in "crash-input".
 #include <algorithm>
 #include <chrono>
+#include <csignal>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -26,6 +27,13 @@ void keepInput() {
     std::ofstream("crash-input", std::ios::binary)
         .write(reinterpret_cast<const char*>(current.data()), static_cast<std::streamsize>(current.size()));
     std::fprintf(stderr, "fuzz: the input is in crash-input (%zu bytes)\n", current.size());
+}
+
+/// Without sanitizers; it is the end, so that no rule for signals matters.
+void keepInputOf(int signal) {
+    keepInput();
+    std::signal(signal, SIG_DFL);
+    std::raise(signal);
 }
 
 void run(Input input) {
@@ -95,7 +103,11 @@ int main(int argc, char** argv) {
         std::fprintf(stderr, "usage: %s SEEDS SECONDS\n", argv[0]);
         return 2;
     }
-    if (__sanitizer_set_death_callback != nullptr) __sanitizer_set_death_callback(keepInput);
+    if (__sanitizer_set_death_callback != nullptr) {
+        __sanitizer_set_death_callback(keepInput);
+    } else {
+        for (const int signal : {SIGABRT, SIGSEGV, SIGFPE, SIGILL, SIGBUS}) std::signal(signal, keepInputOf);
+    }
     std::vector<Input> seeds;
     std::vector<std::filesystem::path> files;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(argv[1])) {

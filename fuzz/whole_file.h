@@ -5,46 +5,27 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <string>
 
+#include "files.h"
 #include "tspace/asset.h"
 #include "tspace/check.h"
 #include "tspace/identify.h"
 
 namespace tspace::fuzz {
 
-/// A folder in memory where there is one.
-inline std::filesystem::path makeFolder() {
-    std::error_code failed;
-    const std::filesystem::path shm = "/dev/shm";
-    const std::filesystem::path base =
-        std::filesystem::is_directory(shm, failed) ? shm : std::filesystem::temp_directory_path();
-    std::string name = (base / "tspace_fuzz_XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) std::abort();
-    return name;
-}
-
-inline void require(bool holds, const char* what) {
-    if (holds) return;
-    std::fprintf(stderr, "fuzz: this does not hold: %s\n", what);
-    std::abort();
-}
-
-inline void runOnFile(const std::uint8_t* bytes, std::size_t count, const char* name) {
+inline void runOnFile(const std::uint8_t* bytes, std::size_t count, const char* name, const FileOptions& how = {}) {
     static const std::filesystem::path folder = makeFolder();
     static const std::string input = (folder / name).string();
     const std::filesystem::path out_folder = folder / "out";
     const std::string output = (out_folder / "out.glb").string();
-    std::FILE* file = std::fopen(input.c_str(), "wb");
-    const bool written = file != nullptr && (count == 0 || std::fwrite(bytes, 1, count, file) == count);
-    require(written && std::fclose(file) == 0, "a file can be written");
+    writeFile(input, {bytes, count});
 
     GenerateOptions options{.all = true};
     options.existing = ExistingTangents::replace;
     options.execution.thread_count = 1;
+    options.file = how;
     const Result<GenerateReport> report = generateFile(input, output, options);
     std::error_code ignored;
     require(report.ok() == std::filesystem::exists(output, ignored),
@@ -58,9 +39,9 @@ inline void runOnFile(const std::uint8_t* bytes, std::size_t count, const char* 
         require(!std::filesystem::exists(out_folder, ignored), "a failed run leaves nothing behind");
     }
     std::filesystem::remove_all(out_folder, ignored);
-    (void)inspectFile(input);
-    (void)checkFile(input);
-    (void)identifyFile(input, {.execution = {.thread_count = 1}});
+    (void)inspectFile(input, how);
+    (void)checkFile(input, {.file = how});
+    (void)identifyFile(input, {.file = how, .execution = {.thread_count = 1}});
 }
 
 }  // namespace tspace::fuzz

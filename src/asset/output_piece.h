@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "asset/file_io.h"
+#include "core/little_endian.h"
 
 namespace tspace {
 
@@ -24,11 +25,13 @@ class ByteMaker {
     [[nodiscard]] virtual std::span<const std::uint8_t> there() const { return {}; }
 };
 
-/// Keeps what somebody made, so that nobody copies it. T: plain values without gaps.
+/// Keeps what somebody made, so that nobody copies it. T: numbers of four bytes without gaps.
 template <class T>
 class KeptBytes final : public ByteMaker {
   public:
-    explicit KeptBytes(std::vector<T>&& values) : values_(std::move(values)) {}
+    explicit KeptBytes(std::vector<T>&& values) : values_(std::move(values)) {
+        turnLittleEndian({reinterpret_cast<std::uint8_t*>(values_.data()), size()}, 4);
+    }
 
     [[nodiscard]] std::size_t size() const override { return values_.size() * sizeof(T); }
     void make(std::size_t begin, std::span<std::uint8_t> to) const override {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Reads, pairs, compares corner by corner.
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "asset/file_error.h"
@@ -23,6 +24,12 @@ struct FrameSamples {
         bitangents.append(other.bitangents);
     }
 };
+
+/// 1, -1, 0, or 2 for a NaN: what is no sign differs from every sign, but not from itself.
+int signOf(float w) {
+    if (std::isnan(w)) return 2;
+    return (w > 0) - (w < 0);
+}
 
 Vec3 bitangentOf(const Vec3& normal, const Vec4& tangent) { return tangent.w * cross(normal, xyz(tangent)); }
 
@@ -142,8 +149,7 @@ class Comparison {
             const Vec4& tangent_a = a.tangents[vertex_a];
             const Vec4& tangent_b = b.tangents[vertex_b];
             difference.tangent_deg = samples.tangents.add(xyz(tangent_a), xyz(tangent_b));
-            // Written so that a NaN differs from everything.
-            difference.sign_differs = !(tangent_a.w * tangent_b.w > 0);
+            difference.sign_differs = signOf(tangent_a.w) != signOf(tangent_b.w);
             diff.sign_change_count += difference.sign_differs;
             if (has_normals) {
                 difference.bitangent_deg = samples.bitangents.add(bitangentOf(a.normals[vertex_a], tangent_a),

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "core/little_endian.h"
 #include "core/vec_math.h"
 
 namespace tspace {
@@ -42,6 +43,7 @@ std::vector<std::uint8_t> packAs(const std::vector<std::int32_t>& numbers) {
     std::vector<Component> values(numbers.begin(), numbers.end());
     std::vector<std::uint8_t> bytes(values.size() * sizeof(Component));
     if (!bytes.empty()) std::memcpy(bytes.data(), values.data(), bytes.size());
+    turnLittleEndian(bytes, sizeof(Component));
     return bytes;
 }
 
@@ -50,6 +52,7 @@ std::vector<std::uint8_t> pack(std::span<const Vec> vectors, VectorFormat format
     if (format == VectorFormat::float32) {
         std::vector<std::uint8_t> bytes(vectors.size_bytes());
         if (!bytes.empty()) std::memcpy(bytes.data(), vectors.data(), bytes.size());
+        turnLittleEndian(bytes, sizeof(float));
         return bytes;
     }
     std::vector<std::int32_t> numbers;

@@ -5,11 +5,13 @@
 #include <optional>
 #include <ostream>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "asset/file_error.h"
 #include "asset/gltf/document.h"
 #include "asset/uri.h"
+#include "core/little_endian.h"
 
 namespace tspace {
 
@@ -25,7 +27,10 @@ using gltf::Json;
 template <class T, class Allocator = std::allocator<T>>
 Bytes bytesOfValues(const std::vector<T, Allocator>& values) {
     const auto* first = reinterpret_cast<const std::uint8_t*>(values.data());
-    return Bytes(first, first + values.size() * sizeof(T));
+    Bytes bytes(first, first + values.size() * sizeof(T));
+    // Vectors are lists of floats.
+    turnLittleEndian(bytes, std::is_arithmetic_v<T> ? sizeof(T) : sizeof(float));
+    return bytes;
 }
 
 /// A document with one buffer that grows by whole accessors.

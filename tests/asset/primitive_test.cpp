@@ -2,6 +2,8 @@
 // Primitives: triangles out of every mode, and checks of counts.
 #include <gtest/gtest.h>
 
+#include <bit>
+
 #include "asset/gltf/primitive_reader.h"
 #include "gltf_builder.h"
 
@@ -70,6 +72,7 @@ GltfBuilder interleaved(std::size_t shift) {
 }
 
 TEST(Primitive, LendsFloatsFromWhereTheyLie) {
+    if (std::endian::native != std::endian::little) GTEST_SKIP() << "here floats are turned, and so copied";
     const Document document = parse(interleaved(4));
     const Primitive primitive = readPrimitives(document)[0];
     const auto positions = lendVec3(document, primitive, "POSITION");
@@ -83,6 +86,7 @@ TEST(Primitive, LendsFloatsFromWhereTheyLie) {
 }
 
 TEST(Primitive, LendsNothingThatIsNotPlainAlignedFloats) {
+    if (std::endian::native != std::endian::little) GTEST_SKIP() << "here floats are turned, and so copied";
     const auto lent = [](const GltfBuilder& builder) {
         const Document document = parse(builder);
         const Primitive primitive = readPrimitives(document)[0];

@@ -120,6 +120,18 @@ TEST(Diff, SignsThatDifferAreCountedAndTurnTheBitangent) {
     EXPECT_TRUE(diff.worst[0].sign_differs);
 }
 
+TEST(Diff, WhatIsNoSignDiffersFromSignsButNotFromItself) {
+    ModelData other = sheet();
+    other.tangents[0].w = 0;
+    other.tangents[1].w = std::nanf("");
+    other.tangents[2].w *= 1e-30f;
+    EXPECT_EQ(diffOf({other}, {other}).sign_change_count, 0U);
+    const FrameDiff diff = diffOf({sheet()}, {other});
+    const auto& corners = other.indices;
+    EXPECT_EQ(diff.sign_change_count, std::uint64_t(std::count(corners.begin(), corners.end(), 0U) +
+                                                    std::count(corners.begin(), corners.end(), 1U)));
+}
+
 TEST(Diff, TheWorstPlacesAreTheWorst) {
     ModelData other = sheet();
     for (const std::size_t i : {5U, 50U, 100U})

@@ -8,6 +8,7 @@
 
 #include "asset/file_error.h"
 #include "asset/gltf/meshopt_views.h"
+#include "core/little_endian.h"
 #include "tspace/mesh.h"
 
 namespace tspace::gltf {
@@ -141,9 +142,7 @@ std::uint32_t unsignedAt(const std::uint8_t* bytes, ComponentType type) {
         default:
             break;
     }
-    std::uint32_t value;
-    std::memcpy(&value, bytes, 4);
-    return value;
+    return loadLittleEndian<std::uint32_t>(bytes);
 }
 
 void applySparse(const Document& document, const Accessor& accessor, std::uint8_t* elements) {
@@ -202,8 +201,7 @@ std::uint32_t widen(const ElementView& elements, std::span<std::uint32_t> number
     const auto widenFrom = [&](auto stride) {
         std::uint32_t largest = 0;
         for (std::size_t i = 0; i < numbers.size(); ++i) {
-            Index index;
-            std::memcpy(&index, elements.data + i * stride, sizeof index);
+            const auto index = loadLittleEndian<Index>(elements.data + i * stride);
             numbers[i] = index;
             largest = std::max<std::uint32_t>(largest, index);
         }
@@ -213,19 +211,12 @@ std::uint32_t widen(const ElementView& elements, std::span<std::uint32_t> number
     return elements.stride == kTight ? widenFrom(kTight) : widenFrom(elements.stride);
 }
 
-template <class Component>
-Component load(const std::uint8_t* bytes) {
-    Component value;
-    std::memcpy(&value, bytes, sizeof(Component));
-    return value;
-}
-
 /// f = max(c / 127, -1) and its like, in float as the specification writes it; not normalised: the value
 /// itself.
 float componentAt(const std::uint8_t* bytes, ComponentType type, bool normalized) {
     switch (type) {
         case ComponentType::i8: {
-            const auto value = static_cast<float>(load<std::int8_t>(bytes));
+            const auto value = static_cast<float>(loadLittleEndian<std::int8_t>(bytes));
             return normalized ? std::max(value / 127.0f, -1.0f) : value;
         }
         case ComponentType::u8: {
@@ -233,19 +224,19 @@ float componentAt(const std::uint8_t* bytes, ComponentType type, bool normalized
             return normalized ? value / 255.0f : value;
         }
         case ComponentType::i16: {
-            const auto value = static_cast<float>(load<std::int16_t>(bytes));
+            const auto value = static_cast<float>(loadLittleEndian<std::int16_t>(bytes));
             return normalized ? std::max(value / 32767.0f, -1.0f) : value;
         }
         case ComponentType::u16: {
-            const auto value = static_cast<float>(load<std::uint16_t>(bytes));
+            const auto value = static_cast<float>(loadLittleEndian<std::uint16_t>(bytes));
             return normalized ? value / 65535.0f : value;
         }
         case ComponentType::u32:
-            return static_cast<float>(load<std::uint32_t>(bytes));
+            return static_cast<float>(loadLittleEndian<std::uint32_t>(bytes));
         case ComponentType::f32:
             break;
     }
-    return load<float>(bytes);
+    return loadLittleEndian<float>(bytes);
 }
 
 template <class Vec>
@@ -262,6 +253,7 @@ std::vector<Vec> decodeVec(const Document& document, const Accessor& accessor, c
         auto* out = reinterpret_cast<std::uint8_t*>(result.data());
         if (source != nullptr) pack(accessor, source, out);
         if (accessor.sparse) applySparse(document, accessor, out);
+        turnLittleEndian({out, result.size() * sizeof(Vec)}, sizeof(float));
         return result;
     }
     const Bytes elements = copyElements(document, accessor);

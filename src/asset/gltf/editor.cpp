@@ -9,6 +9,7 @@
 #include "asset/gltf/gather_elements.h"
 #include "asset/gltf/unreferenced_buffers.h"
 #include "asset/uri.h"
+#include "core/little_endian.h"
 
 namespace tspace::gltf {
 
@@ -230,7 +231,12 @@ Json Editor::storeSparse(ElementData& data) {
     indices.element_bytes = bytesOf(indices.component);
     indices.bytes.resize(places.size() * indices.element_bytes);
     for (std::size_t i = 0; i < places.size(); ++i) {
-        std::memcpy(indices.bytes.data() + i * indices.element_bytes, &places[i], indices.element_bytes);
+        std::uint8_t* const to = indices.bytes.data() + i * indices.element_bytes;
+        if (indices.element_bytes == 2) {
+            storeLittleEndian(static_cast<std::uint16_t>(places[i]), to);
+        } else {
+            storeLittleEndian(places[i], to);
+        }
     }
     indices.target = data.target = kNoTarget;
     Json sparse = Json::object();

@@ -10,6 +10,7 @@
 #include <numeric>
 
 #include "asset/gltf/sparse_elements.h"
+#include "core/little_endian.h"
 
 namespace tspace::gltf {
 
@@ -78,8 +79,7 @@ void renewBounds(ElementData& data) {
     std::vector<double> low(components, std::numeric_limits<double>::infinity()), high(components, -low[0]);
     bool is_finite = true;
     for (std::size_t i = 0; i < data.bytes.size() / sizeof(float); ++i) {
-        float value;
-        std::memcpy(&value, data.bytes.data() + i * sizeof(float), sizeof(float));
+        const auto value = loadLittleEndian<float>(data.bytes.data() + i * sizeof(float));
         is_finite = is_finite && std::isfinite(value);
         low[i % components] = std::min<double>(low[i % components], value);
         high[i % components] = std::max<double>(high[i % components], value);

@@ -8,6 +8,7 @@
 
 #include "asset/gltf/gather_elements.h"
 #include "asset/gltf/vertex_numbers.h"
+#include "core/little_endian.h"
 #include "generate/unit_lattice.h"
 
 namespace tspace::gltf {
@@ -44,7 +45,7 @@ Bytes narrow(const std::vector<std::uint32_t>& indices) {
     Bytes bytes(indices.size() * sizeof(Index));
     for (std::size_t i = 0; i < indices.size(); ++i) {
         const auto index = static_cast<Index>(indices[i]);
-        std::memcpy(bytes.data() + i * sizeof index, &index, sizeof index);
+        storeLittleEndian(index, bytes.data() + i * sizeof index);
     }
     return bytes;
 }

@@ -3,6 +3,7 @@
 #include "asset/gltf/primitive_reader.h"
 
 #include <algorithm>
+#include <bit>
 
 #include "asset/file_error.h"
 #include "asset/gltf/packed_layout.h"
@@ -134,6 +135,8 @@ Accessor attributeAccessor(const Document& document, const Primitive& primitive,
 
 template <class Vec>
 std::optional<StridedSpan<const Vec>> viewVectors(const Document& document, const Accessor& accessor) {
+    // They are turned while they are copied.
+    if constexpr (std::endian::native != std::endian::little) return {};
     const bool is_float = accessor.component == ComponentType::f32 && accessor.type[0] == 'V';
     if (!is_float || accessor.element_bytes != sizeof(Vec)) return {};
     const std::optional<ElementView> elements = viewElements(document, accessor);

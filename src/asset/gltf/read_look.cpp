@@ -8,6 +8,7 @@
 #include "asset/file_error.h"
 #include "asset/gltf/accessor.h"
 #include "asset/gltf/texture_reference.h"
+#include "core/little_endian.h"
 
 namespace tspace::gltf {
 
@@ -111,7 +112,7 @@ Affine readFirstBind(const Document& document, const Json& skin, const std::stri
     const auto elements = hasData(document, accessor) ? viewElements(document, accessor) : std::nullopt;
     if (!elements) return {};
     float m[16];
-    std::memcpy(m, elements->data, sizeof m);
+    for (std::size_t i = 0; i < 16; ++i) m[i] = loadLittleEndian<float>(elements->data + i * sizeof(float));
     return {{m[0], m[1], m[2]}, {m[4], m[5], m[6]}, {m[8], m[9], m[10]}, {m[12], m[13], m[14]}};
 }
 

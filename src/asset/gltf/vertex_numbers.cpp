@@ -10,6 +10,7 @@
 
 #include "asset/file_error.h"
 #include "asset/gltf/pool_elements.h"
+#include "core/little_endian.h"
 
 namespace tspace::gltf {
 
@@ -122,8 +123,9 @@ ElementData numbersOf(const NewVertices& vertices) {
                      .count = vertices.sources.size(),
                      .element_bytes = is_short ? std::size_t{2} : std::size_t{4}};
     const auto append = [&](auto number) {
-        const auto* first = reinterpret_cast<const std::uint8_t*>(&number);
-        data.bytes.insert(data.bytes.end(), first, first + sizeof number);
+        std::uint8_t bytes[sizeof number];
+        storeLittleEndian(number, bytes);
+        data.bytes.insert(data.bytes.end(), bytes, bytes + sizeof number);
     };
     for (const std::uint32_t source : vertices.sources) {
         if (is_short) append(static_cast<std::uint16_t>(source));

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "asset/gltf/packed_layout.h"
+#include "core/little_endian.h"
 #include "core/unique_index.h"
 
 namespace tspace::gltf {
@@ -28,7 +29,8 @@ void refine(const Document& document, const Accessor& accessor, std::vector<std:
             std::array<std::uint32_t, 5> key = {};
             std::memcpy(key.data(), bytes.data() + v * accessor.element_bytes + begin, size);
             if (accessor.component == ComponentType::f32) {
-                for (std::uint32_t& word : key) word = weldBits(std::bit_cast<float>(word));
+                for (std::uint32_t& word : key)
+                    word = weldBits(loadLittleEndian<float>(reinterpret_cast<const std::uint8_t*>(&word)));
             }
             key[4] = class_of[v];
             class_of[v] = keys.indexOf(key);

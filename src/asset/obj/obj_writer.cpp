@@ -13,6 +13,7 @@
 #include "asset/disk_paths.h"
 #include "asset/file_error.h"
 #include "asset/uri.h"
+#include "core/little_endian.h"
 #include "generate/unit_lattice.h"
 #include "maps/codecs.h"
 #include "maps/image.h"
@@ -36,7 +37,7 @@ class BufferBuilder {
   public:
     template <class T>
     std::size_t addVertices(const std::vector<T>& values, const char* type) {
-        const std::size_t view = addView(values.data(), values.size() * sizeof(T), kArrayBuffer);
+        const std::size_t view = addView(values.data(), values.size() * sizeof(T), sizeof(float), kArrayBuffer);
         accessors_.push_back(
             {{"bufferView", view}, {"componentType", kFloat}, {"count", values.size()}, {"type", type}});
         return accessors_.size() - 1;
@@ -79,9 +80,9 @@ class BufferBuilder {
         std::size_t view = 0;
         if (is_short) {
             const std::vector<std::uint16_t> narrow(indices.begin(), indices.end());
-            view = addView(narrow.data(), narrow.size() * 2, kElementArrayBuffer);
+            view = addView(narrow.data(), narrow.size() * 2, 2, kElementArrayBuffer);
         } else {
-            view = addView(indices.data(), indices.size() * 4, kElementArrayBuffer);
+            view = addView(indices.data(), indices.size() * 4, 4, kElementArrayBuffer);
         }
         accessors_.push_back({{"bufferView", view},
                               {"componentType", is_short ? kUnsignedShort : kUnsignedInt},
@@ -90,13 +91,14 @@ class BufferBuilder {
         return accessors_.size() - 1;
     }
 
-    /// `target` 0: none.
-    std::size_t addView(const void* data, std::size_t byte_count, int target) {
+    /// Of numbers of this machine. `target` 0: none.
+    std::size_t addView(const void* data, std::size_t byte_count, std::size_t number_bytes, int target) {
         bytes_.resize((bytes_.size() + 3) / 4 * 4, 0);
         Json view = {{"buffer", 0}, {"byteOffset", bytes_.size()}, {"byteLength", byte_count}};
         if (target != 0) view["target"] = target;
         const auto* first = static_cast<const std::uint8_t*>(data);
         bytes_.insert(bytes_.end(), first, first + byte_count);
+        turnLittleEndian(std::span<std::uint8_t>(bytes_).last(byte_count), number_bytes);
         views_.push_back(std::move(view));
         return views_.size() - 1;
     }
@@ -116,7 +118,7 @@ class BufferBuilder {
         for (std::size_t i = 0; i < count; ++i)
             std::copy_n(elements.begin() + static_cast<std::ptrdiff_t>(i * element), element,
                         rows.begin() + static_cast<std::ptrdiff_t>(i * stride));
-        const std::size_t view = addView(rows.data(), rows.size(), kArrayBuffer);
+        const std::size_t view = addView(rows.data(), rows.size(), 1, kArrayBuffer);
         if (stride != element) views_[view]["byteStride"] = stride;
         accessor["bufferView"] = view;
         accessor["count"] = count;
@@ -197,7 +199,7 @@ class ImageBuilder {
             image["uri"] = percentEncode(below);
         } else {
             image["mimeType"] = type;
-            image["bufferView"] = buffer_.addView(bytes.data(), bytes.size(), 0);
+            image["bufferView"] = buffer_.addView(bytes.data(), bytes.size(), 1, 0);
         }
         return image;
     }

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// Stands for an importer that a model has taken over: it writes what stands in the "model". How it ends (1 byte), how long its
+// messages are (2 bytes, the low one first), its messages, and the rest as its result.
+#include <cstdio>
+#include <cstdlib>
+#include <iterator>
+#include <vector>
+
+int main(int argc, char** argv) {
+    std::FILE* const file = argc > 1 ? std::fopen(argv[1], "rb") : nullptr;
+    if (file == nullptr) return 2;
+    std::vector<unsigned char> bytes;
+    for (int byte = 0; (byte = std::fgetc(file)) != EOF;) bytes.push_back(static_cast<unsigned char>(byte));
+    std::fclose(file);
+    if (bytes.size() < 3) return 0;
+    std::size_t messages = bytes[1] + std::size_t{256} * bytes[2];
+    if (messages > bytes.size() - 3) messages = bytes.size() - 3;
+    std::fwrite(bytes.data() + 3, 1, messages, stderr);
+    std::fwrite(bytes.data() + 3 + messages, 1, bytes.size() - 3 - messages, stdout);
+    std::fflush(stdout);
+    if (bytes[0] == 255) std::abort();
+    return bytes[0] % 8 == 7 ? 1 : 0;
+}
