@@ -7,8 +7,8 @@
 #include <functional>
 
 #include "job.h"
-#include "pack/formats.h"
-#include "pack/random_frames.h"
+#include "core/pack/formats.h"
+#include "core/pack/random_frames.h"
 
 namespace tspace::bench {
 namespace {

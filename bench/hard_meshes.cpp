@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "mesh.h"
-#include "tangents/shapes.h"
+#include "core/tangents/shapes.h"
 
 namespace tspace::bench {
 

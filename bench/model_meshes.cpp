@@ -7,10 +7,10 @@
 #include <map>
 #include <tuple>
 
-#include "asset/file_error.h"
-#include "asset/gltf/primitive_reader.h"
-#include "asset/obj/obj_reader.h"
-#include "asset/read/load_document.h"
+#include "model/io/file_error.h"
+#include "model/gltf/primitive_reader.h"
+#include "model/obj/obj_reader.h"
+#include "model/read/load_document.h"
 #include "mesh.h"
 
 namespace tspace::bench {

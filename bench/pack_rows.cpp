@@ -2,8 +2,8 @@
 // Packing and unpacking frames, beside copying them.
 #include <cstring>
 
-#include "pack/format_names.h"
-#include "pack/random_frames.h"
+#include "core/pack/format_names.h"
+#include "core/pack/random_frames.h"
 #include "race.h"
 #include "rows.h"
 #include "tspace/pack.h"

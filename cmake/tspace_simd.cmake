@@ -1,4 +1,4 @@
-# Kernels that are compiled once per CPU and chosen at run time (src/simd): several for x86-64, one for 64-bit ARM
+# Kernels that are compiled once per CPU and chosen at run time (src/core/simd): several for x86-64, one for 64-bit ARM
 # (little-endian), and the scalar ones for every CPU. The compiler is asked what it compiles for, so that cross compilers
 # need not be told.
 include_guard(GLOBAL)

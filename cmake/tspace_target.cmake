@@ -2,7 +2,7 @@
 include_guard(GLOBAL)
 
 # Warnings, sanitizers and include paths. No target contracts to FMA, which GCC would do wherever the CPU has it, as on every
-# 64-bit ARM: results would differ from those of other CPUs, and inline functions of src/core would have two versions.
+# 64-bit ARM: results would differ from those of other CPUs, and inline functions of src/core/base would have two versions.
 function(tspace_configure_target target)
     target_compile_features(${target} PUBLIC cxx_std_20)
     set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF)
@@ -33,7 +33,7 @@ function(tspace_batch_sources target)
 endfunction()
 
 # The same for the core, folder by folder: a program has all of a batch in it or nothing, and one that makes tangents needs no
-# normals. Those of src/frames stay apart, since few programs need more than one. Call it where the target has its sources.
+# normals. Those of src/core/frames stay apart, since few programs need more than one. Call it where the target has its sources.
 function(tspace_batch_folders target)
     tspace_batch_sources(${target})
     set_target_properties(${target} PROPERTIES UNITY_BUILD_MODE GROUP)

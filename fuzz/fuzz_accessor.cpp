@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <string>
 
-#include "asset/file_error.h"
-#include "asset/gltf/accessor.h"
-#include "asset/gltf/document.h"
-#include "asset/uri.h"
+#include "model/io/file_error.h"
+#include "model/gltf/accessor.h"
+#include "model/gltf/document.h"
+#include "model/io/uri.h"
 
 namespace {
 

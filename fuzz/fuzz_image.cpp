@@ -5,8 +5,8 @@
 #include <cstdlib>
 #include <string>
 
-#include "maps/float_image.h"
-#include "maps/image.h"
+#include "images/float_image.h"
+#include "images/image.h"
 #include "tspace/flip_green.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

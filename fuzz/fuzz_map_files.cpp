@@ -8,7 +8,7 @@
 #include "files.h"
 #include "made_image.h"
 #include "made_model.h"
-#include "maps/image.h"
+#include "images/image.h"
 #include "tspace/bake_file.h"
 #include "tspace/map_convert_file.h"
 #include "tspace/map_height_file.h"

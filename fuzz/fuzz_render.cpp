@@ -5,7 +5,7 @@
 
 #include "made_image.h"
 #include "made_model.h"
-#include "maps/image.h"
+#include "images/image.h"
 #include "tspace/render.h"
 
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "byte_reader.h"
-#include "maps/float_image.h"
+#include "images/float_image.h"
 
 namespace tspace::fuzz {
 

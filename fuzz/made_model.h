@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "asset/gltf/glb.h"
-#include "asset/gltf/packed_layout.h"
+#include "model/gltf/glb.h"
+#include "model/gltf/packed_layout.h"
 #include "byte_reader.h"
 
 namespace tspace::fuzz {

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <initializer_list>
 
-#include "core/vec_math.h"
+#include "core/base/vec_math.h"
 
 namespace tspace::accuracy {
 

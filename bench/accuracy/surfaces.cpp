@@ -2,7 +2,7 @@
 // Twelve surfaces: flat and curved, isometric, conformal, stretched, sheared and mirrored UV maps.
 #include "surfaces.h"
 
-#include "core/angle.h"
+#include "core/base/angle.h"
 
 namespace tspace::accuracy {
 

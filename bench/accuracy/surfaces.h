@@ -4,7 +4,7 @@
 
 #include <span>
 
-#include "core/vec_math.h"
+#include "core/base/vec_math.h"
 #include "dual.h"
 
 namespace tspace::accuracy {

@@ -5,8 +5,8 @@
 #include <array>
 #include <cmath>
 
-#include "core/angle.h"
-#include "core/unit.h"
+#include "core/base/angle.h"
+#include "core/base/unit.h"
 #include "test_mesh.h"
 
 namespace tspace::bench {

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "bake_cases.h"
-#include "core/vec_math.h"
+#include "core/base/vec_math.h"
 
 namespace {
 

@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "pack/format_names.h"
+#include "core/pack/format_names.h"
 #include "peers.h"
 #include "tspace/pack.h"
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "pack/random_frames.h"
+#include "core/pack/random_frames.h"
 
 namespace tspace::bench {
 

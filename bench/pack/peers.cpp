@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "core/vec_math.h"
+#include "core/base/vec_math.h"
 
 // The types of GLSL, from those of Metal; last, as it has macros.
 #include <metal_stdlib>

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/vec_math.h"
+#include "core/base/vec_math.h"
 
 namespace tspace::bench {
 

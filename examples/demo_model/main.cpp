@@ -16,7 +16,7 @@
 #include <stb/stb_image_write.h>
 
 #include "crate.h"
-#include "json/json.h"
+#include "model/json/json.h"
 
 static_assert(std::endian::native == std::endian::little, "a GLB is little-endian and is written as it lies");
 

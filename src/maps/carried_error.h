@@ -5,7 +5,7 @@
 #include <array>
 #include <span>
 
-#include "core/parallel.h"
+#include "core/base/parallel.h"
 #include "maps/shading.h"
 #include "tspace/map_convert.h"
 

@@ -2,7 +2,7 @@
 // UVs of corners as a list of triangles.
 #pragma once
 
-#include "core/memory.h"
+#include "core/base/memory.h"
 #include "maps/uv_coverage.h"
 #include "tspace/map_convert.h"
 

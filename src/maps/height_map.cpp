@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/border.h"
-#include "core/parallel.h"
+#include "core/base/border.h"
+#include "core/base/parallel.h"
 #include "maps/carried_error.h"
 #include "maps/convert_texel.h"
 #include "maps/corner_triangles.h"

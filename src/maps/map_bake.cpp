@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "core/border.h"
+#include "core/base/border.h"
 #include "maps/map_calls.h"
 #include "maps/quantize.h"
 #include "maps/solve_texels.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tspace/map_error.h"
 
-#include "core/border.h"
+#include "core/base/border.h"
 #include "maps/measure_points.h"
 
 namespace tspace {

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "core/border.h"
+#include "core/base/border.h"
 #include "maps/position_box.h"
 
 namespace tspace {

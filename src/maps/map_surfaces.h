@@ -4,7 +4,7 @@
 
 #include <memory>
 
-#include "core/memory.h"
+#include "core/base/memory.h"
 #include "maps/rays.h"
 #include "maps/shading.h"
 #include "maps/uv_coverage.h"

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <bit>
 
-#include "core/hash.h"
-#include "core/sort.h"
-#include "core/vec_math.h"
+#include "core/base/hash.h"
+#include "core/base/sort.h"
+#include "core/base/vec_math.h"
 
 namespace tspace {
 

@@ -2,7 +2,7 @@
 // Which triangle of one mesh is which of another, where both are one surface with the same UVs.
 #pragma once
 
-#include "core/memory.h"
+#include "core/base/memory.h"
 #include "maps/texel_triangles.h"
 #include "tspace/map_convert.h"
 

@@ -5,7 +5,7 @@
 #include <bit>
 #include <numeric>
 
-#include "core/hash.h"
+#include "core/base/hash.h"
 #include "maps/sample_bands.h"
 #include "maps/texture_sample.h"
 

@@ -2,7 +2,7 @@
 // Points spread over a low poly, the truth at each, and how far a map is from it.
 #pragma once
 
-#include "core/parallel.h"
+#include "core/base/parallel.h"
 #include "maps/map_surfaces.h"
 
 namespace tspace {

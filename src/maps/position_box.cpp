@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/short_number.h"
+#include "core/base/short_number.h"
 
 namespace tspace {
 

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "core/vec_math.h"
+#include "core/base/vec_math.h"
 #include "tspace/span.h"
 
 namespace tspace {

@@ -2,7 +2,7 @@
 // Vectors as integers: with few bits, the length decides how well they point.
 #pragma once
 
-#include "core/vec_math.h"
+#include "core/base/vec_math.h"
 
 namespace tspace {
 

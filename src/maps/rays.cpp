@@ -15,10 +15,10 @@
 #include <embree3/rtcore.h>
 #endif
 
-#include "maps/loaded_library.h"
+#include "images/loaded_library.h"
 #endif
 
-#include "core/border.h"
+#include "core/base/border.h"
 
 namespace tspace {
 

@@ -8,8 +8,8 @@
 #include <memory>
 #include <span>
 
-#include "core/parallel.h"
-#include "core/vec_math.h"
+#include "core/base/parallel.h"
+#include "core/base/vec_math.h"
 #include "tspace/result.h"
 #include "tspace/span.h"
 

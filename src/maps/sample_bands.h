@@ -5,7 +5,7 @@
 
 #include <utility>
 
-#include "core/memory.h"
+#include "core/base/memory.h"
 #include "maps/texel_triangles.h"
 
 namespace tspace {

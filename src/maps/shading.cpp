@@ -4,7 +4,7 @@
 #include <cstring>
 #include <limits>
 
-#include "core/angle.h"
+#include "core/base/angle.h"
 
 namespace tspace {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "core/unit.h"
+#include "core/base/unit.h"
 
 namespace tspace {
 

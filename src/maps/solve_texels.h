@@ -4,7 +4,7 @@
 
 #include <span>
 
-#include "core/parallel.h"
+#include "core/base/parallel.h"
 #include "maps/texel_system.h"
 
 namespace tspace {

@@ -3,7 +3,7 @@
 // of the low poly, edges and small detail of the high poly, and the rims of charts.
 #pragma once
 
-#include "core/parallel.h"
+#include "core/base/parallel.h"
 #include "maps/texel_system.h"
 #include "maps/texel_triangles.h"
 #include "maps/trace_texels.h"

@@ -8,8 +8,8 @@
 #include <cstdint>
 #include <span>
 
-#include "core/memory.h"
-#include "core/vec_math.h"
+#include "core/base/memory.h"
+#include "core/base/vec_math.h"
 
 namespace tspace {
 

@@ -4,8 +4,8 @@
 
 #include <optional>
 
-#include "core/memory.h"
-#include "core/parallel.h"
+#include "core/base/memory.h"
+#include "core/base/parallel.h"
 #include "maps/uv_coverage.h"
 #include "maps/uv_rows.h"
 

@@ -11,7 +11,7 @@
 #include <set>
 
 #include "bake_cases.h"
-#include "core/vec_math.h"
+#include "core/base/vec_math.h"
 #include "maps/position_box.h"
 #include "support/thread_team.h"
 

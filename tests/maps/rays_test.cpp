@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-#include "core/unit.h"
+#include "core/base/unit.h"
 
 namespace tspace::test {
 namespace {

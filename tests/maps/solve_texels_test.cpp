@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-#include "core/unit.h"
+#include "core/base/unit.h"
 #include "support/thread_team.h"
 
 namespace tspace::test {

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/unit.h"
+#include "core/base/unit.h"
 #include "maps/solve_texels.h"
 
 namespace tspace::test {

@@ -2,7 +2,7 @@
 // Small glTF files whose geometry claims, or is made to be, far more than their bytes.
 #include <gtest/gtest.h>
 
-#include "asset/gltf_builder.h"
+#include "model/gltf_builder.h"
 #include "expect_bounded.h"
 
 namespace tspace {

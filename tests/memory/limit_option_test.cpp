@@ -4,7 +4,7 @@
 
 #include <cstdlib>
 
-#include "asset/gltf_builder.h"
+#include "model/gltf_builder.h"
 #include "measured_run.h"
 #include "support/temp_folder.h"
 

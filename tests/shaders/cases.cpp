@@ -10,9 +10,9 @@
 #include <iterator>
 #include <sstream>
 
-#include "core/vec_math.h"
-#include "pack/format_names.h"
-#include "pack/random_frames.h"
+#include "core/base/vec_math.h"
+#include "core/pack/format_names.h"
+#include "core/pack/random_frames.h"
 #include "tspace/pack.h"
 
 namespace tspace::shaders {

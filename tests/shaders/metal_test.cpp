@@ -6,7 +6,7 @@
 #include <iostream>
 
 #include "cases.h"
-#include "pack/frame_list.h"
+#include "core/pack/frame_list.h"
 
 // Last, as it has macros.
 #include <metal_stdlib>

@@ -5,7 +5,7 @@
 #include <iostream>
 
 #include "cases.h"
-#include "pack/frame_list.h"
+#include "core/pack/frame_list.h"
 #include "read_spirv.h"
 #include "vulkan_compute.h"
 

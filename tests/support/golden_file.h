@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-#include "core/little_endian.h"
+#include "core/base/little_endian.h"
 
 namespace tspace::test {
 

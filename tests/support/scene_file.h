@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "asset/gltf_builder.h"
+#include "model/gltf_builder.h"
 #include "support/temp_folder.h"
 #include "tspace/tangents.h"
 #include "tspace/vec.h"

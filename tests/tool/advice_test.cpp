@@ -7,7 +7,7 @@
 #include <set>
 #include <utility>
 
-#include "asset/model_files.h"
+#include "model/model_files.h"
 #include "tool/run_tool.h"
 
 namespace tspace::test {

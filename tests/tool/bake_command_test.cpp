@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "maps/float_image.h"
-#include "maps/images.h"
+#include "images/float_image.h"
+#include "images/images.h"
 #include "run_tool.h"
 
 namespace tspace::test {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // tspace check --html.
-#include "render/drawn.h"
+#include "commands/render/drawn.h"
 #include "support/temp_folder.h"
 #include "tool/run_tool.h"
 

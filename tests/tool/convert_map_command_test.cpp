@@ -6,9 +6,9 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "core/unit.h"
-#include "maps/float_image.h"
-#include "maps/images.h"
+#include "core/base/unit.h"
+#include "images/float_image.h"
+#include "images/images.h"
 #include "run_tool.h"
 
 namespace tspace::test {

@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "maps/images.h"
+#include "images/images.h"
 #include "run_tool.h"
 
 namespace tspace::test {

@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "maps/images.h"
+#include "images/images.h"
 #include "tool/run_tool.h"
 
 namespace tspace::test {

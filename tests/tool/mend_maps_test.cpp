@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "maps/float_image.h"
-#include "maps/images.h"
+#include "images/float_image.h"
+#include "images/images.h"
 #include "maps/shading.h"
 #include "run_tool.h"
 #include "tspace/map_layout.h"

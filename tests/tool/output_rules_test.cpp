@@ -8,7 +8,7 @@
 #include <set>
 #include <tuple>
 
-#include "asset/temporary_name.h"
+#include "model/io/temporary_name.h"
 #include "tool/run_tool.h"
 
 namespace tspace::test {

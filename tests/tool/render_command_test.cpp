@@ -2,7 +2,7 @@
 // tspace render.
 #include <nlohmann/json.hpp>
 
-#include "maps/image.h"
+#include "images/image.h"
 #include "support/scene_file.h"
 #include "tool/run_tool.h"
 

@@ -9,7 +9,7 @@
 #include "help.h"
 #include "jobs.h"
 #include "options.h"
-#include "options/nearest_name.h"
+#include "commands/shared/nearest_name.h"
 #include "read_command_line.h"
 
 namespace tspace::tool {

@@ -6,8 +6,8 @@
 #include <variant>
 #include <vector>
 
-#include "options/request.h"
-#include "report/exit_code.h"
+#include "commands/shared/request.h"
+#include "commands/shared/exit_code.h"
 
 namespace tspace::tool {
 

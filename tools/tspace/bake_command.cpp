@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <chrono>
 
-#include "asset/file_io.h"
+#include "model/io/file_io.h"
 #include "commands.h"
 #include "console.h"
 #include "interrupt.h"

@@ -2,7 +2,7 @@
 // tspace check
 #include "commands.h"
 #include "output_files.h"
-#include "page/check_page.h"
+#include "commands/shared/page/check_page.h"
 #include "read_files.h"
 #include "standard_input.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The table of commands, from which the command line is read (read_command_line.h), and --help (help.h), man pages and
-// completions (pages/) are made. What decides about results is described in the library (src/options/); the rest is added
+// completions (pages/) are made. What decides about results is described in the library (src/commands/shared/); the rest is added
 // here.
 #pragma once
 
@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "options/option_table.h"
+#include "commands/shared/option_table.h"
 
 namespace tspace::tool {
 

@@ -7,7 +7,7 @@
 
 #include "arguments.h"
 #include "command_table.h"
-#include "options/file_options.h"
+#include "commands/shared/file_options.h"
 
 namespace tspace::tool {
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "arguments.h"
-#include "report/counted.h"
+#include "commands/shared/counted.h"
 #include "tspace/asset.h"
 
 namespace tspace::tool {

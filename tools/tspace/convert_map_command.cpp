@@ -2,7 +2,7 @@
 // tspace convert-map: one normal map, for other frames.
 #include <fmt/format.h>
 
-#include "asset/file_io.h"
+#include "model/io/file_io.h"
 #include "commands.h"
 #include "console.h"
 #include "image_command.h"

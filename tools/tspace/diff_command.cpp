@@ -3,7 +3,7 @@
 #include "commands.h"
 #include "console.h"
 #include "output_files.h"
-#include "page/diff_page.h"
+#include "commands/shared/page/diff_page.h"
 #include "report.h"
 
 namespace tspace::tool {

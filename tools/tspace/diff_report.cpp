@@ -4,7 +4,7 @@
 
 #include "console.h"
 #include "report.h"
-#include "report/diff_text.h"
+#include "commands/diff/diff_text.h"
 
 namespace tspace::tool {
 namespace {

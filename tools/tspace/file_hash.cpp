@@ -10,7 +10,7 @@
 #include <memory>
 #include <vector>
 
-#include "asset/system_files.h"
+#include "model/io/system_files.h"
 
 namespace tspace::tool {
 

@@ -2,7 +2,7 @@
 // tspace flip-green: one image, its green channel inverted.
 #include <fmt/format.h>
 
-#include "asset/file_io.h"
+#include "model/io/file_io.h"
 #include "commands.h"
 #include "console.h"
 #include "image_command.h"

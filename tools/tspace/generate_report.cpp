@@ -6,7 +6,7 @@
 
 #include "console.h"
 #include "report.h"
-#include "report/generate_totals.h"
+#include "commands/generate/generate_totals.h"
 
 namespace tspace::tool {
 namespace {

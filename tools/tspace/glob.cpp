@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <set>
 
-#include "asset/path.h"
+#include "model/io/path.h"
 #include "system.h"
 
 namespace tspace::tool {

@@ -2,7 +2,7 @@
 // tspace height-to-normal: one height map as a normal map.
 #include <fmt/format.h>
 
-#include "asset/file_io.h"
+#include "model/io/file_io.h"
 #include "commands.h"
 #include "console.h"
 #include "image_command.h"

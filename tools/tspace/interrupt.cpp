@@ -8,7 +8,7 @@
 #include <atomic>
 #include <initializer_list>
 
-#include "asset/temporary_files.h"
+#include "model/io/temporary_files.h"
 
 namespace tspace::tool {
 namespace {

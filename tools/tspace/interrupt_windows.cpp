@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <initializer_list>
 
-#include "asset/temporary_files.h"
+#include "model/io/temporary_files.h"
 #include "interrupt.h"
 
 namespace tspace::tool {

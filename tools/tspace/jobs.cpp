@@ -9,9 +9,9 @@
 #include <map>
 #include <set>
 
-#include "asset/disk_paths.h"
-#include "asset/file_io.h"
-#include "asset/system_files.h"
+#include "model/io/disk_paths.h"
+#include "model/io/file_io.h"
+#include "model/io/system_files.h"
 #include "glob.h"
 #include "system.h"
 

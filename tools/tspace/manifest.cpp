@@ -9,8 +9,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "asset/system_files.h"
-#include "asset/uri.h"
+#include "model/io/system_files.h"
+#include "model/io/uri.h"
 #include "report.h"
 #include "system.h"
 

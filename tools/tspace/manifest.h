@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "asset/c_file.h"
+#include "model/io/c_file.h"
 #include "file_hash.h"
 #include "jobs.h"
 

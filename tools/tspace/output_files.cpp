@@ -5,9 +5,9 @@
 #include <map>
 #include <set>
 
-#include "asset/file_error.h"
-#include "asset/file_io.h"
-#include "asset/system_files.h"
+#include "model/io/file_error.h"
+#include "model/io/file_io.h"
+#include "model/io/system_files.h"
 
 namespace tspace::tool {
 

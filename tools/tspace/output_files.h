@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "asset/atomic_output.h"
+#include "model/io/atomic_output.h"
 #include "tspace/result.h"
 
 namespace tspace::tool {

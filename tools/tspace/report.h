@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Results as text for people; as JSON for programs they are in the library (src/report/).
+// Results as text for people; as JSON for programs they are in the library (src/commands/shared/).
 #pragma once
 
 #include <string>
 #include <vector>
 
 #include "arguments.h"
-#include "report/report.h"
+#include "commands/shared/report.h"
 
 namespace tspace::tool {
 

@@ -9,7 +9,7 @@
 #include <filesystem>
 #include <string_view>
 
-#include "asset/path.h"
+#include "model/io/path.h"
 #include "system.h"
 
 namespace tspace::tool {

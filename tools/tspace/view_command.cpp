@@ -4,8 +4,8 @@
 
 #include <filesystem>
 
-#include "asset/file_io.h"
-#include "asset/system_files.h"
+#include "model/io/file_io.h"
+#include "model/io/system_files.h"
 #include "commands.h"
 #include "console.h"
 #include "output_files.h"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "json/json.h"
+#include "model/json/json.h"
 #include "mend.h"
 
 namespace tspace::import {

@@ -19,7 +19,7 @@ struct Imported {
 /// What decides about reading.
 struct ImportRules {
     bool anywhere =
-        false;  ///< files that it names are read wherever they are; else where the URIs of glTF may lead (src/asset/folder_rule.h)
+        false;  ///< files that it names are read wherever they are; else where the URIs of glTF may lead (src/model/io/folder_rule.h)
     bool keep_coordinates =
         false;  ///< else an offset is taken out of PLY with more than floats where floats do not hold the shape
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The same rules as for OBJ (src/asset/obj): what cannot be, is replaced and counted.
+// The same rules as for OBJ (src/model/obj): what cannot be, is replaced and counted.
 #include "mend.h"
 
 #include <algorithm>

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <system_error>
 
-#include "asset/folder_rule.h"
+#include "model/io/folder_rule.h"
 
 namespace tspace::import {
 

@@ -11,7 +11,7 @@
 #include <sstream>
 
 #include "number_text.h"
-#include "surface/float_loss.h"
+#include "core/mesh/surface/float_loss.h"
 
 namespace tspace::import {
 

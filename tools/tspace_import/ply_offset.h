@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/vec_math.h"
+#include "core/base/vec_math.h"
 
 namespace tspace::import {
 

@@ -7,9 +7,9 @@
 #include <cstdlib>
 #include <memory>
 
-#include "asset/file_error.h"
-#include "asset/gltf/codecs/draco_library.h"
-#include "asset/gltf/codecs/meshopt_library.h"
+#include "model/io/file_error.h"
+#include "model/gltf/codecs/draco_library.h"
+#include "model/gltf/codecs/meshopt_library.h"
 
 namespace tspace::js {
 namespace {

@@ -2,12 +2,12 @@
 // The module of the entry "tspace/gltf": the C API of files, on bytes, behind one function.
 #include <cstdlib>
 
-#include "asset/read/read_scene.h"
-#include "c_files/c_call.h"
+#include "model/read/read_scene.h"
+#include "api/c_call.h"
 #include "codecs.h"
 #include "exports.h"
-#include "maps/image.h"
-#include "options/request.h"
+#include "images/image.h"
+#include "commands/shared/request.h"
 #include "tspace/tspace_files.h"
 
 using namespace tspace;

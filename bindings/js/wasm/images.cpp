@@ -5,9 +5,9 @@
 #include <string_view>
 
 #include "codecs.h"
-#include "maps/codecs.h"
-#include "maps/flip_green.h"
-#include "maps/png_pixels.h"
+#include "images/codecs.h"
+#include "images/flip_green.h"
+#include "images/png_pixels.h"
 
 using namespace tspace::js;
 

@@ -99,4 +99,4 @@ inline bool getline(const Input&, std::string&, char) { return false; }
 #pragma clang diagnostic ignored "-Wall"
 #pragma clang diagnostic ignored "-Wextra"
 // What follows includes no header of the C++ library that is not above.
-#include "asset/obj/tiny_obj_loader.cpp"
+#include "model/obj/tiny_obj_loader.cpp"

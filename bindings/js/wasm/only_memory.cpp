@@ -4,13 +4,13 @@
 #include <cerrno>
 #include <new>
 
-#include "asset/atomic_output.h"
-#include "asset/disk_paths.h"
-#include "asset/file_error.h"
-#include "asset/import/import_document.h"
-#include "asset/uri.h"
-#include "generate_file/convert_maps.h"
-#include "generate_file/mend_maps.h"
+#include "model/io/atomic_output.h"
+#include "model/io/disk_paths.h"
+#include "model/io/file_error.h"
+#include "model/imported/import_document.h"
+#include "model/io/uri.h"
+#include "commands/generate/convert_maps.h"
+#include "commands/generate/mend_maps.h"
 #include "tspace/arena.h"
 
 namespace tspace {

@@ -6,9 +6,9 @@
 #include <stdexcept>
 #include <typeinfo>
 
-#include "asset/file_error.h"
-#include "c_files/c_call.h"
-#include "core/memory.h"
+#include "model/io/file_error.h"
+#include "api/c_call.h"
+#include "core/base/memory.h"
 #include "exports.h"
 
 using namespace tspace;

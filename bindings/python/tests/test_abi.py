@@ -14,7 +14,7 @@ import tspace
 from tspace import _abi, _files, _files_abi
 
 ROOT = Path(__file__).resolve().parents[3]
-INCLUDE, OPTIONS = ROOT / "include", ROOT / "src/options"
+INCLUDE, OPTIONS = ROOT / "include", ROOT / "src/commands/shared"
 HEADERS = ("tspace.h", "tspace_frame.h", "tspace_indexed_frames.h", "tspace_normals.h", "tspace_pack.h", "tspace_files.h")
 ENUMERATIONS = {
     "METHOD": _abi.METHODS,

@@ -25,7 +25,7 @@ function showNormals(root) {
     });
 }
 
-/// As Camera::around of src/picture holds a model: 94 % of the picture.
+/// As Camera::around of src/commands/shared/picture holds a model: 94 % of the picture.
 function cameraFor(model, size) {
     model.updateMatrixWorld(true);
     const box = new THREE.Box3().setFromObject(model, true);

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+// What every function of the C API of files does: options from JSON, errors to codes, bytes to the caller.
+#pragma once
+
+#include <cstdint>
+#include <initializer_list>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "model/io/file_error.h"
+#include "commands/shared/json_options.h"
+#include "tspace/asset.h"
+#include "tspace/tspace_files.h"
+
+namespace tspace::c_files {
+
+/// Bytes for the caller, who frees them by tspace_destroyBytes.
+class GrowingBytes {
+  public:
+    GrowingBytes() = default;
+    explicit GrowingBytes(std::span<const std::uint8_t> bytes) { append(bytes); }
+    explicit GrowingBytes(std::string_view text)
+        : GrowingBytes({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}) {}
+    ~GrowingBytes();
+    GrowingBytes(const GrowingBytes&) = delete;
+    GrowingBytes& operator=(const GrowingBytes&) = delete;
+
+    /// Throws std::bad_alloc.
+    void append(std::span<const std::uint8_t> bytes);
+    /// Hands them over, where somebody wants them. Never fails.
+    void giveTo(tspace_Bytes* to) noexcept;
+
+  private:
+    std::uint8_t* data_ = nullptr;
+    std::size_t size_ = 0, capacity_ = 0;
+};
+
+/// Writes `error` with its place to the caller's struct, which may be null, and returns its code. Takes no memory.
+tspace_ErrorCode finishCall(const Error& error, tspace_Error* out) noexcept;
+
+/// Runs `body`, which may throw as the file layer does, at the border. `results`, which may be null, are empty
+/// before it, and after an error.
+template <class Body>
+tspace_ErrorCode atCallBorder(tspace_Error* out, std::initializer_list<tspace_Bytes*> results, Body&& body) noexcept {
+    for (tspace_Bytes* result : results) {
+        if (result != nullptr) *result = tspace_Bytes{};
+    }
+    const Result<Done> result = atFileBorder([&]() -> Result<Done> {
+        body();
+        return Done{};
+    });
+    if (!result) {
+        for (tspace_Bytes* half_done : results) tspace_destroyBytes(half_done);
+    }
+    return result ? finishCall(Error{ErrorCode::ok}, out) : finishCall(result.error(), out);
+}
+
+/// A text that must be there. Fails with nullData.
+std::string neededText(const char* text, const char* name);
+
+/// Reads options; null is none. Fails with invalidOption.
+void readOptions(const options::OptionList& list, const char* text, options::Given& given);
+
+/// tspace_generateBytes and tspace_checkBytes with progress, which may end the call by throwing.
+tspace_ErrorCode generateBytes(const tspace_Model* model, const char* options, const Progress& progress,
+                               tspace_Bytes* output, tspace_Bytes* report, tspace_Error* error) noexcept;
+tspace_ErrorCode checkBytes(const tspace_Model* model, const char* options, const Progress& progress,
+                            tspace_Bytes* report, tspace_Error* error) noexcept;
+
+/// What a model is called.
+std::string nameOf(const tspace_Model& model);
+/// Makes `options` open the model. Fails with nullData and invalidOption.
+void openModel(const tspace_Model* model, FileOptions& options);
+
+}  // namespace tspace::c_files

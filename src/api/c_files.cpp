@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: MIT
+// C API of files: each function reads its options, calls the C++ function of its name, and gives its report as JSON.
+#include <chrono>
+
+#include "api/c_call.h"
+#include "commands/shared/request.h"
+#include "commands/shared/report.h"
+
+using namespace tspace;           // NOLINT: this file only forwards
+using namespace tspace::c_files;  // NOLINT
+using report::ExitCode;
+
+namespace {
+
+/// The value of a Result, which stays, or its error thrown.
+template <class Value>
+void throwError(const Result<Value>& result) {
+    if (!result) throw FileError{result.error()};
+}
+
+void giveReport(const std::string& json, tspace_Bytes* to) {
+    if (to != nullptr) GrowingBytes(json).giveTo(to);
+}
+
+/// "a.b/helmet.gltf" without ".gltf".
+std::string withoutEnding(const std::string& name) {
+    const std::size_t dot = name.rfind('.'), slash = name.rfind('/');
+    return dot == std::string::npos || (slash != std::string::npos && dot < slash) ? name : name.substr(0, dot);
+}
+
+void readGenerateOptions(const char* text, GenerateOptions& options) {
+    options::Given given;
+    const options::OptionList list = options::generateOptions(options);
+    readOptions(list, text, given);
+    const std::string wrong = options::finish(given, options);
+    if (!wrong.empty()) failFile(ErrorCode::invalidOption, wrong);
+}
+
+void generate(const std::string& input, const std::string& output, const GenerateOptions& options, tspace_Bytes* json) {
+    using Clock = std::chrono::steady_clock;
+    const Clock::time_point start = Clock::now();
+    report::GenerateOutcome outcome{.input = input, .output = output, .is_dry_run = options.dry_run};
+    outcome.result = generateFile(input, output, options);
+    throwError(outcome.result);
+    outcome.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    if (json != nullptr) giveReport(report::generateJson({outcome}, ExitCode::done, outcome.seconds), json);
+}
+
+void readCheckOptions(const char* text, options::CheckRequest& request) {
+    options::Given given;
+    readOptions(options::checkOptions(request), text, given);
+}
+
+void check(const std::string& input, const options::CheckRequest& request, tspace_Bytes* json) {
+    report::CheckOutcome outcome{.input = input, .result = checkFile(input, request.options)};
+    throwError(outcome.result);
+    options::leaveOut(request, *outcome.result);
+    const ExitCode exit_code = options::failsBy(request, *outcome.result) ? ExitCode::findings : ExitCode::done;
+    giveReport(report::checkJson({outcome}, exit_code, request.fail_on), json);
+}
+
+void readInspectOptions(const char* text, FileOptions& options) {
+    options::Given given;
+    readOptions(options::inspectOptions(options), text, given);
+}
+
+void inspect(const std::string& input, const FileOptions& options, tspace_Bytes* json) {
+    const report::InspectOutcome outcome{.input = input, .result = inspectFile(input, options)};
+    throwError(outcome.result);
+    giveReport(report::inspectJson({outcome}, ExitCode::done), json);
+}
+
+void readIdentifyOptions(const char* text, IdentifyOptions& options) {
+    options::Given given;
+    readOptions(options::identifyOptions(options), text, given);
+}
+
+void identify(const std::string& input, const IdentifyOptions& options, tspace_Bytes* json) {
+    const report::IdentifyOutcome outcome{.input = input, .result = identifyFile(input, options)};
+    throwError(outcome.result);
+    giveReport(report::identifyJson({outcome}, ExitCode::done), json);
+}
+
+void readDiffOptions(const char* text, options::DiffRequest& request) {
+    options::Given given;
+    readOptions(options::diffOptions(request), text, given);
+}
+
+void diff(const std::string& a, const std::string& b, const options::DiffRequest& request, tspace_Bytes* json) {
+    const Result<FrameDiff> result = diffFiles(a, b, request.options);
+    throwError(result);
+    const ExitCode exit_code = result->isWithin(request.tolerance_deg) ? ExitCode::done : ExitCode::findings;
+    giveReport(report::diffJson(a, b, request.tolerance_deg, result, exit_code), json);
+}
+
+void readHeightToNormalOptions(const char* text, HeightToNormalFileOptions& options) {
+    options::Given given;
+    options.tangents.execution.thread_count = 1;
+    readOptions(options::heightToNormalOptions(options), text, given);
+}
+
+void readFlipGreenOptions(const char* text, FlipGreenOptions& options) {
+    options::Given given;
+    readOptions(options::flipGreenOptions(options), text, given);
+}
+
+}  // namespace
+
+tspace_ErrorCode tspace_generateFile(const char* input, const char* output, const char* options, tspace_Bytes* report,
+                                     tspace_Error* error) noexcept {
+    return atCallBorder(error, {report}, [&] {
+        const std::string from = neededText(input, "input"), to = neededText(output, "output");
+        GenerateOptions chosen;
+        readGenerateOptions(options, chosen);
+        generate(from, to, chosen, report);
+    });
+}
+
+tspace_ErrorCode tspace::c_files::generateBytes(const tspace_Model* model, const char* options,
+                                                const Progress& progress, tspace_Bytes* output, tspace_Bytes* report,
+                                                tspace_Error* error) noexcept {
+    return atCallBorder(error, {output, report}, [&] {
+        if (output == nullptr) failFile(ErrorCode::nullData, "output is null");
+        GenerateOptions chosen;
+        openModel(model, chosen.file);
+        readGenerateOptions(options, chosen);
+        chosen.progress = progress;
+        GrowingBytes bytes;
+        chosen.sink = [&](std::span<const std::uint8_t> part) {
+            bytes.append(part);
+            return true;
+        };
+        const std::string name = nameOf(*model);
+        generate(name, withoutEnding(name) + ".glb", chosen, report);
+        bytes.giveTo(output);
+    });
+}
+
+tspace_ErrorCode tspace_generateBytes(const tspace_Model* model, const char* options, tspace_Bytes* output,
+                                      tspace_Bytes* report, tspace_Error* error) noexcept {
+    return generateBytes(model, options, {}, output, report, error);
+}
+
+tspace_ErrorCode tspace_checkFile(const char* input, const char* options, tspace_Bytes* report,
+                                  tspace_Error* error) noexcept {
+    return atCallBorder(error, {report}, [&] {
+        const std::string from = neededText(input, "input");
+        options::CheckRequest request;
+        readCheckOptions(options, request);
+        check(from, request, report);
+    });
+}
+
+tspace_ErrorCode tspace::c_files::checkBytes(const tspace_Model* model, const char* options, const Progress& progress,
+                                             tspace_Bytes* report, tspace_Error* error) noexcept {
+    return atCallBorder(error, {report}, [&] {
+        options::CheckRequest request;
+        openModel(model, request.options.file);
+        readCheckOptions(options, request);
+        request.options.progress = progress;
+        check(nameOf(*model), request, report);
+    });
+}
+
+tspace_ErrorCode tspace_checkBytes(const tspace_Model* model, const char* options, tspace_Bytes* report,
+                                   tspace_Error* error) noexcept {
+    return checkBytes(model, options, {}, report, error);
+}
+
+tspace_ErrorCode tspace_inspectFile(const char* input, const char* options, tspace_Bytes* report,
+                                    tspace_Error* error) noexcept {
+    return atCallBorder(error, {report}, [&] {
+        const std::string from = neededText(input, "input");
+        FileOptions chosen;
+        readInspectOptions(options, chosen);
+        inspect(from, chosen, report);
+    });
+}
+
+tspace_ErrorCode tspace_inspectBytes(const tspace_Model* model, const char* options, tspace_Bytes* report,
+                                     tspace_Error* error) noexcept {
+    return atCallBorder(error, {report}, [&] {
+        FileOptions chosen;
+        openModel(model, chosen);
+        readInspectOptions(options, chosen);
+        inspect(nameOf(*model), chosen, report);
+    });
+}
+
+tspace_ErrorCode tspace_identifyFile(const char* input, const char* options, tspace_Bytes* report,
+                                     tspace_Error* error) noexcept {
+    return atCallBorder(error, {report}, [&] {
+        const std::string from = neededText(input, "input");
+        IdentifyOptions chosen;
+        readIdentifyOptions(options, chosen);
+        identify(from, chosen, report);
+    });
+}
+
+tspace_ErrorCode tspace_identifyBytes(const tspace_Model* model, const char* options, tspace_Bytes* report,
+                                      tspace_Error* error) noexcept {
+    return atCallBorder(error, {report}, [&] {
+        IdentifyOptions chosen;
+        openModel(model, chosen.file);
+        readIdentifyOptions(options, chosen);
+        identify(nameOf(*model), chosen, report);
+    });
+}
+
+tspace_ErrorCode tspace_diffFiles(const char* a, const char* b, const char* options, tspace_Bytes* report,
+                                  tspace_Error* error) noexcept {
+    return atCallBorder(error, {report}, [&] {
+        const std::string from_a = neededText(a, "a"), from_b = neededText(b, "b");
+        options::DiffRequest request;
+        readDiffOptions(options, request);
+        diff(from_a, from_b, request, report);
+    });
+}
+
+tspace_ErrorCode tspace_diffBytes(const tspace_Model* a, const tspace_Model* b, const char* options,
+                                  tspace_Bytes* report, tspace_Error* error) noexcept {
+    return atCallBorder(error, {report}, [&] {
+        options::DiffRequest request;
+        readDiffOptions(options, request);
+        FileOptions& file = request.options.file;
+        FileOptions& file_b = request.options.file_b.emplace(file);
+        openModel(a, file);
+        openModel(b, file_b);
+        diff(nameOf(*a), nameOf(*b), request, report);
+    });
+}
+
+tspace_ErrorCode tspace_flipGreenFile(const char* input, const char* output, const char* options, tspace_Bytes* report,
+                                      tspace_Error* error) noexcept {
+    return atCallBorder(error, {report}, [&] {
+        const std::string from = neededText(input, "input"), to = neededText(output, "output");
+        FlipGreenOptions chosen;
+        readFlipGreenOptions(options, chosen);
+        report::Outcome<FlipGreenReport> outcome{.input = from, .output = to, .is_dry_run = chosen.dry_run};
+        outcome.result = flipGreenFile(from, to, chosen);
+        throwError(outcome.result);
+        giveReport(report::flipGreenJson(outcome, ExitCode::done), report);
+    });
+}
+
+tspace_ErrorCode tspace_heightToNormalFile(const char* input, const char* output, const char* options,
+                                           tspace_Bytes* report, tspace_Error* error) noexcept {
+    return atCallBorder(error, {report}, [&] {
+        const std::string from = neededText(input, "input"), to = neededText(output, "output");
+        HeightToNormalFileOptions chosen;
+        readHeightToNormalOptions(options, chosen);
+        report::Outcome<HeightToNormalFileReport> outcome{.input = from, .output = to, .is_dry_run = chosen.dry_run};
+        outcome.result = heightToNormalFile(from, to, chosen);
+        throwError(outcome.result);
+        giveReport(report::heightToNormalJson(outcome, ExitCode::done), report);
+    });
+}
+
+tspace_ErrorCode tspace_flipGreenBytes(const uint8_t* data, size_t size, const char* options, tspace_Bytes* output,
+                                       tspace_Bytes* report, tspace_Error* error) noexcept {
+    return atCallBorder(error, {output, report}, [&] {
+        if (data == nullptr) failFile(ErrorCode::nullData, "data is null");
+        if (output == nullptr) failFile(ErrorCode::nullData, "output is null");
+        FlipGreenOptions chosen;
+        readFlipGreenOptions(options, chosen);
+        FlippedImage flipped = valueOrThrow(flipGreen({data, size}, chosen));
+        report::Outcome<FlipGreenReport> outcome{.is_dry_run = chosen.dry_run};
+        outcome.result = std::move(flipped.report);
+        giveReport(report::flipGreenJson(outcome, ExitCode::done), report);
+        if (!chosen.dry_run) GrowingBytes(flipped.bytes).giveTo(output);
+    });
+}

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: MIT
+#include "tspace/bake_file.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "model/io/atomic_output.h"
+#include "model/io/file_error.h"
+#include "model/io/file_io.h"
+#include "commands/bake/map_pictures.h"
+#include "commands/bake/model_surfaces.h"
+#include "images/float_image.h"
+#include "maps/map_calls.h"
+
+namespace tspace {
+
+namespace {
+
+std::vector<std::uint8_t> pngOf(std::uint32_t width, std::uint32_t height, std::vector<Vec3> texels, unsigned bits) {
+    std::optional<std::vector<std::uint8_t>> png =
+        encodePng({.width = width, .height = height, .bits = bits, .texels = std::move(texels)}, bits);
+    if (!png) failFile(ErrorCode::unsupportedFile, "this build of tspace writes no PNG");
+    return *std::move(png);
+}
+
+/// A name of a material, fit to be a part of a file's name.
+std::string fileWord(const std::string& name) {
+    std::string word;
+    for (const char letter : name) {
+        const bool is_plain = (letter >= 'a' && letter <= 'z') || (letter >= 'A' && letter <= 'Z') ||
+                              (letter >= '0' && letter <= '9') || letter == '-' || letter == '_';
+        word += is_plain ? letter : '_';
+    }
+    return word.empty() ? "material" : word;
+}
+
+/// "dir/name.WORD.png" of "dir/name.png".
+std::string withWord(const std::string& path, const std::string& word) {
+    if (path.empty() || word.empty()) return path;
+    const std::size_t slash = path.find_last_of('/'), dot = path.find_last_of('.');
+    const bool has_extension = dot != std::string::npos && (slash == std::string::npos || dot > slash);
+    const std::size_t at = has_extension ? dot : path.size();
+    return path.substr(0, at) + "." + word + path.substr(at);
+}
+
+class FileBaking {
+  public:
+    FileBaking(const std::string& output, const BakeFileOptions& options) : output_(output), options_(options) {
+        inputs_.watch(options_.file);
+        options_.map.reading.two_channels = options_.map.reading.two_channels || options_.unit;
+        // An image is as large as it was asked for: what a file may take by its own size says nothing here.
+        constexpr std::uint64_t kUsualLimit = std::uint64_t{16} << 30;
+        std::uint64_t& limit = options_.map.memory_limit_bytes;
+        if (limit == 0) limit = options_.file.memory_limit_bytes;
+        if (limit == 0) limit = kUsualLimit;
+    }
+
+    BakeFileReport run(const std::string& low, const std::string& high) {
+        if (lowerExtension(output_) != ".png")
+            failFile(ErrorCode::unsupportedFile, "the output " + pathInQuotes(output_) + " does not end in .png");
+        checkOutMesh();
+        if (Error error = checkBakeOptions(options_.map, 0, 0); error.code != ErrorCode::ok) throw FileError{error};
+        models_ = readBakeModels(low, high, options_);
+        report_.frames_made = models_.low.frames_made;
+        report_.matched_by_name = models_.matched_by_name;
+        report_.low_triangle_count = models_.low.triangleCount();
+        report_.high_triangle_count = models_.high.corners.size() / 3;
+        report_.warnings = models_.low.warnings;
+        report_.warnings.insert(report_.warnings.end(), models_.high.warnings.begin(), models_.high.warnings.end());
+        options_.map.reach = models_.reach(options_.map.reach);
+        for (const LowModel::Image& image : models_.low.images) {
+            const std::string word = models_.low.images.size() > 1 ? freshWord(fileWord(image.material)) : "";
+            if (const std::size_t count = beyondEdges(image))
+                report_.warnings.push_back(std::to_string(count) +
+                                           " triangles reach beyond the edge of the texture of " +
+                                           (image.material.empty() ? "the low poly" : inQuotes(image.material)) +
+                                           ", which is clamped: there they show the texels of its edge");
+            bakeTiles(image, word);
+        }
+        if (!options_.out_mesh.empty())
+            addModelWithMaps({low, std::move(models_.low_glb), options_.out_mesh, std::move(maps_)}, options_.file,
+                             files_, report_.warnings);
+        report_.output_files = files_.files();
+        files_.commit();
+        return std::move(report_);
+    }
+
+  private:
+    /// A model that is written reads the map as glTF says.
+    void checkOutMesh() const {
+        if (options_.out_mesh.empty()) return;
+        if (!isGltfName(options_.out_mesh))
+            failFile(ErrorCode::unsupportedFile,
+                     "the output " + pathInQuotes(options_.out_mesh) + " is neither .glb nor .gltf");
+        if (options_.udim) failFile(ErrorCode::invalidOption, "a glTF model has one image per material, and no tiles");
+        if (options_.map.space == MapSpace::object)
+            failFile(ErrorCode::invalidOption, "normal maps of glTF models are in tangent space");
+        if (options_.map.reading.green == Green::down)
+            failFile(ErrorCode::invalidOption, "green points up in the normal maps of glTF models");
+    }
+
+    std::string freshWord(const std::string& word) {
+        std::string fresh = word;
+        for (int i = 2; !words_.insert(fresh).second; ++i) fresh = word + "_" + std::to_string(i);
+        return fresh;
+    }
+
+    /// How many triangles lie more than half a texel outside of a clamped image.
+    [[nodiscard]] std::size_t beyondEdges(const LowModel::Image& image) const {
+        if (options_.udim) return 0;
+        const auto isBeyond = [](TextureWrap wrap, float at, std::uint32_t size) {
+            return wrap == TextureWrap::clamp && std::fabs(at - 0.5F) > 0.5F + 0.5F / static_cast<float>(size);
+        };
+        std::size_t count = 0;
+        const std::vector<Vec2>& uvs = image.part.uvs;
+        for (auto corner = uvs.begin(); corner != uvs.end(); corner += 3) {
+            count += std::any_of(corner, corner + 3, [&](const Vec2& uv) {
+                return isBeyond(image.wrap_u, uv.x, options_.map.width) ||
+                       isBeyond(image.wrap_v, uv.y, options_.map.height);
+            });
+        }
+        return count;
+    }
+
+    void bakeTiles(const LowModel::Image& image, const std::string& word) {
+        if (!options_.udim) {
+            bakeImage(image, word, 0, image.part);
+            return;
+        }
+        std::map<std::uint32_t, LowPart> tiles;
+        std::uint64_t outside = 0;
+        for (std::size_t i = 0; i < image.part.triangleCount(); ++i) {
+            const std::uint32_t tile = tileOf(&image.part.uvs[3 * i]);
+            if (tile == 0) {
+                ++outside;
+                continue;
+            }
+            LowPart& part = tiles[tile];
+            part.addTriangle(image.part, i);
+            for (auto uv = part.uvs.end() - 3; uv != part.uvs.end(); ++uv) {
+                uv->x -= static_cast<float>((tile - 1001) % 10);
+                uv->y += static_cast<float>((tile - 1001) / 10);
+            }
+        }
+        if (outside > 0)
+            report_.warnings.push_back(std::to_string(outside) + " triangles lie in no tile, and are left out");
+        if (tiles.empty()) failFile(ErrorCode::missingAttribute, "the UVs of the low poly lie in no tile");
+        for (const auto& [tile, part] : tiles) {
+            const std::string number = std::to_string(tile);
+            bakeImage(image, word.empty() ? number : word + "." + number, tile, part);
+        }
+    }
+
+    void bakeImage(const LowModel::Image& image, const std::string& word, std::uint32_t tile, const LowPart& part) {
+        BakeOptions options = options_.map;
+        options.heat = options.heat || !options_.heat.empty();
+        if (!options_.udim) {
+            options.wrap_u = image.wrap_u;
+            options.wrap_v = image.wrap_v;
+        }
+        BakedFile file{.path = withWord(output_, word),
+                       .material = image.material,
+                       .tile = tile,
+                       .triangle_count = part.triangleCount(),
+                       .map = aboutInput(BakeInput::low, [&] {
+                           return valueOrThrow(bakeMap(part.view(), models_.high.view(), options, options_.execution,
+                                                       options_.progress));
+                       })};
+        BakedMap& map = file.map;
+        std::vector<std::uint8_t> png = pngOf(map.width, map.height, std::exchange(map.texels, {}), map.bits);
+        if (options_.out_mesh.empty()) {
+            files_.add(file.path, png);
+        } else {
+            maps_.push_back({file.path, Bytes(png.begin(), png.end()), image.primitives, image.wrap_u, image.wrap_v});
+        }
+        if (!options_.misses.empty())
+            files_.add(withWord(options_.misses, word), pngOf(map.width, map.height, pictureOfOrigins(map), 8));
+        if (!options_.heat.empty()) {
+            file.heat_top_deg = map.error.p99_deg;
+            files_.add(withWord(options_.heat, word),
+                       pngOf(map.width, map.height, pictureOfHeat(map.error.heat, file.heat_top_deg), 8));
+        }
+        map.origins = {};
+        map.overlaps = {};
+        map.error.heat = {};
+        report_.files.push_back(std::move(file));
+    }
+
+    const std::string& output_;
+    InputFiles inputs_ = {};
+    BakeFileOptions options_;
+    BakeModels models_ = {};
+    AtomicOutput files_{{.sync = options_.file.sync, .inputs = &inputs_}};
+    std::vector<ModelMap> maps_ = {};
+    std::set<std::string> words_ = {};
+    BakeFileReport report_ = {};
+};
+
+}  // namespace
+
+Result<BakeFileReport> bakeFile(const std::string& low, const std::string& high, const std::string& output,
+                                const BakeFileOptions& options) {
+    return atFileBorder([&]() -> Result<BakeFileReport> { return FileBaking(output, options).run(low, high); });
+}
+
+}  // namespace tspace

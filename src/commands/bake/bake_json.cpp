@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+// Baked maps and their errors, as JSON.
+#include "commands/shared/report.h"
+
+namespace tspace::report {
+namespace {
+
+Json errorOfMapJson(const MapError& error) {
+    return {{"points", error.point_count},
+            {"missed", error.missed_count},
+            {"meanDeg", error.mean_deg},
+            {"p99Deg", error.p99_deg},
+            {"maxDeg", error.max_deg},
+            {"seamPoints", error.seam_point_count},
+            {"seamMeanDeg", error.seam_mean_deg},
+            {"insideMeanDeg", error.inside_mean_deg}};
+}
+
+Json bakedFileJson(const BakedFile& file) {
+    const BakedMap& map = file.map;
+    return {{"path", file.path},
+            {"material", file.material},
+            {"tile", file.tile},
+            {"width", map.width},
+            {"height", map.height},
+            {"bits", map.bits},
+            {"triangles", file.triangle_count},
+            {"texels",
+             {{"baked", map.hit_count},
+              {"missed", map.missed_count},
+              {"padding", map.padding_count},
+              {"overlapping", map.overlap_count},
+              {"conflicting", map.conflict_count}}},
+            {"degenerateUvs", map.degenerate_uv_count},
+            {"reach", map.error.reach},
+            {"error", errorOfMapJson(map.error)},
+            {"heatTopDeg", file.heat_top_deg}};
+}
+
+}  // namespace
+
+std::string bakeJson(const Outcome<BakeFileReport>& outcome, const std::string& high, ExitCode exit_code) {
+    const Result<BakeFileReport>& result = outcome.result;
+    Json json = documentJson("tspace.bake/1", result.ok(), exit_code);
+    json["low"] = outcome.input;
+    json["high"] = high;
+    json["output"] = outcome.output;
+    json["seconds"] = outcome.seconds;
+    json["error"] = errorJson(result ? nullptr : &result.error());
+    if (!result) return jsonText(json);
+    json["lowTriangles"] = result->low_triangle_count;
+    json["highTriangles"] = result->high_triangle_count;
+    json["framesMade"] = result->frames_made;
+    json["matchedByName"] = result->matched_by_name;
+    json["files"] = listJson(result->files, bakedFileJson);
+    json["outputFiles"] = result->output_files;
+    json["warnings"] = result->warnings;
+    return jsonText(json);
+}
+
+std::string mapErrorJson(const Outcome<MapErrorFileReport>& outcome, const std::string& low, const std::string& high,
+                         ExitCode exit_code) {
+    const Result<MapErrorFileReport>& result = outcome.result;
+    Json json = documentJson("tspace.map-error/1", result.ok(), exit_code);
+    json["map"] = outcome.input;
+    json["low"] = low;
+    json["high"] = high;
+    json["error"] = errorJson(result ? nullptr : &result.error());
+    if (!result) return jsonText(json);
+    json["width"] = result->width;
+    json["height"] = result->height;
+    json["bits"] = result->bits;
+    json["fits"] = result->fits;
+    json["verdict"] = result->verdict;
+    json["reach"] = result->error.reach;
+    json["angles"] = errorOfMapJson(result->error);
+    json["readings"] = listJson(result->readings, [](const ExplainedReading& reading) -> Json {
+        return {{"frames", reading.frames},
+                {"green", reading.reading.green == Green::up ? "up" : "down"},
+                {"bitangent", reading.reading.bitangent == BitangentPlace::perPixel ? "pixel" : "vertex"},
+                {"unitVectors", reading.reading.unit_vectors},
+                {"twoChannels", reading.reading.two_channels},
+                {"angles", errorOfMapJson(reading.error)}};
+    });
+    json["framesMade"] = result->frames_made;
+    json["matchedByName"] = result->matched_by_name;
+    json["heatTopDeg"] = result->heat_top_deg;
+    json["warnings"] = result->warnings;
+    return jsonText(json);
+}
+
+}  // namespace tspace::report

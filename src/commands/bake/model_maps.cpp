@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: MIT
+#include "commands/bake/model_maps.h"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <set>
+
+#include "model/io/disk_paths.h"
+#include "model/io/file_error.h"
+#include "model/gltf/container.h"
+#include "model/gltf/editor.h"
+#include "model/io/uri.h"
+
+namespace tspace {
+
+namespace {
+
+using gltf::Document;
+using gltf::Editor;
+
+/// How often materials name a texture.
+std::size_t referencesTo(const Json& value, std::size_t texture) {
+    std::size_t count = 0;
+    if (value.is_object()) {
+        const Json* const index = value.find("index");
+        if (index != nullptr && index->is_number_unsigned() && index->get<std::size_t>() == texture) ++count;
+    }
+    for (const Json& child : value) count += referencesTo(child, texture);
+    return count;
+}
+
+std::optional<std::size_t> indexIn(const Json& object, const char* key, std::size_t limit) {
+    const Json* const index = object.find(key);
+    if (index == nullptr || !index->is_number_unsigned() || index->get<std::size_t>() >= limit) return {};
+    return index->get<std::size_t>();
+}
+
+class MapPlacing {
+  public:
+    MapPlacing(Document& document, Editor& editor, const gltf::OutputTarget& target)
+        : document_(document), editor_(editor), target_(target) {
+        for (const char* list : {"images", "textures", "materials"}) {
+            if (!document.json.contains(list)) document.json[list] = Json::array();
+            if (!document.json[list].is_array())
+                failFile(ErrorCode::invalidFile, "it must be an array", std::string("/").append(list));
+        }
+        for (const Json& mesh : gltf::rootArray(document, "meshes")) {
+            for (const Json& primitive : mesh.at("primitives")) {
+                if (const auto material = materialOf(primitive)) ++users_[*material];
+            }
+        }
+    }
+
+    /// True: a .gltf names the file beside it.
+    bool place(const ModelMap& map) {
+        const std::vector<std::size_t> materials = giveMaterials(map);
+        const std::optional<std::size_t> old = oldTexture(materials);
+        const std::optional<std::string> name = nameBeside(map.path);
+        const std::size_t image = placeImage(map, name, old);
+        const std::size_t texture = old ? *old : append("textures", Json{{"source", image}});
+        // The sampler of an old one is the one that was baked for.
+        if (!old) setWrap(document_.json["textures"][texture], map);
+        for (std::size_t i = 0; i < materials.size(); ++i) showMap(materials[i], map.primitives[i], texture);
+        editor_.touch();
+        if (name) document_.new_files[*name] = map.png;
+        return name.has_value();
+    }
+
+  private:
+    [[nodiscard]] std::optional<std::size_t> materialOf(const Json& primitive) const {
+        return indexIn(primitive, "material", document_.json["materials"].size());
+    }
+
+    std::size_t append(const char* list, Json entry) {
+        Json& entries = document_.json[list];
+        entries.push_back(std::move(entry));
+        return entries.size() - 1;
+    }
+
+    void setWrap(Json& texture, const ModelMap& map) {
+        if (map.wrap_u == TextureWrap::repeat && map.wrap_v == TextureWrap::repeat) return;
+        Json& samplers = document_.json["samplers"];
+        if (!samplers.is_array()) samplers = Json::array();
+        const auto number = [](TextureWrap wrap) {
+            return wrap == TextureWrap::repeat ? 10497 : wrap == TextureWrap::clamp ? 33071 : 33648;
+        };
+        samplers.push_back(Json{{"wrapS", number(map.wrap_u)}, {"wrapT", number(map.wrap_v)}});
+        texture["sampler"] = samplers.size() - 1;
+    }
+
+    /// A material for each primitive of the map. Where others have it too, which the map is not for, that is a copy.
+    std::vector<std::size_t> giveMaterials(const ModelMap& map) {
+        std::vector<std::optional<std::size_t>> before;
+        std::map<std::size_t, std::size_t> users;
+        for (const MappedPrimitive& primitive : map.primitives) {
+            before.push_back(materialOf(editor_.primitive(primitive.mesh, primitive.primitive)));
+            if (before.back()) ++users[*before.back()];
+        }
+        std::map<std::optional<std::size_t>, std::size_t> given;
+        std::vector<std::size_t> materials;
+        for (std::size_t i = 0; i < before.size(); ++i) {
+            const auto [known, is_new] = given.try_emplace(before[i], 0);
+            if (is_new) known->second = ownMaterial(before[i], before[i] && users[*before[i]] == users_[*before[i]]);
+            materials.push_back(known->second);
+            editor_.primitive(map.primitives[i].mesh, map.primitives[i].primitive)["material"] = known->second;
+        }
+        return materials;
+    }
+
+    std::size_t ownMaterial(std::optional<std::size_t> before, bool is_alone) {
+        if (!before) return append("materials", Json::object());
+        if (is_alone) return *before;
+        Json copy = document_.json["materials"][*before];
+        return append("materials", std::move(copy));
+    }
+
+    /// The texture that these materials have for their normals, where nothing else shows it or its image.
+    [[nodiscard]] std::optional<std::size_t> oldTexture(const std::vector<std::size_t>& materials) const {
+        const Json& json = document_.json;
+        std::optional<std::size_t> texture;
+        std::set<std::size_t> seen;
+        for (const std::size_t material : materials) {
+            if (!seen.insert(material).second) continue;
+            const Json* const reference = json["materials"][material].find("normalTexture");
+            if (reference == nullptr) return {};
+            const auto shown = indexIn(*reference, "index", json["textures"].size());
+            if (!shown || (texture && *texture != *shown)) return {};
+            texture = shown;
+        }
+        if (!texture || referencesTo(json["materials"], *texture) != seen.size()) return {};
+        const Json& entry = json["textures"][*texture];
+        const auto image = indexIn(entry, "source", json["images"].size());
+        if (!image || entry.contains("extensions")) return {};
+        const auto shows = [&](const Json& other) { return indexIn(other, "source", *image + 1) == image; };
+        const auto count = std::count_if(json["textures"].begin(), json["textures"].end(), shows);
+        return count == 1 ? texture : std::nullopt;
+    }
+
+    /// Puts the image last in the list, or in the place of that of an old texture.
+    std::size_t placeImage(const ModelMap& map, const std::optional<std::string>& name,
+                           std::optional<std::size_t> old) {
+        std::optional<std::size_t> old_view;
+        std::size_t at = document_.json["images"].size();
+        if (old) {
+            at = document_.json["textures"][*old]["source"].get<std::size_t>();
+            old_view = indexIn(document_.json["images"][at], "bufferView", SIZE_MAX);
+            document_.json["images"][at] = Json::object();
+        } else {
+            append("images", Json::object());
+        }
+        if (old_view) editor_.letGoOfView(*old_view);
+        Json image = Json::object();
+        image["name"] = stemOf(map.path);
+        if (name) {
+            image["uri"] = percentEncode(*name);
+        } else {
+            image["mimeType"] = "image/png";
+            image["bufferView"] = editor_.storeBlob(map.png, std::nullopt);
+        }
+        document_.json["images"][at] = std::move(image);
+        return at;
+    }
+
+    /// The name that a .gltf has for the file.
+    [[nodiscard]] std::optional<std::string> nameBeside(const std::string& path) const {
+        if (target_.container == gltf::Container::glb) return {};
+        std::string name = pathBelow(folderOf(target_.path), path);
+        if (name.empty() || gltf::namesFile(document_, name)) return {};
+        return name;
+    }
+
+    void showMap(std::size_t material, const MappedPrimitive& primitive, std::size_t texture) {
+        Json& reference = document_.json["materials"][material]["normalTexture"];
+        if (primitive.had_map && reference.is_object()) {
+            reference["index"] = texture;
+            reference.erase("scale");
+            return;
+        }
+        reference = Json{{"index", texture}};
+        if (primitive.uv_set != 0) reference["texCoord"] = primitive.uv_set;
+        const UvTransform& transform = primitive.transform;
+        const bool moves = transform.offset[0] != 0 || transform.offset[1] != 0;
+        if (!moves && !transform.changesFrames()) return;
+        Json& extension = reference["extensions"]["KHR_texture_transform"];
+        extension["offset"] = Json::array({transform.offset[0], transform.offset[1]});
+        extension["rotation"] = transform.rotation;
+        extension["scale"] = Json::array({transform.scale[0], transform.scale[1]});
+        Json& used = document_.json["extensionsUsed"];
+        if (std::find(used.begin(), used.end(), "KHR_texture_transform") == used.end())
+            used.push_back("KHR_texture_transform");
+    }
+
+    Document& document_;
+    Editor& editor_;
+    const gltf::OutputTarget& target_;
+    std::map<std::size_t, std::size_t> users_ = {};  ///< primitives of each material
+};
+
+}  // namespace
+
+void addModelWithMaps(ModelWithMaps&& model, const FileOptions& options, AtomicOutput& files,
+                      std::vector<std::string>& warnings) {
+    FileOptions on_disk = options;
+    on_disk.content = {};
+    Document document = gltf::parseDocument(std::move(model.glb), model.source, on_disk);
+    const gltf::OutputTarget target = gltf::outputTarget(document, model.output, false);
+    gltf::convertContainer(document, target, true, warnings);
+    Editor editor(document, gltf::freeFileName(document, target, ".tspace.bin"));
+    MapPlacing placing(document, editor, target);
+    for (const ModelMap& map : model.maps) {
+        if (!placing.place(map)) files.add(map.path, std::span<const std::uint8_t>(map.png));
+    }
+    editor.finish();
+    gltf::writeDocument(document, target, files, warnings, {.thread_count = 1});
+}
+
+}  // namespace tspace

@@ -1,0 +1,374 @@
+// SPDX-License-Identifier: MIT
+#include "commands/bake/model_surfaces.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <map>
+
+#include "model/io/file_io.h"
+#include "model/read/read_scene.h"
+#include "commands/shared/uv_reading.h"
+#include "core/base/unit.h"
+#include "maps/map_surfaces.h"
+#include "core/mesh/surface/float_loss.h"
+
+namespace tspace {
+
+namespace {
+
+/// The UVs that the map is read with: those of the normal map that is there, or of the first thing that needs tangents.
+std::vector<Vec2> mapUvs(const ScenePrimitive& primitive) {
+    const TangentUse* const use = mapUse(primitive);
+    const std::size_t set = use == nullptr ? 0 : use->uv_set;
+    if (set >= primitive.uv_sets.size() || primitive.uv_sets[set].empty()) return {};
+    return textureUvs(primitive.uv_sets[set].span(), use == nullptr ? UvTransform{} : use->transform);
+}
+
+bool needsFrames(const Scene& scene) {
+    return std::any_of(scene.primitives.begin(), scene.primitives.end(), [](const ScenePrimitive& primitive) {
+        return !primitive.corners.empty() && (primitive.normals.empty() || primitive.tangents.empty());
+    });
+}
+
+/// The model as a GLB in memory, with all frames. `made`: some were missing.
+Bytes generatedGlb(const std::string& low, const BakeFileOptions& options, ExistingTangents existing, Faces faces,
+                   bool* made = nullptr) {
+    Bytes glb;
+    GenerateOptions generate;
+    generate.all = true;
+    generate.existing = existing;
+    generate.faces = faces;
+    generate.tangents = options.tangents;
+    generate.normals = options.normals;
+    generate.file = options.file;
+    generate.execution = options.execution;
+    generate.progress = options.progress;
+    generate.sink = [&](std::span<const std::uint8_t> bytes) {
+        glb.insert(glb.end(), bytes.begin(), bytes.end());
+        return true;
+    };
+    const GenerateReport report = valueOrThrow(generateFile(low, "low.glb", generate));
+    if (made == nullptr) return glb;
+    *made = std::any_of(report.primitives.begin(), report.primitives.end(), [](const PrimitiveReport& primitive) {
+        return primitive.action == PrimitiveAction::generated;
+    });
+    return glb;
+}
+
+DrawnScene readGlb(const Bytes& glb, const BakeFileOptions& options) {
+    FileOptions in_memory = options.file;
+    in_memory.content = glb;
+    return readDrawnScene("low.glb", in_memory, false);
+}
+
+DrawnScene readWithFrames(const std::string& low, const BakeFileOptions& options, BakeModels& models) {
+    if (!options.out_mesh.empty()) {
+        // What is written is what is baked for.
+        models.low_glb = generatedGlb(low, options, ExistingTangents::keep, Faces::triangles, &models.low.frames_made);
+        return readGlb(models.low_glb, options);
+    }
+    DrawnScene scene = readDrawnScene(low, options.file, false);
+    // OBJ has no tangents, and reading it gives normals that it lacks.
+    models.low.frames_made = needsFrames(scene.scene);
+    if (!models.low.frames_made) return scene;
+    return readGlb(generatedGlb(low, options, ExistingTangents::keep, Faces::triangles), options);
+}
+
+/// "Body" of "Body_low", "BODY_HP" and so on, in lower case.
+std::string nameStem(std::string name) {
+    std::transform(name.begin(), name.end(), name.begin(),
+                   [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+    for (const char* end : {"_low", "_lp", "_high", "_hp", "-low", "-high", ".low", ".high"}) {
+        const std::string_view ending = end;
+        if (name.size() > ending.size() && name.ends_with(ending)) return name.substr(0, name.size() - ending.size());
+    }
+    return name;
+}
+
+/// Numbers of names, in the order in which they came.
+class MeshNames {
+  public:
+    std::uint32_t numberOf(const std::string& name) {
+        return numbers_.emplace(nameStem(name), static_cast<std::uint32_t>(numbers_.size())).first->second;
+    }
+    [[nodiscard]] const std::uint32_t* find(const std::string& name) const {
+        const auto found = numbers_.find(nameStem(name));
+        return found != numbers_.end() ? &found->second : nullptr;
+    }
+    [[nodiscard]] std::size_t count() const { return numbers_.size(); }
+
+  private:
+    std::map<std::string, std::uint32_t> numbers_ = {};
+};
+
+/// Meshes are matched where there are several, and each of one model has one of the other.
+bool matchNames(const Scene& low, const Scene& high, MeshNames& names) {
+    for (const ScenePrimitive& primitive : low.primitives) {
+        if (!primitive.corners.empty()) names.numberOf(primitive.mesh_name);
+    }
+    const std::size_t count = names.count();
+    if (count < 2) return false;
+    MeshNames seen;
+    for (const ScenePrimitive& primitive : high.primitives) {
+        if (primitive.corners.empty()) continue;
+        if (names.find(primitive.mesh_name) == nullptr) return false;
+        seen.numberOf(primitive.mesh_name);
+    }
+    return seen.count() == count;
+}
+
+/// The order of the corners of a triangle at a place, which may mirror.
+std::size_t placedCorner(const Affine& place, std::size_t i) {
+    constexpr std::size_t kMirrored[3] = {0, 2, 1};
+    return place.determinant() < 0 ? i - i % 3 + kMirrored[i % 3] : i;
+}
+
+/// Where a primitive stands first.
+Affine firstPlace(const DrawnScene& drawn, std::size_t primitive) {
+    for (const ScenePlacement& placement : drawn.placements) {
+        if (placement.primitive == primitive) return placement.to_world;
+    }
+    return {};
+}
+
+/// Where the models stand, if that is so far from the origin that floats would not hold their shapes there.
+DVec3 farPlace(const DrawnScene& drawn) {
+    return offsetForFloats([&](const auto& visit) {
+        for (const ScenePlacement& placement : drawn.placements) {
+            const ScenePrimitive& primitive = drawn.scene.primitives[placement.primitive];
+            const auto at = [&](std::size_t corner) {
+                return placement.to_world.point(toDouble(primitive.positions[primitive.corners[corner]]));
+            };
+            for (std::size_t i = 0; i < primitive.corners.size(); ++i) visit(at(i), at(i - i % 3 + (i + 1) % 3));
+        }
+    });
+}
+
+void moveBy(const DVec3& offset, DrawnScene& drawn) {
+    for (ScenePlacement& placement : drawn.placements) placement.to_world.origin = placement.to_world.origin - offset;
+}
+
+void addPrimitive(const ScenePrimitive& primitive, std::span<const Vec2> uvs, const Affine& place, std::uint32_t group,
+                  LowPart& part) {
+    for (std::size_t i = 0; i < primitive.corners.size(); ++i) {
+        const std::uint32_t vertex = primitive.corners[placedCorner(place, i)];
+        part.positions.push_back(toFloat(place.point(toDouble(primitive.positions[vertex]))));
+        const Vec3 normal = primitive.normals.empty() ? Vec3{} : primitive.normals[vertex];
+        const Vec4 tangent = primitive.tangents.empty() ? Vec4{} : primitive.tangents[vertex];
+        part.normals.push_back(normalAt(place, normal));
+        part.tangents.push_back(tangentAt(place, tangent));
+        part.uvs.push_back(uvs[vertex]);
+    }
+    part.groups.insert(part.groups.end(), primitive.corners.size() / 3, group);
+}
+
+void addCage(const ScenePrimitive& cage, const Affine& place, LowPart& part) {
+    for (std::size_t i = 0; i < cage.corners.size(); ++i)
+        part.cage.push_back(toFloat(place.point(toDouble(cage.positions[cage.corners[placedCorner(place, i)]]))));
+}
+
+LowModel lowModel(const DrawnScene& drawn, const DrawnScene* cage, const MeshNames* names) {
+    const Scene& scene = drawn.scene;
+    LowModel model;
+    std::size_t without_uvs = 0;
+    std::map<std::string, std::size_t> images;
+    for (std::size_t i = 0; i < scene.primitives.size(); ++i) {
+        const ScenePrimitive& primitive = scene.primitives[i];
+        if (primitive.corners.empty()) continue;
+        const std::vector<Vec2> uvs = mapUvs(primitive);
+        if (uvs.empty()) {
+            ++without_uvs;
+            continue;
+        }
+        const TangentUse* const use = mapUse(primitive);
+        const auto [image, is_new] = images.emplace(primitive.material_name, model.images.size());
+        if (is_new) {
+            model.images.push_back({.material = primitive.material_name,
+                                    .wrap_u = use != nullptr ? use->wrap_u : TextureWrap::repeat,
+                                    .wrap_v = use != nullptr ? use->wrap_v : TextureWrap::repeat});
+        }
+        const std::uint32_t group = names != nullptr ? *names->find(primitive.mesh_name) : 0;
+        LowPart& part = model.images[image->second].part;
+        model.images[image->second].primitives.push_back(
+            {.mesh = primitive.mesh,
+             .primitive = primitive.primitive,
+             .had_map = use != nullptr && use->needed_by == "normalTexture" && !use->only_in_variant,
+             .uv_set = use != nullptr ? use->uv_set : 0,
+             .transform = use != nullptr ? use->transform : UvTransform{}});
+        addPrimitive(primitive, uvs, firstPlace(drawn, i), group, part);
+        if (cage != nullptr) addCage(cage->scene.primitives[i], firstPlace(*cage, i), part);
+    }
+    if (model.images.empty()) {
+        failFile(ErrorCode::missingAttribute,
+                 without_uvs > 0 ? "the low poly has no UVs" : "the low poly has no triangles");
+    }
+    if (without_uvs > 0)
+        model.warnings.push_back(std::to_string(without_uvs) +
+                                 " primitives of the low poly have no UVs, and are left out");
+    for (LowModel::Image& image : model.images) {
+        if (names == nullptr) image.part.groups.clear();
+    }
+    return model;
+}
+
+/// Fails where a cage is not the low poly with other positions.
+void checkCage(const Scene& low, const Scene& cage) {
+    bool fits = low.primitives.size() == cage.primitives.size();
+    for (std::size_t i = 0; fits && i < low.primitives.size(); ++i)
+        fits = low.primitives[i].corners.size() == cage.primitives[i].corners.size();
+    if (!fits) failFile(ErrorCode::countMismatch, "the cage has other triangles than the low poly");
+}
+
+/// One vertex per corner where triangles are flat: their normals are their own.
+void addFlat(const ScenePrimitive& primitive, const Affine& place, HighModel& model) {
+    for (std::size_t i = 0; i < primitive.corners.size(); i += 3) {
+        std::array<Vec3, 3> at{};
+        for (std::size_t k = 0; k < 3; ++k)
+            at[k] = toFloat(place.point(toDouble(primitive.positions[primitive.corners[placedCorner(place, i + k)]])));
+        // Without a direction the triangle's own is taken where a ray meets it.
+        const Vec3 normal = cross(at[1] - at[0], at[2] - at[0]);
+        for (const Vec3& corner : at) {
+            model.corners.push_back(static_cast<std::uint32_t>(model.positions.size()));
+            model.positions.push_back(corner);
+            model.normals.push_back(normal);
+        }
+    }
+}
+
+void addSmooth(const ScenePrimitive& primitive, std::span<const Vec3> normals, const Affine& place, HighModel& model) {
+    const auto first = static_cast<std::uint32_t>(model.positions.size());
+    for (const Vec3& position : primitive.positions)
+        model.positions.push_back(toFloat(place.point(toDouble(position))));
+    for (const Vec3& normal : normals) model.normals.push_back(normalAt(place, normal));
+    for (std::size_t i = 0; i < primitive.corners.size(); ++i)
+        model.corners.push_back(first + primitive.corners[placedCorner(place, i)]);
+}
+
+/// Smooth normals, one per vertex.
+std::vector<Vec3> smoothNormals(const ScenePrimitive& primitive, const BakeFileOptions& options) {
+    std::vector<Vec3> of_corners(primitive.corners.size()), normals(primitive.positions.size());
+    const MeshView mesh{.positions = primitive.positions.span(), .indices = {primitive.corners.span()}};
+    valueOrThrow(generateNormals(mesh, {.weighting = NormalWeighting::angle, .convention = conventions::gltf},
+                                 of_corners, options.execution));
+    for (std::size_t i = 0; i < of_corners.size(); ++i) normals[primitive.corners[i]] = of_corners[i];
+    return normals;
+}
+
+HighModel highModel(const DrawnScene& drawn, const MeshNames* names, const std::string& path,
+                    const BakeFileOptions& options) {
+    HighModel model;
+    std::size_t made = 0;
+    // What glTF and OBJ leave out is flat; meshes of scanners and sculptors are meant to be smooth.
+    const std::string extension = lowerExtension(path);
+    const bool is_flat = isGltfName(path) || extension == ".obj";
+    for (const ScenePlacement& placement : drawn.placements) {
+        const ScenePrimitive& primitive = drawn.scene.primitives[placement.primitive];
+        const Affine& place = placement.to_world;
+        if (primitive.corners.empty()) continue;
+        // Those of STL say where the triangles look, and not how they are shaded.
+        if (!primitive.normals.empty() && extension != ".stl") {
+            addSmooth(primitive, primitive.normals.span(), place, model);
+        } else {
+            ++made;
+            if (is_flat) {
+                addFlat(primitive, place, model);
+            } else {
+                addSmooth(primitive, smoothNormals(primitive, options), place, model);
+            }
+        }
+        if (names != nullptr)
+            model.groups.insert(model.groups.end(), primitive.corners.size() / 3, *names->find(primitive.mesh_name));
+    }
+    if (model.corners.empty()) failFile(ErrorCode::missingAttribute, "the high poly has no triangles");
+    if (made > 0)
+        model.warnings.push_back(std::string("the high poly has no normals; its triangles are taken as ") +
+                                 (is_flat ? "flat, as glTF says" : "smooth"));
+    return model;
+}
+
+}  // namespace
+
+const TangentUse* mapUse(const ScenePrimitive& primitive) {
+    for (const TangentUse& use : primitive.uses) {
+        if (use.needed_by == "normalTexture" && !use.only_in_variant) return &use;
+    }
+    return primitive.uses.empty() ? nullptr : &primitive.uses.front();
+}
+
+void LowPart::addTriangle(const LowPart& from, std::size_t triangle) {
+    const auto add = [&](auto& to, const auto& values) {
+        if (values.empty()) return;
+        const auto first = values.begin() + static_cast<std::ptrdiff_t>(3 * triangle);
+        to.insert(to.end(), first, first + 3);
+    };
+    add(positions, from.positions);
+    add(normals, from.normals);
+    add(tangents, from.tangents);
+    add(uvs, from.uvs);
+    add(cage, from.cage);
+    if (!from.groups.empty()) groups.push_back(from.groups[triangle]);
+}
+
+double BakeModels::reach(double asked) const {
+    return asked != 0 ? asked : reachBetween(lowBox(), PositionBox(high.view().positions));
+}
+
+PositionBox BakeModels::lowBox() const {
+    PositionBox box;
+    for (const LowModel::Image& image : low.images) {
+        const PositionBox part(image.part.view().positions);
+        if (part.isEmpty()) continue;
+        box.add(part.least);
+        box.add(part.most);
+    }
+    return box;
+}
+
+std::size_t LowModel::triangleCount() const {
+    std::size_t count = 0;
+    for (const Image& image : images) count += image.part.triangleCount();
+    return count;
+}
+
+std::optional<LowModel> readLowAnew(const std::string& low, const BakeFileOptions& options, Faces faces,
+                                    const LowModel& known) {
+    DrawnScene scene = readGlb(generatedGlb(low, options, ExistingTangents::replace, faces), options);
+    moveBy(known.origin, scene);
+    LowModel model = lowModel(scene, nullptr, nullptr);
+    bool fits = model.images.size() == known.images.size();
+    for (std::size_t i = 0; fits && i < model.images.size(); ++i)
+        fits = model.images[i].part.positions == known.images[i].part.positions;
+    return fits ? std::optional(std::move(model)) : std::nullopt;
+}
+
+BakeModels readBakeModels(const std::string& low, const std::string& high, const BakeFileOptions& options) {
+    BakeModels models;
+    DrawnScene low_scene = aboutInput(BakeInput::low, [&] { return readWithFrames(low, options, models); });
+    const bool frames_made = models.low.frames_made;
+    DrawnScene cage_scene;
+    if (!options.cage.empty()) {
+        cage_scene = aboutInput(BakeInput::cage, [&] {
+            DrawnScene read = readDrawnScene(options.cage, options.file, false);
+            checkCage(low_scene.scene, read.scene);
+            return read;
+        });
+    }
+    DrawnScene high_scene = aboutInput(BakeInput::high, [&] { return readDrawnScene(high, options.file, false); });
+    const DVec3 of_high = farPlace(high_scene);
+    const DVec3 origin = length(of_high) > 0 ? of_high : farPlace(low_scene);
+    for (DrawnScene* const scene : {&low_scene, &cage_scene, &high_scene}) moveBy(origin, *scene);
+    MeshNames names;
+    models.matched_by_name = matchNames(low_scene.scene, high_scene.scene, names);
+    const MeshNames* const used = models.matched_by_name ? &names : nullptr;
+    models.low = aboutInput(BakeInput::low,
+                            [&] { return lowModel(low_scene, options.cage.empty() ? nullptr : &cage_scene, used); });
+    models.low.frames_made = frames_made;
+    models.low.origin = origin;
+    models.high = aboutInput(BakeInput::high, [&] { return highModel(high_scene, used, high, options); });
+    const std::string why = misplacement(models.lowBox(), PositionBox(models.high.view().positions));
+    if (!why.empty()) models.high.warnings.push_back(why);
+    return models;
+}
+
+}  // namespace tspace

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+// Model files as the arrays that baking takes.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "model/io/file_error.h"
+#include "model/scene/scene.h"
+#include "commands/bake/model_maps.h"
+#include "maps/position_box.h"
+#include "maps/udim_tile.h"
+#include "tspace/bake_file.h"
+
+namespace tspace {
+
+/// What `body` returns; where it fails, the error says that it is about this file.
+template <class Body>
+auto aboutInput(BakeInput input, Body&& body) {
+    std::optional<std::invoke_result_t<Body>> made;
+    if (std::optional<Error> error = tryFile([&] { made.emplace(body()); })) {
+        error->element = static_cast<std::uint64_t>(input);
+        throw FileError{*std::move(error)};
+    }
+    return *std::move(made);
+}
+
+/// Triangles of a low poly, three entries each.
+struct LowPart {
+    std::vector<Vec3> positions = {}, normals = {}, cage = {};
+    std::vector<Vec4> tangents = {};
+    std::vector<Vec2> uvs = {};
+    std::vector<std::uint32_t> groups = {};
+
+    [[nodiscard]] LowPoly view() const {
+        return {.positions = positions,
+                .normals = normals,
+                .tangents = tangents,
+                .uvs = uvs,
+                .cage = cage,
+                .groups = groups};
+    }
+    [[nodiscard]] std::size_t triangleCount() const { return positions.size() / 3; }
+    /// Appends a triangle of another one.
+    void addTriangle(const LowPart& from, std::size_t triangle);
+};
+
+/// What of a low poly shares a material, and so an image.
+struct LowModel {
+    struct Image {
+        std::string material = {};
+        LowPart part = {};
+        std::vector<MappedPrimitive> primitives = {};
+        TextureWrap wrap_u = TextureWrap::repeat, wrap_v = TextureWrap::repeat;  ///< of the first primitive's texture
+    };
+    std::vector<Image> images = {};
+    std::vector<std::string> warnings = {};
+    bool frames_made = false;
+    DVec3 origin = {};  ///< of the positions, in the world: not zero where both models are far from it
+
+    [[nodiscard]] std::size_t triangleCount() const;
+    [[nodiscard]] bool hasCage() const { return !images.empty() && !images.front().part.cage.empty(); }
+};
+
+struct HighModel {
+    std::vector<Vec3> positions = {}, normals = {};
+    std::vector<std::uint32_t> corners = {}, groups = {};
+    std::vector<std::string> warnings = {};
+
+    [[nodiscard]] HighPoly view() const {
+        return {.positions = positions, .normals = normals, .corners = corners, .groups = groups};
+    }
+};
+
+/// Both models of a bake.
+struct BakeModels {
+    LowModel low = {};
+    HighModel high = {};
+    Bytes low_glb = {};  ///< the low poly with its frames, where `out_mesh` asks for it
+    bool matched_by_name = false;
+
+    /// How far rays go for all images alike: what was asked, or by the sizes of both models as a whole.
+    [[nodiscard]] double reach(double asked) const;
+    [[nodiscard]] PositionBox lowBox() const;
+};
+
+/// How a primitive reads its normal map, or will: the normal map that its own material has, or the first thing that needs
+/// tangents, which they follow. Null: the first UVs, as they are.
+const TangentUse* mapUse(const ScenePrimitive& primitive);
+
+/// Reads the models, makes the frames that the low poly lacks, and matches meshes by name. Throws FileError, which says as
+/// its element which BakeInput it is about: also where the low poly has no UVs, where the cage has other triangles, and
+/// where one of them has none at all.
+BakeModels readBakeModels(const std::string& low, const std::string& high, const BakeFileOptions& options);
+
+/// The low poly with tangents of `options`.tangents computed anew on these faces, in the order that readBakeModels gives. Nothing
+/// where that method gives another number of triangles. Throws FileError.
+std::optional<LowModel> readLowAnew(const std::string& low, const BakeFileOptions& options, Faces faces,
+                                    const LowModel& known);
+
+}  // namespace tspace

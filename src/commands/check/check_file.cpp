@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+// checkFile: reads a scene, judges it, and puts the findings in order.
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "model/io/file_error.h"
+#include "model/read/read_scene.h"
+#include "commands/check/check_images.h"
+#include "commands/check/check_packed.h"
+#include "commands/check/check_seams.h"
+#include "commands/check/findings.h"
+#include "commands/check/scene_verdict.h"
+#include "core/base/sort.h"
+#include "tspace/check.h"
+
+namespace tspace {
+
+namespace {
+
+void checkOptions(const CheckOptions& options) {
+    for (const double value : {options.direction_deg, options.error_deg, options.orthogonal_deg, options.split_deg,
+                               options.unit_tolerance, options.error_share}) {
+        if (!(value >= 0) || !std::isfinite(value)) {
+            failFile(ErrorCode::invalidOption, "an angle, tolerance or share is negative or not a number");
+        }
+    }
+}
+
+/// Whether `generate --strip` would take the tangents away: not where a morph target moves nothing else.
+bool canStrip(const ScenePrimitive& primitive) {
+    return std::none_of(primitive.morph_targets.begin(), primitive.morph_targets.end(), [](const auto& target) {
+        return !target.tangents.empty() && target.positions.empty() && target.normals.empty();
+    });
+}
+
+/// One note for all tangents of the file that nobody needs, in place of one per primitive.
+void joinUnused(const Scene& scene, std::span<PrimitiveJudgement> judgements, std::vector<Finding>& findings) {
+    std::vector<Finding> unused;
+    std::uint64_t total = 0;
+    for (std::size_t i = 0; i < judgements.size(); ++i) {
+        total += !scene.primitives[i].tangents.empty();
+        std::vector<Finding>& own = judgements[i].findings;
+        const auto found = std::find_if(
+            own.begin(), own.end(), [](const Finding& finding) { return finding.code == FindingCode::tangentsUnused; });
+        if (found == own.end()) continue;
+        if (canStrip(scene.primitives[i])) unused.push_back(std::move(*found));
+        own.erase(found);
+    }
+    if (unused.size() <= 1) {
+        std::move(unused.begin(), unused.end(), std::back_inserter(findings));
+        return;
+    }
+    const Tally all{.count = unused.size(), .total = total};
+    findings.push_back(makeFinding(FindingCode::tangentsUnused, Severity::note, all, "primitives",
+                                   countText(all, "primitives with tangents") +
+                                       " need none: no material of theirs reads a texture in tangent space"));
+}
+
+/// What reading the file had to say. It is about the file, so no primitive is named.
+Finding fileRemark(const std::string& warning) {
+    const Tally one{.count = 1, .total = 1};
+    return makeFinding(FindingCode::fileRemark, Severity::note, one, "files", warning);
+}
+
+CheckReport check(const std::string& input, const CheckOptions& options) {
+    checkOptions(options);
+    if (options.progress) options.progress("reading", 0, 1);
+    const Scene scene = readScene(input, options.file, options.images);
+    if (options.progress) options.progress("reading", 1, 1);
+    CheckReport report;
+    report.format = scene.format;
+    report.generator = scene.generator;
+    report.primitive_count = scene.primitives.size();
+    std::vector<PrimitiveJudgement> judgements = judgePrimitives(scene, options);
+    ImageFindings images;
+    if (options.images) images = checkImages(scene, options);
+    report.image_count = images.looked_at;
+    report.green_count = images.green_told;
+    weighImages(scene, options, images, judgements);
+    adviseOn(scene, options, judgements);
+    std::vector<Finding> unused;
+    joinUnused(scene, judgements, unused);
+    for (std::size_t i = 0; i < scene.primitives.size(); ++i) {
+        const ScenePrimitive& primitive = scene.primitives[i];
+        report.tangents_count += !primitive.tangents.empty() && !primitive.corners.empty();
+        std::move(judgements[i].findings.begin(), judgements[i].findings.end(), std::back_inserter(report.findings));
+    }
+    for (Finding& seam : checkSeams(scene, options)) report.findings.push_back(std::move(seam));
+    std::move(unused.begin(), unused.end(), std::back_inserter(report.findings));
+    PackedFindings packed = checkPacked(scene, options);
+    report.packed_frames = std::move(packed.infos);
+    std::move(packed.findings.begin(), packed.findings.end(), std::back_inserter(report.findings));
+    for (Finding& finding : images.findings) report.findings.push_back(std::move(finding));
+    for (Finding& finding : checkMapScales(scene)) report.findings.push_back(std::move(finding));
+    for (const std::string& warning : scene.warnings) report.findings.push_back(fileRemark(warning));
+    sortStably(report.findings.begin(), report.findings.end(),
+               [](const Finding& a, const Finding& b) { return a.severity > b.severity; });
+    for (const Finding& finding : report.findings) {
+        report.error_count += finding.severity == Severity::error;
+        report.warning_count += finding.severity == Severity::warning;
+        report.note_count += finding.severity == Severity::note;
+    }
+    return report;
+}
+
+}  // namespace
+
+Result<CheckReport> checkFile(const std::string& input, const CheckOptions& options) {
+    return atFileBorder([&]() -> Result<CheckReport> { return check(input, options); });
+}
+
+}  // namespace tspace

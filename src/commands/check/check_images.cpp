@@ -1,0 +1,432 @@
+// SPDX-License-Identifier: MIT
+// What normal maps hold, and green channels that point down, throughout or in parts.
+#include "commands/check/check_images.h"
+
+#include <array>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <set>
+#include <tuple>
+
+#include "model/io/work_together.h"
+#include "commands/check/findings.h"
+#include "commands/check/map_content.h"
+#include "commands/check/map_findings.h"
+#include "commands/shared/uv_reading.h"
+#include "core/base/unit.h"
+#include "maps/texture_sample.h"
+#include "maps/uv_coverage.h"
+
+namespace tspace {
+
+namespace {
+
+/// Triangles that show a part of an image, and the primitives that have them.
+struct MapPart {
+    const ScenePrimitive* primitive = nullptr;  ///< the first
+    const TangentUse* use = nullptr;
+    std::vector<std::size_t> followers = {};  ///< primitives whose tangents are for this use
+    GreenTest test = {};
+};
+
+/// A normal map, and what shows it.
+struct NormalMap {
+    std::size_t image = 0;
+    std::vector<MapPart> parts = {};
+    MapLook look = {};
+    std::optional<GreenTest> test = {};
+    std::string why_not = {};
+};
+
+/// Parts with one key show the same texels.
+using PartKey = std::tuple<std::size_t, const void*, const void*, std::array<double, 5>, TextureWrap, TextureWrap>;
+
+PartKey keyOf(const ScenePrimitive& primitive, const TangentUse& use) {
+    const UvTransform& transform = use.transform;
+    const Vec2* uvs = use.uv_set < primitive.uv_sets.size() ? primitive.uv_sets[use.uv_set].data() : nullptr;
+    return {*use.image,
+            primitive.corners.data(),
+            uvs,
+            {transform.offset[0], transform.offset[1], transform.rotation, transform.scale[0], transform.scale[1]},
+            use.wrap_u,
+            use.wrap_v};
+}
+
+std::vector<NormalMap> collectNormalMaps(const Scene& scene) {
+    std::map<std::size_t, std::size_t> map_of;
+    std::map<PartKey, std::size_t> part_of;
+    std::vector<NormalMap> maps;
+    for (std::size_t i = 0; i < scene.primitives.size(); ++i) {
+        const ScenePrimitive& primitive = scene.primitives[i];
+        for (const TangentUse& use : primitive.uses) {
+            if (!use.image || use.needed_by == "anisotropy") continue;
+            const auto [map_number, is_new_map] = map_of.try_emplace(*use.image, maps.size());
+            if (is_new_map) maps.push_back({.image = *use.image});
+            std::vector<MapPart>& parts = maps[map_number->second].parts;
+            const auto [part_number, is_new_part] = part_of.try_emplace(keyOf(primitive, use), parts.size());
+            if (is_new_part) parts.push_back({.primitive = &primitive, .use = &use});
+            if (&use == &primitive.uses.front()) parts[part_number->second].followers.push_back(i);
+        }
+    }
+    return maps;
+}
+
+/// Where a primitive has no triangles or no UVs it shows nothing. False: the steps ran out.
+bool cover(const MapPart& part, TexelMask& mask, std::uint64_t& steps) {
+    const ScenePrimitive& primitive = *part.primitive;
+    const std::size_t set = part.use->uv_set;
+    if (set >= primitive.uv_sets.size() || primitive.uv_sets[set].empty()) return true;
+    const std::vector<Vec2> uvs = textureUvs(primitive.uv_sets[set].span(), part.use->transform);
+    return coverTexels({primitive.corners.span(), uvs, part.use->wrap_u, part.use->wrap_v}, mask, steps);
+}
+
+std::uint64_t workBytes(const Scene& scene, const NormalMap& map) {
+    const ByteSpan bytes = scene.images[map.image].bytes;
+    const ImageSize size = claimedSize(bytes);
+    std::uint64_t vertices = 0;
+    for (const MapPart& part : map.parts) {
+        vertices = std::max<std::uint64_t>(vertices, part.primitive->positions.size());
+    }
+    return imageWorkBytes(bytes) + 2 * TexelMask::bytesOf(size.width, size.height) +
+           GreenBlocks::bytesOf(size.width, size.height) + sizeof(Vec2) * vertices;
+}
+
+/// `mask`: as many texels as the image has; what it holds does not matter.
+void lookAtParts(const GreenBlocks& blocks, TexelMask&& mask, NormalMap& map) {
+    // Files with more, or with hostile UVs, get no answer for the rest of their parts but that of the whole map.
+    constexpr std::size_t kMostParts = 4096;
+    std::uint64_t steps = kCoverSteps;
+    bool is_exact = map.parts.size() > 1;
+    for (std::size_t i = 0; i < map.parts.size(); ++i) {
+        MapPart& part = map.parts[i];
+        mask.clear();
+        is_exact = is_exact && i < kMostParts && cover(part, mask, steps);
+        part.test = is_exact ? blocks.within(mask) : *map.test;
+    }
+}
+
+/// Whether green of the file is green of the normals: then inverting the one inverts the other.
+bool hasOwnGreen(const MapLayout& layout) { return layout.y == MapLayout{}.y && layout.curve == MapCurve::none; }
+
+/// What a triangle shows at a point, and the normal there.
+void showPoint(const ScenePrimitive& primitive, const MapPart& part, std::span<const Vec2> uvs, const RgbImage& image,
+               const std::uint32_t* corners, const std::array<double, 3>& weights, double area,
+               std::vector<TexelOnSurface>& surface) {
+    double u = 0, v = 0;
+    DVec3 normal{};
+    for (std::size_t k = 0; k < 3; ++k) {
+        u += weights[k] * static_cast<double>(uvs[corners[k]].x);
+        v += weights[k] * static_cast<double>(uvs[corners[k]].y);
+        normal = normal + weights[k] * toDouble(primitive.normals[corners[k]]);
+    }
+    const double column = std::floor(u * image.width), row = std::floor(v * image.height);
+    if (!normalize(normal) || !(std::fabs(column) < 1e9) || !(std::fabs(row) < 1e9)) return;
+    const std::size_t x = wrappedTexel(static_cast<std::int64_t>(column), image.width, part.use->wrap_u);
+    const std::size_t y = wrappedTexel(static_cast<std::int64_t>(row), image.height, part.use->wrap_v);
+    const std::uint8_t* rgb = image.rgb.data() + 3 * (y * image.width + x);
+    const Vec2 uv{static_cast<float>(u), static_cast<float>(v)};
+    surface.push_back({toFloat(normal), {rgb[0], rgb[1], rgb[2], 255}, area, uv});
+}
+
+/// What the triangles of a part show at some points, and the normals there.
+void showPoints(const MapPart& part, const RgbImage& image, std::vector<TexelOnSurface>& surface) {
+    constexpr std::size_t kMostOfAPart = 4096, kMostRows = 32;
+    const ScenePrimitive& primitive = *part.primitive;
+    const std::size_t set = part.use->uv_set;
+    if (set >= primitive.uv_sets.size() || primitive.uv_sets[set].empty() || primitive.normals.empty()) return;
+    const std::vector<Vec2> uvs = textureUvs(primitive.uv_sets[set].span(), part.use->transform);
+    const std::size_t triangles = primitive.corners.size() / 3, step = triangles / kMostOfAPart + 1;
+    // Of few triangles many points, since relief hides what single ones say.
+    std::uint32_t rows = 1;
+    while (rows < kMostRows && triangles / step * rows * rows < kMostOfAPart) ++rows;
+    for (std::size_t t = step / 2; t < triangles; t += step) {
+        const std::uint32_t* const corners = primitive.corners.data() + 3 * t;
+        const auto at = [&](std::size_t k) { return toDouble(primitive.positions[corners[k]]); };
+        const double area = length(cross(at(1) - at(0), at(2) - at(0)));
+        if (!(area > 0)) continue;
+        for (std::uint32_t i = 0; i < rows; ++i) {
+            for (std::uint32_t j = 0; i + j < rows; ++j) {
+                const double b = (i + 1.0 / 3) / rows, c = (j + 1.0 / 3) / rows;
+                showPoint(primitive, part, uvs, image, corners, {1 - b - c, b, c}, area, surface);
+            }
+        }
+    }
+}
+
+/// Whether a place turns directions, beside what offsets and sizes do.
+bool turns(const Affine& place) {
+    constexpr double kLeast = 1e-4;
+    for (const DVec3& axis : {DVec3{1, 0, 0}, DVec3{0, 1, 0}, DVec3{0, 0, 1}}) {
+        DVec3 turned = place.normal(axis);
+        if (normalize(turned) && length(turned - axis) > kLeast) return true;
+    }
+    return false;
+}
+
+/// The same points with the normals that the scene shows, at the first place of each primitive that turns it. `parts`:
+/// where the points of each begin. Empty where no place turns anything.
+std::vector<TexelOnSurface> placedInWorld(const NormalMap& map, std::span<const std::size_t> parts,
+                                          std::span<const TexelOnSurface> surface) {
+    std::vector<TexelOnSurface> in_world;
+    for (std::size_t i = 0; i < map.parts.size(); ++i) {
+        const std::vector<Affine>& places = map.parts[i].primitive->places;
+        const auto place = std::find_if(places.begin(), places.end(), turns);
+        if (place == places.end()) continue;
+        if (in_world.empty()) in_world.assign(surface.begin(), surface.end());
+        const std::size_t end = i + 1 < parts.size() ? parts[i + 1] : surface.size();
+        for (std::size_t k = parts[i]; k < end; ++k) in_world[k].normal = normalAt(*place, in_world[k].normal);
+    }
+    return in_world;
+}
+
+/// Alpha is decoded only where x may be in it.
+std::vector<std::uint8_t> alphaOf(const Scene& scene, const SceneImage& image, std::span<const TexelBytes> texels) {
+    if (!mayHaveXInAlpha(texels)) return {};
+    const std::uint64_t bytes = imageWorkBytes(image.bytes) + 5 * claimedSize(image.bytes).pixels();
+    if (scene.memory && !scene.memory->has(bytes)) return {};
+    return decodeAlpha(image.bytes);
+}
+
+/// Which of the two channels beside z is x: the derivatives of a height go together (GreenBlocks) the right way only.
+void chooseXAndY(const RgbImage& image, const TexelMask& inside, MapLayout& layout) {
+    constexpr double kClear = 0.2;
+    const auto agreement = [&](const MapLayout& chosen) {
+        RgbImage read = image;
+        readByLayout(read, {}, chosen);
+        return std::fabs(GreenBlocks(read, inside).all().correlation);
+    };
+    MapLayout other = layout;
+    std::swap(other.x, other.y);
+    if (agreement(other) > agreement(layout) + kClear) layout = other;
+}
+
+/// Whether red is y and green is x: only so are the derivatives those of a height. Relief that curves along x as it does along
+/// y, as a product of waves, does not tell.
+bool areXAndYExchanged(const RgbImage& image, const TexelMask& inside) {
+    constexpr double kLeast = 0.8, kMost = 0.5;
+    const GreenTest plain = GreenBlocks(image, inside).all();
+    if (std::fabs(plain.correlation) > kMost) return false;
+    RgbImage read = image;
+    MapLayout layout;
+    std::swap(layout.x, layout.y);
+    readByLayout(read, {}, layout);
+    const GreenTest other = GreenBlocks(read, inside).all();
+    const bool has_verdict = other.verdict == GreenVerdict::up || other.verdict == GreenVerdict::down;
+    return has_verdict && std::fabs(other.correlation) > kLeast;
+}
+
+/// Finds out what the image holds, and makes it one that glTF reads.
+void lookAtContent(const Scene& scene, const TexelMask& inside, NormalMap& map, RgbImage& image) {
+    std::vector<TexelBytes> texels = sampleTexels(image, {}, inside);
+    const std::vector<std::uint8_t> alpha = alphaOf(scene, scene.images[map.image], texels);
+    if (!alpha.empty()) texels = sampleTexels(image, alpha, inside);
+    std::vector<TexelOnSurface> surface;
+    std::vector<std::size_t> parts;
+    for (const MapPart& part : map.parts) {
+        parts.push_back(surface.size());
+        showPoints(part, image, surface);
+    }
+    map.look = lookAtTexels(texels, !alpha.empty(), surface, placedInWorld(map, parts, surface));
+    if (map.look.content == MapContent::exchanged) chooseXAndY(image, inside, map.look.layout);
+    if (map.look.content == MapContent::normals && areXAndYExchanged(image, inside)) {
+        map.look.content = MapContent::exchanged;
+        std::swap(map.look.layout.x, map.look.layout.y);
+    }
+    if (holdsNormals(map.look.content) && !(map.look.layout == MapLayout{}))
+        readByLayout(image, alpha, map.look.layout);
+}
+
+void lookAt(const Scene& scene, const CheckOptions& options, NormalMap& map) {
+    const SceneImage& image = scene.images[map.image];
+    if (image.bytes.empty()) {
+        map.why_not = "it cannot be read";
+        return;
+    }
+    const std::uint64_t bytes = workBytes(scene, map);
+    if (scene.memory && !scene.memory->has(bytes)) {
+        map.why_not = "it " + scene.memory->whyNot(bytes);
+        return;
+    }
+    std::optional<RgbImage> decoded = decodeImage(image.bytes, options.most_pixels, map.why_not);
+    if (!decoded) return;
+    TexelMask inside(decoded->width, decoded->height);
+    std::uint64_t steps = kCoverSteps;
+    for (const MapPart& part : map.parts) cover(part, inside, steps);
+    lookAtContent(scene, inside, map, *decoded);
+    map.test = GreenTest{};
+    if (!holdsNormals(map.look.content)) return;
+    const GreenBlocks blocks(*decoded, inside);
+    map.test = blocks.all();
+    lookAtParts(blocks, std::move(inside), map);
+}
+
+std::string imageName(const Scene& scene, std::size_t image) {
+    const SceneImage& entry = scene.images[image];
+    const std::string& name = entry.uri.empty() ? entry.name : entry.uri;
+    return name.empty() ? "image " + std::to_string(image) : "'" + name + "'";
+}
+
+std::string rectText(const TexelRect& rect) {
+    const auto range = [](std::uint32_t begin, std::uint32_t end) {
+        return std::to_string(begin) + " to " + std::to_string(end - 1);
+    };
+    return "columns " + range(rect.left, rect.right) + ", rows " + range(rect.top, rect.bottom);
+}
+
+/// The part of the map that a finding is about: where green points down, the first that shows some of it.
+const MapPart& partOf(const NormalMap& map) {
+    for (const MapPart& part : map.parts) {
+        if (part.test.verdict == GreenVerdict::down || part.test.verdict == GreenVerdict::mixed) return part;
+    }
+    return map.parts.front();
+}
+
+Finding unreadable(const std::string& name, const std::string& why_not) {
+    const Tally one{.count = 1, .total = 1};
+    return makeFinding(FindingCode::normalMapUnreadable, Severity::note, one, "images",
+                       "the normal map " + name + " was not looked at: " + why_not);
+}
+
+Finding flipped(const std::string& name, const GreenTest& test) {
+    const Tally blocks{.count = test.down_block_count, .total = test.block_count};
+    return makeFinding(FindingCode::greenFlipped, Severity::warning, blocks, "blocks",
+                       "red or green is inverted in the normal map " + name +
+                           "; nearly always that is green, which points down, as DirectX has it. So say " +
+                           countText(blocks, "blocks") + " of 16 x 16 pixels with relief");
+}
+
+Finding mixed(const std::string& name, const GreenTest& test) {
+    const Tally blocks{.count = test.down_block_count, .total = test.block_count};
+    return makeFinding(FindingCode::greenMixed, Severity::warning, blocks, "blocks",
+                       "green seems to point down in one part of the normal map " + name + " (" +
+                           rectText(test.down_part) + " counted from the top left) and up in another (" +
+                           rectText(test.up_part) + "): down say " + countText(blocks, "blocks") +
+                           " of 16 x 16 pixels with relief, " + shareText(blocks.share()));
+}
+
+/// What a command line calls the image.
+std::string commandName(const Scene& scene, std::size_t image) {
+    const std::string& uri = scene.images[image].uri;
+    const bool is_word = uri.find_first_of(" '\"%\\$`&;|<>()*?[]{}~#!") == std::string::npos;
+    return uri.empty() || !is_word ? "MAP" : uri;
+}
+
+bool isDown(const NormalMap& map) { return map.test && map.test->verdict == GreenVerdict::down; }
+
+void placeAt(const MapPart& part, Finding& finding) {
+    finding.place = part.use->place;
+    finding.mesh = part.primitive->mesh;
+    finding.primitive = part.primitive->primitive;
+    finding.mesh_name = part.primitive->mesh_name;
+    finding.material_name = part.primitive->material_name;
+}
+
+/// Readers of the file know that green points down, and turn it.
+bool isDeclared(const NormalMap& map) {
+    return std::all_of(map.parts.begin(), map.parts.end(),
+                       [](const MapPart& part) { return part.use->is_declared_down; });
+}
+
+bool mayBeHeights(const NormalMap& map) {
+    return std::all_of(map.parts.begin(), map.parts.end(),
+                       [](const MapPart& part) { return part.use->may_be_heights; });
+}
+
+/// Of what the channels hold, and of green.
+std::vector<Finding> describe(const Scene& scene, const NormalMap& map) {
+    const std::string name = imageName(scene, map.image);
+    std::vector<Finding> findings;
+    if (!map.test) {
+        findings.push_back(unreadable(name, map.why_not));
+    } else {
+        const bool has_own_green = hasOwnGreen(map.look.layout);
+        std::optional<Finding> content = contentFinding(name, commandName(scene, map.image), map.look,
+                                                        isDown(map) && !(has_own_green && isDeclared(map)));
+        if (content && map.look.content == MapContent::height && mayBeHeights(map)) {
+            content->severity = Severity::note;
+            content->message = name + " is a height map (map_bump), and no normal map";
+            content->remedy =
+                "Nothing needs to be done: generate makes a normal map of it, with -bm as its height in units of "
+                "the model. For the image alone: tspace height-to-normal.";
+        }
+        if (content) findings.push_back(*std::move(content));
+        if (has_own_green && isDown(map) && !isDeclared(map)) findings.push_back(flipped(name, *map.test));
+        if (map.test->verdict == GreenVerdict::mixed) findings.push_back(mixed(name, *map.test));
+        for (Finding& finding : findings) {
+            if (finding.unit == "blocks") finding.confidence = map.test->confidence();
+        }
+    }
+    for (Finding& finding : findings) placeAt(partOf(map), finding);
+    return findings;
+}
+
+GreenSide sideOf(const NormalMap& map, const GreenTest& test) {
+    if (!hasOwnGreen(map.look.layout)) return GreenSide::unknown;
+    const bool is_declared = isDeclared(map);
+    switch (test.verdict) {
+        case GreenVerdict::up:
+            return is_declared ? GreenSide::down : GreenSide::up;
+        case GreenVerdict::down:
+            return is_declared ? GreenSide::up : GreenSide::down;
+        case GreenVerdict::mixed:
+            return GreenSide::mixed;
+        case GreenVerdict::unknown:
+            break;
+    }
+    return GreenSide::unknown;
+}
+
+}  // namespace
+
+ImageFindings checkImages(const Scene& scene, const CheckOptions& options) {
+    std::vector<NormalMap> maps = collectNormalMaps(scene);
+    Parallel parallel(options.execution);
+    workTogether(
+        scene.memory.get(), maps.size(), parallel, [&](std::size_t i) { return workBytes(scene, maps[i]); },
+        [&](std::size_t i) { lookAt(scene, options, maps[i]); });
+    ImageFindings result;
+    result.image_green.assign(scene.images.size(), GreenSide::noMap);
+    result.primitive_green.assign(scene.primitives.size(), GreenSide::noMap);
+    result.looks.resize(scene.images.size());
+    result.is_y_inverted.resize(scene.images.size());
+    result.is_declared.resize(scene.images.size());
+    for (const NormalMap& map : maps) {
+        result.looked_at += map.test.has_value();
+        result.green_told += map.test && map.test->verdict != GreenVerdict::unknown;
+        result.looks[map.image] = map.look;
+        result.is_y_inverted[map.image] = isDown(map) && !hasOwnGreen(map.look.layout);
+        result.is_declared[map.image] = isDeclared(map);
+        result.image_green[map.image] = map.test ? sideOf(map, *map.test) : GreenSide::unread;
+        for (const MapPart& part : map.parts) {
+            for (const std::size_t primitive : part.followers) {
+                result.primitive_green[primitive] = map.test ? sideOf(map, part.test) : GreenSide::unread;
+            }
+        }
+        for (Finding& finding : describe(scene, map)) {
+            result.findings.push_back(std::move(finding));
+            result.images.push_back(map.image);
+        }
+    }
+    return result;
+}
+
+std::vector<Finding> checkMapScales(const Scene& scene) {
+    std::vector<Finding> findings;
+    std::set<std::string> places;
+    for (const ScenePrimitive& primitive : scene.primitives) {
+        for (const TangentUse& use : primitive.uses) {
+            if (use.needed_by == "anisotropy" || use.scale > 0 || !places.insert(use.place).second) continue;
+            const Tally one{.count = 1, .total = 1};
+            findings.push_back(makeFinding(
+                FindingCode::normalMapScale, Severity::note, one, "textures",
+                use.scale == 0 ? "the scale of the normal map is 0, so nothing of it shows"
+                               : "the scale of the normal map is below 0: it inverts red and green, so bumps are "
+                                 "dents"));
+            placeAt({.primitive = &primitive, .use = &use}, findings.back());
+        }
+    }
+    return findings;
+}
+
+}  // namespace tspace

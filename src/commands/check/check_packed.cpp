@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: MIT
+// Packed frames against what they were packed from. That is mended when it is packed, so what is compared with is the
+// frame that the finest format makes of it: packing anew then always mends what is found.
+#include "commands/check/check_packed.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <map>
+#include <tuple>
+
+#include "model/io/file_error.h"
+#include "model/io/work_together.h"
+#include "commands/check/findings.h"
+#include "commands/check/scene_verdict.h"
+#include "core/base/angle.h"
+#include "tspace/pack.h"
+
+namespace tspace {
+
+namespace {
+
+constexpr FrameFormat kFinest = FrameFormat::frame64;
+/// Frames that are compared at a time.
+constexpr std::size_t kChunk = 256;
+/// From here on a difference can be seen; 8 bits in each number take 0.4 degrees.
+constexpr double kVisible_deg = 1;
+
+struct PackedErrors {
+    Tally beyond;  ///< vertices beyond what the format promises, or of the other sign
+    double normal_deg = 0, tangent_deg = 0;
+    std::uint64_t sign_count = 0;
+};
+
+struct FrameChunk {
+    std::array<Vec3, kChunk> normals;
+    std::array<Vec4, kChunk> tangents;
+};
+
+void unpackInto(FrameFormat format, std::span<const std::byte> words, std::size_t count, FrameChunk& chunk) {
+    valueOrThrow(
+        unpackFrames(words, format, std::span(chunk.normals).first(count), std::span(chunk.tangents).first(count)));
+}
+
+PackedErrors comparePacked(const ScenePrimitive& primitive, const ScenePacked& packed) {
+    const FrameErrorBound bound = frameErrorBound(packed.format), finest = frameErrorBound(kFinest);
+    const std::size_t total = primitive.normals.size(), word_bytes = frameBytes(packed.format);
+    const auto words = std::as_bytes(packed.words.span());
+    std::array<std::byte, kChunk * 8> buffer;
+    FrameChunk stored, expected;
+    PackedErrors errors;
+    errors.beyond.total = total;
+    for (std::size_t begin = 0; begin < total; begin += kChunk) {
+        const std::size_t count = std::min(kChunk, total - begin);
+        const auto fine = std::span(buffer).first(count * frameBytes(kFinest));
+        valueOrThrow(packFrames(primitive.normals.span().subspan(begin, count),
+                                primitive.tangents.span().subspan(begin, count), kFinest, fine));
+        unpackInto(kFinest, fine, count, expected);
+        unpackInto(packed.format, words.subspan(begin * word_bytes, count * word_bytes), count, stored);
+        for (std::size_t i = 0; i < count; ++i) {
+            constexpr double kDegrees = 180 / kPi;
+            const double normal_deg =
+                kDegrees * angleBetween(toDouble(stored.normals[i]), toDouble(expected.normals[i]));
+            const double tangent_deg =
+                kDegrees * angleBetween(toDouble(xyz(stored.tangents[i])), toDouble(xyz(expected.tangents[i])));
+            const bool is_mirrored = stored.tangents[i].w != expected.tangents[i].w;
+            errors.normal_deg = std::max(errors.normal_deg, normal_deg);
+            errors.tangent_deg = std::max(errors.tangent_deg, tangent_deg);
+            errors.sign_count += is_mirrored;
+            const bool is_beyond = is_mirrored || normal_deg > bound.normal_deg + finest.normal_deg ||
+                                   tangent_deg > bound.tangent_deg + finest.tangent_deg;
+            if (is_beyond)
+                errors.beyond.add(static_cast<std::uint32_t>(begin + i), 0, std::max(normal_deg, tangent_deg));
+        }
+    }
+    return errors;
+}
+
+/// "0.135": up to four digits behind the point, without zeros at the end and without the locale.
+std::string degreesText(double degrees) {
+    const auto parts = static_cast<std::uint64_t>(degrees * 10000 + 0.5);
+    std::string digits = std::to_string(parts % 10000 + 10000).substr(1);
+    digits.erase(digits.find_last_not_of('0') + 1);
+    return std::to_string(parts / 10000) + (digits.empty() ? "" : "." + digits);
+}
+
+std::string differenceText(const ScenePacked& packed, const PackedErrors& errors) {
+    const FrameErrorBound bound = frameErrorBound(packed.format);
+    std::string text = packed.attribute + " holds other frames than NORMAL and TANGENT at " +
+                       countText(errors.beyond, "vertices") + ": N is off by up to " + degreesText(errors.normal_deg) +
+                       " degrees, T by " + degreesText(errors.tangent_deg) + ", where " +
+                       frameFormatName(packed.format) + " promises " + degreesText(bound.normal_deg) + " and " +
+                       degreesText(bound.tangent_deg);
+    if (errors.sign_count != 0) text += "; the sign is another at " + std::to_string(errors.sign_count);
+    return text;
+}
+
+std::string packAgain(FrameFormat format) {
+    return std::string("Pack them anew: tspace generate --pack ") + frameFormatName(format) + ".";
+}
+
+/// Whether generate has frames to pack, or makes some.
+bool canPack(const ScenePrimitive& primitive) {
+    if (!primitive.normals.empty() && !primitive.tangents.empty()) return true;
+    return primitive.packedAlone() == nullptr && canCompute(primitive);
+}
+
+Finding unreadablePacking(const ScenePrimitive& primitive, const ScenePacked& packed) {
+    const Tally one{.count = 1, .total = 1};
+    Finding finding = makeFinding(FindingCode::packedFramesUnreadable, Severity::warning, one, "attributes",
+                                  packed.attribute + " " + packed.fault);
+    finding.remedy = canPack(primitive)
+                         ? packAgain(packed.format)
+                         : "Pack them anew from a model that has normals and tangents, or take the attribute away.";
+    return finding;
+}
+
+Finding differingPacking(const ScenePacked& packed, const PackedErrors& errors) {
+    const bool can_be_seen = errors.sign_count != 0 || errors.beyond.worst_deg > kVisible_deg;
+    Finding finding = makeFinding(FindingCode::packedFramesDiffer, can_be_seen ? Severity::warning : Severity::note,
+                                  errors.beyond, "vertices", differenceText(packed, errors));
+    finding.remedy = packAgain(packed.format);
+    return finding;
+}
+
+/// The attributes of one format of one primitive.
+struct PackedEntry {
+    const ScenePrimitive* primitive = nullptr;
+    const ScenePacked* packed = nullptr;
+    std::size_t comparison = 0;  ///< which of them is about it, where it is compared
+
+    [[nodiscard]] bool isCompared() const {
+        return packed->fault.empty() && !primitive->normals.empty() && !primitive->tangents.empty();
+    }
+    [[nodiscard]] std::string place() const { return primitive->place + "/attributes/" + packed->attribute; }
+};
+
+/// All of a scene. The first with each number of a comparison is to be compared.
+std::vector<PackedEntry> packedEntries(const Scene& scene) {
+    std::vector<PackedEntry> entries;
+    std::map<std::tuple<const void*, const void*, const void*, FrameFormat>, std::size_t> known;
+    for (const ScenePrimitive& primitive : scene.primitives) {
+        for (const ScenePacked& packed : primitive.packed) {
+            PackedEntry& entry = entries.emplace_back(PackedEntry{&primitive, &packed});
+            if (!entry.isCompared()) continue;
+            const auto key =
+                std::tuple(packed.words.data(), primitive.normals.data(), primitive.tangents.data(), packed.format);
+            entry.comparison = known.try_emplace(key, known.size()).first->second;
+        }
+    }
+    return entries;
+}
+
+std::vector<PackedErrors> compareAll(const Scene& scene, std::span<const PackedEntry> entries,
+                                     const Execution& execution) {
+    std::vector<const PackedEntry*> firsts;
+    for (const PackedEntry& entry : entries) {
+        if (entry.isCompared() && entry.comparison == firsts.size()) firsts.push_back(&entry);
+    }
+    std::vector<PackedErrors> errors(firsts.size());
+    Parallel parallel(execution);
+    workTogether(
+        scene.memory.get(), firsts.size(), parallel, [](std::size_t) { return std::uint64_t{0}; },
+        [&](std::size_t i) { errors[i] = comparePacked(*firsts[i]->primitive, *firsts[i]->packed); });
+    return errors;
+}
+
+PackedFramesInfo infoOf(const PackedEntry& entry, const PackedErrors& errors) {
+    return {.place = entry.place(),
+            .attribute = entry.packed->attribute,
+            .format = entry.packed->format,
+            .mesh = entry.primitive->mesh,
+            .primitive = entry.primitive->primitive,
+            .vertex_count = entry.primitive->positions.size(),
+            .is_readable = entry.packed->fault.empty(),
+            .is_compared = entry.isCompared(),
+            .worst_normal_deg = errors.normal_deg,
+            .worst_tangent_deg = errors.tangent_deg,
+            .differing_sign_count = errors.sign_count};
+}
+
+}  // namespace
+
+PackedFindings checkPacked(const Scene& scene, const CheckOptions& options) {
+    PackedFindings result;
+    const std::vector<PackedEntry> entries = packedEntries(scene);
+    const std::vector<PackedErrors> compared = compareAll(scene, entries, options.execution);
+    for (const PackedEntry& entry : entries) {
+        const PackedErrors errors = entry.isCompared() ? compared[entry.comparison] : PackedErrors{};
+        const PackedFramesInfo& info = result.infos.emplace_back(infoOf(entry, errors));
+        if (info.is_readable && errors.beyond.count == 0) continue;
+        Finding& finding =
+            result.findings.emplace_back(info.is_readable ? differingPacking(*entry.packed, errors)
+                                                          : unreadablePacking(*entry.primitive, *entry.packed));
+        finding.place = info.place;
+        finding.mesh = info.mesh;
+        finding.primitive = info.primitive;
+        finding.mesh_name = entry.primitive->mesh_name;
+        finding.material_name = entry.primitive->material_name;
+    }
+    return result;
+}
+
+}  // namespace tspace

@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: MIT
+// Mesh by mesh: edges that pieces of one surface share, and the normals at both of their ends on both sides.
+#include "commands/check/check_seams.h"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "commands/check/findings.h"
+#include "core/base/angle.h"
+#include "core/base/sort.h"
+#include "core/base/unit.h"
+#include "core/mesh/surface/equal_vertices.h"
+#include "core/mesh/surface/joined_pieces.h"
+
+namespace tspace {
+
+namespace {
+
+constexpr double kToDegrees = 180 / kPi;
+/// Normals that differ by less make no seam that is seen.
+constexpr double kLeastSeamDeg = 2;
+/// Normals of the own triangles are that, whatever the weights were, but for rounding to 8 bits.
+constexpr double kOwnDeg = 1;
+/// A border may bend by so much more than what nearly all smooth edges of the two sides do.
+constexpr double kMoreBend = 1.25, kSmoothPart = 0.9;
+/// Of the places where normals differ, the part that must look like that; and how many they must be.
+constexpr double kMostPlaces = 0.8;
+constexpr std::size_t kLeastPlaces = 3;
+
+/// What comparing the primitives of a mesh takes for a while, about.
+constexpr std::uint64_t kBytesPerVertex = 200, kBytesPerCorner = 100;
+
+/// A triangle's normal, and how it counts at its corners by three weightings: 1, its area, its angle.
+struct Face {
+    DVec3 normal = {};
+    double area = 0;
+    std::array<double, 3> angles = {};
+};
+
+/// What one primitive smooths: the means of the triangles around each vertex, over vertices with its position and normal.
+class SmoothPiece {
+  public:
+    SmoothPiece(const ScenePrimitive& primitive, const JoinedPieces& joined, std::uint32_t piece)
+        : primitive_(primitive) {
+        EqualVertices equal = findEqualVertices(primitive.positions.span(), primitive.normals.span(), {});
+        class_of_ = std::move(equal.class_of);
+        means_.resize(equal.class_count);
+        for (std::size_t c = 0; c + 2 < primitive.corners.size(); c += 3) addFace(c);
+        bends(joined, piece);
+    }
+
+    [[nodiscard]] const DVec3& faceNormal(std::uint32_t triangle) const { return faces_[triangle].normal; }
+    /// Whether the vertex has the mean of the primitive's own triangles, which are not one plane.
+    [[nodiscard]] bool isOwn(std::uint32_t vertex) const {
+        DVec3 normal = toDouble(primitive_.normals[vertex]);
+        if (!normalize(normal)) return false;
+        return std::any_of(means_[class_of_[vertex]].begin(), means_[class_of_[vertex]].end(), [&](DVec3 mean) {
+            return normalize(mean) && angleBetween(mean, normal) * kToDegrees <= kOwnDeg;
+        });
+    }
+    [[nodiscard]] double smoothDeg() const { return smooth_deg_; }
+    [[nodiscard]] double leastHardDeg() const { return least_hard_deg_; }
+
+  private:
+    void addFace(std::size_t c) {
+        const auto at = [&](std::size_t k) { return toDouble(primitive_.positions[primitive_.corners[c + k % 3]]); };
+        Face& face = faces_.emplace_back();
+        face.normal = cross(at(1) - at(0), at(2) - at(0));
+        face.area = length(face.normal);
+        if (!normalize(face.normal)) face.normal = {};
+        for (std::size_t k = 0; k < 3; ++k) {
+            DVec3 next = at(k + 1) - at(k), previous = at(k + 2) - at(k);
+            const double angle = normalize(next) && normalize(previous) ? angleBetween(next, previous) : 0;
+            std::array<DVec3, 3>& mean = means_[class_of_[primitive_.corners[c + k]]];
+            mean[0] = mean[0] + face.normal;
+            mean[1] = mean[1] + face.area * face.normal;
+            mean[2] = mean[2] + angle * face.normal;
+        }
+    }
+
+    /// The angles at edges inside, of those that are smooth and those that are hard.
+    void bends(const JoinedPieces& joined, std::uint32_t piece) {
+        struct Edge {
+            std::array<std::uint32_t, 2> points, classes;
+            std::size_t face;
+        };
+        std::vector<Edge> edges;
+        for (std::size_t c = 0; c < 3 * faces_.size(); ++c) {
+            std::uint32_t a = primitive_.corners[c], b = primitive_.corners[c / 3 * 3 + (c + 1) % 3];
+            if (joined.pointOf(piece, a) > joined.pointOf(piece, b)) std::swap(a, b);
+            const std::array<std::uint32_t, 2> points = {joined.pointOf(piece, a), joined.pointOf(piece, b)};
+            if (points[0] != points[1]) edges.push_back({points, {class_of_[a], class_of_[b]}, c / 3});
+        }
+        sortStably(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) { return a.points < b.points; });
+        std::vector<double> smooth;
+        for (std::size_t i = 0, past = 0; i < edges.size(); i = past) {
+            while (past < edges.size() && edges[past].points == edges[i].points) ++past;
+            if (past - i != 2) continue;
+            const double bend =
+                angleBetween(faces_[edges[i].face].normal, faces_[edges[i + 1].face].normal) * kToDegrees;
+            if (bend < kLeastSeamDeg) continue;
+            if (edges[i].classes == edges[i + 1].classes)
+                smooth.push_back(bend);
+            else
+                least_hard_deg_ = std::min(least_hard_deg_, bend);
+        }
+        if (smooth.empty()) return;
+        const auto place = smooth.begin() + static_cast<std::ptrdiff_t>(kSmoothPart * double(smooth.size() - 1));
+        std::nth_element(smooth.begin(), place, smooth.end());
+        smooth_deg_ = *place;
+    }
+
+    const ScenePrimitive& primitive_;
+    std::vector<std::uint32_t> class_of_ = {};
+    std::vector<Face> faces_ = {};
+    std::vector<std::array<DVec3, 3>> means_ = {};
+    double smooth_deg_ = 0, least_hard_deg_ = 180;
+};
+
+struct Seam {
+    std::set<std::uint32_t> places = {}, likely = {};  // points where normals differ, and where for that reason
+    double worst_deg = 0;
+    std::vector<std::uint32_t> vertices = {};
+};
+
+class MeshSeams {
+  public:
+    explicit MeshSeams(std::vector<const ScenePrimitive*> primitives) : primitives_(std::move(primitives)) {
+        std::map<const Vec3*, std::size_t> list_of;
+        for (const ScenePrimitive* primitive : primitives_) {
+            const auto [entry, is_new] = list_of.try_emplace(primitive->positions.data(), lists_.size());
+            if (is_new) lists_.push_back(primitive->positions.span());
+            pieces_.push_back({entry->second, primitive->corners.span()});
+        }
+    }
+
+    void find(std::vector<Finding>& findings) {
+        const JoinedPieces joined(lists_, pieces_);
+        if (joined.borders().empty()) return;
+        std::map<std::uint32_t, SmoothPiece> smooth;
+        std::map<std::pair<std::uint32_t, std::uint32_t>, Seam> seams;
+        for (const JoinedPieces::Border& border : joined.borders()) {
+            for (const PieceTriangle& at : border.triangles)
+                smooth.try_emplace(at.piece, *primitives_[at.piece], joined, at.piece);
+            look(joined, border, smooth, seams[{border.triangles[0].piece, border.triangles[1].piece}]);
+        }
+        for (const auto& [pair, seam] : seams) {
+            const auto least = kMostPlaces * static_cast<double>(seam.places.size());
+            if (seam.likely.size() < kLeastPlaces || static_cast<double>(seam.likely.size()) < least) continue;
+            findings.push_back(findingOf(pair, seam));
+        }
+    }
+
+  private:
+    [[nodiscard]] std::uint32_t vertexAt(const JoinedPieces& joined, const PieceTriangle& at,
+                                         std::uint32_t point) const {
+        const std::span<const std::uint32_t> corners = pieces_[at.piece].corners;
+        std::size_t c = 3 * std::size_t{at.triangle};
+        while (joined.pointOf(at.piece, corners[c]) != point) ++c;
+        return corners[c];
+    }
+
+    void look(const JoinedPieces& joined, const JoinedPieces::Border& border,
+              const std::map<std::uint32_t, SmoothPiece>& smooth, Seam& seam) const {
+        const auto& [a, b] = border.triangles;
+        const SmoothPiece &side_a = smooth.at(a.piece), &side_b = smooth.at(b.piece);
+        const double bend = angleBetween(side_a.faceNormal(a.triangle), side_b.faceNormal(b.triangle)) * kToDegrees;
+        const bool is_smooth = bend <= kMoreBend * std::min(side_a.smoothDeg(), side_b.smoothDeg()) &&
+                               bend < std::min(side_a.leastHardDeg(), side_b.leastHardDeg());
+        for (const std::uint32_t point : border.points) {
+            const std::uint32_t vertex_a = vertexAt(joined, a, point), vertex_b = vertexAt(joined, b, point);
+            DVec3 normal_a = toDouble(primitives_[a.piece]->normals[vertex_a]);
+            DVec3 normal_b = toDouble(primitives_[b.piece]->normals[vertex_b]);
+            if (!normalize(normal_a) || !normalize(normal_b)) continue;
+            const double apart = angleBetween(normal_a, normal_b) * kToDegrees;
+            if (apart <= kLeastSeamDeg) continue;
+            seam.places.insert(point);
+            if (!is_smooth || !side_a.isOwn(vertex_a) || !side_b.isOwn(vertex_b)) continue;
+            if (seam.likely.insert(point).second && seam.vertices.size() < Tally::kMostVertices)
+                seam.vertices.push_back(vertex_a);
+            seam.worst_deg = std::max(seam.worst_deg, apart);
+        }
+    }
+
+    [[nodiscard]] Finding findingOf(const std::pair<std::uint32_t, std::uint32_t>& pair, const Seam& seam) const {
+        const ScenePrimitive &first = *primitives_[pair.first], &second = *primitives_[pair.second];
+        Tally tally{.count = seam.likely.size(), .total = seam.places.size()};
+        tally.worst_deg = seam.worst_deg;
+        tally.vertices = seam.vertices;
+        Finding finding =
+            makeFinding(FindingCode::normalSeam, Severity::note, tally, "positions",
+                        "its normals and those of primitive " + std::to_string(second.primitive) + " differ by up to " +
+                            decimalText(seam.worst_deg) + " degrees at " + std::to_string(seam.likely.size()) +
+                            " positions of their border, though the surface is smooth there: each has the "
+                            "normals of its own triangles alone");
+        finding.place = first.place;
+        finding.mesh = first.mesh;
+        finding.primitive = first.primitive;
+        finding.mesh_name = first.mesh_name;
+        finding.material_name = first.material_name;
+        return finding;
+    }
+
+    std::vector<const ScenePrimitive*> primitives_;
+    std::vector<std::span<const Vec3>> lists_ = {};
+    std::vector<SurfacePiece> pieces_ = {};
+};
+
+Finding notCompared(const ScenePrimitive& first, const std::string& why) {
+    const Tally one{.count = 1, .total = 1};
+    Finding finding =
+        makeFinding(FindingCode::fileRemark, Severity::note, one, "meshes",
+                    "normals at the borders of the primitives of this mesh were not compared: that " + why);
+    finding.place = first.place;
+    finding.mesh = first.mesh;
+    finding.primitive = first.primitive;
+    finding.mesh_name = first.mesh_name;
+    return finding;
+}
+
+}  // namespace
+
+std::vector<Finding> checkSeams(const Scene& scene, const CheckOptions&) {
+    std::vector<Finding> findings;
+    for (std::size_t first = 0, past = 0; first < scene.primitives.size(); first = past) {
+        std::vector<const ScenePrimitive*> primitives;
+        // A file may name the same arrays any number of times.
+        std::set<std::pair<const Vec3*, const std::uint32_t*>> seen;
+        std::uint64_t bytes = 0;
+        for (; past < scene.primitives.size() && scene.primitives[past].mesh == scene.primitives[first].mesh; ++past) {
+            const ScenePrimitive& primitive = scene.primitives[past];
+            if (primitive.corners.empty() || primitive.normals.empty() || primitive.is_unlit) continue;
+            if (!seen.insert({primitive.positions.data(), primitive.corners.data()}).second) continue;
+            primitives.push_back(&primitive);
+            bytes += kBytesPerCorner * primitive.corners.size() + kBytesPerVertex * primitive.positions.size();
+        }
+        if (primitives.size() < 2) continue;
+        if (scene.memory && !scene.memory->has(bytes)) {
+            findings.push_back(notCompared(*primitives.front(), scene.memory->whyNot(bytes)));
+            continue;
+        }
+        MeshSeams(std::move(primitives)).find(findings);
+    }
+    return findings;
+}
+
+}  // namespace tspace

@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: MIT
+// Names, remedies and texts of findings.
+#include "commands/check/findings.h"
+
+#include <array>
+#include <cmath>
+
+namespace tspace {
+
+namespace {
+
+struct CodeText {
+    const char* name;
+    const char* remedy;
+};
+
+constexpr const char* kRepair = "Compute those tangents anew: tspace generate --repair.";
+
+/// In the order of FindingCode.
+constexpr std::array<CodeText, kFindingCodeCount> kCodes{{
+    {"positionsNotFinite", "Find the tool that wrote NaN or infinity as a position, and export again."},
+    {"uvsMissing", "Unwrap the mesh, or give the texture the number of a UV set that is there."},
+    {"uvsNotFinite", "Find the tool that wrote NaN or infinity as a UV, and export again."},
+    {"uvsDegenerate",
+     "Unwrap those triangles so that they cover some of the texture. If they show one plain colour on purpose, leave "
+     "them: any tangent in the plane of the surface will do there."},
+    {"normalsMissing", "Nothing needs to be done if flat shading is meant; else export normals."},
+    {"normalsNotFinite", "Export the normals again."},
+    {"normalsNotUnit", "Normalise the normals and compute the tangents anew."},
+    {"normalsAgainstWinding",
+     "Turn the normals round, or the triangles (recalculate outside), whichever is wrong; then compute the tangents "
+     "anew."},
+    {"tangentsMissing",
+     "Run tspace generate. Without it each renderer makes its own tangents, and they may differ from those of the "
+     "bake."},
+    {"tangentsUnused",
+     "Remove them, they make the file larger: tspace generate --strip. Or give the material the normal map that was "
+     "meant."},
+    {"tangentsIgnored", "Run tspace generate, which makes normals too; or export normals as well."},
+    {"tangentsNotFinite", kRepair},
+    {"tangentsNotUnit", "Make them unit, and compute those anew that have no length: tspace generate --repair."},
+    {"tangentsNotOrthogonal",
+     "Make those tangents perpendicular to the normals of the file: tspace generate --repair."},
+    {"signsNotOne", "Store +1 or -1 in w: tspace generate --repair."},
+    {"signsMixed", "Split the vertices where mirrored and other triangles meet: tspace generate --repair."},
+    {"signsInverted",
+     "Negate every w: tspace generate --repair. The tool that wrote them fed MikkTSpace with v as glTF stores it and "
+     "forgot to negate the sign."},
+    {"signsWrong", "Negate those w: tspace generate --repair."},
+    {"mirroredSeamAveraged",
+     "Split the vertices along the seam, so that each side has its own tangent: tspace generate --repair."},
+    {"uvSeamAveraged", "Average only over vertices whose UVs are equal too: tspace generate --repair."},
+    {"directionsWrong", kRepair},
+    {"uvSetWrong", "Compute the tangents anew, along the UV set of the texture: tspace generate --repair."},
+    {"textureTransformIgnored",
+     "Apply the transform to the UVs and remove it from the texture, so that no reader can get it wrong; or compute "
+     "the tangents anew: tspace generate --overwrite."},
+    {"splitFramesDiffer", "Weld equal vertices before tangents are computed: tspace generate --overwrite."},
+    {"morphTangentsMissing", "Write tangents for morph targets too: tspace generate --overwrite."},
+    {"morphTangentsWrong", "Compute the tangents of the base and of all targets together: tspace generate --repair."},
+    {"texturesDisagree",
+     "Give both textures the same UV set and the same rotation and mirroring; a mesh can hold only one tangent per "
+     "vertex."},
+    {"greenFlipped",
+     "If it was made for DirectX, invert its green channel: tspace generate --flip-green does that. If bumps are dents "
+     "then, it was red: tspace convert-map MAP -o OUT.png --flip-red is for that. The map alone does not tell the two "
+     "apart; where the high poly is at hand, tspace map-error MAP MODEL --high HIGH does, in degrees."},
+    {"normalMapUnreadable", "Convert the image to PNG, JPEG or WebP to have it looked at."},
+    {"fileRemark", "Mend the file where that matters. The rest of this report is about what could be read."},
+    {"greenMixed",
+     "Bake the map anew, all of it one way (tspace bake MODEL --high HIGH -o MAP.png); or invert green with an image "
+     "editor where it points down, and nowhere else. To invert the whole map would spoil the other part."},
+    {"packedFramesUnreadable", "Pack them anew, in the format that the attribute names: tspace generate --pack."},
+    {"packedFramesDiffer",
+     "Pack them anew from NORMAL and TANGENT, in the format that the attribute names: tspace generate --pack."},
+    {"tangentsUnreadable",
+     "Run tspace generate: it computes tangents where a material needs them, and takes the attribute away elsewhere."},
+    {"positionsRounded",
+     "Store the positions relative to a point near the mesh, and put that point into the node. Tangents that are there "
+     "are better than what can be computed from these positions: keep them."},
+    {"normalSeam",
+     "Make the normals of the primitives together: tspace generate --overwrite-normals; or leave them if an edge is "
+     "meant."},
+    {"normalsFarFromFaces",
+     "Nothing needs to be done if that is meant. Else make normals with hard edges: tspace generate "
+     "--overwrite-normals "
+     "--crease 60."},
+    {"morphNormalsMissing", "Give the targets normals too: tspace generate --morph-normals missing."},
+    {"morphNormalsWrong", "Compute what the targets add to normals anew: tspace generate --morph-normals all."},
+    {"normalMapTwoChannels",
+     "In the model: tspace generate --mend-maps does it. The image alone: tspace convert-map MAP -o OUT.png --channels "
+     "rg"},
+    {"normalMapUnsigned",
+     "In the model: tspace generate --mend-maps does it. The image alone: tspace convert-map MAP -o OUT.png --channels "
+     "rg"},
+    {"normalMapChannels",
+     "In the model: tspace generate --mend-maps does it. The image alone: tspace convert-map MAP -o OUT.png "
+     "--channels, with "
+     "the channels that x, y and z are in."},
+    {"normalMapIsSrgb",
+     "In the model: tspace generate --mend-maps does it. The image alone: tspace convert-map MAP -o OUT.png --srgb (or "
+     "--linearised)"},
+    {"normalMapInObjectSpace",
+     "In the model: tspace generate --mend-maps does it. The image alone: tspace convert-map MAP -o OUT.png --from "
+     "object --mesh MODEL"},
+    {"normalMapIsHeight", "Make a normal map of it: tspace height-to-normal MAP -o OUT.png --strength S"},
+    {"normalMapScale", "Give the texture a scale above 0, or take the normal map away, if that is what is meant."},
+    {"normalMapIsPicture", "Put the normal map there that is meant, or take this one away: it may be the base color."},
+}};
+
+}  // namespace
+
+const char* severityName(Severity severity) {
+    switch (severity) {
+        case Severity::note:
+            return "note";
+        case Severity::warning:
+            return "warning";
+        case Severity::error:
+            return "error";
+    }
+    return "";
+}
+
+const char* findingName(FindingCode code) {
+    const auto number = static_cast<std::size_t>(code);
+    return number < kCodes.size() ? kCodes[number].name : "";
+}
+
+const char* findingSummary(FindingCode code) {
+    // In the order of FindingCode.
+    static constexpr std::array kSummaries{
+        "Positions are not finite.",
+        "A texture is read with a UV set that is not there.",
+        "UVs are not finite.",
+        "Triangles have no UV area.",
+        "There are no normals.",
+        "Normals are not finite.",
+        "Normals are not unit.",
+        "Normals point to the back of their triangles.",
+        "A material needs tangents, and there are none.",
+        "No material asks for the tangents.",
+        "There are tangents without normals.",
+        "Tangents are not finite.",
+        "Tangents are not unit.",
+        "Tangents lean out of the surface.",
+        "Signs are neither +1 nor -1.",
+        "Signs differ between the corners of a triangle.",
+        "Every sign is inverted.",
+        "Some signs are inverted.",
+        "One tangent serves both sides of a mirrored seam.",
+        "One tangent serves both sides of a seam in the UV map.",
+        "Tangents do not point where u grows.",
+        "Tangents follow another UV set than the texture.",
+        "Tangents follow the UVs before the texture transform.",
+        "Equal vertices have different tangents.",
+        "Morph targets lack tangent deltas.",
+        "Tangent deltas of morph targets are wrong.",
+        "Two textures need different tangents.",
+        "Green points down in a normal map.",
+        "A normal map could not be looked at.",
+        "Reading the file left something out.",
+        "Green points down in one part of a normal map and up in another.",
+        "Packed frames cannot be read.",
+        "Packed frames are not those of the normals and tangents.",
+        "Tangents are stored in a form that tangents cannot have.",
+        "Positions are rounded too coarsely for directions.",
+        "Two primitives of one smooth surface have different normals at their border.",
+        "Normals are far from all triangles around them.",
+        "Morph targets turn the surface and leave the normals behind.",
+        "What morph targets add to normals is wrong.",
+        "Blue of a normal map says nothing of z.",
+        "Blue of a normal map is z itself.",
+        "Channels of a normal map are exchanged or inverted.",
+        "A normal map was stored as a picture, by the sRGB curve.",
+        "A normal map is not in tangent space.",
+        "A grey image is used as a normal map.",
+        "The scale of a normal map is 0 or below.",
+        "A picture in colors is used as a normal map.",
+    };
+    static_assert(kSummaries.size() == kFindingCodeCount);
+    const auto number = static_cast<std::size_t>(code);
+    return number < kSummaries.size() ? kSummaries[number] : "";
+}
+
+const char* findingRemedy(FindingCode code) {
+    const auto number = static_cast<std::size_t>(code);
+    return number < kCodes.size() ? kCodes[number].remedy : "";
+}
+
+Finding makeFinding(FindingCode code, Severity severity, const Tally& tally, const char* unit, std::string message) {
+    Finding finding;
+    finding.code = code;
+    finding.severity = severity;
+    finding.unit = unit;
+    finding.count = tally.count;
+    finding.total = tally.total;
+    finding.surface_share = tally.surface_share;
+    finding.worst_deg = tally.worst_deg;
+    finding.vertices = tally.vertices;
+    finding.message = std::move(message);
+    finding.remedy = findingRemedy(code);
+    return finding;
+}
+
+Severity onShare(Severity severity, double surface_share, const CheckOptions& options) {
+    return severity == Severity::error && surface_share < options.error_share ? Severity::warning : severity;
+}
+
+std::string decimalText(double value) {
+    // One digit behind the point, without the locale.
+    const auto tenths = static_cast<std::uint64_t>(std::llround(value * 10));
+    return std::to_string(tenths / 10) + "." + std::to_string(tenths % 10);
+}
+
+std::string stepText(double value) {
+    if (value >= 10) return std::to_string(static_cast<std::uint64_t>(std::llround(value)));
+    int digits = 1;
+    for (double scaled = value; scaled > 0 && scaled < 1 && digits < 12; scaled *= 10) ++digits;
+    auto number = static_cast<std::uint64_t>(std::llround(value * std::pow(10, digits)));
+    while (digits > 0 && number % 10 == 0) {
+        number /= 10;
+        --digits;
+    }
+    std::string text = std::to_string(number);
+    if (digits == 0) return text;
+    const auto behind = static_cast<std::size_t>(digits);
+    if (text.size() <= behind) text = std::string(behind + 1 - text.size(), '0') + text;
+    return text.substr(0, text.size() - behind) + "." + text.substr(text.size() - behind);
+}
+
+std::string countText(const Tally& tally, const char* unit) {
+    const std::string total = std::to_string(tally.total) + " " + unit;
+    if (tally.count == tally.total) return "all " + total;
+    return std::to_string(tally.count) + " of " + total;
+}
+
+std::string shareText(double share) {
+    if (share > 0 && share < 0.001) return "less than 0.1 %";
+    return decimalText(share * 100) + " %";
+}
+
+}  // namespace tspace

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+// Whether the tangents of one mesh are good, and why not. Knows no file: `check` makes findings of it, and repair asks
+// it what to keep.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "commands/check/direction_cones.h"
+#include "commands/check/tally.h"
+#include "core/mesh/surface/surface.h"
+#include "core/mesh/surface/tangent_values.h"
+#include "core/mesh/surface/tangent_view.h"
+#include "tspace/check.h"
+
+namespace tspace {
+
+/// The bit of a finding in FrameHealth::faults. Only codes below greenFlipped are about vertices.
+inline constexpr std::uint32_t faultBit(FindingCode code) { return 1u << static_cast<std::uint32_t>(code); }
+
+/// Another bit: the sign goes with the inverted ones around.
+inline constexpr std::uint32_t kUndecidedSign = 1u << 31;
+
+/// Another: the tangent is nearly parallel to N.
+inline constexpr std::uint32_t kParallelTangent = 1u << 30;
+
+struct FrameHealth {
+    /// Per vertex the bits of what it is counted for below; empty: nothing at all. Wrong signs have the bit of
+    /// signsWrong, however many there are; where that is nearly all, others of the same patches have kUndecidedSign.
+    /// Where nearly all directions are wrong, others of the same patches have the bit of directionsWrong too.
+    std::vector<std::uint32_t> faults = {};
+    /// Vertices with the tangents that `generate` would give them, which nothing below holds against them; may be empty.
+    std::vector<bool> settled = {};
+    float settled_sign = 1;  ///< -1: but for the sign, which is the opposite
+
+    void fault(std::uint32_t vertex, FindingCode code, std::size_t vertex_count) {
+        addFaults(vertex, faultBit(code), vertex_count);
+    }
+    void addFaults(std::uint32_t vertex, std::uint32_t bits, std::size_t vertex_count) {
+        if (faults.empty()) faults.resize(vertex_count);
+        faults[vertex] |= bits;
+    }
+    [[nodiscard]] bool isSettled(std::uint32_t vertex) const { return !settled.empty() && settled[vertex]; }
+
+    // Values on their own. Counted: all vertices, and for directions those that triangles use. Flags: of the latter.
+    Tally not_finite;             ///< tangent or w
+    bool has_not_finite = false;  ///< some
+    Tally not_unit;               ///< and finite
+    double far_from_unit = 0;     ///< share of the surface with lengths below 0.9 or above 1.1
+    bool has_zero = false;        ///< some have no length at all
+    Tally not_orthogonal;         ///< finite, not zero, with a usable N
+    Tally parallel;               ///< not among these: within 5 degrees of N or its opposite, so that there is no frame
+    /// They cover so little that the others that lean are another matter, and a warning: only they have the bit of
+    /// tangentsNotOrthogonal.
+    bool has_no_frame = false;  ///< some are within 1 degree of N or its opposite
+    bool parallel_apart = false;
+    Tally sign_not_one;
+    bool sign_vanishes = false;  ///< some |w| is below 0.5
+    Tally signs_mixed;           ///< triangles that have UV area
+
+    // Against the UVs. All zero where there are none.
+    Tally signs_wrong;             ///< vertices whose triangles agree with each other, but not with w
+    double wrong_sign_share = 0;   ///< of the surface whose signs were judged
+    bool all_signs_wrong = false;  ///< on nearly all of it
+    Tally mirrored_seams;          ///< vertices where mirrored and other triangles share a tangent
+    Tally uv_seams;                ///< vertices with the mean tangent of both sides of a UV seam
+    Tally directions_wrong;        ///< the other vertices whose tangents are off by more than direction_deg
+    double far_directions = 0;     ///< share of the surface where a direction is off by more than error_deg
+    Tally frames_differ;  ///< vertices equal to another but for the tangent, which MikkTSpace would give the same
+};
+
+/// Looks at tangents that follow mesh.uvs. Without normals or UVs nothing is looked at but values. Triangles without UV
+/// area say nothing. What `generate` gives on this very mesh is never wrong.
+/// Expected near-linear time. Fails where generateTangents does, which is for lack of memory.
+Result<FrameHealth> examineTangents(const TangentView& mesh, const CheckOptions& options);
+
+/// The same from what is known already of the mesh's surface.
+Result<FrameHealth> examineTangents(const TangentView& mesh, const Surface& surface, const CheckOptions& options);
+
+/// What there is to say about it: findings without a place.
+std::vector<Finding> tangentFindings(const FrameHealth& health, const CheckOptions& options);
+
+/// Why these tangents surely render wrong, where something reads them: the message of the first finding that is an error. Empty: they are good
+/// enough to be kept.
+std::string whyTangentsAreWrong(const FrameHealth& health, const CheckOptions& options);
+
+// The steps of examineTangents, one per file.
+void examineValues(const TangentView& mesh, const Surface& surface, const CheckOptions& options, FrameHealth& health);
+void examineSigns(const TangentView& mesh, const Surface& surface, const CheckOptions& options,
+                  std::span<const float> directions, FrameHealth& health);
+void examineDirections(const TangentView& mesh, const Surface& surface, const CheckOptions& options,
+                       std::span<const float> directions, FrameHealth& health);
+/// Fills FrameHealth::settled. Returns whether that changes what was found.
+Result<bool> settleVertices(const TangentView& mesh, const Surface& surface, const CheckOptions& options,
+                            FrameHealth& health);
+Result<Done> examineSplits(const TangentView& mesh, const Surface& surface, const CheckOptions& options,
+                           FrameHealth& health);
+
+}  // namespace tspace

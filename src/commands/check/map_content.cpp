@@ -1,0 +1,561 @@
+// SPDX-License-Identifier: MIT
+#include "commands/check/map_content.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <optional>
+
+#include "commands/check/map_axes.h"
+#include "core/base/angle.h"
+#include "core/base/unit.h"
+#include "maps/grey.h"
+
+namespace tspace {
+
+namespace {
+
+/// How far from 1 a vector of 8 bits may be, compressed and filtered.
+constexpr double kLengthSlack = 0.1;
+/// A channel that varies less (root of the mean square, of 255) is constant: compression adds as much.
+constexpr double kConstant = 2.5;
+/// x^2 + y^2 of texels that lean: by 11 degrees or more.
+constexpr double kLeastLean = 0.04;
+constexpr double kStep = 1.0 / 127.5;
+/// How far from 0 x and y of a map are in the mean, where nothing else is known.
+constexpr double kMostMean = 0.25;
+
+double signedValue(std::uint8_t channel) { return static_cast<double>(channel) * kStep - 1; }
+
+struct Spread {
+    double mean = 0, deviation = 0;
+};
+
+template <class ValueOf>
+Spread spreadOf(std::span<const TexelBytes> texels, const ValueOf& valueOf) {
+    double sum = 0, squares = 0;
+    for (const TexelBytes& texel : texels) {
+        const double value = valueOf(texel);
+        sum += value;
+        squares += value * value;
+    }
+    const auto count = static_cast<double>(texels.size());
+    const double mean = sum / count;
+    return {mean, std::sqrt(std::max(0.0, squares / count - mean * mean))};
+}
+
+template <class Test>
+double shareOf(std::span<const TexelBytes> texels, const Test& test) {
+    return static_cast<double>(std::count_if(texels.begin(), texels.end(), test)) / static_cast<double>(texels.size());
+}
+
+/// Texels as a layout reads them. Each of the 256 values of a channel is computed once.
+class LayoutReader {
+  public:
+    explicit LayoutReader(const MapLayout& layout) : layout_(layout) {
+        for (unsigned i = 0; i < values_.size(); ++i) {
+            const float c = static_cast<float>(i) / 255.0F;
+            values_[i] = 2 * static_cast<double>(readTexel({c, 0, 0}, 1, {.curve = layout.curve}).x) - 1;
+        }
+    }
+
+    [[nodiscard]] DVec3 vector(const TexelBytes& texel) const {
+        DVec3 v{component(texel, layout_.x), component(texel, layout_.y), 0};
+        v.z = layout_.z.channel == MapChannel::none ? std::sqrt(std::max(0.0, 1 - v.x * v.x - v.y * v.y))
+                                                    : component(texel, layout_.z);
+        return v;
+    }
+
+  private:
+    [[nodiscard]] double component(const TexelBytes& texel, const MapComponent& component) const {
+        const std::uint8_t channel = texel[static_cast<std::size_t>(component.channel)];
+        const double value = component.channel == MapChannel::alpha ? signedValue(channel) : values_[channel];
+        return component.is_inverted ? -value : value;
+    }
+
+    MapLayout layout_;
+    std::array<double, 256> values_ = {};
+};
+
+/// How well texels are unit vectors, and where those that are point: what was never painted or baked says nothing.
+struct Fit {
+    double unit_share = 0;
+    DVec3 mean = {};
+    std::array<double, 3> below_share = {};  ///< of each component: unit vectors where it is negative
+};
+
+Fit fitOf(std::span<const TexelBytes> texels, const MapLayout& layout) {
+    const LayoutReader reader(layout);
+    Fit fit;
+    std::array<std::uint64_t, 3> below = {};
+    std::uint64_t unit = 0;
+    for (const TexelBytes& texel : texels) {
+        const DVec3 v = reader.vector(texel);
+        if (std::fabs(length(v) - 1) >= kLengthSlack) continue;
+        ++unit;
+        fit.mean = fit.mean + v;
+        // A step of rounding below 0 is none.
+        below[0] += v.x < -kStep;
+        below[1] += v.y < -kStep;
+        below[2] += v.z < -kStep;
+    }
+    if (unit == 0) return fit;
+    const auto count = static_cast<double>(unit);
+    fit.unit_share = count / static_cast<double>(texels.size());
+    fit.mean = (1 / count) * fit.mean;
+    for (std::size_t i = 0; i < 3; ++i) fit.below_share[i] = static_cast<double>(below[i]) / count;
+    return fit;
+}
+
+bool pointsUp(const Fit& fit) {
+    return fit.mean.z > 0.5 && std::fabs(fit.mean.x) < kMostMean && std::fabs(fit.mean.y) < kMostMean;
+}
+
+/// x^2 + y^2 of two channels.
+double squareOf(const TexelBytes& texel, std::size_t x, std::size_t y) {
+    const double a = signedValue(texel[x]), b = signedValue(texel[y]);
+    return a * a + b * b;
+}
+
+/// z of a unit vector with x and y in red and green.
+double expectedZ(const TexelBytes& texel) { return std::sqrt(std::max(0.0, 1 - squareOf(texel, 0, 1))); }
+
+/// Whether two channels can be x and y of unit vectors: nearly nowhere are they longer than 1, and in the mean they are 0,
+/// or about 0.
+bool canBeXy(std::span<const TexelBytes> texels, std::size_t x, std::size_t y, double most_mean = kMostMean,
+             double most_long = 0.01) {
+    constexpr double kLongest = 1.03;
+    const auto meanOf = [&](std::size_t channel) {
+        return spreadOf(texels, [&](const TexelBytes& texel) { return signedValue(texel[channel]); }).mean;
+    };
+    return shareOf(texels, [&](const TexelBytes& texel) { return squareOf(texel, x, y) > kLongest; }) < most_long &&
+           std::fabs(meanOf(x)) < most_mean && std::fabs(meanOf(y)) < most_mean;
+}
+
+/// Red, green and blue of texels, of 255.
+auto colorsOf(std::span<const TexelBytes> texels) {
+    return [texels](std::size_t i) {
+        const TexelBytes& texel = texels[i];
+        return std::array<double, 3>{static_cast<double>(texel[0]), static_cast<double>(texel[1]),
+                                     static_cast<double>(texel[2])};
+    };
+}
+
+bool isGreyTexels(std::span<const TexelBytes> texels) { return isGrey(texels.size(), colorsOf(texels)); }
+
+/// All but black and white ones: what nobody painted, or baked, says nothing.
+std::vector<TexelBytes> paintedOf(std::span<const TexelBytes> texels) {
+    constexpr int kBlack = 8, kWhite = 247;
+    std::vector<TexelBytes> painted;
+    std::copy_if(texels.begin(), texels.end(), std::back_inserter(painted), [](const TexelBytes& texel) {
+        const auto [least, most] = std::minmax({texel[0], texel[1], texel[2]});
+        return most > kBlack && least < kWhite;
+    });
+    return painted;
+}
+
+class Looker {
+  public:
+    Looker(std::span<const TexelBytes> texels, bool has_alpha, std::span<const TexelOnSurface> surface,
+           std::span<const TexelOnSurface> in_world)
+        : texels_(texels), has_alpha_(has_alpha), surface_(surface), in_world_(in_world), plain_(fitOf(texels, {})) {
+        for (std::size_t i = 0; i < channels_.size(); ++i) {
+            channels_[i] = spreadOf(texels, [i](const TexelBytes& texel) { return static_cast<double>(texel[i]); });
+        }
+    }
+
+    [[nodiscard]] MapLook look() const {
+        if (const auto found = xInAlpha()) return *found;
+        if (isGreyTexels(texels_)) return made(MapContent::height, {}, 1);
+        if (const auto found = twoChannels(kMostMean)) return *found;
+        if (const auto found = encoded()) return *found;
+        if (const auto found = leaningTwoChannels()) return *found;
+        if (const auto found = picture()) return *found;
+        if (const auto found = objectSpace()) return *found;
+        if (const auto found = exchanged()) return *found;
+        if (const auto found = unsignedZ()) return *found;
+        return made(MapContent::normals, {}, 1);
+    }
+
+  private:
+    [[nodiscard]] MapLook made(MapContent content, const MapLayout& layout, double share) const {
+        const std::uint64_t total = texels_.size();
+        const auto count = static_cast<std::uint64_t>(share * static_cast<double>(total) + 0.5);
+        return {.content = content, .layout = layout, .count = count, .total = total};
+    }
+
+    [[nodiscard]] bool mayBeXInAlpha() const {
+        return has_alpha_ && channels_[3].deviation > kConstant && channels_[1].deviation > kConstant &&
+               (channels_[0].deviation <= kConstant || isGreyTexels(texels_));
+    }
+
+    /// Red says nothing (it is constant, or a copy of green), and alpha varies as x does. Grey with any other alpha is a
+    /// height map with a mask.
+    [[nodiscard]] std::optional<MapLook> xInAlpha() const {
+        if (!mayBeXInAlpha() || plain_.unit_share > 0.5 || !canBeXy(texels_, 3, 1)) return {};
+        MapLayout layout;
+        layout.x.channel = MapChannel::alpha;
+        layout.z.channel = MapChannel::none;
+        return made(MapContent::xInAlpha, layout, 1);
+    }
+
+    /// Blue is the same everywhere, and not what z would be: over all texels, or over those that lean. Maps that are flat
+    /// nearly everywhere are left alone: Khronos' Lantern has one with blue 255, which is 0.15 degrees off in the mean.
+    [[nodiscard]] std::optional<MapLook> twoChannels(double most_mean) const {
+        constexpr double kFar = 0.3, kNearlyConstant = 16, kMostCorrelation = 0.5;
+        constexpr double kSeenDeg = 0.5, kMostTogether = 0.9;
+        constexpr std::uint64_t kLeastCount = 16;
+        const Spread& blue = channels_[2];
+        if (blue.deviation > kNearlyConstant) return {};
+        if (!canBeXy(texels_, 0, 1, most_mean)) return {};
+        // Light and shadow let red and green go together, and blue a little.
+        if (blue.deviation > kConstant && channelCorrelations(texels_.size(), colorsOf(texels_))[0] > kMostTogether)
+            return {};
+        double off = 0, wanted = 0, error = 0, product = 0, angle = 0;
+        const Spread up = spreadOf(texels_, [](const TexelBytes& texel) { return expectedZ(texel); });
+        std::uint64_t count = 0;
+        for (const TexelBytes& texel : texels_) {
+            const double z = expectedZ(texel);
+            const double stored = signedValue(texel[2]), across = std::sqrt(squareOf(texel, 0, 1));
+            error += std::fabs(stored - z);
+            angle += std::fabs(std::atan2(across, stored) - std::atan2(across, z)) * 180 / kPi;
+            product += (texel[2] - blue.mean) * (z - up.mean);
+            if (squareOf(texel, 0, 1) < kLeastLean) continue;
+            ++count;
+            off += (texel[2] - blue.mean) * (texel[2] - blue.mean);
+            wanted += (127.5 * (z + 1) - blue.mean) * (127.5 * (z + 1) - blue.mean);
+        }
+        // Far from z, and going with it in no way: what varies is compression.
+        const auto total = static_cast<double>(texels_.size());
+        const bool goes_with_z =
+            blue.deviation > kConstant && std::fabs(product) > kMostCorrelation * total * blue.deviation * up.deviation;
+        const bool is_far = error / total > kFar && !goes_with_z;
+        const bool is_constant = blue.deviation <= kConstant && count >= kLeastCount &&
+                                 off <= kConstant * kConstant * static_cast<double>(count) && wanted >= 4 * off &&
+                                 angle >= kSeenDeg * total;
+        if (!is_far && !is_constant) return {};
+        MapLayout layout;
+        layout.z.channel = MapChannel::none;
+        return made(MapContent::twoChannels, layout, 1);
+    }
+
+    /// Where blue is one number relief may lean to one side.
+    [[nodiscard]] std::optional<MapLook> leaningTwoChannels() const {
+        constexpr double kLeaning = 0.6;
+        for (std::size_t i = 0; i < 3; ++i) {
+            if ((channels_[i].deviation > kConstant) == (i == 2)) return {};
+        }
+        return twoChannels(kLeaning);
+    }
+
+    [[nodiscard]] std::optional<MapLook> encoded() const {
+        for (const MapCurve curve : {MapCurve::srgb, MapCurve::linearised}) {
+            const MapLayout layout{.curve = curve};
+            const Fit fit = fitOf(texels_, layout);
+            if (pointsUp(fit) && fit.unit_share > 0.8 && fit.unit_share > plain_.unit_share + 0.4)
+                return made(MapContent::encoded, layout, fit.unit_share);
+        }
+        return {};
+    }
+
+    /// The axis that the vectors point along in the mean, 0 to 2, and to which side; nothing where they do not.
+    struct Up {
+        std::size_t axis = 2;
+        bool is_inverted = false;
+    };
+    [[nodiscard]] std::optional<Up> upAxis() const {
+        constexpr double kLeastMean = 0.6, kMostAside = 0.3, kMostBelow = 0.02;
+        const std::array<double, 3> mean{plain_.mean.x, plain_.mean.y, plain_.mean.z};
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const double below = mean[axis] < 0 ? 1 - plain_.below_share[axis] : plain_.below_share[axis];
+            if (std::fabs(mean[axis]) < kLeastMean || below > kMostBelow) continue;
+            if (std::fabs(mean[(axis + 1) % 3]) > kMostAside || std::fabs(mean[(axis + 2) % 3]) > kMostAside) continue;
+            return Up{axis, mean[axis] < 0};
+        }
+        return {};
+    }
+
+    /// How well vectors point along the normals: their mean cosine, 0 where they do not.
+    struct Followed {
+        MapLayout layout = {};
+        double agreement = 0;
+    };
+    [[nodiscard]] Followed followed(std::span<const TexelOnSurface> surface, const std::optional<Up>& up) const;
+    [[nodiscard]] std::optional<MapLook> objectSpace() const;
+
+    [[nodiscard]] std::optional<MapLook> exchanged() const {
+        const std::optional<Up> up = upAxis();
+        if (plain_.unit_share < 0.7 || !up || (up->axis == 2 && !up->is_inverted)) return {};
+        MapLayout layout;
+        if (up->axis == 0) std::swap(layout.x, layout.z);
+        if (up->axis == 1) std::swap(layout.y, layout.z);
+        layout.z.is_inverted = up->is_inverted;
+        const double below = plain_.below_share[up->axis];
+        return made(MapContent::exchanged, layout, up->is_inverted ? below : 1 - below);
+    }
+
+    /// Over texels that lean, blue grows with z as z does, not half as fast, and is much nearer to it than to (z + 1) / 2.
+    [[nodiscard]] std::optional<MapLook> unsignedZ() const {
+        constexpr std::uint64_t kLeastCount = 64;
+        constexpr double kMostLong = 0.05;  // JPEG puts much into red and green where blue changes as much as they do
+        if (!canBeXy(texels_, 0, 1, kMostMean, kMostLong)) return {};
+        double z = 0, b = 0, zz = 0, zb = 0, bb = 0, off = 0, off_signed = 0;
+        std::uint64_t count = 0;
+        for (const TexelBytes& texel : texels_) {
+            const double square = squareOf(texel, 0, 1);
+            if (square < kLeastLean || square > 1) continue;
+            const double wanted = std::sqrt(1 - square), blue = texel[2] / 255.0;
+            ++count;
+            z += wanted;
+            b += blue;
+            zz += wanted * wanted;
+            zb += wanted * blue;
+            bb += blue * blue;
+            off += (blue - wanted) * (blue - wanted);
+            off_signed += (blue - (wanted + 1) / 2) * (blue - (wanted + 1) / 2);
+        }
+        if (count < kLeastCount) return {};
+        const auto n = static_cast<double>(count);
+        const double var_z = zz / n - z * z / n / n, var_b = bb / n - b * b / n / n, cov = zb / n - z * b / n / n;
+        if (var_z < 1e-5 || var_b < 1e-5 || std::sqrt(off / n) > 0.1 || 4 * off > off_signed) return {};
+        const double slope = cov / var_z, agreement = cov * cov / var_z / var_b;
+        if (slope < 0.6 || slope > 1.3 || agreement < 0.5) return {};
+        MapLayout layout;
+        layout.z.channel = MapChannel::none;
+        MapLook look = made(MapContent::unsignedZ, layout, 1);
+        look.count = count;
+        return look;
+    }
+
+    /// The share of unit vectors; with a curve only where they then point up.
+    [[nodiscard]] static double unitShareOf(std::span<const TexelBytes> texels) {
+        double share = fitOf(texels, {}).unit_share;
+        for (const MapCurve curve : {MapCurve::srgb, MapCurve::linearised}) {
+            const Fit fit = fitOf(texels, {.curve = curve});
+            if (pointsUp(fit)) share = std::max(share, fit.unit_share);
+        }
+        return share;
+    }
+
+    /// Whether blue can be z, as it is or as a constant beside x and y.
+    [[nodiscard]] bool mayPointUp(std::span<const TexelBytes> texels, const DVec3& mean) const {
+        constexpr double kLeastUp = 0.7, kMostBelow = 0.1;
+        constexpr std::uint8_t kZero = 127 - 16;  // what compressing takes off
+        const double below = shareOf(texels, [](const TexelBytes& texel) { return texel[2] < kZero; });
+        return (mean.z > kLeastUp && below < kMostBelow) ||
+               (channels_[2].deviation <= kConstant && canBeXy(texels, 0, 1));
+    }
+
+    /// Colors that are few unit vectors, and do not point up or grow and fall together, as light makes them. Light greys and
+    /// dark ones are unit vectors by chance: along a diagonal, where vectors that turn cannot grow together. Nothing is said
+    /// of an image that has one color or few texels, or whose texels are x and y and something else.
+    [[nodiscard]] std::optional<MapLook> picture() const {
+        constexpr double kMostUnit = 0.7, kFewUnit = 0.5, kTogether = 0.5, kMuchTogether = 0.8, kLeastDiagonal = 0.35,
+                         kOneWay = 0.75;
+        constexpr std::size_t kLeastCount = 256;
+        const bool varies = std::any_of(channels_.begin(), channels_.begin() + 3,
+                                        [](const Spread& channel) { return channel.deviation > kConstant; });
+        if (!varies || mayBeXInAlpha()) return {};
+        const std::vector<TexelBytes> painted = paintedOf(texels_);
+        if (painted.size() < kLeastCount) return {};
+        DVec3 mean{};
+        for (const TexelBytes& texel : painted)
+            mean = mean + DVec3{signedValue(texel[0]), signedValue(texel[1]), signedValue(texel[2])};
+        if (!normalize(mean)) mean = {};
+        const std::array<double, 3> together = channelCorrelations(painted.size(), colorsOf(painted));
+        const auto [weakest, strongest] = std::minmax({together[0], together[1], together[2]});
+        const double least = std::min({mean.x, mean.y, mean.z}), most = std::max({mean.x, mean.y, mean.z});
+        const bool is_diagonal = weakest >= kTogether && (least > kLeastDiagonal || most < -kLeastDiagonal);
+        // Vectors that point one way, and that no axis: those of a wall in object space do not grow together.
+        const bool is_aside = strongest >= kMuchTogether && !upAxis() && length(plain_.mean) > kOneWay;
+        const double unit = unitShareOf(painted);
+        const double most_unit = !mayPointUp(painted, mean) ? kMostUnit : weakest >= kTogether ? kFewUnit : 0;
+        const bool is_none = is_diagonal || is_aside;
+        if (!is_none && unit >= most_unit) return {};
+        MapLook look = made(MapContent::picture, {}, 1);
+        look.total = painted.size();
+        look.count = static_cast<std::uint64_t>((is_none ? 1 : 1 - unit) * static_cast<double>(look.total) + 0.5);
+        return look;
+    }
+
+    std::span<const TexelBytes> texels_;
+    bool has_alpha_;
+    std::span<const TexelOnSurface> surface_, in_world_;
+    Fit plain_;
+    std::array<Spread, 4> channels_ = {};
+};
+
+Moments momentsOf(std::span<const TexelOnSurface> surface) {
+    const LayoutReader reader({});
+    Moments moments;
+    for (const TexelOnSurface& point : surface) {
+        DVec3 v = reader.vector(point.texel);
+        if (!normalize(v)) continue;
+        const std::array<double, 3> from{point.normal.x, point.normal.y, point.normal.z}, to{v.x, v.y, v.z};
+        for (std::size_t i = 0; i < 3; ++i) {
+            for (std::size_t k = 0; k < 3; ++k) moments.sum[i][k] += point.weight * from[i] * to[k];
+        }
+        moments.weight += point.weight;
+    }
+    return moments;
+}
+
+/// How the map's directions go with the mesh's normals: the slope of the regression of the ones on the others, which is
+/// about 1 in object space and 0 where a map knows nothing of the mesh. Relief of the shape of the mesh (a bulge on a bulge)
+/// goes with it too; so `bent` is what is left once all that is linear in u and v is taken out.
+struct Following {
+    double spread = 0;  ///< of the normals: the mean square of their distances from the mean
+    double slope = 0;
+    double bent_share = 0, bent_slope = 0;
+};
+
+Following followingOf(std::span<const TexelOnSurface> surface, const MapLayout& layout) {
+    // Sums of products of 1, u, v, the normal and the direction.
+    std::array<std::array<double, 9>, 9> sums{};
+    const LayoutReader reader(layout);
+    for (const TexelOnSurface& point : surface) {
+        DVec3 v = reader.vector(point.texel);
+        if (!normalize(v)) continue;
+        const std::array<double, 9> row{1,   point.uv.x, point.uv.y, point.normal.x, point.normal.y, point.normal.z,
+                                        v.x, v.y,        v.z};
+        for (std::size_t i = 0; i < 9; ++i) {
+            for (std::size_t k = 0; k < 9; ++k) sums[i][k] += point.weight * row[i] * row[k];
+        }
+    }
+    const double weight = sums[0][0];
+    const auto takeOut = [&](std::size_t pivot, double least) {
+        if (!(sums[pivot][pivot] > least)) return;
+        const auto by = sums[pivot];
+        for (auto& row : sums) {
+            const double factor = row[pivot] / by[pivot];
+            for (std::size_t k = 0; k < 9; ++k) row[k] -= factor * by[k];
+        }
+    };
+    const auto spread = [&] { return sums[3][3] + sums[4][4] + sums[5][5]; };
+    const auto slope = [&] { return spread() > 0 ? (sums[3][6] + sums[4][7] + sums[5][8]) / spread() : 0; };
+    if (!(weight > 0)) return {};
+    constexpr double kRounding = 1e-9;
+    const double least_u = kRounding * sums[1][1], least_v = kRounding * sums[2][2];
+    takeOut(0, 0);
+    Following following{.spread = spread() / weight, .slope = slope()};
+    takeOut(1, least_u);
+    takeOut(2, least_v);
+    following.bent_share = following.spread > 0 ? spread() / weight / following.spread : 0;
+    following.bent_slope = slope();
+    return following;
+}
+
+/// Whether vectors point where the mesh's normals do because they are these. `may_be_tangent`: they can be a map in tangent
+/// space too, so that in doubt they are.
+bool isOfMesh(std::span<const TexelOnSurface> surface, const MapLayout& layout, bool may_be_tangent) {
+    constexpr double kFlat = 0.002, kLeastSlope = 0.5, kLeastBent = 0.25;
+    const Following following = followingOf(surface, layout);
+    if (!may_be_tangent) return following.spread < kFlat || following.slope > kLeastSlope;
+    return following.spread >= kFlat && following.slope > kLeastSlope && following.bent_share > kLeastBent &&
+           following.bent_slope > kLeastSlope;
+}
+
+/// The same under relief that hides the mesh from single vectors, and makes slopes smaller. What goes with the mesh by chance
+/// does not in every quarter of it.
+bool isOfMeshUnderRelief(std::span<const TexelOnSurface> surface, const MapLayout& layout, bool may_be_tangent) {
+    constexpr std::size_t kQuarters = 4, kManyPoints = 1024;
+    constexpr double kFlat = 0.002, kLeastSlope = 0.4, kLeastOfQuarter = 0.25, kLeastBent = 0.25;
+    if (surface.size() < kManyPoints) return false;
+    const Following following = followingOf(surface, layout);
+    if (following.spread < kFlat || following.slope < kLeastSlope) return false;
+    if (may_be_tangent && (following.bent_share < kLeastBent || following.bent_slope < kLeastSlope)) return false;
+    for (std::size_t i = 0; i < kQuarters; ++i) {
+        const std::size_t begin = i * surface.size() / kQuarters, end = (i + 1) * surface.size() / kQuarters;
+        const Following quarter = followingOf(surface.subspan(begin, end - begin), layout);
+        if (quarter.spread < kFlat || quarter.slope < kLeastOfQuarter) return false;
+    }
+    return true;
+}
+
+Looker::Followed Looker::followed(std::span<const TexelOnSurface> surface, const std::optional<Up>& up) const {
+    constexpr std::size_t kLeastPoints = 8;
+    constexpr double kLeastAgreement = 0.5, kSureAgreement = 0.9, kOfTheBest = 0.97, kOfTheRest = 0.4;
+    const Moments moments = momentsOf(surface);
+    if (surface.size() < kLeastPoints || !(moments.weight > 0)) return {};
+    const bool is_up = up && up->axis == 2 && !up->is_inverted;
+    // The mesh's own axes, as they are, or in other channels.
+    const double plain = (moments.sum[0][0] + moments.sum[1][1] + moments.sum[2][2]) / moments.weight;
+    const Axes axes = bestAxes(moments);
+    const std::array<double, 3> mean{plain_.mean.x, plain_.mean.y, plain_.mean.z};
+    const double constant = std::fabs(up ? mean[up->axis] : plain_.mean.z);
+    const bool is_plain = plain >= kLeastAgreement && plain > axes.agreement - 0.05;
+    const double agreement = is_plain ? plain : axes.agreement;
+    // Where any other rotation fits better, it is that of another program, which nobody knows here.
+    const bool is_clear = agreement >= kLeastAgreement && agreement >= kOfTheBest * bestAgreement(moments) &&
+                          1 - agreement < kOfTheRest * (1 - constant);
+    const bool is_wall = !is_up && up && is_plain && plain >= kSureAgreement;
+    const MapLayout layout = is_plain ? MapLayout{} : axes.layout;
+    const bool is_of_mesh =
+        is_clear || is_wall ? isOfMesh(surface, layout, is_up)
+                            : is_plain && agreement >= kLeastAgreement && isOfMeshUnderRelief(surface, layout, is_up);
+    if (!is_of_mesh) return {};
+    return {layout, agreement};
+}
+
+std::optional<MapLook> Looker::objectSpace() const {
+    constexpr double kMuchBelow = 0.2, kRounding = 1e-6;
+    if (plain_.unit_share < 0.7) return {};
+    const std::optional<Up> up = upAxis();
+    const Followed mesh = followed(surface_, up), world = followed(in_world_, up);
+    const bool is_in_world = world.agreement > mesh.agreement + kRounding;
+    if (const Followed& best = is_in_world ? world : mesh; best.agreement > 0) {
+        MapLook look = made(MapContent::objectSpace, best.layout, plain_.unit_share);
+        look.follows_mesh = true;
+        look.is_in_world = is_in_world;
+        return look;
+    }
+    if (up || plain_.below_share[2] < kMuchBelow) return {};
+    return made(MapContent::objectSpace, {}, plain_.below_share[2]);
+}
+
+}  // namespace
+
+std::vector<TexelBytes> sampleTexels(const RgbImage& image, std::span<const std::uint8_t> alpha,
+                                     const TexelMask& inside) {
+    constexpr std::uint64_t kMost = std::uint64_t{1} << 18;
+    std::uint32_t step = 1;
+    while (std::uint64_t{image.width} * image.height / step / step > kMost) ++step;
+    std::vector<TexelBytes> texels;
+    for (std::uint32_t y = step / 2; y < image.height; y += step) {
+        for (std::uint32_t x = step / 2; x < image.width; x += step) {
+            if (!inside.has(x, y)) continue;
+            const std::size_t pixel = std::size_t{y} * image.width + x;
+            const std::uint8_t* rgb = image.rgb.data() + 3 * pixel;
+            texels.push_back({rgb[0], rgb[1], rgb[2], alpha.empty() ? std::uint8_t{255} : alpha[pixel]});
+        }
+    }
+    return texels;
+}
+
+MapLook lookAtTexels(std::span<const TexelBytes> texels, bool has_alpha, std::span<const TexelOnSurface> surface,
+                     std::span<const TexelOnSurface> in_world) {
+    if (texels.empty()) return {};
+    return Looker(texels, has_alpha, surface, in_world).look();
+}
+
+bool mayHaveXInAlpha(std::span<const TexelBytes> texels) {
+    if (texels.empty()) return false;
+    const Spread red = spreadOf(texels, [](const TexelBytes& texel) { return static_cast<double>(texel[0]); });
+    return red.deviation <= kConstant || isGreyTexels(texels);
+}
+
+void readByLayout(RgbImage& image, std::span<const std::uint8_t> alpha, const MapLayout& layout) {
+    const LayoutReader reader(layout);
+    const auto byteOf = [](double value) {
+        return static_cast<std::uint8_t>(std::clamp(127.5 * (value + 1) + 0.5, 0.0, 255.0));
+    };
+    for (std::size_t pixel = 0; 3 * pixel < image.rgb.size(); ++pixel) {
+        std::uint8_t* rgb = image.rgb.data() + 3 * pixel;
+        const DVec3 v = reader.vector({rgb[0], rgb[1], rgb[2], alpha.empty() ? std::uint8_t{255} : alpha[pixel]});
+        rgb[0] = byteOf(v.x);
+        rgb[1] = byteOf(v.y);
+        rgb[2] = byteOf(v.z);
+    }
+}
+
+}  // namespace tspace

@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: MIT
+// The integrability test.
+#include "commands/check/normal_map.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tspace {
+
+namespace {
+
+/// Steeper normals are borders of islands, or no normals at all.
+constexpr float kLeastUp = 0.25f;
+/// Larger derivatives are jumps between islands.
+constexpr float kMostDerivative = 0.25f;
+/// Mean square of a derivative in a block below which it is rounding to 8 bits (2.6e-6) and what compression adds.
+constexpr float kLeastRelief = 4e-5f;
+
+/// Slopes p and q of a texel; false where it holds no normal that stands up.
+bool slopes(const std::uint8_t* texel, float& p, float& q) {
+    const float nz = static_cast<float>(texel[2]) / 127.5f - 1;
+    if (nz < kLeastUp) return false;
+    p = -(static_cast<float>(texel[0]) / 127.5f - 1) / nz;
+    q = -(static_cast<float>(texel[1]) / 127.5f - 1) / nz;
+    return true;
+}
+
+/// The mean over a square of texels; false where one of them says nothing.
+bool slopesOfSquare(const RgbImage& image, const TexelMask& inside, std::uint32_t left, std::uint32_t top,
+                    std::uint32_t side, float& p, float& q) {
+    p = q = 0;
+    for (std::uint32_t y = top; y < top + side; ++y) {
+        for (std::uint32_t x = left; x < left + side; ++x) {
+            float own_p = 0, own_q = 0;
+            const std::size_t texel = std::size_t{y} * image.width + x;
+            if (!inside.has(x, y) || !slopes(image.rgb.data() + 3 * texel, own_p, own_q)) return false;
+            p += own_p;
+            q += own_q;
+        }
+    }
+    p /= static_cast<float>(side * side);
+    q /= static_cast<float>(side * side);
+    return true;
+}
+
+/// dq/dx and dp/drow between the squares around the one at (x, y), none of them beyond the border; false where one says
+/// nothing.
+bool derivatives(const RgbImage& image, const TexelMask& inside, std::uint32_t x, std::uint32_t y, std::uint32_t side,
+                 float& a, float& b) {
+    for (std::uint32_t i = 0; i < side * side; ++i) {
+        if (!inside.has(x + i % side, y + i / side)) return false;
+    }
+    float p_left, q_left, p_right, q_right, p_above, q_above, p_below, q_below;
+    if (!slopesOfSquare(image, inside, x - side, y, side, p_left, q_left) ||
+        !slopesOfSquare(image, inside, x + side, y, side, p_right, q_right) ||
+        !slopesOfSquare(image, inside, x, y - side, side, p_above, q_above) ||
+        !slopesOfSquare(image, inside, x, y + side, side, p_below, q_below)) {
+        return false;
+    }
+    a = std::clamp(0.5f * (q_right - q_left), -kMostDerivative, kMostDerivative);
+    b = std::clamp(0.5f * (p_below - p_above), -kMostDerivative, kMostDerivative);
+    return true;
+}
+
+/// How far blocks agree on one side.
+struct Votes {
+    double ab = 0, aa = 0, bb = 0;
+    std::uint64_t count = 0, down_count = 0;
+
+    void add(double block_ab, double block_aa, double block_bb) {
+        ab += block_ab;
+        aa += block_aa;
+        bb += block_bb;
+        ++count;
+        down_count += block_ab > 0;
+    }
+    [[nodiscard]] double correlation() const { return aa > 0 && bb > 0 ? ab / std::sqrt(aa * bb) : 0; }
+    /// +1 down, -1 up, 0: neither.
+    [[nodiscard]] int side(double least_correlation, double least_agreement) const {
+        if (count == 0) return 0;
+        const double down = static_cast<double>(down_count) / static_cast<double>(count);
+        if (correlation() > least_correlation && down >= least_agreement) return 1;
+        return correlation() < -least_correlation && 1 - down >= least_agreement ? -1 : 0;
+    }
+};
+
+constexpr std::uint64_t kLeastBlocks = 16;
+/// Of a whole map, or of what one primitive shows.
+constexpr double kLeastCorrelation = 0.1, kLeastAgreement = 0.65;
+/// Of a part of a map that is to stand against another part, and of means where single texels do not say it: chance and
+/// odd relief must not make one.
+constexpr double kPartCorrelation = 0.3, kPartAgreement = 0.8;
+/// A part has this many blocks, and this share of all that vote.
+constexpr std::uint64_t kLeastPartBlocks = 16;
+constexpr double kLeastPartShare = 0.02;
+
+}  // namespace
+
+double GreenTest::confidence() const {
+    if (verdict == GreenVerdict::unknown || block_count == 0) return 0;
+    if (verdict == GreenVerdict::mixed) {
+        return static_cast<double>(down_part_blocks + up_part_blocks) / static_cast<double>(block_count);
+    }
+    const double down = static_cast<double>(down_block_count) / static_cast<double>(block_count);
+    return std::fabs(2 * down - 1);
+}
+
+GreenBlocks::GreenBlocks(const RgbImage& image, const TexelMask& inside)
+    : width_(image.width),
+      height_(image.height),
+      columns_((image.width + kBlock - 1) / kBlock),
+      rows_((image.height + kBlock - 1) / kBlock),
+      blocks_(measured(image, inside, 1)) {
+    findParts();
+    if (all().verdict == GreenVerdict::unknown) means_ = measured(image, inside, 2);
+}
+
+std::vector<GreenBlocks::Block> GreenBlocks::measured(const RgbImage& image, const TexelMask& inside,
+                                                      std::uint32_t side) const {
+    std::vector<Block> blocks(std::size_t{columns_} * rows_);
+    for (std::size_t i = 0; i < blocks.size(); ++i) {
+        const TexelRect rect = rectOf(i);
+        Block& block = blocks[i];
+        std::uint32_t count = 0;
+        for (std::uint32_t y = std::max(rect.top, side); y < rect.bottom && y + 2 * side <= height_; y += side) {
+            for (std::uint32_t x = std::max(rect.left, side); x < rect.right && x + 2 * side <= width_; x += side) {
+                float a = 0, b = 0;
+                if (!derivatives(image, inside, x, y, side, a, b)) continue;
+                block.ab += a * b;
+                block.aa += a * a;
+                block.bb += b * b;
+                ++count;
+            }
+        }
+        block.votes = 4 * side * side * count >= kBlock * kBlock &&
+                      std::min(block.aa, block.bb) >= kLeastRelief * static_cast<float>(count);
+    }
+    return blocks;
+}
+
+TexelRect GreenBlocks::rectOf(std::size_t block) const {
+    const auto left = static_cast<std::uint32_t>(block % columns_) * kBlock;
+    const auto top = static_cast<std::uint32_t>(block / columns_) * kBlock;
+    return {left, top, std::min(left + kBlock, width_), std::min(top + kBlock, height_)};
+}
+
+/// Which way a block and those around it lean; 0 where they disagree, or say nothing.
+int GreenBlocks::leaningOf(std::size_t block) const {
+    constexpr std::uint64_t kLeastAround = 3;
+    const auto column = static_cast<std::uint32_t>(block % columns_),
+               row = static_cast<std::uint32_t>(block / columns_);
+    Votes votes;
+    for (std::uint32_t y = row == 0 ? 0 : row - 1; y < std::min(row + 2, rows_); ++y) {
+        for (std::uint32_t x = column == 0 ? 0 : column - 1; x < std::min(column + 2, columns_); ++x) {
+            const Block& near = blocks_[std::size_t{y} * columns_ + x];
+            if (near.votes) votes.add(near.ab, near.aa, near.bb);
+        }
+    }
+    return votes.count < kLeastAround ? 0 : votes.side(kPartCorrelation, 0.5);
+}
+
+/// Blocks that lie together and lean to one side are a part, where they are many and agree.
+void GreenBlocks::findParts() {
+    const auto voting = static_cast<double>(
+        std::count_if(blocks_.begin(), blocks_.end(), [](const Block& block) { return block.votes; }));
+    std::vector<int> leaning(blocks_.size());
+    for (std::size_t i = 0; i < blocks_.size(); ++i) leaning[i] = blocks_[i].votes ? leaningOf(i) : 0;
+    std::vector<std::size_t> part;
+    for (std::size_t start = 0; start < blocks_.size(); ++start) {
+        const int side = leaning[start];
+        if (side == 0) continue;
+        Votes votes;
+        part.assign(1, start);
+        leaning[start] = 0;
+        for (std::size_t next = 0; next < part.size(); ++next) {
+            const std::size_t at = part[next], column = at % columns_;
+            votes.add(blocks_[at].ab, blocks_[at].aa, blocks_[at].bb);
+            const auto reach = [&](bool exists, std::size_t neighbour) {
+                if (!exists || leaning[neighbour] != side) return;
+                leaning[neighbour] = 0;
+                part.push_back(neighbour);
+            };
+            reach(column > 0, at - 1);
+            reach(column + 1 < columns_, at + 1);
+            reach(at >= columns_, at - columns_);
+            reach(at + columns_ < blocks_.size(), at + columns_);
+        }
+        if (part.size() < kLeastPartBlocks || static_cast<double>(part.size()) < kLeastPartShare * voting ||
+            votes.side(kPartCorrelation, kPartAgreement) != side) {
+            continue;
+        }
+        ++part_count_;
+        for (const std::size_t block : part) {
+            blocks_[block].side = static_cast<std::int8_t>(side);
+            blocks_[block].part = part_count_;
+        }
+    }
+}
+
+template <class IsChosen>
+GreenTest GreenBlocks::judge(const IsChosen& isChosen) const {
+    GreenTest test;
+    Votes all;
+    std::vector<std::uint64_t> sizes(part_count_ + 1);
+    for (std::size_t i = 0; i < blocks_.size(); ++i) {
+        const Block& block = blocks_[i];
+        if (!block.votes || !isChosen(i)) continue;
+        all.add(block.ab, block.aa, block.bb);
+        ++sizes[block.part];
+    }
+    test.block_count = all.count;
+    test.down_block_count = all.down_count;
+    test.correlation = all.correlation();
+    std::uint32_t down_part = 0, up_part = 0;  // the largest of each side; 0: none
+    sizes[0] = 0;
+    for (std::size_t i = 0; i < blocks_.size(); ++i) {
+        const Block& block = blocks_[i];
+        if (block.part == 0 || sizes[block.part] < kLeastPartBlocks) continue;
+        std::uint32_t& largest = block.side > 0 ? down_part : up_part;
+        if (sizes[block.part] > sizes[largest]) largest = block.part;
+    }
+    if (down_part != 0 && up_part != 0) {
+        test.verdict = GreenVerdict::mixed;
+        test.down_part_blocks = sizes[down_part];
+        test.up_part_blocks = sizes[up_part];
+        for (std::size_t i = 0; i < blocks_.size(); ++i) {
+            if (!isChosen(i)) continue;
+            if (blocks_[i].part == down_part) test.down_part.include(rectOf(i));
+            if (blocks_[i].part == up_part) test.up_part.include(rectOf(i));
+        }
+    } else if (all.count >= kLeastBlocks) {
+        int side = all.side(kLeastCorrelation, kLeastAgreement);
+        if (side == 0) side = sideOfMeans(isChosen, test);
+        if (side > 0 && up_part == 0) test.verdict = GreenVerdict::down;
+        if (side < 0 && down_part == 0) test.verdict = GreenVerdict::up;
+    }
+    return test;
+}
+
+/// Compression and noise blur what single texels say more than what their means do. These decide where both lean to one
+/// side: +1 down, -1 up, 0: neither. The test then has their votes.
+template <class IsChosen>
+int GreenBlocks::sideOfMeans(const IsChosen& isChosen, GreenTest& test) const {
+    Votes votes;
+    for (std::size_t i = 0; i < means_.size(); ++i) {
+        if (means_[i].votes && isChosen(i)) votes.add(means_[i].ab, means_[i].aa, means_[i].bb);
+    }
+    const int side = votes.count < kLeastBlocks ? 0 : votes.side(kPartCorrelation, kPartAgreement);
+    if (side == 0 || (side > 0) != (test.correlation > 0)) return 0;
+    test.block_count = votes.count;
+    test.down_block_count = votes.down_count;
+    test.correlation = votes.correlation();
+    return side;
+}
+
+GreenTest GreenBlocks::all() const {
+    return judge([](std::size_t) { return true; });
+}
+
+GreenTest GreenBlocks::within(const TexelMask& part) const {
+    GreenTest test = judge([&](std::size_t i) {
+        const TexelRect rect = rectOf(i);
+        return 4 * part.count(rect) >= kBlock * kBlock;
+    });
+    if (test.verdict != GreenVerdict::unknown || test.block_count >= kLeastBlocks) return test;
+    const GreenVerdict whole = all().verdict;
+    if (whole == GreenVerdict::up || whole == GreenVerdict::down) test.verdict = whole;
+    return test;
+}
+
+}  // namespace tspace

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+// The checks of one primitive, a family of findings each. They know arrays and uses, but no file format; findings get
+// the place and the names of the primitive afterwards, where they leave them empty.
+#pragma once
+
+#include <vector>
+
+#include "model/scene/scene.h"
+#include "commands/check/frame_health.h"
+#include "commands/check/quad_reading.h"
+#include "commands/shared/uv_reading.h"
+#include "core/mesh/surface/surface.h"
+#include "tspace/check.h"
+
+namespace tspace {
+
+/// What the checks of one primitive share.
+struct PrimitiveFacts {
+    const ScenePrimitive& primitive;
+    const CheckOptions& options;
+    bool is_gltf = true;     ///< others are seldom expected to hold tangents, and many cannot
+    UvReading reading = {};  ///< what the tangents should follow
+    TangentView mesh = {};   ///< over `reading`; without UVs where these are no authority
+    Surface surface = {};    ///< of `mesh`
+    QuadReading quads = {};  ///< holds the corners of `mesh` where its tangents were made on quads
+    std::vector<Finding> findings = {};
+    std::vector<std::uint32_t> faults = {};  ///< of the tangents, as FrameHealth::faults; empty: none
+    double wrong_sign_share = 0;             ///< as FrameHealth::wrong_sign_share
+    bool looked_at_values = false;           ///< there are tangents, and they were examined
+
+    void fault(std::uint32_t vertex, FindingCode code) {
+        if (faults.empty()) faults.resize(mesh.positions.size());
+        faults[vertex] |= faultBit(code);
+    }
+    void add(FindingCode code, Severity severity, const Tally& tally, const char* unit, std::string message);
+};
+
+/// What is said about a primitive, and which of its vertices have what was found.
+struct PrimitiveVerdict {
+    std::vector<Finding> findings = {};
+    std::vector<std::uint32_t> faults = {};  ///< as PrimitiveFacts::faults; empty: none
+    double wrong_sign_share = 0;
+    /// Of the surface, where tangents were compared with what UVs say; 0 where their values alone were looked at.
+    double compared_share = 0;
+};
+
+/// Everything there is to say about a primitive, but for its images. Fails for lack of memory only.
+Result<PrimitiveVerdict> judgePrimitive(const ScenePrimitive& primitive, const CheckOptions& options, bool is_gltf);
+/// The findings alone.
+Result<std::vector<Finding>> checkPrimitive(const ScenePrimitive& primitive, const CheckOptions& options, bool is_gltf);
+
+// The families, in the order in which they run. checkTangents may find that tangents follow other UVs, or that they
+// were made on quads: `facts` then has those.
+void checkPositions(PrimitiveFacts& facts);
+void checkNormals(PrimitiveFacts& facts);
+void checkMorphValues(PrimitiveFacts& facts);
+void checkMorphNormals(PrimitiveFacts& facts);
+void checkUvs(PrimitiveFacts& facts);
+void checkTextures(PrimitiveFacts& facts);
+Result<Done> checkTangents(PrimitiveFacts& facts);
+void checkMorphTargets(PrimitiveFacts& facts);
+
+}  // namespace tspace

@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: MIT
+#include "commands/check/scene_verdict.h"
+
+#include <algorithm>
+#include <bit>
+#include <initializer_list>
+#include <map>
+#include <memory>
+#include <string>
+#include <tuple>
+#include <utility>
+
+#include "model/io/file_error.h"
+#include "model/io/work_together.h"
+#include "commands/check/findings.h"
+#include "commands/check/primitive_checks.h"
+
+namespace tspace {
+
+namespace {
+
+/// Share of the judged surface from which wrong signs follow another convention, and are no accident.
+constexpr double kMostSigns = 2.0 / 3;
+
+/// Primitives with one key get the same findings. Arrays that a file shares have one address.
+class PrimitiveKey {
+  public:
+    explicit PrimitiveKey(const ScenePrimitive& primitive) {
+        words_.push_back(primitive.mode);
+        add({primitive.is_unlit, primitive.is_double_sided, primitive.packedAlone() != nullptr,
+             primitive.other_reader.empty(), primitive.uv_sets.size(), primitive.tangent_faults.size(),
+             primitive.morph_targets.size(), std::bit_cast<std::uint64_t>(primitive.position_step)});
+        arrays_ = {primitive.corners.data(), primitive.positions.data(), primitive.normals.data(),
+                   primitive.tangents.data()};
+        for (const SharedArray<Vec2>& uvs : primitive.uv_sets) arrays_.push_back(uvs.data());
+        for (const SceneTangentFault& fault : primitive.tangent_faults) {
+            add({static_cast<std::uint64_t>(fault.target)});
+            words_.push_back(fault.why);
+        }
+        for (const SceneMorphTarget& target : primitive.morph_targets)
+            arrays_.insert(arrays_.end(), {target.positions.data(), target.normals.data(), target.tangents.data()});
+        for (const TangentUse& use : primitive.uses) {
+            words_.push_back(use.needed_by);
+            add({use.has_texture, static_cast<std::uint64_t>(use.uv_set),
+                 std::bit_cast<std::uint64_t>(use.transform.rotation),
+                 std::bit_cast<std::uint64_t>(use.transform.scale[0]),
+                 std::bit_cast<std::uint64_t>(use.transform.scale[1])});
+        }
+    }
+
+    friend bool operator<(const PrimitiveKey& a, const PrimitiveKey& b) {
+        return std::tie(a.words_, a.arrays_, a.numbers_) < std::tie(b.words_, b.arrays_, b.numbers_);
+    }
+
+  private:
+    void add(std::initializer_list<std::uint64_t> numbers) { numbers_.insert(numbers_.end(), numbers); }
+
+    std::vector<std::string> words_ = {};
+    std::vector<const void*> arrays_ = {};
+    std::vector<std::uint64_t> numbers_ = {};
+};
+
+/// Which primitives are checked, and whose findings each primitive gets.
+struct Work {
+    std::vector<std::size_t> primitives = {};  ///< the first of each key
+    std::vector<std::size_t> result_of = {};   ///< per primitive of the scene: index into `primitives`
+};
+
+Work collectWork(const Scene& scene) {
+    Work work;
+    std::map<PrimitiveKey, std::size_t> known;
+    for (std::size_t i = 0; i < scene.primitives.size(); ++i) {
+        const auto [entry, is_new] = known.try_emplace(PrimitiveKey(scene.primitives[i]), work.primitives.size());
+        if (is_new) work.primitives.push_back(i);
+        work.result_of.push_back(entry->second);
+    }
+    return work;
+}
+
+using SharedFaults = std::shared_ptr<const std::vector<VertexFaults>>;
+
+/// Of one geometry.
+struct Judged {
+    std::vector<Finding> findings = {};
+    SharedFaults faults = {};
+    double wrong_sign_share = 0, compared_share = 0;
+};
+
+SharedFaults keptFaults(const std::vector<std::uint32_t>& faults, const ScenePrimitive& primitive,
+                        MemoryBudget* memory) {
+    const auto count = static_cast<std::size_t>(
+        std::count_if(faults.begin(), faults.end(), [](std::uint32_t bits) { return bits != 0; }));
+    if (count == 0) return nullptr;
+    if (memory != nullptr) memory->take(count * sizeof(VertexFaults), primitive.place);
+    std::vector<VertexFaults> kept;
+    kept.reserve(count);
+    for (std::uint32_t v = 0; v < faults.size(); ++v) {
+        if (faults[v] != 0) kept.push_back({v, faults[v]});
+    }
+    return std::make_shared<const std::vector<VertexFaults>>(std::move(kept));
+}
+
+std::vector<Judged> judgeAll(const Scene& scene, const Work& work, const CheckOptions& options, bool with_faults) {
+    std::vector<Judged> results(work.primitives.size());
+    const bool is_gltf = scene.format == "glb" || scene.format == "gltf";
+    const auto primitiveAt = [&](std::size_t i) -> const ScenePrimitive& {
+        return scene.primitives[work.primitives[i]];
+    };
+    const auto bytesOf = [&](std::size_t i) {
+        const ScenePrimitive& primitive = primitiveAt(i);
+        return checkBytes(primitive.corners.size(), primitive.positions.size(), !primitive.tangents.empty());
+    };
+    Parallel parallel(options.execution);
+    const bool is_alone = parallel.width() == 1;
+    const auto tell = [&](std::size_t done) {
+        if (options.progress) options.progress("checking", done, results.size());
+    };
+    tell(0);
+    workTogether(scene.memory.get(), results.size(), parallel, bytesOf, [&](std::size_t i) {
+        if (is_alone && i != 0) tell(i);
+        PrimitiveVerdict verdict = valueOrThrow(judgePrimitive(primitiveAt(i), options, is_gltf));
+        results[i].findings = std::move(verdict.findings);
+        results[i].wrong_sign_share = verdict.wrong_sign_share;
+        results[i].compared_share = verdict.compared_share;
+        if (with_faults) results[i].faults = keptFaults(verdict.faults, primitiveAt(i), scene.memory.get());
+    });
+    tell(results.size());
+    return results;
+}
+
+/// A finding of the first primitive of its key, made one of this primitive.
+Finding placed(Finding finding, const ScenePrimitive& primitive, const ScenePrimitive& checked) {
+    if (finding.place.empty()) {
+        finding.place = primitive.place;
+    } else if (finding.place.rfind(checked.place, 0) == 0) {
+        finding.place = primitive.place + finding.place.substr(checked.place.size());
+    }
+    finding.mesh = primitive.mesh;
+    finding.primitive = primitive.primitive;
+    finding.mesh_name = primitive.mesh_name;
+    finding.material_name = primitive.material_name;
+    return finding;
+}
+
+/// What the normal maps of a primitive make of inverted signs.
+enum class MapsSay { nothing, open, cancel };
+
+class Maps {
+  public:
+    Maps(const ImageFindings& images, const CheckOptions& options)
+        : images_(images),
+          other_way_(options.convention.green == Green::down ? GreenSide::up : GreenSide::down),
+          any_cancels_(std::count(images.image_green.begin(), images.image_green.end(), other_way_) != 0),
+          is_asked_for_(signFactor(options.convention) != signFactor(conventions::gltf)) {}
+
+    /// `number`: of the primitive in the scene.
+    [[nodiscard]] MapsSay say(const ScenePrimitive& primitive, std::size_t number) const {
+        MapsSay result = MapsSay::nothing;
+        for (const TangentUse& use : primitive.uses) {
+            if (!use.image || use.needed_by == "anisotropy") continue;
+            const bool is_first = &use == &primitive.uses.front();
+            const GreenSide green =
+                is_first ? at(images_.primitive_green, number) : at(images_.image_green, *use.image);
+            if (green == other_way_) return MapsSay::cancel;
+            // A map that says nothing goes with the others of its file. Who names a convention other than the format's
+            // says which signs are right, also for maps that nobody can read.
+            const bool is_open = (green == GreenSide::unread && !is_asked_for_) || green == GreenSide::mixed ||
+                                 (green == GreenSide::unknown && any_cancels_);
+            if (is_open) result = MapsSay::open;
+        }
+        return result;
+    }
+
+  private:
+    /// Images may not have been looked at at all.
+    static GreenSide at(const std::vector<GreenSide>& sides, std::size_t i) {
+        return i < sides.size() ? sides[i] : GreenSide::unread;
+    }
+
+    const ImageFindings& images_;
+    GreenSide other_way_;
+    bool any_cancels_;
+    bool is_asked_for_;
+};
+
+void soften(Finding& finding, const std::string& why) {
+    finding.severity = std::min(finding.severity, Severity::warning);
+    finding.message += why;
+}
+
+void weighSigns(PrimitiveJudgement& judgement, MapsSay maps) {
+    if (maps == MapsSay::nothing) return;
+    Finding* inverted = judgement.find(FindingCode::signsInverted);
+    Finding* wrong = judgement.find(FindingCode::signsWrong);
+    if (inverted == nullptr && wrong == nullptr) return;
+    const bool most = judgement.wrong_sign_share >= kMostSigns;
+    judgement.signs = maps == MapsSay::cancel ? SignVerdict::cancelled : most ? SignVerdict::open : SignVerdict::plain;
+    judgement.signs_stay = most;
+    if (inverted != nullptr) {
+        soften(*inverted, maps == MapsSay::cancel
+                              ? "; but green points down in its normal map too, and the two cancel out"
+                              : "; but whether green points down in its normal map too, which would cancel that out, "
+                                "could not be seen");
+        return;
+    }
+    if (maps == MapsSay::cancel) {
+        soften(*wrong, "; but green points down in its normal map too, so it is those signs that render right");
+    } else if (most) {
+        soften(*wrong, "; but whether green points down in its normal map too could not be seen");
+    }
+}
+
+}  // namespace
+
+Finding* PrimitiveJudgement::find(FindingCode code) { return const_cast<Finding*>(std::as_const(*this).find(code)); }
+
+const Finding* PrimitiveJudgement::find(FindingCode code) const {
+    const auto found =
+        std::find_if(findings.begin(), findings.end(), [&](const Finding& finding) { return finding.code == code; });
+    return found == findings.end() ? nullptr : &*found;
+}
+
+std::vector<PrimitiveJudgement> judgePrimitives(const Scene& scene, const CheckOptions& options, bool with_faults) {
+    const Work work = collectWork(scene);
+    const std::vector<Judged> results = judgeAll(scene, work, options, with_faults);
+    std::vector<PrimitiveJudgement> judgements(scene.primitives.size());
+    for (std::size_t i = 0; i < scene.primitives.size(); ++i) {
+        const std::size_t number = work.result_of[i];
+        const ScenePrimitive& checked = scene.primitives[work.primitives[number]];
+        for (const Finding& finding : results[number].findings) {
+            judgements[i].findings.push_back(placed(finding, scene.primitives[i], checked));
+        }
+        judgements[i].faults = results[number].faults;
+        judgements[i].wrong_sign_share = results[number].wrong_sign_share;
+        judgements[i].compared_share = results[number].compared_share;
+    }
+    return judgements;
+}
+
+bool waitForImages(std::span<const PrimitiveJudgement> judgements) {
+    return std::any_of(judgements.begin(), judgements.end(), [](const PrimitiveJudgement& judgement) {
+        return judgement.find(FindingCode::signsInverted) != nullptr ||
+               judgement.find(FindingCode::signsWrong) != nullptr;
+    });
+}
+
+void weighImages(const Scene& scene, const CheckOptions& options, ImageFindings& images,
+                 std::span<PrimitiveJudgement> judgements) {
+    const Maps maps(images, options);
+    std::vector<bool> is_needed(scene.images.size(), false);  // by a primitive whose signs are right
+    std::vector<bool> is_cancelled(scene.images.size(), false);
+    for (std::size_t i = 0; i < judgements.size(); ++i) {
+        const bool is_inverted = judgements[i].find(FindingCode::signsInverted) != nullptr;
+        for (const TangentUse& use : scene.primitives[i].uses) {
+            if (use.image && !is_inverted) is_needed[*use.image] = true;
+        }
+        weighSigns(judgements[i], maps.say(scene.primitives[i], i));
+        for (const TangentUse& use : scene.primitives[i].uses) {
+            if (use.image && judgements[i].signs != SignVerdict::plain) is_cancelled[*use.image] = true;
+        }
+    }
+    for (std::size_t i = 0; i < images.findings.size(); ++i) {
+        Finding& finding = images.findings[i];
+        if (finding.code != FindingCode::greenFlipped) continue;
+        if (options.convention.green == Green::down) {
+            finding.severity = Severity::note;
+            finding.message += "; that is what the convention wants which was asked for";
+            finding.remedy = kNothingToDo;
+            continue;
+        }
+        if (is_cancelled[images.images[i]]) finding.remedy = kSignsFirst;
+        if (is_needed[images.images[i]]) continue;
+        finding.severity = Severity::note;
+        finding.message += "; but the signs of its meshes are inverted too, and the two cancel out";
+        finding.remedy = kBothOrNeither;
+    }
+}
+
+}  // namespace tspace

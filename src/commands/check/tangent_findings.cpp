@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+// What there is to say about the tangents of one mesh.
+#include "commands/check/findings.h"
+#include "commands/check/frame_health.h"
+
+namespace tspace {
+
+namespace {
+
+constexpr const char* kVertices = "vertices";
+constexpr const char* kTriangles = "triangles";
+
+std::string onSurface(const Tally& tally) { return " (" + shareText(tally.surface_share) + " of the surface)"; }
+
+class FindingList {
+  public:
+    explicit FindingList(const CheckOptions& options) : options_(options) {}
+
+    void add(FindingCode code, Severity severity, const Tally& tally, const char* unit, std::string message) {
+        if (tally.count == 0) return;
+        findings.push_back(
+            makeFinding(code, onShare(severity, tally.surface_share, options_), tally, unit, std::move(message)));
+    }
+
+    /// Of vertices, on however little of the surface.
+    void addWhole(FindingCode code, Severity severity, const Tally& tally, std::string message) {
+        if (tally.count != 0) findings.push_back(makeFinding(code, severity, tally, kVertices, std::move(message)));
+    }
+
+    std::vector<Finding> findings = {};
+
+  private:
+    const CheckOptions& options_;
+};
+
+void addValues(const FrameHealth& health, const CheckOptions& options, FindingList& list) {
+    const auto severity = [&](double bad_share) {
+        return bad_share >= options.error_share ? Severity::error : Severity::warning;
+    };
+    list.addWhole(FindingCode::tangentsNotFinite, health.has_not_finite ? Severity::error : Severity::warning,
+                  health.not_finite,
+                  "the tangents of " + countText(health.not_finite, kVertices) + " are NaN or infinite");
+    list.addWhole(FindingCode::tangentsNotUnit, health.has_zero ? Severity::error : severity(health.far_from_unit),
+                  health.not_unit,
+                  "the tangents of " + countText(health.not_unit, kVertices) + " are not unit" +
+                      (health.has_zero ? ", some have no length at all" : "") + onSurface(health.not_unit));
+    Tally leaning = health.not_orthogonal;
+    if (health.parallel_apart) {
+        list.addWhole(FindingCode::tangentsNotOrthogonal, Severity::error, health.parallel,
+                      "the tangents of " + countText(health.parallel, kVertices) +
+                          " lie along the normal, so that there is no bitangent" + onSurface(health.parallel));
+    } else {
+        leaning.include(health.parallel);
+    }
+    const bool is_parallel =
+        !health.parallel_apart && health.parallel.surface_share >= options.error_share && health.parallel.count != 0;
+    list.addWhole(FindingCode::tangentsNotOrthogonal, is_parallel ? Severity::error : Severity::warning, leaning,
+                  "the tangents of " + countText(leaning, kVertices) +
+                      " are not perpendicular to the normal, off by up to " + decimalText(leaning.worst_deg) +
+                      " degrees" +
+                      (is_parallel ? "; " + std::to_string(health.parallel.count) + " of them lie along it" : "") +
+                      onSurface(leaning));
+    list.addWhole(FindingCode::signsNotOne, health.sign_vanishes ? Severity::error : Severity::warning,
+                  health.sign_not_one,
+                  "the sign (w) of " + countText(health.sign_not_one, kVertices) + " is neither +1 nor -1");
+}
+
+void addSigns(const FrameHealth& health, FindingList& list) {
+    if (health.all_signs_wrong) {
+        list.add(FindingCode::signsInverted, Severity::error, health.signs_wrong, kVertices,
+                 "every sign is inverted: w is the opposite of what the UVs ask for at " +
+                     countText(health.signs_wrong, kVertices) + ", so bumps look like dents along v");
+    } else {
+        list.add(FindingCode::signsWrong, Severity::error, health.signs_wrong, kVertices,
+                 "the sign (w) of " + countText(health.signs_wrong, kVertices) +
+                     " is the opposite of what the UVs ask for" + onSurface(health.signs_wrong));
+    }
+    list.add(FindingCode::signsMixed, Severity::error, health.signs_mixed, kTriangles,
+             "the corners of " + countText(health.signs_mixed, kTriangles) +
+                 " have different signs, and the bitangent vanishes between them" + onSurface(health.signs_mixed));
+    list.add(FindingCode::mirroredSeamAveraged, Severity::error, health.mirrored_seams, kVertices,
+             "the two sides of a mirrored seam share one tangent at " + countText(health.mirrored_seams, kVertices) +
+                 onSurface(health.mirrored_seams));
+}
+
+void addDirections(const FrameHealth& health, const CheckOptions& options, FindingList& list) {
+    const auto severity = [&](const Tally& tally) {
+        if (health.far_directions >= options.error_share) return Severity::error;
+        return tally.surface_share >= options.error_share ? Severity::warning : Severity::note;
+    };
+    list.add(FindingCode::uvSeamAveraged, severity(health.uv_seams), health.uv_seams, kVertices,
+             "the tangents of " + countText(health.uv_seams, kVertices) +
+                 " are a mean over both sides of a UV seam, and fit neither, off by up to " +
+                 decimalText(health.uv_seams.worst_deg) + " degrees" + onSurface(health.uv_seams));
+    list.add(FindingCode::directionsWrong, severity(health.directions_wrong), health.directions_wrong, kVertices,
+             "the tangents of " + countText(health.directions_wrong, kVertices) +
+                 " do not point where u grows, off by up to " + decimalText(health.directions_wrong.worst_deg) +
+                 " degrees" + onSurface(health.directions_wrong));
+    list.add(FindingCode::splitFramesDiffer, Severity::warning, health.frames_differ, kVertices,
+             countText(health.frames_differ, kVertices) +
+                 " are equal to another in position, normal and UV but have another tangent, which shows as an edge");
+}
+
+}  // namespace
+
+std::vector<Finding> tangentFindings(const FrameHealth& health, const CheckOptions& options) {
+    FindingList list(options);
+    addValues(health, options, list);
+    addSigns(health, list);
+    addDirections(health, options, list);
+    return std::move(list.findings);
+}
+
+std::string whyTangentsAreWrong(const FrameHealth& health, const CheckOptions& options) {
+    for (Finding& finding : tangentFindings(health, options)) {
+        if (finding.severity == Severity::error) return std::move(finding.message);
+    }
+    return {};
+}
+
+}  // namespace tspace

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// A normal map that was converted, as JSON.
+#include "commands/shared/report.h"
+
+namespace tspace::report {
+
+Json mapMeshJson(const MapMeshReport& mesh) {
+    if (mesh.triangle_count == 0) return nullptr;
+    return {{"primitives", mesh.primitive_count},
+            {"triangles", mesh.triangle_count},
+            {"materials", mesh.materials},
+            {"tangentsMade", mesh.tangents_made},
+            {"scale", mesh.scale}};
+}
+
+std::string convertMapJson(const Outcome<ConvertMapFileReport>& outcome, ExitCode exit_code) {
+    const Result<ConvertMapFileReport>& result = outcome.result;
+    Json json = documentJson("tspace.convert-map/1", result.ok(), exit_code);
+    json["input"] = outcome.input;
+    json["output"] = outcome.output;
+    json["dryRun"] = outcome.is_dry_run;
+    json["error"] = errorJson(result ? nullptr : &result.error());
+    if (!result) return jsonText(json);
+    json["width"] = result->width;
+    json["height"] = result->height;
+    json["bitsBefore"] = result->bits_before;
+    json["bits"] = result->bits;
+    json["from"] = mapMeshJson(result->from);
+    json["to"] = mapMeshJson(result->to);
+    const ConvertMapReport& texels = result->texels;
+    json["converted"] = texels.converted;
+    json["changed"] = texels.changed;
+    json["background"] = texels.background;
+    json["withoutFrame"] = texels.without_frame;
+    json["belowHorizon"] = texels.below_horizon;
+    json["overlapping"] = texels.overlapping;
+    json["unmatched"] = texels.unmatched;
+    json["degenerateUvs"] = texels.degenerate_uv_count;
+    json["badUvs"] = texels.bad_uv_count;
+    json["meanChangeDeg"] = texels.mean_change_deg;
+    json["maxChangeDeg"] = texels.max_change_deg;
+    json["halfStepDeg"] = texels.half_step_deg;
+    json["belowHalfStep"] = texels.is_below_half_step;
+    json["warnings"] = result->warnings;
+    return jsonText(json);
+}
+
+}  // namespace tspace::report

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+// flipGreen and flipGreenFile: what an image may take, and files.
+#include <algorithm>
+
+#include "model/io/atomic_output.h"
+#include "model/io/file_error.h"
+#include "model/io/memory_budget.h"
+#include "images/flip_green.h"
+#include "tspace/flip_green.h"
+
+namespace tspace {
+
+namespace {
+
+/// Rows of a PNG take next to no memory but time, and a few bytes may claim any number of them: what they unpack to may be
+/// so many times what may be taken of memory. 1 GB, about 5 seconds, for any file: a map of one colour and 16384 x 16384
+/// texels has 800 MB in a file of 800 KB.
+void checkWork(ByteSpan bytes, std::uint64_t memory_limit_bytes) {
+    constexpr std::uint64_t kTimesMemory = 16, kMost = std::uint64_t{1} << 56;
+    const std::uint64_t memory = memory_limit_bytes != 0
+                                     ? std::min(memory_limit_bytes, kMost)
+                                     : MemoryBudget::kAnyFile + MemoryBudget::kPerByte * bytes.size();
+    const std::uint64_t unpacked = flipUnpackedBytes(bytes);
+    if (unpacked <= kTimesMemory * memory) return;
+    const auto megabytes = [](std::uint64_t count) { return std::to_string(count >> 20) + " MB"; };
+    failFile(ErrorCode::tooLarge, "it claims to unpack to " + megabytes(unpacked) + ", and " +
+                                      (memory_limit_bytes != 0 ? "--memory-limit" : "a file of its size") + " allows " +
+                                      megabytes(kTimesMemory * memory) +
+                                      (memory_limit_bytes != 0 ? "" : " (--memory-limit allows more)"));
+}
+
+FlippedImage flip(ByteSpan bytes, const FlipGreenOptions& options) {
+    MemoryBudget budget(options.memory_limit_bytes);
+    budget.allow(bytes.size());
+    if (const std::uint64_t needed = flipWorkBytes(bytes); needed != 0) budget.require(needed, {});
+    checkWork(bytes, options.memory_limit_bytes);
+    return valueOrThrow(flipImage(bytes, options));
+}
+
+/// By the extension of the output's name.
+ImageFileFormat namedFormat(const std::string& output) {
+    const std::string extension = lowerExtension(output);
+    if (extension == ".png") return ImageFileFormat::png;
+    if (extension == ".jpg" || extension == ".jpeg") return ImageFileFormat::jpeg;
+    if (extension == ".webp") return ImageFileFormat::webp;
+    failFile(ErrorCode::unsupportedFile,
+             "the output " + pathInQuotes(output) + " ends in none of .png, .jpg, .jpeg and .webp");
+}
+
+}  // namespace
+
+Result<FlippedImage> flipGreen(std::span<const std::uint8_t> image, const FlipGreenOptions& options) {
+    return atFileBorder([&]() -> Result<FlippedImage> { return flip(image, options); });
+}
+
+Result<FlipGreenReport> flipGreenFile(const std::string& input, const std::string& output,
+                                      const FlipGreenOptions& options) {
+    return atFileBorder([&]() -> Result<FlipGreenReport> {
+        FlipGreenOptions chosen = options;
+        if (chosen.format == ImageFileFormat::sameAsInput && !options.sink) chosen.format = namedFormat(output);
+        FlippedImage flipped =
+            options.content.data() != nullptr ? flip(options.content, chosen) : flip(readFile(input), chosen);
+        AtomicOutput files({.sink = options.sink, .is_dry_run = options.dry_run, .sync = options.sync});
+        files.add(output, std::span<const std::uint8_t>(flipped.bytes));
+        files.commit();
+        return std::move(flipped.report);
+    });
+}
+
+}  // namespace tspace

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+// An image whose green was inverted, as JSON.
+#include "commands/shared/report.h"
+
+namespace tspace::report {
+
+const char* imageFormatName(ImageFileFormat format) {
+    switch (format) {
+        case ImageFileFormat::png:
+            return "PNG";
+        case ImageFileFormat::jpeg:
+            return "JPEG";
+        case ImageFileFormat::webp:
+            return "WebP";
+        case ImageFileFormat::sameAsInput:
+            break;
+    }
+    return "";
+}
+
+std::string flipGreenJson(const Outcome<FlipGreenReport>& outcome, ExitCode exit_code) {
+    const Result<FlipGreenReport>& result = outcome.result;
+    Json json = documentJson("tspace.flip-green/1", result.ok(), exit_code);
+    json["input"] = outcome.input;
+    json["output"] = outcome.output;
+    json["dryRun"] = outcome.is_dry_run;
+    json["error"] = errorJson(result ? nullptr : &result.error());
+    if (!result) return jsonText(json);
+    json["format"] = imageFormatName(result->format);
+    json["width"] = result->width;
+    json["height"] = result->height;
+    json["bits"] = result->bits;
+    json["exact"] = result->is_exact;
+    json["warnings"] = result->warnings;
+    return jsonText(json);
+}
+
+}  // namespace tspace::report

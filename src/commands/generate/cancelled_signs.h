@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+// ExistingTangents::replace gives right signs to what rendered right with inverted ones, because green of the normal map
+// points down.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "model/gltf/generate_plan.h"
+#include "commands/generate/flip_maps.h"
+
+namespace tspace::gltf {
+
+/// A warning where tangents are to be replaced whose signs a normal map makes up for, or may, and that map stays as it is;
+/// else empty. Judges as `check` does, but only where signs look inverted. Fails as reading the attributes does.
+std::string warnOfCancelledSigns(const Document& document, std::span<const Primitive> primitives,
+                                 const GeneratePlan& plan, const MapFlips& flips, const GenerateOptions& options);
+
+}  // namespace tspace::gltf

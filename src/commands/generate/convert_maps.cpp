@@ -1,0 +1,349 @@
+// SPDX-License-Identifier: MIT
+#include "commands/generate/convert_maps.h"
+
+#include <algorithm>
+#include <charconv>
+#include <optional>
+#include <utility>
+
+#include "model/gltf/material_needs.h"
+#include "model/gltf/read_scene.h"
+#include "commands/generate/map_references.h"
+#include "commands/generate/place_image.h"
+#include "commands/shared/map_mesh.h"
+#include "maps/carried_error.h"
+#include "images/float_image.h"
+#include "maps/uv_coverage.h"
+
+namespace tspace::gltf {
+
+namespace {
+
+/// A primitive that shows the map, and the frames of its corners.
+struct ShownMap {
+    MapUser user = {};
+    MapMesh from = {}, to = {};
+    TexelMask texels = {};
+    bool is_new = false;     ///< its tangents were computed
+    bool is_bright = false;  ///< it got normals that change the picture on purpose
+
+    [[nodiscard]] bool readsLike(const ShownMap& other) const {
+        return from.wrap_u == other.from.wrap_u && from.wrap_v == other.from.wrap_v &&
+               user.use->scale == other.user.use->scale;
+    }
+    [[nodiscard]] bool isLike(const ShownMap& other) const {
+        return from.uvs == other.from.uvs && from.normals == other.from.normals &&
+               from.tangents == other.from.tangents && to.normals == other.to.normals &&
+               to.tangents == other.to.tangents;
+    }
+    /// Whether one map can serve both.
+    [[nodiscard]] bool fits(const ShownMap& other) const {
+        return readsLike(other) && (!texels.meets(other.texels) || isLike(other));
+    }
+};
+
+using MapGroup = std::vector<const ShownMap*>;
+
+/// Primitives whose parts of the map do not meet share one: the first group that takes a primitive has it.
+std::vector<MapGroup> groupsOf(std::span<const ShownMap> shown) {
+    std::vector<MapGroup> groups;
+    for (const ShownMap& one : shown) {
+        const auto takes = [&](const MapGroup& group) {
+            return std::all_of(group.begin(), group.end(), [&](const ShownMap* other) { return one.fits(*other); });
+        };
+        const auto found = std::find_if(groups.begin(), groups.end(), takes);
+        if (found != groups.end()) {
+            found->push_back(&one);
+        } else {
+            groups.push_back({&one});
+        }
+    }
+    return groups;
+}
+
+template <class T>
+void append(std::vector<T>& to, const std::vector<T>& from) {
+    to.insert(to.end(), from.begin(), from.end());
+}
+
+/// Those of a group, the same triangles once.
+MapMesh joinedSide(const MapGroup& group, MapMesh ShownMap::*side) {
+    MapMesh mesh;
+    for (auto one = group.begin(); one != group.end(); ++one) {
+        if (std::any_of(group.begin(), one, [&](const ShownMap* other) { return (*one)->isLike(*other); })) continue;
+        const MapMesh& part = (*one)->*side;
+        append(mesh.uvs, part.uvs);
+        append(mesh.positions, part.positions);
+        append(mesh.normals, part.normals);
+        append(mesh.tangents, part.tangents);
+    }
+    return mesh;
+}
+
+MapSide sideOf(const MapMesh& mesh, double scale) {
+    return {.reading = {.scale = static_cast<float>(scale)},
+            .uvs = mesh.uvs,
+            .normals = mesh.normals,
+            .tangents = mesh.tangents,
+            .positions = mesh.positions};
+}
+
+std::string degreesText(double degrees) {
+    char text[32];
+    const auto end = std::to_chars(text, text + sizeof text, degrees, std::chars_format::general, 2);
+    return std::string(text, end.ptr) + " degrees";
+}
+
+/// A map that some primitives need, where it is any better.
+struct NewMap {
+    ConvertedMapReport report = {};
+    Bytes file = {};
+};
+
+void tellWhatIsLeft(const ConvertMapReport& texels, ConvertedMapReport& report) {
+    const std::string bits = std::to_string(report.bits) + " bits";
+    if (texels.is_below_half_step) {
+        report.notes.push_back("The change is " + degreesText(texels.mean_change_deg) +
+                               " in the mean, less than half a step of " + bits + " (" +
+                               degreesText(texels.half_step_deg) + "), so the map may as well stay; converted, " +
+                               degreesText(report.mean_error_deg) + " are left of it.");
+    }
+    if (texels.overlapping > 0) {
+        report.notes.push_back(std::to_string(texels.overlapping) +
+                               " texels are shown by several triangles of a primitive; the first decides.");
+    }
+    if (texels.without_frame > 0) {
+        report.notes.push_back(std::to_string(texels.without_frame) +
+                               " texels stay as they are, since their old or new frames are broken.");
+    }
+}
+
+NewMap convertFor(const MapGroup& group, const FloatImage& image, const GenerateOptions& options) {
+    NewMap made;
+    ConvertedMapReport& report = made.report;
+    report.primitive_count = static_cast<std::uint32_t>(group.size());
+    for (const ShownMap* one : group) {
+        const auto material = static_cast<std::uint32_t>(one->user.use->material);
+        if (std::find(report.materials.begin(), report.materials.end(), material) == report.materials.end())
+            report.materials.push_back(material);
+    }
+    const ShownMap& first = *group.front();
+    const double scale = first.user.use->scale;
+    if (static_cast<float>(scale) == 0) {
+        report.reason = "its scale is 0, so nothing of it shows";
+        return made;
+    }
+    const MapMesh from = joinedSide(group, &ShownMap::from), to = joinedSide(group, &ShownMap::to);
+    const MapImage map{image.width, image.height, image.texels, first.from.wrap_u, first.from.wrap_v};
+    FloatImage converted{image.width, image.height, image.bits, std::vector<Vec3>(image.texels.size()), image.alpha};
+    const MapSide from_side = sideOf(from, scale), to_side = sideOf(to, scale);
+    const ConvertMapReport texels =
+        valueOrThrow(convertMap(map, from_side, to_side, {.bits = image.bits}, converted.texels, options.execution));
+    report.changed = texels.changed;
+    if (texels.changed == 0) {
+        const bool is_bright =
+            std::any_of(group.begin(), group.end(), [](const ShownMap* one) { return one->is_bright; });
+        report.reason = is_bright ? "new normals change the picture on purpose" : "the new tangents show it as before";
+        return made;
+    }
+    Parallel parallel(options.execution);
+    const CarriedError error = measureCarried(map, converted.texels, from_side, to_side, parallel);
+    report.mean_error_deg = error.mean_deg;
+    report.mean_error_unconverted_deg = error.mean_unconverted_deg;
+    if (!(error.mean_deg < error.mean_unconverted_deg)) {
+        const char* why = texels.overlapping > 0 ? "several triangles that need different maps share its texels"
+                                                 : "rounding would undo the change";
+        report.reason = std::string(why) + ": " + degreesText(error.mean_deg) + " off when converted, " +
+                        degreesText(error.mean_unconverted_deg) + " as it is";
+        return made;
+    }
+    const auto file = encodePng(converted, image.bits);
+    if (!file) {
+        report.reason = "the new one cannot be packed as PNG";
+        return made;
+    }
+    report.bits = image.bits;
+    report.converted = true;
+    made.file.assign(file->begin(), file->end());
+    tellWhatIsLeft(texels, report);
+    return made;
+}
+
+/// All that shows one image.
+class OneMap {
+  public:
+    OneMap(const Bytes& file, const GenerateOptions& options) : file_(file), options_(options) {}
+
+    void add(const MapUser& user, const ScenePrimitive& before, const ScenePrimitive& after,
+             const PrimitiveReport& report) {
+        ShownMap& one = shown_.emplace_back();
+        one.user = user;
+        one.is_new = report.action == PrimitiveAction::generated || report.action == PrimitiveAction::replaced;
+        one.is_bright = report.normals_generated && options_.normals.weighting != NormalWeighting::flat;
+        sources_.push_back({&before, &after});
+    }
+    [[nodiscard]] bool isNeeded() const {
+        return std::any_of(shown_.begin(), shown_.end(), [](const ShownMap& one) { return one.is_new; });
+    }
+
+    /// Groups, and a map for each. `why`: instead, why there is none, half a sentence.
+    std::vector<std::pair<MapGroup, NewMap>> convert(std::string& why) {
+        const std::optional<FloatImage> image = decode(why);
+        if (!image) return {};
+        for (std::size_t i = 0; i < shown_.size(); ++i) prepare(shown_[i], sources_[i], *image);
+        std::vector<std::pair<MapGroup, NewMap>> made;
+        for (MapGroup& group : groupsOf(shown_)) {
+            const bool is_needed =
+                std::any_of(group.begin(), group.end(), [](const ShownMap* one) { return one->is_new; });
+            if (!is_needed) continue;
+            NewMap map = convertFor(group, *image, options_);
+            made.emplace_back(std::move(group), std::move(map));
+        }
+        return made;
+    }
+    /// The frames are needed no longer.
+    void release() { shown_ = {}; }
+    [[nodiscard]] std::size_t userCount() const { return shown_.size(); }
+
+  private:
+    struct Source {
+        const ScenePrimitive* before;
+        const ScenePrimitive* after;
+    };
+
+    [[nodiscard]] std::optional<FloatImage> decode(std::string& why) const {
+        why = "it cannot be read";
+        if (file_.empty()) return {};
+        if (const char* why_not = whyNotRead(imageFormat(file_))) {
+            why = why_not;
+            return {};
+        }
+        const std::uint64_t limit = options_.file.memory_limit_bytes;
+        if (limit != 0 && kMapPixelBytes * claimedSize(file_).pixels() > limit) {
+            why = "it takes more memory than the limit";
+            return {};
+        }
+        return decodeFloatImage(file_, kMostModelMapPixels, why);
+    }
+
+    void prepare(ShownMap& one, const Source& source, const FloatImage& image) const {
+        // What viewers make of a file without tangents.
+        const TangentOptions viewers{.convention = conventions::gltf};
+        const TangentUse& use = *one.user.use;
+        addMapCorners(*source.before, &use, viewers, options_.execution, one.from);
+        one.from.wrap_u = use.wrap_u;
+        one.from.wrap_v = use.wrap_v;
+        addMapCorners(*source.after, &use, viewers, options_.execution, one.to);
+        if (one.is_bright || one.from.uvs != one.to.uvs) one.from = one.to;
+        std::vector<std::uint32_t> corners(one.from.uvs.size());
+        for (std::size_t i = 0; i < corners.size(); ++i) corners[i] = static_cast<std::uint32_t>(i);
+        one.texels = TexelMask(image.width, image.height);
+        std::uint64_t steps = kCoverSteps;
+        coverTexels({.corners = corners, .uvs = one.from.uvs, .wrap_u = use.wrap_u, .wrap_v = use.wrap_v}, one.texels,
+                    steps);
+    }
+
+    const Bytes& file_;
+    const GenerateOptions& options_;
+    std::vector<ShownMap> shown_ = {};
+    std::vector<Source> sources_ = {};
+};
+
+bool showsImage(const TangentUse& use) { return use.image && showsNormals(use); }
+
+/// Whether corners can be taken of it.
+bool hasMapUvs(const ScenePrimitive& primitive, const TangentUse& use) {
+    return !primitive.corners.empty() && use.uv_set < primitive.uv_sets.size() &&
+           !primitive.uv_sets[use.uv_set].empty();
+}
+
+/// Puts the maps of one image in, and tells what became of them.
+class MapPlacer {
+  public:
+    MapPlacer(Document& document, std::span<const Primitive> primitives, ImagePlacer& placer)
+        : references_(document, primitives), placer_(placer) {}
+
+    void place(std::size_t image, const MapGroup& group, NewMap& map) {
+        ConvertedMapReport& report = map.report;
+        if (!report.converted) return;
+        std::vector<MapUser> users;
+        for (const ShownMap* one : group) users.push_back(one->user);
+        if (references_.isOfAlone(image, users)) {
+            report.new_image = static_cast<std::uint32_t>(image);
+            placer_.placeOwn(image, std::move(map.file));
+            references_.namePlainly(image);
+            return;
+        }
+        report.reason = references_.whyNotApart(users);
+        report.converted = report.reason.empty();
+        if (!report.converted) return;
+        report.new_image = static_cast<std::uint32_t>(placer_.add(image, std::move(map.file)));
+        references_.redirect(users, report.new_image);
+    }
+
+  private:
+    MapReferences references_;
+    ImagePlacer& placer_;
+};
+
+}  // namespace
+
+MapConversion::MapConversion(Document& document, std::span<const Primitive> primitives, const GenerateOptions& options)
+    : document_(document), options_(options) {
+    std::vector<Primitive> showing;
+    for (std::size_t i = 0; i < primitives.size(); ++i) {
+        const std::vector<TangentUse> uses = tangentUses(document, primitives[i]);
+        if (!hasTriangles(primitives[i].mode) || std::none_of(uses.begin(), uses.end(), showsImage)) continue;
+        numbers_.push_back(i);
+        showing.push_back(primitives[i]);
+    }
+    before_ = sceneOf(document, showing);
+    for (const ScenePrimitive& primitive : before_.primitives) {
+        for (const TangentUse& use : primitive.uses) {
+            if (!showsImage(use) || images_.contains(*use.image)) continue;
+            Bytes bytes = tryReadImage(document, *use.image);
+            document.memory->take(bytes.size(), join("/images", *use.image));
+            if (!bytes.empty()) noteInputFile(document, *use.image);
+            images_[*use.image] = std::move(bytes);
+        }
+    }
+}
+
+std::vector<ConvertedMapReport> MapConversion::run(Editor& editor, const OutputTarget& target,
+                                                   std::span<const PrimitiveReport> reports) {
+    const std::vector<Primitive> primitives = readPrimitives(document_);
+    std::vector<Primitive> showing;
+    for (const std::size_t number : numbers_) showing.push_back(primitives[number]);
+    const Scene after = sceneOf(document_, showing);
+    std::map<std::size_t, OneMap> maps;
+    for (std::size_t i = 0; i < numbers_.size(); ++i) {
+        const ScenePrimitive& before = before_.primitives[i];
+        for (const TangentUse& use : before.uses) {
+            if (!showsImage(use) || !hasMapUvs(before, use) || !hasMapUvs(after.primitives[i], use)) continue;
+            const auto map = maps.try_emplace(*use.image, images_[*use.image], options_).first;
+            map->second.add({&primitives[numbers_[i]], &use}, before, after.primitives[i], reports[numbers_[i]]);
+        }
+    }
+    ImagePlacer placer(document_, editor, target, "-converted");
+    MapPlacer places(document_, primitives, placer);
+    std::vector<ConvertedMapReport> told;
+    for (auto& [image, map] : maps) {
+        if (!map.isNeeded()) continue;
+        const std::string name =
+            before_.images[image].name.empty() ? before_.images[image].uri : before_.images[image].name;
+        std::string why;
+        std::vector<std::pair<MapGroup, NewMap>> made = map.convert(why);
+        if (made.empty()) made.push_back({{}, {.report = {.reason = why}}});
+        for (auto& [group, one] : made) {
+            places.place(image, group, one);
+            one.report.image = static_cast<std::uint32_t>(image);
+            one.report.name = name;
+            if (group.empty()) one.report.primitive_count = static_cast<std::uint32_t>(map.userCount());
+            told.push_back(std::move(one.report));
+        }
+        map.release();
+    }
+    return told;
+}
+
+}  // namespace tspace::gltf

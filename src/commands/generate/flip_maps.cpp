@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: MIT
+// From normal maps to images, and back to the textures that read them.
+#include "commands/generate/flip_maps.h"
+
+#include <algorithm>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "model/gltf/read_look.h"
+#include "model/gltf/read_scene.h"
+#include "model/io/uri.h"
+#include "commands/check/judge_maps.h"
+#include "commands/generate/mend_maps.h"
+#include "commands/generate/place_image.h"
+#include "commands/generate/texture_sources.h"
+#include "images/image.h"
+
+namespace tspace::gltf {
+
+namespace {
+
+/// How textures and images are used. Of what refers to an image outside of textures nothing is known.
+class TextureUses {
+  public:
+    explicit TextureUses(Document& document) : document_(document) {
+        for (const char* list : {"textures", "materials"}) {
+            if (!document.json.contains(list) || !document.json[list].is_array()) return;
+        }
+        uses_.resize(textures().size());
+        forTextureReferences(document.json["materials"], [&](const std::string& name, Json& reference) {
+            const Json& index = reference["index"];
+            if (!index.is_number_unsigned() || index.get<std::size_t>() >= uses_.size()) return;
+            Use& use = uses_[index.get<std::size_t>()];
+            (isNormalMap(name) ? use.is_normal_map : use.is_other) = true;
+        });
+        for (std::size_t i = 0; i < uses_.size(); ++i) {
+            for (const std::size_t image : sourcesOf(i)) textures_of_[image].push_back(i);
+        }
+    }
+
+    /// Something else than a normal map shows the image.
+    [[nodiscard]] bool isOther(std::size_t image) {
+        const std::vector<std::size_t>& all = textures_of_[image];
+        return std::any_of(all.begin(), all.end(), [&](std::size_t texture) { return uses_[texture].is_other; });
+    }
+    /// What the normal maps which show this image may show instead.
+    [[nodiscard]] std::set<std::size_t> alternatives(std::size_t image) {
+        std::set<std::size_t> others;
+        for (const std::size_t texture : textures_of_[image]) {
+            if (uses_[texture].is_normal_map) others.merge(sourcesOf(texture));
+        }
+        others.erase(image);
+        return others;
+    }
+    /// Normal maps that show `from` show `to` from now on; nothing else does. Call applyRedirections in the end.
+    void redirect(std::size_t from, std::size_t to) {
+        for (const std::size_t shared : textures_of_[from]) {
+            if (!uses_[shared].is_normal_map) continue;
+            const std::size_t texture = uses_[shared].is_other ? ownTexture(shared) : shared;
+            forSources(textures()[texture], [&](Json& source) {
+                if (isNumber(source, from)) source = to;
+            });
+        }
+    }
+    void applyRedirections() {
+        if (own_textures_.empty()) return;
+        forTextureReferences(document_.json["materials"], [&](const std::string& name, Json& reference) {
+            Json& index = reference["index"];
+            if (!isNormalMap(name) || !index.is_number_unsigned()) return;
+            const auto own = own_textures_.find(index.get<std::size_t>());
+            if (own != own_textures_.end()) index = own->second;
+        });
+    }
+
+  private:
+    struct Use {
+        bool is_normal_map = false, is_other = false;
+    };
+    Json& textures() { return document_.json["textures"]; }
+    std::set<std::size_t> sourcesOf(std::size_t texture) {
+        std::set<std::size_t> sources;
+        forSources(textures()[texture], [&](const Json& source) {
+            if (source.is_number_unsigned()) sources.insert(source.get<std::size_t>());
+        });
+        return sources;
+    }
+    /// A copy of the texture for normal maps alone: the same one for all of its images.
+    std::size_t ownTexture(std::size_t shared) {
+        const auto [own, is_new] = own_textures_.try_emplace(shared, textures().size());
+        if (is_new) {
+            Json copy = textures()[shared];
+            textures().push_back(std::move(copy));
+        }
+        return own->second;
+    }
+
+    Document& document_;
+    std::vector<Use> uses_ = {};                                        ///< by texture
+    std::map<std::size_t, std::vector<std::size_t>> textures_of_ = {};  ///< by image
+    std::map<std::size_t, std::size_t> own_textures_ = {};              ///< from shared ones to those of normal maps
+};
+
+/// Images that may be shown for one another, such as a PNG and a WebP of one texture, are inverted together. Where one
+/// of them cannot be or must not, none is: viewers choose among them.
+class Alternatives {
+  public:
+    Alternatives(Document& document, MapFlips& flips) : document_(document), uses_(document), flips_(flips) {
+        for (NormalMapReport& report : flips.reports) judged_[report.image] = &report;
+    }
+
+    void decide() {
+        for (const NormalMapReport& report : flips_.reports) {
+            if (report.flipped && !report.mended && !is_settled_.contains(report.image)) settle(together(report.image));
+        }
+    }
+
+  private:
+    /// The image, and all that hang together with it.
+    std::vector<std::size_t> together(std::size_t image) {
+        std::vector<std::size_t> images{image};
+        is_settled_.insert(image);
+        for (std::size_t i = 0; i < images.size(); ++i) {
+            for (const std::size_t other : uses_.alternatives(images[i])) {
+                if (is_settled_.insert(other).second) images.push_back(other);
+            }
+        }
+        return images;
+    }
+
+    void settle(const std::vector<std::size_t>& images) {
+        std::string why;
+        for (const std::size_t image : images) {
+            if (why.empty()) why = whyItStays(image);
+        }
+        if (why.empty()) return;
+        for (const std::size_t image : images) {
+            flips_.images.erase(image);
+            const auto judged = judged_.find(image);
+            if (judged == judged_.end() || !judged->second->flipped) continue;
+            judged->second->flipped = false;
+            judged->second->reason = why;
+        }
+    }
+
+    /// Empty where it is to be inverted, and can be; an image that was not judged is inverted here.
+    std::string whyItStays(std::size_t image) {
+        const std::string start = "image " + std::to_string(image) + " is the same map in another format, and ";
+        const auto judged = judged_.find(image);
+        if (judged != judged_.end()) return judged->second->flipped ? "" : start + "stays";
+        std::string why = "it cannot be read";
+        Bytes bytes;
+        if (image < rootArray(document_, "images").size()) bytes = tryReadImage(document_, image);
+        if (!bytes.empty()) bytes = flipImage(bytes, *document_.memory, why);
+        if (bytes.empty()) return start + "cannot be inverted: " + why;
+        document_.memory->take(bytes.size(), join("/images", image));
+        flips_.images[image] = std::move(bytes);
+        return {};
+    }
+
+    Document& document_;
+    TextureUses uses_;
+    MapFlips& flips_;
+    std::map<std::size_t, NormalMapReport*> judged_ = {};  ///< by image
+    std::set<std::size_t> is_settled_ = {};
+};
+
+/// Writes the map anew, inverted where it is to be, if nothing but PNG and JPEG stands beside it.
+void mendInPlace(Document& document, const Scene& scene, const GenerateOptions& options, JudgedMap& map,
+                 MapFlips& flips) {
+    if (!TextureUses(document).alternatives(map.image).empty()) {
+        if (!map.report.flipped) map.report.reason = "the same map is there in another format too";
+        return;
+    }
+    const std::string why_not_flipped = map.report.reason;
+    Bytes mended = mendMap(scene, map.flipped.empty() ? ByteSpan(scene.images[map.image].bytes) : ByteSpan(map.flipped),
+                           options, map);
+    if (!mended.empty()) flips.mended[map.image] = std::move(mended);
+    if (!map.report.mended && map.report.flipped) map.report.reason.clear();
+    if (!map.report.mended && !why_not_flipped.empty()) map.report.reason = why_not_flipped;
+}
+
+}  // namespace
+
+MapFlips planFlips(Document& document, std::span<const Primitive> primitives, std::span<const PrimitiveReport> reports,
+                   const GenerateOptions& options) {
+    MapFlips flips;
+    std::vector<bool> keeps_tangents;
+    for (const PrimitiveReport& report : reports) {
+        keeps_tangents.push_back(report.action == PrimitiveAction::kept ||
+                                 options.existing == ExistingTangents::repair);
+    }
+    const std::int64_t left = document.memory->left();
+    Scene scene = sceneOf(document, primitives);
+    readImages(document, scene);
+    tellPlaces(document, primitives, scene);
+    std::vector<JudgedMap> maps = judgeMaps(scene, keeps_tangents, options);
+    for (JudgedMap& map : maps) {
+        if (options.mend_maps) mendInPlace(document, scene, options, map, flips);
+        if (map.report.flipped && !map.report.mended) flips.images[map.image] = std::move(map.flipped);
+        flips.reports.push_back(std::move(map.report));
+    }
+    document.memory->giveBack(left);
+    for (const auto& [image, bytes] : flips.images) document.memory->take(bytes.size(), join("/images", image));
+    for (const auto& [image, bytes] : flips.mended) document.memory->take(bytes.size(), join("/images", image));
+    Alternatives(document, flips).decide();
+    for (const auto& [image, bytes] : flips.images) noteInputFile(document, image);
+    for (const auto& [image, bytes] : flips.mended) noteInputFile(document, image);
+    return flips;
+}
+
+void applyFlips(Document& document, Editor& editor, const OutputTarget& target, MapFlips&& flips) {
+    TextureUses uses(document);
+    const auto placeAll = [&](std::map<std::size_t, Bytes>& made, const char* ending) {
+        ImagePlacer placer(document, editor, target, ending);
+        for (auto& [image, bytes] : made) {
+            if (!uses.isOther(image)) {
+                placer.place(image, std::move(bytes), false);
+                continue;
+            }
+            Json& images = document.json["images"];
+            Json copy = images[image];
+            images.push_back(std::move(copy));
+            const std::size_t own = images.size() - 1;
+            placer.place(own, std::move(bytes), true);
+            uses.redirect(image, own);
+        }
+    };
+    placeAll(flips.images, "-green-up");
+    placeAll(flips.mended, "-mended");
+    uses.applyRedirections();
+}
+
+}  // namespace tspace::gltf

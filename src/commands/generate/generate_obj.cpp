@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: MIT
+// The OBJ path from file to file.
+#include <utility>
+
+#include "model/io/atomic_output.h"
+#include "model/io/disk_paths.h"
+#include "model/io/file_error.h"
+#include "model/gltf/packed_words.h"
+#include "model/obj/obj_primitives.h"
+#include "model/obj/obj_reader.h"
+#include "model/obj/obj_writer.h"
+#include "core/mesh/pools/local_mesh.h"
+#include "core/mesh/pools/surface_faults.h"
+#include "core/mesh/pools/unit_lattice.h"
+#include "commands/generate/generate_obj.h"
+#include "commands/generate/generate_warnings.h"
+#include "commands/generate/obj_maps.h"
+#include "tspace/triangulate.h"
+
+namespace tspace {
+namespace {
+
+using namespace obj;
+
+void checkOutput(const std::string& output) {
+    if (!isGltfName(output) && !isGlbOutput(output)) {
+        failFile(ErrorCode::invalidOption, "the output must end in .glb, .vrm or .gltf: " + output);
+    }
+}
+
+/// Sets action and reason. true when tangents are to be computed.
+bool decide(const Material& material, const ObjPrimitive& primitive, const GenerateOptions& options,
+            PrimitiveReport& report) {
+    const bool needed = material.normal_texture.used();
+    if (!needed && !options.all) {
+        report.action = PrimitiveAction::notNeeded;
+        report.reason = material.found ? "the material has no normal map" : "there is no material with a normal map";
+    } else if (!primitive.has_uvs && options.tangents.method != Method::basis) {
+        report.action = PrimitiveAction::impossible;
+        report.reason = "the faces have no texture coordinates";
+    } else {
+        report.action = PrimitiveAction::generated;
+        report.reason = needed ? "the material has the normal map '" + material.normal_texture.file + "'"
+                               : "asked for all primitives";
+        if (primitive.has_uvs) report.uv_set = 0;
+        return true;
+    }
+    return false;
+}
+
+FinishedPrimitive finishWithFrames(ObjGeometry geometry, const GenerateOptions& options, PrimitiveReport& report) {
+    PoolFrames frames = valueOrThrow(computeFrames(geometry.pool, {&geometry.polygons, 1}, options, {&report, 1}));
+    FinishedPrimitive finished;
+    finished.positions = gather(std::span<const Vec3>(geometry.pool.positions), frames.source_vertices);
+    finished.normals = gather(std::span<const Vec3>(geometry.pool.normals), frames.source_vertices);
+    finished.uvs = gather(std::span<const Vec2>(geometry.pool.uvs), frames.source_vertices);
+    finished.tangents = std::move(frames.tangents);
+    finished.bitangents = std::move(frames.bitangents);
+    finished.indices = std::move(frames.indices.front());
+    return finished;
+}
+
+FinishedPrimitive finishWithoutFrames(ObjGeometry geometry, PrimitiveReport& report) {
+    const Triangulation triangles = valueOrThrow(triangulate(geometry.view()));
+    FinishedPrimitive finished;
+    finished.indices = gather(spanOf(geometry.polygons.indices), triangles.corners);
+    report.triangle_count = finished.indices.size() / 3;
+    report.vertices_before = report.vertices_after = geometry.pool.positions.size();
+    finished.positions = std::move(geometry.pool.positions);
+    finished.normals = std::move(geometry.pool.normals);
+    finished.uvs = std::move(geometry.pool.uvs);
+    return finished;
+}
+
+/// Packs the frames as they are written, and takes away what is to go.
+void packWritten(const GenerateOptions& options, FinishedPrimitive& finished, PrimitiveReport& report) {
+    if (finished.tangents.empty()) {
+        const bool can_have = report.action == PrimitiveAction::notNeeded;
+        report.notes.emplace_back(std::string("its frames are not packed: it has no TANGENT") +
+                                  (can_have ? " (--all makes what is missing)" : ""));
+        return;
+    }
+    roundUnits(std::span(finished.tangents), finished.tangent_format);
+    const gltf::PackedLayout& layout = gltf::packedLayout(*options.pack);
+    const Bytes words =
+        gltf::packWords(layout.format, finished.normals, finished.tangents, options.execution, report.packing);
+    for (const gltf::PackedPart& part : layout.parts)
+        finished.packed.push_back({part, takePart(words, layout.format, part)});
+    report.frames_packed = true;
+    report.tangents_dropped = options.pack_drop != PackDrop::nothing;
+    report.normals_dropped = options.pack_drop == PackDrop::all;
+    if (report.tangents_dropped) finished.tangents.clear();
+    if (report.normals_dropped) finished.normals.clear();
+}
+
+/// `replaced`: its normals were there.
+FinishedPrimitive finish(const Model& model, const ObjPrimitive& primitive, bool replaced,
+                         const GenerateOptions& options, PrimitiveReport& report) {
+    const Material& material = model.materials[primitive.material];
+    report.mesh = primitive.shape;
+    report.mesh_name = model.shape_names[primitive.shape];
+    report.material_name = material.name;
+    ObjGeometry geometry = buildGeometry(model, primitive);
+    // Before tangents are computed: they belong to the normals that are written.
+    if (primitive.normals_generated) roundUnits(geometry.pool.normals, options.format);
+    const bool computes = decide(material, primitive, options, report);
+    FinishedPrimitive finished = computes ? finishWithFrames(std::move(geometry), options, report)
+                                          : finishWithoutFrames(std::move(geometry), report);
+    report.normals_generated = primitive.normals_generated;
+    report.normals_replaced = replaced;
+    if (primitive.normals_generated) countFaults(finished.positions, finished.normals, finished.indices, true, report);
+    if (primitive.normals_generated) finished.normal_format = options.format;
+    finished.tangent_format = options.format;
+    if (options.pack) packWritten(options, finished, report);
+    finished.shape = primitive.shape;
+    finished.material = primitive.material;
+    return finished;
+}
+
+void tell(const GenerateOptions& options, const char* what, std::uint64_t done, std::uint64_t total) {
+    if (options.progress) options.progress(what, done, total);
+}
+
+GenerateReport generate(const std::string& input, const std::string& output, const GenerateOptions& options) {
+    checkOutput(output);
+    if (options.sink && !isGlbName(output)) failFile(ErrorCode::invalidOption, "only a GLB is one stream of bytes");
+    if (options.compression == Compression::meshopt || options.compression == Compression::draco) {
+        failFile(ErrorCode::invalidOption,
+                 "what is made from OBJ is not compressed in the same run; compress the result in a second one");
+    }
+    tell(options, "reading", 0, 0);
+    InputFiles inputs;
+    FileOptions file_options = options.file;
+    inputs.watch(file_options);
+    Model model = readModel(input, file_options);
+    std::vector<ObjPrimitive> primitives = collectPrimitives(model);
+    tell(options, "computing normals", 0, 0);
+    std::vector<bool> had_normals;
+    for (const ObjPrimitive& primitive : primitives) had_normals.push_back(hasSomeNormals(model, primitive));
+    if (options.overwrite_normals) {
+        for (Corner& corner : model.corners) corner.normal = kNone;
+    }
+    NormalReport normals = valueOrThrow(completeNormals(model, primitives, options));
+
+    GenerateReport report;
+    report.normal_maps = prepareMaps(primitives, options, model);
+    std::vector<FinishedPrimitive> finished;
+    std::vector<std::uint32_t> next_in_mesh(model.shape_names.size(), 0);
+    for (const ObjPrimitive& primitive : primitives) {
+        tell(options, "computing tangents", finished.size(), primitives.size());
+        PrimitiveReport& entry = report.primitives.emplace_back();
+        const bool replaced = options.overwrite_normals && had_normals[finished.size()];
+        finished.push_back(finish(model, primitive, replaced, options, entry));
+        entry.primitive = next_in_mesh[primitive.shape]++;
+        // Normals are made for the whole file at once: the counts stand with the first primitive that got
+        // some.
+        if (primitive.normals_generated) entry.normals = std::exchange(normals, {});
+    }
+    tell(options, "writing", 0, 0);
+    report.changed = true;
+    report.input_bytes = model.input_bytes;
+    report.warnings = model.warnings;
+    report.coordinate_offset[0] = model.offset.x;
+    report.coordinate_offset[1] = model.offset.y;
+    report.coordinate_offset[2] = model.offset.z;
+    addWarnings(options, report);
+    AtomicOutput files(
+        {.sink = options.sink, .is_dry_run = options.dry_run, .sync = options.file.sync, .inputs = &inputs});
+    writeScene(model, finished, output, files, report.warnings);
+    report.input_files = std::move(model.input_files);
+    report.input_files.insert(report.input_files.end(), files.sources().begin(), files.sources().end());
+    report.output_files = files.files();
+    report.output_bytes = files.byteCount();
+    // Nothing that can fail comes after it.
+    files.commit();
+    return report;
+}
+
+}  // namespace
+
+Result<GenerateReport> generateObj(const std::string& input, const std::string& output,
+                                   const GenerateOptions& options) {
+    return atFileBorder([&]() -> Result<GenerateReport> { return generate(input, output, options); });
+}
+
+}  // namespace tspace

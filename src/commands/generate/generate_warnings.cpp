@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: MIT
+// Sums over primitives, and sentences.
+#include "commands/generate/generate_warnings.h"
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+namespace tspace {
+
+namespace {
+
+std::string counted(std::uint64_t count, const char* noun) {
+    return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
+}
+
+bool wasComputed(const PrimitiveReport& primitive) {
+    return primitive.action == PrimitiveAction::generated || primitive.action == PrimitiveAction::replaced ||
+           primitive.action == PrimitiveAction::unchanged;
+}
+
+void warnOfWinding(GenerateReport& report) {
+    std::uint64_t turned = 0, two_sided = 0, behind = 0, triangles = 0, before = 0, after = 0;
+    for (const PrimitiveReport& primitive : report.primitives) {
+        turned += primitive.turned_triangle_count;
+        two_sided += primitive.two_sided_triangle_count;
+        behind += primitive.normals_behind_count;
+        if (primitive.turned_triangle_count == 0) continue;
+        triangles += primitive.triangle_count;
+        before += primitive.vertices_before;
+        after += primitive.vertices_after;
+    }
+    if (turned != 0) {
+        std::string text = std::to_string(turned) + " of " + counted(triangles, "triangle") +
+                           (turned == 1 ? " is" : " are") +
+                           " wound against the neighbours: no tool can tell which side is out";
+        if (after > before)
+            text += ", and vertices are split between them (" + std::to_string(before) + " -> " +
+                    std::to_string(after) + ")";
+        report.warnings.push_back(text);
+    }
+    if (two_sided != 0) {
+        const bool makes = std::any_of(report.primitives.begin(), report.primitives.end(),
+                                       [](const PrimitiveReport& primitive) { return primitive.normals_generated; });
+        report.warnings.push_back(counted(two_sided, "triangle") + (two_sided == 1 ? " lies" : " lie") +
+                                  " on others that are wound the other way (sheets with two sides)" +
+                                  (makes ? ": normals that are smooth over both cancel out" : ""));
+    }
+    if (behind != 0) {
+        report.warnings.push_back(counted(behind, "corner") + (behind == 1 ? " has" : " have") +
+                                  " a new normal that points behind its own triangle");
+    }
+}
+
+/// "--a has no effect: ", "--a and --b have no effect: "
+void warn(const std::vector<std::string>& options, const std::string& why, GenerateReport& report) {
+    if (options.empty()) return;
+    std::string text;
+    for (std::size_t i = 0; i < options.size(); ++i)
+        text += (i == 0 ? "" : i + 1 == options.size() ? " and " : ", ") + options[i];
+    report.warnings.push_back(text + (options.size() == 1 ? " has" : " have") + " no effect: " + why);
+}
+
+template <class Test>
+bool any(const GenerateReport& report, const Test& test) {
+    return std::any_of(report.primitives.begin(), report.primitives.end(), test);
+}
+
+void warnOfNormals(const GenerateOptions& options, GenerateReport& report) {
+    const GenerateOptions plain;
+    std::vector<std::string> idle;
+    const bool any_made = any(report, [](const auto& primitive) { return primitive.normals_generated; });
+    if (!any_made) {
+        if (options.overwrite_normals) idle.emplace_back("--overwrite-normals");
+        const bool has_crease = options.normals.crease_angle_deg != plain.normals.crease_angle_deg;
+        // --crease alone is --normals angle, but for smoothing groups.
+        const bool follows = has_crease && options.normals.weighting == NormalWeighting::angle &&
+                             options.use_smoothing_groups == plain.use_smoothing_groups;
+        const bool is_weighted = options.normals.weighting != plain.normals.weighting && !follows;
+        if (is_weighted && !options.overwrite_normals) idle.emplace_back("--normals");
+        if (has_crease) idle.emplace_back("--crease");
+        if (options.normals_per_primitive) idle.emplace_back("--normals-per-primitive");
+        warn(idle,
+             options.overwrite_normals
+                 ? "there is no primitive whose normals can be made anew"
+                 : "no normals were made; those that are there stay (--overwrite-normals makes them anew)",
+             report);
+    }
+    const bool morphs = any(report, [](const auto& primitive) { return primitive.morph_normals_computed != 0; });
+    if (options.morph_normals != MorphNormals::keep && !morphs) {
+        const bool any_target = any(report, [](const auto& primitive) { return primitive.morph_target_count != 0; });
+        warn({"--morph-normals"},
+             any_target ? "no morph target moves a primitive whose normals stay and leaves them out"
+                        : "there are no morph targets",
+             report);
+    }
+}
+
+void warnOfTangents(const GenerateOptions& options, GenerateReport& report) {
+    const bool any_made = any(report, [](const auto& primitive) {
+        return wasComputed(primitive) || primitive.morph_deltas_computed != 0 || primitive.mended_vertex_count != 0;
+    });
+    if (any(report, wasComputed) && options.tangents.method == Method::basis) {
+        report.warnings.emplace_back(
+            "the tangents of the method basis follow no UVs: normal maps that are read with them are shaded wrong, and "
+            "check says so");
+    }
+    const TangentOptions plain, &tangents = options.tangents;
+    const bool any_normals = any(report, [](const auto& primitive) { return primitive.normals_generated; });
+    const bool refines_normals = any_normals && options.normals.weighting == NormalWeighting::best;
+    const bool has_refine = tangents.refine != plain.refine && !refines_normals;
+    if (any_made) {
+        if (has_refine && tangents.method != Method::best) warn({"--refine"}, "it is for --method best", report);
+        return;
+    }
+    std::vector<std::string> idle;
+    if (tangents.method != plain.method) idle.emplace_back("--method");
+    if (tangents.frame != plain.frame) idle.emplace_back("--frame");
+    if (tangents.pairing != plain.pairing) idle.emplace_back("--pairing");
+    if (tangents.angular_threshold_deg != plain.angular_threshold_deg) idle.emplace_back("--threshold");
+    if (options.faces == Faces::quads) idle.emplace_back("--faces");
+    if (has_refine) idle.emplace_back("--refine");
+    if (options.bitangents) idle.emplace_back("--bitangents");
+    if (!options.sanitize) idle.emplace_back("--no-sanitize");
+    if (options.sanitize_options.orthogonalize_all) idle.emplace_back("--orthogonalize");
+    if (options.format != GenerateOptions{}.format && !any_normals) idle.emplace_back("--format");
+    const bool any_kept = any(report, [](const auto& primitive) { return primitive.action == PrimitiveAction::kept; });
+    warn(idle, any_kept ? "no tangents were computed; those that are there stay" : "no tangents were computed", report);
+}
+
+}  // namespace
+
+void addWarnings(const GenerateOptions& options, GenerateReport& report) {
+    warnOfWinding(report);
+    if (report.primitives.empty()) return;
+    warnOfNormals(options, report);
+    warnOfTangents(options, report);
+    if (options.flip_green != FlipGreen::none && report.normal_maps.empty())
+        warn({options.flip_green == FlipGreen::all ? "--flip-green-all" : "--flip-green"}, "there is no normal map",
+             report);
+    if (options.mend_maps && report.normal_maps.empty()) warn({"--mend-maps"}, "there is no normal map", report);
+    const bool any_stripped =
+        any(report, [](const auto& primitive) { return primitive.action == PrimitiveAction::removed; });
+    if (options.strip && !any_stripped) warn({"--strip"}, "there are no tangents that no material needs", report);
+    if (options.convert_maps && report.converted_maps.empty())
+        warn({"--convert-maps"}, "no primitive with a normal map got other tangents", report);
+}
+
+}  // namespace tspace

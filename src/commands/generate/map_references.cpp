@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+#include "commands/generate/map_references.h"
+
+#include <algorithm>
+#include <map>
+
+#include "model/gltf/material_needs.h"
+#include "commands/generate/texture_sources.h"
+
+namespace tspace::gltf {
+
+MapReferences::Slot MapReferences::slotOf(const MapUser& user) const {
+    const bool is_coat = user.use->needed_by == "clearcoatNormalTexture";
+    if (user.use->only_in_variant) return {user.use->material, is_coat};
+    // As it is now: an earlier map may have given the primitive a copy of its material.
+    return {jsonOf(*user.primitive)["material"].get<std::size_t>(), is_coat};
+}
+
+Json& MapReferences::jsonOf(const Primitive& primitive) const {
+    return document_.json["meshes"][primitive.mesh]["primitives"][primitive.index];
+}
+
+bool MapReferences::shows(const Primitive& primitive, std::size_t material) const {
+    const Json* own = findMember(jsonOf(primitive), "material");
+    if (own != nullptr && isNumber(*own, material)) return true;
+    const std::vector<std::size_t> variants = variantMaterials(document_, primitive);
+    return std::find(variants.begin(), variants.end(), material) != variants.end();
+}
+
+/// Whether a primitive that is none of the users' shows the material.
+bool MapReferences::isShared(std::size_t material, std::span<const MapUser> users) const {
+    return std::any_of(primitives_.begin(), primitives_.end(), [&](const Primitive& primitive) {
+        const bool is_one =
+            std::any_of(users.begin(), users.end(), [&](const MapUser& user) { return user.primitive == &primitive; });
+        return !is_one && shows(primitive, material);
+    });
+}
+
+Json& MapReferences::reference(const Slot& slot) const {
+    Json& material = document_.json["materials"][slot.material];
+    if (!slot.is_coat) return material["normalTexture"];
+    return material["extensions"]["KHR_materials_clearcoat"]["clearcoatNormalTexture"];
+}
+
+bool MapReferences::isOfAlone(std::size_t image, std::span<const MapUser> users) const {
+    std::set<std::size_t> textures;
+    Json& list = document_.json["textures"];
+    for (std::size_t i = 0; i < list.size(); ++i) {
+        std::size_t sources = 0;
+        bool has_it = false;
+        forSources(list[i], [&](Json& source) {
+            ++sources;
+            has_it = has_it || isNumber(source, image);
+        });
+        if (!has_it) continue;
+        if (sources > 1) return false;
+        textures.insert(i);
+    }
+    std::set<Slot> slots;
+    for (const MapUser& user : users) slots.insert(slotOf(user));
+    std::size_t references = 0;
+    forTextureReferences(document_.json["materials"], [&](const std::string&, Json& reference) {
+        const Json& index = reference["index"];
+        if (index.is_number_unsigned() && textures.contains(index.get<std::size_t>())) ++references;
+    });
+    if (references != slots.size()) return false;
+    return std::none_of(slots.begin(), slots.end(), [&](const Slot& slot) { return isShared(slot.material, users); });
+}
+
+void MapReferences::setSource(Json& texture, std::size_t image) {
+    forSourceExtensions([&](const char* name) {
+        if (findExtension(texture, name) != nullptr) texture["extensions"].erase(name);
+    });
+    const Json* left = findMember(texture, "extensions");
+    if (left != nullptr && left->empty()) texture.erase("extensions");
+    texture["source"] = image;
+}
+
+void MapReferences::namePlainly(std::size_t image) {
+    for (Json& texture : document_.json["textures"]) {
+        bool shows_it = false;
+        forSources(texture, [&](Json& source) { shows_it = shows_it || isNumber(source, image); });
+        if (shows_it) setSource(texture, image);
+    }
+}
+
+std::string MapReferences::whyNotApart(std::span<const MapUser> users) const {
+    const Json& used = rootArray(document_, "extensionsUsed");
+    const bool has_pointers = std::any_of(used.begin(), used.end(), [](const Json& name) {
+        return name.is_string() && name.text() == "KHR_animation_pointer";
+    });
+    for (const MapUser& user : users) {
+        if (!isShared(slotOf(user).material, users)) continue;
+        if (user.use->only_in_variant) return "other primitives share its material in a variant, and need another map";
+        if (has_pointers) return "other primitives share its material, which may be animated, and need another map";
+    }
+    return {};
+}
+
+void MapReferences::redirect(std::span<const MapUser> users, std::size_t to_image) {
+    std::map<std::size_t, std::size_t> copies;    // of materials
+    std::map<std::size_t, std::size_t> textures;  // from old ones to those of the image
+    const auto ownTexture = [&](std::size_t from) {
+        const auto [own, is_new] = textures.try_emplace(from, document_.json["textures"].size());
+        if (is_new) {
+            Json copy = document_.json["textures"][from];
+            setSource(copy, to_image);
+            document_.json["textures"].push_back(std::move(copy));
+        }
+        return own->second;
+    };
+    // Decided before anything changes: a copy makes its original look less shared.
+    std::map<std::size_t, bool> is_shared;
+    for (const MapUser& user : users) {
+        const std::size_t material = slotOf(user).material;
+        if (!is_shared.contains(material)) is_shared[material] = isShared(material, users);
+    }
+    std::set<Slot> done;
+    for (const MapUser& user : users) {
+        Slot slot = slotOf(user);
+        if (copies.contains(slot.material) || is_shared[slot.material]) {
+            const auto [copy, is_new] = copies.try_emplace(slot.material, document_.json["materials"].size());
+            if (is_new) {
+                Json material = document_.json["materials"][slot.material];
+                document_.json["materials"].push_back(std::move(material));
+                is_shared[copy->second] = false;
+            }
+            slot.material = copy->second;
+            jsonOf(*user.primitive)["material"] = slot.material;
+        }
+        if (!done.insert(slot).second) continue;
+        Json& index = reference(slot)["index"];
+        index = ownTexture(index.get<std::size_t>());
+    }
+}
+
+}  // namespace tspace::gltf

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: MIT
+#include "commands/generate/mend_maps.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "model/io/file_error.h"
+#include "commands/shared/map_image_file.h"
+#include "tspace/map_height.h"
+
+namespace tspace {
+
+namespace {
+
+/// Half a sentence: what stood in the image.
+const char* whatItHeld(MapContent content) {
+    switch (content) {
+        case MapContent::twoChannels:
+            return "it held only x and y";
+        case MapContent::unsignedZ:
+            return "its blue was z itself";
+        case MapContent::xInAlpha:
+            return "it held x in alpha and y in green";
+        case MapContent::exchanged:
+            return "its channels were exchanged or inverted";
+        case MapContent::encoded:
+            return "it was stored as a picture, by the sRGB curve";
+        case MapContent::objectSpace:
+            return "it was in object space";
+        case MapContent::normals:
+        case MapContent::height:
+        case MapContent::picture:
+            break;
+    }
+    return "";
+}
+
+/// Empty, or why an image with such a content stays.
+std::string whyItStays(const MapLook& look, ImageFormat format) {
+    if (look.content == MapContent::normals) return "it holds what glTF reads";
+    if (look.content == MapContent::height)
+        return "it is grey: a height map, whose strength is not known (tspace height-to-normal)";
+    if (look.content == MapContent::picture) return "it is a picture in colors, and no normal map";
+    if (look.content == MapContent::objectSpace && !look.follows_mesh)
+        return "it is not in tangent space, nor in that of this mesh";
+    if (look.content == MapContent::objectSpace && look.is_in_world)
+        return "it is in world space (tspace convert-map --from world)";
+    if (format != ImageFormat::png && format != ImageFormat::jpeg)
+        return std::string("it is ") + formatName(format) + ", and the new one would be PNG";
+    return {};
+}
+
+bool isPicture(const FloatImage& image) {
+    const auto byteOf = [](float part) {
+        return static_cast<std::uint8_t>(std::clamp(part, 0.0F, 1.0F) * 255.0F + 0.5F);
+    };
+    std::vector<TexelBytes> texels;
+    texels.reserve(image.texels.size());
+    for (const Vec3& texel : image.texels) texels.push_back({byteOf(texel.x), byteOf(texel.y), byteOf(texel.z), 255});
+    return lookAtTexels(texels, false, {}).content == MapContent::picture;
+}
+
+/// All triangles that show the image, with the tangents that they will have, or nearly. `isUser(TangentUse)`.
+template <class IsUser>
+MapMesh meshOf(const Scene& scene, const GenerateOptions& options, const IsUser& isUser) {
+    MapMesh mesh;
+    Execution execution = options.execution;
+    execution.allocator = nullptr;
+    for (ScenePrimitive primitive : scene.primitives) {
+        if (options.existing == ExistingTangents::replace) primitive.tangents = {};
+        for (const TangentUse& use : primitive.uses) {
+            const bool has_uvs = use.uv_set < primitive.uv_sets.size() && !primitive.uv_sets[use.uv_set].empty();
+            if (!isUser(use) || !showsNormals(use) || primitive.corners.empty() || !has_uvs) continue;
+            addMapCorners(primitive, &use, options.tangents, execution, mesh);
+            mesh.wrap_u = use.wrap_u;
+            mesh.wrap_v = use.wrap_v;
+            mesh.report.scale = use.scale;
+        }
+    }
+    return mesh;
+}
+
+void toTangentSpace(const Scene& scene, std::size_t image_number, const GenerateOptions& options, FloatImage& image) {
+    const MapMesh mesh = meshOf(scene, options, [&](const TangentUse& use) { return use.image == image_number; });
+    MapSide to = tangentSide(mesh);
+    to.reading.scale = static_cast<float>(mesh.report.scale);
+    const MapImage map{image.width, image.height, image.texels, mesh.wrap_u, mesh.wrap_v};
+    valueOrThrow(convertMap(map, {.space = MapSpace::object}, to, {.bits = image.bits, .padding = 16}, image.texels,
+                            options.execution));
+}
+
+}  // namespace
+
+Bytes mendMap(const Scene& scene, ByteSpan bytes, const GenerateOptions& options, JudgedMap& map) {
+    map.report.reason = whyItStays(map.look, imageFormat(bytes));
+    if (!map.report.reason.empty()) return {};
+    if (!scene.memory->has(kMapPixelBytes * claimedSize(bytes).pixels())) {
+        map.report.reason = "it takes more memory than the limit";
+        return {};
+    }
+    std::optional<FloatImage> image = decodeFloatImage(bytes, kMostModelMapPixels, map.report.reason);
+    if (!image) return {};
+    MapLayout layout = map.look.layout;
+    layout.y.is_inverted = layout.y.is_inverted != map.is_y_inverted;
+    for (std::size_t i = 0; i < image->texels.size(); ++i)
+        image->texels[i] = readTexel(image->texels[i], image->alpha.empty() ? 1 : image->alpha[i], layout);
+    if (layout.x.channel == MapChannel::alpha) image->alpha.clear();
+    if (map.look.content == MapContent::objectSpace) toTangentSpace(scene, map.image, options, *image);
+    const auto file = encodePng(*image, image->bits);
+    if (!file) {
+        map.report.reason = "the new one cannot be packed as PNG";
+        return {};
+    }
+    map.report.mended = true;
+    map.report.reason = whatItHeld(map.look.content);
+    return Bytes(file->begin(), file->end());
+}
+
+MadeOfHeights makeOfHeights(const Scene& scene, std::size_t material, std::size_t image, double strength,
+                            const GenerateOptions& options) {
+    const ByteSpan bytes = scene.images[image].bytes;
+    // What is missing, or of a format that nobody reads here, is left out or kept as any texture is.
+    if (bytes.empty() || whyNotRead(imageFormat(bytes)) != nullptr) return {};
+    MadeOfHeights made{.is_height_map = true};
+    if (!scene.memory->has(kMapPixelBytes * claimedSize(bytes).pixels())) {
+        made.why_not = "it takes more memory than the limit";
+        return made;
+    }
+    std::optional<FloatImage> heights = decodeFloatImage(bytes, kMostModelMapPixels, made.why_not);
+    if (!heights) return made;
+    if (!isGreyImage(*heights)) {
+        made.is_height_map = isPicture(*heights);
+        made.why_not = "it is a picture in colors, neither heights nor a normal map";
+        return made;
+    }
+    const MapMesh mesh = meshOf(scene, options, [&](const TangentUse& use) { return use.material == material; });
+    if (mesh.uvs.empty()) {
+        made.why_not = "its faces have no texture coordinates";
+        return made;
+    }
+    Execution execution = options.execution;
+    execution.allocator = nullptr;
+    const std::vector<float> values = heightsOf(*heights);
+    const HeightToNormalReport report =
+        valueOrThrow(heightToNormal({heights->width, heights->height, values}, tangentSide(mesh),
+                                    {.strength = strength, .bits = heights->bits}, heights->texels, execution));
+    heights->alpha.clear();
+    const auto file = encodePng(*heights, heights->bits);
+    if (!file) {
+        made.why_not = "the normal map made of it cannot be packed as PNG";
+        return made;
+    }
+    made.file.assign(file->begin(), file->end());
+    made.mean_lean_deg = report.mean_lean_deg;
+    return made;
+}
+
+}  // namespace tspace

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+// heightToNormalFile: the image, the mesh, warnings.
+#include "model/io/atomic_output.h"
+#include "model/io/file_error.h"
+#include "model/io/file_io.h"
+#include "core/base/short_number.h"
+#include "commands/shared/map_image_file.h"
+#include "tspace/map_height_file.h"
+
+namespace tspace {
+
+namespace {
+
+/// Leans beyond say that the strength is told in other units than the mesh.
+constexpr double kSteepDeg = 60, kFlatDeg = 0.1;
+
+void addHeightWarnings(const HeightToNormalFileOptions& options, HeightToNormalFileReport& report) {
+    const auto warn = [&](std::string text) { report.warnings.push_back(std::move(text)); };
+    const std::string unit = options.mesh.empty() ? " texels" : " units of the model";
+    const HeightToNormalReport& texels = report.texels;
+    if (texels.mean_lean_deg > kSteepDeg) {
+        warn("the normals lean by " + shortNumber(texels.mean_lean_deg) +
+             " degrees in the mean: white stands higher than makes sense; the strength is told in" + unit);
+    }
+    if (texels.max_lean_deg < kFlatDeg) {
+        warn("the normals lean by " + shortNumber(texels.max_lean_deg) +
+             " degrees at most, so nothing of the relief shows; the strength is told in" + unit);
+    }
+    if (!options.mesh.empty() && texels.on_mesh == 0) warn("no triangle of the mesh shows the map");
+}
+
+HeightToNormalFileReport convertHeights(const std::string& input, const std::string& output,
+                                        const HeightToNormalFileOptions& requested) {
+    InputFiles inputs;
+    HeightToNormalFileOptions options = requested;
+    inputs.watch(options.file);
+    if (options.content.data() == nullptr) inputs.add(input);
+    if (!options.sink && lowerExtension(output) != ".png")
+        failFile(ErrorCode::unsupportedFile, "the output " + pathInQuotes(output) + " does not end in .png");
+    if (const char* why_not = whyNotRead(ImageFormat::png))
+        failFile(ErrorCode::unsupportedFile, "the output cannot be written: " + std::string(why_not));
+    if (options.bits != 8 && options.bits != 16) failFile(ErrorCode::invalidOption, "a PNG has 8 or 16 bits");
+    FloatImage image = readMapImage(input, options.content, options.file);
+    HeightToNormalFileReport report{.width = image.width, .height = image.height, .bits_before = image.bits};
+    report.bits = options.bits;
+    if (!isGreyImage(image))
+        report.warnings.emplace_back("the image has colors; the mean of red, green and blue counts as height");
+    MapMesh mesh;
+    if (!options.mesh.empty()) {
+        mesh = readNamedMapMesh(options.mesh, {.material = options.material, .image_name = fileNameOf(input)},
+                                options.tangents, options.file, options.execution);
+        report.mesh = mesh.report;
+    }
+    const std::vector<float> heights = heightsOf(image);
+    const TextureWrap wrap_u = options.clamp ? TextureWrap::clamp : mesh.wrap_u;
+    const TextureWrap wrap_v = options.clamp ? TextureWrap::clamp : mesh.wrap_v;
+    report.texels = valueOrThrow(heightToNormal(
+        {image.width, image.height, heights, wrap_u, wrap_v}, tangentSide(mesh),
+        {.strength = options.strength, .green = options.green, .bits = options.bits}, image.texels, options.execution));
+    addHeightWarnings(options, report);
+    image.alpha.clear();
+    writeMapImage(image, ImageFormat::png, options.bits, output,
+                  {.sink = options.sink, .is_dry_run = options.dry_run, .sync = options.file.sync, .inputs = &inputs});
+    return report;
+}
+
+}  // namespace
+
+Result<HeightToNormalFileReport> heightToNormalFile(const std::string& input, const std::string& output,
+                                                    const HeightToNormalFileOptions& options) {
+    return atFileBorder([&]() -> Result<HeightToNormalFileReport> { return convertHeights(input, output, options); });
+}
+
+}  // namespace tspace

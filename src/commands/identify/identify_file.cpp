@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+// Every primitive against every method, and what that says about the file.
+#include <algorithm>
+
+#include "model/io/file_error.h"
+#include "model/read/read_scene.h"
+#include "commands/identify/explain.h"
+#include "commands/identify/verdict.h"
+#include "core/mesh/quads/fit_quads.h"
+#include "tspace/identify.h"
+
+namespace tspace {
+
+namespace {
+
+std::string whyNot(const ScenePrimitive& primitive) {
+    if (primitive.corners.empty()) return "it has no triangles";
+    for (const SceneTangentFault& fault : primitive.tangent_faults) {
+        if (fault.target < 0) return "its tangents cannot be read: " + fault.why;
+    }
+    if (primitive.tangents.empty()) return primitive.tangents_not_read ? kNotRead : "it has no tangents";
+    if (primitive.normals.empty()) return "it has no normals";
+    const bool has_uvs = std::any_of(primitive.uv_sets.begin(), primitive.uv_sets.end(),
+                                     [](const SharedArray<Vec2>& set) { return !set.empty(); });
+    return has_uvs ? "" : "it has no UVs";
+}
+
+void addTo(Explanation& sum, const Explanation& part) {
+    const double weight = static_cast<double>(sum.corner_count), more = static_cast<double>(part.corner_count);
+    if (weight + more > 0) sum.mean_deg = (sum.mean_deg * weight + part.mean_deg * more) / (weight + more);
+    sum.corner_count += part.corner_count;
+    sum.near_count += part.near_count;
+    sum.near_any_count += part.near_any_count;
+    sum.gltf_sign_count += part.gltf_sign_count;
+    sum.inverted_sign_count += part.inverted_sign_count;
+    sum.undecided_count += part.undecided_count;
+}
+
+bool hasTwoReadings(const PrimitiveIdentity& primitive) {
+    const Explanation *turned = bestReading(primitive, true), *plain = bestReading(primitive, false);
+    return turned != nullptr && plain != nullptr &&
+           (turned->near_count != plain->near_count || turned->gltf_sign_count != plain->gltf_sign_count);
+}
+
+/// Of a method, along the texture's set in the reading that explains more. On quads where they are asked for and win.
+const Explanation* partOf(const PrimitiveIdentity& primitive, Method method, Faces faces) {
+    const Explanation* part = nullptr;
+    for (const Explanation& entry : primitive.explanations) {
+        const bool is_texture_reading = entry.is_textures_set && entry.is_transformed == followsTransform(primitive);
+        if (entry.method != method || !is_texture_reading) continue;
+        if (entry.faces == faces) return &entry;
+        if (entry.faces == Faces::triangles) part = &entry;
+    }
+    return part;
+}
+
+/// A sum on quads has the triangles of the primitives where quads do not win. It is there where it wins itself.
+std::vector<Explanation> overAllPrimitives(const std::vector<PrimitiveIdentity>& primitives) {
+    std::vector<Explanation> sums;
+    const auto add = [&](Method method, Faces faces) {
+        Explanation sum{.method = method, .faces = faces};
+        for (const PrimitiveIdentity& primitive : primitives) {
+            if (const Explanation* part = partOf(primitive, method, faces)) addTo(sum, *part);
+        }
+        if (sum.corner_count != 0) sums.push_back(sum);
+    };
+    add(Method::mikktspace, Faces::triangles);
+    add(Method::mikktspace, Faces::quads);
+    if (sums.size() == 2 && !quadsWin(sums[0].corner_count, sums[0].near_count, sums[1].near_count)) sums.pop_back();
+    for (const Method method : knownMethods()) {
+        if (method != Method::mikktspace) add(method, Faces::triangles);
+    }
+    sortExplanations(sums);
+    return sums;
+}
+
+PrimitiveIdentity identify(const ScenePrimitive& primitive, const IdentifyOptions& options) {
+    PrimitiveIdentity identity{.place = primitive.place,
+                               .mesh = primitive.mesh,
+                               .primitive = primitive.primitive,
+                               .mesh_name = primitive.mesh_name,
+                               .material_name = primitive.material_name,
+                               .skipped = whyNot(primitive)};
+    if (!identity.skipped.empty()) return identity;
+    identity.explanations = valueOrThrow(explainTangents(primitive, options));
+    if (identity.explanations.empty()) identity.skipped = "its UVs have no area";
+    sortExplanations(identity.explanations);
+    identity.has_two_readings = hasTwoReadings(identity);
+    // Of two readings with as many near corners the one whose signs fit stands first.
+    const auto follows =
+        std::find_if(identity.explanations.begin(), identity.explanations.end(), [&](const Explanation& entry) {
+            return entry.is_textures_set && entry.is_transformed == followsTransform(identity);
+        });
+    if (follows != identity.explanations.end() && follows->near_count == identity.explanations.front().near_count)
+        std::rotate(identity.explanations.begin(), follows, follows + 1);
+    return identity;
+}
+
+}  // namespace
+
+const char* signReadingName(SignReading reading) {
+    switch (reading) {
+        case SignReading::none:
+            return "none";
+        case SignReading::gltf:
+            return "gltf";
+        case SignReading::inverted:
+            return "inverted";
+        case SignReading::mixed:
+            return "mixed";
+    }
+    return "none";
+}
+
+SignReading Explanation::signs() const {
+    constexpr double kNearlyAll = 0.95;
+    const double most = kNearlyAll * static_cast<double>(corner_count);
+    if (gltf_sign_count + inverted_sign_count == 0) return SignReading::none;
+    if (static_cast<double>(gltf_sign_count) >= most) return SignReading::gltf;
+    if (static_cast<double>(inverted_sign_count) >= most) return SignReading::inverted;
+    return SignReading::mixed;
+}
+
+Result<Identification> identifyFile(const std::string& input, const IdentifyOptions& options) {
+    return atFileBorder([&]() -> Result<Identification> {
+        const Scene scene = readScene(input, options.file, false);
+        Identification result{.format = scene.format, .generator = scene.generator};
+        for (const ScenePrimitive& primitive : scene.primitives) {
+            result.primitives.push_back(identify(primitive, options));
+        }
+        result.explanations = overAllPrimitives(result.primitives);
+        result.verdict = verdictOf(result);
+        return result;
+    });
+}
+
+}  // namespace tspace

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: MIT
+// What is in a glTF file.
+#include <algorithm>
+
+#include "model/io/file_error.h"
+#include "model/gltf/accessor.h"
+#include "model/gltf/draco_primitives.h"
+#include "model/gltf/material_needs.h"
+#include "model/gltf/meshopt_views.h"
+#include "model/gltf/primitive_notes.h"
+#include "model/gltf/primitive_reader.h"
+#include "model/gltf/read_packed.h"
+#include "model/read/load_document.h"
+#include "commands/inspect/inspect.h"
+#include "commands/inspect/uv_map.h"
+
+namespace tspace {
+namespace {
+
+using namespace gltf;
+
+std::vector<std::string> readNames(const Json& root, const char* key) {
+    std::vector<std::string> names;
+    for (const Json& name : readArray(root, key, "", false)) {
+        if (name.is_string()) names.push_back(name.get<std::string>());
+    }
+    return names;
+}
+
+std::string indexTypeName(const Document& document, const Primitive& primitive) {
+    if (!primitive.indices) return "none";
+    switch (readAccessor(document, *primitive.indices).component) {
+        case ComponentType::u8:
+            return "u8";
+        case ComponentType::u16:
+            return "u16";
+        default:
+            return "u32";
+    }
+}
+
+const char* compressionName(const Document& document, const Primitive& primitive) {
+    const Json& json = document.json["meshes"][primitive.mesh]["primitives"][primitive.index];
+    if (findExtension(json, kDraco) != nullptr) return "draco";
+    for (const auto& [name, accessor] : primitive.attributes) {
+        const auto view = readAccessor(document, accessor).view;
+        if (view && meshoptExtension(rootArray(document, "bufferViews")[*view]) != nullptr) return "meshopt";
+    }
+    return "none";
+}
+
+void describeAttributes(const Document& document, const Primitive& primitive, PrimitiveInfo& info) {
+    for (const auto& [name, accessor] : primitive.attributes) {
+        info.attributes.push_back(name + " " + formatName(readAccessor(document, accessor)));
+    }
+    for (const auto& [name, accessor] : primitive.miscounted) {
+        const Accessor found = readAccessor(document, accessor);
+        info.attributes.push_back(name + " " + formatName(found) + " of " + std::to_string(found.count) + " elements");
+    }
+    for (const UnreadableTangents& tangents : primitive.unreadable_tangents) {
+        if (tangents.target >= 0) continue;
+        const Accessor found = readAccessor(document, tangents.accessor);
+        info.attributes.push_back("TANGENT " + formatName(found) + " of " + std::to_string(found.count) + " elements");
+    }
+    for (const StoredPacking& packing : findPacked(document, primitive)) {
+        if (packing.fault.empty()) info.packed_frames.push_back(packing.layout->format);
+    }
+    info.has_normals = primitive.find("NORMAL").has_value();
+    info.has_tangents = primitive.find("TANGENT").has_value();
+    info.tangents_not_read = !info.has_tangents && document.may_hide_tangents;
+    info.skinned = primitive.find("JOINTS_0").has_value();
+    while (primitive.find("TEXCOORD_" + std::to_string(info.uv_set_count))) ++info.uv_set_count;
+}
+
+/// False where the data is compressed in a way that this build cannot decode, or not in the file at all.
+bool hasTriangleData(const Document& document, const Primitive& primitive, const PrimitiveInfo& info) {
+    if (!hasTriangles(primitive.mode) || !primitive.find("POSITION")) return false;
+    std::vector<std::size_t> needed = {*primitive.find("POSITION")};
+    if (primitive.indices) needed.push_back(*primitive.indices);
+    if (info.uv_set >= 0) needed.push_back(*primitive.find("TEXCOORD_" + std::to_string(info.uv_set)));
+    return std::all_of(needed.begin(), needed.end(),
+                       [&](std::size_t accessor) { return hasData(document, readAccessor(document, accessor)); });
+}
+
+/// Counts over the triangles; nothing where there is no data.
+void describeTriangles(const Document& document, const Primitive& primitive, bool is_mirrored, PrimitiveInfo& info) {
+    if (!hasTriangleData(document, primitive, info)) return;
+    document.memory->require(std::uint64_t{72} * primitive.triangleCount() + std::uint64_t{64} * primitive.vertex_count,
+                             primitive.place());
+    // Positions first: they fail before a number of vertices without data costs any memory.
+    const std::vector<Vec3> positions = readVec3(document, primitive, "POSITION");
+    const std::vector<std::uint32_t> corners = readTriangleCorners(document, primitive);
+    info.triangle_count = corners.size() / 3;
+    std::vector<Vec2> uvs;
+    if (info.uv_set >= 0) uvs = readUvs(document, primitive, static_cast<std::size_t>(info.uv_set));
+    describeUvMap(corners, positions, uvs, !is_mirrored, info);
+}
+
+void describeUses(const std::vector<TangentUse>& uses, PrimitiveInfo& info) {
+    if (!uses.empty()) info.needed_by = uses[0].needed_by;
+    for (const TangentUse& use : uses) {
+        TangentUseInfo& entry = info.tangent_uses.emplace_back();
+        entry.needed_by = use.needed_by;
+        entry.place = use.place;
+        entry.material = static_cast<std::uint32_t>(use.material);
+        entry.only_in_variant = use.only_in_variant;
+        entry.uv_set = static_cast<std::int32_t>(use.uv_set);
+        std::copy_n(use.transform.offset, 2, entry.uv_offset);
+        entry.uv_rotation_rad = use.transform.rotation;
+        std::copy_n(use.transform.scale, 2, entry.uv_scale);
+        entry.follows_first = haveSameTangents(uses[0], use, TextureTransform::apply);
+    }
+}
+
+PrimitiveInfo describePrimitive(const Document& document, const Primitive& primitive) {
+    PrimitiveInfo info;
+    info.mesh = primitive.mesh;
+    info.primitive = primitive.index;
+    info.mesh_name = primitive.mesh_name;
+    info.material_name = materialName(document, primitive);
+    info.mode = modeName(primitive.mode);
+    info.triangle_count = primitive.triangleCount();
+    info.vertex_count = primitive.vertex_count;
+    info.index_type = indexTypeName(document, primitive);
+    info.compression = compressionName(document, primitive);
+    info.morph_target_count = static_cast<std::uint32_t>(primitive.targets.size());
+    describeAttributes(document, primitive, info);
+    const std::vector<TangentUse> uses = tangentUses(document, primitive);
+    describeUses(uses, info);
+    info.needs_tangents = !uses.empty() && hasTriangles(primitive.mode);
+    const std::size_t uv_set = uses.empty() ? 0 : uses[0].uv_set;
+    if (primitive.find("TEXCOORD_" + std::to_string(uv_set))) info.uv_set = static_cast<std::int32_t>(uv_set);
+    info.variant_material_count = static_cast<std::uint32_t>(variantMaterials(document, primitive).size());
+    describeTriangles(document, primitive, !uses.empty() && uses[0].transform.mirrors(), info);
+    return info;
+}
+
+/// How many nodes draw each mesh, and how often.
+struct MeshDraws {
+    std::uint32_t node_count = 0;
+    std::uint64_t instance_count = 0;
+};
+
+/// All instancing attributes of a node have one element per instance.
+std::uint64_t instanceCount(const Document& document, const Json& node, const std::string& place) {
+    const Json* instancing = findExtension(node, "EXT_mesh_gpu_instancing");
+    const Json* attributes = instancing == nullptr ? nullptr : findMember(*instancing, "attributes");
+    if (attributes == nullptr || !attributes->is_object() || attributes->empty()) return 1;
+    const std::string attribute_place = place + "/extensions/EXT_mesh_gpu_instancing/attributes";
+    const auto [name, first] = *attributes->items().begin();
+    const std::size_t accessor =
+        toIndex(first, join(attribute_place, name), rootArray(document, "accessors").size(), "accessor");
+    return readAccessor(document, accessor).count;
+}
+
+std::vector<MeshDraws> meshDraws(const Document& document) {
+    std::vector<MeshDraws> draws(rootArray(document, "meshes").size());
+    const Json& nodes = rootArray(document, "nodes");
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        const std::string place = join("/nodes", i);
+        const auto mesh = readIndex(nodes[i], "mesh", place, draws.size(), "mesh");
+        if (!mesh) continue;
+        ++draws[*mesh].node_count;
+        draws[*mesh].instance_count += instanceCount(document, nodes[i], place);
+    }
+    return draws;
+}
+
+std::vector<std::string> variantNames(const Document& document) {
+    std::vector<std::string> names;
+    const Json* extension = findExtension(document.json, "KHR_materials_variants");
+    if (extension == nullptr) return names;
+    const std::string place = "/extensions/KHR_materials_variants";
+    const Json& variants = readArray(*extension, "variants", place);
+    for (std::size_t i = 0; i < variants.size(); ++i)
+        names.push_back(readString(variants[i], "name", join(place + "/variants", i)));
+    return names;
+}
+
+std::uint32_t entryCount(const Document& document, const char* name) {
+    return static_cast<std::uint32_t>(rootArray(document, name).size());
+}
+
+}  // namespace
+
+Inspection inspectGltf(const std::string& input, const FileOptions& options) {
+    Document document = loadDocument(input, options);
+    Inspection result;
+    result.format = formatOf(document);
+    result.generator = generatorOf(document);
+    result.file_bytes = document.input_bytes;
+    result.mesh_count = entryCount(document, "meshes");
+    result.material_count = entryCount(document, "materials");
+    result.node_count = entryCount(document, "nodes");
+    result.animation_count = entryCount(document, "animations");
+    result.image_count = entryCount(document, "images");
+    result.extensions_used = readNames(document.json, "extensionsUsed");
+    result.extensions_required = readNames(document.json, "extensionsRequired");
+    checkRequiredExtensions(document);
+    result.warnings = document.warnings;
+    std::copy_n(document.coordinate_offset.begin(), 3, result.coordinate_offset);
+    result.variants = variantNames(document);
+    const std::vector<MeshDraws> draws = meshDraws(document);
+    for (const Primitive& primitive : readPrimitives(document)) {
+        PrimitiveInfo& info = result.primitives.emplace_back(describePrimitive(document, primitive));
+        info.node_count = draws[primitive.mesh].node_count;
+        info.instance_count = draws[primitive.mesh].instance_count;
+    }
+    return result;
+}
+
+}  // namespace tspace

@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <charconv>
+
+#include "model/io/atomic_output.h"
+#include "model/io/file_error.h"
+#include "model/io/file_io.h"
+#include "commands/bake/map_pictures.h"
+#include "commands/bake/model_surfaces.h"
+#include "images/float_image.h"
+#include "tspace/bake_file.h"
+
+namespace tspace {
+
+namespace {
+
+/// So much better must another reading be, that it is not chance: the map then fits that one.
+constexpr double kMuchBetter = 0.7, kLeastGainDeg = 0.02;
+/// Above this no reading explains a map.
+constexpr double kUnexplainedDeg = 5;
+
+struct TriedFrames {
+    std::string name = {};
+    std::vector<Vec4> tangents = {};  ///< empty: those of the low poly
+};
+
+/// All images of a model, or what of them the options ask for, as one.
+LowModel::Image shownPart(const LowModel& model, const MapErrorFileOptions& options) {
+    LowModel::Image shown;
+    for (const LowModel::Image& image : model.images) {
+        if (!options.material.empty() && image.material != options.material) continue;
+        if (shown.part.positions.empty()) {
+            shown.wrap_u = image.wrap_u;
+            shown.wrap_v = image.wrap_v;
+        }
+        for (std::size_t i = 0; i < image.part.triangleCount(); ++i) {
+            if (options.tile == 0 || tileOf(&image.part.uvs[3 * i]) == options.tile)
+                shown.part.addTriangle(image.part, i);
+        }
+    }
+    if (!shown.part.positions.empty()) return shown;
+    failFile(ErrorCode::missingAttribute, options.tile == 0
+                                              ? "no triangles have the material " + inQuotes(options.material)
+                                              : "no triangles lie in the tile " + std::to_string(options.tile));
+}
+
+std::string degreesWord(double degrees) {
+    char text[32];
+    const int digits = degrees < 0.1 ? 3 : 2;
+    return {text, std::to_chars(text, text + sizeof text, degrees, std::chars_format::fixed, digits).ptr};
+}
+
+class FileMeasuring {
+  public:
+    explicit FileMeasuring(const MapErrorFileOptions& options) : options_(options) {
+        options_.map.reading.two_channels = options_.map.reading.two_channels || options_.two_channels;
+        bake_.execution = options.execution;
+        bake_.progress = options.progress;
+        bake_.tangents = options.tangents;
+        bake_.normals = options.normals;
+        bake_.file = options.file;
+        inputs_.watch(bake_.file);
+        bake_.cage = options.cage;
+    }
+
+    MapErrorFileReport run(const std::string& map, const std::string& low, const std::string& high) {
+        inputs_.add(map);
+        image_ = aboutInput(BakeInput::map, [&] { return readMap(map); });
+        report_.width = image_.width;
+        report_.height = image_.height;
+        report_.bits = image_.bits;
+        const BakeModels models = readBakeModels(low, high, bake_);
+        report_.frames_made = models.low.frames_made;
+        report_.matched_by_name = models.matched_by_name;
+        report_.warnings = models.low.warnings;
+        report_.warnings.insert(report_.warnings.end(), models.high.warnings.begin(), models.high.warnings.end());
+        const LowModel::Image shown = aboutInput(BakeInput::low, [&] { return shownPart(models.low, options_); });
+        const LowPart& part = shown.part;
+        options_.map.reach = models.reach(options_.map.reach);
+        listFrames(low, models.low);
+        const MapImage view{.width = image_.width,
+                            .height = image_.height,
+                            .texels = image_.texels,
+                            .wrap_u = options_.tile == 0 ? shown.wrap_u : TextureWrap::repeat,
+                            .wrap_v = options_.tile == 0 ? shown.wrap_v : TextureWrap::repeat};
+        listReadings();
+        const std::vector<MapError> errors = aboutInput(BakeInput::low, [&] {
+            return valueOrThrow(measureReadings(view, part.view(), models.high.view(), candidates_, options_.map,
+                                                options_.execution, options_.progress));
+        });
+        for (std::size_t i = 0; i < errors.size(); ++i) report_.readings[i].error = errors[i];
+        // The first is what was asked for.
+        report_.error = errors.front();
+        shows_several_ = models.low.images.size() > 1 && options_.material.empty();
+        judge(report_.readings.front());
+        if (!options_.heat.empty()) writeHeat(view, part, models.high);
+        return std::move(report_);
+    }
+
+  private:
+    [[nodiscard]] FloatImage readMap(const std::string& path) const {
+        const Bytes bytes = readFile(path);
+        // Images of a usual size are read whatever their files weigh.
+        constexpr std::uint64_t kUsualPixels = std::uint64_t{1} << 26, kPixelBytes = 32;
+        const std::uint64_t limit = options_.file.memory_limit_bytes;
+        std::string why;
+        std::optional<FloatImage> image = decodeFloatImage(bytes, limit == 0 ? kUsualPixels : limit / kPixelBytes, why);
+        if (!image) failFile(ErrorCode::invalidFile, "the map cannot be read: " + why);
+        return *std::move(image);
+    }
+
+    /// TriedFrames that the map may have been made for.
+    void listFrames(const std::string& low, const LowModel& known) {
+        frames_.push_back({"file"});
+        struct Tried {
+            const char* name;
+            Method method;
+            Faces faces;
+        };
+        constexpr Tried kTried[] = {{"mikktspace", Method::mikktspace, Faces::triangles},
+                                    {"quads", Method::mikktspace, Faces::quads},
+                                    {"lengyel", Method::lengyel, Faces::triangles},
+                                    {"best", Method::best, Faces::triangles}};
+        for (const Tried& tried : kTried) {
+            bake_.tangents.method = tried.method;
+            const std::optional<LowModel> model = readLowAnew(low, bake_, tried.faces, known);
+            if (!model) continue;
+            std::vector<Vec4> tangents = shownPart(*model, options_).part.tangents;
+            const auto is_known = [&](const TriedFrames& frames) { return frames.tangents == tangents; };
+            if (tangents == shownPart(known, options_).part.tangents) continue;
+            if (std::none_of(frames_.begin(), frames_.end(), is_known))
+                frames_.push_back({tried.name, std::move(tangents)});
+        }
+    }
+
+    void listReadings() {
+        const auto add = [&](const std::string& frames, const MapCandidate& candidate) {
+            candidates_.push_back(candidate);
+            report_.readings.push_back({.frames = frames, .reading = candidate.reading});
+        };
+        const bool in_object = options_.map.space == MapSpace::object;
+        add(in_object ? "object" : "file", {options_.map.space, options_.map.reading, {}});
+        const MapReading& asked = options_.map.reading;
+        for (const TriedFrames& frames : frames_) {
+            for (const Green green : {Green::up, Green::down}) {
+                for (const bool per_vertex : {false, true}) {
+                    MapReading reading = asked;
+                    reading.green = green;
+                    reading.bitangent = per_vertex ? BitangentPlace::perVertex : BitangentPlace::perPixel;
+                    reading.unit_vectors = per_vertex;
+                    if (!in_object && frames.name == "file" && reading == asked) continue;
+                    add(frames.name, {MapSpace::tangent, reading, frames.tangents});
+                }
+            }
+        }
+        for (const Green green : {Green::up, Green::down}) {
+            if (in_object) break;
+            MapReading reading = asked;
+            reading.green = green;
+            reading.two_channels = !asked.two_channels;
+            add("file", {MapSpace::tangent, reading, {}});
+        }
+        if (!in_object) add("object", {MapSpace::object, {}, {}});
+    }
+
+    /// `asked` is a copy: the list is sorted.
+    void judge(const ExplainedReading asked) {
+        // Of readings that nobody could tell apart, the one that is most like what was asked for.
+        constexpr double kTie = 1.02;
+        const auto differences = [&](const ExplainedReading& reading) {
+            return (reading.frames != asked.frames ? 1 : 0) + (reading.reading.green != asked.reading.green ? 1 : 0) +
+                   (reading.reading.bitangent != asked.reading.bitangent ? 1 : 0) +
+                   (reading.reading.two_channels != asked.reading.two_channels ? 1 : 0);
+        };
+        std::stable_sort(report_.readings.begin(), report_.readings.end(),
+                         [](const auto& a, const auto& b) { return a.error.mean_deg < b.error.mean_deg; });
+        const double tie = kTie * report_.readings.front().error.mean_deg;
+        const auto end = std::find_if(report_.readings.begin(), report_.readings.end(),
+                                      [&](const ExplainedReading& reading) { return reading.error.mean_deg > tie; });
+        std::stable_sort(report_.readings.begin(), end,
+                         [&](const auto& a, const auto& b) { return differences(a) < differences(b); });
+        const ExplainedReading& best = report_.readings.front();
+        const double mean = asked.error.mean_deg, better = best.error.mean_deg;
+        report_.fits = !(better < kMuchBetter * mean && mean - better > kLeastGainDeg);
+        if (better > kUnexplainedDeg) {
+            report_.fits = false;
+            report_.verdict = "No way to read the map explains it: the best is wrong by " + degreesWord(better) +
+                              " degrees in the mean, so it is probably of another model, of other UVs, or its high "
+                              "poly is elsewhere" +
+                              (shows_several_ ? "; or of one material, which --material names." : ".");
+        } else if (report_.fits) {
+            report_.verdict =
+                "The map fits the model as it is: it is wrong by " + degreesWord(mean) + " degrees in the mean.";
+        } else {
+            report_.verdict = "The map was made for " + difference(asked, best) + ": read so it is wrong by " +
+                              degreesWord(better) + " degrees in the mean, and as it is read now by " +
+                              degreesWord(mean) + ".";
+        }
+    }
+
+    /// What the map was made for, and this model is not.
+    static std::string difference(const ExplainedReading& asked, const ExplainedReading& best) {
+        if (best.frames == "object") return "object space";
+        std::string words;
+        const auto add = [&](const std::string& word) { words += (words.empty() ? "" : ", and ") + word; };
+        if (best.reading.green != asked.reading.green)
+            add(best.reading.green == Green::down ? "green that points down (tspace flip-green turns it)"
+                                                  : "green that points up (tspace flip-green turns it)");
+        if (best.frames == "quads") {
+            add("the tangents of mikktspace on quads (tspace generate --overwrite --faces quads makes them)");
+        } else if (best.frames != asked.frames) {
+            add(best.frames == "file" ? "the tangents in the file"
+                                      : "other tangents than those in the file (tspace generate --overwrite --method " +
+                                            best.frames + " makes them)");
+        }
+        if (best.reading.bitangent != asked.reading.bitangent)
+            add(best.reading.bitangent == BitangentPlace::perVertex
+                    ? "a bitangent per vertex, as three.js and Godot have it"
+                    : "a bitangent per pixel");
+        if (best.reading.two_channels != asked.reading.two_channels)
+            add(best.reading.two_channels ? "two channels, whose z is made from x and y (--two-channels reads it so)"
+                                          : "three channels");
+        return words;
+    }
+
+    void writeHeat(const MapImage& view, const LowPart& part, const HighModel& high) {
+        MapErrorOptions options = options_.map;
+        options.heat = true;
+        const MapError error =
+            valueOrThrow(measureMap(view, part.view(), high.view(), options, options_.execution, options_.progress));
+        report_.heat_top_deg = error.p99_deg;
+        const std::optional<std::vector<std::uint8_t>> png = encodePng(
+            {.width = view.width, .height = view.height, .texels = pictureOfHeat(error.heat, error.p99_deg)}, 8);
+        if (!png) failFile(ErrorCode::unsupportedFile, "this build of tspace writes no PNG");
+        AtomicOutput files({.sync = options_.file.sync, .inputs = &inputs_});
+        files.add(options_.heat, std::span<const std::uint8_t>(*png));
+        files.commit();
+    }
+
+    MapErrorFileOptions options_;
+    InputFiles inputs_ = {};
+    BakeFileOptions bake_ = {};
+    FloatImage image_ = {};
+    std::vector<TriedFrames> frames_ = {};
+    std::vector<MapCandidate> candidates_ = {};
+    bool shows_several_ = false;  ///< materials
+    MapErrorFileReport report_ = {};
+};
+
+}  // namespace
+
+Result<MapErrorFileReport> mapErrorFile(const std::string& map, const std::string& low, const std::string& high,
+                                        const MapErrorFileOptions& options) {
+    return atFileBorder([&]() -> Result<MapErrorFileReport> { return FileMeasuring(options).run(map, low, high); });
+}
+
+}  // namespace tspace

@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: MIT
+#include "commands/render/model_picture.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "model/io/file_error.h"
+#include "commands/shared/uv_reading.h"
+#include "core/base/unit.h"
+#include "images/float_image.h"
+#include "commands/shared/picture/colors.h"
+#include "core/mesh/surface/surface.h"
+#include "core/mesh/surface/uv_islands.h"
+#include "tspace/sanitize.h"
+
+namespace tspace {
+
+namespace {
+
+/// One unit normal per corner; zero where the triangle has no area.
+std::vector<Vec3> flatNormals(const ScenePrimitive& primitive) {
+    std::vector<Vec3> normals;
+    normals.reserve(primitive.corners.size());
+    for (std::size_t i = 0; i + 2 < primitive.corners.size(); i += 3) {
+        const std::array<Vec3, 3> positions = {primitive.positions[primitive.corners[i]],
+                                               primitive.positions[primitive.corners[i + 1]],
+                                               primitive.positions[primitive.corners[i + 2]]};
+        normals.insert(normals.end(), 3, describeFace(positions, nullptr).normal);
+    }
+    return normals;
+}
+
+/// The UVs that tangents follow.
+UvReading tangentReading(const ScenePrimitive& primitive) {
+    if (!primitive.uses.empty()) return readingOf(primitive, primitive.uses.front());
+    std::size_t set = 0;
+    while (set + 1 < primitive.uv_sets.size() && primitive.uv_sets[set].empty()) ++set;
+    return plainReading(primitive, set);
+}
+
+template <class T>
+std::vector<T> unrolled(std::span<const T> values, std::span<const std::uint32_t> corners) {
+    std::vector<T> result;
+    result.reserve(corners.size());
+    for (const std::uint32_t vertex : corners) result.push_back(values[vertex]);
+    return result;
+}
+
+/// Which triangles show their texture mirrored: v runs down, so that a plain one has a negative determinant.
+std::vector<UvSide> sidesOf(const ScenePrimitive& primitive, const CornerValues<Vec3>& normals,
+                            std::span<const Vec2> uvs) {
+    const Surface surface =
+        describeSurface({.positions = primitive.positions.span(), .uvs = uvs, .corners = primitive.corners.span()});
+    std::vector<UvSide> sides;
+    for (std::size_t i = 0; i < surface.faces.size(); ++i) {
+        const SurfaceFrame& face = surface.faces[i];
+        bool is_known = face.orientation != 0;
+        for (std::size_t k = 0; k < 3; ++k)
+            is_known = is_known && facesNormal(face, normals.at(3 * i + k, primitive.corners[3 * i + k]));
+        sides.push_back(!is_known ? UvSide::unknown : face.orientation > 0 ? UvSide::mirrored : UvSide::plain);
+    }
+    return sides;
+}
+
+/// A PNG of 16 bits a channel.
+bool isDeepPng(ByteSpan bytes) {
+    constexpr std::size_t kBitsAt = 24;
+    return imageFormat(bytes) == ImageFormat::png && bytes.size() > kBitsAt && bytes[kBitsAt] == 16;
+}
+
+std::optional<PictureTexture> decodeDeep(ByteSpan bytes, std::uint64_t most_pixels, bool is_color, std::string& why) {
+    std::optional<FloatImage> image = decodeFloatImage(bytes, most_pixels, why);
+    if (!image) return {};
+    PictureTexture texture{.width = image->width, .height = image->height};
+    if (is_color) {
+        const std::vector<float> table = srgbTable(image->bits);
+        const auto most = static_cast<float>(table.size() - 1);
+        const auto light = [&](float stored) { return table[static_cast<std::size_t>(stored * most + 0.5f)]; };
+        for (Vec3& texel : image->texels) texel = {light(texel.x), light(texel.y), light(texel.z)};
+    }
+    texture.texels = std::move(image->texels);
+    texture.alpha = std::move(image->alpha);
+    return texture;
+}
+
+std::optional<PictureTexture> decodeBytes(ByteSpan bytes, std::uint64_t most_pixels, bool is_color, std::string& why) {
+    std::optional<RgbImage> image = decodeImage(bytes, most_pixels, why);
+    if (!image) return {};
+    PictureTexture texture{.width = image->width, .height = image->height, .bytes = std::move(image->rgb)};
+    if (is_color) {
+        texture.values = srgbTable(8);
+    } else {
+        for (int i = 0; i < 256; ++i) texture.values.push_back(static_cast<float>(i) / 255);
+    }
+    return texture;
+}
+
+}  // namespace
+
+std::vector<Vec4> computeCornerTangents(const ScenePrimitive& primitive, const CornerValues<Vec3>& normals,
+                                        Method method, const Execution& execution) {
+    const UvReading reading = tangentReading(primitive);
+    if ((reading.uvs.empty() && method != Method::basis) || primitive.corners.empty()) return {};
+    std::vector<Vec3> positions;
+    std::vector<Vec2> uvs;
+    MeshView mesh{.positions = primitive.positions.span(),
+                  .normals = normals.values,
+                  .uvs = reading.uvs,
+                  .indices = primitive.corners.span()};
+    if (normals.is_per_corner) {
+        positions = unrolled(primitive.positions.span(), primitive.corners.span());
+        if (!reading.uvs.empty()) uvs = unrolled(reading.uvs, primitive.corners.span());
+        mesh = {.positions = std::span<const Vec3>(positions),
+                .normals = normals.values,
+                .uvs = std::span<const Vec2>(uvs)};
+    }
+    std::vector<Vec4> tangents(primitive.corners.size());
+    valueOrThrow(
+        generateTangents(mesh, {.method = method, .convention = conventions::gltf}, {.tangents = tangents}, execution));
+    valueOrThrow(sanitizeTangents(mesh, {}, std::span(tangents), execution));
+    return tangents;
+}
+
+const PictureTexture* ModelTextures::read(const Wanted& wanted) {
+    const auto [entry, is_new] = images_.try_emplace(wanted);
+    if (is_new) entry->second = decode(wanted);
+    return entry->second ? &*entry->second : nullptr;
+}
+
+std::optional<PictureTexture> ModelTextures::decode(const Wanted& wanted) {
+    const SceneImage& source = scene_.images[wanted.image];
+    const bool in_floats = wanted.alpha || isDeepPng(source.bytes);
+    const std::uint64_t pixels = claimedSize(source.bytes).pixels();
+    const std::uint64_t kept = pixels * (in_floats ? sizeof(Vec3) + sizeof(float) : 3);
+    const std::uint64_t needed = kept + imageWorkBytes(source.bytes);
+    std::string why;
+    std::optional<PictureTexture> texture;
+    if (source.bytes.empty()) {
+        why = "it cannot be read";
+    } else if (scene_.memory && !scene_.memory->has(needed)) {
+        why = "it " + scene_.memory->whyNot(needed);
+    } else {
+        texture = in_floats ? decodeDeep(source.bytes, most_pixels_, wanted.is_color, why)
+                            : decodeBytes(source.bytes, most_pixels_, wanted.is_color, why);
+    }
+    if (texture && scene_.memory) scene_.memory->take(kept, {});
+    if (!texture) {
+        const std::string& name = source.uri.empty() ? source.name : source.uri;
+        warnings.push_back("the texture " + (name.empty() ? "image " + std::to_string(wanted.image) : inQuotes(name)) +
+                           " is not shown: " + why);
+    }
+    return texture;
+}
+
+ModelPicture::ModelPicture(const DrawnScene& drawn, RenderShow show, const FrameChoice& choice,
+                           const MapReading& reading, ModelTextures* textures)
+    : drawn_(drawn), show_(show), choice_(choice), reading_(reading), textures_(textures) {
+    surfaces_.resize(drawn.scene.primitives.size());
+    for (std::size_t i = 0; i < surfaces_.size(); ++i) {
+        if (!drawn.scene.primitives[i].corners.empty()) prepare(i);
+    }
+    place();
+}
+
+std::uint64_t ModelPicture::cornerCount() const {
+    std::uint64_t count = 0;
+    for (const ModelSurface& surface : surfaces_) count += surface.shown.corners.size();
+    return count;
+}
+
+void ModelPicture::prepare(std::size_t primitive) {
+    const ScenePrimitive& source = drawn_.scene.primitives[primitive];
+    ModelSurface& surface = surfaces_[primitive];
+    ShownSurface& shown = surface.shown;
+    if (drawn_.scene.memory) {
+        constexpr std::uint64_t kCornerBytes = 112;
+        drawn_.scene.memory->take(kCornerBytes * source.corners.size() + 40 * source.positions.size(), source.place);
+    }
+    shown.corners = source.corners.span();
+    if (source.normals.empty()) surface.flat_normals = flatNormals(source);
+    shown.normals = source.normals.empty() ? CornerValues<Vec3>{surface.flat_normals, true}
+                                           : CornerValues<Vec3>{source.normals.span(), false};
+    const SurfaceLook& look = drawn_.looks[primitive];
+    shown.base_color = look.base_color;
+    shown.alpha_cutoff = static_cast<float>(look.alpha_cutoff);
+    shown.is_unlit = look.is_unlit;
+    shown.reading = reading_;
+    shown.reading.scale *= static_cast<float>(look.normal_scale);
+    if (textures_ != nullptr) prepareTextures(primitive);
+    prepareFrames(primitive);
+}
+
+void ModelPicture::prepareTextures(std::size_t primitive) {
+    const ScenePrimitive& source = drawn_.scene.primitives[primitive];
+    const SurfaceLook& look = drawn_.looks[primitive];
+    ModelSurface& surface = surfaces_[primitive];
+    const auto placed = [&](const std::optional<TextureReading>& texture, bool is_color, bool alpha,
+                            std::vector<Vec2>& uvs) {
+        PlacedTexture result;
+        if (!texture || !texture->image) return result;
+        const std::size_t set = texture->uv_set;
+        if (set >= source.uv_sets.size() || source.uv_sets[set].empty()) return result;
+        result.image = textures_->read({*texture->image, is_color, alpha});
+        if (result.image == nullptr) return result;
+        uvs = textureUvs(source.uv_sets[set].span(), texture->transform);
+        result.uvs = uvs;
+        result.shape = {result.image->width, result.image->height, texture->wrap_u, texture->wrap_v};
+        return result;
+    };
+    const bool is_masked = look.alpha_cutoff > 0;
+    if (show_ == RenderShow::lit || is_masked)
+        surface.shown.base = placed(look.base_texture, true, is_masked, surface.base_uvs);
+    const bool reads_map = (show_ == RenderShow::lit && !look.is_unlit) || show_ == RenderShow::mapped;
+    if (reads_map) surface.shown.normal_map = placed(look.normal_texture, false, false, surface.normal_uvs);
+}
+
+void ModelPicture::prepareFrames(std::size_t primitive) {
+    const ScenePrimitive& source = drawn_.scene.primitives[primitive];
+    ModelSurface& surface = surfaces_[primitive];
+    ShownSurface& shown = surface.shown;
+    const UvReading reading = tangentReading(source);
+    if (show_ == RenderShow::sign || show_ == RenderShow::uv) {
+        if (!reading.uvs.empty()) surface.sides = sidesOf(source, shown.normals, reading.uvs);
+        shown.sides = surface.sides;
+    }
+    if (show_ == RenderShow::uv) {
+        if (reading.uvs.empty()) return;
+        surface.islands = findUvIslands(source.corners.span(), source.positions.span(), reading.uvs).island_of;
+        shown.islands = surface.islands;
+        for (const Vec2& uv : reading.uvs) surface.uv_positions.push_back({uv.x, -uv.y, 0});
+        return;
+    }
+    if (!choice_.always && shown.normal_map.image == nullptr) return;
+    // Tangents without normals count as absent, as glTF says.
+    const bool has_stored = !source.tangents.empty() && !source.normals.empty();
+    const bool shows_stored = has_stored && choice_.frames != RenderFrames::computed;
+    const bool may_compute = choice_.frames != RenderFrames::stored;
+    if (choice_.compare || (!shows_stored && may_compute))
+        surface.computed = computeCornerTangents(source, shown.normals, choice_.method, choice_.execution);
+    const CornerValues<Vec4> computed{surface.computed, true};
+    if (shows_stored) shown.tangents = {source.tangents.span(), false};
+    if (!shows_stored && may_compute) shown.tangents = computed;
+    if (choice_.compare) shown.expected = computed;
+    if (choice_.others.empty()) return;
+    shown.expected = {choice_.others[primitive].tangents, true};
+    shown.expected_normals = {choice_.others[primitive].normals, true};
+}
+
+void ModelPicture::place() {
+    const auto add = [&](std::size_t primitive, std::span<const Vec3> positions, const Affine& to_world) {
+        const ShownSurface& shown = surfaces_[primitive].shown;
+        if (shown.corners.empty() || positions.empty()) return;
+        DrawnMesh mesh{.positions = positions,
+                       .corners = shown.corners,
+                       .to_world = to_world,
+                       .is_double_sided = show_ == RenderShow::uv || drawn_.looks[primitive].is_double_sided};
+        if (show_ != RenderShow::uv && shown.alpha_cutoff > 0) {
+            mesh.is_there = [&shown](std::size_t triangle, const std::array<double, 3>& weights) {
+                return isThere(shown, triangle, weights);
+            };
+        }
+        meshes_.push_back(std::move(mesh));
+        shown_.push_back(&shown);
+    };
+    if (show_ == RenderShow::uv) {
+        for (std::size_t i = 0; i < surfaces_.size(); ++i) add(i, surfaces_[i].uv_positions, {});
+        return;
+    }
+    for (const ScenePlacement& placement : drawn_.placements) {
+        add(placement.primitive, drawn_.scene.primitives[placement.primitive].positions.span(), placement.to_world);
+    }
+}
+
+}  // namespace tspace

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+// A model made ready for pictures: its surfaces, their frames and textures.
+#pragma once
+
+#include <compare>
+#include <deque>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "model/scene/drawn_scene.h"
+#include "commands/shared/picture/draw_surfaces.h"
+#include "tspace/render.h"
+
+namespace tspace {
+
+/// Frames that those of a primitive are compared with, one per corner; zero: there is none. Empty: nothing is compared.
+struct OtherFrames {
+    std::vector<Vec3> normals = {};
+    std::vector<Vec4> tangents = {};
+};
+
+/// Which tangents a picture needs, and where from.
+struct FrameChoice {
+    RenderFrames frames = RenderFrames::automatic;
+    Method method = Method::mikktspace;
+    bool always = false;   ///< also where no normal map is read with them
+    bool compare = false;  ///< those of the method too
+    /// One per primitive, or none. What `error` compares with, in place of those of the method.
+    std::span<const OtherFrames> others = {};
+    Execution execution = {};
+};
+
+/// Tangents of `method` for a primitive, one per corner, as a glTF file has them: along the UVs of the texture that needs
+/// them, mended. Empty where it has none. `normals`: of the primitive. Throws FileError.
+std::vector<Vec4> computeCornerTangents(const ScenePrimitive& primitive, const CornerValues<Vec3>& normals,
+                                        Method method, const Execution& execution);
+
+/// The textures of a model, each decoded once.
+class ModelTextures {
+  public:
+    ModelTextures(const Scene& scene, std::uint64_t most_pixels) : scene_(scene), most_pixels_(most_pixels) {}
+
+    struct Wanted {
+        std::size_t image = 0;
+        bool is_color = false;  ///< stored as sRGB, and made linear
+        bool alpha = false;
+
+        auto operator<=>(const Wanted&) const = default;
+    };
+    /// Null where it cannot be shown, and a warning says why.
+    const PictureTexture* read(const Wanted& wanted);
+
+    std::vector<std::string> warnings = {};
+
+  private:
+    std::optional<PictureTexture> decode(const Wanted& wanted);
+
+    const Scene& scene_;
+    std::uint64_t most_pixels_;
+    std::map<Wanted, std::optional<PictureTexture>> images_ = {};
+};
+
+/// One primitive, and what was made for it.
+struct ModelSurface {
+    std::vector<Vec3> flat_normals = {};  ///< one per corner, where the file has none
+    std::vector<Vec4> computed = {};      ///< one per corner
+    std::vector<Vec2> base_uvs = {}, normal_uvs = {};
+    std::vector<UvSide> sides = {};
+    std::vector<std::uint32_t> islands = {};
+    std::vector<Vec3> uv_positions = {};  ///< (u, -v, 0)
+    ShownSurface shown = {};
+};
+
+/// Keeps a reference to the scene and the textures.
+class ModelPicture {
+  public:
+    /// Prepares all primitives that have triangles. Throws FileError.
+    ModelPicture(const DrawnScene& drawn, RenderShow show, const FrameChoice& choice, const MapReading& reading,
+                 ModelTextures* textures);
+
+    [[nodiscard]] std::span<const DrawnMesh> meshes() const { return meshes_; }
+    /// One per mesh.
+    [[nodiscard]] std::span<const ShownSurface* const> surfaces() const { return shown_; }
+    /// Of the file, each primitive once.
+    [[nodiscard]] std::uint64_t cornerCount() const;
+    [[nodiscard]] const ModelSurface& surfaceOf(std::size_t primitive) const { return surfaces_[primitive]; }
+
+  private:
+    void prepare(std::size_t primitive);
+    void prepareTextures(std::size_t primitive);
+    void prepareFrames(std::size_t primitive);
+    void place();
+
+    const DrawnScene& drawn_;
+    RenderShow show_;
+    FrameChoice choice_;
+    MapReading reading_;
+    ModelTextures* textures_;
+    std::deque<ModelSurface> surfaces_ = {};  ///< one per primitive
+    std::vector<DrawnMesh> meshes_ = {};
+    std::vector<const ShownSurface*> shown_ = {};
+};
+
+}  // namespace tspace

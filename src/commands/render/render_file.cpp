@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+// renderFile: reads a model, draws it, writes the picture.
+#include <cmath>
+
+#include "model/io/atomic_output.h"
+#include "model/io/file_error.h"
+#include "model/read/read_scene.h"
+#include "core/base/unit.h"
+#include "commands/render/draw_model.h"
+#include "commands/render/picture_file.h"
+#include "commands/render/shown_heights.h"
+
+namespace tspace {
+
+namespace {
+
+void checkRenderOptions(const RenderOptions& options) {
+    constexpr std::uint32_t kLeastPixels = 16, kMostPixels = 8192, kMostSamples = 16384;
+    constexpr std::uint64_t kMostInAll = std::uint64_t{1} << 26;
+    for (const std::uint32_t pixels : {options.width, options.height}) {
+        if (pixels < kLeastPixels || pixels > kMostPixels)
+            failFile(ErrorCode::invalidOption, "a picture has 16 to 8192 pixels along each side");
+        if (options.samples < 1 || options.samples > 4 || pixels * options.samples > kMostSamples)
+            failFile(ErrorCode::invalidOption,
+                     "a picture has 1 to 4 samples along each side of a pixel, and 16384 in all");
+    }
+    if (std::uint64_t{options.width} * options.samples * options.height * options.samples > kMostInAll)
+        failFile(ErrorCode::invalidOption, "the picture has more than 67108864 samples; ask for fewer of each pixel");
+    if (!std::isfinite(options.yaw_deg) || !std::isfinite(options.pitch_deg))
+        failFile(ErrorCode::invalidOption, "an angle of the view is not a number");
+    if (!(options.field_of_view_deg >= 0 && options.field_of_view_deg <= 120))
+        failFile(ErrorCode::invalidOption, "the field of view is not from 0 to 120 degrees");
+    DVec3 light = toDouble(options.to_light);
+    if (!normalize(light)) failFile(ErrorCode::invalidOption, "the direction to the light has no length");
+    if (!std::isfinite(options.reading.scale))
+        failFile(ErrorCode::invalidOption, "the scale of the normal map is not a number");
+}
+
+bool showsTangents(RenderShow show) {
+    return show == RenderShow::tangents || show == RenderShow::sign || show == RenderShow::error;
+}
+
+RenderReport renderModel(const std::string& input, const std::string& output, const RenderOptions& options) {
+    checkRenderOptions(options);
+    InputFiles inputs;
+    FileOptions file_options = options.file;
+    inputs.watch(file_options);
+    DrawnScene drawn = readDrawnScene(input, file_options, options.textures);
+    std::vector<std::string> height_warnings;
+    if (options.textures && options.show != RenderShow::uv)
+        height_warnings = showHeights(options.method, options.execution, drawn);
+    ModelTextures textures(drawn.scene, options.most_pixels);
+    const bool compares = options.show == RenderShow::error;
+    const FrameChoice choice{.frames = compares ? RenderFrames::stored : options.frames,
+                             .method = options.method,
+                             .always = showsTangents(options.show),
+                             .compare = compares,
+                             .execution = options.execution};
+    const ModelPicture model(drawn, options.show, choice, options.reading, options.textures ? &textures : nullptr);
+    RenderReport report{.show = options.show, .width = options.width, .height = options.height};
+    report.primitive_count = drawn.scene.primitives.size();
+    report.warnings = drawn.scene.warnings;
+    const SurfacePicture picture = drawModel(model, options);
+    report.error_sample_count = picture.errors.count;
+    report.max_error_deg = picture.errors.max_deg;
+    if (picture.errors.count > 0)
+        report.mean_error_deg = picture.errors.sum_deg / static_cast<double>(picture.errors.count);
+    for (const DrawnMesh& mesh : model.meshes()) report.triangle_count += mesh.corners.size() / 3;
+    for (std::size_t i = 0; i < drawn.scene.primitives.size(); ++i) {
+        const ModelSurface& surface = model.surfaceOf(i);
+        report.computed_count += !surface.computed.empty();
+        report.without_tangents_count +=
+            !drawn.scene.primitives[i].corners.empty() && choice.always && surface.shown.tangents.empty();
+    }
+    report.warnings.insert(report.warnings.end(), height_warnings.begin(), height_warnings.end());
+    report.warnings.insert(report.warnings.end(), textures.warnings.begin(), textures.warnings.end());
+    const std::vector<std::uint8_t> png = encodePicture(picture.image);
+    AtomicOutput files(
+        {.sink = options.sink, .is_dry_run = options.dry_run, .sync = options.file.sync, .inputs = &inputs});
+    files.add(output, std::span<const std::uint8_t>(png));
+    files.commit();
+    return report;
+}
+
+}  // namespace
+
+const char* renderShowName(RenderShow show) {
+    constexpr const char* kNames[] = {"lit", "normals", "tangents", "sign", "error", "uv", "mapped"};
+    const auto number = static_cast<std::size_t>(show);
+    return number < std::size(kNames) ? kNames[number] : "";
+}
+
+Result<RenderReport> renderFile(const std::string& input, const std::string& output, const RenderOptions& options) {
+    return atFileBorder([&]() -> Result<RenderReport> { return renderModel(input, output, options); });
+}
+
+}  // namespace tspace

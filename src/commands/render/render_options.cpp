@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: MIT
+// What a picture shows, and from where.
+#include <array>
+#include <cstdlib>
+
+#include "core/base/angle.h"
+#include "commands/shared/file_options.h"
+#include "commands/shared/request.h"
+
+namespace tspace::options {
+namespace {
+
+constexpr Named<RenderShow> kShows[] = {
+    {"lit", RenderShow::lit},       {"normals", RenderShow::normals}, {"tangents", RenderShow::tangents},
+    {"sign", RenderShow::sign},     {"error", RenderShow::error},     {"uv", RenderShow::uv},
+    {"mapped", RenderShow::mapped},
+};
+constexpr Named<RenderFrames> kShownFrames[] = {
+    {"auto", RenderFrames::automatic},
+    {"stored", RenderFrames::stored},
+    {"computed", RenderFrames::computed},
+};
+struct NamedView {
+    const char* name;
+    double yaw_deg, pitch_deg;
+};
+constexpr NamedView kViews[] = {{"front", 0, 0}, {"back", 180, 0},   {"left", -90, 0},         {"right", 90, 0},
+                                {"top", 0, 90},  {"bottom", 0, -90}, {"three-quarter", 35, 20}};
+/// Readings of normal maps that findMapReading knows.
+constexpr const char* kReadings[] = {"gltf", "opengl", "directx", "unreal", "unity", "blender", "godot", "three"};
+
+/// Numbers with commas between them, and nothing else.
+template <std::size_t count>
+bool parseNumbers(const std::string& text, std::array<double, count>& numbers) {
+    std::size_t begin = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::size_t end = i + 1 < count ? text.find(',', begin) : text.size();
+        if (end == std::string::npos || !parseReal(text.substr(begin, end - begin), numbers[i])) return false;
+        begin = end + 1;
+    }
+    return true;
+}
+
+Vec3 directionOf(double yaw_deg, double pitch_deg) {
+    const SineCosine yaw = sineCosine(yaw_deg * (kPi / 180)), pitch = sineCosine(pitch_deg * (kPi / 180));
+    return toFloat({yaw.sine * pitch.cosine, pitch.sine, yaw.cosine * pitch.cosine});
+}
+
+Option viewOption(RenderOptions& options) {
+    const auto take = [&options](const std::string& text) -> std::string {
+        for (const NamedView& view : kViews) {
+            if (text != view.name) continue;
+            options.yaw_deg = view.yaw_deg;
+            options.pitch_deg = view.pitch_deg;
+            return {};
+        }
+        std::array<double, 2> angles{};
+        if (!parseNumbers(text, angles) || std::abs(angles[0]) > 360 || std::abs(angles[1]) > 90) {
+            return "must be front, back, left, right, top, bottom, three-quarter, or YAW,PITCH in degrees, yaw from "
+                   "-360 to 360 and pitch from -90 to 90";
+        }
+        options.yaw_deg = angles[0];
+        options.pitch_deg = angles[1];
+        return {};
+    };
+    Option made =
+        option("--view", "VIEW", take,
+               "Where the camera stands: front (it looks from +z, the front of glTF models), back, left, right "
+               "(from +x), top (from +y), bottom, three-quarter, or YAW,PITCH in degrees.");
+    made.default_text = "three-quarter";
+    return made;
+}
+
+Option lightOption(RenderOptions& options) {
+    const auto take = [&options](const std::string& text) -> std::string {
+        std::array<double, 2> angles{};
+        std::array<double, 3> towards{};
+        if (parseNumbers(text, towards)) {
+            options.to_light = {static_cast<float>(towards[0]), static_cast<float>(towards[1]),
+                                static_cast<float>(towards[2])};
+        } else if (parseNumbers(text, angles) && std::abs(angles[0]) <= 360 && std::abs(angles[1]) <= 90) {
+            options.to_light = directionOf(angles[0], angles[1]);
+        } else {
+            return "must be X,Y,Z, or YAW,PITCH in degrees, yaw from -360 to 360 and pitch from -90 to 90";
+        }
+        const Vec3& light = options.to_light;
+        return light.x == 0 && light.y == 0 && light.z == 0 ? "must not be 0" : "";
+    };
+    Option made =
+        option("--light", "DIRECTION", take,
+               "For lit: towards the lamp, as the camera sees it. X,Y,Z: to the right, up, and to the camera; or "
+               "YAW,PITCH in degrees, where 0,0 is the camera.");
+    made.default_text = "-0.45,0.65,0.8";
+    return made;
+}
+
+Option sizeOption(RenderOptions& options) {
+    const auto take = [&options](const std::string& text) -> std::string {
+        const std::size_t cross = text.find('x');
+        std::uint64_t width = 0, height = 0;
+        const std::string second = cross == std::string::npos ? text : text.substr(cross + 1);
+        constexpr std::uint64_t kLeast = 16, kMost = 8192;
+        if (!parseNumber(text.substr(0, cross), width) || !parseNumber(second, height) || width < kLeast ||
+            height < kLeast || width > kMost || height > kMost)
+            return "must be N or WIDTHxHEIGHT, 16 to 8192 pixels";
+        options.width = static_cast<std::uint32_t>(width);
+        options.height = static_cast<std::uint32_t>(height);
+        return {};
+    };
+    Option made = option("--size", "SIZE", take, "Pixels of the picture: N for a square, or WIDTHxHEIGHT.");
+    made.default_text = "1024";
+    return made;
+}
+
+Option readingOption(RenderOptions& options) {
+    const auto take = [&options](const std::string& name) {
+        if (const MapReading* reading = findMapReading(name.c_str())) options.reading = *reading;
+        return std::string();
+    };
+    Option made = option("--reading", "PROGRAM", take,
+                         "How normal maps are read: as glTF says, or as this program does it: opengl, directx, unreal, "
+                         "unity, blender, godot or three. Frames stay those of glTF.");
+    for (const char* name : kReadings) made.choices.emplace_back(name);
+    made.default_text = kReadings[0];
+    return made;
+}
+
+}  // namespace
+
+OptionList renderOptions(RenderOptions& options) {
+    OptionList list;
+    const char* picture = "Picture";
+    add(list, kInputAndOutput, flag("--dry-run", options.dry_run, "Do everything but write."));
+    addAllowExternal(list, options.file);
+    add(list, picture,
+        choice("--show", "WHAT", kShows, options.show,
+               "lit: the model in the light of one lamp, with its normal maps; normals, tangents: N and T as colours; "
+               "sign: w, and mirrored parts of the UV map; error: how far the tangents are from those of --method; uv: "
+               "the UV map and its islands; mapped: the normals that lit shades, as colours."));
+    add(list, picture, viewOption(options));
+    add(list, picture, lightOption(options));
+    add(list, picture, sizeOption(options));
+    add(list, picture,
+        degrees("--fov", options.field_of_view_deg, 120,
+                "Field of view along the shorter side, in degrees, 0 to 120; 0: parallel rays."));
+    add(list, picture,
+        number("--samples", options.samples, 4,
+               "Points that are looked at along each side of a pixel: 1 to 4. 1: its centre alone, so that colours are "
+               "exact."));
+    const char* frames = "Frames";
+    add(list, frames,
+        choice("--frames", "WHOSE", kShownFrames, options.frames,
+               "Whose tangents are shown. auto: those of the file, and those of --method where it has none; stored, "
+               "computed: only those. error always compares the two."));
+    add(list, frames,
+        choice("--method", "NAME", kMethods, options.method, "Which tangents are computed, as for generate."));
+    add(list, frames, readingOption(options));
+    add(list, frames, setting("--no-textures", options.textures, false, "Leave out base colours and normal maps."));
+    addThreads(list, options.execution,
+               "Number of threads; 0: as many as there are cores. Changes no byte of the picture.");
+    addLimits(list, options.file);
+    addSync(list, options.file.sync);
+    return list;
+}
+
+}  // namespace tspace::options

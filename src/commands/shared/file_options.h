@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+// Options that several calls have.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "commands/shared/option_table.h"
+#include "tspace/asset.h"
+#include "tspace/map_reading.h"
+
+namespace tspace::options {
+
+inline constexpr Named<Convention> kConventions[] = {
+    {"gltf", conventions::gltf},     {"opengl", conventions::opengl}, {"directx", conventions::directx},
+    {"unreal", conventions::unreal}, {"unity", conventions::unity},   {"blender", conventions::blender},
+    {"godot", conventions::godot},
+};
+inline constexpr Named<Method> kMethods[] = {
+    {"mikktspace", Method::mikktspace}, {"lengyel", Method::lengyel}, {"uniform", Method::uniform},
+    {"angle", Method::angle},           {"area", Method::area},       {"flat", Method::flat},
+    {"basis", Method::basis},           {"fast", Method::fast},       {"best", Method::best},
+};
+inline constexpr Named<Faces> kFaces[] = {
+    {"triangles", Faces::triangles},
+    {"quads", Faces::quads},
+    {"auto", Faces::automatic},
+};
+
+/// Headings in help. What stands under the last decides how a call runs, not what it finds or writes.
+inline constexpr const char* kInputAndOutput = "Input and output";
+inline constexpr const char* kRunning = "Running";
+
+/// A program whose reading of normal maps is meant: the names of findMapReading.
+Option readingOption(const char* names, MapReading& target, HelpText help);
+void addAllowExternal(OptionList& list, FileOptions& file);
+void addKeepCoordinates(OptionList& list, FileOptions& file);
+void addThreads(OptionList& list, Execution& execution, HelpText help);
+/// Only the first of the limits: for what needs no importer.
+void addMemoryLimit(OptionList& list, std::uint64_t& memory_limit_bytes);
+void addLimits(OptionList& list, FileOptions& file);
+/// For calls that write: FileOptions::sync.
+void addSync(OptionList& list, bool& sync);
+/// Which primitives of a model show a map.
+void addMaterialOfMap(OptionList& list, std::string& material);
+
+}  // namespace tspace::options

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT
+#include "commands/shared/page/check_page.h"
+
+#include <algorithm>
+#include <memory>
+
+#include "model/io/file_error.h"
+#include "commands/shared/html_text.h"
+#include "commands/shared/page/finding_pictures.h"
+#include "commands/shared/page/page_parts.h"
+#include "commands/shared/counted.h"
+
+namespace tspace {
+
+namespace {
+
+using report::counted;
+
+constexpr std::size_t kMostPicturedFindings = 12;
+
+std::string severityCounts(const CheckReport& report) {
+    if (report.findings.empty()) return "<b class=\"good\">nothing found</b>";
+    return "<b class=\"error\">" + counted(report.error_count, "error") + "</b>, <b class=\"warning\">" +
+           counted(report.warning_count, "warning") + "</b>, <b class=\"note\">" + counted(report.note_count, "note") +
+           "</b>";
+}
+
+std::string whereHtml(const Finding& finding) {
+    if (finding.place.empty()) return {};
+    std::string text = "mesh " + std::to_string(finding.mesh);
+    if (!finding.mesh_name.empty()) text += " \"" + htmlText(finding.mesh_name) + "\"";
+    text += ", primitive " + std::to_string(finding.primitive);
+    if (!finding.material_name.empty()) text += ", material \"" + htmlText(finding.material_name) + "\"";
+    return "<p class=\"dim\">" + text + " (at " + htmlText(finding.place) + ")</p>\n";
+}
+
+std::string figuresOf(const FindingPicture& picture) {
+    if (picture.before.empty()) return {};
+    const std::string command = "after " + picture.command;
+    std::string figures = figureHtml(picture.before, kPlaceWidth, kPlaceHeight, "as the file is");
+    if (!picture.after.empty()) return figures + figureHtml(picture.after, kPlaceWidth, kPlaceHeight, command);
+    const std::string why = picture.command.empty() ? "No picture of the remedy: no command of tspace gives it."
+                                                    : "No picture " + command + ": " + picture.why_no_after;
+    return figures + noFigureHtml(why);
+}
+
+/// Pictures of one file, as long as there is room; nothing where they cannot be had. The file is read when the first is
+/// asked for.
+class PictureSource {
+  public:
+    PictureSource(std::string input, const FileOptions& file, std::size_t room)
+        : input_(std::move(input)), file_(file), room_(room) {}
+
+    std::string html(const Finding& finding) {
+        if (finding.place.empty() || is_over_ || input_ == "-") return {};
+        std::string figures;
+        try {
+            if (!pictures_) pictures_ = std::make_unique<FindingPictures>(input_, file_);
+            figures = figuresOf(pictures_->draw(finding));
+        } catch (const FileError&) {
+            // What is wrong with the file has been said.
+            is_over_ = true;
+        }
+        if (figures.empty()) return {};
+        is_over_ = is_over_ || figures.size() > room_ || ++count_ >= kMostPicturedFindings;
+        if (figures.size() > room_) return {};
+        room_ -= figures.size();
+        return figuresHtml(figures);
+    }
+
+  private:
+    std::string input_;
+    FileOptions file_;
+    std::unique_ptr<FindingPictures> pictures_ = {};
+    std::size_t room_, count_ = 0;
+    bool is_over_ = false;
+};
+
+std::string findingHtml(const Finding& finding, PictureSource& pictures) {
+    std::string html = "<article class=\"" + std::string(severityName(finding.severity)) + "\">\n<h3><b>" +
+                       severityName(finding.severity) + "</b> " + findingName(finding.code) + "</h3>\n";
+    html += "<p>" + htmlText(finding.message) + "</p>\n" + whereHtml(finding);
+    html += "<p>Mend: " + htmlText(finding.remedy) + "</p>\n" + pictures.html(finding);
+    return html + "</article>\n";
+}
+
+std::string anchorOf(std::size_t number) { return "file-" + std::to_string(number + 1); }
+
+std::string fileHtml(const report::CheckOutcome& outcome, std::size_t number, const FileOptions& file,
+                     std::size_t room) {
+    std::string html = "<section id=\"" + anchorOf(number) + "\">\n<h2>" + htmlText(outcome.input) + "</h2>\n";
+    if (!outcome.result) {
+        return html + "<article class=\"error\"><h3><b>error</b> not read</h3><p>" +
+               htmlText(outcome.result.error().message) + "</p></article>\n</section>\n";
+    }
+    const CheckReport& report = *outcome.result;
+    html += "<p>" + severityCounts(report) + " in " + counted(report.primitive_count, "primitive") + ", " +
+            std::to_string(report.tangents_count) + " of them with tangents; looked at " +
+            counted(report.image_count, "normal map") +
+            ": what the channels hold, and which way green points (told by " + std::to_string(report.green_count) +
+            ")</p>\n";
+    if (!report.generator.empty()) html += "<p class=\"dim\">made by " + htmlText(report.generator) + "</p>\n";
+    PictureSource pictures(outcome.input, file, room);
+    for (const Finding& finding : report.findings) html += findingHtml(finding, pictures);
+    return html + "</section>\n";
+}
+
+std::string overviewHtml(const std::vector<report::CheckOutcome>& outcomes) {
+    std::string html =
+        "<div class=\"scroll\"><table><thead><tr><th>file</th><th class=\"n\">errors</th><th class=\"n\">warnings</th>"
+        "<th class=\"n\">notes</th></tr></thead><tbody>\n";
+    for (std::size_t i = 0; i < outcomes.size(); ++i) {
+        html += "<tr><td><a href=\"#" + anchorOf(i) + "\">" + htmlText(outcomes[i].input) + "</a></td>";
+        if (const auto& result = outcomes[i].result; result) {
+            for (const std::uint64_t count : {result->error_count, result->warning_count, result->note_count})
+                html += "<td class=\"n\">" + std::to_string(count) + "</td>";
+        } else {
+            html += "<td colspan=\"3\" class=\"n\"><b class=\"error\">not read</b></td>";
+        }
+        html += "</tr>\n";
+    }
+    return html + "</tbody></table></div>\n";
+}
+
+}  // namespace
+
+std::string checkPage(const std::vector<report::CheckOutcome>& outcomes, const FileOptions& file) {
+    std::string html = pageHead("tspace check");
+    html += "<h1>Frames of " + counted(outcomes.size(), "file") + "</h1>\n";
+    html +=
+        "<p class=\"dim\">Found by tspace check. An error surely renders wrong; a warning renders wrong in some "
+        "renderers, in a small part, or only perhaps; a note is worth knowing. Triangles of a finding are "
+        "outlined.</p>\n";
+    if (outcomes.size() > 1) html += overviewHtml(outcomes);
+    for (std::size_t i = 0; i < outcomes.size(); ++i) {
+        const std::size_t left = html.size() < kMostPageBytes ? kMostPageBytes - html.size() : 0;
+        html += fileHtml(outcomes[i], i, file, std::min(left, kMostModelBytes));
+    }
+    return html + pageEnd();
+}
+
+}  // namespace tspace

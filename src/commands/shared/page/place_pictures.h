@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+// Pictures of places on models.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "commands/diff/pair_primitives.h"
+#include "commands/render/model_picture.h"
+
+namespace tspace {
+
+/// A model that was read for pictures. How it is lit is prepared when it is first asked for.
+class PicturedModel {
+  public:
+    /// Throws FileError.
+    PicturedModel(const std::string& input, const FileOptions& options);
+    PicturedModel(const PicturedModel&) = delete;
+    PicturedModel& operator=(const PicturedModel&) = delete;
+
+    [[nodiscard]] const Scene& scene() const { return drawn_.scene; }
+    [[nodiscard]] const DrawnScene& drawn() const { return drawn_; }
+    /// `frames`: not computed. Throws FileError.
+    const ModelPicture& lit(RenderFrames frames);
+
+  private:
+    DrawnScene drawn_;
+    ModelTextures textures_;
+    std::unique_ptr<ModelPicture> lit_[2] = {};
+};
+
+/// Number of a primitive in a scene; kNoPrimitive: it is not there.
+std::size_t findPrimitive(const Scene& scene, std::uint32_t mesh, std::uint32_t primitive);
+
+/// Triangles of a primitive that have one of a few vertices, in their order.
+std::vector<std::size_t> trianglesAt(const ScenePrimitive& primitive, std::span<const std::uint32_t> vertices);
+
+/// Partners of triangles of A; those without one are left out.
+std::vector<std::size_t> partnersOf(const PrimitivePair& pair, std::span<const std::size_t> triangles);
+
+/// A PNG of kPlaceWidth by kPlaceHeight pixels that shows what `model` was made for, in which the triangles are outlined. The camera stands over them,
+/// where they are seen best; other meshes are left out where they hide them from every side. Without triangles it sees all
+/// of the primitive. Empty where the scene does not draw it. Throws FileError.
+std::vector<std::uint8_t> drawPlace(const ModelPicture& model, RenderShow show, std::size_t primitive,
+                                    std::span<const std::size_t> triangles);
+
+}  // namespace tspace

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+// The colour of a point of a surface: what docs/render.md calls a view.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "maps/shading.h"
+#include "commands/shared/picture/picture_texture.h"
+#include "core/mesh/surface/affine.h"
+#include "tspace/render.h"
+#include "tspace/vec.h"
+
+namespace tspace {
+
+/// Values of a primitive, one per vertex or one per corner.
+template <class T>
+struct CornerValues {
+    std::span<const T> values = {};
+    bool is_per_corner = false;
+
+    [[nodiscard]] bool empty() const { return values.empty(); }
+    [[nodiscard]] const T& at(std::size_t corner, std::uint32_t vertex) const {
+        return values[is_per_corner ? corner : vertex];
+    }
+};
+
+/// A texture, and the UVs that it is read with.
+struct PlacedTexture {
+    TextureShape shape = {};
+    const PictureTexture* image = nullptr;  ///< null: none
+    std::span<const Vec2> uvs = {};         ///< one per vertex, after any transform
+};
+
+/// Whether a triangle shows its texture mirrored.
+enum class UvSide : std::uint8_t { unknown, plain, mirrored };
+
+/// Of one primitive, all that views show.
+struct ShownSurface {
+    std::span<const std::uint32_t> corners = {};
+    CornerValues<Vec3> normals = {};
+    CornerValues<Vec4> tangents = {};                ///< empty: none
+    CornerValues<Vec4> expected = {};                ///< those that `error` compares with; empty: none
+    CornerValues<Vec3> expected_normals = {};        ///< likewise; empty: `normals`, which are not compared then
+    std::span<const UvSide> sides = {};              ///< one per triangle; empty: all unknown
+    std::span<const std::uint32_t> islands = {};     ///< one per triangle, for `uv`
+    std::array<float, 4> base_color = {1, 1, 1, 1};  ///< linear
+    PlacedTexture base = {};                         ///< linear
+    PlacedTexture normal_map = {};
+    MapReading reading = {};
+    float alpha_cutoff = 0;
+    bool is_unlit = false;
+};
+
+struct Lighting {
+    DVec3 to_light = {0, 0, 1};  ///< unit, in the world
+    DVec3 to_eye = {0, 0, 1};    ///< unit
+};
+
+/// A point of a triangle that is looked at.
+struct SurfacePoint {
+    std::size_t triangle = 0;
+    std::array<double, 3> weights = {};
+    bool is_back = false;  ///< seen from behind
+    std::uint32_t column = 0, row = 0;
+};
+
+/// Whether the surface is there: its alpha is not below the cutoff.
+bool isThere(const ShownSurface& surface, std::size_t triangle, const std::array<double, 3>& weights);
+
+/// Light of `lit`; for the other views the colour as it is stored. `to_world`: of the surface.
+Vec3 shadePoint(RenderShow show, const ShownSurface& surface, const Affine& to_world, const Lighting& lighting,
+                const SurfacePoint& point);
+
+/// The unit normal in the world that `lit` shades; zero where there is none. A surface seen from behind has it turned round.
+DVec3 mappedNormal(const ShownSurface& surface, const Affine& to_world, const SurfacePoint& point);
+
+/// The largest of the angles between T and T, B and B, and N and N where these are compared, at a point, in degrees; NaN
+/// where one is missing. Surfaces without any tangents have their normals compared alone.
+double frameError(const ShownSurface& surface, const SurfacePoint& point);
+
+}  // namespace tspace

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+// What is asked of a call on files, and the options that say it. A list of options fills the request that it is made for as
+// values are given (giveValue, readJsonOptions); the request must outlive the list.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "commands/shared/option_table.h"
+#include "tspace/asset.h"
+#include "tspace/bake_file.h"
+#include "tspace/check.h"
+#include "tspace/diff.h"
+#include "tspace/flip_green.h"
+#include "tspace/identify.h"
+#include "tspace/map_convert_file.h"
+#include "tspace/map_height_file.h"
+#include "tspace/render.h"
+
+namespace tspace::options {
+
+struct CheckRequest {
+    CheckOptions options = {};
+    Severity fail_on = Severity::error;        ///< findings from here on make a check fail
+    Severity least_severity = Severity::note;  ///< findings below are left out
+    std::vector<FindingCode> ignored = {};     ///< these too
+};
+
+struct DiffRequest {
+    DiffOptions options = {};
+    double tolerance_deg = 1;
+};
+
+OptionList generateOptions(GenerateOptions& options);
+OptionList checkOptions(CheckRequest& request);
+OptionList diffOptions(DiffRequest& request);
+OptionList identifyOptions(IdentifyOptions& options);
+OptionList inspectOptions(FileOptions& options);
+OptionList flipGreenOptions(FlipGreenOptions& options);
+OptionList renderOptions(RenderOptions& options);
+OptionList bakeOptions(BakeFileOptions& options);
+OptionList mapErrorOptions(MapErrorFileOptions& options);
+OptionList convertMapOptions(ConvertMapFileOptions& options);
+OptionList heightToNormalOptions(HeightToNormalFileOptions& options);
+
+/// What options of generate mean together, once all are given. Returns what makes no sense, or nothing.
+std::string finish(const Given& given, GenerateOptions& options);
+std::string finish(const Given& given, ConvertMapFileOptions& options);
+
+/// Takes away the findings that nobody wants to hear of, and counts anew.
+void leaveOut(const CheckRequest& request, CheckReport& report);
+/// Whether there is a finding that makes the check fail.
+bool failsBy(const CheckRequest& request, const CheckReport& report);
+
+}  // namespace tspace::options

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// The UVs that tangents may follow.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "model/scene/scene.h"
+#include "tspace/vec.h"
+
+namespace tspace {
+
+struct UvReading {
+    std::size_t uv_set = 0;
+    bool transformed = false;        ///< by the use's texture transform, which changes frames
+    std::vector<Vec2> own = {};      ///< the transformed ones
+    std::span<const Vec2> uvs = {};  ///< empty: the primitive has no such set
+};
+
+/// The UVs that a texture of this use is read with.
+UvReading readingOf(const ScenePrimitive& primitive, const TangentUse& use);
+/// A set as it is in the file.
+UvReading plainReading(const ScenePrimitive& primitive, std::size_t uv_set);
+
+/// Where a texture is read, with scales and offsets that no direction depends on.
+std::vector<Vec2> textureUvs(std::span<const Vec2> uvs, const UvTransform& transform);
+
+}  // namespace tspace

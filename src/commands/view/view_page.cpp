@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+// The files of a model as blocks of data in the page. A script whose type is no language is never run.
+#include "commands/view/view_page.h"
+
+#include <filesystem>
+#include <mutex>
+#include <set>
+#include <span>
+#include <string_view>
+#include <utility>
+
+#include "model/io/atomic_output.h"
+#include "model/io/file_error.h"
+#include "model/io/file_io.h"
+#include "commands/shared/html_text.h"
+#include "model/io/uri.h"
+
+namespace tspace {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::string_view kPlaceOfModel = "<!-- model -->";
+
+struct EmbeddedFile {
+    std::string name;
+    Bytes bytes;
+};
+
+/// The model, then each file that it names. A GLB made of it asks for all of them.
+std::vector<EmbeddedFile> filesOf(const Path& input, const FileOptions& options, InputFiles& inputs) {
+    if (!isGltfName(input) && lowerExtension(input) != ".obj") {
+        failFile(ErrorCode::unsupportedFile,
+                 "the page shows .glb, .vrm, .gltf and .obj; make a GLB of it first, by tspace generate IN -o OUT.glb");
+    }
+    const std::string& path = input.string();
+    const fs::path folder = fs::path(folderOf(input)).lexically_normal();
+    std::mutex mutex;
+    std::set<std::string> named;
+    GenerateOptions ask;
+    ask.file = options;
+    inputs.watch(ask.file);
+    ask.file.opened = [&, told = ask.file.opened](const std::string& file) {
+        told(file);
+        const std::lock_guard lock(mutex);
+        if (file != path)
+            named.insert(Path(fs::path(Path(file)).lexically_normal().lexically_relative(folder)).string());
+    };
+    ask.sink = [](std::span<const std::uint8_t>) { return true; };
+    valueOrThrow(generateFile(path, "view.glb", ask));
+    std::vector<EmbeddedFile> files;
+    files.push_back({path.substr(path.rfind('/') + 1), readFile(input)});
+    for (const std::string& name : named) files.push_back({name, readFile(folderOf(input) / name)});
+    return files;
+}
+
+}  // namespace
+
+Result<ViewReport> writeViewPage(const Path& input, const Path& output, const Path& page, const FileOptions& options) {
+    return atFileBorder([&]() -> Result<ViewReport> {
+        InputFiles inputs;
+        inputs.add(page);
+        const Bytes html = readFile(page);
+        const std::string_view text(reinterpret_cast<const char*>(html.data()), html.size());
+        const std::size_t place = text.find(kPlaceOfModel);
+        if (place == std::string_view::npos)
+            failFile(ErrorCode::unsupportedFile, "the page " + pathInQuotes(page) + " has no place for a model");
+        ViewReport report;
+        std::string made(text.substr(0, place));
+        for (const EmbeddedFile& file : filesOf(input, options, inputs)) {
+            made += "<script type=\"application/octet-stream\" data-name=\"" + htmlText(file.name) + "\">";
+            made += encodeBase64(file.bytes);
+            made += "</script>\n";
+            report.files.push_back(file.name);
+        }
+        made += text.substr(place + kPlaceOfModel.size());
+        AtomicOutput target({.sync = options.sync, .inputs = &inputs});
+        target.add(output, std::span(reinterpret_cast<const std::uint8_t*>(made.data()), made.size()));
+        target.commit();
+        report.output_bytes = target.byteCount();
+        return report;
+    });
+}
+
+}  // namespace tspace

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+// One HTML file that shows a model: the page of web/, with the model and the files that it names inside.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "model/io/path.h"
+#include "tspace/asset.h"
+#include "tspace/result.h"
+
+namespace tspace {
+
+struct ViewReport {
+    std::vector<std::string> files = {};  ///< what went into the page: the model, then what it names, as it names it
+    std::uint64_t output_bytes = 0;
+};
+
+/// Writes `output` from the page that scripts/web builds and a model (GLB, glTF or OBJ), whose files go in as they are.
+/// options   content and find_file must be empty
+/// Errors: cannotRead (the page or the model), invalidFile, unsupportedFile (another format, or `page` has no place for a
+/// model), tooLarge, cannotWrite. Nothing has changed then.
+Result<ViewReport> writeViewPage(const Path& input, const Path& output, const Path& page, const FileOptions& options);
+
+}  // namespace tspace

@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: MIT
+// An arena is one reserved piece of address space. Memory is put behind it from its begin, as it is needed, and cut into
+// blocks. What has no room there comes from operator new.
+#include "tspace/arena.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#if defined(__unix__) || defined(__APPLE__)
+#include <sys/mman.h>
+#endif
+
+#include "core/base/memory.h"
+
+#ifdef _WIN32
+// Declared here: the system's header defines small words as macros, and the core may be compiled as one file.
+extern "C" __declspec(dllimport) void* __stdcall VirtualAlloc(void*, std::size_t, unsigned long, unsigned long);
+extern "C" __declspec(dllimport) int __stdcall VirtualFree(void*, std::size_t, unsigned long);
+#endif
+
+namespace tspace {
+
+namespace {
+
+/// Sizes are multiples of this, so that every place is aligned.
+constexpr std::size_t kUnit = kMemoryAlignment;
+/// Memory is put behind the space in steps of this.
+constexpr std::size_t kStep = kHugePage;
+/// More than the largest mesh needs, and nothing compared with the addresses that a process has.
+constexpr std::size_t kReserved = sizeof(void*) < 8 ? std::size_t{1} << 28 : std::size_t{1} << 36;
+
+std::size_t roundUp(std::size_t value, std::size_t unit) { return (value + unit - 1) / unit * unit; }
+
+#ifdef _WIN32
+
+std::byte* reserveSpace(std::size_t bytes) {
+    constexpr unsigned long kReserve = 0x2000, kNoAccess = 0x01;
+    return static_cast<std::byte*>(VirtualAlloc(nullptr, bytes, kReserve, kNoAccess));
+}
+bool putMemoryBehind(std::byte* begin, std::size_t bytes) {
+    constexpr unsigned long kCommit = 0x1000, kReadWrite = 0x04;
+    return VirtualAlloc(begin, bytes, kCommit, kReadWrite) != nullptr;
+}
+bool takeMemoryAway(std::byte* begin, std::size_t bytes) { return VirtualFree(begin, bytes, 0x4000) != 0; }
+void endSpace(std::byte* space, std::size_t) { VirtualFree(space, 0, 0x8000); }
+
+#elif defined(__unix__) || defined(__APPLE__)
+
+std::byte* reserveSpace(std::size_t bytes) {
+    void* space = mmap(nullptr, bytes, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    return space != MAP_FAILED ? static_cast<std::byte*>(space) : nullptr;
+}
+bool putMemoryBehind(std::byte* begin, std::size_t bytes) {
+    if (mprotect(begin, bytes, PROT_READ | PROT_WRITE) != 0) return false;
+    askForPages(begin, bytes);
+    return true;
+}
+/// The address space stays reserved. A new mapping over it also gives its share of the system's limit back.
+bool takeMemoryAway(std::byte* begin, std::size_t bytes) {
+    return mmap(begin, bytes, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_FIXED, -1, 0) != MAP_FAILED;
+}
+void endSpace(std::byte* space, std::size_t bytes) { munmap(space, bytes); }
+
+#else  // all comes from operator new
+
+std::byte* reserveSpace(std::size_t) { return nullptr; }
+bool putMemoryBehind(std::byte*, std::size_t) { return false; }
+bool takeMemoryAway(std::byte*, std::size_t) { return false; }
+void endSpace(std::byte*, std::size_t) {}
+
+#endif
+
+}  // namespace
+
+class Arena::Impl {
+  public:
+    Impl() {
+        // Where addresses are limited, most are left to others.
+        std::size_t bytes = kReserved;
+        while (bytes > kStep && (space_ = reserveSpace(bytes)) == nullptr) bytes /= 4;
+        if (space_ != nullptr && bytes < kReserved) {
+            endSpace(space_, bytes);
+            bytes /= 4;
+            space_ = reserveSpace(bytes);
+        }
+        if (space_ == nullptr) return;
+        space_bytes_ = bytes;
+        // Huge pages lie at multiples of their size.
+        begin_ = space_ + -reinterpret_cast<std::uintptr_t>(space_) % kStep;
+        room_ = bytes - kStep;
+    }
+    Impl(const Impl&) = delete;
+    Impl& operator=(const Impl&) = delete;
+    ~Impl() {
+        if (space_ != nullptr) endSpace(space_, space_bytes_);
+    }
+
+    void* allocate(std::size_t bytes) noexcept {
+        if (bytes > SIZE_MAX - 2 * kStep) return nullptr;
+        bytes = roundUp(bytes, kUnit);
+        void* memory = takeBlock(bytes);
+        if (memory == nullptr) {
+            memory = ::operator new(bytes, std::align_val_t(kUnit), std::nothrow);
+            if (memory == nullptr) return nullptr;
+            elsewhere_ += bytes;
+        }
+        used_ += bytes;
+        return memory;
+    }
+
+    void release(void* memory, std::size_t bytes) noexcept {
+        bytes = roundUp(bytes, kUnit);
+        used_ -= bytes;
+        const std::size_t place = reinterpret_cast<std::uintptr_t>(memory) - reinterpret_cast<std::uintptr_t>(begin_);
+        if (place < held_) return endBlock(place);
+        elsewhere_ -= bytes;
+        ::operator delete(memory, std::align_val_t(kUnit));
+    }
+
+    void trim() {
+        const std::size_t needed = roundUp(end(), kStep);
+        if (needed < held_ && takeMemoryAway(begin_ + needed, held_ - needed)) held_ = needed;
+    }
+
+    [[nodiscard]] std::size_t heldBytes() const { return held_ + elsewhere_; }
+    [[nodiscard]] std::size_t usedBytes() const { return used_; }
+
+  private:
+    struct Block {
+        std::size_t begin, bytes;
+        bool is_free;
+    };
+
+    /// The smallest free block that fits, the first one of several, else the place behind all. So the same calls on an empty
+    /// arena end in the same places. Null where there is no room.
+    void* takeBlock(std::size_t bytes) noexcept {
+        try {
+            auto best = blocks_.end();
+            for (auto block = blocks_.begin(); block != blocks_.end(); ++block) {
+                if (block->is_free && block->bytes >= bytes && (best == blocks_.end() || block->bytes < best->bytes))
+                    best = block;
+            }
+            if (best == blocks_.end()) {
+                if (!holdUpTo(end(), bytes)) return nullptr;
+                blocks_.push_back({end(), bytes, false});
+                return begin_ + blocks_.back().begin;
+            }
+            if (best->bytes > bytes) {
+                best = blocks_.insert(best, *best);
+                best[1].begin += bytes;
+                best[1].bytes -= bytes;
+            }
+            *best = {best->begin, bytes, false};
+            return begin_ + best->begin;
+        } catch (...) {
+            return nullptr;  // for the list of blocks
+        }
+    }
+
+    void endBlock(std::size_t begin) noexcept {
+        auto block = std::lower_bound(blocks_.begin(), blocks_.end(), begin,
+                                      [](const Block& b, std::size_t place) { return b.begin < place; });
+        block->is_free = true;
+        if (block + 1 != blocks_.end() && block[1].is_free) joinWithNext(block);
+        if (block != blocks_.begin() && block[-1].is_free) joinWithNext(block - 1);
+        if (blocks_.back().is_free) blocks_.pop_back();
+    }
+    void joinWithNext(std::vector<Block>::iterator block) noexcept {
+        block->bytes += block[1].bytes;
+        blocks_.erase(block + 1);
+    }
+
+    /// Behind the last block in use.
+    [[nodiscard]] std::size_t end() const { return blocks_.empty() ? 0 : blocks_.back().begin + blocks_.back().bytes; }
+
+    bool holdUpTo(std::size_t begin, std::size_t bytes) {
+        if (bytes > room_ - begin) return false;
+        const std::size_t needed = roundUp(begin + bytes, kStep);
+        if (needed > held_ && !putMemoryBehind(begin_ + held_, needed - held_)) return false;
+        held_ = std::max(held_, needed);
+        return true;
+    }
+
+    std::byte *space_ = nullptr, *begin_ = nullptr;
+    std::size_t space_bytes_ = 0, room_ = 0;  ///< reserved, and what can be used of it
+    std::size_t held_ = 0, elsewhere_ = 0, used_ = 0;
+    std::vector<Block> blocks_;  ///< all up to the last one in use, one behind the other; no two free ones touch
+};
+
+Arena::Arena()
+    : impl_(new Impl),
+      allocator_{.allocate = [](void* user, std::size_t bytes,
+                                std::size_t) { return static_cast<Impl*>(user)->allocate(bytes); },
+                 .release = [](void* user, void* memory, std::size_t bytes,
+                               std::size_t) { static_cast<Impl*>(user)->release(memory, bytes); },
+                 .user = impl_} {}
+
+Arena::~Arena() { delete impl_; }
+
+std::size_t Arena::heldBytes() const { return impl_->heldBytes(); }
+std::size_t Arena::usedBytes() const { return impl_->usedBytes(); }
+void Arena::trim() { impl_->trim(); }
+
+}  // namespace tspace

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+// What every public function does first and last: check the caller's spans, and let no exception out.
+#pragma once
+
+#include <type_traits>
+
+#include "core/base/memory.h"
+#include "tspace/mesh.h"
+#include "tspace/result.h"
+
+namespace tspace {
+
+class Parallel;
+
+/// An error with a message as printf makes it, of %s, %u and %zu. In one place: strings that are put together take 2 KB of
+/// code each.
+[[gnu::format(printf, 3, 4)]] Error makeError(ErrorCode code, std::uint64_t element, const char* format, ...);
+
+/// What the exception means that is being handled. Throws nothing, also where there is no memory left.
+Error caughtError();
+
+/// Runs `body`, which returns a Result, and turns running out of memory (and any defect of our own) into an Error.
+template <class Body>
+auto atBorder(Body&& body) -> std::invoke_result_t<Body> {
+#ifdef __cpp_exceptions
+    try {
+        return body();
+    } catch (...) {
+        return caughtError();
+    }
+#else
+    return body();
+#endif
+}
+
+/// For checkSpan: any length is right.
+inline constexpr std::size_t kAnyCount = ~std::size_t{0};
+
+/// Checks pointer, stride, alignment and length of one span. `name` is how messages call it. Returns an Error with code
+/// ok when all is well.
+Error checkSpan(const void* data, std::size_t count, std::size_t stride_bytes, std::size_t element_bytes,
+                std::size_t expected_count, const char* name);
+
+template <class T>
+Error checkSpan(const StridedSpan<T>& span, std::size_t expected_count, const char* name) {
+    return checkSpan(span.data, span.count, span.stride_bytes, sizeof(T), expected_count, name);
+}
+
+/// What validate() checks. With `parallel`, indices are looked at by all threads.
+Error checkMesh(const MeshView& mesh, Parallel* parallel = nullptr);
+
+/// Checks that there are indices and that each is below `vertex_count`, with `parallel` by all threads. Error as
+/// checkSpan.
+Error checkIndices(const IndexView& indices, std::size_t vertex_count, Parallel* parallel = nullptr);
+
+}  // namespace tspace

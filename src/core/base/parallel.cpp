@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: MIT
+// Thread pool that lives as long as one public call, and the bridge to the caller's executor.
+#include "core/base/parallel.h"
+
+#include <atomic>
+#include <chrono>
+#include <exception>
+#include <thread>
+#include <vector>
+
+namespace tspace {
+
+namespace {
+
+/// How long a thread looks out for the next loop (or the last task of this one) before it sleeps. Waking a sleeping
+/// thread takes about this long, and the loops of one call follow each other quickly.
+constexpr std::chrono::microseconds kLookOut{40};
+
+void pauseBriefly() {
+#if defined(__x86_64__) || defined(__i386__)
+    __builtin_ia32_pause();
+#endif
+}
+
+}  // namespace
+
+/// Loops are open to helpers while their caller works on them. A helper that comes late finds the loop closed, and
+/// nobody waits for it.
+class Parallel::Pool {
+  public:
+    explicit Pool(bool looks_out) : look_out_(looks_out ? kLookOut : kLookOut.zero()) {}
+
+    ~Pool() {
+        is_ending_ = true;
+        callHelpers();
+        for (std::thread& helper : helpers_) helper.join();
+    }
+
+    void startHelpers(std::size_t count) {
+        try {
+            helpers_.reserve(count);
+            while (helpers_.size() < count) helpers_.emplace_back([this] { serve(); });
+        } catch (...) {
+            // No more threads (or memory for them): the ones there are, and the caller, do the work.
+        }
+    }
+
+    void run(std::size_t count, void (*task)(void*, std::size_t), void* context) {
+        task_ = task;
+        context_ = context;
+        count_ = count;
+        next_.store(0, std::memory_order_relaxed);
+        inside_.fetch_sub(kClosed, std::memory_order_release);
+        callHelpers();
+        work();
+        inside_.fetch_add(kClosed, std::memory_order_relaxed);
+        waitWhile(inside_, [](std::uint32_t inside) { return inside != kClosed; });
+    }
+
+  private:
+    static constexpr std::uint32_t kClosed = 0x80000000u;
+
+    void work() {
+        for (std::size_t i; (i = next_.fetch_add(1, std::memory_order_relaxed)) < count_;) task_(context_, i);
+    }
+
+    void callHelpers() {
+        calls_.fetch_add(1, std::memory_order_release);
+        calls_.notify_all();
+    }
+
+    void serve() {
+        std::uint32_t seen = 0;
+        while (true) {
+            seen = waitWhile(calls_, [seen](std::uint32_t calls) { return calls == seen; });
+            if (is_ending_) return;
+            if (inside_.fetch_add(1, std::memory_order_acquire) < kClosed) work();
+            if (inside_.fetch_sub(1, std::memory_order_release) == kClosed + 1) inside_.notify_one();
+        }
+    }
+
+    /// Returns the first value that does not mean to wait.
+    template <class Condition>
+    std::uint32_t waitWhile(const std::atomic<std::uint32_t>& number, Condition&& condition) const {
+        const auto end = std::chrono::steady_clock::now() + look_out_;
+        std::uint32_t value;
+        while (condition(value = number.load(std::memory_order_acquire))) {
+            if (std::chrono::steady_clock::now() >= end) {
+                number.wait(value, std::memory_order_acquire);
+            } else {
+                for (int i = 0; i < 16; ++i) pauseBriefly();
+            }
+        }
+        return value;
+    }
+
+    const std::chrono::microseconds look_out_;
+    std::vector<std::thread> helpers_;
+    // Written while the loop is closed.
+    void (*task_)(void*, std::size_t) = nullptr;
+    void* context_ = nullptr;
+    std::size_t count_ = 0;
+    std::atomic<bool> is_ending_{false};
+    std::atomic<std::uint32_t> calls_{0};         ///< how often helpers were called
+    std::atomic<std::uint32_t> inside_{kClosed};  ///< how many helpers look at the loop, and whether it is closed
+    std::atomic<std::size_t> next_{0};
+};
+
+Parallel::Parallel(const Execution& execution, std::uint64_t corners) {
+    constexpr unsigned kMostThreads = 256;  // a wrong request must not exhaust the machine
+    constexpr std::uint64_t kWorthAThread = 48 * 1024;
+    if (execution.executor != nullptr && execution.executor->run != nullptr) {
+        executor_ = execution.executor;
+        width_ = std::clamp(executor_->concurrency, 1u, kMostThreads);
+        return;
+    }
+    const auto useful = static_cast<unsigned>(std::min<std::uint64_t>(corners / kWorthAThread, kMostThreads));
+    if (useful <= 1) return;  // without asking the system how many there are
+    const unsigned wanted =
+        execution.thread_count != kAllThreads ? execution.thread_count : std::thread::hardware_concurrency();
+    width_ = std::clamp(wanted, 1u, useful);
+}
+
+Parallel::~Parallel() { delete pool_; }
+
+void Parallel::runTasks(std::size_t count, void (*task)(void*, std::size_t), void* context) {
+    if (executor_ != nullptr) {
+        executor_->run(executor_->user, count, task, context);
+        return;
+    }
+    // More threads than cores would only take time from each other while they look out.
+    if (pool_ == nullptr) pool_ = new Pool(width_ <= std::thread::hardware_concurrency());
+    pool_->startHelpers(std::min<std::size_t>(width_, count) - 1);
+    pool_->run(count, task, context);
+}
+
+#ifdef __cpp_exceptions
+
+namespace {
+
+/// A loop of tasks that may throw. An exception on a helper's stack would end the program, and one on the caller's would
+/// leave the loop while helpers still work on it.
+struct ThrowingTasks {
+    void (*task)(void*, std::size_t);
+    void* context;
+    std::atomic<bool> has_failed{false};
+    std::exception_ptr first = {};
+
+    static void run(void* tasks, std::size_t number) {
+        auto& self = *static_cast<ThrowingTasks*>(tasks);
+        if (self.has_failed.load(std::memory_order_relaxed)) return;
+        try {
+            self.task(self.context, number);
+        } catch (...) {
+            if (!self.has_failed.exchange(true)) self.first = std::current_exception();
+        }
+    }
+};
+
+}  // namespace
+
+void Parallel::run(std::size_t count, void (*task)(void*, std::size_t), void* context) {
+    ThrowingTasks tasks{task, context};
+    runTasks(count, ThrowingTasks::run, &tasks);
+    if (tasks.first) std::rethrow_exception(tasks.first);
+}
+
+#else
+
+void Parallel::run(std::size_t count, void (*task)(void*, std::size_t), void* context) {
+    runTasks(count, task, context);
+}
+
+#endif
+
+}  // namespace tspace

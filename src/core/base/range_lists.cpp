@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: MIT
+#include "core/base/range_lists.h"
+
+#include <algorithm>
+#include <bit>
+#include <utility>
+
+namespace tspace {
+
+namespace {
+
+constexpr std::size_t kBlocksPerTask = 256;
+constexpr std::uint32_t kNoRange = 0xffffffffu, kSeveral = 0xfffffffeu;
+
+/// Reads blocks, and says what they are listed as.
+class Walk {
+  public:
+    Walk(const TriangleGroups& triangles, std::size_t block_size, std::size_t group_count, std::size_t range_size)
+        : triangles_(triangles),
+          block_size_(block_size),
+          shift_(std::countr_zero(range_size)),
+          range_count_(static_cast<std::uint32_t>((group_count + range_size - 1) >> shift_)) {}
+
+    void read(std::size_t block) {
+        first_ = block * block_size_;
+        size_ = std::min(block_size_, triangles_.count - first_);
+        groups_ = triangles_.inPlace(first_, size_);
+        if (groups_ != nullptr) return;
+        triangles_.read(first_, size_, nullptr, own_groups_);
+        groups_ = own_groups_;
+    }
+
+    /// The range of the block that was read, or kNoRange, or kSeveral.
+    [[nodiscard]] std::uint32_t range() const {
+        const std::uint32_t *const groups = groups_, *const end = groups + 3 * size_;
+        std::uint32_t any = 0, all = ~std::uint32_t{0};
+        for (const std::uint32_t* group = groups; group != end; ++group) {
+            any |= *group;
+            all &= *group;
+        }
+        if ((any ^ all) >> shift_ == 0) return rangeOf(groups[0]);
+        if (rangeOf(any) != kNoRange) return kSeveral;
+        std::uint32_t only = kNoRange;
+        for (const std::uint32_t* group = groups; group != end; ++group) {
+            const std::uint32_t range = rangeOf(*group);
+            if (range == kNoRange) continue;
+            if (only != kNoRange && range != only) return kSeveral;
+            only = range;
+        }
+        return only;
+    }
+
+    /// enter(range, triangle) for each range of each triangle of that block.
+    template <class Enter>
+    void forTriangles(const Enter& enter) const {
+        for (std::size_t t = 0; t < size_; ++t) {
+            const auto triangle = static_cast<std::uint32_t>(first_ + t);
+            const std::uint32_t* const groups = groups_ + 3 * t;
+            const std::uint32_t a = rangeOf(groups[0]);
+            if (a != kNoRange) enter(a, triangle);
+            if (((groups[0] ^ groups[1]) | (groups[0] ^ groups[2])) >> shift_ == 0) continue;
+            const std::uint32_t b = rangeOf(groups[1]), c = rangeOf(groups[2]);
+            if (b != kNoRange && b != a) enter(b, triangle);
+            if (c != kNoRange && c != a && c != b) enter(c, triangle);
+        }
+    }
+
+  private:
+    [[nodiscard]] std::uint32_t rangeOf(std::uint32_t group) const {
+        return group >> shift_ < range_count_ ? group >> shift_ : kNoRange;
+    }
+
+    const TriangleGroups& triangles_;
+    std::size_t block_size_;
+    int shift_;
+    std::uint32_t range_count_;
+    std::size_t first_ = 0, size_ = 0;
+    const std::uint32_t* groups_ = nullptr;
+    std::uint32_t own_groups_[3 * TriangleBatch::kMost] = {};
+};
+
+}  // namespace
+
+RangeLists::RangeLists(const TriangleGroups& triangles, std::size_t block_size, std::size_t group_count,
+                       std::size_t range_size, const Allocator* allocator, Parallel& parallel)
+    : RangeLists(block_size, group_count, range_size) {
+    if (count_ <= 1) return;
+    const std::size_t blocks = blockCount(triangles.count);
+    const std::size_t tasks = std::clamp<std::size_t>(blocks / kBlocksPerTask, 1, parallel.width());
+    // First how many entries each task has for each range, then where they go: task after task within a
+    // range.
+    Buffer<std::size_t> places(allocator, tasks * count_, std::size_t{0});
+    Buffer<std::uint32_t> range_of(allocator, blocks);
+    const auto forEntries = [&](bool is_known, const auto& body) {
+        parallel.forTasks(tasks, [&](std::size_t task) {
+            Walk walk(triangles, block_size, group_count, range_size);
+            std::size_t* const mine = places.data() + task * count_;
+            const auto enter = [&](std::uint32_t range, std::uint32_t entry) { body(mine[range]++, entry); };
+            for (std::size_t b = blocks * task / tasks; b < blocks * (task + 1) / tasks; ++b) {
+                if (!is_known || range_of[b] == kSeveral) walk.read(b);
+                if (!is_known) range_of[b] = walk.range();
+                if (range_of[b] == kSeveral) {
+                    walk.forTriangles(enter);
+                } else if (range_of[b] != kNoRange) {
+                    enter(range_of[b], kBlock | static_cast<std::uint32_t>(b));
+                }
+            }
+        });
+    };
+    forEntries(false, [](std::size_t, std::uint32_t) {});
+    begin_ = Buffer<std::size_t>(allocator, count_ + 1);
+    std::size_t total = 0;
+    for (std::size_t range = 0; range < count_; ++range) {
+        begin_[range] = total;
+        for (std::size_t task = 0; task < tasks; ++task) total += std::exchange(places[task * count_ + range], total);
+    }
+    begin_[count_] = total;
+    entries_ = Buffer<std::uint32_t>(allocator, total);
+    forEntries(true, [&](std::size_t place, std::uint32_t entry) { entries_[place] = entry; });
+}
+
+bool RangeLists::areCompact(const TriangleGroups& triangles, std::size_t block_size, std::size_t group_count,
+                            std::size_t range_size) {
+    constexpr std::size_t kSamples = 64;
+    if (group_count <= range_size) return true;
+    const std::size_t blocks = (triangles.count + block_size - 1) / block_size, samples = std::min(blocks, kSamples);
+    Walk walk(triangles, block_size, group_count, range_size);
+    std::size_t several = 0;
+    for (std::size_t i = 0; i < samples; ++i) {
+        walk.read((2 * i + 1) * blocks / (2 * samples));
+        several += walk.range() == kSeveral ? 1 : 0;
+    }
+    return 2 * several <= samples;
+}
+
+std::size_t RangeLists::mostTriangles(std::size_t all) const {
+    if (begin_.empty()) return all;
+    std::size_t most = 0;
+    for (std::size_t range = 0; range < count_; ++range) {
+        std::size_t here = 0;
+        for (const std::uint32_t entry : entries(range)) here += (entry & kBlock) != 0 ? block_size_ : 1;
+        most = std::max(most, here);
+    }
+    return most;
+}
+
+RangeLists::Batches::Batches(const TriangleGroups& triangles, const RangeLists& lists, std::size_t range)
+    : Batches(triangles, lists.block_size_, 0, lists.blockCount(triangles.count)) {
+    are_whole_ = !lists.begin_.empty() || lists.count_ == 1;
+    if (lists.begin_.empty()) return;
+    entries_ = lists.entries_.data();
+    next_ = lists.begin_[range];
+    end_ = lists.begin_[range + 1];
+}
+
+bool RangeLists::Batches::next(TriangleBatch& batch, bool wants_vertices) {
+    batch.count = 0;
+    if (next_ == end_) return false;
+    batch.vertices = batch.own_vertices;
+    batch.groups = batch.own_groups;
+    std::uint32_t* const vertices = wants_vertices ? batch.own_vertices : nullptr;
+    batch.is_block = entries_ == nullptr || (entries_[next_] & kBlock) != 0;
+    batch.is_whole = batch.is_block && are_whole_;
+    if (!batch.is_block) {
+        for (; next_ != end_ && batch.count < block_size_ && (entries_[next_] & kBlock) == 0; ++next_)
+            batch.numbers[batch.count++] = entries_[next_];
+        triangles_.readSome(batch.numbers, batch.count, vertices, batch.own_groups);
+        return true;
+    }
+    const std::size_t block = entries_ != nullptr ? entries_[next_] & ~kBlock : next_, first = block * block_size_;
+    ++next_;
+    batch.numbers[0] = static_cast<std::uint32_t>(first);
+    batch.count = std::min(block_size_, triangles_.count - first);
+    const std::uint32_t* const in_place = batch.count == block_size_ ? triangles_.inPlace(first, batch.count) : nullptr;
+    if (in_place == nullptr) {
+        triangles_.read(first, batch.count, vertices, batch.own_groups);
+    } else {
+        batch.vertices = batch.groups = in_place;
+    }
+    return true;
+}
+
+}  // namespace tspace

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: MIT
+// Conversions between the structs of the C API and those of the C++ API, and the checks that only C callers
+// need.
+#include "core/c_api/c_convert.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "core/base/border.h"
+
+namespace tspace::c_api {
+
+// The numbers are one set: a C program and a C++ program can show each other their codes.
+static_assert(TSPACE_OK == static_cast<std::uint32_t>(ErrorCode::ok));
+static_assert(TSPACE_ERROR_NULL_DATA == static_cast<std::uint32_t>(ErrorCode::nullData));
+static_assert(TSPACE_ERROR_COUNT_MISMATCH == static_cast<std::uint32_t>(ErrorCode::countMismatch));
+static_assert(TSPACE_ERROR_INDEX_OUT_OF_RANGE == static_cast<std::uint32_t>(ErrorCode::indexOutOfRange));
+static_assert(TSPACE_ERROR_STRIDE_TOO_SMALL == static_cast<std::uint32_t>(ErrorCode::strideTooSmall));
+static_assert(TSPACE_ERROR_MISALIGNED == static_cast<std::uint32_t>(ErrorCode::misaligned));
+static_assert(TSPACE_ERROR_TOO_LARGE == static_cast<std::uint32_t>(ErrorCode::tooLarge));
+static_assert(TSPACE_ERROR_MISSING_ATTRIBUTE == static_cast<std::uint32_t>(ErrorCode::missingAttribute));
+static_assert(TSPACE_ERROR_INVALID_OPTION == static_cast<std::uint32_t>(ErrorCode::invalidOption));
+static_assert(TSPACE_ERROR_OUT_OF_MEMORY == static_cast<std::uint32_t>(ErrorCode::outOfMemory));
+static_assert(TSPACE_ERROR_PLAN_MISMATCH == static_cast<std::uint32_t>(ErrorCode::planMismatch));
+static_assert(TSPACE_ERROR_CANCELLED == static_cast<std::uint32_t>(ErrorCode::cancelled));
+static_assert(TSPACE_ERROR_INTERNAL == static_cast<std::uint32_t>(ErrorCode::internal));
+static_assert(TSPACE_ERROR_INVALID_FILE == static_cast<std::uint32_t>(ErrorCode::invalidFile));
+static_assert(TSPACE_ERROR_UNSUPPORTED_FILE == static_cast<std::uint32_t>(ErrorCode::unsupportedFile));
+static_assert(TSPACE_ERROR_FORBIDDEN_PATH == static_cast<std::uint32_t>(ErrorCode::forbiddenPath));
+static_assert(TSPACE_ERROR_CANNOT_READ == static_cast<std::uint32_t>(ErrorCode::cannotRead));
+static_assert(TSPACE_ERROR_CANNOT_WRITE == static_cast<std::uint32_t>(ErrorCode::cannotWrite));
+static_assert(TSPACE_NO_ELEMENT == kNoElement);
+
+static_assert(TSPACE_INDEX_NONE == static_cast<std::uint32_t>(IndexType::none));
+static_assert(TSPACE_INDEX_U8 == static_cast<std::uint32_t>(IndexType::u8));
+static_assert(TSPACE_INDEX_U16 == static_cast<std::uint32_t>(IndexType::u16));
+static_assert(TSPACE_INDEX_CORNERS == static_cast<std::uint32_t>(IndexType::corners));
+static_assert(TSPACE_INDEX_U32 == static_cast<std::uint32_t>(IndexType::u32));
+
+static_assert(TSPACE_ALL_THREADS == kAllThreads);
+static_assert(TSPACE_MAX_CORNERS == kMaxCorners);
+static_assert(TSPACE_V_UP == static_cast<std::uint32_t>(VAxis::up));
+static_assert(TSPACE_V_DOWN == static_cast<std::uint32_t>(VAxis::down));
+static_assert(TSPACE_GREEN_DOWN == static_cast<std::uint32_t>(Green::down));
+static_assert(TSPACE_SIGN_NEGATED == static_cast<std::uint32_t>(StoredSign::negated));
+static_assert(TSPACE_HANDEDNESS_LEFT == static_cast<std::uint32_t>(Handedness::left));
+static_assert(TSPACE_WINDING_CLOCKWISE == static_cast<std::uint32_t>(Winding::clockwise));
+
+void appendMessage(std::string_view text, tspace_Error& to) noexcept {
+    const std::size_t used = std::strlen(to.message), room = sizeof(to.message) - 1 - used;
+    std::size_t length = std::min(text.size(), room);
+    if (length < text.size()) {
+        // Bytes 10xxxxxx continue a character.
+        while (length > 0 && (static_cast<unsigned char>(text[length]) & 0xc0u) == 0x80u) --length;
+    }
+    std::memcpy(to.message + used, text.data(), length);
+    to.message[used + length] = '\0';
+}
+
+tspace_ErrorCode finish(const Error& error, tspace_Error* out) noexcept {
+    const auto code = static_cast<tspace_ErrorCode>(error.code);
+    if (out == nullptr) return code;
+    *out = tspace_Error{};
+    out->code = code;
+    out->element = error.element;
+    appendMessage(error.message, *out);
+    return code;
+}
+
+// It stands in the middle of other structs, so that no field can ever be added to it.
+static_assert(sizeof(tspace_Convention) == 5 * sizeof(std::uint32_t));
+
+Error checkStructSize(std::uint32_t size, std::span<const std::size_t> known, const char* name) {
+    if (std::find(known.begin(), known.end(), size) != known.end()) return {ErrorCode::ok};
+    return makeError(ErrorCode::invalidOption, kNoElement,
+                     "%s.struct_size is %u, this version knows %zu: prepare the struct with TSPACE_INIT", name, size,
+                     known.back());
+}
+
+Error checkChoice(std::uint32_t value, std::uint32_t largest, const char* name) {
+    if (value <= largest) return {ErrorCode::ok};
+    return makeError(ErrorCode::invalidOption, kNoElement, "%s is %u, the largest value is %u", name, value, largest);
+}
+
+IndexView toIndices(const tspace_Indices& indices) {
+    return {indices.data, indices.count, static_cast<IndexType>(indices.type)};
+}
+
+MeshView toMesh(const tspace_Mesh& given) {
+    const tspace_Mesh mesh = orDefault(&given);
+    MeshView view;
+    view.positions = toSpan<Vec3>(mesh.positions);
+    view.normals = toSpan<Vec3>(mesh.normals);
+    view.uvs = toSpan<Vec2>(mesh.uvs);
+    view.indices = toIndices(mesh.indices);
+    if (mesh.face_sizes != nullptr) view.face_sizes = {mesh.face_sizes, mesh.face_count};
+    view.face_size = mesh.face_size == 0 ? 3 : mesh.face_size;
+    view.normal_indices = toIndices(mesh.normal_indices);
+    view.uv_indices = toIndices(mesh.uv_indices);
+    return view;
+}
+
+Error checkMesh(const tspace_Mesh* mesh) {
+    if (Error error = checkNeeded(mesh, "mesh"); error.code != ErrorCode::ok) return error;
+    if (mesh->face_sizes == nullptr && mesh->face_count != 0) {
+        return {ErrorCode::nullData, "mesh.face_sizes is null but mesh.face_count is not 0"};
+    }
+    return {ErrorCode::ok};
+}
+
+Error checkConvention(const tspace_Convention& convention) {
+    return firstError(
+        [&] { return checkChoice(convention.v_axis, TSPACE_V_DOWN, "convention.v_axis"); },
+        [&] { return checkChoice(convention.green, TSPACE_GREEN_DOWN, "convention.green"); },
+        [&] { return checkChoice(convention.stored_sign, TSPACE_SIGN_NEGATED, "convention.stored_sign"); },
+        [&] { return checkChoice(convention.handedness, TSPACE_HANDEDNESS_LEFT, "convention.handedness"); },
+        [&] { return checkChoice(convention.winding, TSPACE_WINDING_CLOCKWISE, "convention.winding"); });
+}
+
+Convention toConvention(const tspace_Convention& convention) { return std::bit_cast<Convention>(convention); }
+
+Error checkExecution(const tspace_Execution* given) {
+    if (Error error = checkSized(given, "execution"); error.code != ErrorCode::ok) return error;
+    const tspace_Execution execution = orDefault(given);
+    if (execution.executor != nullptr && execution.executor->run == nullptr) {
+        return {ErrorCode::nullData, "execution.executor has no function run"};
+    }
+    const tspace_Allocator* allocator = execution.allocator;
+    if (allocator != nullptr && (allocator->allocate == nullptr || allocator->release == nullptr)) {
+        return {ErrorCode::nullData, "execution.allocator needs both functions, allocate and release"};
+    }
+    return {ErrorCode::ok};
+}
+
+Hooks::Hooks(const tspace_Execution* given) {
+    const tspace_Execution execution = orDefault(given);
+    thread_count_ = execution.thread_count;
+    simd_ = static_cast<SimdTarget>(execution.simd);
+    if (const tspace_Executor* executor = execution.executor; executor != nullptr) {
+        executor_ = {executor->run, executor->user, std::max(executor->concurrency, 1u)};
+    }
+    if (const tspace_Allocator* allocator = execution.allocator; allocator != nullptr) {
+        allocator_ = {allocator->allocate, allocator->release, allocator->user};
+    }
+}
+
+Execution Hooks::execution() const {
+    return {thread_count_, executor_.run != nullptr ? &executor_ : nullptr,
+            allocator_.allocate != nullptr ? &allocator_ : nullptr, simd_};
+}
+
+}  // namespace tspace::c_api

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+// C API: vertex normals.
+#include "tspace/normals.h"
+
+#include "core/c_api/c_convert.h"
+
+using namespace tspace;         // NOLINT: this file only forwards
+using namespace tspace::c_api;  // NOLINT
+
+namespace {
+
+constexpr std::uint32_t inC(NormalWeighting weighting) { return static_cast<std::uint32_t>(weighting); }
+static_assert(TSPACE_NORMAL_WEIGHTING_FLAT == inC(NormalWeighting::flat));
+static_assert(TSPACE_NORMAL_WEIGHTING_UNIFORM == inC(NormalWeighting::uniform));
+static_assert(TSPACE_NORMAL_WEIGHTING_AREA == inC(NormalWeighting::area));
+static_assert(TSPACE_NORMAL_WEIGHTING_ANGLE == inC(NormalWeighting::angle));
+static_assert(TSPACE_NORMAL_WEIGHTING_ANGLE_AREA == inC(NormalWeighting::angleArea));
+static_assert(TSPACE_NORMAL_WEIGHTING_MAX == inC(NormalWeighting::max));
+static_assert(TSPACE_NORMAL_WEIGHTING_BEST == inC(NormalWeighting::best));
+
+}  // namespace
+
+namespace tspace::c_api {
+
+Error checkOptions(const tspace_NormalOptions* given) {
+    if (Error error = checkSized(given, "options"); error.code != ErrorCode::ok) return error;
+    const tspace_NormalOptions options = orDefault(given);
+    return firstError([&] { return checkChoice(options.weighting, TSPACE_NORMAL_WEIGHTING_BEST, "weighting"); },
+                      [&] { return checkChoice(options.smoothing_groups_are_masks, 1, "smoothing_groups_are_masks"); },
+                      [&] { return checkChoice(options.weld_positions, 1, "weld_positions"); },
+                      [&] { return checkConvention(options.convention); },
+                      [&]() -> Error {
+                          if (options.smoothing_groups != nullptr || options.smoothing_group_count == 0)
+                              return {ErrorCode::ok};
+                          return {ErrorCode::nullData, "smoothing_groups is null but smoothing_group_count is not 0"};
+                      });
+}
+
+NormalOptions toOptions(const tspace_NormalOptions& options) {
+    NormalOptions result;
+    result.weighting = static_cast<NormalWeighting>(options.weighting);
+    result.crease_angle_deg = options.crease_angle_deg;
+    if (options.smoothing_groups != nullptr) {
+        result.smoothing_groups = {options.smoothing_groups, options.smoothing_group_count};
+    }
+    result.smoothing_groups_are_masks = options.smoothing_groups_are_masks != 0;
+    result.weld_positions = options.weld_positions != 0;
+    result.convention = toConvention(options.convention);
+    result.refine = options.refine;
+    return result;
+}
+
+tspace_NormalReport toReport(const NormalReport& report) {
+    tspace_NormalReport made;
+    TSPACE_INIT(made);
+    made.face_count = report.face_count;
+    made.degenerate_face_count = report.degenerate_face_count;
+    made.fallback_corner_count = report.fallback_corner_count;
+    return made;
+}
+
+}  // namespace tspace::c_api
+
+tspace_ErrorCode tspace_generateNormals(const tspace_Mesh* mesh, const tspace_NormalOptions* options, tspace_Span out,
+                                        const tspace_Execution* execution, tspace_NormalReport* report,
+                                        tspace_Error* error) noexcept {
+    return atCBorder(error, [&]() -> Result<Done> {
+        Error e = firstError([&] { return checkMesh(mesh); }, [&] { return checkOptions(options); },
+                             [&] { return checkExecution(execution); }, [&] { return checkSized(report, "report"); });
+        if (e.code != ErrorCode::ok) return e;
+        const Hooks hooks(execution);
+        const Result<NormalReport> result =
+            generateNormals(toMesh(*mesh), toOptions(orDefault(options)), toSpan<Vec3>(out), hooks.execution());
+        if (!result) return result.error();
+        give(toReport(*result), report);
+        return Done{};
+    });
+}

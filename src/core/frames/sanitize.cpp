@@ -1,0 +1,429 @@
+// SPDX-License-Identifier: MIT
+// Mends broken tangents: a quick scan finds the blocks of faces where something may be wrong; in these it finds
+// the broken corners, looks for sound ones at their positions, then writes face by face.
+// Based on: Gram-Schmidt; Duff et al. 2017 where only the normal is left.
+#include "tspace/sanitize.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <bit>
+#include <cfloat>
+#include <cmath>
+#include <utility>
+
+#include "core/base/border.h"
+#include "core/base/float4.h"
+#include "core/base/memory.h"
+#include "core/base/mesh_loops.h"
+#include "core/base/parallel.h"
+#include "core/base/unit.h"
+#include "core/base/vec_math.h"
+#include "core/base/weld.h"
+#include "core/frames/one_list.h"
+
+namespace tspace {
+
+namespace {
+
+/// The glTF validator's tolerance for the length of a tangent.
+constexpr double kUnitTolerance = 5e-4;
+/// Its sine.
+constexpr double kOneDegree = 0.017452406437283512;
+/// Sound tangents this close to unit and orthogonal are left alone by orthogonalize_all. Rounding to float
+/// leaves less than 1.5e-7, so what was written once is not written again.
+constexpr double kOrthogonalTolerance = 5e-7;
+
+/// Triangles that the scan looks at together. More would draw more sound faces into the slow work.
+constexpr std::size_t kFacesPerBlock = 4;
+constexpr std::size_t kScanGrain = 1024;
+
+/// What is counted: what is wrong with tangents, what they are mended with, and more.
+enum class Counted : std::uint8_t {
+    notFinite,
+    zero,
+    notUnit,
+    parallel,
+    placeholder,
+    badSign,
+    mixedSign,
+    notOrthogonal,
+    fromOwn,
+    fromNeighbor,
+    fromBasis,
+    badNormal,
+    seeker,
+    sound
+};
+using Cause = Counted;
+using Cure = Counted;
+constexpr auto kCounted = static_cast<std::size_t>(Counted::sound);
+
+struct Counts {
+    std::array<std::uint64_t, kCounted> of{};
+    void count(Counted what) { ++of[static_cast<std::size_t>(what)]; }
+};
+
+bool isSign(float w) { return w == 1.0f || w == -1.0f; }
+
+/// N normalised; zero when it has no direction.
+DVec3 unitNormal(const Vec3& normal) {
+    if (!isFinite(normal)) return {};
+    const DVec3 n = toDouble(normal);
+    const double size = length(n);
+    return size > 0 ? (1 / size) * n : DVec3{};
+}
+
+bool isZero(const DVec3& v) { return v.x == 0 && v.y == 0 && v.z == 0; }
+
+/// True when a tangent can be made from this direction at a corner with this unit normal (zero: none).
+bool isUsable(const Vec3& direction, const DVec3& n) {
+    if (!isFinite(direction)) return false;
+    const DVec3 t = toDouble(direction);
+    const double size = length(t);
+    return size >= double{FLT_MIN} && length(cross(n, t)) >= (isZero(n) ? 0.0 : kOneDegree * size);
+}
+
+/// Whether nobody chose this direction: see sanitize.h.
+bool isPlaceholder(const Vec4& tangent, const DVec3& n) {
+    return xyz(tangent) == Vec3{1, 0, 0} && std::abs(n.x) > kOrthogonalTolerance;
+}
+
+Cause causeOf(const Vec4& tangent, const DVec3& n) {
+    if (!isFinite(xyz(tangent))) return Cause::notFinite;
+    const double size = length(toDouble(xyz(tangent)));
+    if (size < double{FLT_MIN}) return Cause::zero;
+    if (std::abs(size - 1) > kUnitTolerance) return Cause::notUnit;
+    if (!isUsable(xyz(tangent), n)) return Cause::parallel;
+    if (isPlaceholder(tangent, n)) return Cause::placeholder;
+    return isSign(tangent.w) ? Cause::sound : Cause::badSign;
+}
+
+/// The usable direction made unit and orthogonal to n. Orthogonalised twice: near n the first pass cancels
+/// digits.
+Vec3 orthonormal(const Vec3& direction, const DVec3& n) {
+    DVec3 t = toDouble(direction);
+    for (int pass = 0; pass < 2; ++pass) {
+        t = (1 / length(t)) * t;
+        t = t - dot(n, t) * n;
+    }
+    return toFloat((1 / length(t)) * t);
+}
+
+bool isOrthonormal(const Vec3& tangent, const DVec3& n) {
+    const DVec3 t = toDouble(tangent);
+    return std::abs(length(t) - 1) <= kOrthogonalTolerance && std::abs(dot(n, t)) <= kOrthogonalTolerance;
+}
+
+/// Set only for tangents that causeOf calls sound, with a normal that has a direction. Cheap; all limits lie inside of
+/// the exact ones by far more than floats round.
+struct SurelySound {
+    static constexpr float kSquareTolerance = 9.9e-4f;      // below 2 * kUnitTolerance
+    static constexpr float kSquareCosine = 0.99f;           // of 5.7 degrees
+    static constexpr float kSquareLean = 1e-13f;            // below kOrthogonalTolerance^2
+    static constexpr float kLeast = 1e-20f, kMost = 1e20f;  // squares of components neither vanish nor overflow
+
+    /// Of four, with their signs apart.
+    static Mask4 of(const Vec3x4& t, Float4 w, const Vec3x4& n) {
+        const Float4 nn = dot(n, n), nt = dot(n, t);
+        const Float4 most = select4(or4(t.y, t.z) == splat(0), splat(kSquareLean), splat(kSquareCosine));
+        return (abs4(dot(t, t) - splat(1)) <= splat(kSquareTolerance)) & (nn >= splat(kLeast)) & (nn <= splat(kMost)) &
+               (nt * nt <= most * nn) & (abs4(w) == splat(1));
+    }
+    static bool of(const Vec4& t, const Vec3& n) {
+        return laneBits(of({splat(t.x), splat(t.y), splat(t.z)}, splat(t.w), {splat(n.x), splat(n.y), splat(n.z)})) !=
+               0;
+    }
+};
+
+class Sanitizer {
+  public:
+    Sanitizer(const MeshView& mesh, const SanitizeOptions& options, StridedSpan<Vec4> tangents,
+              const Execution& execution)
+        : mesh_(mesh),
+          tangents_(tangents),
+          options_(options),
+          allocator_(execution.allocator),
+          parallel_(execution, mesh.cornerCount()) {
+        cutIntoBlocks();
+    }
+
+    SanitizeReport run() {
+        if (!scan()) return {};
+        causes_ = Buffer<Cause>(allocator_, mesh_.cornerCount(), Cause::sound);
+        forEachCandidate(
+            [this](std::size_t first, std::uint32_t size, Counts& counts) { detect(first, size, counts); });
+        if (countOf(Counted::seeker) != 0) lookAtPositions();
+        forEachCandidate([this](std::size_t first, std::uint32_t size, Counts& counts) { mend(first, size, counts); });
+        if (countOf(Counted::badNormal) != 0) alignWithoutNormals();
+        return report();
+    }
+
+  private:
+    [[nodiscard]] std::uint64_t countOf(Counted what) const { return counts_[static_cast<std::size_t>(what)]; }
+
+    [[nodiscard]] SanitizeReport report() const {
+        return {.not_finite_count = countOf(Counted::notFinite),
+                .zero_count = countOf(Counted::zero),
+                .not_unit_count = countOf(Counted::notUnit),
+                .parallel_count = countOf(Counted::parallel),
+                .placeholder_count = countOf(Counted::placeholder),
+                .bad_sign_count = countOf(Counted::badSign),
+                .mixed_sign_count = countOf(Counted::mixedSign),
+                .orthogonalized_count = countOf(Counted::notOrthogonal),
+                .normalized_count = countOf(Counted::fromOwn),
+                .from_neighbor_count = countOf(Counted::fromNeighbor),
+                .from_basis_count = countOf(Counted::fromBasis),
+                .bad_normal_count = countOf(Counted::badNormal)};
+    }
+
+    void cutIntoBlocks() {
+        const std::size_t faces = mesh_.faceCount();
+        candidates_ = Buffer<std::uint8_t>(allocator_, (faces + kFacesPerBlock - 1) / kFacesPerBlock);
+        if (mesh_.face_sizes.empty()) return;
+        block_corners_ = Buffer<std::uint32_t>(allocator_, candidates_.size());
+        forEachFace(mesh_, [&](std::size_t face, std::size_t first, std::uint32_t) {
+            if (face % kFacesPerBlock == 0) {
+                block_corners_[face / kFacesPerBlock] = static_cast<std::uint32_t>(first);
+            }
+        });
+    }
+
+    /// body(first_corner, corner_count) for each face of the block with at least 3 corners.
+    template <class Body>
+    void forEachFaceOf(std::size_t block, Body&& body) const {
+        const std::size_t begin = block * kFacesPerBlock;
+        const std::size_t end = std::min(begin + kFacesPerBlock, mesh_.faceCount());
+        std::size_t first = block_corners_.empty() ? begin * mesh_.face_size : block_corners_[block];
+        for (std::size_t face = begin; face < end; ++face) {
+            const std::uint32_t size = faceSize(mesh_, face);
+            if (size >= 3) body(first, size);
+            first += size;
+        }
+    }
+
+    /// Marks the blocks in which something may have to be counted or changed; false when there is none.
+    bool scan() {
+        return sumRanges(parallel_, candidates_.size(), kScanGrain, [this](std::size_t begin, std::size_t end) {
+                   std::uint64_t count = 0;
+                   for (std::size_t block = begin; block < end; ++block)
+                       count += candidates_[block] = options_.orthogonalize_all || !isFine(block) ? 1 : 0;
+                   return count;
+               }) != 0;
+    }
+
+    [[nodiscard]] bool isFine(std::size_t block) const {
+        return withIndices(mesh_.indices, [&](auto vertexOf) {
+            const bool has_triangles = mesh_.face_sizes.empty() && mesh_.face_size == 3;
+            const std::size_t begin = block * kFacesPerBlock;
+            if (has_triangles && begin + kFacesPerBlock <= mesh_.faceCount()) return areFine(3 * begin, vertexOf);
+            bool fine = true;
+            forEachFaceOf(block, [&](std::size_t first, std::uint32_t size) {
+                const float sign = tangents_[first].w;
+                for (std::size_t c = first; c < first + size; ++c) {
+                    const Vec4& tangent = tangents_[c];
+                    fine &= SurelySound::of(tangent, mesh_.normals[vertexOf(c)]) & (tangent.w == sign);
+                }
+            });
+            return fine;
+        });
+    }
+
+    /// The four triangles of a full block.
+    template <class VertexOf>
+    [[nodiscard]] bool areFine(std::size_t first, VertexOf vertexOf) const {
+        static_assert(kFacesPerBlock == 4);
+        constexpr unsigned kFirstTwoOfThree = 0b011'011'011'011;
+        unsigned signs = 0;
+        Mask4 sound = Mask4{} - 1;
+        for (unsigned i = 0; i < 12; i += 4) {
+            const std::size_t c = first + i;
+            Float4 x = loadFloat4(&tangents_[c].x), y = loadFloat4(&tangents_[c + 1].x),
+                   z = loadFloat4(&tangents_[c + 2].x), w = loadFloat4(&tangents_[c + 3].x);
+            transpose4(x, y, z, w);
+            const auto normal = [&](unsigned k) -> const Vec3& { return mesh_.normals[vertexOf(c + k)]; };
+            sound &= SurelySound::of({x, y, z}, w, gatherVec3(normal(0), normal(1), normal(2), normal(3)));
+            signs |= laneBits(std::bit_cast<Mask4>(w)) << i;
+        }
+        // A bit of `signs` is like the next one but at the end of a triangle.
+        return laneBits(sound) == 0b1111 && ((signs ^ signs >> 1) & kFirstTwoOfThree) == 0;
+    }
+
+    /// body(first_corner, corner_count, counts) for each face that scan() did not clear; faces are independent.
+    template <class Body>
+    void forEachCandidate(Body&& body) {
+        parallel_.forRanges(candidates_.size(), kScanGrain, [&](std::size_t begin, std::size_t end) {
+            Counts counts;
+            for (std::size_t block = begin; block < end; ++block) {
+                if (candidates_[block] == 0) continue;
+                forEachFaceOf(block, [&](std::size_t first, std::uint32_t size) { body(first, size, counts); });
+            }
+            for (std::size_t i = 0; i < counts_.size(); ++i) counts_[i] += counts.of[i];
+        });
+    }
+
+    [[nodiscard]] DVec3 normalAt(std::size_t corner) const { return unitNormal(mesh_.normals[mesh_.indices[corner]]); }
+
+    /// The face's first sound corner, or `first + size`.
+    [[nodiscard]] std::size_t firstSound(std::size_t first, std::uint32_t size) const {
+        std::size_t c = first;
+        while (c < first + size && causes_[c] != Cause::sound) ++c;
+        return c;
+    }
+
+    /// Finds causes, and the corners whose cure may lie at their position.
+    void detect(std::size_t first, std::uint32_t size, Counts& counts) {
+        bool all_sound = true;
+        for (std::size_t c = first; c < first + size; ++c) {
+            if (SurelySound::of(tangents_[c], mesh_.normals[mesh_.indices[c]])) continue;  // as causes_ begins
+            const DVec3 n = normalAt(c);
+            if (isZero(n)) counts.count(Counted::badNormal);
+            causes_[c] = causeOf(tangents_[c], n);
+            all_sound = all_sound && causes_[c] == Cause::sound;
+        }
+        if (all_sound) return;
+        const std::size_t sound = firstSound(first, size);
+        const bool has_sound = sound < first + size;
+        for (std::size_t c = first; c < first + size; ++c) {
+            if (causes_[c] == Cause::sound) continue;
+            const DVec3 n = normalAt(c);
+            const bool has_sign = has_sound || isSign(tangents_[c].w);
+            if (!has_sign || !(isUsable(xyz(tangents_[c]), n) || (has_sound && isUsable(xyz(tangents_[sound]), n))))
+                counts.count(Counted::seeker);
+        }
+    }
+
+    /// Finds the first sound tangent at each position.
+    void lookAtPositions() {
+        points_ = weldPositions(mesh_, allocator_, parallel_);
+        found_ = Buffer<Vec4>(allocator_, mesh_.vertexCount(), Vec4{});
+        withIndices(mesh_.indices, [&](auto vertexOf) {
+            forEachFace(mesh_, [&](std::size_t, std::size_t first, std::uint32_t size) {
+                for (std::size_t c = first; size >= 3 && c < first + size; ++c) {
+                    if (causes_[c] != Cause::sound) continue;
+                    Vec4& found = found_[pointOf(vertexOf(c))];
+                    if (found.w == 0) found = tangents_[c];
+                }
+            });
+        });
+    }
+
+    [[nodiscard]] std::uint32_t pointOf(std::uint32_t vertex) const {
+        return points_.empty() ? vertex : points_[vertex];
+    }
+    /// The first sound tangent at a corner's position; null: there is none, or a corner like this one seeks none.
+    [[nodiscard]] const Vec4* foundBy(std::size_t corner) const {
+        const std::uint32_t vertex = mesh_.indices[corner];
+        const Vec3& p = mesh_.positions[vertex];
+        if (found_.empty() || !(p == p)) return nullptr;
+        const Vec4& found = found_[pointOf(vertex)];
+        return found.w != 0 ? &found : nullptr;
+    }
+
+    /// What the sound corners say, those first whose N has a direction: without one a sign says nothing; without any, what
+    /// the broken ones with a sign say; without any, what the first sound corner at one of the face's positions says; else +1.
+    [[nodiscard]] float signOf(std::size_t first, std::uint32_t size) const {
+        const auto votes = [this](std::size_t c, int round) {
+            if (round == 2) return isSign(tangents_[c].w);
+            return causes_[c] == Cause::sound && (round == 1 || !isZero(normalAt(c)));
+        };
+        for (int round = 0; round < 3; ++round) {
+            std::int64_t sum = 0;
+            float first_sign = 0;
+            for (std::size_t c = first; c < first + size; ++c) {
+                if (!votes(c, round)) continue;
+                const float w = tangents_[c].w;
+                sum += w > 0 ? 1 : -1;
+                if (first_sign == 0) first_sign = w;
+            }
+            if (first_sign != 0) return sum == 0 ? first_sign : (sum > 0 ? 1.0f : -1.0f);
+        }
+        for (std::size_t c = first; c < first + size; ++c) {
+            if (const Vec4* sound = foundBy(c)) return sound->w;
+        }
+        return 1.0f;
+    }
+
+    void mend(std::size_t first, std::uint32_t size, Counts& counts) {
+        const float sign = signOf(first, size);
+        const std::size_t sound = firstSound(first, size);
+        const Vec4 neighbor = sound < first + size ? tangents_[sound] : Vec4{};
+        for (std::size_t c = first; c < first + size; ++c) {
+            Cause cause = causes_[c];
+            if (cause == Cause::sound && tangents_[c].w != sign) cause = Cause::mixedSign;
+            if (cause == Cause::sound && !options_.orthogonalize_all) continue;
+            const DVec3 n = normalAt(c);
+            if (cause == Cause::sound && isOrthonormal(xyz(tangents_[c]), n)) continue;
+            if (cause == Cause::sound) cause = Cause::notOrthogonal;
+            const auto [tangent, cure] = mended(c, n, neighbor);
+            tangents_[c] = {tangent.x, tangent.y, tangent.z, sign};
+            causes_[c] = cure;
+            counts.count(cause);
+            counts.count(cure);
+        }
+    }
+
+    /// Where N has no direction a tangent that is made up serves all corners at the position with its sign, so that no
+    /// vertex has to be split: the first.
+    void alignWithoutNormals() {
+        const Allocator* allocator = options_.execution.allocator;
+        if (points_.empty()) points_ = weldPositions(mesh_, allocator, parallel_);
+        Buffer<Vec4> made(allocator, 2 * mesh_.vertexCount(), Vec4{});
+        for (std::size_t c = 0; c < mesh_.cornerCount(); ++c) {
+            const bool is_made_up = causes_[c] == Cure::fromNeighbor || causes_[c] == Cure::fromBasis;
+            const Vec3& p = mesh_.positions[mesh_.indices[c]];
+            if (!is_made_up || !(p == p) || !isZero(normalAt(c))) continue;
+            Vec4& first = made[2 * std::size_t{pointOf(mesh_.indices[c])} + (tangents_[c].w < 0 ? 1 : 0)];
+            if (first.w == 0) first = tangents_[c];
+            tangents_[c] = first;
+        }
+    }
+
+    [[nodiscard]] std::pair<Vec3, Cure> mended(std::size_t corner, const DVec3& n, const Vec4& neighbor) const {
+        if (isUsable(xyz(tangents_[corner]), n)) return {orthonormal(xyz(tangents_[corner]), n), Cure::fromOwn};
+        if (isUsable(xyz(neighbor), n)) return {orthonormal(xyz(neighbor), n), Cure::fromNeighbor};
+        const Vec4* sound = foundBy(corner);
+        if (sound != nullptr && isUsable(xyz(*sound), n)) return {orthonormal(xyz(*sound), n), Cure::fromNeighbor};
+        return {toFloat(planeAxes(isZero(n) ? DVec3{0, 0, 1} : n).x), Cure::fromBasis};
+    }
+
+    const MeshView& mesh_;
+    StridedSpan<Vec4> tangents_;
+    const SanitizeOptions& options_;
+    const Allocator* allocator_;
+    Parallel parallel_;
+    Buffer<std::uint8_t> candidates_;      ///< one per block
+    Buffer<std::uint32_t> block_corners_;  ///< each block's first corner; empty when all faces have one size
+    Buffer<Cause> causes_;
+    // Where corners seek: the point of each vertex (empty: its own), and the first sound tangent there; its sign is 0 where
+    // there is none.
+    Buffer<std::uint32_t> points_;
+    Buffer<Vec4> found_;
+    /// Of all tasks together: sums of whole numbers do not depend on their order.
+    std::array<std::atomic<std::uint64_t>, kCounted> counts_{};
+};
+
+Error check(const MeshView& mesh, const StridedSpan<Vec4>& tangents) {
+    if (Result<Done> valid = validate(mesh); !valid) return std::move(valid).error();
+    if (mesh.normals.empty() && mesh.vertexCount() != 0) {
+        return {ErrorCode::missingAttribute, "sanitize needs normals, and the mesh has none"};
+    }
+    return checkSpan(tangents, mesh.cornerCount(), "tangents");
+}
+
+}  // namespace
+
+Result<SanitizeReport> sanitizeTangents(const MeshView& mesh, const SanitizeOptions& options,
+                                        StridedSpan<Vec4> tangents, const Execution& execution) {
+    return atBorder([&]() -> Result<SanitizeReport> {
+        if (hasOwnLists(mesh)) {
+            return withOneList(mesh, execution, [&](const MeshView& with_one_list) {
+                return sanitizeTangents(with_one_list, options, tangents, execution);
+            });
+        }
+        if (Error e = check(mesh, tangents); e.code != ErrorCode::ok) return e;
+        return Sanitizer(mesh, options, tangents, execution).run();
+    });
+}
+
+}  // namespace tspace

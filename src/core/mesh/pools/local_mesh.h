@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+// One primitive as a mesh of its own. A pool is often shared by many primitives that each use a small part of it, and
+// what the methods do per vertex should cost in proportion to that part.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/mesh/pools/primitive.h"
+#include "core/mesh/quads/quad_pairs.h"
+#include "tspace/mesh.h"
+
+namespace tspace {
+
+/// Its arrays are those of the pool, or own ones. Moving it leaves the views valid.
+struct LocalMesh {
+    StridedSpan<const Vec3> positions, normals;
+    StridedSpan<const Vec2> uvs;
+    std::span<const std::uint32_t> indices;
+    std::span<const std::uint32_t> face_sizes;
+
+    std::vector<Vec3> own_positions, own_normals;
+    std::vector<Vec2> own_uvs;
+    std::vector<std::uint32_t> own_indices;
+    /// The vertex of the pool that each vertex was when the mesh was made; empty: the same.
+    std::vector<std::uint32_t> sources;
+    std::vector<std::uint32_t> own_face_sizes;
+    /// Where the faces are quads that triangles were paired to: per corner of the triangles, the corner of a face that
+    /// it is. Empty: corners are those of the triangles.
+    std::vector<std::uint32_t> face_corners;
+
+    LocalMesh() = default;
+    LocalMesh(LocalMesh&&) = default;
+    LocalMesh& operator=(LocalMesh&&) = default;
+
+    void useOwnIndices() { indices = own_indices; }
+    void useOwnVertices() {
+        positions = own_positions;
+        normals = own_normals;
+        uvs = own_uvs;
+    }
+
+    /// Corners of its triangles.
+    [[nodiscard]] std::size_t triangleCornerCount() const {
+        return face_corners.empty() ? indices.size() : face_corners.size();
+    }
+
+    [[nodiscard]] MeshView view() const {
+        MeshView mesh;
+        mesh.positions = positions;
+        mesh.normals = normals;
+        mesh.uvs = uvs;
+        mesh.indices = IndexView(indices);
+        mesh.face_sizes = face_sizes;
+        return mesh;
+    }
+};
+
+/// Turns a mesh of triangles into one of these faces over them.
+void takeFaces(QuadFaces&& faces, LocalMesh& mesh);
+
+/// values[face corner] for each corner of the mesh's triangles.
+template <class T>
+void toTriangles(const LocalMesh& mesh, std::span<const T> values, std::span<T> of_triangles) {
+    for (std::size_t c = 0; c < of_triangles.size(); ++c) of_triangles[c] = values[mesh.face_corners[c]];
+}
+
+/// The whole pool with the corners of one primitive.
+MeshView viewInPool(const PoolView& pool, const PrimitiveGeometry& primitive);
+
+/// Makes the meshes of a pool's primitives, which must be valid.
+class LocalMeshes {
+  public:
+    /// The pool must outlive this.
+    LocalMeshes(const PoolView& pool, std::size_t primitive_count) : pool_(pool), primitive_count_(primitive_count) {}
+
+    LocalMesh make(const PrimitiveGeometry& primitive);
+
+  private:
+    void takeUsedPart(const PrimitiveGeometry& primitive, LocalMesh& mesh);
+
+    const PoolView& pool_;
+    std::size_t primitive_count_;
+    std::vector<std::uint32_t> local_of_vertex_;  ///< all kNoSlot between primitives
+};
+
+inline std::span<const std::uint32_t> spanOf(const std::vector<std::uint32_t>& values) { return values; }
+
+/// values[source] for each source; nothing where there are no values.
+template <class T>
+std::vector<T> gather(StridedSpan<const T> values, const std::vector<std::uint32_t>& sources) {
+    std::vector<T> result;
+    if (values.empty()) return result;
+    result.reserve(sources.size());
+    for (const std::uint32_t source : sources) result.push_back(values[source]);
+    return result;
+}
+
+template <class T>
+std::vector<T> gather(std::span<const T> values, const std::vector<std::uint32_t>& sources) {
+    return gather(StridedSpan<const T>(values), sources);
+}
+
+/// The normals of corners; any, where no corner uses the vertex.
+std::vector<Vec3> gatherNormals(const std::vector<Vec3>& normals, const std::vector<std::uint32_t>& corners);
+
+}  // namespace tspace

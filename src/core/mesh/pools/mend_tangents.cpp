@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+#include "core/mesh/pools/mend_tangents.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/base/unit.h"
+#include "core/mesh/surface/surface.h"
+#include "core/mesh/surface/tangent_values.h"
+#include "tspace/frame.h"
+#include "tspace/sanitize.h"
+
+namespace tspace {
+
+namespace {
+
+/// What `check` allows a direction to be off by: 10 degrees.
+constexpr double kSameTangent = 0.98480775301220802;
+
+bool isNear(const Vec4& a, const Vec4& b) {
+    DVec3 ta = toDouble(xyz(a)), tb = toDouble(xyz(b));
+    return normalize(ta) && normalize(tb) && dot(ta, tb) >= kSameTangent;
+}
+
+/// Whether the triangle of a corner says which sign is right there.
+bool hasSide(const PoolView& pool, std::span<const std::uint32_t> corners, std::size_t corner) {
+    const std::uint32_t* const v = corners.data() + corner / 3 * 3;
+    const std::array<Vec2, 3> uvs{pool.uvs[v[0]], pool.uvs[v[1]], pool.uvs[v[2]]};
+    return describeFace({pool.positions[v[0]], pool.positions[v[1]], pool.positions[v[2]]}, &uvs).orientation != 0;
+}
+
+std::uint8_t partsOf(const Mends& mends, std::uint32_t vertex) {
+    const auto found =
+        std::lower_bound(mends.vertices.begin(), mends.vertices.end(), vertex,
+                         [](const VertexMend& mend, std::uint32_t wanted) { return mend.vertex < wanted; });
+    return found != mends.vertices.end() && found->vertex == vertex ? found->parts : std::uint8_t{0};
+}
+
+Vec4 withDirection(const DVec3& direction, float sign) {
+    const Vec3 t = toFloat(direction);
+    return {t.x, t.y, t.z, sign};
+}
+
+/// Perpendicular to N. A tangent without a part in that plane stays as it is.
+Vec4 straightened(const Vec4& tangent, const Vec3& normal) {
+    DVec3 n = toDouble(normal), t = toDouble(xyz(tangent));
+    if (!normalize(n)) return tangent;
+    t = t - dot(n, t) * n;
+    return normalize(t) ? withDirection(t, tangent.w) : tangent;
+}
+
+/// The kept tangent, mended without a look at the triangles around it.
+Vec4 mendedAlone(const Vec4& kept, const Vec4& computed, const Vec3& normal, std::uint8_t parts) {
+    Vec4 tangent = withSoundValues(kept, computed, normal);
+    if ((parts & mend::kStraighten) != 0) tangent = straightened(tangent, normal);
+    if ((parts & mend::kTurnSign) != 0) tangent.w = -tangent.w;
+    return tangent;
+}
+
+}  // namespace
+
+Vec4 withSoundValues(const Vec4& kept, const Vec4& instead, const Vec3& normal) {
+    const bool has_sign = std::isfinite(kept.w) && kept.w != 0;
+    const float sign = (has_sign ? kept.w : instead.w) < 0 ? -1.0f : 1.0f;
+    if (!hasDirection(kept, normal)) return {instead.x, instead.y, instead.z, sign};
+    if (hasSoundValues(kept)) return kept;
+    DVec3 t = toDouble(xyz(kept));
+    if (std::fabs(length(t) - 1) <= kMostFromUnit) return {kept.x, kept.y, kept.z, sign};
+    normalize(t);
+    return withDirection(t, sign);
+}
+
+Vec4 tangentFromNormal(const Vec3& normal, float sign) {
+    const Vec3 t = orthonormalize({.tangent = {}, .bitangent = {}, .normal = normal}).tangent;
+    return {t.x, t.y, t.z, sign};
+}
+
+Result<Done> mendValues(const TangentView& mesh, bool along_normals, std::span<Vec4> tangents) {
+    const auto normalAt = [&](std::size_t v) { return mesh.normals.empty() ? Vec3{} : mesh.normals[v]; };
+    const auto judgedBy = [&](std::size_t v) { return along_normals ? Vec3{} : normalAt(v); };
+    std::vector<bool> is_broken(tangents.size(), false);
+    for (std::size_t v = 0; v < tangents.size(); ++v) {
+        is_broken[v] = !hasDirection(tangents[v], judgedBy(v));
+        if (!is_broken[v]) tangents[v] = withSoundValues(tangents[v], {}, judgedBy(v));
+    }
+    // Broken ones get what their triangles have elsewhere, and without that a basis from N.
+    std::vector<Vec4> of_corners;
+    for (const std::uint32_t v : mesh.corners) of_corners.push_back(is_broken[v] ? Vec4{} : tangents[v]);
+    if (!mesh.normals.empty() && !mesh.corners.empty()) {
+        const Result<SanitizeReport> mended = sanitizeTangents(mesh.triangles(), {}, std::span(of_corners));
+        if (!mended) return mended.error();
+    }
+    std::vector<Vec4> found(tangents.size(), Vec4{});
+    for (std::size_t c = of_corners.size(); c-- > 0;) found[mesh.corners[c]] = of_corners[c];
+    for (std::size_t v = 0; v < tangents.size(); ++v) {
+        if (!is_broken[v]) continue;
+        const bool is_found = hasSoundValues(found[v]) && hasDirection(found[v], normalAt(v));
+        tangents[v] =
+            withSoundValues(tangents[v], is_found ? found[v] : tangentFromNormal(normalAt(v), 1), judgedBy(v));
+    }
+    return Done{};
+}
+
+std::vector<bool> mendCorners(const PoolView& pool, std::span<const std::uint32_t> corners, const Mends& mends,
+                              std::span<Vec4> tangents) {
+    std::vector<bool> has_new_deltas(corners.size(), false);
+    for (std::size_t c = 0; c < corners.size(); ++c) {
+        const std::uint8_t parts = partsOf(mends, corners[c]);
+        Vec4 computed = tangents[c];
+        if (mends.inverted_signs) computed.w = -computed.w;
+        const Vec4 stays = mendedAlone(pool.kept_tangents[corners[c]], computed, pool.normals[corners[c]], parts);
+        const bool wants_deltas = (parts & mend::kDeltas) != 0;
+        bool is_new =
+            (parts & mend::kWhole) != 0 || !hasDirection(pool.kept_tangents[corners[c]], pool.normals[corners[c]]);
+        if ((parts & mend::kSides) != 0 && hasSide(pool, corners, c)) {
+            is_new = is_new || (stays.w > 0) != (computed.w > 0) || !isNear(stays, computed);
+        }
+        // Deltas belong to the direction that they were made for.
+        is_new = is_new || (wants_deltas && !isNear(stays, computed));
+        tangents[c] = is_new ? computed : stays;
+        has_new_deltas[c] = is_new || wants_deltas;
+    }
+    return has_new_deltas;
+}
+
+}  // namespace tspace

@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: MIT
+// Each target is evaluated on the plan of the base, mended as the base was, and compared with the base corner by
+// corner. Where nothing near a corner moves the evaluation has the base's bits, so the offset is exactly zero. Where a
+// target makes faces collapse (an eye that closes), the corner has no tangent of its own and keeps that of the base.
+//
+// A group of the base goes on over equal vertices. Where a target gives those different normals, as flat shading does
+// where it bends a plane, one tangent for all would lean out of every face; so there the moved shape is grouped anew.
+#include "core/mesh/pools/morph_frames.h"
+
+#include <cfloat>
+#include <cmath>
+#include <cstring>
+#include <string>
+#include <utility>
+
+#include "core/base/unit.h"
+#include "tspace/frame.h"
+#include "tspace/sanitize.h"
+
+namespace tspace {
+
+namespace {
+
+constexpr double kCosineOfFiveDegrees = 0.99619469809174555;
+constexpr double kTenthOfADegree = 0.0017453283658983088;  // its sine
+
+Vec3 sum(const Vec3& a, const Vec3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+
+/// What a viewer makes of a normal and its offset. Without a direction it stays as it is, and is mended later.
+Vec3 unitSum(const Vec3& normal, const Vec3& offset) {
+    const Vec3 moved = sum(normal, offset);
+    const DVec3 wide = toDouble(moved);
+    const double size = length(wide);
+    return size > 0 && std::isfinite(size) ? toFloat((1 / size) * wide) : moved;
+}
+
+bool hasDirection(const Vec4& tangent) {
+    return isFinite(xyz(tangent)) && length(toDouble(xyz(tangent))) >= double{FLT_MIN};
+}
+
+/// Whether the tangent has a direction, within a tenth of a degree of the plane.
+bool liesAcross(const Vec4& tangent, const Vec3& normal) {
+    const DVec3 t = toDouble(xyz(tangent)), n = toDouble(normal);
+    return hasDirection(tangent) && std::fabs(dot(t, n)) <= kTenthOfADegree * length(t) * length(n);
+}
+
+/// Whether it points out of the plane of a unit normal. No sum of what lies in the plane does, unless it
+/// cancels out and leaves its rounding.
+bool leansOut(const Vec4& tangent, const Vec3& normal) {
+    constexpr double kAboutUnit = 1e-3, kSineOfFiveDegrees = 0.08715574274765817;
+    const DVec3 t = toDouble(xyz(tangent)), n = toDouble(normal);
+    return std::fabs(dot(n, n) - 1) < kAboutUnit && std::fabs(dot(t, n)) > kSineOfFiveDegrees * length(t);
+}
+
+/// The tangent of the base, made orthogonal to another normal that has a direction.
+Vec4 carried(const Vec4& tangent, const Vec3& from, const Vec3& to) {
+    if (from == to || !isFinite(to) || isZero(to)) return tangent;
+    const Vec3 t = orthonormalize({.tangent = xyz(tangent), .bitangent = {}, .normal = to}).tangent;
+    return {t.x, t.y, t.z, tangent.w};
+}
+
+unsigned stepsOf(const TangentOptions& options) { return options.method == Method::best ? options.refine : 0; }
+
+/// values + offsets, vertex by vertex; a vertex with the offset zero keeps its bits. Returns whether one has another.
+template <class Add>
+bool move(const StridedSpan<const Vec3>& values, const LocalMesh& mesh, const std::vector<Vec3>& offsets, Add&& add,
+          std::vector<Vec3>& out) {
+    out.resize(values.count);
+    for (std::size_t v = 0; v < out.size(); ++v) out[v] = values[v];
+    if (offsets.empty() || values.empty()) return false;
+    bool moves = false;
+    for (std::size_t v = 0; v < out.size(); ++v) {
+        const Vec3& offset = offsets[mesh.sources.empty() ? v : mesh.sources[v]];
+        if (isZero(offset)) continue;
+        out[v] = add(out[v], offset);
+        moves = true;
+    }
+    return moves;
+}
+
+}  // namespace
+
+Result<MorphOffsets> readTarget(const PoolView& pool, std::size_t i) {
+    Result<MorphOffsets> offsets = pool.targets.read(i);
+    if (!offsets) return offsets;
+    for (const std::vector<Vec3>* list : {&offsets->positions, &offsets->normals, &offsets->tangents}) {
+        if (list->empty() || list->size() == pool.positions.count) continue;
+        return Error{ErrorCode::countMismatch, "morph target " + std::to_string(i) + " has " +
+                                                   std::to_string(list->size()) + " offsets for " +
+                                                   std::to_string(pool.positions.count) + " vertices"};
+    }
+    return offsets;
+}
+
+bool MorphPose::take(const LocalMesh& mesh, const MorphOffsets& offsets) {
+    const bool moves_positions = move(mesh.positions, mesh, offsets.positions, sum, positions_);
+    const bool moves_normals = move(mesh.normals, mesh, offsets.normals, unitSum, normals_);
+    return moves_positions || moves_normals;
+}
+
+Vec3 offsetBetween(const Vec3& from, const Vec3& to) {
+    // A sum with +0 is never -0.
+    const Vec3 offset{to.x - from.x + 0.0f, to.y - from.y + 0.0f, to.z - from.z + 0.0f};
+    return isFinite(offset) ? offset : Vec3{};
+}
+
+Result<Done> MorphTangents::add(LocalMesh&& mesh, PrimitiveReport& report) {
+    Result<TangentPlan> plan = planTangents(mesh.view(), options_.tangents, options_.execution);
+    if (!plan) return std::move(plan).error();
+    const MeshView view = mesh.view();
+    tangents_.resize(mesh.indices.size());
+    const Result<TangentReport> made =
+        evaluateTangents(*plan, {view.positions, view.normals}, {.tangents = tangents_}, options_.execution);
+    if (!made) return made.error();
+    WeldClasses classes(mesh);
+    pieces_.push_back({std::move(mesh), *std::move(plan), std::move(classes), tangents_, &report});
+    return Done{};
+}
+
+Result<Done> MorphTangents::compute(std::span<const Vec4> tangents, MorphSplit& split, const KeptOffsets* kept) {
+    std::vector<Vec3> offsets(tangents.size());
+    for (std::size_t target = 0; target < pool_.targets.count; ++target) {
+        const Result<MorphOffsets> moved = readTarget(pool_, target);
+        if (!moved) return moved.error();
+        std::size_t first = 0;
+        for (const Piece& piece : pieces_) {
+            const std::size_t count = piece.mesh.triangleCornerCount();
+            const std::span<Vec3> own = std::span<Vec3>(offsets).subspan(first, count);
+            if (!pose_.take(piece.mesh, *moved)) {
+                std::fill(own.begin(), own.end(), Vec3{});
+            } else if (Result<Done> done = evaluateFaces(piece, tangents.subspan(first, count), own); !done) {
+                return done;
+            }
+            first += count;
+        }
+        if (kept != nullptr && !moved->tangents.empty()) {
+            for (std::size_t c = 0; c < offsets.size(); ++c) {
+                if (!kept->is_new[c]) offsets[c] = moved->tangents[kept->vertices[c]];
+            }
+        }
+        if (Result<Done> done = split.add(offsets, 0, options_.execution); !done) return done;
+    }
+    return Done{};
+}
+
+/// `base` and `offsets` are of the corners of triangles.
+Result<Done> MorphTangents::evaluateFaces(const Piece& piece, std::span<const Vec4> base, std::span<Vec3> offsets) {
+    const std::vector<std::uint32_t>& face_corners = piece.mesh.face_corners;
+    if (face_corners.empty()) return evaluate(piece, base, offsets);
+    std::vector<Vec4> base_of_faces(piece.mesh.indices.size());
+    for (std::size_t c = 0; c < base.size(); ++c) base_of_faces[face_corners[c]] = base[c];
+    std::vector<Vec3> offsets_of_faces(base_of_faces.size());
+    if (Result<Done> done = evaluate(piece, base_of_faces, offsets_of_faces); !done) return done;
+    toTriangles<Vec3>(piece.mesh, offsets_of_faces, offsets);
+    return Done{};
+}
+
+Result<Done> MorphTangents::evaluate(const Piece& piece, std::span<const Vec4> base, std::span<Vec3> offsets) {
+    tangents_.resize(base.size());
+    MeshView posed = piece.mesh.view();
+    posed.positions = StridedSpan<const Vec3>(pose_.positions());
+    posed.normals = StridedSpan<const Vec3>(pose_.normals());
+    const Result<TangentReport> made =
+        evaluateTangents(piece.plan, {posed.positions, posed.normals}, {.tangents = tangents_}, options_.execution);
+    if (!made) return made.error();
+    if (piece.classes.findApart(piece.mesh.indices, pose_.positions(), pose_.normals(), apart_)) {
+        // A step reads the results of neighbours.
+        piece.classes.spread(piece.mesh, stepsOf(options_.tangents), apart_);
+        if (Result<Done> done = regroup(piece, posed); !done) return done;
+    }
+    stays_.assign(base.size(), false);
+    if (options_.sanitize) {
+        // Mending looks around, and what moves elsewhere must not reach those that stay.
+        for (std::size_t c = 0; c < base.size(); ++c) stays_[c] = staysAt(piece, c);
+        carryOver(piece, base);
+        const Result<SanitizeReport> mended =
+            sanitizeTangents(posed, options_.sanitize_options, tangents_, options_.execution);
+        if (!mended) return mended.error();
+    }
+    for (std::size_t c = 0; c < base.size(); ++c) {
+        offsets[c] = Vec3{};
+        if (stays_[c]) continue;
+        offsets[c] = offsetBetween(xyz(base[c]), xyz(tangents_[c]));
+        if (base[c].w != tangents_[c].w) ++piece.report->morph_sign_flip_count;
+    }
+    return Done{};
+}
+
+/// Where equal vertices came apart. Where the corner's own triangles give it nothing (a default leans out of the
+/// plane), or the other sign, which no target can bring about, the tangent of the base's group is laid into the plane.
+Result<Done> MorphTangents::regroup(const Piece& piece, const MeshView& posed) {
+    regrouped_.resize(tangents_.size());
+    const Result<TangentReport> made =
+        generateTangents(posed, options_.tangents, {.tangents = regrouped_}, options_.execution);
+    if (!made) return made.error();
+    for (std::size_t c = 0; c < tangents_.size(); ++c) {
+        const std::uint32_t v = piece.mesh.indices[c];
+        if (!apart_[piece.classes.of(v)]) continue;
+        const Vec3& normal = pose_.normals()[v];
+        if (regrouped_[c].w == tangents_[c].w && liesAcross(regrouped_[c], normal)) {
+            tangents_[c] = regrouped_[c];
+        } else if (hasDirection(tangents_[c])) {
+            tangents_[c] = carried(tangents_[c], piece.mesh.normals[v], normal);
+        }
+    }
+    return Done{};
+}
+
+/// Whether the corner has the bits of the base, before anything was mended.
+bool MorphTangents::staysAt(const Piece& piece, std::size_t corner) const {
+    const std::uint32_t v = piece.mesh.indices[corner];
+    return std::memcmp(&tangents_[corner], &piece.unmended[corner], sizeof(Vec4)) == 0 &&
+           piece.mesh.normals[v] == pose_.normals()[v];
+}
+
+/// Where faces collapsed, or their tangents cancel out.
+void MorphTangents::carryOver(const Piece& piece, std::span<const Vec4> base) {
+    for (std::size_t c = 0; c < base.size(); ++c) {
+        const std::uint32_t v = piece.mesh.indices[c];
+        const Vec3 &from = piece.mesh.normals[v], &to = pose_.normals()[v];
+        const bool is_lost = !hasDirection(tangents_[c]) || (leansOut(tangents_[c], to) && liesAcross(base[c], from));
+        if (hasDirection(piece.unmended[c]) && is_lost) tangents_[c] = carried(base[c], from, to);
+    }
+}
+
+std::uint64_t countDiffering(std::span<const Vec4> computed, std::span<const Vec4> of_vertices,
+                             std::span<const std::uint32_t> vertices) {
+    std::uint64_t count = 0;
+    for (std::size_t c = 0; c < computed.size(); ++c) {
+        const Vec4& kept = of_vertices[vertices[c]];
+        const DVec3 a = toDouble(xyz(computed[c])), b = toDouble(xyz(kept));
+        const bool same = computed[c].w == kept.w && dot(a, b) >= kCosineOfFiveDegrees * length(a) * length(b);
+        count += same ? 0 : 1;
+    }
+    return count;
+}
+
+std::uint64_t countDiffering(std::span<const Vec4> computed, std::span<const Vec4> written) {
+    std::uint64_t count = 0;
+    for (std::size_t c = 0; c < computed.size(); ++c) {
+        const DVec3 a = toDouble(xyz(computed[c])), b = toDouble(xyz(written[c]));
+        count += dot(a, b) >= kCosineOfFiveDegrees * length(a) * length(b) ? 0U : 1U;
+    }
+    return count;
+}
+
+}  // namespace tspace

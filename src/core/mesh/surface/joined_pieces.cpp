@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: MIT
+// Points first, then what pairs of pieces say of one another at edges and triangles that both have, then groups.
+#include "core/mesh/surface/joined_pieces.h"
+
+#include <algorithm>
+#include <tuple>
+
+#include "core/base/sort.h"
+#include "core/base/unique_index.h"
+#include "core/mesh/surface/equal_vertices.h"
+
+namespace tspace {
+
+namespace {
+
+constexpr std::uint32_t kNoPiece = 0xffffffffu;
+/// One triangle in so many of the smaller piece: the pieces lie on one another.
+constexpr std::size_t kOverlap = 10;
+
+}  // namespace
+
+JoinedPieces::JoinedPieces(std::span<const std::span<const Vec3>> vertex_lists, std::span<const SurfacePiece> pieces)
+    : pieces_(pieces) {
+    weld(vertex_lists);
+    markShared();
+    std::map<Pair, Votes> votes;
+    voteByEdges(sharedEdges(), votes);
+    voteByTriangles(votes);
+    group(votes);
+    std::erase_if(borders_, [&](const Border& border) {
+        return !areJoined(border.triangles[0].piece, border.triangles[1].piece);
+    });
+    listTriangles();
+}
+
+void JoinedPieces::weld(std::span<const std::span<const Vec3>> vertex_lists) {
+    std::size_t count = 0;
+    for (const std::span<const Vec3> list : vertex_lists) {
+        first_vertex_.push_back(count);
+        count += list.size();
+    }
+    UniqueIndex<std::array<std::uint32_t, 3>> points(count);
+    points_.reserve(count);
+    for (const std::span<const Vec3> list : vertex_lists) {
+        for (const Vec3& p : list) points_.push_back(points.indexOf(positionKey(p)));
+    }
+    is_shared_.resize(points.size());
+}
+
+void JoinedPieces::markShared() {
+    std::vector<std::uint32_t> owner(is_shared_.size(), kNoPiece);
+    for (std::uint32_t piece = 0; piece < pieces_.size(); ++piece) {
+        for (const std::uint32_t vertex : pieces_[piece].corners) {
+            const std::uint32_t point = pointOf(piece, vertex);
+            if (owner[point] == kNoPiece) owner[point] = piece;
+            if (owner[point] != piece) is_shared_[point] = true;
+        }
+    }
+}
+
+std::vector<JoinedPieces::EdgeUse> JoinedPieces::sharedEdges() const {
+    std::vector<EdgeUse> edges;
+    for (std::uint32_t piece = 0; piece < pieces_.size(); ++piece) {
+        for (std::uint32_t t = 0; t < pieces_[piece].corners.size() / 3; ++t) {
+            for (std::size_t k = 0; k < 3; ++k) {
+                const std::uint32_t a = corner({piece, t}, k), b = corner({piece, t}, (k + 1) % 3);
+                if (a == b || !is_shared_[a] || !is_shared_[b]) continue;
+                edges.push_back({std::min(a, b), std::max(a, b), {piece, t}, a < b});
+            }
+        }
+    }
+    sortList(edges.begin(), edges.end(), [](const EdgeUse& a, const EdgeUse& b) {
+        return std::tie(a.low, a.high, a.at.piece, a.at.triangle) < std::tie(b.low, b.high, b.at.piece, b.at.triangle);
+    });
+    return edges;
+}
+
+/// Where more than two triangles meet at an edge nobody can say which of them are neighbours.
+void JoinedPieces::voteByEdges(const std::vector<EdgeUse>& edges, std::map<Pair, Votes>& votes) {
+    for (std::size_t i = 0, past = 0; i < edges.size(); i = past) {
+        while (past < edges.size() && edges[past].low == edges[i].low && edges[past].high == edges[i].high) ++past;
+        if (past - i != 2 || edges[i].at.piece == edges[i + 1].at.piece) continue;
+        Votes& pair = votes[{edges[i].at.piece, edges[i + 1].at.piece}];
+        const bool agrees = edges[i].is_forward != edges[i + 1].is_forward;
+        ++(agrees ? pair.agreeing : pair.turned);
+        if (agrees) borders_.push_back({{edges[i].at, edges[i + 1].at}, {edges[i].low, edges[i].high}});
+    }
+}
+
+void JoinedPieces::voteByTriangles(std::map<Pair, Votes>& votes) const {
+    std::vector<std::pair<std::array<std::uint32_t, 3>, std::uint32_t>> triangles;
+    for (std::uint32_t piece = 0; piece < pieces_.size(); ++piece) {
+        for (std::uint32_t t = 0; t < pieces_[piece].corners.size() / 3; ++t) {
+            std::array<std::uint32_t, 3> points = {corner({piece, t}, 0), corner({piece, t}, 1), corner({piece, t}, 2)};
+            if (!is_shared_[points[0]] || !is_shared_[points[1]] || !is_shared_[points[2]]) continue;
+            sortList(points.begin(), points.end());
+            if (points[0] != points[1] && points[1] != points[2]) triangles.emplace_back(points, piece);
+        }
+    }
+    sortList(triangles.begin(), triangles.end());
+    for (std::size_t i = 1; i < triangles.size(); ++i) {
+        if (triangles[i].first == triangles[i - 1].first && triangles[i].second != triangles[i - 1].second)
+            ++votes[{triangles[i - 1].second, triangles[i].second}].overlapping;
+    }
+}
+
+void JoinedPieces::group(const std::map<Pair, Votes>& votes) {
+    const auto lie = [&](std::uint32_t a, std::uint32_t b) {
+        const auto found = votes.find({std::min(a, b), std::max(a, b)});
+        const std::size_t least = std::min(pieces_[a].corners.size(), pieces_[b].corners.size()) / 3;
+        return found != votes.end() && found->second.overlapping > 0 && found->second.overlapping * kOverlap >= least;
+    };
+    for (std::uint32_t piece = 0; piece < pieces_.size(); ++piece) {
+        group_.push_back(piece);
+        groups_.push_back({piece});
+    }
+    for (const auto& [pair, vote] : votes) {
+        const std::uint32_t a = group_[pair.first], b = group_[pair.second];
+        if (a == b || vote.agreeing <= vote.turned) continue;
+        const bool overlap = std::any_of(groups_[a].begin(), groups_[a].end(), [&](std::uint32_t one) {
+            return std::any_of(groups_[b].begin(), groups_[b].end(),
+                               [&](std::uint32_t other) { return lie(one, other); });
+        });
+        if (overlap) continue;
+        for (const std::uint32_t piece : groups_[b]) group_[piece] = a;
+        groups_[a].insert(groups_[a].end(), groups_[b].begin(), groups_[b].end());
+        groups_[b].clear();
+    }
+}
+
+void JoinedPieces::listTriangles() {
+    begins_.assign(is_shared_.size() + 2, 0);
+    const auto forAll = [&](const auto& call) {
+        for (std::uint32_t piece = 0; piece < pieces_.size(); ++piece) {
+            if (othersOf(piece) == 0) continue;
+            for (std::uint32_t t = 0; t < pieces_[piece].corners.size() / 3; ++t) {
+                for (std::size_t k = 0; k < 3; ++k) call(PieceTriangle{piece, t}, corner({piece, t}, k));
+            }
+        }
+    };
+    forAll([&](const PieceTriangle&, std::uint32_t point) { ++begins_[point + 2]; });
+    for (std::size_t p = 2; p < begins_.size(); ++p) begins_[p] += begins_[p - 1];
+    triangles_.resize(begins_.back());
+    forAll([&](const PieceTriangle& at, std::uint32_t point) { triangles_[begins_[point + 1]++] = at; });
+}
+
+std::vector<std::uint32_t> JoinedPieces::sharedPoints(std::uint32_t piece) const {
+    std::vector<std::uint32_t> result;
+    for (const std::uint32_t vertex : pieces_[piece].corners) {
+        const std::uint32_t point = pointOf(piece, vertex);
+        if (is_shared_[point]) result.push_back(point);
+    }
+    sortList(result.begin(), result.end());
+    result.erase(std::unique(result.begin(), result.end()), result.end());
+    std::erase_if(result, [&](std::uint32_t point) {
+        return std::none_of(triangles_.begin() + begins_[point], triangles_.begin() + begins_[point + 1],
+                            [&](const PieceTriangle& at) { return at.piece != piece && areJoined(at.piece, piece); });
+    });
+    return result;
+}
+
+std::vector<PieceTriangle> JoinedPieces::around(std::uint32_t piece, unsigned rings) const {
+    std::vector<PieceTriangle> result;
+    std::vector<std::uint32_t> points = sharedPoints(piece);
+    const auto isLess = [](const PieceTriangle& a, const PieceTriangle& b) {
+        return std::tie(a.piece, a.triangle) < std::tie(b.piece, b.triangle);
+    };
+    for (; rings != 0 && !points.empty(); --rings) {
+        for (const std::uint32_t point : points) {
+            for (std::uint32_t i = begins_[point]; i < begins_[point + 1]; ++i) {
+                const PieceTriangle& at = triangles_[i];
+                if (at.piece != piece && areJoined(at.piece, piece)) result.push_back(at);
+            }
+        }
+        sortList(result.begin(), result.end(), isLess);
+        const auto isSame = [](const PieceTriangle& a, const PieceTriangle& b) {
+            return a.piece == b.piece && a.triangle == b.triangle;
+        };
+        result.erase(std::unique(result.begin(), result.end(), isSame), result.end());
+        if (rings == 1) break;
+        points.clear();
+        for (const PieceTriangle& at : result) {
+            for (std::size_t k = 0; k < 3; ++k) points.push_back(corner(at, k));
+        }
+        sortList(points.begin(), points.end());
+        points.erase(std::unique(points.begin(), points.end()), points.end());
+    }
+    return result;
+}
+
+}  // namespace tspace

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+// generateNormals: checks, and which way is taken. For another pose points and components are those of the mesh; faces
+// and weights are the pose's.
+#include "tspace/normals.h"
+
+#include "core/base/border.h"
+#include "core/base/parallel.h"
+#include "core/normals/normals_call.h"
+#include "core/normals/pose_normals.h"
+
+namespace tspace {
+
+namespace {
+
+Error checkOptions(const MeshView& mesh, const NormalOptions& options, const StridedSpan<Vec3>& out) {
+    if (static_cast<std::uint32_t>(options.weighting) > static_cast<std::uint32_t>(NormalWeighting::best)) {
+        return {ErrorCode::invalidOption, "weighting is not one of NormalWeighting"};
+    }
+    if (!(options.crease_angle_deg >= 0 && options.crease_angle_deg <= 180)) {
+        return {ErrorCode::invalidOption, "crease_angle_deg is not between 0 and 180"};
+    }
+    if (options.refine > 2) return {ErrorCode::invalidOption, "refine is not 0, 1 or 2"};
+    if (!options.smoothing_groups.empty()) {
+        const StridedSpan<const std::uint32_t> groups = options.smoothing_groups;
+        if (Error e = checkSpan(groups, mesh.faceCount(), "smoothing_groups"); e.code != ErrorCode::ok) return e;
+    }
+    return checkSpan(out, mesh.cornerCount(), "out");
+}
+
+NormalReport averageNormals(const NormalsCall& call) {
+    const bool is_usual = call.are_triangles && call.mesh.vertexCount() != 0 && call.options.crease_angle_deg >= 180 &&
+                          call.options.smoothing_groups.empty() && call.weighting != NormalWeighting::max;
+    return is_usual ? smoothTriangles(call) : smoothFaces(call);
+}
+
+/// Corners of degenerate faces get the mean of the others there. Where there are none, nothing at points matters.
+NormalReport flatNormals(const MeshView& mesh, const MeshView& posed, const Call<NormalOptions>& options,
+                         StridedSpan<Vec3> out, Parallel& parallel) {
+    Call<NormalOptions> means = options;
+    means.weighting = NormalWeighting::uniform;
+    means.crease_angle_deg = 180;
+    means.smoothing_groups = {};
+    means.weld_positions = false;
+    const NormalReport report = writeFaceNormals({mesh, posed, means, out, parallel});
+    if (report.degenerate_face_count == 0) return report;
+    means.weld_positions = options.weld_positions;
+    const NormalsCall call(mesh, posed, means, out, parallel);
+    averageNormals(call);
+    return writeFaceNormals(call);
+}
+
+Result<NormalReport> checkAndGenerate(const MeshView& mesh, const MeshView& posed, const Call<NormalOptions>& options,
+                                      StridedSpan<Vec3> out) {
+    // Cones and patches of faces are looked for at each point.
+    constexpr std::uint64_t kSlow = 4;
+    const bool is_slow = options.weighting == NormalWeighting::best || options.crease_angle_deg < 180;
+    Parallel parallel(options.execution, (is_slow ? kSlow : 1) * mesh.cornerCount());
+    if (Error e = checkMesh(mesh, &parallel); e.code != ErrorCode::ok) return e;
+    if (Error e = checkSpan(posed.positions, mesh.vertexCount(), "positions"); e.code != ErrorCode::ok) return e;
+    if (Error e = checkOptions(mesh, options, out); e.code != ErrorCode::ok) return e;
+    if (options.weighting == NormalWeighting::flat) return flatNormals(mesh, posed, options, out, parallel);
+    return averageNormals({mesh, posed, options, out, parallel});
+}
+
+}  // namespace
+
+Result<NormalReport> generateNormals(const MeshView& mesh, const NormalOptions& options, StridedSpan<Vec3> out,
+                                     const Execution& execution) {
+    return atBorder([&] { return checkAndGenerate(mesh, mesh, {options, execution}, out); });
+}
+
+Result<NormalReport> generatePoseNormals(const MeshView& mesh, const StridedSpan<const Vec3>& positions,
+                                         const NormalOptions& options, StridedSpan<Vec3> out,
+                                         const Execution& execution) {
+    return atBorder([&] {
+        MeshView posed = mesh;
+        posed.positions = positions;
+        return checkAndGenerate(mesh, posed, {options, execution}, out);
+    });
+}
+
+}  // namespace tspace

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+// What is known of each format: its bytes, its bounds, its kernel.
+#pragma once
+
+#include <cstddef>
+
+#include "core/pack/frame_block.h"
+#include "tspace/pack.h"
+
+namespace tspace::pack {
+
+struct Format {
+    std::size_t bytes;  ///< of a frame
+    FrameErrorBound bound;
+    FrameKernel (*kernel)(SimdTarget wish);
+    /// Bytes of `count` frames to words, and back; count <= kBlockFrames.
+    void (*read)(const std::byte* bytes, std::size_t count, WordBlock& words);
+    void (*write)(const WordBlock& words, std::size_t count, std::byte* bytes);
+};
+
+/// Null for what is none of the enumerators.
+const Format* formatOf(FrameFormat format);
+
+/// packFrames and unpackFrames without checks, with the instructions of this target.
+PackReport pack(const Format& format, SimdTarget wish, const StridedSpan<const Vec3>& normals,
+                const StridedSpan<const Vec4>& tangents, std::byte* bytes);
+void unpack(const Format& format, SimdTarget wish, const std::byte* bytes, const StridedSpan<Vec3>& normals,
+            const StridedSpan<Vec4>& tangents);
+
+}  // namespace tspace::pack

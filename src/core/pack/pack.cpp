@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: MIT
+// The border of this room: checks, mending, and frames block by block.
+#include "tspace/pack.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "core/base/border.h"
+#include "core/base/unit.h"
+#include "core/pack/formats.h"
+
+namespace tspace {
+
+namespace pack {
+
+namespace {
+
+/// As sanitize: the glTF validator's tolerance, and the sine within which T says nothing.
+constexpr double kCountedTolerance = 5e-4, kOneDegree = 0.017452406437283512;
+
+// ---- frames on the way in
+
+/// Whether T can be used with this unit N; if not, why.
+std::uint64_t PackReport::*causeAgainst(const Vec3& tangent, const DVec3& n) {
+    if (!isFinite(tangent)) return &PackReport::not_finite_count;
+    DVec3 t = toDouble(tangent);
+    if (!normalize(t)) return &PackReport::zero_count;
+    return length(cross(n, t)) < kOneDegree ? &PackReport::parallel_count : nullptr;
+}
+
+bool isCounted(double size) { return !(std::fabs(size - 1) <= kCountedTolerance); }
+
+/// T, which is not parallel to n, made unit and orthogonal to it; twice, since near n the first pass cancels digits.
+DVec3 orthogonalized(DVec3 t, const DVec3& n) {
+    for (int pass = 0; pass < 2; ++pass) {
+        normalize(t);
+        t = t - dot(n, t) * n;
+    }
+    normalize(t);
+    return t;
+}
+
+/// Makes N and T unit and orthogonal. Returns the count that this belongs to, null for none.
+std::uint64_t PackReport::*mend(Vec3& normal, Vec3& tangent) {
+    std::uint64_t PackReport::*cause = nullptr;
+    const auto because = [&](std::uint64_t PackReport::*next) {
+        if (cause == nullptr) cause = next;
+    };
+    DVec3 n = toDouble(normal), t = toDouble(tangent);
+    const double n_size = length(n), t_size = length(t);
+    if (!normalize(n)) {
+        n = {0, 0, 1};
+        because(&PackReport::bad_normal_count);
+    }
+    if (std::uint64_t PackReport::*against = causeAgainst(tangent, n)) {
+        because(against);
+        t = planeAxes(n).x;
+    } else {
+        if (isCounted(n_size) || isCounted(t_size)) because(&PackReport::not_unit_count);
+        normalize(t);
+        if (std::fabs(dot(n, t)) > kCountedTolerance) because(&PackReport::not_orthogonal_count);
+        t = orthogonalized(t, n);
+    }
+    normal = toFloat(n);
+    tangent = toFloat(t);
+    return cause;
+}
+
+// ---- blocks
+
+void setVector(float (&to)[3][kBlockFrames], std::size_t i, const Vec3& v) {
+    to[0][i] = v.x;
+    to[1][i] = v.y;
+    to[2][i] = v.z;
+}
+Vec3 vectorAt(const float (&from)[3][kBlockFrames], std::size_t i) { return {from[0][i], from[1][i], from[2][i]}; }
+
+/// A block of frames along the axes: whatever is not set later is sound.
+FrameBlock soundBlock() {
+    FrameBlock frames{};
+    for (std::size_t i = 0; i < kBlockFrames; ++i) {
+        setVector(frames.normal, i, {0, 0, 1});
+        setVector(frames.tangent, i, {1, 0, 0});
+    }
+    return frames;
+}
+
+/// Reads frames from number `begin`, and mends them.
+void fill(FrameBlock& frames, const StridedSpan<const Vec3>& normals, const StridedSpan<const Vec4>& tangents,
+          std::size_t begin, std::size_t count, SimdTarget wish, PackReport& report) {
+    std::uint64_t odd_signs = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        const Vec4& t = tangents[begin + i];
+        setVector(frames.normal, i, normals[begin + i]);
+        setVector(frames.tangent, i, xyz(t));
+        frames.mirrored[i] = t.w < 0 ? 1 : 0;
+        odd_signs |= std::uint64_t{t.w != 1.0f && t.w != -1.0f} << i;
+    }
+    const std::uint64_t asked = ~std::uint64_t{0} >> (kBlockFrames - count);
+    const std::uint64_t sound = simd::choose(wish, TSPACE_KERNEL_TABLE(soundFrames))(frames, count);
+    for (std::uint64_t left = asked & (~sound | odd_signs); left != 0; left &= left - 1) {
+        const auto i = static_cast<std::size_t>(std::countr_zero(left));
+        std::uint64_t PackReport::*cause = nullptr;
+        if ((sound >> i & 1) == 0) {
+            Vec3 n = vectorAt(frames.normal, i), t = vectorAt(frames.tangent, i);
+            cause = mend(n, t);
+            setVector(frames.normal, i, n);
+            setVector(frames.tangent, i, t);
+        }
+        if (cause == nullptr && (odd_signs >> i & 1) != 0) cause = &PackReport::bad_sign_count;
+        if (cause != nullptr) ++(report.*cause);
+    }
+}
+
+// ---- the border
+
+template <class N, class T>
+Error check(FrameFormat format, const StridedSpan<N>& normals, const StridedSpan<T>& tangents, const void* bytes,
+            std::size_t byte_count) {
+    const std::size_t each = frameBytes(format);
+    if (each == 0) return {ErrorCode::invalidOption, "the format is none of FrameFormat"};
+    if (Error e = checkSpan(normals, normals.count, "normals"); e.code != ErrorCode::ok) return e;
+    if (Error e = checkSpan(tangents, normals.count, "tangents"); e.code != ErrorCode::ok) return e;
+    if (byte_count / each != normals.count || byte_count % each != 0) {
+        return makeError(ErrorCode::countMismatch, kNoElement, "%zu frames of %zu bytes do not fit into %zu bytes",
+                         normals.count, each, byte_count);
+    }
+    return checkSpan(bytes, byte_count, 1, 1, byte_count, "bytes");
+}
+
+}  // namespace
+
+PackReport pack(const Format& format, SimdTarget wish, const StridedSpan<const Vec3>& normals,
+                const StridedSpan<const Vec4>& tangents, std::byte* bytes) {
+    const FrameKernel kernel = format.kernel(wish);
+    FrameBlock frames = soundBlock();
+    WordBlock words{};
+    PackReport report;
+    for (std::size_t begin = 0; begin < normals.count; begin += kBlockFrames) {
+        const std::size_t count = std::min(normals.count - begin, kBlockFrames);
+        fill(frames, normals, tangents, begin, count, wish, report);
+        kernel.encode(frames, count, words);
+        format.write(words, count, bytes + begin * format.bytes);
+    }
+    return report;
+}
+
+void unpack(const Format& format, SimdTarget wish, const std::byte* bytes, const StridedSpan<Vec3>& normals,
+            const StridedSpan<Vec4>& tangents) {
+    const FrameKernel kernel = format.kernel(wish);
+    const bool is_dense = normals.stride_bytes == sizeof(Vec3) && tangents.stride_bytes == sizeof(Vec4);
+    WordBlock words{};
+    alignas(64) float block_normals[3 * kBlockFrames + 1], block_tangents[4 * kBlockFrames];
+    for (std::size_t begin = 0; begin < normals.count; begin += kBlockFrames) {
+        const std::size_t count = std::min(normals.count - begin, kBlockFrames);
+        format.read(bytes + begin * format.bytes, count, words);
+        if (is_dense && begin + kBlockFrames < normals.count) {  // what is written beyond is written again
+            kernel.decode(words, count, {&normals[begin].x, &tangents[begin].x});
+            continue;
+        }
+        kernel.decode(words, count, {block_normals, block_tangents});
+        for (std::size_t i = 0; i < count; ++i) {
+            const float *n = block_normals + 3 * i, *t = block_tangents + 4 * i;
+            normals[begin + i] = {n[0], n[1], n[2]};
+            tangents[begin + i] = {t[0], t[1], t[2], t[3]};
+        }
+    }
+}
+
+}  // namespace pack
+
+std::size_t frameBytes(FrameFormat format) {
+    const pack::Format* known = pack::formatOf(format);
+    return known != nullptr ? known->bytes : 0;
+}
+
+FrameErrorBound frameErrorBound(FrameFormat format) {
+    const pack::Format* known = pack::formatOf(format);
+    return known != nullptr ? known->bound : FrameErrorBound{};
+}
+
+Result<PackReport> packFrames(StridedSpan<const Vec3> normals, StridedSpan<const Vec4> tangents, FrameFormat format,
+                              std::span<std::byte> out) {
+    return atBorder([&]() -> Result<PackReport> {
+        if (Error e = pack::check(format, normals, tangents, out.data(), out.size()); e.code != ErrorCode::ok) return e;
+        return pack::pack(*pack::formatOf(format), SimdTarget::best, normals, tangents, out.data());
+    });
+}
+
+Result<Done> unpackFrames(std::span<const std::byte> bytes, FrameFormat format, StridedSpan<Vec3> normals,
+                          StridedSpan<Vec4> tangents) {
+    return atBorder([&]() -> Result<Done> {
+        if (Error e = pack::check(format, normals, tangents, bytes.data(), bytes.size()); e.code != ErrorCode::ok) {
+            return e;
+        }
+        pack::unpack(*pack::formatOf(format), SimdTarget::best, bytes.data(), normals, tangents);
+        return Done{};
+    });
+}
+
+}  // namespace tspace

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: MIT
+// The kernel of frame32. Included once per CPU, after lanes_*.h and with TSPACE_LANES set to its namespace. Each lane is
+// one frame.
+#pragma once
+
+#include "core/pack/frame_lanes.h"
+#include "core/pack/rotation_lanes.h"
+
+namespace tspace::pack::TSPACE_LANES {
+
+namespace {
+
+/// Words that no chart needs read as the last one.
+void decodeRotations(const WordBlock& words, std::size_t count, const FrameRows& rows) {
+    for (std::size_t at = 0; at < count; at += kWidth) {
+        const Bits word = load(words.word[0] + at), code = smaller(shiftRight<1>(word), broadcastBits(kCodes - 1));
+        const Bits columns = quotient<kColumns>(code), z = code - product(columns, kColumns);
+        const Bits rest = quotient<kRows>(columns), y = columns - product(rest, kRows);
+        const Bits g = quotient<kColumns>(rest), x = rest - product(g, kColumns);
+        const Bits twice_y = y + y + ((x + z) & broadcastBits(1));
+        storeFrames(rows, at, rotationFrames(Charts(g), toFloats(x), toFloats(twice_y), toFloats(z)),
+                    signFrom<0>(word));
+    }
+}
+
+// ---- encoding: every chart that holds the rotation is searched, not just the one around the nearest of the 24: the
+// corners of a cube lie in other charts too, and each word must come back from what it decodes to.
+
+/// The rotations T, N x T, N: rows and columns.
+struct Matrices {
+    alignas(64) float at[3][3][kBlockFrames];
+};
+
+void findMatrices(const FrameBlock& frames, std::size_t count, Matrices& rotations) {
+    for (std::size_t at = 0; at < count; at += kWidth) {
+        const Vectors t = loadVectors(frames.tangent, at), n = loadVectors(frames.normal, at), b = cross(n, t);
+        const Vectors columns[3] = {t, b, n};
+        for (std::size_t c = 0; c < 3; ++c) {
+            store(rotations.at[0][c] + at, columns[c].x);
+            store(rotations.at[1][c] + at, columns[c].y);
+            store(rotations.at[2][c] + at, columns[c].z);
+        }
+    }
+}
+
+/// Frames and charts that hold them.
+struct Places {
+    static constexpr std::size_t kMost = 4 * kBlockFrames;
+    alignas(64) float p[3][kMost], scale[kMost];  ///< the Rodrigues vector is p / scale
+    alignas(64) std::uint32_t chart[kMost], frame[kMost];
+    std::size_t count = 0;
+};
+
+/// Where the rows of the small rotation are in that of a chart: see Charts.
+constexpr std::size_t kRowAt[6][3] = {{0, 1, 2}, {2, 0, 1}, {1, 2, 0}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}};
+
+/// Half a step beyond the cube: there a code of its face may be the nearest.
+constexpr float kReach = static_cast<float>(kHalfEdge * (1 + 0.6 / kSide));
+/// Below the trace of all rotations within reach: it is 1.640 in the corners of the cube.
+constexpr float kLeastTrace = 1.63f;
+
+/// Adds those of the first `count` rotations that lie in chart g.
+void addPlaces(const Matrices& rotations, std::size_t count, std::uint32_t g, Places& places) {
+    const bool minus_0 = (g & 1) != 0, minus_1 = (g >> 1 & 1) != 0, minus_2 = (minus_0 != minus_1) != (g >= 12);
+    const Floats signs[3] = {broadcast(minus_0 ? -1.0f : 1.0f), broadcast(minus_1 ? -1.0f : 1.0f),
+                             broadcast(minus_2 ? -1.0f : 1.0f)};
+    alignas(64) float p[3][kBlockFrames], scale[kBlockFrames];
+    std::uint64_t held = 0;
+    for (std::size_t at = 0; at < count; at += kWidth) {
+        Vectors row[3];
+        for (std::size_t r = 0; r < 3; ++r) {
+            const std::size_t m = kRowAt[g >> 2][r];
+            const auto& [x, y, z] = rotations.at[m];
+            row[r] = signs[m] * Vectors{load(x + at), load(y + at), load(z + at)};
+        }
+        const Floats trace = row[0].x + row[1].y + row[2].z, divisor = broadcast(1.0f) + trace;
+        const Vectors v{row[2].y - row[1].z, row[0].z - row[2].x, row[1].x - row[0].y};
+        const Floats most = larger(larger(absolute(v.x), absolute(v.y)), absolute(v.z));
+        const Mask holds = (trace > broadcast(kLeastTrace)) & !(most > broadcast(kReach) * divisor);
+        held |= std::uint64_t{bitsOf(holds)} << at;
+        store(p, at, v);
+        store(scale + at, divisor);
+    }
+    if (count < kBlockFrames) held &= (std::uint64_t{1} << count) - 1;
+    for (; held != 0; held &= held - 1) {
+        const auto frame = static_cast<std::uint32_t>(__builtin_ctzll(held));
+        const std::size_t i = places.count++;
+        for (std::size_t c = 0; c < 3; ++c) places.p[c][i] = p[c][frame];
+        places.scale[i] = scale[frame];
+        places.chart[i] = g;
+        places.frame[i] = frame;
+    }
+}
+
+/// The u whose p this is: after a first guess two steps of Newton's method leave what floats round.
+inline Floats unwarped(Floats p) {
+    const auto number = [](double x) { return broadcast(static_cast<float>(x)); };
+    const Floats straight = p * number(1 / kHalfEdge), one = number(1);
+    Floats u = straight * (one + number(kWarp) * (one - straight * straight));
+    for (int step = 0; step < 2; ++step) u = u - (warped(u) - p) / (number(kLinear) + number(3 * kCubic) * (u * u));
+    return u;
+}
+
+/// The code next below x of those from 0 to last, and never the last, so that there is one above.
+inline Floats codeBelow(Floats x, std::int32_t last) { return clamped(wholeBelow(x), 0, static_cast<float>(last - 1)); }
+
+/// A code of a chart, and how far the frame is from it, squared.
+struct Cells {
+    Floats error, x, twice_y, z;
+};
+
+/// The best of the codes around p: of the four columns around it the rows below and above.
+/// Between p and a code's p' lies the rotation with the Rodrigues vector (p' - p - p x p') / (1 + p.p'), in the axes of
+/// the frame. What divides differs by less than 2 in 1000 between these codes, and is left out.
+inline Cells bestAround(Vectors p) {
+    const Floats one = broadcast(1.0f), side = broadcast(kSide);
+    const Floats x0 = codeBelow(unwarped(p.x) * side + side, kColumns - 1);
+    const Floats z0 = codeBelow(unwarped(p.z) * side + side, kColumns - 1);
+    const Floats twice_row = unwarped(p.y) * broadcast(kRows - 1) + broadcast(kRows), half = broadcast(0.5f);
+    const Floats x[2] = {x0, x0 + one}, z[2] = {z0, z0 + one};
+    const Floats dx[2] = {atColumn(x[0]) - p.x, atColumn(x[1]) - p.x};
+    const Floats dz[2] = {atColumn(z[0]) - p.z, atColumn(z[1]) - p.z};
+    // In columns x0, z0 and x1, z1, which may be shifted, and in the other two, which then are not.
+    const Floats half_sum = (x0 + z0) * half, is_odd = (half_sum - wholeBelow(half_sum)) * broadcast(2.0f);
+    const Floats shift[2] = {is_odd, one - is_odd};
+    Floats twice_y[2][2], dy[2][2];
+    for (std::size_t i = 0; i < 2; ++i) {
+        const Floats y0 = codeBelow((twice_row - shift[i]) * half, kRows - 1);
+        twice_y[i][0] = y0 + y0 + shift[i];
+        twice_y[i][1] = twice_y[i][0] + broadcast(2.0f);
+        for (std::size_t up = 0; up < 2; ++up) dy[i][up] = atRow(twice_y[i][up]) - p.y;
+    }
+    Cells best{broadcast(__builtin_huge_valf()), x0, twice_y[0][0], z0};
+    for (std::size_t choice = 0; choice < 8; ++choice) {
+        const std::size_t right = choice & 1, back = choice >> 1 & 1, up = choice >> 2, other = right ^ back;
+        const Vectors d{dx[right], dy[other][up], dz[back]};
+        const Floats error = squaredReach(d - cross(p, d));
+        const Mask is_better = error < best.error;
+        best = {select(is_better, error, best.error), select(is_better, x[right], best.x),
+                select(is_better, twice_y[other][up], best.twice_y), select(is_better, z[back], best.z)};
+    }
+    return best;
+}
+
+/// Below this, floats have rounded what is left: charts that meet share codes but for the last bits, and only decoding
+/// says which of them the frame came from.
+constexpr float kTwinError = 1e-11f;
+
+/// The errors of codes from frames, as they decode.
+inline Floats decodedErrors(const Cells& cells, const Places& places, std::size_t at, const FrameBlock& frames) {
+    alignas(64) float normal[3][kBlockFrames], tangent[3][kBlockFrames];
+    for (std::size_t i = 0; i < kWidth; ++i) {
+        for (std::size_t c = 0; c < 3; ++c) {
+            normal[c][i] = frames.normal[c][places.frame[at + i]];
+            tangent[c][i] = frames.tangent[c][places.frame[at + i]];
+        }
+    }
+    const Frames found = rotationFrames(Charts(load(places.chart + at)), cells.x, cells.twice_y, cells.z);
+    const Vectors n = found.normal - loadVectors(normal, 0), t = found.tangent - loadVectors(tangent, 0);
+    return larger(dot(n, n), dot(t, t));
+}
+
+/// The best codes of a block's frames so far.
+struct Codes {
+    alignas(64) std::uint32_t code[kBlockFrames];
+    float error[kBlockFrames];
+};
+
+/// Empties `places`.
+void searchPlaces(Places& places, const FrameBlock& frames, Codes& best) {
+    alignas(64) float errors[Places::kMost];
+    alignas(64) std::uint32_t codes[Places::kMost];
+    for (std::size_t at = 0; at < places.count; at += kWidth) {
+        const Floats scale = broadcast(1.0f) / load(places.scale + at);
+        Cells cells = bestAround(
+            {scale * load(places.p[0] + at), scale * load(places.p[1] + at), scale * load(places.p[2] + at)});
+        const Mask may_be_twin = cells.error < broadcast(kTwinError);
+        if (bitsOf(may_be_twin) != 0) {
+            cells.error = select(may_be_twin, decodedErrors(cells, places, at, frames), cells.error);
+        }
+        const Bits column = product(load(places.chart + at), kColumns) + wholeBits(cells.x);
+        const Bits row = product(column, kRows) + shiftRight<1>(wholeBits(cells.twice_y));
+        store(codes + at, product(row, kColumns) + wholeBits(cells.z));
+        store(errors + at, cells.error);
+    }
+    for (std::size_t i = 0; i < places.count; ++i) {
+        const std::uint32_t frame = places.frame[i];
+        if (errors[i] < best.error[frame]) {
+            best.error[frame] = errors[i];
+            best.code[frame] = codes[i];
+        }
+    }
+    places.count = 0;
+}
+
+void encodeRotations(const FrameBlock& frames, std::size_t count, WordBlock& words) {
+    Matrices rotations;
+    findMatrices(frames, count, rotations);
+    Places places{};
+    Codes best{};
+    for (float& error : best.error) error = __builtin_huge_valf();
+    for (std::uint32_t g = 0; g < kCharts; ++g) {
+        addPlaces(rotations, count, g, places);
+        if (places.count + kBlockFrames > Places::kMost) searchPlaces(places, frames, best);
+    }
+    searchPlaces(places, frames, best);
+    for (std::size_t at = 0; at < count; at += kWidth) {
+        store(words.word[0] + at, shiftLeft<1>(load(best.code + at)) | load(frames.mirrored + at));
+    }
+}
+
+}  // namespace
+
+FrameKernel frame32Kernel() { return {encodeRotations, decodeRotations}; }
+
+}  // namespace tspace::pack::TSPACE_LANES

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#include "core/simd/dispatch.h"
+
+#include <cstdint>
+#if defined(TSPACE_SIMD_X86)
+#include <cpuid.h>
+#endif
+
+namespace tspace::simd {
+
+namespace {
+
+/// On x86-64, what __builtin_cpu_supports says, without the names of all CPUs: those are 5 KB of each program.
+SimdTarget bestOfCpu() {
+#if defined(TSPACE_SIMD_X86)
+    constexpr std::uint32_t kYmm = 0x6, kZmm = 0xe6;  // registers that the system keeps for threads (XCR0)
+    std::uint32_t a = 0, b = 0, c = 0, d = 0, kept = 0;
+    if (__get_cpuid(1, &a, &b, &c, &d) == 0 || (c & bit_OSXSAVE) == 0) return SimdTarget::sse2;
+    __asm__("xgetbv" : "=a"(kept), "=d"(d) : "c"(0));
+    const bool knows_more = __get_cpuid_count(7, 0, &a, &b, &c, &d) != 0;
+    if (!knows_more || (kept & kYmm) != kYmm || (b & bit_AVX2) == 0) return SimdTarget::sse2;
+    const bool has_avx512 = (b & bit_AVX512F) != 0 && (b & bit_AVX512DQ) != 0;
+    return has_avx512 && (kept & kZmm) == kZmm ? SimdTarget::avx512 : SimdTarget::avx2;
+#elif defined(TSPACE_SIMD_ARM64)
+    return SimdTarget::neon;
+#else
+    return SimdTarget::scalar;
+#endif
+}
+
+}  // namespace
+
+SimdTarget resolve(SimdTarget wish) {
+    static const SimdTarget best = bestOfCpu();
+    if (wish == SimdTarget::best || wish > best) return best;
+    // The numbers between the two are those of x86-64.
+    return best == SimdTarget::neon && wish < best ? SimdTarget::scalar : wish;
+}
+
+}  // namespace tspace::simd

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// Four lanes without instructions for them: plain C++, and vector types that compilers take apart where a CPU has none.
+// For every CPU without a file of its own here. All lanes_*.h define the same names, each in a namespace of its own, and
+// every operation is the IEEE one, rounded once; so a kernel gives the same bits on all of them. What each function means
+// stands here and in the files that are included here.
+#pragma once
+
+#include <cmath>
+
+#include "core/simd/lanes.h"
+
+namespace tspace::simd::scalar {
+
+inline constexpr std::size_t kWidth = 4;
+
+#include "core/simd/lanes_arithmetic.h"
+#include "core/simd/lanes_rows.h"
+
+inline unsigned bitsOf(Mask m) {
+    unsigned bits = 0;
+    for (std::size_t i = 0; i < kWidth; ++i) bits |= m.v[i] != 0 ? 1u << i : 0;
+    return bits;
+}
+/// The second one when either is NaN.
+inline Floats smaller(Floats a, Floats b) { return {a.v < b.v ? a.v : b.v}; }
+inline Floats larger(Floats a, Floats b) { return {a.v > b.v ? a.v : b.v}; }
+inline Floats squareRoot(Floats a) {
+    for (std::size_t i = 0; i < kWidth; ++i) a.v[i] = std::sqrt(a.v[i]);
+    return a;
+}
+
+/// Comparisons with NaN are false.
+inline DoubleMask operator>(Doubles a, Doubles b) { return {a.v > b.v}; }
+inline unsigned bitsOf(DoubleMask m) { return (m.v[0] != 0 ? 1u : 0u) | (m.v[1] != 0 ? 2u : 0u); }
+inline Doubles squareRoot(Doubles a) { return {DoubleVector{std::sqrt(a.v[0]), std::sqrt(a.v[1])}}; }
+/// Between floats in memory and doubles: half of the lanes. All addresses are multiples of the vector's size.
+inline Doubles loadAsDoubles(const float* p) { return {DoubleVector{p[0], p[1]}}; }
+inline void storeAsFloats(float* to, Doubles a) {
+    for (std::size_t i = 0; i < 2; ++i) to[i] = static_cast<float>(a.v[i]);
+}
+inline Doubles part(Floats a, std::size_t which) { return {DoubleVector{a.v[2 * which], a.v[2 * which + 1]}}; }
+inline Floats join(const Doubles* parts) {
+    Floats joined;
+    for (std::size_t i = 0; i < kWidth; ++i) joined.v[i] = static_cast<float>(parts[i / 2].v[i % 2]);
+    return joined;
+}
+
+}  // namespace tspace::simd::scalar

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+// The methods `fast` and `best` for all groups of a mesh in one pose.
+#pragma once
+
+#include <span>
+
+#include "core/base/input_scale.h"
+#include "core/base/parallel.h"
+#include "core/base/range_lists.h"
+#include "tspace/tangents.h"
+
+namespace tspace::estimators {
+
+/// What there is of a group, or of its sum, when more than tangents is asked for.
+struct GroupRest {
+    float t[4] = {0, 0, 0, 0};  ///< bitangent, |dP/du|
+    float length_t = 0;         ///< |dP/dv|
+    float weight = 0;           ///< of a sum
+};
+
+/// Where results of `count` groups go: for group g three floats at tangents + g * tangent_stride, and what else there is to
+/// rest[g]. What no triangle gives is 0.
+struct GroupEstimates {
+    std::byte* tangents = nullptr;
+    std::size_t tangent_stride = 0;
+    GroupRest* rest = nullptr;  ///< may be null
+    std::size_t count = 0;
+};
+
+/// Positions, normals and UVs have one entry per vertex, of which there is at least one. All corners of a
+/// group have one normal. `refine` steps follow the fit of `best`. Sums are made in the order of triangles. `to`: the
+/// first groups, the groups after them, and so on. Scratch memory: up to 1 MB per task, and range_lists.h; with steps 32
+/// bytes per group, or 64. Linear. Throws OutOfMemory.
+void estimateGroups(Method method, unsigned refine, const TriangleGroups& triangles, const Pose& pose,
+                    const StridedSpan<const Vec2>& uvs, const InputScale& scale, std::span<const GroupEstimates> to,
+                    const Execution& execution, Parallel& parallel);
+
+}  // namespace tspace::estimators

@@ -1,0 +1,396 @@
+// SPDX-License-Identifier: MIT
+// The classic: sums of unnormalised dP/du and dP/dv per vertex index, then Gram-Schmidt.
+// Based on: Lengyel, "Computing Tangent Space Basis Vectors for an Arbitrary Mesh", 2001.
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <span>
+
+#include "core/base/caches.h"
+#include "core/base/float4.h"
+#include "core/base/mesh_loops.h"
+#include "core/base/parallel.h"
+#include "core/base/range_lists.h"
+#include "core/base/uv_frame.h"
+#include "core/tangents/derivative_terms.h"
+#include "core/tangents/indexed_methods.h"
+
+namespace tspace {
+
+namespace {
+
+/// Of one range. Triangles are those whose first vertex is in it, by what is wrong with them.
+struct RangeCounts {
+    std::uint64_t degenerate = 0;          ///< two corners at one position
+    std::uint64_t degenerate_uv = 0;       ///< no UV area
+    std::uint64_t mirrored = 0;            ///< negative UV area
+    std::uint64_t used = 0, defaults = 0;  ///< vertices
+};
+
+/// The sums of all vertices, in single precision and in triangle order: six floats each, since reading and
+/// writing these is most of the work. Two arrays, since either may lie in memory that outputs come to later.
+struct VertexSums : derivatives::SumArrays {
+    [[nodiscard]] float* head(std::size_t vertex) const { return heads + 4 * vertex; }
+    [[nodiscard]] float* tail(std::size_t vertex) const { return tails + 2 * vertex; }
+    /// The sum of nothing. -0 + x is x, also when x is 0; and what is added to s.x is never -0.
+    void clear(GroupRange range) const {
+        fill(head(range.begin), head(range.end), -0.0f);
+        fill(tail(range.begin), tail(range.end), -0.0f);
+    }
+    [[nodiscard]] bool isTouched(std::size_t v) const { return *head(v) != 0 || !std::signbit(*head(v)); }
+
+  private:
+    static void fill(float* begin, float* end, float value) {
+        constexpr std::ptrdiff_t kFloats = 16;  // a line
+        for (; end - begin >= kFloats; begin += kFloats) {
+            prefetchLines<true>(begin, kFloats * sizeof(float));
+            std::fill_n(begin, kFloats, value);
+        }
+        std::fill(begin, end, value);
+    }
+};
+
+/// The lowest `count` bits, of 1 to 64.
+std::uint64_t lowBits(std::size_t count) { return ~std::uint64_t{0} >> (64 - count); }
+
+static_assert(TriangleBatch::kMost == derivatives::kTermTriangles);
+static_assert(TriangleBatch::kMost % derivatives::kTermGroup == 0);
+
+/// Their vertices, as groups.
+class IndexedTriangles final : public TriangleGroups {
+  public:
+    explicit IndexedTriangles(const IndexView& vertices) : TriangleGroups(vertices.count / 3), vertices_(vertices) {}
+
+    void read(std::size_t first, std::size_t size, std::uint32_t*, std::uint32_t* groups) const override {
+        const std::uint32_t* const v = readIndices(vertices_, 3 * first, 3 * size, groups);
+        if (v != groups) std::copy_n(v, 3 * size, groups);
+    }
+    [[nodiscard]] const std::uint32_t* inPlace(std::size_t first, std::size_t) const override {
+        return vertices_.type == IndexType::u32 ? static_cast<const std::uint32_t*>(vertices_.data) + 3 * first
+                                                : nullptr;
+    }
+
+  private:
+    const IndexView& vertices_;
+};
+
+/// Adds triangles up, in ranges of vertices that may be summed at the same time: blocks in single precision, and in double
+/// precision those that rounding, overflow or degeneracy could spoil.
+class FaceSums {
+  public:
+    /// `visits`, one per vertex, counts the triangles that were added; it may be null. `wanted`: ranges at most.
+    FaceSums(const IndexedPlan& plan, StridedSpan<const Vec3> positions, const derivatives::DerivativeKernel& kernel,
+             VertexSums sums, float* visits, unsigned wanted, const Allocator* allocator, Parallel& parallel)
+        : plan_(plan),
+          positions_(positions),
+          kernel_(kernel),
+          sums_(sums),
+          visits_(visits),
+          triangles_(plan.triangle_vertices),
+          ranges_(makeRanges(std::bit_ceil((plan.vertex_count + wanted - 1) / wanted), allocator, parallel)) {}
+
+    [[nodiscard]] const RangeLists& ranges() const { return ranges_; }
+
+    /// Writes the sums of one range.
+    [[nodiscard]] RangeCounts sum(std::size_t index) const {
+        const GroupRange range = ranges_.range(index);
+        sums_.clear(range);
+        if (visits_ != nullptr) std::fill(visits_ + range.begin, visits_ + range.end, 0.0f);
+
+        const derivatives::TriangleSource source{
+            reinterpret_cast<const std::byte*>(positions_.data), reinterpret_cast<const std::byte*>(plan_.uvs.data),
+            positions_.stride_bytes, plan_.uvs.stride_bytes, static_cast<std::uint32_t>(positions_.count - 1)};
+        RangeCounts counts;
+        TriangleBatch batch;
+        derivatives::DerivativeTerms terms;
+        for (RangeLists::Batches batches(triangles_, ranges_, index); batches.next(batch, false);) {
+            prefetchLines(batch.groups, 3 * TriangleBatch::kMost * sizeof *batch.groups);
+            kernel_.compute(source, fillGroup(batch.groups, batch.count, derivatives::kTermGroup, batch.own_groups),
+                            batch.count, terms);
+            addBatch(batch, terms, range, counts);
+        }
+        return counts;
+    }
+
+  private:
+    [[nodiscard]] RangeLists makeRanges(std::size_t size, const Allocator* allocator, Parallel& parallel) const {
+        constexpr std::size_t kBlock = TriangleBatch::kMost;
+        if (!RangeLists::areCompact(triangles_, kBlock, plan_.vertex_count, size))
+            return {kBlock, plan_.vertex_count, size};
+        return {triangles_, kBlock, plan_.vertex_count, size, allocator, parallel};
+    }
+
+    /// In the order of the triangles, which decides how sums are rounded.
+    void addBatch(const TriangleBatch& batch, const derivatives::DerivativeTerms& terms, GroupRange range,
+                  RangeCounts& counts) const {
+        const std::uint32_t* const v = batch.groups;
+        std::uint64_t unsafe = ~terms.safe & lowBits(batch.count);
+        for (std::size_t begin = 0; begin < batch.count;) {
+            const auto end = unsafe == 0 ? batch.count : static_cast<std::size_t>(std::countr_zero(unsafe));
+            if (batch.is_whole)
+                kernel_.add(terms, v, begin, end, sums_);
+            else
+                kernel_.add_some(terms, v, begin, end, sums_, range.begin, range.end);
+            if (end != batch.count) addUnsafe(v + 3 * end, range, counts);
+            unsafe &= unsafe - 1;
+            begin = end + 1;
+        }
+        if (batch.is_whole) {
+            counts.mirrored += static_cast<unsigned>(std::popcount(terms.mirrored));
+        } else {
+            for (std::size_t i = 0; i < batch.count; ++i)
+                counts.mirrored += (terms.mirrored >> i & 1) != 0 && range.has(v[3 * i]) ? 1 : 0;
+        }
+        if (visits_ == nullptr) return;
+        for (std::size_t i = 0; i < 3 * batch.count; ++i) {
+            if ((terms.safe >> (i / 3) & 1) != 0 && range.has(v[i])) visits_[v[i]] += 1;
+        }
+    }
+
+    /// In double. A triangle that has no derivatives adds nothing, but its vertices have been named. Apart: its registers would
+    /// be missing in the loop around it.
+    [[gnu::noinline]] void addUnsafe(const std::uint32_t* v, GroupRange range, RangeCounts& counts) const {
+        const Vec3 &p0 = positions_[v[0]], &p1 = positions_[v[1]], &p2 = positions_[v[2]];
+        const UvFrame frame = uvFrame(p0, p1, p2, plan_.uvs[v[0]], plan_.uvs[v[1]], plan_.uvs[v[2]]);
+        const bool has_area = hasUvArea(frame.determinant);
+        if (range.has(v[0])) {
+            counts.degenerate += p0 == p1 || p1 == p2 || p2 == p0 ? 1 : 0;
+            counts.degenerate_uv += has_area ? 0 : 1;
+            counts.mirrored += has_area && frame.determinant < 0 ? 1 : 0;
+        }
+        const double r = has_area ? 1 / frame.determinant : 0;
+        const Vec3 s = toFloat(r * frame.tangent), t = toFloat(r * frame.bitangent);
+        const bool adds = has_area && isFinite(s) && isFinite(t);
+        const float row[6] = {s.x + 0.0f, s.y, s.z, t.x, t.y, t.z};
+        for (unsigned k = 0; k < 3; ++k) {
+            if (!range.has(v[k])) continue;
+            float *const head = sums_.head(v[k]), *const tail = sums_.tail(v[k]);
+            if (!adds) {
+                *head += 0.0f;
+                continue;
+            }
+            for (unsigned i = 0; i < 4; ++i) head[i] += row[i];
+            for (unsigned i = 0; i < 2; ++i) tail[i] += row[4 + i];
+            if (visits_ != nullptr) visits_[v[k]] += 1;
+        }
+    }
+
+    const IndexedPlan& plan_;
+    StridedSpan<const Vec3> positions_;
+    derivatives::DerivativeKernel kernel_;
+    VertexSums sums_;
+    float* visits_;
+    IndexedTriangles triangles_;
+    RangeLists ranges_;
+};
+
+/// Turns sums into frames, one entry per vertex. Tangents take the places of the heads of the sums; where
+/// `out` has other places for them, they are copied there.
+class VertexFrames {
+  public:
+    /// `is_default`, zeros, one per vertex, gets 1 where the tangent is a default; it may be null.
+    VertexFrames(const derivatives::DerivativeKernel& kernel, const VertexSums& sums, const float* visits,
+                 StridedSpan<const Vec3> normals, float sign_factor, const TangentOutput& out, std::uint8_t* is_default)
+        : kernel_(kernel),
+          sums_(sums),
+          visits_(visits),
+          normals_(normals),
+          sign_factor_(sign_factor),
+          out_(out),
+          is_default_(is_default) {
+        has_extras_ = !out.bitangents.empty() || !out.magnitudes_s.empty() || !out.magnitudes_t.empty();
+        copies_tangents_ = !out.tangents.empty() && &out.tangents.data->x != sums.heads;
+    }
+
+    void write(GroupRange range, RangeCounts& counts) const {
+        for (std::uint32_t v = range.begin; v != range.end;) {
+            const std::uint32_t left = std::min(kMost, range.end - v);
+            // Whole groups, without the last vertex of all: the kernel would read past its normal.
+            const auto most = static_cast<std::uint32_t>(std::min<std::size_t>(left, normals_.count - 1 - v));
+            const std::uint32_t whole = has_extras_ ? 0 : most / derivatives::kTermGroup * derivatives::kTermGroup;
+            whole != 0 ? finishInPlace(v, whole, counts) : finishCopy(v, left, counts);
+            v += whole != 0 ? whole : left;
+        }
+        if (copies_tangents_) copyTangents(range);
+    }
+
+  private:
+    static constexpr std::uint32_t kMost = 64;  ///< vertices at a time
+
+    void finishInPlace(std::uint32_t first, std::uint32_t count, RangeCounts& counts) const {
+        const auto* normals = reinterpret_cast<const std::byte*>(&normals_[first]);
+        prefetchLines<true>(sums_.head(first), kMost * 4 * sizeof(float));
+        prefetchLines(sums_.tail(first), kMost * 2 * sizeof(float));
+        prefetchLines(normals, kMost * normals_.stride_bytes);
+        const std::uint64_t safe =
+            kernel_.finish({sums_.head(first), sums_.tail(first)}, normals, normals_.stride_bytes, sign_factor_, count);
+        finishOthers(first, count, safe, counts);
+    }
+
+    /// The same for any vertices and all outputs.
+    [[gnu::noinline]] void finishCopy(std::uint32_t first, std::uint32_t count, RangeCounts& counts) const {
+        float heads[4 * kMost] = {}, tails[2 * kMost] = {};
+        Vec3 normals[kMost + 1] = {};
+        std::copy_n(sums_.head(first), 4 * count, heads);
+        std::copy_n(sums_.tail(first), 2 * count, tails);
+        for (std::uint32_t i = 0; i < count; ++i) normals[i] = normals_[first + i];
+        const std::uint32_t groups = (count + derivatives::kTermGroup - 1) / derivatives::kTermGroup;
+        const std::uint64_t safe = kernel_.finish({heads, tails}, reinterpret_cast<const std::byte*>(normals),
+                                                  sizeof(Vec3), sign_factor_, groups * derivatives::kTermGroup);
+        finishOthers(first, count, has_extras_ ? 0 : safe, counts);
+        for (std::uint32_t i = 0; i < count; ++i) {
+            if ((safe >> i & 1) != 0) storeFloat4(sums_.head(first + i), loadFloat4(heads + 4 * i));
+        }
+    }
+
+    /// In double: those that are not `done`, which are counted as well.
+    void finishOthers(std::uint32_t first, std::uint32_t count, std::uint64_t done, RangeCounts& counts) const {
+        counts.used += static_cast<unsigned>(std::popcount(done & lowBits(count)));
+        for (std::uint64_t rest = ~done & lowBits(count); rest != 0; rest &= rest - 1)
+            finishInDouble(first + static_cast<std::uint32_t>(std::countr_zero(rest)), counts);
+    }
+
+    void finishInDouble(std::uint32_t v, RangeCounts& counts) const {
+        float *const head = sums_.head(v), *const tail = sums_.tail(v);
+        if (!sums_.isTouched(v)) {
+            if (has_extras_) writeExtras(out_, v, {});
+            return storeFloat4(head, Float4{});
+        }
+        ++counts.used;
+        const Derivatives d{{head[0], head[1], head[2]}, {head[3], tail[0], tail[1]}};
+        CornerFrame frame = makeCornerFrame(d, normals_[v], sign_factor_);
+        if (frame.is_default) {
+            ++counts.defaults;
+            if (is_default_ != nullptr) is_default_[v] = 1;
+        } else if (visits_ != nullptr) {
+            frame.magnitude_s = meanLength(d.s, visits_[v]);
+            frame.magnitude_t = meanLength(d.t, visits_[v]);
+        }
+        if (has_extras_) writeExtras(out_, v, frame);
+        storeFloat4(head, loadFloat4(&frame.tangent.x));
+    }
+
+    void copyTangents(GroupRange range) const {
+        for (std::uint32_t v = range.begin; v != range.end; ++v)
+            storeFloat4(&out_.tangents[v].x, loadFloat4(sums_.head(v)));
+    }
+
+    derivatives::DerivativeKernel kernel_;
+    VertexSums sums_;
+    const float* visits_;
+    StridedSpan<const Vec3> normals_;
+    float sign_factor_;
+    TangentOutput out_;
+    std::uint8_t* is_default_;
+    bool has_extras_ = false, copies_tangents_ = false;
+};
+
+/// Outputs per vertex from which those per corner are copied. The tangents are in the places of the sums.
+struct VertexExtras {
+    Buffer<Vec3> bitangents;
+    Buffer<float> magnitudes_s, magnitudes_t;
+
+    TangentOutput out;
+
+    VertexExtras(const TangentOutput& wanted, std::size_t vertex_count, const Allocator* allocator) {
+        const auto make = [&]<class T>(const StridedSpan<T>& like, Buffer<T>& buffer, StridedSpan<T>& span) {
+            if (!like.empty()) buffer = Buffer<T>(allocator, vertex_count);
+            span = {buffer.data(), buffer.size()};
+        };
+        make(wanted.bitangents, bitangents, out.bitangents);
+        make(wanted.magnitudes_s, magnitudes_s, out.magnitudes_s);
+        make(wanted.magnitudes_t, magnitudes_t, out.magnitudes_t);
+    }
+};
+
+template <class T>
+void copyToCorners(const IndexedPlan& plan, const T* from, const StridedSpan<T>& to, std::size_t begin,
+                   std::size_t end) {
+    if (to.empty()) return;
+    for (std::size_t c = begin; c < end; ++c) {
+        if (plan.isUsed(c)) to[c] = from[plan.corner_vertices[c]];
+    }
+}
+
+/// Copies the tangents of used corners; returns how many of them are defaults, of which `is_default` knows,
+/// one per vertex; null: none.
+std::uint64_t copyTangents(const IndexedPlan& plan, const float* from, const std::uint8_t* is_default,
+                           const StridedSpan<Vec4>& out, std::size_t begin, std::size_t end) {
+    const std::uint8_t* const used = plan.corner_used.data();
+    constexpr std::size_t kAhead = 2048;  // bytes
+    return withIndices(plan.corner_vertices, [&](const auto& vertexOf) {
+        auto* to = reinterpret_cast<std::byte*>(&out[begin]);
+        std::uint64_t defaults = 0;
+        for (std::size_t c = begin; c < end; ++c, to += out.stride_bytes) {
+            // Writing waits for the lines that it will replace, unless they were asked for before.
+            prefetchLines<true>(to, 1, kAhead);
+            if (used != nullptr && used[c] == 0) continue;
+            const std::size_t vertex = vertexOf(c);
+            storeFloat4(&reinterpret_cast<Vec4*>(to)->x, loadFloat4(from + 4 * vertex));
+            if (is_default != nullptr) defaults += is_default[vertex];
+        }
+        return defaults;
+    });
+}
+
+/// The places of the sums. Fresh memory costs time, so what the outputs' memory can hold meanwhile is there:
+/// the tails, or, where outputs are per vertex, the heads, which then become the tangents in place.
+struct SumPlaces {
+    Buffer<float> head_buffer, tail_buffer;
+    VertexSums sums;
+
+    SumPlaces(const StridedSpan<Vec4>& tangents, std::size_t vertex_count, bool per_corner,
+              const Allocator* allocator) {
+        const bool is_tight = tangents.stride_bytes == sizeof(Vec4);
+        if (is_tight && !per_corner) sums.heads = &tangents.data->x;
+        if (is_tight && per_corner && 2 * tangents.count >= vertex_count) sums.tails = &tangents.data->x;
+        if (sums.heads == nullptr) sums.heads = (head_buffer = Buffer<float>(allocator, 4 * vertex_count)).data();
+        if (sums.tails == nullptr) sums.tails = (tail_buffer = Buffer<float>(allocator, 2 * vertex_count)).data();
+    }
+};
+
+}  // namespace
+
+void evaluateLengyel(const IndexedPlan& plan, const Pose& pose, const TangentOutput& out, const Execution& execution,
+                     Parallel& parallel, TangentReport& report) {
+    if (plan.vertex_count == 0) return;
+    const Allocator* const allocator = execution.allocator;
+    const derivatives::DerivativeKernel kernel = derivatives::derivativeKernelFor(execution.simd);
+    const bool per_corner = plan.domain == OutputDomain::corner;
+    const bool has_magnitudes = !out.magnitudes_s.empty() || !out.magnitudes_t.empty();
+    const SumPlaces places(out.tangents, plan.vertex_count, per_corner, allocator);
+    const VertexSums& sums = places.sums;
+    Buffer<float> visits(allocator, has_magnitudes ? plan.vertex_count : 0);
+    const VertexExtras extras(per_corner ? out : TangentOutput{}, plan.vertex_count, allocator);
+    Buffer<std::uint8_t> is_default(allocator, per_corner ? plan.vertex_count : 0, 0);
+
+    constexpr unsigned kMostRanges = 64;
+    const unsigned wanted = plan.triangleCount() >= Parallel::kGrain ? std::min(parallel.width(), kMostRanges) : 1;
+    const FaceSums faces(plan, pose.positions, kernel, sums, visits.data(), wanted, allocator, parallel);
+    const VertexFrames frames(kernel, sums, visits.data(), pose.normals, plan.sign_factor,
+                              per_corner ? extras.out : out, is_default.data());
+    std::array<RangeCounts, kMostRanges> counts;
+    parallel.forTasks(faces.ranges().count(), [&](std::size_t range) {
+        counts[range] = faces.sum(range);
+        frames.write(faces.ranges().range(range), counts[range]);
+    });
+    for (const RangeCounts& of_range : std::span(counts).first(faces.ranges().count())) {
+        report.degenerate_triangle_count += of_range.degenerate;
+        report.degenerate_uv_count += of_range.degenerate_uv;
+        report.mirrored_count += of_range.mirrored;
+        report.group_count += of_range.used;
+        report.default_corner_count += of_range.defaults;
+    }
+    if (!per_corner) return;
+    if (report.default_corner_count == 0) is_default = {};
+    report.default_corner_count =
+        sumRanges(parallel, plan.cornerCount(), Parallel::kGrain, [&](std::size_t begin, std::size_t end) {
+            copyToCorners(plan, extras.bitangents.data(), out.bitangents, begin, end);
+            copyToCorners(plan, extras.magnitudes_s.data(), out.magnitudes_s, begin, end);
+            copyToCorners(plan, extras.magnitudes_t.data(), out.magnitudes_t, begin, end);
+            return copyTangents(plan, sums.heads, is_default.data(), out.tangents, begin, end);
+        });
+}
+
+}  // namespace tspace

@@ -1,0 +1,390 @@
+// SPDX-License-Identifier: MIT
+// Tangents of a pose. For each group the weighted sum of its members' projected tangents, in
+// ascending order of triangles, and the same for bitangents and lengths.
+//
+// mikktspace: weight = the angle between the two edges at the corner after projection along N.
+// uniform, angle, area: weight = 1, the interior angle of the triangle at the corner, or its area. The terms
+// are unit face tangents projected along the corner's N and normalised again, as in mikktspace.
+// fast, best: the estimators' results (estimators/) take the place of sums.
+#include <algorithm>
+#include <atomic>
+#include <bit>
+
+#include "core/base/float4.h"
+#include "core/tangents/method_kind.h"
+#include "core/tangents/mikktspace/results.h"
+
+namespace tspace::mikk {
+
+namespace {
+
+constexpr std::size_t kGroupGrain = 8192, kWriteGrain = 8192;
+
+// -- sums of groups, of which a task owns a range, as in node_sums.cpp: it computes the triangles that have a corner there --
+
+constexpr std::size_t kGroupsPerTask = 4096;  // at least: below, another thread costs more than it saves
+
+class GroupSummer {
+  public:
+    GroupSummer(const EvaluationPlan& plan, const CornerSource& source, CornerTermsFunction terms, GroupSums& sums,
+                std::size_t first_group, std::size_t end_group)
+        : plan_(plan),
+          source_(source),
+          terms_of_(terms),
+          sums_(sums),
+          first_group_(static_cast<std::uint32_t>(first_group)),
+          group_count_(static_cast<std::uint32_t>(end_group - first_group)),
+          wants_all_(end_group - first_group == sums.groups.size() || !plan.terms.empty()) {}
+
+    void run() {
+        std::fill_n(sums_.groups.data() + first_group_, group_count_, Vec3{});
+        if (!sums_.rest.empty()) std::fill_n(sums_.rest.data() + first_group_, group_count_, GroupRest{});
+        if (wants_all_) {
+            for (std::size_t t = 0; t < plan_.triangle_count; t += kTermTriangles) {
+                const std::size_t count = std::min(kTermTriangles, plan_.triangle_count - t);
+                const bool is_known = !plan_.terms.empty();
+                add(plan_.groups.data() + 3 * t, count,
+                    is_known ? plan_.terms[t / kTermTriangles] : termsOf(plan_.vertices.data() + 3 * t, count));
+            }
+            return;
+        }
+        for (std::size_t t = 0; t < plan_.triangle_count;) {
+            std::size_t count = 0;
+            for (; t < plan_.triangle_count && count < kTermTriangles; ++t) count += keep(t, count);
+            add(groups_, count, termsOf(vertices_, count));
+        }
+    }
+
+  private:
+    /// False for kNone and for groups with kTopBit, too: those are not below any count.
+    [[nodiscard]] bool owns(std::uint32_t group) const { return group - first_group_ < group_count_; }
+
+    /// Copies a triangle to a place of the block; returns 1 when it is to stay there.
+    std::size_t keep(std::size_t t, std::size_t place) {
+        const std::uint32_t *v = plan_.vertices.data() + 3 * t, *g = plan_.groups.data() + 3 * t;
+        for (std::size_t k = 0; k < 3; ++k) {
+            vertices_[3 * place + k] = v[k];
+            groups_[3 * place + k] = g[k];
+        }
+        return (int{owns(g[0])} | int{owns(g[1])} | int{owns(g[2])}) != 0 ? 1 : 0;
+    }
+
+    const CornerTerms& termsOf(const std::uint32_t* vertices, std::size_t count) {
+        terms_of_(source_, vertices, count, terms_);
+        return terms_;
+    }
+
+    void add(const std::uint32_t* groups, std::size_t count, const CornerTerms& terms) {
+        for (std::size_t i = 0; sums_.rest.empty() && i < 3 * count; ++i) {
+            if (owns(groups[i])) addVector(&sums_.groups[groups[i]].x, terms.s[i]);
+        }
+        for (std::size_t i = 0; !sums_.rest.empty() && i < 3 * count; ++i) {
+            if (!owns(groups[i])) continue;
+            addVector(&sums_.groups[groups[i]].x, terms.s[i]);
+            addRest(sums_.rest[groups[i]], terms, i / 3, i % 3);
+            sums_.rest[groups[i]].weight += terms.s[i][3];
+        }
+    }
+
+    const EvaluationPlan& plan_;
+    const CornerSource& source_;
+    CornerTermsFunction terms_of_;
+    GroupSums& sums_;
+    std::uint32_t first_group_, group_count_;
+    bool wants_all_;  // triangles
+    std::uint32_t vertices_[kTermCorners] = {};
+    std::uint32_t groups_[kTermCorners] = {};
+    CornerTerms terms_;
+};
+
+/// In the order of triangles.
+GroupSums sumGroups(const EvaluationPlan& plan, const CornerSource& source, CornerTermsFunction terms,
+                    const Allocator* allocator, Parallel& parallel) {
+    GroupSums sums = roomForSums(plan, source.tangents_only, allocator);
+    if (plan.group_count == 0) return sums;
+    const std::size_t groups = plan.group_count;
+    const std::size_t tasks =
+        std::clamp<std::size_t>(groups / kGroupsPerTask, 1, std::max<std::size_t>(1, parallel.width()));
+    parallel.forTasks(tasks, [&](std::size_t task) {
+        GroupSummer(plan, source, terms, sums, groups * task / tasks, groups * (task + 1) / tasks).run();
+    });
+    return sums;
+}
+
+// -- a plan --
+
+/// A plan's triangles, as estimators read them. Groups with kTopBit, to which a triangle adds nothing, are no groups
+/// there.
+class PlanTriangles final : public TriangleGroups {
+  public:
+    explicit PlanTriangles(const EvaluationPlan& plan) : TriangleGroups(plan.triangle_count), plan_(plan) {}
+    void read(std::size_t first, std::size_t triangles, std::uint32_t* vertices, std::uint32_t* groups) const override {
+        if (vertices != nullptr) std::copy_n(plan_.vertices.data() + 3 * first, 3 * triangles, vertices);
+        std::copy_n(plan_.groups.data() + 3 * first, 3 * triangles, groups);
+    }
+
+  private:
+    const EvaluationPlan& plan_;
+};
+
+class Evaluation {
+  public:
+    Evaluation(const EvaluationPlan& plan, const Pose& pose, const StridedSpan<const Vec2>& uvs,
+               const TangentOutput& out, const Execution& execution, Parallel& parallel)
+        : plan_(plan),
+          pose_(pose),
+          uvs_(uvs),
+          execution_(execution),
+          out_(out),
+          sink_(out, plan.convention),
+          terms_(cornerTermsFor(execution.simd)),
+          source_(cornerSource(pose, uvs, plan.method, wantsOnlyTangents(plan, out))),
+          allocator_(execution.allocator),
+          parallel_(parallel) {}
+
+    /// `estimates`: null, or what the estimators gave.
+    TangentReport run(GroupSums* estimates) {
+        TangentReport report = plan_.report;
+        if (plan_.vertex_count == 0) return report;
+        if (estimates != nullptr) {
+            sums_ = std::move(*estimates);
+        } else if (isEstimated(plan_.method)) {
+            estimate();
+        } else {
+            sums_ = sumGroups(plan_, source_, terms_, allocator_, parallel_);
+        }
+        finishGroups();
+        writeCorners();
+        evaluateSplits();
+        mergeConflicts();
+        for (const std::uint32_t corner : plan_.default_corners) sink_.write(corner, Tangents{});
+        for (const std::uint32_t corner : plan_.skipped_corners) sink_.clear(corner);
+        for (const Copy& copy : plan_.copies) sink_.copy(copy);
+        report.default_corner_count += zero_ ? countZero() : 0;
+        report.not_finite_count = finite_ ? 0 : countNotFinite();
+        return report;
+    }
+
+  private:
+    void estimate() {
+        const PlanTriangles triangles(plan_);
+        const InputScale scale = inputScale(triangles, pose_.positions, uvs_);
+        sums_ = roomForSums(plan_, source_.tangents_only, allocator_);
+        const estimators::GroupEstimates to = estimatesIn(sums_);
+        estimators::estimateGroups(plan_.method, plan_.refine, triangles, pose_, uvs_, scale, {&to, 1}, execution_,
+                                   parallel_);
+    }
+
+    /// Turns sums into results, in place.
+    void finishGroups() {
+        const bool replaces = !isMikktspace(plan_.method);
+        if (replaces) replaced_ = Buffer<std::uint8_t>(allocator_, plan_.group_count, std::uint8_t{0});
+        parallel_.forRanges(plan_.group_count, kGroupGrain, [&](std::size_t begin, std::size_t end) {
+            bool any_zero = false, all_finite = true;
+            for (std::size_t g = begin; g < end; ++g) {
+                Tangents r = finished(g);
+                // The reference leaves a sum that vanishes zero, and so does mikktspace; others get a
+                // default.
+                if (replaces && !notZero(r.s) && r.s.x == r.s.x) {
+                    r = Tangents{};
+                    replaced_[g] = 1;
+                    any_zero = true;
+                }
+                all_finite &= isFinite(r.s);
+                sums_.groups[g] = r.s;
+                if (!sums_.rest.empty()) sums_.rest[g] = restOf(r);
+            }
+            if (any_zero) zero_ = true;
+            if (!all_finite) finite_ = false;
+        });
+    }
+
+    [[nodiscard]] Tangents finished(std::size_t g) const {
+        if (isEstimated(plan_.method)) return resultOf(g);
+        if (sums_.rest.empty()) return {.s = unit(sums_.groups[g])};
+        return meanOf(sums_.groups[g], sums_.rest[g], sums_.rest[g].weight, false);
+    }
+
+    [[nodiscard]] Tangents resultOf(std::size_t g) const {
+        Tangents r{.s = sums_.groups[g], .positive = plan_.group_positive[g] != 0};
+        if (!sums_.rest.empty()) {
+            const GroupRest& rest = sums_.rest[g];
+            r.t = vectorOf(rest.t);
+            r.mag_s = rest.t[3];
+            r.mag_t = rest.length_t;
+        }
+        return r;
+    }
+
+    void writeCorners() {
+        parallel_.forRanges(plan_.triangle_count, kWriteGrain, [&](std::size_t begin, std::size_t end) {
+            // In variables of their own, which no store can change.
+            const std::uint32_t *const groups = plan_.groups.data(), *const slots = plan_.slots.data();
+            const std::uint32_t* const triangles = plan_.triangles.data();
+            const std::uint8_t* const positive = plan_.group_positive.data();
+            const Vec3* const sums = sums_.groups.data();
+            const StridedSpan<Vec4> tangents = out_.tangents;
+            const float signs[2] = {sink_.sign(false), sink_.sign(true)};
+            const bool tangents_only = wantsTangentsOnly(out_);
+            const std::uint32_t count = plan_.group_count;
+            for (std::size_t t = begin; t < end; ++t) {
+                const std::size_t first = 3 * (triangles == nullptr ? t : triangles[t]);
+                for (std::size_t h = 3 * t; h < 3 * t + 3; ++h) {
+                    const std::uint32_t g = groups[h] & kValue;
+                    const std::size_t c = slots == nullptr ? first + h - 3 * t : slots[h];
+                    if (g >= count || (c & kTopBit) != 0) continue;
+                    if (tangents_only) {
+                        tangents[c] = {sums[g].x, sums[g].y, sums[g].z, signs[positive[g]]};
+                    } else {
+                        sink_.write(c, resultOf(g));
+                    }
+                }
+            }
+        });
+    }
+
+    /// Room for one group in which each member has a subset of its own (angular threshold).
+    struct SplitRoom {
+        CornerTerms* blocks;
+        std::uint32_t vertices[kTermCorners] = {};
+    };
+
+    /// Writes the results of all members but those whose corner has several, which are kept. Quadratic in the size of a
+    /// group, which is limited when plans are made.
+    void evaluateSplits() {
+        const std::size_t count = plan_.splits.size(), blocks = plan_.largest_split / kTermTriangles + 1;
+        if (count == 0) return;
+        if (!plan_.conflicts.empty()) members_ = Buffer<Tangents>(allocator_, plan_.members.size());
+        const std::size_t tasks =
+            std::min<std::size_t>(count / 64 + 1, parallel_.width() == 1 ? 1 : 4 * parallel_.width());
+        Buffer<CornerTerms> terms(allocator_, plan_.terms.empty() ? tasks * blocks : 0);
+        parallel_.forTasks(tasks, [&](std::size_t task) {
+            SplitRoom room{terms.empty() ? nullptr : terms.data() + task * blocks};
+            for (std::size_t i = count * task / tasks; i < count * (task + 1) / tasks; ++i)
+                evaluateSplit(plan_.splits[i], room);
+        });
+    }
+
+    void evaluateSplit(const EvaluatedSplit& split, SplitRoom& room) {
+        computeTerms(split, room);
+        const std::size_t words = (std::size_t{split.count} + 63) / 64;
+        const std::uint64_t* row = plan_.split_rows.data() + split.rows;
+        Tangents result;
+        for (std::uint32_t a = 0; a < split.count; ++a, row += words) {
+            if (a == 0 || !std::equal(row, row + words, row - words)) {
+                Vec3 sum;
+                GroupRest rest;
+                for (std::size_t word = 0; word < words; ++word) {
+                    for (std::uint64_t bits = row[word]; bits != 0; bits &= bits - 1)
+                        add(split, 64 * word + static_cast<unsigned>(std::countr_zero(bits)), room, sum, rest);
+                }
+                result = meanOf(sum, rest, rest.weight, split.positive);
+                if (!isFinite(result.s)) finite_ = false;
+            }
+            const std::uint32_t slot = plan_.slotOf(plan_.members[split.begin + a]);
+            if ((slot & kTopBit) != 0) {
+                members_[split.begin + a] = result;
+            } else {
+                sink_.write(slot, result);
+            }
+        }
+    }
+
+    void add(const EvaluatedSplit& split, std::size_t member, const SplitRoom& room, Vec3& sum, GroupRest& rest) const {
+        const std::uint32_t half_edge = plan_.members[split.begin + member];
+        const bool is_known = !plan_.terms.empty();
+        const CornerTerms& terms =
+            is_known ? plan_.terms[half_edge / kTermCorners] : room.blocks[member / kTermTriangles];
+        const std::size_t t = is_known ? half_edge / 3 % kTermTriangles : member % kTermTriangles, k = half_edge % 3;
+        sum = sum + vectorOf(terms.s[3 * t + k]);
+        rest.weight += terms.s[3 * t + k][3];
+        if (!source_.tangents_only) addRest(rest, terms, t, k);
+    }
+
+    void computeTerms(const EvaluatedSplit& split, SplitRoom& room) const {
+        for (std::uint32_t begin = 0; plan_.terms.empty() && begin < split.count; begin += kTermTriangles) {
+            const std::uint32_t count = std::min<std::uint32_t>(kTermTriangles, split.count - begin);
+            for (std::uint32_t i = 0; i < count; ++i) {
+                const std::uint32_t first = plan_.members[split.begin + begin + i] / 3 * 3;
+                std::copy_n(plan_.vertices.data() + first, 3, room.vertices + 3 * i);
+            }
+            terms_(source_, room.vertices, count, room.blocks[begin / kTermTriangles]);
+        }
+    }
+
+    /// Two results is what the reference knows (the corners at a quad's diagonal); further ones, which only
+    /// n-gons have, are merged one by one.
+    void mergeConflicts() {
+        const auto result = [&](const Conflict& c) {
+            return (c.source & kTopBit) != 0 ? members_[c.source & kValue] : resultOf(c.source);
+        };
+        const Buffer<Conflict>& conflicts = plan_.conflicts;
+        parallel_.forRanges(conflicts.size(), kWriteGrain, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end;) {
+                const std::uint32_t corner = conflicts[i].corner;
+                const bool is_first = i == 0 || conflicts[i - 1].corner != corner;
+                Tangents merged = result(conflicts[i]);
+                for (++i; i < conflicts.size() && conflicts[i].corner == corner; ++i)
+                    merge(merged, result(conflicts[i]));
+                if (!isFinite(merged.s)) finite_ = false;
+                if (is_first) sink_.write(corner, merged);  // else another thread does
+            }
+        });
+    }
+
+    /// Corners of groups whose sum vanishes.
+    [[nodiscard]] std::uint64_t countZero() const {
+        std::uint64_t count = 0;
+        for (const std::uint32_t group : plan_.groups) {
+            const std::uint32_t g = group & kValue;
+            if (g < plan_.group_count) count += replaced_[g];
+        }
+        return count;
+    }
+
+    [[nodiscard]] std::uint64_t countNotFinite() {
+        std::atomic<std::uint64_t> total{0};
+        parallel_.forRanges(plan_.corner_count, kWriteGrain, [&](std::size_t begin, std::size_t end) {
+            std::uint64_t count = 0;
+            for (std::size_t c = begin; c < end; ++c) count += !sink_.isFinite(c);
+            total += count;
+        });
+        return total.load();
+    }
+
+    const EvaluationPlan& plan_;
+    const Pose& pose_;
+    const StridedSpan<const Vec2>& uvs_;
+    const Execution& execution_;
+    TangentOutput out_;
+    Sink sink_;
+    CornerTermsFunction terms_;
+    CornerSource source_;
+    const Allocator* allocator_;
+    Parallel& parallel_;
+    GroupSums sums_;
+    Buffer<Tangents> members_;       // results of groups that split, one per member, where there are conflicts
+    Buffer<std::uint8_t> replaced_;  // one per group: 1 when its sum vanishes and it got a default
+    std::atomic<bool> zero_{false}, finite_{true};
+};
+
+}  // namespace
+
+GroupSums roomForSums(const EvaluationPlan& plan, bool tangents_only, const Allocator* allocator) {
+    GroupSums sums;
+    sums.groups = Buffer<Vec3>(allocator, plan.group_count);
+    if (!tangents_only) sums.rest = Buffer<GroupRest>(allocator, plan.group_count);
+    return sums;
+}
+
+estimators::GroupEstimates estimatesIn(GroupSums& sums) {
+    return {reinterpret_cast<std::byte*>(sums.groups.data()), sizeof(Vec3), sums.rest.data(), sums.groups.size()};
+}
+
+TangentReport evaluateGroups(const EvaluationPlan& plan, const Pose& pose, const StridedSpan<const Vec2>& uvs,
+                             const TangentOutput& out, const Execution& execution, Parallel& parallel,
+                             GroupSums* estimates) {
+    return Evaluation(plan, pose, uvs, out, execution, parallel).run(estimates);
+}
+
+}  // namespace tspace::mikk

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+// Whether the triangles around a node form one connected fan, found while they come by in ascending order.
+//
+// The rule of groups.h links a triangle's leaving half-edge (to the next node) with the oldest waiting
+// arriving one from that node, and the other way round. As long as no two half-edges of one direction wait
+// for the same neighbour, there is nothing to choose, and the links make paths, each of which is known by its
+// two waiting ends. A fan has room for two paths. More may begin before they meet, where triangles come in random order
+// or the second ones of all quads follow the first ones: such a fan borrows room for four until two are left again. A
+// fifth path, and whatever else happens, makes the fan complex, and the node is left to the vertex path.
+#pragma once
+
+#include <bit>
+#include <cstdint>
+#include <cstring>
+
+#include "core/base/float4.h"
+#include "core/tangents/mikktspace/words.h"
+
+namespace tspace::mikk {
+
+/// The paths of a fan that has more than two.
+struct ManyPaths {
+    static constexpr std::uint32_t kMost = 4;
+    struct Path {
+        std::uint32_t leaves, arrives;
+    } paths[kMost];
+};
+
+/// Places for fans of many paths, numbered from 1. There must be as many as fans of three triangles and more.
+class FanRoom {
+  public:
+    explicit FanRoom(ManyPaths* places) : places_(places) {}
+
+    ManyPaths& operator[](std::uint32_t place) { return places_[place - 1]; }
+    std::uint32_t take() {
+        if (free_ == 0) return ++used_;
+        const std::uint32_t place = free_;
+        free_ = (*this)[place].paths[0].leaves;
+        return place;
+    }
+    void giveBack(std::uint32_t place) {
+        (*this)[place].paths[0].leaves = free_;
+        free_ = place;
+    }
+
+  private:
+    ManyPaths* places_;
+    std::uint32_t used_ = 0;  // so many were ever taken
+    std::uint32_t free_ = 0;  // a list of those that were given back
+};
+
+class Fan {
+  public:
+    [[nodiscard]] bool isOne() const { return ends_[0] != 0 && ends_[2] == 0; }
+    /// 0: there is at most one path.
+    [[nodiscard]] std::uint32_t secondPath() const { return ends_[2]; }
+
+    /// Adds the triangle whose corner here goes on to `next` and comes from `previous`. Without branches: where triangles
+    /// come in any order, a processor cannot foresee what each does.
+    void add(std::uint32_t next, std::uint32_t previous, FanRoom& room) {
+        const Four own = Four{next, previous, next, previous} | kTopBit;
+        const Four extended = std::bit_cast<Four>(ends_ == __builtin_shufflevector(own, own, 1, 0, 3, 2));
+        const Four kept = __builtin_shufflevector(extended, extended, 1, 0, 3, 2);  // the other ends of these paths
+        const Four other = ends_ & ~(extended | kept);
+        const bool is_complex = laneBits(std::bit_cast<Mask4>(ends_ == own)) != 0;
+        if (is_complex || (laneBits(std::bit_cast<Mask4>(other == 0)) & 5) == 0) [[unlikely]]
+            return addToMany({own[0], own[1]}, room);
+        // Kept ends take the place of the triangle's own. A ring is left with ends that no triangle meets.
+        const Four changes = ((ends_ ^ own) | extended) & kept;
+        const Four grown = own ^ changes ^ turned(changes);
+        ends_ = __builtin_shufflevector(grown, other | turned(other), 0, 1, 4, 5);
+    }
+
+  private:
+    using Four = std::uint32_t __attribute__((vector_size(16)));
+    static constexpr Four kComplex{1, 0, 1, 0};
+    static Four turned(Four v) { return __builtin_shufflevector(v, v, 2, 3, 0, 1); }
+
+    [[gnu::noinline]] void addToMany(ManyPaths::Path grown, FanRoom& room) {
+        const bool begins = ends_[1] != 0;
+        if (!begins && ends_[3] == 0) return;
+        const std::uint32_t place = begins ? room.take() : ends_[2];
+        ManyPaths& many = room[place];
+        if (begins) many = {{{ends_[0], ends_[1]}, {ends_[2], ends_[3]}}};
+        const std::uint32_t kept = join(many, begins ? 2 : ends_[3], grown);
+        if (kept > 2) {
+            ends_ = Four{1, 0, place, kept};
+            return;
+        }
+        const ManyPaths::Path* path = many.paths;
+        ends_ = kept == 0 ? kComplex : Four{path[0].leaves, path[0].arrives, path[1].leaves, path[1].arrives};
+        room.giveBack(place);
+    }
+
+    /// Returns how many paths there are now, and 0 where the fan becomes complex.
+    static std::uint32_t join(ManyPaths& many, std::uint32_t count, ManyPaths::Path grown) {
+        const auto [next, previous] = grown;
+        std::uint32_t kept = 0;
+        for (std::uint32_t i = 0; i < count; ++i) {
+            const ManyPaths::Path path = many.paths[i];
+            const bool meets_end = path.leaves == previous, meets_start = path.arrives == next;
+            if (meets_end && meets_start) return 0;  // a ring, and other paths
+            if (path.leaves == next || path.arrives == previous) return 0;
+            if (meets_end) grown.arrives = path.arrives;
+            if (meets_start) grown.leaves = path.leaves;
+            if (!meets_end && !meets_start) many.paths[kept++] = path;
+        }
+        if (kept == ManyPaths::kMost) return 0;
+        many.paths[kept++] = grown;
+        return kept;
+    }
+
+    /// Path i leaves towards ends_[2 * i], where a triangle on its other side may follow, and arrives from ends_[2 * i + 1]:
+    /// nodes with kTopBit; 0: no path. Of many paths: 1, 0, their place, their number; of a complex fan: kComplex.
+    Four ends_{};
+};
+
+}  // namespace tspace::mikk

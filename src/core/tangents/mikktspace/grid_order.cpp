@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: MIT
+// Reproduces the order of the reference's welding: a grid of 2048 cells along the longest axis of the
+// bounding box, then in each cell a repeated partition in place at the middle of the longest axis, until
+// positions no longer differ there. The first corner of a node in the order that results is its
+// representative.
+//
+// Every partition halves one axis of a float box, so the number of levels is bounded by the range of floats
+// whatever the input; the work list below stays short because the larger side is always put off.
+#include "core/tangents/mikktspace/grid_order.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <utility>
+
+#include "core/base/float4.h"
+#include "core/tangents/mikktspace/collect.h"
+#include "core/tangents/mikktspace/words.h"
+
+namespace tspace::mikk {
+
+namespace {
+
+constexpr int kCells = 2048;
+constexpr std::size_t kVertexGrain = 16384;  // a multiple of 4
+// The mark of a vertex: the number of its cell among those that are looked at, from 1; and whether it is at an end of
+// the grid.
+constexpr std::uint16_t kNumber = 0x0fff, kAtLow = 0x4000, kAtHigh = 0x8000;
+constexpr std::uint32_t kWanted = kNone - 1;  // as a representative: not known yet
+
+/// An entry of the corner list, in one cell of the reference's grid.
+struct alignas(16) CellElement {
+    Vec3 position;
+    std::uint32_t entry;  ///< kTopBit: its node's representative is wanted
+};
+
+float component(const Vec3& v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
+/// x, y, z and z again.
+Float4 loadVec3(const Vec3& v) {
+    const Float4 xyyz = joinPairs(&v.x, &v.y);
+    return __builtin_shufflevector(xyyz, xyyz, 0, 1, 3, 3);
+}
+
+/// A bounding box; the fourth lanes do not matter. As in the reference, a NaN never moves a bound, and a bound
+/// that starts as NaN stays.
+struct Box {
+    Float4 low, high;
+
+    explicit Box(Float4 start) : low(start), high(start) {}
+    void add(Float4 p) {
+        low = min4(p, low);
+        high = max4(p, high);
+    }
+    void add(const Box& other) {
+        low = min4(other.low, low);
+        high = max4(other.high, high);
+    }
+    [[nodiscard]] int longestAxis() const {
+        const Float4 d = high - low;
+        if (d[1] > d[0] && d[1] > d[2]) return 1;
+        return d[2] > d[0] ? 2 : 0;
+    }
+};
+
+/// What the reference does with the corners in one cell of its grid.
+/// found(entry): called for all entries of leaves, within each in an order such that the last call for a node
+/// is for its representative. All entries of a node are in one leaf, because equal positions always go to the
+/// same side. Ranges where no element is marked are left out.
+template <class Found>
+class Cell {
+  public:
+    Cell(std::span<CellElement> elements, const Found& found)
+        : elements_(elements.data()), count_(elements.size()), found_(found) {}
+
+    void run() {
+        Range waiting[64];  // each at most half of the one before
+        std::size_t depth = 0;
+        Range range{0, count_};
+        while (true) {
+            Range smaller{}, larger{};
+            if (divide(range, smaller, larger)) {
+                if (smaller.end - smaller.begin > larger.end - larger.begin) std::swap(smaller, larger);
+                waiting[depth++] = larger;
+                range = smaller;
+            } else {
+                if (depth == 0) return;
+                range = waiting[--depth];
+            }
+        }
+    }
+
+  private:
+    struct Range {
+        std::size_t begin, end;
+    };
+
+    /// Partitions the range, or finishes it and returns false.
+    bool divide(Range range, Range& left, Range& right) {
+        const auto at = [&](std::size_t i) { return loadFloat4(&elements_[i].position.x); };
+        Box box(at(range.begin));
+        std::uint32_t any = 0;
+        for (std::size_t i = range.begin; i < range.end; ++i) {
+            box.add(at(i));
+            any |= elements_[i].entry;
+        }
+        if ((any & kTopBit) == 0) return false;
+        const int axis = box.longestAxis();
+        const float low = box.low[axis], high = box.high[axis], middle = 0.5f * (high + low);
+        if (middle >= high || middle <= low) {
+            // The first of a node is kept; going backwards makes the first the last to be named.
+            for (std::size_t i = range.end; i-- > range.begin;) found_(elements_[i].entry & kValue);
+            return false;
+        }
+        const std::size_t cut = partition(range, axis, middle);
+        left = {range.begin, cut};
+        right = {cut, range.end};
+        return true;
+    }
+
+    /// The reference swaps the first element that belongs to the right with the last one that belongs to the
+    /// left, and so on.
+    std::size_t partition(Range range, int axis, float middle) {
+        const auto goesLeft = [&](std::size_t n) { return component(elements_[n].position, axis) < middle; };
+        std::size_t i = range.begin, j = range.end - 1;
+        while (i < j) {
+            while (i < j && goesLeft(i)) ++i;
+            while (i < j && !goesLeft(j)) --j;
+            if (i < j) std::swap(elements_[i++], elements_[j--]);
+        }
+        return i == j && goesLeft(i) ? i + 1 : i;
+    }
+
+    CellElement* elements_;
+    std::size_t count_;
+    const Found& found_;
+};
+
+struct GridOrder {
+    const WeldedMesh& in;
+    std::span<const std::uint32_t> wanted;
+    std::uint32_t* representatives;
+    const Allocator* allocator;
+    Parallel& parallel;
+
+    Buffer<std::uint32_t> find() {
+        Buffer<std::uint32_t> found;
+        if (in.triangles.count == 0) return found;
+        for (const std::uint32_t v : wanted) representatives[in.nodes.ofVertex(v)] = kWanted;
+        // The box of all vertices is made much faster than that of the list, and does for us when vertices on both ends
+        // of its longest axis are in the list: that of the list may be shorter on other axes only, and so has the same
+        // longest one.
+        if (in.triangles.corner(0) != 0 || !findIn(boxOfVertices(), true, found)) findIn(boxOfList(), false, found);
+        for (const std::uint32_t v : wanted) {
+            std::uint32_t& representative = representatives[in.nodes.ofVertex(v)];
+            if (representative == kWanted) representative = kNone;  // without corners
+        }
+        return found;
+    }
+
+    /// What the reference computes: the box of the corner list but for its first entry, starting from corner 0 of the
+    /// mesh.
+    [[nodiscard]] Box boxOfList() const {
+        Box box(loadVec3(in.mesh.positions[in.mesh.indices[0]]));
+        for (std::size_t i = 1; i < 3 * in.triangles.count; ++i) box.add(loadVec3(in.mesh.positions[in.vertexAt(i)]));
+        return box;
+    }
+
+    [[nodiscard]] Box boxOfVertices() const {
+        const std::size_t count = in.mesh.vertexCount(), parts = (count + kVertexGrain - 1) / kVertexGrain;
+        Box whole(loadVec3(in.mesh.positions[in.mesh.indices[0]]));
+        Buffer<Box> boxes(allocator, parts, whole);
+        parallel.forTasks(parts, [&](std::size_t part) {
+            Box box = whole;
+            const std::size_t end = std::min((part + 1) * kVertexGrain, count);
+            for (std::size_t v = part * kVertexGrain; v < end; ++v) box.add(loadVec3(in.mesh.positions[v]));
+            boxes[part] = box;
+        });
+        for (const Box& box : boxes) whole.add(box);
+        return whole;
+    }
+
+    /// `if_listed`: only when vertices at both ends of the box are in the list; else returns false.
+    bool findIn(const Box& box, bool if_listed, Buffer<std::uint32_t>& found) {
+        const int axis = box.longestAxis();
+        const Float4 low = splat(box.low[axis]), high = splat(box.high[axis]);
+        // By the float-to-int conversion of x86: what does not fit becomes the smallest int, which lands in cell 0.
+        const auto cellsOf = [=](Float4 x) {
+            const Float4 q = splat(kCells) * ((x - low) / (high - low));
+            const Float4 fitting = select4(q < splat(2147483648.0f), max4(q, Float4{}), Float4{});
+            return __builtin_convertvector(min4(fitting, splat(kCells - 1)), Mask4);
+        };
+        std::array<std::uint16_t, kCells> numbers = {};
+        std::uint16_t cell_count = 0;
+        for (const std::uint32_t v : wanted) {
+            const Mask4 cell = cellsOf(splat(component(in.mesh.positions[v], axis)));
+            std::uint16_t& number = numbers[static_cast<std::size_t>(cell[0])];
+            if (number == 0) number = ++cell_count;
+        }
+        Buffer<std::uint16_t> marks(allocator, in.mesh.vertexCount());
+        parallel.forRanges(marks.size(), kVertexGrain, [&](std::size_t begin, std::size_t end) {
+            const auto markSome = [&, positions = in.mesh.positions](std::size_t v, std::size_t count) {
+                const auto at = [&](std::size_t i) { return component(positions[v + std::min(i, count - 1)], axis); };
+                const Float4 x{at(0), at(1), at(2), at(3)};
+                const Mask4 cells = cellsOf(x), ends = ((x == low) & kAtLow) | ((x == high) & kAtHigh);
+                for (std::size_t i = 0; i < count; ++i)
+                    marks[v + i] = static_cast<std::uint16_t>(numbers[static_cast<std::size_t>(cells[i])] | ends[i]);
+            };
+            for (; begin + 4 <= end; begin += 4) markSome(begin, 4);
+            if (begin < end) markSome(begin, end - begin);
+        });
+        std::atomic<std::uint32_t> any{0};
+        found = collectTriangles(
+            in.mesh, in.triangles, [mark = marks.data()](std::uint32_t vertex) { return mark[vertex]; }, kNumber,
+            allocator, parallel, &any);
+        if (if_listed && ((any & kAtLow) == 0 || (any & kAtHigh) == 0)) return false;
+        followCells(found, marks.data(), cell_count);
+        return true;
+    }
+
+    /// Cells share nothing: a node lies in one of them.
+    void followCells(const Buffer<std::uint32_t>& found, const std::uint16_t* marks, std::size_t cells) {
+        // The first entry of each one up, first how many each has. Number 0 is none.
+        std::array<std::uint32_t, kCells + 2> begin;
+        std::fill_n(begin.data(), cells + 2, 0u);
+        std::uint32_t buffer[3];
+        for (const std::uint32_t t : found) {
+            const std::uint32_t* vertices = readTriangles(in.mesh, in.triangles, t, 1, buffer);
+            for (std::size_t k = 0; k < 3; ++k) ++begin[(marks[vertices[k]] & kNumber) + 1];
+        }
+        begin[1] = 0;
+        for (std::size_t number = 1; number <= cells; ++number) begin[number + 1] += begin[number];
+        Buffer<CellElement> elements(allocator, begin[cells + 1]);
+        for (const std::uint32_t t : found) {
+            const std::uint32_t* vertices = readTriangles(in.mesh, in.triangles, t, 1, buffer);
+            for (std::uint32_t k = 0; k < 3; ++k) {
+                const std::uint32_t number = marks[vertices[k]] & kNumber, entry = 3 * t + k;
+                if (number == 0) continue;
+                const bool is_wanted = representatives[in.nodes.ofVertex(vertices[k])] == kWanted;
+                elements[begin[number]++] = {in.mesh.positions[vertices[k]], is_wanted ? entry | kTopBit : entry};
+            }
+        }
+        const auto name = [&](std::uint32_t entry) { representatives[in.nodeAt(entry)] = in.triangles.corner(entry); };
+        constexpr std::size_t kElements = 4096;  // for a thread: fewer are done sooner than one is started
+        const std::size_t grain = 1 + cells * kElements / (elements.size() + 1);
+        parallel.forRanges(cells, grain, [&](std::size_t first, std::size_t last) {
+            for (std::size_t cell = first; cell < last; ++cell) {
+                const std::size_t size = begin[cell + 1] - begin[cell];
+                if (size != 0) Cell({elements.data() + begin[cell], size}, name).run();
+            }
+        });
+    }
+};
+
+}  // namespace
+
+Buffer<std::uint32_t> findRepresentatives(const WeldedMesh& welded, std::span<const std::uint32_t> vertices,
+                                          std::uint32_t* representatives, const Allocator* allocator,
+                                          Parallel& parallel) {
+    return GridOrder{welded, vertices, representatives, allocator, parallel}.find();
+}
+
+}  // namespace tspace::mikk

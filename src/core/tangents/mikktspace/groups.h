@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+// Links: which corner of a node lies across each of its edges, worked out for one node alone.
+//
+// The reference sorts all edges by (lower end, higher end, triangle). Going through them in order, each
+// half-edge without a neighbour takes the first later one of the same edge that runs the opposite way and has
+// none. Claim: that equals going through the half-edges of an edge in order, each taking the oldest waiting
+// opposite one or waiting. Proof: waiters of one edge always run in one direction, else two of them would
+// have been linked. Say the first half-edge is linked to j by the reference: all between run its own way, so
+// it is still the oldest waiter when j comes, and j takes it. Take the pair out and repeat. An edge's
+// half-edges are seen completely from either of its ends, in the same (ascending) order, so each node can
+// work alone and both ends come to the same links. No edge table is needed.
+//
+// Groups: the corners of a node that share tangents. The links around a node form paths and rings. Going through a
+// node's corners in ascending order, each that has no group and a usable UV area opens one, which spreads along the links
+// to both sides until it meets the other orientation or another group. (The reference recurses from triangle to triangle;
+// on a path or ring that visits the same corners.)
+//
+// A triangle without UV area takes the orientation of the first group that reaches it, at any of its nodes. Where its
+// nodes have one orientation only, that is the one, whoever is first. Others are contested: the nodes of those are
+// grouped one after the other, in the reference's order.
+#pragma once
+
+#include <span>
+
+#include "core/tangents/mikktspace/last_bucket.h"
+#include "core/tangents/mikktspace/vertex_path.h"
+
+namespace tspace::mikk {
+
+/// Nodes of up to this many corners are paired by comparing all with all, on the stack.
+inline constexpr std::uint32_t kSmallNode = 64;
+
+/// For each corner of a node the one that lies across the edge that leaves here, and across the edge that arrives: its
+/// place among them, or kNone.
+struct CornerLinks {
+    std::uint32_t* left;
+    std::uint32_t* right;
+};
+
+/// For small nodes.
+void linkSmall(std::span<const NodeCorner> around, const CornerLinks& links);
+
+/// For any: by sorting `half_edges`, which has room for two numbers per corner.
+void linkLarge(std::span<const NodeCorner> around, const CornerLinks& links, std::uint64_t* half_edges);
+
+/// The corners of one node and their groups, which are numbered in the order in which the reference opens them.
+struct NodeGroups {
+    std::span<const NodeCorner> corners;
+    const std::uint32_t* group = nullptr;  ///< one per corner, or kNone; null: all are in one, if there is one
+    std::uint32_t count = 0;               ///< of groups
+
+    [[nodiscard]] std::uint32_t of(std::size_t i) const { return group != nullptr ? group[i] : count == 0 ? kNone : 0; }
+};
+
+class Grouping {
+  public:
+    /// Settles the contested triangles' orientation, in corners.flags. All must outlive this object.
+    Grouping(const VertexPath& path, VertexCorners& corners);
+
+    /// The result is valid until the next call.
+    NodeGroups groupsOf(std::size_t place);
+
+  private:
+    struct Contested {
+        std::uint32_t place;
+        std::uint32_t cursor = 0, group_count = 0;
+        std::size_t begin = 0;  // in contested_groups_
+    };
+    void findContested(const Allocator* allocator);
+    void spreadContested(const Allocator* allocator);
+    bool joinsContested(std::uint32_t triangle, std::uint32_t facing);
+    void link(std::size_t place, const CornerLinks& links);
+    void applyBucket(std::span<const NodeCorner> around, const CornerLinks& links) const;
+
+    std::span<const std::uint32_t> chosen_;
+    const LastBucket& bucket_;
+    VertexCorners& corners_;
+    Buffer<std::uint32_t> room_;          // for the links and groups of one node
+    Buffer<std::uint64_t> half_edges_;    // of one that is not small
+    Buffer<std::uint32_t> contested_of_;  // one per chosen node, and one more: its number in contested_, or kNone;
+                                          // empty when there are none
+    Growing<Contested> contested_;
+    Buffer<std::uint32_t> contested_groups_;
+};
+
+}  // namespace tspace::mikk

@@ -1,0 +1,328 @@
+// SPDX-License-Identifier: MIT
+// The last bucket of the reference's edge list.
+//
+// An edge's key is the lower one of its two nodes' representatives (which are corners), and the last bucket
+// holds the edges with the largest key, V. Where are they? The largest key in a triangle is the middle one of its
+// representatives. Let F be the first corner of some triangles at the end of the list: a node of others only has a
+// representative below F. So when the representatives of their nodes show a key from F on, the largest one is V, and all
+// edges of the bucket have both ends there. Else the end of the list has to be taken longer.
+//
+// Few triangles are enough, nearly always: in a mesh in natural order most nodes of the last ones have no
+// other corners; in a mesh without order each edge of a late triangle has its key there once in 36 times.
+//
+// Where the order of the bucket can change a link, the reference's first sort (a quicksort with a fixed seed, not
+// stable) is replayed to know it.
+#include "core/tangents/mikktspace/last_bucket.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <functional>
+#include <span>
+#include <utility>
+
+#include "core/base/sort.h"
+#include "core/base/vec_math.h"
+#include "core/tangents/mikktspace/collect.h"
+#include "core/tangents/mikktspace/grid_order.h"
+#include "core/tangents/mikktspace/growing.h"
+#include "core/tangents/mikktspace/words.h"
+
+namespace tspace::mikk {
+
+namespace {
+
+constexpr std::uint32_t kSeed = 39871946;
+/// Elements that the replayed sort may look at, per element. A random order needs about 4 (only the last
+/// bucket's side is followed); only orders made against the fixed seed come near.
+constexpr std::uint64_t kStepsPerElement = 64;
+
+/// An element of the sort.
+struct Record {
+    std::uint32_t key = 0, half_edge = 0;
+};
+
+/// Replays the quicksort as far as it moves records with the largest key. Returns false when the budget is spent.
+[[gnu::cold]] bool sortRecords(Record* records, std::size_t count, std::uint32_t largest, const Allocator* allocator) {
+    struct Range {
+        std::int64_t begin, last;
+        std::uint32_t seed;
+    };
+    Growing<Range> waiting(allocator);
+    waiting.push({0, static_cast<std::int64_t>(count) - 1, kSeed});
+    std::uint64_t steps = kStepsPerElement * count + 1024;
+    while (!waiting.empty()) {
+        auto [i, j, seed] = waiting[waiting.size() - 1];
+        waiting.drop(1);
+        if (j <= i) continue;
+        const auto begin = i, last = j;
+        const auto size = static_cast<std::uint64_t>(last - begin + 1);
+        if (size > steps) return false;
+        steps -= size;
+        if (size == 2) {
+            if (records[begin].key > records[last].key) std::swap(records[begin], records[last]);
+            continue;
+        }
+        seed += std::rotl(seed, static_cast<int>(seed & 31)) + 3;
+        const std::uint32_t pivot = records[begin + static_cast<std::int64_t>(seed % size)].key;
+        do {
+            while (records[i].key < pivot) ++i;
+            while (records[j].key > pivot) --j;
+            if (i <= j) std::swap(records[i++], records[j--]);
+        } while (i <= j);
+        if (pivot == largest) waiting.push({begin, j, seed});
+        waiting.push({i, last, seed});
+    }
+    return true;
+}
+
+/// One half-edge of the last bucket.
+struct BucketEdge {
+    std::uint32_t high = 0;  // representative of the higher end
+    std::uint32_t high_node = 0;
+    std::uint32_t half_edge = 0;
+    std::uint32_t usual = kNone, partner = kNone;  // other half-edges: as pairing links them, as the reference does
+    bool ascending = false;                        // runs from the lower to the higher end
+};
+
+/// By half-edges; those of each higher end together where `by_ends`.
+[[gnu::cold]] void sortEdges(BucketEdge* begin, BucketEdge* end, bool by_ends) {
+    sortList(begin, end, [=](const BucketEdge& a, const BucketEdge& b) {
+        return by_ends && a.high != b.high ? a.high < b.high : a.half_edge < b.half_edge;
+    });
+}
+
+/// The largest key of a triangle's edges when nodes have these representatives.
+inline std::uint32_t keyOf(const std::uint32_t* nodes, const std::uint32_t* representatives) {
+    const std::uint32_t a = representatives[nodes[0]], b = representatives[nodes[1]], c = representatives[nodes[2]];
+    return std::max(std::min(a, b), std::min(std::max(a, b), c));
+}
+
+class BucketFinder {
+  public:
+    BucketFinder(const WeldedMesh& welded, const Allocator* allocator, Parallel& parallel)
+        : in_(welded),
+          allocator_(allocator),
+          parallel_(parallel),
+          representatives_(allocator, welded.nodes.count),
+          bucket_(allocator) {}
+
+    /// `kept`: for the result.
+    LastBucket run(const Allocator* kept) {
+        LastBucket result;
+        if (!mayMatter()) return result;
+        findBucket();
+        if (!orderMatters()) return result;
+        pairUp(&BucketEdge::usual);
+        result.abandoned = !sortAsReference();
+        if (result.abandoned) return result;
+        pairUp(&BucketEdge::partner);
+        listChanges(result, kept);
+        return result;
+    }
+
+  private:
+    /// Where its numbers lie, or in itself.
+    struct Triangle {
+        Triangle(const WeldedMesh& in, std::size_t t)
+            : vertices(readTriangles(in.mesh, in.triangles, t, 1, own_vertices)),
+              nodes(in.nodes.ofVertices(vertices, 3, own_nodes)) {}
+        Triangle(const Triangle&) = delete;
+
+        std::uint32_t own_vertices[3], own_nodes[3];
+        const std::uint32_t *vertices, *nodes;
+    };
+
+    [[nodiscard]] bool isGood(const Triangle& triangle) const {
+        const auto at = [&](std::size_t k) -> const Vec3& { return in_.mesh.positions[triangle.vertices[k]]; };
+        return !(at(0) == at(1) || at(1) == at(2) || at(2) == at(0));
+    }
+
+    /// Whether three edges of the bucket may be at one node. All meet at one, and a triangle has at most one of them: between
+    /// the higher ends of two would be an edge with a larger key. Of two edges the order does not matter.
+    [[nodiscard]] bool mayMatter() {
+        const std::size_t count = in_.triangles.count;
+        std::uint32_t* const edges = representatives_.data();  // how many each node may have
+        forgetAll();
+        std::uint32_t room[kBlockCorners], last[kBlockCorners], known = 0;
+        for (std::size_t first = 0; first < count; first += kCollectBlock) {
+            const std::size_t size = 3 * std::min(kCollectBlock, count - first);
+            const std::uint32_t* nodes = readTriangles(in_.mesh, in_.triangles, first, size / 3, room);
+            nodes = in_.nodes.ofVertices(nodes, size, room);
+            if (count <= kCollectBlock && in_.nodes.count <= kBlockCorners && in_.triangles.corners.empty())
+                known = leastKey(nodes, last);
+            for (const std::uint32_t *n = nodes, *const end = nodes + size; n != end; n += 3) {
+                if (known != 0 && keyOf(n, last) < known) continue;
+                for (std::size_t k = 0; k < 3; ++k) {
+                    if ((known == 0 || last[n[k]] >= known) && ++edges[n[k]] == 3) return forgetAll(), true;
+                }
+            }
+        }
+        return false;
+    }
+
+    void forgetAll() { std::memset(representatives_.data(), 0, in_.nodes.count * sizeof(std::uint32_t)); }
+
+    /// V is not below it, in a small mesh: representatives are between the first and the `last` corners of nodes.
+    std::uint32_t leastKey(const std::uint32_t* nodes, std::uint32_t* last) const {
+        std::uint32_t first[kBlockCorners], least = 0;
+        const auto count = static_cast<std::uint32_t>(3 * in_.triangles.count);
+        for (std::uint32_t i = 0; i < count; ++i) last[nodes[i]] = i;
+        for (std::uint32_t i = count; i-- > 0;) first[nodes[i]] = i;
+        for (std::uint32_t i = count; i > least; i -= 3) {  // no key is above its triangle's last corner
+            const std::uint32_t key = keyOf(nodes + i - 3, first);
+            if (key > least && isGood({in_, i / 3 - 1})) least = key;
+        }
+        return least;
+    }
+
+    /// Where the last `length` triangles begin, or a few more: a face is not cut in two.
+    [[nodiscard]] std::size_t beginOfLast(std::size_t length) const {
+        std::size_t begin = length < in_.triangles.count ? in_.triangles.count - length : 0;
+        while (begin > 0 && in_.triangles.face(begin) == in_.triangles.face(begin - 1)) --begin;
+        return begin;
+    }
+
+    /// V, and its edges.
+    void findBucket() {
+        constexpr std::size_t kSmallMesh = 4096, kLastOfSmall = 5, kLast = 10, kLastOfRandom = 24, kLonger = 4;
+        const std::size_t count = in_.triangles.count;
+        std::size_t length = count < kSmallMesh ? kLastOfSmall : kLastOfRandom;
+        // In random order, neighbours in the list have no node in common.
+        for (std::size_t t = count / 2; length == kLastOfRandom && t < count / 2 + 10; ++t) {
+            const Triangle a(in_, t), b(in_, t + 1);
+            if (std::find_first_of(a.nodes, a.nodes + 3, b.nodes, b.nodes + 3) != a.nodes + 3) length = kLast;
+        }
+        std::uint32_t first_corner = kNone;
+        for (std::size_t begin = in_.triangles.count; begin != 0 && key_ < first_corner;) {
+            const std::size_t end = std::exchange(begin, beginOfLast(length));
+            Growing<std::uint32_t> vertices(allocator_);
+            for (std::size_t i = 3 * begin; i < 3 * end; ++i) {
+                first_corner = std::min(first_corner, in_.triangles.corner(i));
+                if (representatives_[in_.nodeAt(i)] == 0) vertices.push(in_.vertexAt(i));
+            }
+            const Buffer<std::uint32_t> around = findRepresentatives(in_, {vertices.begin(), vertices.size()},
+                                                                     representatives_.data(), allocator_, parallel_);
+            // Backwards, as keys mostly ascend.
+            for (std::size_t i = around.size(); i-- > 0;) addEdges(around[i]);
+            // From the corner of the largest key on is enough; but faces that are skipped count there too.
+            length = std::max(2 * length, std::min(kLonger * length, in_.triangles.count - key_ / 3));
+        }
+    }
+
+    void addEdges(std::uint32_t t) {
+        const std::uint32_t* const representatives = representatives_.data();
+        const Triangle triangle(in_, t);
+        const std::uint32_t key = keyOf(triangle.nodes, representatives);
+        if (key == 0 || key < key_ || !isGood(triangle)) return;
+        if (key > key_) bucket_.drop(bucket_.size());
+        key_ = key;
+        for (std::uint32_t k = 0; k < 3; ++k) {
+            const std::uint32_t next = (k + 1) % 3, from = representatives[triangle.nodes[k]],
+                                to = representatives[triangle.nodes[next]];
+            if (std::min(from, to) != key) continue;
+            const std::uint32_t low = from < to ? k : next, high = k + next - low;
+            low_node_ = triangle.nodes[low];
+            bucket_.push({std::max(from, to), triangle.nodes[high], 3 * t + k, kNone, kNone, from < to});
+        }
+    }
+
+    /// Only where there are more than two half-edges, and an edge in both directions. Leaves the bucket sorted by
+    /// higher ends, then half-edges, and each but once.
+    [[nodiscard]] bool orderMatters() {
+        sortEdges(bucket_.begin(), bucket_.end(), true);
+        const auto areOne = [](const BucketEdge& a, const BucketEdge& b) { return a.half_edge == b.half_edge; };
+        BucketEdge* const end = std::unique(bucket_.begin(), bucket_.end(), areOne);
+        bucket_.drop(static_cast<std::size_t>(bucket_.end() - end));
+        if (bucket_.size() <= 2) return false;
+        for (std::size_t i = 1; i < bucket_.size(); ++i) {
+            if (bucket_[i].high == bucket_[i - 1].high && bucket_[i].ascending != bucket_[i - 1].ascending) return true;
+        }
+        return false;
+    }
+
+    /// Leaves the bucket in the order in which the reference meets its edges.
+    [[gnu::cold]] bool sortAsReference() {
+        findRepresentatives(in_, numbersBelow(in_.mesh.vertexCount(), allocator_), representatives_.data(), allocator_,
+                            parallel_);
+        Growing<Record> records(allocator_);
+        records.reserve(3 * in_.triangles.count);
+        for (std::uint32_t t = 0; t < in_.triangles.count; ++t) {
+            const Triangle here(in_, t);
+            if (!isGood(here)) continue;
+            const auto cornerOf = [&](std::uint32_t k) { return representatives_[here.nodes[k % 3]]; };
+            Record* to = records.extend(3);
+            for (std::uint32_t k = 0; k < 3; ++k) to[k] = {std::min(cornerOf(k), cornerOf(k + 1)), 3 * t + k};
+        }
+        if (!sortRecords(records.begin(), records.size(), key_, allocator_)) return false;
+        sortEdges(bucket_.begin(), bucket_.end(), false);
+        Growing<BucketEdge> ordered(allocator_);
+        for (std::size_t i = records.size() - bucket_.size(); i < records.size(); ++i) {
+            ordered.push(*std::lower_bound(bucket_.begin(), bucket_.end(), records[i].half_edge,
+                                           [](const BucketEdge& e, std::uint32_t h) { return e.half_edge < h; }));
+        }
+        bucket_ = std::move(ordered);
+        // Runs of one higher end are sorted by triangle, but for the very last run.
+        for (std::size_t begin = 0, end = 0; begin < bucket_.size(); begin = end) {
+            end = endOfRun(begin);
+            if (end == bucket_.size()) break;
+            sortEdges(bucket_.begin() + begin, bucket_.begin() + end, false);
+        }
+        return true;
+    }
+
+    [[nodiscard]] std::size_t endOfRun(std::size_t begin) const {
+        std::size_t end = begin + 1;
+        while (end < bucket_.size() && bucket_[end].high == bucket_[begin].high) ++end;
+        return end;
+    }
+
+    /// Within a run the oldest waiting half-edge of the opposite direction is the partner (see groups.h);
+    /// runs know nothing of each other.
+    [[gnu::cold]] void pairUp(std::uint32_t BucketEdge::*partner) {
+        for (std::size_t begin = 0, end = 0; begin < bucket_.size(); begin = end) {
+            end = endOfRun(begin);
+            std::size_t waiting = begin;  // no half-edge before it waits
+            for (std::size_t i = begin; i < end; ++i) {
+                while (waiting < i && bucket_[waiting].*partner != kNone) ++waiting;
+                if (waiting == i || bucket_[waiting].ascending == bucket_[i].ascending) continue;
+                bucket_[waiting].*partner = bucket_[i].half_edge;
+                bucket_[i].*partner = bucket_[waiting].half_edge;
+            }
+        }
+    }
+
+    [[gnu::cold]] void listChanges(LastBucket& result, const Allocator* kept) {
+        sortEdges(bucket_.begin(), bucket_.end(), false);
+        Growing<LastBucket::Link> links(kept);
+        Growing<std::uint32_t> nodes(kept);
+        for (const BucketEdge& e : bucket_) {
+            if (e.usual == e.partner) continue;
+            links.push({e.half_edge, e.partner});
+            nodes.push(e.high_node);
+        }
+        if (links.empty()) return;
+        nodes.push(low_node_);
+        sortList(nodes.begin(), nodes.end(), std::less<>());
+        result.links = links.exact();
+        result.nodes = nodes.exact();
+    }
+
+    const WeldedMesh& in_;
+    const Allocator* allocator_;
+    Parallel& parallel_;
+    Buffer<std::uint32_t> representatives_;  // one per node; 0 where it is not known
+    std::uint32_t key_ = 0;                  // V; never 0
+    std::uint32_t low_node_ = 0;             // whose representative it is
+    Growing<BucketEdge> bucket_;
+};
+
+}  // namespace
+
+LastBucket findLastBucket(const WeldedMesh& welded, const Allocator* transient, const Allocator* allocator,
+                          Parallel& parallel) {
+    if (welded.triangles.count == 0) return {};
+    return BucketFinder(welded, transient, parallel).run(allocator);
+}
+
+}  // namespace tspace::mikk

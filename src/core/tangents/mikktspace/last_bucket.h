@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+// The defect of the reference's edge list. Its edges are sorted by their lower end, then by the
+// higher end, then by triangle; but the loops that do the second and third sort never reach the last bucket:
+// the edges whose lower end is the largest of all. There equal edges may lie apart, and those pairs are not
+// found. Nearly always that changes nothing, which is known without any list of edges or of corners.
+#pragma once
+
+#include <algorithm>
+
+#include "core/base/memory.h"
+#include "core/base/parallel.h"
+#include "core/tangents/mikktspace/weld.h"
+
+namespace tspace::mikk {
+
+/// The links of the last bucket's half-edges, where they differ from those that linking by nodes finds. Empty for most
+/// meshes.
+struct LastBucket {
+    struct Link {
+        std::uint32_t half_edge;  ///< 3 * triangle + k, of the triangle list
+        std::uint32_t partner;    ///< kNone: no neighbour
+    };
+    Buffer<Link> links;           ///< by half-edges
+    Buffer<std::uint32_t> nodes;  ///< ends of these edges, ascending; some more than once
+    bool abandoned = false;       ///< the input drives the reference's sort into quadratic time; links are not known
+
+    [[nodiscard]] bool concerns(std::uint32_t node) const {
+        return !nodes.empty() && std::binary_search(nodes.begin(), nodes.end(), node);
+    }
+    /// Null when the half-edge keeps its usual link.
+    [[nodiscard]] const std::uint32_t* partnerOf(std::uint32_t half_edge) const {
+        const Link* at = std::lower_bound(links.begin(), links.end(), half_edge,
+                                          [](const Link& link, std::uint32_t h) { return link.half_edge < h; });
+        return at == links.end() || at->half_edge != half_edge ? nullptr : &at->partner;
+    }
+};
+
+/// Nodes must be all finite. Takes about two bytes per vertex, four per node, and what the corners of a few cells of the
+/// reference's grid need; mostly reads all vertices and indices once. Where the order of the bucket matters, up to 60
+/// bytes per triangle. `transient`: for all but the result.
+LastBucket findLastBucket(const WeldedMesh& welded, const Allocator* transient, const Allocator* allocator,
+                          Parallel& parallel);
+
+}  // namespace tspace::mikk

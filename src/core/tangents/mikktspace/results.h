@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: MIT
+// What results are asked for, what a group sums up to, what one result is, how several for one corner of the mesh are
+// merged, and where they go.
+#pragma once
+
+#include <cfloat>
+#include <cmath>
+
+#include "core/base/float4.h"
+#include "core/base/vec_math.h"
+#include "core/tangents/estimators/group_estimates.h"
+#include "core/tangents/mikktspace/corner_terms.h"
+#include "core/tangents/mikktspace/evaluation_plan.h"
+
+namespace tspace::mikk {
+
+// The reference's rules for "not zero" and for normalising, which decide bits for tiny, zero and non-finite vectors.
+
+/// Subnormal numbers, zero and NaN count as zero; infinity does not.
+inline bool notZero(float x) { return std::fabs(x) > FLT_MIN; }
+inline bool notZero(const Vec3& v) { return notZero(v.x) || notZero(v.y) || notZero(v.z); }
+
+/// v divided by its length; a vector that counts as zero comes back as it is.
+inline Vec3 unit(const Vec3& v) { return notZero(v) ? (1.0f / length(v)) * v : v; }
+
+/// The unit vector of v without its part along n. n is used as given, never normalised.
+inline Vec3 flatten(const Vec3& n, const Vec3& v) { return unit(v - dot(n, v) * n); }
+
+inline bool wantsTangentsOnly(const TangentOutput& out) {
+#ifdef TSPACE_MIKKTSPACE_ONLY
+    return true;
+#endif
+    return out.bitangents.empty() && out.magnitudes_s.empty() && out.magnitudes_t.empty();
+}
+
+/// `fast` and `best` sum in a way of their own (estimators/), and use these kernels for marks.
+inline Weighting weightingOf(Method method) {
+    switch (method) {
+        case Method::fast:
+        case Method::best:
+            return Weighting::none;
+        case Method::uniform:
+            return Weighting::one;
+        case Method::angle:
+            return Weighting::angle;
+        case Method::area:
+            return Weighting::area;
+        default:
+            return Weighting::projected_angle;
+    }
+}
+
+/// `uvs` has one entry per vertex of the pose, of which there is at least one.
+inline CornerSource cornerSource(const Pose& pose, const StridedSpan<const Vec2>& uvs, Method method,
+                                 bool tangents_only) {
+    return {vertexArrays(pose, uvs), weightingOf(method), tangents_only};
+}
+
+using estimators::GroupRest;
+
+inline Vec3 vectorOf(const float* row) { return {row[0], row[1], row[2]}; }
+inline Vec3 vectorOf(Float4 row) { return {row[0], row[1], row[2]}; }
+
+struct Tangents {
+    Vec3 s{1, 0, 0}, t{0, 1, 0};
+    float mag_s = 1, mag_t = 1;
+    bool positive = false;
+};
+
+/// All but the tangent and the orientation, in the place of its sum.
+inline GroupRest restOf(const Tangents& r) { return {{r.t.x, r.t.y, r.t.z, r.mag_s}, r.mag_t}; }
+
+/// Of a group whose members add up to s and `rest`: rows as in corner_terms.h.
+inline Tangents meanOf(const Vec3& s, const GroupRest& rest, float weight, bool positive) {
+    Tangents r{unit(s), unit(vectorOf(rest.t)), rest.t[3], rest.length_t, positive};
+    if (weight > 0) {
+        r.mag_s /= weight;
+        r.mag_t /= weight;
+    }
+    return r;
+}
+
+inline bool sameResult(const Tangents& a, const Tangents& b) {
+    return a.mag_s == b.mag_s && a.mag_t == b.mag_t && a.s == b.s && a.t == b.t;
+}
+
+/// The reference's rule for a corner that is written again: equal results stay (a NaN is never equal), others
+/// become the normalised mean. The orientation is the later one's.
+inline void merge(Tangents& first, const Tangents& second) {
+    first.positive = second.positive;
+    if (sameResult(first, second)) return;
+    first.mag_s = 0.5f * (first.mag_s + second.mag_s);
+    first.mag_t = 0.5f * (first.mag_t + second.mag_t);
+    first.s = unit(first.s + second.s);
+    first.t = unit(first.t + second.t);
+}
+
+/// The outputs, of which some may be missing.
+class Sink {
+  public:
+    /// The UV determinant speaks of the side that cross(P1-P0, P2-P0) points to; the sign must speak of N's side.
+    Sink(const TangentOutput& out, Convention convention)
+        : out_(out),
+          sign_factor_(signFactor(convention) * normalFactor(convention)),
+          bitangent_factor_(signFactor(convention)) {}
+
+    [[nodiscard]] float sign(bool positive) const { return positive ? sign_factor_ : -sign_factor_; }
+    void write(std::size_t corner, const Tangents& r) const {
+        out_.tangents[corner] = {r.s.x, r.s.y, r.s.z, sign(r.positive)};
+        writeRest(corner, restOf(r));
+    }
+    void writeRest(std::size_t corner, const GroupRest& rest) const {
+        if (!out_.bitangents.empty()) out_.bitangents[corner] = bitangent_factor_ * vectorOf(rest.t);
+        if (!out_.magnitudes_s.empty()) out_.magnitudes_s[corner] = rest.t[3];
+        if (!out_.magnitudes_t.empty()) out_.magnitudes_t[corner] = rest.length_t;
+    }
+    void clear(std::size_t corner) const {
+        out_.tangents[corner] = {};
+        if (!out_.bitangents.empty()) out_.bitangents[corner] = {};
+        if (!out_.magnitudes_s.empty()) out_.magnitudes_s[corner] = 0;
+        if (!out_.magnitudes_t.empty()) out_.magnitudes_t[corner] = 0;
+    }
+    void copy(const Copy& c) const {
+        out_.tangents[c.to] = out_.tangents[c.from];
+        if (!out_.bitangents.empty()) out_.bitangents[c.to] = out_.bitangents[c.from];
+        if (!out_.magnitudes_s.empty()) out_.magnitudes_s[c.to] = out_.magnitudes_s[c.from];
+        if (!out_.magnitudes_t.empty()) out_.magnitudes_t[c.to] = out_.magnitudes_t[c.from];
+    }
+    [[nodiscard]] bool isFinite(std::size_t corner) const { return tspace::isFinite(xyz(out_.tangents[corner])); }
+
+  private:
+    TangentOutput out_;
+    float sign_factor_, bitangent_factor_;
+};
+
+/// Adds corner k of triangle t.
+inline void addRest(GroupRest& sum, const CornerTerms& terms, std::size_t t, std::size_t k) {
+    storeFloat4(sum.t, loadFloat4(sum.t) + loadFloat4(terms.t[3 * t + k]));
+    sum.length_t += terms.lengths_t[k][t];
+}
+
+struct GroupSums {
+    Buffer<Vec3> groups;     ///< weighted tangents: most of what evaluating holds
+    Buffer<GroupRest> rest;  ///< empty when tangents_only
+};
+
+/// Whether results for one corner are merged or kept depends on all their parts.
+inline bool wantsOnlyTangents(const EvaluationPlan& plan, const TangentOutput& out) {
+    return wantsTangentsOnly(out) && plan.conflicts.empty();
+}
+
+/// Room for sums or what the estimators give, and how these reach it.
+GroupSums roomForSums(const EvaluationPlan& plan, bool tangents_only, const Allocator* allocator);
+estimators::GroupEstimates estimatesIn(GroupSums& sums);
+
+}  // namespace tspace::mikk

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: MIT
+// Welding. The reference sorts corners into cells and compares all of a small cell with each other;
+// here the vertices of the mesh are hashed (core/weld.h). The classes are the same; their representative, where it matters,
+// comes from grid_order.cpp.
+#include "core/tangents/mikktspace/weld.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <bit>
+#include <cmath>
+#include <cstring>
+
+#include "core/base/vec_math.h"
+#include "core/base/weld.h"
+#include "core/tangents/mikktspace/grid_order.h"
+#include "core/tangents/mikktspace/growing.h"
+#include "core/tangents/mikktspace/words.h"
+
+namespace tspace::mikk {
+
+namespace {
+
+/// The reference adds the ends of intervals of positions: above this the sum may overflow and welding stops.
+constexpr float kHugePosition = 1.6e38f;
+constexpr std::size_t kAhead = 32;  // entries, whose roots are in the cache when they are compared
+
+struct Vertex {
+    Vec3 position, normal;
+    Vec2 uv;
+};
+
+Vertex load(const MeshView& mesh, std::size_t v) { return {mesh.positions[v], mesh.normals[v], mesh.uvs[v]}; }
+
+bool equal(const Vertex& a, const Vertex& b) {
+    return a.position == b.position && a.normal == b.normal && a.uv == b.uv;
+}
+
+bool isAllFinite(const Vertex& v) {
+    const auto& p = v.position;
+    const bool small =
+        std::fabs(p.x) < kHugePosition && std::fabs(p.y) < kHugePosition && std::fabs(p.z) < kHugePosition;
+    return small && isFinite(v.normal) && std::isfinite(v.uv.x) && std::isfinite(v.uv.y);
+}
+
+std::uint64_t pairAt(const void* at) {
+    std::uint64_t pair = 0;
+    std::memcpy(&pair, at, sizeof pair);
+    return pair;
+}
+
+/// Whether two vertices have the same bits. Words are read as they lie: a copy would be written in small
+/// pieces and read in large ones, which processors are slow at.
+bool sameBits(const MeshView& mesh, std::size_t a, std::size_t b) {
+    const Vec3 &p = mesh.positions[a], &q = mesh.positions[b], &m = mesh.normals[a], &n = mesh.normals[b];
+    const std::uint64_t xy = (pairAt(&p) ^ pairAt(&q)) | (pairAt(&m) ^ pairAt(&n));
+    const std::uint32_t z = (std::bit_cast<std::uint32_t>(p.z) ^ std::bit_cast<std::uint32_t>(q.z)) |
+                            (std::bit_cast<std::uint32_t>(m.z) ^ std::bit_cast<std::uint32_t>(n.z));
+    return (xy | z | (pairAt(&mesh.uvs[a]) ^ pairAt(&mesh.uvs[b]))) == 0;
+}
+
+/// Four floats or words at once, in the compiler's own vectors: scalar code where the target has none.
+using Fours = float __attribute__((vector_size(16)));
+using Words = std::uint32_t __attribute__((vector_size(16)));
+using Pairs = std::uint64_t __attribute__((vector_size(16)));
+
+/// Hashes of the vertices [begin, end). Vertices that compare equal have equal hashes: adding +0 turns -0
+/// into +0. Returns whether all of them are finite and not huge; large normals and UVs are taken for huge here.
+bool hashVertices(const MeshView& mesh, std::size_t begin, std::size_t end, std::uint32_t* hashes) {
+    const Fours limit = Fours{} + kHugePosition;
+    const Words no_sign = Words{} + 0x7fffffffu;
+    auto finite = limit == limit;
+    const StridedSpan<const Vec3> positions = mesh.positions, normals = mesh.normals;
+    const StridedSpan<const Vec2> uvs = mesh.uvs;
+    for (std::size_t v = begin; v < end; ++v) {
+        const Vec3 &p = positions[v], &n = normals[v];
+        const Fours z = {p.z, n.z, 0, 0};
+        const Fours a = std::bit_cast<Fours>(Pairs{pairAt(&p), pairAt(&n)}) + Fours{};
+        const Fours b = std::bit_cast<Fours>(Pairs{std::bit_cast<Pairs>(z)[0], pairAt(&uvs[v])}) + Fours{};
+        finite &= (std::bit_cast<Fours>(std::bit_cast<Words>(a) & no_sign) < limit) &
+                  (std::bit_cast<Fours>(std::bit_cast<Words>(b) & no_sign) < limit);
+        // Turned against each other, so that signs that change together (mirrored shapes) do not cancel.
+        const Words turned = std::bit_cast<Words>(b) << 13 | std::bit_cast<Words>(b) >> 19;
+        const Pairs both = std::bit_cast<Pairs>(std::bit_cast<Words>(a) ^ turned);
+        std::uint64_t h = both[0] * 0xbf58476d1ce4e5b9u ^ std::rotl(both[1] * 0x94d049bb133111ebu, 32);
+        h = (h ^ h >> 29) * 0x9e3779b97f4a7c15u;
+        hashes[v] = static_cast<std::uint32_t>(h >> 32);
+    }
+    return (finite[0] & finite[1] & finite[2] & finite[3]) != 0;
+}
+
+/// All that a node has in common.
+class CornerData final : public Weldable {
+  public:
+    explicit CornerData(const MeshView& mesh) : mesh_(mesh) {}
+
+    /// Valid when all are hashed, and when roots are found: whether all are finite and not huge; whether some vertex equals
+    /// its root but for a zero's sign.
+    [[nodiscard]] bool allFinite() const { return all_finite_; }
+    [[nodiscard]] bool mixed() const { return mixed_; }
+
+    void hash(std::size_t begin, std::size_t end, std::uint32_t* hashes) override {
+        if (!hashVertices(mesh_, begin, end, hashes)) all_finite_.store(false, std::memory_order_relaxed);
+    }
+    bool compare(const std::uint32_t* list, std::size_t begin, std::size_t end, std::uint32_t* roots) override {
+        const auto vertexOf = [=](std::size_t i) { return list == nullptr ? static_cast<std::uint32_t>(i) : list[i]; };
+        bool mixed = false, different = false;
+        for (std::size_t i = begin; i < end; ++i) {
+            if (i + kAhead < end && roots[i + kAhead] != vertexOf(i + kAhead)) askFor(roots[i + kAhead]);
+            const std::uint32_t vertex = vertexOf(i), root = roots[i];
+            if (root == vertex) continue;
+            if (sameBits(mesh_, vertex, root)) continue;
+            if (equal(load(mesh_, vertex), load(mesh_, root))) {
+                mixed = true;
+            } else {
+                roots[i] = kNoRoot;
+                different = true;
+            }
+        }
+        if (mixed) mixed_.store(true, std::memory_order_relaxed);
+        return different;
+    }
+    [[nodiscard]] int order(std::uint32_t a, std::uint32_t b) const override {
+        const Words here = words(a), there = words(b);
+        return here == there ? 0 : here < there ? -1 : 1;
+    }
+
+  private:
+    using Words = std::array<std::uint32_t, 8>;
+
+    [[nodiscard]] Words words(std::uint32_t v) const {
+        const auto [p, n, uv] = load(mesh_, v);
+        Words words{};
+        std::size_t i = 0;
+        for (const float x : {p.x, p.y, p.z, n.x, n.y, n.z, uv.x, uv.y})
+            words[i++] = std::bit_cast<std::uint32_t>(x + 0.0f);  // -0 as +0
+        return words;
+    }
+    void askFor(std::uint32_t vertex) const {
+        __builtin_prefetch(&mesh_.positions[vertex]);
+        __builtin_prefetch(&mesh_.normals[vertex]);
+        __builtin_prefetch(&mesh_.uvs[vertex]);
+    }
+
+    const MeshView& mesh_;
+    std::atomic<bool> all_finite_{true}, mixed_{false};
+};
+
+/// Numbers the nodes by their first vertices. Without branches: which vertex is the first is in no order.
+void numberNodes(Buffer<std::uint32_t> root_of, Nodes& nodes) {
+    std::uint32_t next = 0;
+    for (std::size_t v = 0; v < root_of.size(); ++v) {
+        const std::uint32_t root = root_of[v];
+        const std::uint32_t node = root_of[root];  // a node already, but for the first vertex itself
+        const std::uint32_t is_first = root == v ? 1 : 0;
+        root_of[v] = node + is_first * (next - node);
+        next += is_first;
+    }
+    if (next == root_of.size()) return;
+    nodes.count = next;
+    nodes.of_vertex = std::move(root_of);
+}
+
+/// Where nodes mix -0 and +0, the reference's representative decides on the bits.
+[[gnu::cold]] void resolveMixed(const MeshView& mesh, const TriangleList& triangles, Nodes& nodes,
+                                const Allocator* allocator, Parallel& parallel) {
+    listVertices(nodes, allocator);
+    Growing<std::uint32_t> different(allocator);
+    for (std::size_t v = 0; v < mesh.vertexCount(); ++v) {
+        const std::uint32_t first = nodes.vertices[nodes.of_vertex[v]];
+        if (!sameBits(mesh, v, first)) different.push(first);
+    }
+    Buffer<std::uint32_t> corners(allocator, nodes.count, kNone);
+    findRepresentatives({mesh, triangles, nodes}, {different.begin(), different.end()}, corners.data(), allocator,
+                        parallel);
+    for (std::size_t node = 0; node < nodes.count; ++node) {
+        if (corners[node] != kNone) nodes.vertices[node] = mesh.indices[corners[node]];
+    }
+}
+
+[[gnu::cold]] bool usesFiniteVerticesOnly(const MeshView& mesh, const TriangleList& triangles) {
+    for (std::size_t i = 0; i < 3 * triangles.count; ++i) {
+        if (!isAllFinite(load(mesh, mesh.indices[triangles.corner(i)]))) return false;
+    }
+    return true;
+}
+
+}  // namespace
+
+Nodes weld(const MeshView& mesh, const TriangleList& triangles, const Allocator* allocator, Parallel& parallel,
+           const Allocator* transient) {
+    if (transient == nullptr) transient = allocator;
+    CornerData data(mesh);
+    const std::size_t count = mesh.vertexCount();
+    Nodes nodes;
+    nodes.count = count;
+    const bool is_indexed = mesh.indices.type != IndexType::none;
+    numberNodes(findRoots(data, count, is_indexed, allocator, transient, parallel), nodes);
+    nodes.mixed = data.mixed();
+    nodes.all_finite = data.allFinite() || usesFiniteVerticesOnly(mesh, triangles);
+    if (nodes.mixed && nodes.all_finite) resolveMixed(mesh, triangles, nodes, allocator, parallel);
+    return nodes;
+}
+
+void listVertices(Nodes& nodes, const Allocator* allocator) {
+    if (nodes.of_vertex.empty() || !nodes.vertices.empty()) return;
+    nodes.vertices = Buffer<std::uint32_t>(allocator, nodes.count);
+    std::uint32_t next = 0;
+    std::uint32_t* const vertices = nodes.vertices.data();
+    for (std::size_t v = 0; next < nodes.count; ++v) {
+        vertices[next] = static_cast<std::uint32_t>(v);  // until the first one of the node stands there
+        next += nodes.of_vertex[v] == next ? 1 : 0;
+    }
+}
+
+}  // namespace tspace::mikk

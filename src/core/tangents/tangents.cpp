@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: MIT
+// The public entry points: checks, and the choice between the plans that group faces and those that do not.
+#include "tspace/tangents.h"
+
+#include <memory>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "core/base/border.h"
+#include "core/base/call.h"
+#include "core/base/parallel.h"
+#include "core/frames/one_list.h"
+#include "core/tangents/estimators/group_estimates.h"
+#include "core/tangents/indexed_plan.h"
+#include "core/tangents/method_kind.h"
+#include "core/tangents/mikktspace/evaluation_plan.h"
+#include "core/tangents/symmetric_frame.h"
+
+namespace tspace {
+
+struct TangentPlan::State {
+    std::variant<IndexedPlan, mikk::EvaluationPlan> plan;
+    Method method = Method::mikktspace;
+    std::size_t vertex_count = 0;
+    std::size_t corner_count = 0;
+    std::size_t output_count = 0;
+    bool is_symmetric = false;
+    Buffer<std::uint32_t> corner_vertices;  ///< for a symmetric frame, one per corner; empty: outputs are per vertex
+    std::size_t normal_count = 0;           ///< of a pose
+    /// Where the mesh had several index lists: the pose's position and normal of each vertex that the plan works on.
+    std::vector<std::uint32_t> source_vertices, source_normals;
+
+    [[nodiscard]] TangentReport evaluate(const Pose& pose, const TangentOutput& out, const Execution& execution,
+                                         Parallel& parallel) const {
+        if (const auto* indexed = std::get_if<IndexedPlan>(&plan))
+            return evaluateIndexed(*indexed, pose, out, execution, parallel);
+        const auto& grouped = *std::get_if<mikk::EvaluationPlan>(&plan);
+        return mikk::evaluateGroups(grouped, pose, {grouped.uvs.data(), grouped.uvs.size()}, out, execution, parallel);
+    }
+
+    /// The same with the frame that was asked for.
+    [[nodiscard]] TangentReport evaluateFrames(const Pose& pose, const TangentOutput& out, const Execution& execution,
+                                               Parallel& parallel) const {
+        if (!is_symmetric) return evaluate(pose, out, execution, parallel);
+        const NeededBitangents needed(out, execution.allocator);
+        const TangentReport report = evaluate(pose, needed.out, execution, parallel);
+        makeSymmetric(
+            out.tangents, needed.out.bitangents,
+            [&](std::size_t i) { return pose.normals[corner_vertices.empty() ? i : corner_vertices[i]]; }, parallel);
+        return report;
+    }
+};
+
+namespace {
+
+Error checkOptions(const TangentOptions& options) {
+    if (options.method > kLastMethod) {
+        return makeError(ErrorCode::invalidOption, kNoElement, "unknown method %u",
+                         static_cast<unsigned>(options.method));
+    }
+    if (options.convention.v_axis == VAxis::unset) {
+        return {ErrorCode::invalidOption,
+                "the convention is not set, and signs depend on it: for glTF it is the preset \"gltf\", for plain "
+                "MikkTSpace \"opengl\""};
+    }
+    if (options.convention.v_axis > VAxis::down) return {ErrorCode::invalidOption, "unknown v axis of the convention"};
+    if (options.pairing > Pairing::corrected) return {ErrorCode::invalidOption, "unknown pairing"};
+    if (options.ngons > Ngons::skip) return {ErrorCode::invalidOption, "unknown treatment of n-gons"};
+    if (options.domain > OutputDomain::vertex) return {ErrorCode::invalidOption, "unknown output domain"};
+    if (options.refine > 2) return {ErrorCode::invalidOption, "refine is not 0, 1 or 2"};
+    if (options.frame > FrameShape::symmetric) return {ErrorCode::invalidOption, "unknown shape of the frame"};
+    if (options.frame == FrameShape::symmetric &&
+        (options.method == Method::mikktspace || options.method == Method::basis)) {
+        return {ErrorCode::invalidOption, "the symmetric frame is not for mikktspace and basis"};
+    }
+    if (options.domain == OutputDomain::vertex && options.method != Method::lengyel &&
+        options.method != Method::basis) {
+        return {ErrorCode::invalidOption, "only lengyel and basis have one result per vertex"};
+    }
+    return {ErrorCode::ok, {}};
+}
+
+/// For Parallel: estimators take several times as long as sums.
+std::uint64_t work(Method method, std::uint64_t corners) { return (isEstimated(method) ? 4 : 1) * corners; }
+
+Error checkInput(const MeshView& mesh, const TangentOptions& options, Parallel& parallel) {
+    if (Error e = checkOptions(options); e.code != ErrorCode::ok) return e;
+    if (Error e = checkMesh(mesh, &parallel); e.code != ErrorCode::ok) return e;
+    if (mesh.vertexCount() == 0) return {ErrorCode::ok, {}};
+    if (mesh.normals.empty()) return {ErrorCode::missingAttribute, "tangents need normals, and the mesh has none"};
+    if (mesh.uvs.empty() && options.method != Method::basis) {
+        return {ErrorCode::missingAttribute, "this method needs UVs, and the mesh has none"};
+    }
+    if (isGrouped(options.method) && 3 * mikk::countTriangles(mesh, options.ngons) > mikk::kMaxHalfEdges) {
+        return {ErrorCode::tooLarge, "more than 715827882 triangles"};
+    }
+    return {ErrorCode::ok, {}};
+}
+
+std::size_t outputCount(const MeshView& mesh, const TangentOptions& options) {
+    return options.domain == OutputDomain::vertex ? mesh.vertexCount() : mesh.cornerCount();
+}
+
+Error checkOutput(const TangentOutput& out, std::size_t output_count) {
+    if (Error e = checkSpan(out.tangents, output_count, "tangents"); e.code != ErrorCode::ok) return e;
+    const auto optional = [&](const auto& span, const char* name) {
+        return span.empty() ? Error{ErrorCode::ok, {}} : checkSpan(span, output_count, name);
+    };
+    if (Error e = optional(out.bitangents, "bitangents"); e.code != ErrorCode::ok) return e;
+    if (Error e = optional(out.magnitudes_s, "magnitudes_s"); e.code != ErrorCode::ok) return e;
+    return optional(out.magnitudes_t, "magnitudes_t");
+}
+
+TangentReport generateFrames(const MeshView& mesh, const Call<TangentOptions>& options, const TangentOutput& out,
+                             Parallel& parallel) {
+    if (isGrouped(options.method)) return mikk::generateGrouped(mesh, options, out, parallel);
+    const IndexedPlan plan = planIndexed(mesh, options, parallel, PlanUse::once);
+    return evaluateIndexed(plan, {mesh.positions, mesh.normals}, out, options.execution, parallel);
+}
+
+Error checkPose(const Pose& pose, std::size_t vertex_count, std::size_t normal_count) {
+    if (pose.positions.count != vertex_count || pose.normals.count != normal_count) {
+        return makeError(ErrorCode::planMismatch, kNoElement,
+                         "the pose has %zu positions and %zu normals, the plan needs %zu and %zu", pose.positions.count,
+                         pose.normals.count, vertex_count, normal_count);
+    }
+    if (Error e = checkSpan(pose.positions, vertex_count, "positions"); e.code != ErrorCode::ok) return e;
+    return checkSpan(pose.normals, normal_count, "normals");
+}
+
+Buffer<Vec3> gathered(const StridedSpan<const Vec3>& values, const std::vector<std::uint32_t>& sources,
+                      const Allocator* allocator) {
+    Buffer<Vec3> result(allocator, sources.size());
+    gather<Vec3>(values, sources, result.data());
+    return result;
+}
+
+/// Results per vertex have no place where vertices are combinations that only we know.
+Error checkDomain(const TangentOptions& options) {
+    if (options.domain == OutputDomain::corner) return {ErrorCode::ok, {}};
+    return {ErrorCode::invalidOption, "results per vertex need a mesh with one index list"};
+}
+
+Result<std::unique_ptr<TangentPlan::State>> makePlan(const MeshView& mesh, const Call<TangentOptions>& options) {
+    Parallel parallel(options.execution, work(options.method, mesh.cornerCount()));
+    if (Error e = checkInput(mesh, options, parallel); e.code != ErrorCode::ok) return e;
+    auto state = std::make_unique<TangentPlan::State>();
+    state->method = options.method;
+    state->vertex_count = state->normal_count = mesh.vertexCount();
+    state->corner_count = mesh.cornerCount();
+    state->output_count = outputCount(mesh, options);
+    if (isGrouped(options.method))
+        state->plan = mikk::planGrouped(mesh, options, parallel);
+    else
+        state->plan = planIndexed(mesh, options, parallel);
+    state->is_symmetric = options.frame == FrameShape::symmetric;
+    if (state->is_symmetric && options.domain == OutputDomain::corner) {
+        state->corner_vertices = Buffer<std::uint32_t>(options.execution.allocator, mesh.cornerCount());
+        for (std::size_t c = 0; c < mesh.cornerCount(); ++c) state->corner_vertices[c] = mesh.indices[c];
+    }
+    return state;
+}
+
+/// The plan of a mesh with several index lists: that of the mesh with one, and where its vertices come from.
+Result<std::unique_ptr<TangentPlan::State>> planLists(const MeshView& mesh, const Call<TangentOptions>& options) {
+    if (Error e = checkDomain(options); e.code != ErrorCode::ok) return e;
+    if (Result<Done> valid = validate(mesh); !valid) return std::move(valid).error();
+    OneListMesh made;
+    if (Result<Done> done = useOneList(mesh, options.execution, made); !done) return std::move(done).error();
+    Result<std::unique_ptr<TangentPlan::State>> state = makePlan(made.view, options);
+    if (!state) return state;
+    (*state)->vertex_count = mesh.vertexCount();
+    (*state)->normal_count = mesh.normals.count;
+    (*state)->source_vertices = std::move(made.source_vertices);
+    (*state)->source_normals = std::move(made.source_normals);
+    return state;
+}
+
+}  // namespace
+
+const char* methodName(Method method) {
+    static constexpr const char* kNames[] = {"mikktspace", "lengyel", "uniform", "angle", "area",
+                                             "flat",       "basis",   "fast",    "best"};
+    static_assert(std::size(kNames) == static_cast<std::size_t>(Method::best) + 1);
+    const auto number = static_cast<std::size_t>(method);
+    return number < std::size(kNames) ? kNames[number] : "unknown";
+}
+
+TangentPlan::TangentPlan(State* state) : state_(state) {}
+TangentPlan::TangentPlan(TangentPlan&& other) noexcept : state_(std::exchange(other.state_, nullptr)) {}
+TangentPlan& TangentPlan::operator=(TangentPlan&& other) noexcept {
+    TangentPlan taken(std::move(other));
+    std::swap(state_, taken.state_);
+    return *this;
+}
+TangentPlan::~TangentPlan() { delete state_; }
+
+const TangentPlan::State& TangentPlan::state() const {
+    static const State kMovedFrom;
+    return state_ == nullptr ? kMovedFrom : *state_;
+}
+
+std::size_t TangentPlan::vertexCount() const { return state().vertex_count; }
+std::size_t TangentPlan::cornerCount() const { return state().corner_count; }
+std::size_t TangentPlan::outputCount() const { return state().output_count; }
+Method TangentPlan::method() const { return state().method; }
+std::size_t TangentPlan::memoryBytes() const {
+    const std::size_t indices =
+        state().corner_vertices.size() + state().source_vertices.size() + state().source_normals.size();
+    return std::visit([](const auto& plan) { return plan.memoryBytes(); }, state().plan) +
+           indices * sizeof(std::uint32_t);
+}
+
+Result<TangentReport> generateTangents(const MeshView& mesh, const TangentOptions& options, const TangentOutput& out,
+                                       const Execution& execution) {
+    return atBorder([&]() -> Result<TangentReport> {
+        if (hasOwnLists(mesh)) {
+            if (Error e = checkDomain(options); e.code != ErrorCode::ok) return e;
+            return withOneList(mesh, execution, [&](const MeshView& with_one_list) {
+                return generateTangents(with_one_list, options, out, execution);
+            });
+        }
+        const Call<TangentOptions> call{options, execution};
+        Parallel parallel(execution, work(options.method, mesh.cornerCount()));
+        if (Error e = checkInput(mesh, options, parallel); e.code != ErrorCode::ok) return e;
+        if (Error e = checkOutput(out, outputCount(mesh, options)); e.code != ErrorCode::ok) return e;
+        if (options.frame == FrameShape::gramSchmidt) return generateFrames(mesh, call, out, parallel);
+        const NeededBitangents needed(out, execution.allocator);
+        const TangentReport report = generateFrames(mesh, call, needed.out, parallel);
+        const bool per_vertex = options.domain == OutputDomain::vertex;
+        makeSymmetric(
+            out.tangents, needed.out.bitangents,
+            [&](std::size_t i) { return mesh.normals[per_vertex ? i : mesh.indices[i]]; }, parallel);
+        return report;
+    });
+}
+
+Result<TangentPlan> planTangents(const MeshView& mesh, const TangentOptions& options, const Execution& execution) {
+    return atBorder([&]() -> Result<TangentPlan> {
+        const Call<TangentOptions> call{options, execution};
+        Result<std::unique_ptr<TangentPlan::State>> state =
+            hasOwnLists(mesh) ? planLists(mesh, call) : makePlan(mesh, call);
+        if (!state) return std::move(state).error();
+        return TangentPlan((*state).release());
+    });
+}
+
+Result<TangentReport> evaluateTangents(const TangentPlan& plan, const Pose& pose, const TangentOutput& out,
+                                       const Execution& execution) {
+    return atBorder([&]() -> Result<TangentReport> {
+        const TangentPlan::State& state = plan.state();
+        if (Error e = checkPose(pose, state.vertex_count, state.normal_count); e.code != ErrorCode::ok) return e;
+        if (Error e = checkOutput(out, state.output_count); e.code != ErrorCode::ok) {
+            if (e.code == ErrorCode::countMismatch) e.code = ErrorCode::planMismatch;
+            return e;
+        }
+        Parallel parallel(execution, work(state.method, state.corner_count));
+        if (state.source_vertices.empty()) return state.evaluateFrames(pose, out, execution, parallel);
+        const Buffer<Vec3> positions = gathered(pose.positions, state.source_vertices, execution.allocator);
+        const Buffer<Vec3> normals = gathered(pose.normals, state.source_normals, execution.allocator);
+        const Pose with_one_list{{positions.data(), positions.size()}, {normals.data(), normals.size()}};
+        return state.evaluateFrames(with_one_list, out, execution, parallel);
+    });
+}
+
+}  // namespace tspace

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+// What each image library gives, behind one shape. Reasons (`why`) are half a sentence: "it is a broken PNG".
+#pragma once
+
+#include "images/float_image.h"
+#include "images/image.h"
+
+namespace tspace {
+
+/// A few bytes may claim any number of pixels. What is honest is rarely more than 64 times as large as its file.
+bool isTooLarge(ImageSize size, std::size_t byte_count, std::uint64_t most_pixels, std::string& why);
+
+/// What a head claims, before any check and without the library, and what decoding it takes of memory.
+struct ImageClaim {
+    ImageSize size = {};
+    std::uint64_t work_bytes = 0;
+};
+
+/// Of any format; nothing where this build does not decode it.
+ImageClaim claimOf(ByteSpan bytes);
+ImageClaim claimOfPng(ByteSpan bytes);
+ImageClaim claimOfJpeg(ByteSpan bytes);
+ImageClaim claimOfWebp(ByteSpan bytes);
+ImageClaim claimOfExr(ByteSpan bytes);
+
+std::optional<RgbImage> decodePng(ByteSpan bytes, std::uint64_t most_pixels, std::string& why);
+/// Four channels; nothing where it is broken or has no alpha.
+std::vector<std::uint8_t> decodePngRgba(ByteSpan bytes);
+std::optional<RgbImage> decodeJpeg(ByteSpan bytes, std::uint64_t most_pixels, std::string& why);
+std::optional<RgbImage> decodeWebp(ByteSpan bytes, std::uint64_t most_pixels, std::string& why);
+
+/// Whether OpenEXR is there at run time; without it nothing else of EXR may be called but claimOfExr.
+bool hasOpenExr();
+std::optional<FloatImage> decodeExr(ByteSpan bytes, std::uint64_t most_pixels, std::string& why);
+
+}  // namespace tspace

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: MIT
+// Formats in and out, and what flipping takes.
+#include "images/flip_green.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "images/codecs.h"
+
+namespace tspace {
+
+namespace {
+
+ImageFileFormat fileFormat(ImageFormat format) {
+    switch (format) {
+        case ImageFormat::png:
+            return ImageFileFormat::png;
+        case ImageFormat::jpeg:
+            return ImageFileFormat::jpeg;
+        case ImageFormat::webp:
+            return ImageFileFormat::webp;
+        default:
+            return ImageFileFormat::sameAsInput;
+    }
+}
+
+/// Told by content; an error for what this build does not read.
+Result<ImageFileFormat> readableFormat(ByteSpan bytes) {
+    const ImageFormat format = imageFormat(bytes);
+    if (const char* why_not = whyNotRead(format)) return Error{ErrorCode::unsupportedFile, why_not};
+    if (format == ImageFormat::exr)
+        return Error{ErrorCode::unsupportedFile,
+                     "it is EXR, whose green is inverted by convertMapFile (tspace convert-map)"};
+    return fileFormat(format);
+}
+
+Result<ImageFileFormat> outputFormat(ImageFileFormat input, const FlipGreenOptions& options) {
+    if (options.jpeg_quality < 1 || options.jpeg_quality > 100) {
+        return Error{ErrorCode::invalidOption, "a JPEG has a quality of 1 to 100"};
+    }
+    const ImageFileFormat format = options.format == ImageFileFormat::sameAsInput ? input : options.format;
+    if (format != input && format != ImageFileFormat::png) {
+        return Error{ErrorCode::unsupportedFile,
+                     "the output is of another format, which would lose; write the format of the input, or PNG"};
+    }
+    if (format == ImageFileFormat::png && whyNotRead(ImageFormat::png) != nullptr) {
+        return Error{ErrorCode::unsupportedFile, whyNotRead(ImageFormat::png)};
+    }
+    return format;
+}
+
+void invertGreen(ChannelImage& image) {
+    for (std::size_t i = 1; i < image.pixels.size(); i += image.channels) image.pixels[i] ^= 0xff;
+}
+
+/// Pixels of a JPEG or WebP.
+Result<ChannelImage> readPixels([[maybe_unused]] ByteSpan bytes, ImageFileFormat format) {
+#ifdef TSPACE_HAS_IMAGES
+    if (format == ImageFileFormat::jpeg) return readJpegPixels(bytes);
+#endif
+#ifdef TSPACE_HAS_WEBP
+    if (format == ImageFileFormat::webp) return readWebpPixels(bytes);
+#endif
+    return Error{ErrorCode::unsupportedFile, whyNotRead(ImageFormat::unknown)};
+}
+
+/// `like`: the file that the pixels were read from.
+Result<std::vector<std::uint8_t>> writePixels([[maybe_unused]] const ChannelImage& image, ImageFileFormat format,
+                                              [[maybe_unused]] int jpeg_quality, [[maybe_unused]] ByteSpan like) {
+#ifdef TSPACE_HAS_IMAGES
+    if (format == ImageFileFormat::png) return writePng(image);
+    if (format == ImageFileFormat::jpeg) return writeJpeg(image, jpeg_quality, like);
+#endif
+#ifdef TSPACE_HAS_WEBP
+    if (format == ImageFileFormat::webp) return writeWebp(image);
+#endif
+    return Error{ErrorCode::unsupportedFile, whyNotRead(ImageFormat::unknown)};
+}
+
+Result<FlippedImage> flipPixels(ByteSpan bytes, ImageFileFormat input, ImageFileFormat output, int jpeg_quality) {
+    Result<ChannelImage> image = readPixels(bytes, input);
+    if (!image) return image.error();
+    invertGreen(*image);
+    Result<std::vector<std::uint8_t>> written = writePixels(*image, output, jpeg_quality, bytes);
+    if (!written) return written.error();
+    FlippedImage result{*std::move(written), {.format = output, .width = image->width, .height = image->height}};
+    if (output == ImageFileFormat::jpeg) {
+        result.report.is_exact = false;
+        result.report.warnings.push_back(
+            "a JPEG is compressed once more, which rounds its texels again; a PNG would be exact");
+    }
+    return result;
+}
+
+}  // namespace
+
+std::uint64_t flipWorkBytes(ByteSpan bytes) {
+    const ImageClaim claim = claimOf(bytes);
+    switch (imageFormat(bytes)) {
+        case ImageFormat::png: {
+            // Rows of 4 channels of 16 bits, in and out, and those that filters look at. All of them where they come in
+            // no order.
+            constexpr std::size_t kInterlaceAt = 28;
+            const std::uint64_t row_bytes = std::uint64_t{8} * claim.size.width;
+            const bool is_interlaced = bytes.size() > kInterlaceAt && bytes[kInterlaceAt] != 0;
+            return 12 * row_bytes + (is_interlaced ? row_bytes * claim.size.height : 0) + 2 * bytes.size();
+        }
+        case ImageFormat::jpeg:
+            return claim.work_bytes + 3 * claim.size.pixels() + 2 * bytes.size();
+        case ImageFormat::webp:
+            return claim.work_bytes + 24 * claim.size.pixels();
+        default:
+            return 0;
+    }
+}
+
+std::uint64_t flipUnpackedBytes(ByteSpan bytes) {
+    constexpr std::size_t kBitsAt = 24, kColorAt = 25;
+    if (imageFormat(bytes) != ImageFormat::png || bytes.size() <= kColorAt) return 0;
+    const ImageSize size = claimOf(bytes).size;
+    constexpr std::uint64_t kChannels[] = {1, 1, 3, 1, 2, 1, 4, 1};
+    constexpr std::uint64_t kOfRow = 16;  // what a row takes beside its bytes
+    const std::uint64_t pixel_bits = kChannels[bytes[kColorAt] & 7] * std::min<std::uint64_t>(bytes[kBitsAt], 16);
+    return (size.width * pixel_bits / 8 + kOfRow) * size.height;
+}
+
+Result<FlippedImage> flipImage(ByteSpan bytes, const FlipGreenOptions& options) {
+    const Result<ImageFileFormat> input = readableFormat(bytes);
+    if (!input) return input.error();
+    const Result<ImageFileFormat> output = outputFormat(*input, options);
+    if (!output) return output.error();
+#ifdef TSPACE_HAS_IMAGES
+    if (*input == ImageFileFormat::png) {
+        Result<FlippedPng> png = flipPng(bytes);
+        if (!png) return png.error();
+        const ImageSize size = claimOfPng(bytes).size;
+        return FlippedImage{std::move(png->bytes),
+                            {.format = *output, .width = size.width, .height = size.height, .bits = png->bits}};
+    }
+#endif
+    return flipPixels(bytes, *input, *output, options.jpeg_quality);
+}
+
+}  // namespace tspace

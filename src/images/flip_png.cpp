@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+// PNG in and out with all of its chunks, which are copied as they are; pixels are packed anew.
+#include <algorithm>
+#include <string_view>
+
+#include "images/flip_green.h"
+#include "images/png_pixels.h"
+
+namespace tspace {
+
+namespace {
+
+constexpr std::size_t kSignatureBytes = 8;
+struct Chunk {
+    std::string_view type = {};
+    ByteSpan data = {};
+    ByteSpan whole = {};  ///< with length, type and checksum
+};
+
+/// All chunks up to the end mark, the header first.
+Result<std::vector<Chunk>> readChunks(ByteSpan bytes) {
+    std::vector<Chunk> chunks;
+    for (std::size_t at = kSignatureBytes; chunks.empty() || chunks.back().type != "IEND";) {
+        constexpr std::size_t kAround = 12;
+        if (bytes.size() < at + kAround) return brokenPng();
+        const std::size_t length = pngNumber(bytes, at);
+        if (length > bytes.size() - at - kAround) return brokenPng();
+        chunks.push_back({.type = {reinterpret_cast<const char*>(bytes.data()) + at + 4, 4},
+                          .data = bytes.subspan(at + 8, length),
+                          .whole = bytes.subspan(at, length + kAround)});
+        at += length + kAround;
+    }
+    constexpr std::size_t kHeaderBytes = 13;
+    if (chunks.front().type != "IHDR" || chunks.front().data.size() != kHeaderBytes) return brokenPng();
+    return chunks;
+}
+
+/// The checksum of ISO 3309, which ends each chunk.
+std::uint32_t checksum(ByteSpan bytes) {
+    std::uint32_t sum = ~std::uint32_t{0};
+    for (const std::uint8_t byte : bytes) {
+        sum ^= byte;
+        for (int bit = 0; bit < 8; ++bit) sum = (sum >> 1) ^ ((sum & 1) != 0 ? 0xedb88320U : 0U);
+    }
+    return ~sum;
+}
+
+void append(std::vector<std::uint8_t>& out, ByteSpan bytes) {
+    const std::size_t begin = out.size();
+    out.resize(begin + bytes.size());
+    std::copy(bytes.begin(), bytes.end(), out.begin() + static_cast<std::ptrdiff_t>(begin));
+}
+
+/// A chunk whose data `change` has changed.
+template <class Change>
+void appendChanged(std::vector<std::uint8_t>& out, const Chunk& chunk, const Change& change) {
+    const std::size_t begin = out.size();
+    append(out, chunk.whole);
+    const std::span<std::uint8_t> data = std::span(out).subspan(begin + 8, chunk.data.size());
+    change(data);
+    const std::uint32_t sum = checksum(std::span(out).subspan(begin + 4, chunk.data.size() + 4));
+    for (std::size_t i = 0; i < 4; ++i) out[out.size() - 4 + i] = static_cast<std::uint8_t>(sum >> (24 - 8 * i));
+}
+
+/// A colour of three numbers of 16 bits, of which 8 count where the image has so many.
+void invertColor(std::span<std::uint8_t> data, std::uint8_t bits) {
+    constexpr std::size_t kGreenAt = 2;
+    if (data.size() != 6) return;
+    if (bits == 16) data[kGreenAt] ^= 0xff;
+    data[kGreenAt + 1] ^= 0xff;
+}
+
+/// The chunks of the input; of pixels, header and colours, those that were changed.
+std::vector<std::uint8_t> joinChunks(ByteSpan bytes, const std::vector<Chunk>& chunks, const PngHeader& header,
+                                     const std::vector<Chunk>& packed) {
+    std::vector<std::uint8_t> out;
+    append(out, bytes.first(kSignatureBytes));
+    bool has_pixels = false;
+    for (const Chunk& chunk : chunks) {
+        if (chunk.type == "IHDR" && !packed.empty()) {
+            append(out, packed.front().whole);
+        } else if (chunk.type == "IDAT" && !packed.empty()) {
+            for (const Chunk& part : packed) {
+                if (part.type == "IDAT" && !has_pixels) append(out, part.whole);
+            }
+            has_pixels = true;
+        } else if (chunk.type == "PLTE") {
+            appendChanged(out, chunk, [](std::span<std::uint8_t> data) { invertGreenSamples(data, 3, 1); });
+        } else if ((chunk.type == "tRNS" || chunk.type == "bKGD") && header.color != PngHeader::kPalette) {
+            appendChanged(out, chunk, [&](std::span<std::uint8_t> data) { invertColor(data, header.bits); });
+        } else {
+            append(out, chunk.whole);
+        }
+    }
+    return out;
+}
+
+PngHeader pngHeader(ByteSpan data) {
+    PngHeader header;
+    header.width = pngNumber(data, 0);
+    header.height = pngNumber(data, 4);
+    header.bits = data[8];
+    header.color = data[9];
+    header.is_interlaced = data[12] != 0;
+    return header;
+}
+
+}  // namespace
+
+Error brokenPng() { return Error{ErrorCode::invalidFile, "it is a broken PNG"}; }
+
+std::uint32_t pngNumber(ByteSpan bytes, std::size_t at) {
+    return std::uint32_t{bytes[at]} << 24 | std::uint32_t{bytes[at + 1]} << 16 | std::uint32_t{bytes[at + 2]} << 8 |
+           bytes[at + 3];
+}
+
+void invertGreenSamples(std::span<std::uint8_t> bytes, std::size_t step, std::size_t sample_bytes) {
+    for (std::size_t at = sample_bytes; at + sample_bytes <= bytes.size(); at += step) {
+        for (std::size_t i = 0; i < sample_bytes; ++i) bytes[at + i] ^= 0xff;
+    }
+}
+
+Result<FlippedPng> flipPng(ByteSpan bytes) {
+    const Result<std::vector<Chunk>> read = readChunks(bytes);
+    if (!read) return read.error();
+    const std::vector<Chunk>& chunks = *read;
+    const PngHeader header = pngHeader(chunks.front().data);
+    if ((header.color & PngHeader::kHasColor) == 0) {
+        return Error{ErrorCode::unsupportedFile, "it is a grey PNG, which has no green channel of its own"};
+    }
+    if (std::any_of(chunks.begin(), chunks.end(), [](const Chunk& chunk) { return chunk.type == "acTL"; })) {
+        return Error{ErrorCode::unsupportedFile, "it is an animated PNG"};
+    }
+    if (header.color == PngHeader::kPalette) {
+        // Its pixels are numbers of colours, and stay.
+        if (Error error = checkPixels(bytes, header); error.code != ErrorCode::ok) return error;
+        return FlippedPng{joinChunks(bytes, chunks, header, {}), 8};
+    }
+    const Result<std::vector<std::uint8_t>> packed = packInverted(bytes, header);
+    if (!packed) return packed.error();
+    const Result<std::vector<Chunk>> packed_chunks = readChunks(*packed);
+    if (!packed_chunks) return packed_chunks.error();
+    return FlippedPng{joinChunks(bytes, chunks, header, *packed_chunks), header.bits};
+}
+
+}  // namespace tspace

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: MIT
+// Formats by their first bytes, and the way to their decoders.
+#include "images/image.h"
+
+#include <algorithm>
+#include <string_view>
+
+#include "images/codecs.h"
+#include "images/flip_green.h"
+
+namespace tspace {
+
+namespace {
+
+bool has(ByteSpan bytes, std::size_t at, std::string_view text) {
+    return bytes.size() >= at + text.size() &&
+           std::equal(text.begin(), text.end(), bytes.begin() + static_cast<std::ptrdiff_t>(at),
+                      [](char a, std::uint8_t b) { return static_cast<std::uint8_t>(a) == b; });
+}
+
+/// Of a format: how it is called, and what decodes it in this build.
+struct Codec {
+    const char* name = "";
+    const char* mime_type = "";
+    const char* why_not = "it is neither PNG, JPEG nor WebP";
+    ImageClaim (*claim)(ByteSpan) = nullptr;
+    std::optional<RgbImage> (*decode)(ByteSpan, std::uint64_t, std::string&) = nullptr;
+};
+
+#ifdef TSPACE_HAS_OPENEXR
+std::optional<RgbImage> decodeRoundedExr(ByteSpan bytes, std::uint64_t most_pixels, std::string& why) {
+    const std::optional<FloatImage> image = decodeExr(bytes, most_pixels, why);
+    if (!image) return {};
+    RgbImage rounded{image->width, image->height, {}};
+    rounded.rgb.reserve(3 * image->texels.size());
+    for (const Vec3& texel : image->texels) {
+        for (const float channel : {texel.x, texel.y, texel.z})
+            rounded.rgb.push_back(static_cast<std::uint8_t>(std::clamp(channel, 0.0F, 1.0F) * 255.0F + 0.5F));
+    }
+    return rounded;
+}
+#endif
+
+Codec exrCodec() {
+    constexpr const char* kName = "EXR";
+    constexpr const char* kMimeType = "image/x-exr";
+#ifdef TSPACE_HAS_OPENEXR
+    if (hasOpenExr()) return {kName, kMimeType, nullptr, claimOfExr, decodeRoundedExr};
+    return {kName, kMimeType, "it is EXR, and the library OpenEXR (" TSPACE_OPENEXR_LIBRARY ") is not installed"};
+#else
+    return {kName, kMimeType, "it is EXR, which this build of tspace does not read"};
+#endif
+}
+
+Codec codecOf(ImageFormat format) {
+#ifdef TSPACE_HAS_IMAGES
+    const Codec png{"PNG", "image/png", nullptr, claimOfPng, decodePng};
+    const Codec jpeg{"JPEG", "image/jpeg", nullptr, claimOfJpeg, decodeJpeg};
+#else
+    const Codec png{"PNG", "image/png", "tspace was built without decoders for images"};
+    const Codec jpeg{"JPEG", "image/jpeg", "tspace was built without decoders for images"};
+#endif
+#ifdef TSPACE_HAS_WEBP
+    const Codec webp{"WebP", "image/webp", nullptr, claimOfWebp, decodeWebp};
+#else
+    const Codec webp{"WebP", "image/webp", "it is WebP, which this build of tspace does not read"};
+#endif
+    switch (format) {
+        case ImageFormat::png:
+            return png;
+        case ImageFormat::jpeg:
+            return jpeg;
+        case ImageFormat::webp:
+            return webp;
+        case ImageFormat::ktx2:
+            return {"KTX2", "image/ktx2", "it is KTX2, which is not read"};
+        case ImageFormat::basis:
+            return {"Basis Universal", "image/basis", "it is a Basis Universal file, which is not read"};
+        case ImageFormat::dds:
+            return {"DDS", "image/vnd-ms.dds", "it is DDS, which is not read"};
+        case ImageFormat::avif:
+            return {"AVIF", "image/avif", "it is AVIF, which is not read"};
+        case ImageFormat::exr:
+            return exrCodec();
+        case ImageFormat::unknown:
+            break;
+    }
+    return {};
+}
+
+}  // namespace
+
+ImageFormat imageFormat(ByteSpan bytes) {
+    if (has(bytes, 0, "\x89PNG\r\n\x1a\n")) return ImageFormat::png;
+    if (has(bytes, 0, "\xff\xd8\xff")) return ImageFormat::jpeg;
+    if (has(bytes, 0, "RIFF") && has(bytes, 8, "WEBP")) return ImageFormat::webp;
+    if (has(bytes, 0, "\xabKTX 20")) return ImageFormat::ktx2;
+    if (has(bytes, 0, "sB") && bytes.size() > 3 && bytes[2] >> 4 == 1 && bytes[3] == 0) return ImageFormat::basis;
+    if (has(bytes, 0, "DDS ")) return ImageFormat::dds;
+    if (has(bytes, 0, "\x76\x2f\x31\x01")) return ImageFormat::exr;
+    if (has(bytes, 4, "ftypavif")) return ImageFormat::avif;
+    return ImageFormat::unknown;
+}
+
+const char* formatName(ImageFormat format) { return codecOf(format).name; }
+const char* mimeType(ImageFormat format) { return codecOf(format).mime_type; }
+const char* whyNotRead(ImageFormat format) { return codecOf(format).why_not; }
+
+bool isTooLarge(ImageSize size, std::size_t byte_count, std::uint64_t most_pixels, std::string& why) {
+    constexpr std::uint64_t kAlwaysAllowed = std::uint64_t{1} << 24;
+    if (size.pixels() > most_pixels) {
+        why = "it has more pixels than are looked at";
+    } else if (size.pixels() > kAlwaysAllowed && size.pixels() / 64 > byte_count) {
+        why = "it claims far more pixels than its bytes can hold";
+    } else {
+        return false;
+    }
+    return true;
+}
+
+ImageClaim claimOf(ByteSpan bytes) {
+    const Codec codec = codecOf(imageFormat(bytes));
+    return codec.claim == nullptr ? ImageClaim{} : codec.claim(bytes);
+}
+
+std::uint64_t imageWorkBytes(ByteSpan bytes) { return claimOf(bytes).work_bytes; }
+
+ImageSize claimedSize(ByteSpan bytes) { return claimOf(bytes).size; }
+
+std::optional<RgbImage> decodeImage(ByteSpan bytes, std::uint64_t most_pixels, std::string& why) {
+    const Codec codec = codecOf(imageFormat(bytes));
+    if (codec.decode != nullptr) return codec.decode(bytes, most_pixels, why);
+    why = codec.why_not;
+    return {};
+}
+
+std::vector<std::uint8_t> decodeAlpha([[maybe_unused]] ByteSpan bytes) {
+    std::vector<std::uint8_t> pixels;
+#ifdef TSPACE_HAS_IMAGES
+    if (imageFormat(bytes) == ImageFormat::png) pixels = decodePngRgba(bytes);
+#endif
+#ifdef TSPACE_HAS_WEBP
+    if (imageFormat(bytes) == ImageFormat::webp) {
+        Result<ChannelImage> image = readWebpPixels(bytes);
+        if (image && image->channels == 4) pixels = std::move(image->pixels);
+    }
+#endif
+    // In place: entry i lies before 4 i + 3.
+    for (std::size_t i = 0; 4 * i < pixels.size(); ++i) pixels[i] = pixels[4 * i + 3];
+    pixels.resize(pixels.size() / 4);
+    return pixels;
+}
+
+}  // namespace tspace

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+// JPEG by libjpeg-turbo, through its TurboJPEG interface, which returns errors and prints nothing.
+#include <turbojpeg.h>
+
+#include <memory>
+
+#include "core/base/memory.h"
+#include "images/codecs.h"
+#include "images/flip_green.h"
+
+namespace tspace {
+
+namespace {
+
+struct Destroy {
+    void operator()(void* decompressor) const { tjDestroy(decompressor); }
+};
+using Decompressor = std::unique_ptr<void, Destroy>;
+
+struct JpegHead {
+    ImageSize size = {};  ///< 0: broken
+    int color_space = 0;
+};
+
+JpegHead readHead(const Decompressor& decompressor, ByteSpan bytes) {
+    int width = 0, height = 0, subsampling = 0, color_space = 0;
+    if (!decompressor || tjDecompressHeader3(decompressor.get(), bytes.data(), bytes.size(), &width, &height,
+                                             &subsampling, &color_space) != 0) {
+        return {};
+    }
+    if (width <= 0 || height <= 0) return {};
+    return {{static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height)}, color_space};
+}
+
+/// A progressive file may claim thousands of scans over all pixels. Where data are cut short the library would go on
+/// with grey.
+bool decompress(const Decompressor& decompressor, ByteSpan bytes, ImageSize size, std::vector<std::uint8_t>& rgb) {
+    constexpr int kFlags = TJFLAG_ACCURATEDCT | TJFLAG_LIMITSCANS | TJFLAG_STOPONWARNING;
+    rgb.resize(3 * size.pixels());
+    return tjDecompress2(decompressor.get(), bytes.data(), bytes.size(), rgb.data(), static_cast<int>(size.width), 0,
+                         static_cast<int>(size.height), TJPF_RGB, kFlags) == 0;
+}
+
+}  // namespace
+
+std::optional<RgbImage> decodeJpeg(ByteSpan bytes, std::uint64_t most_pixels, std::string& why) {
+    why = "it is a broken JPEG";
+    const Decompressor decompressor(tjInitDecompress());
+    const JpegHead head = readHead(decompressor, bytes);
+    if (head.size.pixels() == 0 || isTooLarge(head.size, bytes.size(), most_pixels, why)) return {};
+    RgbImage image{head.size.width, head.size.height, {}};
+    if (!decompress(decompressor, bytes, head.size, image.rgb)) return {};
+    return image;
+}
+
+Result<ChannelImage> readJpegPixels(ByteSpan bytes) {
+    const Decompressor decompressor(tjInitDecompress());
+    const JpegHead head = readHead(decompressor, bytes);
+    if (head.size.pixels() == 0) return Error{ErrorCode::invalidFile, "it is a broken JPEG"};
+    if (head.color_space == TJCS_GRAY) {
+        return Error{ErrorCode::unsupportedFile, "it is a grey JPEG, which has no green channel of its own"};
+    }
+    if (head.color_space == TJCS_CMYK || head.color_space == TJCS_YCCK) {
+        return Error{ErrorCode::unsupportedFile, "it is a JPEG for print (CMYK)"};
+    }
+    ChannelImage image{head.size.width, head.size.height, 3, {}};
+    if (!decompress(decompressor, bytes, head.size, image.pixels)) {
+        return Error{ErrorCode::invalidFile, "it is a broken JPEG"};
+    }
+    return image;
+}
+
+Result<std::vector<std::uint8_t>> writeJpeg(const ChannelImage& image, int quality, ByteSpan like) {
+    const std::unique_ptr<void, Destroy> compressor(tjInitCompress());
+    unsigned char* data = nullptr;
+    unsigned long size = 0;
+    const int result = !compressor ? -1
+                                   : tjCompress2(compressor.get(), image.pixels.data(), static_cast<int>(image.width),
+                                                 0, static_cast<int>(image.height), TJPF_RGB, &data, &size, TJSAMP_444,
+                                                 quality, TJFLAG_ACCURATEDCT);
+    const std::unique_ptr<unsigned char, decltype(&tjFree)> keeper(data, &tjFree);
+    if (result != 0) throw OutOfMemory{};  // all that can go wrong with pixels and sizes that were checked
+    return joinJpeg({data, size}, like);
+}
+
+}  // namespace tspace

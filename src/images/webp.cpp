@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+// WebP by libwebp.
+#include <webp/decode.h>
+#include <webp/encode.h>
+
+#include <memory>
+
+#include "core/base/memory.h"
+#include "images/codecs.h"
+#include "images/flip_green.h"
+
+namespace tspace {
+
+namespace {
+
+/// The head of a still image; nothing, with the reason, for others.
+std::optional<WebPBitstreamFeatures> readHead(ByteSpan bytes, std::string& why) {
+    WebPBitstreamFeatures features;
+    why = "it is a broken WebP";
+    if (WebPGetFeatures(bytes.data(), bytes.size(), &features) != VP8_STATUS_OK) return {};
+    if (features.has_animation != 0) {
+        why = "it is an animated WebP";
+        return {};
+    }
+    if (features.width <= 0 || features.height <= 0) return {};
+    return features;
+}
+
+ImageSize sizeOf(const WebPBitstreamFeatures& features) {
+    return {static_cast<std::uint32_t>(features.width), static_cast<std::uint32_t>(features.height)};
+}
+
+}  // namespace
+
+ImageClaim claimOfWebp(ByteSpan bytes) {
+    WebPBitstreamFeatures features;
+    if (WebPGetFeatures(bytes.data(), bytes.size(), &features) != VP8_STATUS_OK) return {};
+    const ImageSize size{static_cast<std::uint32_t>(features.width), static_cast<std::uint32_t>(features.height)};
+    // libwebp holds all pixels of a lossless image, and all of the alpha channel of a lossy one (8 bits, unpacked from
+    // 32), beside those that it gives.
+    return {size, (features.format == 2 || features.has_alpha != 0 ? 8 : 4) * size.pixels()};
+}
+
+std::optional<RgbImage> decodeWebp(ByteSpan bytes, std::uint64_t most_pixels, std::string& why) {
+    const std::optional<WebPBitstreamFeatures> head = readHead(bytes, why);
+    if (!head || isTooLarge(sizeOf(*head), bytes.size(), most_pixels, why)) return {};
+    const ImageSize size = sizeOf(*head);
+    RgbImage image{size.width, size.height, std::vector<std::uint8_t>(3 * size.pixels())};
+    if (WebPDecodeRGBInto(bytes.data(), bytes.size(), image.rgb.data(), image.rgb.size(), 3 * head->width) == nullptr) {
+        return {};
+    }
+    return image;
+}
+
+Result<ChannelImage> readWebpPixels(ByteSpan bytes) {
+    std::string why;
+    const std::optional<WebPBitstreamFeatures> head = readHead(bytes, why);
+    if (!head) return Error{why == "it is an animated WebP" ? ErrorCode::unsupportedFile : ErrorCode::invalidFile, why};
+    const ImageSize size = sizeOf(*head);
+    ChannelImage image{size.width, size.height, head->has_alpha != 0 ? 4U : 3U, {}};
+    image.pixels.resize(image.channels * size.pixels());
+    const auto decode = image.channels == 4 ? WebPDecodeRGBAInto : WebPDecodeRGBInto;
+    const int stride = static_cast<int>(image.channels) * head->width;
+    if (decode(bytes.data(), bytes.size(), image.pixels.data(), image.pixels.size(), stride) == nullptr) {
+        return Error{ErrorCode::invalidFile, "it is a broken WebP"};
+    }
+    return image;
+}
+
+Result<std::vector<std::uint8_t>> writeWebp(const ChannelImage& image) {
+    constexpr int kLevel = 3;  // of 0 (fast) to 9 (small)
+    WebPConfig config;
+    WebPPicture picture;
+    if (WebPConfigInit(&config) == 0 || WebPConfigLosslessPreset(&config, kLevel) == 0 ||
+        WebPPictureInit(&picture) == 0)
+        return Error{ErrorCode::internal, "libwebp has another version than its headers"};
+    config.exact = 1;
+    picture.use_argb = 1;
+    picture.width = static_cast<int>(image.width);
+    picture.height = static_cast<int>(image.height);
+    WebPMemoryWriter writer;
+    WebPMemoryWriterInit(&writer);
+    picture.writer = WebPMemoryWrite;
+    picture.custom_ptr = &writer;
+    const auto import = image.channels == 4 ? WebPPictureImportRGBA : WebPPictureImportRGB;
+    const bool is_done = import(&picture, image.pixels.data(), static_cast<int>(image.channels * image.width)) != 0 &&
+                         WebPEncode(&config, &picture) != 0;
+    WebPPictureFree(&picture);
+    const std::unique_ptr<WebPMemoryWriter, decltype(&WebPMemoryWriterClear)> keeper(&writer, &WebPMemoryWriterClear);
+    if (!is_done) throw OutOfMemory{};  // all that can go wrong with pixels and sizes that were checked
+    return std::vector<std::uint8_t>{writer.mem, writer.mem + writer.size};
+}
+
+}  // namespace tspace

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: MIT
+// From PoolElements to accessors.
+#include "model/gltf/apply_frames.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "model/gltf/primitive_notes.h"
+#include "model/gltf/set_attribute.h"
+
+namespace tspace::gltf {
+
+namespace {
+
+class Applier {
+  public:
+    Applier(Editor& editor, const Document& document, std::span<const Primitive> primitives, const Pool& pool,
+            PoolElements& elements)
+        : editor_(editor), document_(document), primitives_(primitives), pool_(pool), elements_(elements) {}
+
+    /// Returns true when the document changed.
+    bool run() {
+        if (pool_.keeps_tangents) return setTargets();
+        bool changed = elements_.was_split;
+        if (elements_.was_split) {
+            carryAttributes();
+            for (std::size_t i = 0; i < pool_.geometries.size(); ++i)
+                replaceIndices(pool_.geometries[i], std::move(elements_.indices[i]));
+        }
+        if (elements_.normals_generated) changed |= setAttribute(kBase, "NORMAL", std::move(elements_.normals));
+        if (elements_.tangents.count != 0) changed |= setAttribute(kBase, "TANGENT", std::move(elements_.tangents));
+        if (elements_.bitangents_generated)
+            changed |= setAttribute(kBase, "_BITANGENT", std::move(elements_.bitangents));
+        changed |= setTargets();
+        return changed;
+    }
+
+    /// Targets whose deltas were computed.
+    [[nodiscard]] std::uint32_t computedTargets() const { return computed_targets_; }
+    /// Those whose offsets of normals that stay were.
+    [[nodiscard]] std::uint32_t newNormals() const { return new_normals_; }
+
+  private:
+    Json& attributesOf(std::size_t number, std::ptrdiff_t target) {
+        const Primitive& primitive = primitives_[number];
+        Json& object = editor_.primitive(primitive.mesh, primitive.index);
+        return target < 0 ? object["attributes"] : object["targets"][static_cast<std::size_t>(target)];
+    }
+
+    void carryAttributes() {
+        for (auto& [index, carried] : elements_.carried) {
+            const bool alone = editor_.accessorUses(index) == carried.users.size();
+            const std::size_t stored =
+                editor_.store(std::move(carried.data), alone ? std::optional(index) : std::nullopt);
+            if (!alone) keepName(index, stored);
+            for (const AttributeSlot& slot : carried.users) {
+                attributesOf(slot.primitive, slot.target)[slot.name] = stored;
+                editor_.moveUse(index, stored);
+            }
+        }
+    }
+
+    /// A copy of a shared accessor is still the same thing to a person.
+    void keepName(std::size_t from, std::size_t to) {
+        const Json* name = findMember(rootArray(document_, "accessors")[from], "name");
+        if (name != nullptr) editor_.accessor(to)["name"] = Json(*name);
+    }
+
+    void replaceIndices(const PoolGeometry& geometry, ElementData&& data) {
+        const std::optional<std::size_t> old = primitives_[geometry.primitives[0]].indices;
+        data.like = old ? *old : attributesOf(geometry.primitives[0], kBase)["POSITION"].get<std::size_t>();
+        const bool alone = old && editor_.accessorUses(*old) == geometry.primitives.size();
+        const std::size_t stored = editor_.store(std::move(data), alone ? old : std::nullopt);
+        for (const std::size_t number : geometry.primitives) {
+            Json& object = editor_.primitive(primitives_[number].mesh, primitives_[number].index);
+            object["indices"] = stored;
+            if (primitives_[number].mode != Mode::triangles) object["mode"] = static_cast<unsigned>(Mode::triangles);
+            editor_.moveUse(primitives_[number].indices, stored);
+        }
+    }
+
+    /// Deltas of every target that moves the surface; where tangents are kept only those that are missing.
+    bool setTargets() {
+        const Primitive& first = primitives_[pool_.primitives[0]];
+        bool changed = false;
+        for (std::size_t i = 0; i < elements_.morphs.size(); ++i) {
+            if (!movesFrames(first.targets[i])) continue;
+            const auto target = static_cast<std::ptrdiff_t>(i);
+            const auto elementsOf = [&](const VertexOffsets& offsets) {
+                return offsetElements(offsets, elements_.vertex_count);
+            };
+            const bool turns_normals = !pool_.morph_normals.empty() && pool_.morph_normals[i];
+            if (elements_.normals_generated || turns_normals)
+                changed |= setAttribute(target, "NORMAL", elementsOf(elements_.morphs[i].normals));
+            new_normals_ += turns_normals ? 1U : 0U;
+            if (!elements_.has_tangent_deltas) continue;
+            const bool has_tangents = findAttribute(first.targets[i], "TANGENT").has_value();
+            if (pool_.keeps_tangents && has_tangents && !turns_normals) continue;
+            // New ones belong to tangents that would be computed.
+            if (pool_.mendsTangents() && elements_.differing_count != 0 && !has_tangents) continue;
+            ++computed_targets_;
+            changed |= setAttribute(target, "TANGENT", elementsOf(elements_.morphs[i].tangents));
+        }
+        return changed;
+    }
+
+    /// For all primitives of the pool. Returns false when the file has these very bits already.
+    bool setAttribute(std::ptrdiff_t target, const char* name, ElementData&& data) {
+        return gltf::setAttribute(editor_, document_,
+                                  {.primitives = primitives_,
+                                   .numbers = pool_.primitives,
+                                   .target = target,
+                                   .name = name,
+                                   .may_stay = mayStay()},
+                                  std::move(data));
+    }
+
+    /// Whether old accessors of frames may stay: not those of tangents without normals, nor what was split.
+    [[nodiscard]] bool mayStay() const { return pool_.has_tangents && !elements_.was_split; }
+
+    Editor& editor_;
+    const Document& document_;
+    std::span<const Primitive> primitives_;
+    const Pool& pool_;
+    PoolElements& elements_;
+    std::uint32_t computed_targets_ = 0, new_normals_ = 0;
+};
+
+bool anyHasTangents(const Primitive& primitive) {
+    return std::any_of(primitive.targets.begin(), primitive.targets.end(),
+                       [](const AttributeList& target) { return findAttribute(target, "TANGENT").has_value(); });
+}
+
+/// What became of offsets of normals that stay; empty: nothing.
+std::string morphNormalsNote(const Pool& pool, const PoolElements& elements, const Primitive& primitive,
+                             std::uint32_t count) {
+    if (count == 0) return {};
+    std::string note = "what " + std::to_string(count) + (count == 1 ? " morph target adds" : " morph targets add") +
+                       " to its normals was computed";
+    const bool left = !elements.has_tangent_deltas || (pool.mendsTangents() && elements.differing_count != 0);
+    if (left && anyHasTangents(primitive)) note += "; what they add to tangents stays, and may not fit it";
+    return note;
+}
+
+/// What extensions say about vertices, where they were split.
+void carryNumbers(std::span<const Primitive> primitives, const Pool& pool, const PoolElements& elements,
+                  VertexNumbers& numbers) {
+    for (std::size_t i = 0; i < elements.corners.size(); ++i) {
+        std::vector<const Primitive*> list;
+        for (const std::size_t number : pool.geometries[i].primitives) list.push_back(&primitives[number]);
+        numbers.carry(list, {elements.sources, elements.corners[i], list.front()->vertex_count});
+    }
+}
+
+std::string keptNote(const PoolElements& elements, const Primitive& primitive) {
+    if (!elements.has_tangent_deltas) {
+        if (!lacksDeltas(primitive)) return {};
+        return "; its morph targets lack tangent deltas and get none, because its tangents are not those that would be "
+               "computed (" +
+               std::to_string(elements.differing_count) + " corners differ)";
+    }
+    if (!lacksDeltas(primitive)) return {};
+    return "; tangent deltas were added to its morph targets that had none";
+}
+
+}  // namespace
+
+void applyFrames(Editor& editor, const Document& document, std::span<const Primitive> primitives, const Pool& pool,
+                 PoolElements&& elements, VertexNumbers& numbers, std::span<PrimitiveReport> reports) {
+    Applier applier(editor, document, primitives, pool, elements);
+    const bool changed = applier.run();
+    carryNumbers(primitives, pool, elements, numbers);
+    for (const std::size_t number : pool.primitives) {
+        PrimitiveReport& report = reports[number];
+        report.morph_deltas_computed = applier.computedTargets();
+        report.morph_normals_computed = applier.newNormals();
+        std::string note = morphNormalsNote(pool, elements, primitives[number], applier.newNormals());
+        if (!note.empty()) report.notes.push_back(std::move(note));
+        if (pool.keeps_tangents) {
+            report.reason += keptNote(elements, primitives[number]);
+            continue;
+        }
+        report.normals_replaced = pool.overwrites_normals;
+        if (pool.makes_tangents) {
+            report.action = !pool.has_tangents ? PrimitiveAction::generated
+                            : changed          ? PrimitiveAction::replaced
+                                               : PrimitiveAction::unchanged;
+        }
+        for (std::string& wrong : report.notes) {
+            if (!pool.mendsTangents() || wrong.rfind(kWrongNote, 0) != 0) continue;
+            wrong += "; mended at " + std::to_string(report.mended_vertex_count) + " of " +
+                     std::to_string(report.vertices_before) + " vertices";
+        }
+        report.vertices_after = elements.vertex_count;
+        report.normals_generated = elements.normals_generated;
+        report.bitangents_generated = elements.bitangents_generated;
+    }
+}
+
+}  // namespace tspace::gltf

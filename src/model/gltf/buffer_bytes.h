@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+// The bytes of a buffer as a row of pieces, so that neither appending nor cutting copies what is there.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "model/io/output_piece.h"
+
+namespace tspace::gltf {
+
+/// A range of bytes to cut out.
+struct ByteCut {
+    std::size_t begin = 0, end = 0;
+};
+
+class BufferBytes {
+  public:
+    BufferBytes() = default;
+    explicit BufferBytes(Bytes bytes) { append(std::move(bytes), 1); }
+    /// Bytes of somebody else, who must outlive this.
+    explicit BufferBytes(std::span<std::uint8_t> bytes);
+    BufferBytes(BufferBytes&&) = default;
+    BufferBytes& operator=(BufferBytes&&) = default;
+
+    [[nodiscard]] std::size_t size() const { return size_; }
+
+    /// The `count` bytes from `begin`, which must lie in one piece: so does everything that was appended at once, but
+    /// for parts that were cut.
+    [[nodiscard]] std::span<const std::uint8_t> range(std::size_t begin, std::size_t count) const;
+    [[nodiscard]] std::span<std::uint8_t> range(std::size_t begin, std::size_t count);
+
+    /// The same as a copy, which may come from several pieces.
+    [[nodiscard]] Bytes copy(std::size_t begin, std::size_t count) const;
+
+    /// Appends at the next multiple of `alignment`, behind zeros, and returns where that is.
+    std::size_t append(Bytes bytes, std::size_t alignment);
+    /// The same with bytes that are made when they are written, or when somebody looks at them.
+    std::size_t append(std::shared_ptr<const ByteMaker> maker, std::size_t alignment);
+    /// Makes all bytes that were not made yet.
+    void makeAll();
+
+    /// Takes ranges out, which are in order and do not overlap.
+    void cut(std::span<const ByteCut> cuts);
+
+    /// All bytes, one piece after the other.
+    [[nodiscard]] std::vector<OutputPiece> pieces() const;
+    [[nodiscard]] Bytes joined() const;
+
+  private:
+    class Later;
+    struct Piece {
+        std::size_t begin = 0, count = 0;
+        std::span<std::uint8_t> bytes = {};  ///< empty: those of `later`
+        std::shared_ptr<Later> later = {};
+
+        [[nodiscard]] std::span<std::uint8_t> there() const;
+    };
+    void addPiece(Piece piece);
+    void pad(std::size_t alignment);
+
+    std::vector<Piece> pieces_;   ///< none is empty
+    std::vector<Bytes> storage_;  ///< of the pieces that are not somebody else's
+    std::size_t size_ = 0;
+    std::size_t there_count_ = 0;  ///< of the pieces; so many are there for sure
+};
+
+}  // namespace tspace::gltf

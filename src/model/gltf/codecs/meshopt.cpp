@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+// Checks of everything that the library takes for granted, and encoding that loses nothing.
+#include "model/gltf/codecs/meshopt.h"
+
+#include <algorithm>
+
+#include "model/gltf/codecs/meshopt_library.h"
+
+namespace tspace::gltf {
+
+namespace {
+
+std::string attributeFault(const MeshoptCoding& coding) {
+    if (coding.stride == 0 || coding.stride > 256 || coding.stride % 4 != 0)
+        return "rows of compressed attributes have 4, 8, ... or 256 bytes, not " + std::to_string(coding.stride);
+    const bool fits = coding.filter == MeshoptFilter::quaternion    ? coding.stride == 8
+                      : coding.filter == MeshoptFilter::none        ? true
+                      : coding.filter == MeshoptFilter::exponential ? true
+                                                                    : coding.stride == 4 || coding.stride == 8;
+    return fits ? "" : "the filter does not work on rows of " + std::to_string(coding.stride) + " bytes";
+}
+
+std::string indexFault(const MeshoptCoding& coding) {
+    if (coding.stride != 2 && coding.stride != 4)
+        return "compressed indices have 2 or 4 bytes, not " + std::to_string(coding.stride);
+    if (coding.filter != MeshoptFilter::none) return "indices have no filter";
+    if (coding.mode == MeshoptMode::triangles && coding.count % 3 != 0)
+        return "the number of triangle indices, " + std::to_string(coding.count) + ", is no multiple of 3";
+    return {};
+}
+
+bool comesBack(const MeshoptCoding& coding, std::span<const std::uint8_t> rows, const Bytes& data) {
+    Bytes decoded(rows.size());
+    return decodeMeshopt(coding, data, decoded) && std::equal(rows.begin(), rows.end(), decoded.begin());
+}
+
+}  // namespace
+
+std::uint64_t meshoptRatio(bool is_khr) {
+    // Codec 0 spends 2 bits on 16 equal bytes of a column; codec 1 spends 2 bits on 256 of them.
+    return is_khr ? 1024 : 64;
+}
+
+std::string meshoptFault(const MeshoptCoding& coding, std::size_t byte_count) {
+    const bool is_attributes = coding.mode == MeshoptMode::attributes;
+    std::string fault = is_attributes ? attributeFault(coding) : indexFault(coding);
+    if (!fault.empty()) return fault;
+    // A triangle takes at least one byte, and so does an index of any other row.
+    const std::uint64_t most = coding.mode == MeshoptMode::triangles ? std::uint64_t{byte_count} * 3
+                               : is_attributes ? byte_count * meshoptRatio(coding.is_khr) / coding.stride
+                                               : byte_count;
+    if (coding.count > most) {
+        return std::to_string(byte_count) + " compressed bytes cannot hold " + std::to_string(coding.count) +
+               " elements of " + std::to_string(coding.stride) + " bytes";
+    }
+    return {};
+}
+
+bool encodeMeshopt(MeshoptCoding& coding, std::span<const std::uint8_t> rows, Bytes& data) {
+    data = encodeAsItIs(coding, rows);
+    if (data.empty() || coding.mode == MeshoptMode::attributes) return !data.empty();
+    if (coding.mode == MeshoptMode::triangles) {
+        if (comesBack(coding, rows, data)) return true;
+        // The triangle codec may begin a triangle at another of its corners, and sums over corners would change.
+        coding.mode = MeshoptMode::indices;
+        data = encodeAsItIs(coding, rows);
+    }
+    return !data.empty() && comesBack(coding, rows, data);
+}
+
+}  // namespace tspace::gltf

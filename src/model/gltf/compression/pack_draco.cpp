@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: MIT
+// From plain accessors to Draco data.
+#include "model/gltf/compression/pack_draco.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <map>
+
+#include "model/gltf/draco_primitives.h"
+#include "model/gltf/extension_lists.h"
+#include "model/gltf/gather_elements.h"
+#include "model/gltf/primitive_reader.h"
+#include "model/gltf/vertex_numbers.h"
+#include "core/base/sort.h"
+
+namespace tspace::gltf {
+
+namespace {
+
+/// What exporters commonly use.
+constexpr int kPositionBits = 14, kNormalBits = 10, kUvBits = 12;
+
+bool isFinite(const Bytes& floats) {
+    for (std::size_t i = 0; i < floats.size() / sizeof(float); ++i) {
+        float value;
+        std::memcpy(&value, floats.data() + i * sizeof(float), sizeof(float));
+        if (!std::isfinite(value)) return false;
+    }
+    return true;
+}
+
+/// Bits to round an attribute to; 0: none.
+int roundingOf(const DracoAttribute& attribute) {
+    if (attribute.component != ComponentType::f32 || !isFinite(attribute.values)) return 0;
+    switch (attribute.kind) {
+        case DracoKind::position:
+            return kPositionBits;
+        case DracoKind::normal:
+            return attribute.component_count == 3 ? kNormalBits : 0;
+        case DracoKind::uv:
+            return kUvBits;
+        default:
+            return 0;
+    }
+}
+
+class Packer {
+  public:
+    Packer(Document& document, Editor& editor) : document_(document), editor_(editor), numbers_(document, editor) {}
+
+    void run() {
+        const std::vector<Primitive> primitives = readPrimitives(document_);
+        std::map<std::string, std::vector<const Primitive*>> groups;
+        std::vector<std::string> order;
+        for (const Primitive& primitive : primitives) {
+            if (!canPack(primitive)) continue;
+            const std::string key = json(primitive)["attributes"].dump() + targetsOf(primitive).dump() +
+                                    (primitive.indices ? std::to_string(*primitive.indices) : "") + '|' +
+                                    modeName(primitive.mode);
+            if (groups[key].empty()) order.push_back(key);
+            groups[key].push_back(&primitive);
+        }
+        for (const std::string& key : order) pack(groups[key]);
+    }
+
+    [[nodiscard]] std::vector<std::string> warnings() const { return numbers_.warnings(); }
+
+  private:
+    Json& json(const Primitive& primitive) { return editor_.primitive(primitive.mesh, primitive.index); }
+    Json targetsOf(const Primitive& primitive) {
+        const Json* targets = findMember(json(primitive), "targets");
+        return targets == nullptr ? Json() : *targets;
+    }
+
+    bool canPack(const Primitive& primitive) {
+        if (findExtension(json(primitive), kDraco) != nullptr || !hasTriangles(primitive.mode)) return false;
+        if (!primitive.find("POSITION") || primitive.triangleCount() == 0) return false;
+        // Corners without a triangle would be lost.
+        if (primitive.mode == Mode::triangles && primitive.corner_count % 3 != 0) return false;
+        if (primitive.indices && !hasData(document_, readAccessor(document_, *primitive.indices))) return false;
+        return std::all_of(primitive.attributes.begin(), primitive.attributes.end(), [&](const auto& attribute) {
+            const Accessor accessor = readAccessor(document_, attribute.second);
+            return accessor.component_count >= 1 && accessor.component_count <= 4 && hasData(document_, accessor);
+        });
+    }
+
+    /// True when only the primitives of the group use these vertices.
+    bool ownsVertices(const std::vector<const Primitive*>& group) {
+        std::map<std::size_t, std::size_t> uses;
+        for (const Primitive* primitive : group) {
+            for (const auto& [name, accessor] : primitive->attributes) ++uses[accessor];
+        }
+        return std::all_of(uses.begin(), uses.end(),
+                           [&](const auto& use) { return editor_.accessorUses(use.first) == use.second; });
+    }
+
+    /// Those that the corners use; the corners then go by the new numbers. Decoders refuse more points than corners,
+    /// and later splits could make so many where some are without a corner.
+    static std::vector<std::uint32_t> chooseVertices(std::vector<std::uint32_t>& corners) {
+        std::vector<std::uint32_t> chosen = corners;
+        sortList(chosen.begin(), chosen.end());
+        chosen.erase(std::unique(chosen.begin(), chosen.end()), chosen.end());
+        for (std::uint32_t& corner : corners) {
+            corner =
+                static_cast<std::uint32_t>(std::lower_bound(chosen.begin(), chosen.end(), corner) - chosen.begin());
+        }
+        return chosen;
+    }
+
+    void pack(const std::vector<const Primitive*>& group) {
+        const Primitive& first = *group[0];
+        const bool owns = ownsVertices(group);
+        DracoMesh mesh;
+        mesh.corners = readTriangleCorners(document_, first);
+        const std::vector<std::uint32_t> chosen = chooseVertices(mesh.corners);
+        mesh.point_count = chosen.size();
+        std::vector<ElementData> elements;
+        for (const auto& [name, index] : first.attributes) {
+            const Accessor accessor = readAccessor(document_, index);
+            elements.push_back(gatherElements(document_, accessor, chosen));
+            if (elements.back().places) return;  // a custom attribute that is all but zero stays sparse
+            mesh.attributes.push_back({.kind = dracoKind(name),
+                                       .component = accessor.component,
+                                       .normalized = accessor.normalized,
+                                       .component_count = accessor.component_count,
+                                       .values = elements.back().bytes});
+            mesh.attributes.back().rounding.bits = roundingOf(mesh.attributes.back());
+        }
+        Bytes data;
+        const DracoLimits no_limits{mesh.corners.size(), mesh.point_count, ~std::size_t{0}};
+        if (!encodeDraco(mesh, false, data) || !decodeDraco(data, no_limits, mesh).empty()) return;  // it stays plain
+        store(group, mesh, std::move(elements), std::move(data), chosen, owns);
+        if (chosen.size() != first.vertex_count) numbers_.carry(group, {chosen, mesh.corners, first.vertex_count});
+        requireExtension(document_, kDraco);
+    }
+
+    void store(const std::vector<const Primitive*>& group, DracoMesh& mesh, std::vector<ElementData> elements,
+               Bytes data, const std::vector<std::uint32_t>& chosen, bool owns) {
+        const Primitive& first = *group[0];
+        const std::size_t indices = storeIndices(group, mesh);
+        Json extension = Json::object();
+        std::map<std::size_t, std::size_t> stored;  // an accessor may be two attributes
+        for (std::size_t i = 0; i < first.attributes.size(); ++i) {
+            const auto& [name, old] = first.attributes[i];
+            extension["attributes"][name] = mesh.attributes[i].id;
+            if (stored.count(old) == 0) {
+                ElementData& values = elements[i];
+                values.in_draco = true;
+                values.bytes = std::move(mesh.attributes[i].values);
+                renewBounds(values);
+                stored[old] = editor_.store(std::move(values), owns ? std::optional(old) : std::nullopt);
+            }
+            for (const Primitive* primitive : group) {
+                json(*primitive)["attributes"][name] = stored[old];
+                editor_.moveUse(old, stored[old]);
+            }
+        }
+        if (chosen.size() != first.vertex_count) carryTargets(group, chosen);
+        extension["bufferView"] = editor_.storeBlob(std::move(data), {});
+        for (std::size_t i = 0; i < mesh.attributes.size(); ++i) {
+            document_.draco_roundings[{extension["bufferView"].get<std::size_t>(), mesh.attributes[i].id}] =
+                mesh.attributes[i].rounding;
+        }
+        for (const Primitive* primitive : group) {
+            json(*primitive)["indices"] = indices;
+            if (primitive->mode != Mode::triangles) json(*primitive)["mode"] = static_cast<unsigned>(Mode::triangles);
+            json(*primitive)["extensions"][kDraco] = extension;
+        }
+    }
+
+    std::size_t storeIndices(const std::vector<const Primitive*>& group, const DracoMesh& mesh) {
+        const std::optional<std::size_t> old = group[0]->indices;
+        ElementData data;
+        data.component = mesh.point_count <= 0xffff ? ComponentType::u16 : ComponentType::u32;
+        if (old) data.component = readAccessor(document_, *old).component;
+        data.element_bytes = gltf::bytesOf(data.component);
+        data.count = mesh.corners.size();
+        data.bytes.resize(data.count * data.element_bytes);
+        for (std::size_t i = 0; i < data.count; ++i)
+            std::memcpy(data.bytes.data() + i * data.element_bytes, &mesh.corners[i], data.element_bytes);
+        data.in_draco = true;
+        const bool alone = old && editor_.accessorUses(*old) == group.size();
+        const std::size_t stored = editor_.store(std::move(data), alone ? old : std::nullopt);
+        for (std::size_t i = 0; i < group.size(); ++i) editor_.moveUse(old, stored);
+        return stored;
+    }
+
+    void carryTargets(const std::vector<const Primitive*>& group, const std::vector<std::uint32_t>& chosen) {
+        std::map<std::size_t, std::size_t> stored, uses;
+        for (const AttributeList& target : group[0]->targets) {
+            for (const auto& [name, old] : target) uses[old] += group.size();
+        }
+        for (std::size_t t = 0; t < group[0]->targets.size(); ++t) {
+            for (const auto& [name, old] : group[0]->targets[t]) {
+                if (stored.count(old) == 0) {
+                    // Vertices that nobody draws are gone, and so may be the extremes that were stated.
+                    ElementData data = gatherElements(document_, readAccessor(document_, old), chosen);
+                    renewBounds(data);
+                    const bool alone = editor_.accessorUses(old) == uses[old];
+                    stored[old] = editor_.store(std::move(data), alone ? std::optional(old) : std::nullopt);
+                }
+                for (const Primitive* primitive : group) {
+                    json(*primitive)["targets"][t][name] = stored[old];
+                    editor_.moveUse(old, stored[old]);
+                }
+            }
+        }
+    }
+
+    Document& document_;
+    Editor& editor_;
+    VertexNumbers numbers_;
+};
+
+}  // namespace
+
+std::vector<std::string> packDraco(Document& document, Editor& editor) {
+    Packer packer(document, editor);
+    packer.run();
+    return packer.warnings();
+}
+
+}  // namespace tspace::gltf

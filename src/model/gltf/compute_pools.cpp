@@ -1,0 +1,344 @@
+// SPDX-License-Identifier: MIT
+// Large pools one after the other, each on all threads; then the others, each on one thread.
+#include "model/gltf/compute_pools.h"
+
+#include <algorithm>
+#include <exception>
+#include <memory>
+#include <mutex>
+#include <numeric>
+#include <optional>
+#include <utility>
+
+#include "model/io/file_error.h"
+#include "model/gltf/weld_vertices.h"
+#include "core/base/parallel.h"
+#include "core/base/sort.h"
+#include "core/base/unit.h"
+#include "core/mesh/pools/local_mesh.h"
+#include "core/mesh/pools/morph_split.h"
+#include "core/mesh/pools/turned_normals.h"
+#include "core/mesh/surface/position_rounding.h"
+#include "tspace/arena.h"
+
+namespace tspace::gltf {
+
+namespace {
+
+/// Fewer corners are done sooner than threads are started.
+constexpr std::size_t kCornersForThreads = 3000;
+
+/// Deltas are made where vertices move, and wait in memory for those of the last target.
+void takeDeltas(const Document& document, const Primitive& first, const MorphOffsets& offsets) {
+    constexpr std::uint64_t kDeltaBytes = 32;
+    std::uint64_t count = 0;
+    for (std::size_t v = 0; v < std::max(offsets.positions.size(), offsets.normals.size()); ++v) {
+        const auto moves = [v](const std::vector<Vec3>& list) { return v < list.size() && !(list[v] == Vec3{}); };
+        count += moves(offsets.positions) || moves(offsets.normals);
+    }
+    document.memory->take(kDeltaBytes * count, first.place() + "/targets");
+}
+
+/// Targets of a pool are those of each of its primitives. `first` must outlive the result.
+MorphTargets targetsOf(const Document& document, const Primitive& first, bool with_tangents) {
+    // A target is read once more where normals are made.
+    auto is_taken = std::make_shared<std::vector<bool>>(first.targets.size(), false);
+    return {first.targets.size(), [&document, &first, is_taken, with_tangents](std::size_t target) {
+                return atFileBorder([&]() -> Result<MorphOffsets> {
+                    MorphOffsets offsets{.positions = readOffsets(document, first, target, "POSITION"),
+                                         .normals = readOffsets(document, first, target, "NORMAL")};
+                    if (with_tangents) offsets.tangents = readOffsets(document, first, target, "TANGENT");
+                    if (!(*is_taken)[target]) takeDeltas(document, first, offsets);
+                    (*is_taken)[target] = true;
+                    return offsets;
+                });
+            }};
+}
+
+void copyReport(const PrimitiveReport& computed, bool keeps_tangents, PrimitiveReport& report) {
+    report.morph_sign_flip_count = computed.morph_sign_flip_count;
+    report.normals_behind_count = computed.normals_behind_count;
+    report.turned_triangle_count = computed.turned_triangle_count;
+    report.two_sided_triangle_count = computed.two_sided_triangle_count;
+    if (keeps_tangents) return;
+    report.normals = computed.normals;
+    report.tangents = computed.tangents;
+    report.sanitize = computed.sanitize;
+    report.mended_vertex_count = computed.mended_vertex_count;
+    report.faces = computed.faces;
+    report.quad_count = computed.quad_count;
+}
+
+/// What the tangents of a pool are computed from, without copies where that is possible. `copies` must outlive the
+/// result, and get what cannot be lent. `first`: any primitive of the pool.
+PoolView lendVertices(const Document& document, const Primitive& first, const Pool& pool, VertexPool& copies) {
+    const auto vec3 = [&](const char* attribute, std::vector<Vec3>& copy) {
+        if (const auto lent = lendVec3(document, first, attribute)) return *lent;
+        copy = readVec3(document, first, attribute);
+        return StridedSpan<const Vec3>(copy);
+    };
+    PoolView vertices;
+    vertices.positions = vec3("POSITION", copies.positions);
+    if (pool.has_normals) vertices.normals = vec3("NORMAL", copies.normals);
+    if (pool.uses_uvs) {
+        if (const auto lent = lendUvs(document, first, pool.uv_set)) {
+            vertices.uvs = *lent;
+        } else {
+            copies.uvs = readUvs(document, first, pool.uv_set);
+            vertices.uvs = copies.uvs;
+        }
+    }
+    vertices.uv_matrix = pool.uv_matrix;
+    return vertices;
+}
+
+/// Where frames are made from positions that rounding has moved too far. Half a sentence; empty: they are fine enough.
+std::string warnOfRounding(const PoolView& vertices, std::span<const PrimitiveGeometry> geometries) {
+    constexpr double kLimit = 10;
+    std::vector<std::span<const std::uint32_t>> corner_lists;
+    for (const PrimitiveGeometry& geometry : geometries) corner_lists.emplace_back(geometry.indices);
+    const PositionRounding rounding = roundingOf(vertices.positions, vertices.uvs, corner_lists);
+    if (rounding.error == 0) return {};
+    for (const PrimitiveGeometry& geometry : geometries) {
+        const TurnedTriangles turned = turnedBy(rounding, vertices.positions, geometry.indices, kLimit);
+        if (turned.share < kSomeTurned) continue;
+        return std::string(!vertices.normals.empty() ? "tangents"
+                           : vertices.makes_tangents ? "normals and tangents"
+                                                     : "normals") +
+               " were made over positions that are rounded too coarsely for it: " +
+               (rounding.was_before
+                    ? "their steps are so wide that triangles may be turned by over 10 degrees. Take the model as it "
+                      "was "
+                      "before it was rounded, or keep the tangents and normals that were made then"
+                    : "at their distance from the origin floats are so far apart that triangles may be turned by over "
+                      "10 "
+                      "degrees. Store positions relative to a point near the mesh, and put that point into the node");
+    }
+    return {};
+}
+
+/// Leaves the first of the vertices that only their frames keep apart. `copies` as in lendVertices.
+void weld(const WeldedVertices& welded, std::vector<PrimitiveGeometry>& geometries, PoolView& vertices,
+          VertexPool& copies) {
+    copies.positions = gather(vertices.positions, welded.kept);
+    copies.uvs = gather(vertices.uvs, welded.kept);
+    vertices.positions = copies.positions;
+    vertices.uvs = copies.uvs;
+    for (PrimitiveGeometry& geometry : geometries) {
+        for (std::uint32_t& vertex : geometry.indices) vertex = welded.number_of[vertex];
+    }
+    vertices.targets.read = [read = vertices.targets.read, &welded](std::size_t target) -> Result<MorphOffsets> {
+        Result<MorphOffsets> offsets = read(target);
+        if (!offsets) return offsets;
+        offsets->positions = gather(std::span<const Vec3>(offsets->positions), welded.kept);
+        offsets->normals = {};
+        offsets->tangents = {};
+        return offsets;
+    };
+}
+
+/// What targets add to normals that stay, computed when it is first asked for.
+class NewMorphNormals {
+  public:
+    /// `vertices` and `geometries` must outlive this; its targets then have the new offsets. `keeps_finite`: only those
+    /// that are NaN or infinite are new, where others say something.
+    NewMorphNormals(const std::vector<bool>& targets, bool keeps_finite, PoolView& vertices,
+                    std::span<const PrimitiveGeometry> geometries)
+        : targets_(targets), keeps_finite_(keeps_finite), turned_(vertices, geometries), made_(targets.size()) {
+        vertices.targets.read = [read = vertices.targets.read, this](std::size_t target) -> Result<MorphOffsets> {
+            Result<MorphOffsets> offsets = read(target);
+            if (!offsets || !targets_[target]) return offsets;
+            std::vector<Vec3> offsets_of_normals = turned_.offsets(offsets->positions);
+            if (keeps_finite_) keepFinite(offsets->normals, offsets_of_normals);
+            offsets->normals = std::move(offsets_of_normals);
+            made_[target] = sparse(offsets->normals);
+            return offsets;
+        };
+    }
+
+    /// Puts them into frames, for the vertices after a split.
+    void write(const PoolView& vertices, PoolFrames& frames) {
+        frames.morphs.resize(targets_.size());
+        for (std::size_t target = 0; target < targets_.size(); ++target) {
+            if (!targets_[target]) continue;
+            if (!made_[target]) valueOrThrow(vertices.targets.read(target));
+            frames.morphs[target].normals = spread(*made_[target], frames.source_vertices, vertices.positions.count);
+        }
+    }
+
+  private:
+    static void keepFinite(std::span<const Vec3> old, std::span<Vec3> made) {
+        if (std::none_of(old.begin(), old.end(), isDirection)) return;
+        for (std::size_t v = 0; v < old.size(); ++v) {
+            if (isFinite(old[v])) made[v] = old[v];
+        }
+    }
+
+    const std::vector<bool>& targets_;
+    bool keeps_finite_;
+    TurnedNormals turned_;
+    std::vector<std::optional<VertexOffsets>> made_;
+};
+
+/// Whether most tangents that were there have the other sign, as files have it whose green points down.
+bool haveInvertedSigns(std::span<const Vec4> old, const PoolFrames& frames) {
+    if (old.empty() || frames.tangents.empty()) return false;
+    std::size_t inverted = 0;
+    for (std::size_t v = 0; v < frames.tangents.size(); ++v)
+        inverted += frames.tangents[v].w * old[frames.source_vertices[v]].w < 0 ? 1U : 0U;
+    return 3 * inverted >= 2 * frames.tangents.size();
+}
+
+/// The vertices as they are.
+PoolFrames asTheyAre(const PoolView& vertices) {
+    PoolFrames frames;
+    frames.source_vertices.resize(vertices.positions.count);
+    std::iota(frames.source_vertices.begin(), frames.source_vertices.end(), 0u);
+    return frames;
+}
+
+/// The triangles of each geometry of a pool.
+std::vector<PrimitiveGeometry> readGeometries(const Document& document, std::span<const Primitive> primitives,
+                                              const Pool& pool) {
+    std::vector<PrimitiveGeometry> geometries;
+    for (const PoolGeometry& geometry : pool.geometries)
+        geometries.push_back({.indices = readTriangleCorners(document, primitives[geometry.primitives[0]]),
+                              .mends = geometry.mends,
+                              .around = geometry.around});
+    return geometries;
+}
+
+}  // namespace
+
+/// As many arenas as pools are computed at one time.
+class PoolComputer::Arenas {
+  public:
+    std::unique_ptr<Arena> take() {
+        const std::lock_guard lock(mutex_);
+        if (idle_.empty()) return std::make_unique<Arena>();
+        std::unique_ptr<Arena> arena = std::move(idle_.back());
+        idle_.pop_back();
+        return arena;
+    }
+    void giveBack(std::unique_ptr<Arena> arena) {
+        const std::lock_guard lock(mutex_);
+        idle_.push_back(std::move(arena));
+    }
+
+  private:
+    std::mutex mutex_;
+    std::vector<std::unique_ptr<Arena>> idle_;
+};
+
+PoolComputer::PoolComputer(const Document& document, std::span<const Primitive> primitives,
+                           const GenerateOptions& options)
+    : document_(document), primitives_(primitives), options_(options), arenas_(std::make_unique<Arenas>()) {}
+
+PoolComputer::~PoolComputer() = default;
+
+PoolElements PoolComputer::computeOne(const Pool& pool, const Execution& execution,
+                                      std::span<PrimitiveReport> reports) {
+    GenerateOptions options = options_;
+    options.execution = execution;
+    const Primitive& first = primitives_[pool.primitives[0]];
+    VertexPool copies;
+    PoolView vertices = lendVertices(document_, first, pool, copies);
+    vertices.targets = targetsOf(document_, first, pool.mendsTangents());
+    vertices.mends_tangents = pool.mendsTangents();
+    if (pool.keeps_tangents || pool.mendsTangents()) copies.kept_tangents = readTangents(document_, first);
+    vertices.kept_tangents = copies.kept_tangents;
+    std::vector<Vec4> old_tangents;
+    const bool keeps_signs = pool.overwrites_normals && options.existing == ExistingTangents::keep;
+    if ((pool.tries_quads || keeps_signs) && pool.has_tangents && !pool.keeps_tangents) {
+        if (readAccessor(document_, *first.find("TANGENT")).component_count == 4)
+            old_tangents = readTangents(document_, first);
+    }
+    vertices.old_tangents = old_tangents;
+    vertices.is_blenders = pool.is_blenders;
+    vertices.makes_tangents = pool.makes_tangents;
+    std::vector<PrimitiveGeometry> geometries = readGeometries(document_, primitives_, pool);
+    WeldedVertices welded;
+    if (pool.overwrites_normals) welded = weldVertices(document_, first);
+    const bool was_welded = welded.kept.size() != welded.number_of.size();
+    if (was_welded) weld(welded, geometries, vertices, copies);
+    std::optional<NewMorphNormals> morph_normals;
+    if (!pool.morph_normals.empty())
+        morph_normals.emplace(pool.morph_normals, options.morph_normals == MorphNormals::missing, vertices, geometries);
+    std::vector<PrimitiveReport> computed;
+    for (const PoolGeometry& geometry : pool.geometries) computed.push_back(reports[geometry.primitives[0]]);
+    const bool computes = pool.makes_tangents || !pool.has_normals;
+    PoolFrames frames =
+        computes ? valueOrThrow(computeFrames(vertices, geometries, options, computed)) : asTheyAre(vertices);
+    if (pool.makes_tangents && frames.tangents.size() != frames.source_vertices.size()) {
+        failFile(ErrorCode::internal, "no tangents were computed", first.place());
+    }
+    for (std::size_t i = 0; i < pool.geometries.size(); ++i) {
+        for (const std::size_t number : pool.geometries[i].primitives) {
+            copyReport(computed[i], pool.keeps_tangents, reports[number]);
+        }
+    }
+    const bool has_tangent_deltas = pool.makes_tangents && !frames.morphs.empty();
+    if (morph_normals) morph_normals->write(vertices, frames);
+    if (was_welded) {
+        for (std::uint32_t& source : frames.source_vertices) source = welded.kept[source];
+    }
+    if (keeps_signs && haveInvertedSigns(old_tangents, frames)) {
+        for (Vec4& tangent : frames.tangents) tangent.w = -tangent.w;
+        for (const std::size_t number : pool.primitives) {
+            reports[number].notes.emplace_back(
+                "most signs of its tangents were inverted, and all are now: its normal map may be made for that "
+                "(--overwrite makes them those of the UVs)");
+        }
+    }
+    PoolElements elements = packFrames(document_, primitives_, pool, std::move(frames),
+                                       {.format = options.format, .is_welded = was_welded});
+    elements.has_tangent_deltas = has_tangent_deltas;
+    if (computes && !pool.keeps_tangents && !pool.mendsTangents())
+        elements.warning = warnOfRounding(vertices, geometries);
+    return elements;
+}
+
+std::vector<PoolElements> PoolComputer::compute(std::span<const Pool> pools, std::span<PrimitiveReport> reports) {
+    std::vector<PoolElements> elements(pools.size());
+    std::vector<std::exception_ptr> failures(pools.size());
+    const Execution& execution = options_.execution;
+    const auto compute = [&](std::size_t i, const Execution& given) noexcept {
+        try {
+            if (given.allocator != nullptr) {
+                elements[i] = computeOne(pools[i], given, reports);
+                return;
+            }
+            std::unique_ptr<Arena> arena = arenas_->take();
+            Execution with_memory = given;
+            with_memory.allocator = arena->allocator();
+            elements[i] = computeOne(pools[i], with_memory, reports);
+            arenas_->giveBack(std::move(arena));
+        } catch (...) {
+            failures[i] = std::current_exception();
+        }
+    };
+
+    Parallel parallel(execution);
+    std::uint64_t total = 0;
+    for (const Pool& pool : pools) total += pool.corner_count;
+    // A caller's allocator is called from one thread only.
+    const bool one_by_one = execution.allocator != nullptr || total < kCornersForThreads;
+    std::vector<std::size_t> others;
+    for (std::size_t i = 0; i < pools.size(); ++i) {
+        if (one_by_one || pools[i].corner_count > total / parallel.width()) {
+            compute(i, execution);
+        } else {
+            others.push_back(i);
+        }
+    }
+    // The largest first, so that no thread is left alone with one at the end.
+    sortStably(others.begin(), others.end(),
+               [&](std::size_t a, std::size_t b) { return pools[a].corner_count > pools[b].corner_count; });
+    parallel.forTasks(others.size(), [&](std::size_t task) { compute(others[task], Execution{.thread_count = 1}); });
+    for (const std::exception_ptr& failure : failures) {
+        if (failure) std::rethrow_exception(failure);
+    }
+    return elements;
+}
+
+}  // namespace tspace::gltf

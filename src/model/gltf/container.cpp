@@ -1,0 +1,336 @@
+// SPDX-License-Identifier: MIT
+// Conversion between .glb and .gltf: joining buffers, taking in images, naming files.
+#include "model/gltf/container.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <optional>
+
+#include "model/io/disk_paths.h"
+#include "model/io/file_error.h"
+#include "model/gltf/meshopt_views.h"
+#include "model/io/uri.h"
+#include "images/image.h"
+
+namespace tspace::gltf {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::size_t kJoinAlignment = 8;  // more than glTF's 4: data of extensions may want 8
+constexpr const char* kNewBufferEnding = ".tspace.bin";
+
+/// The bytes and media type behind an image's URI, or nothing (with a warning) when they cannot be had.
+std::optional<DataUri> loadImage(Document& document, const std::string& uri, const std::string& declared,
+                                 const std::string& place, std::vector<std::string>& warnings) {
+    DataUri image;
+    if (uriKind(uri) == UriKind::data) {
+        image = decodeDataUri(uri, join(place, "uri"));
+        if (!declared.empty()) image.mime_type = declared;
+    } else if (uriKind(uri) == UriKind::otherScheme || document.files.areNone()) {
+        warnings.push_back("the image " + inQuotes(uri) + " is not a file and stays outside of the GLB");
+        return {};
+    } else {
+        const Path path = document.files.resolve(uri, join(place, "uri"));
+        const NamedFiles::Kind kind = document.files.kindOf(path);
+        // FBX files name the folder of an image that has no name.
+        if (kind != NamedFiles::Kind::file) {
+            const char* why = kind == NamedFiles::Kind::folder ? " is a folder" : " does not exist";
+            warnings.push_back("the image " + inQuotes(uri) + why + "; its URI is kept");
+            return {};
+        }
+        image.bytes = document.files.read(path, join(place, "uri"));
+        document.input_files.push_back(path.string());
+        image.mime_type = declared;
+    }
+    const ImageFormat format = imageFormat(image.bytes);
+    if (format != ImageFormat::unknown) image.mime_type = mimeType(format);
+    if (image.bytes.empty() || image.mime_type.empty()) {
+        warnings.push_back("the image " + inQuotes(uri, 60) + " has no known type and stays outside of the GLB");
+        return {};
+    }
+    return image;
+}
+
+/// BIN is buffer 0; makes an empty one where the document has no buffer.
+Buffer& binBuffer(Document& document) {
+    if (document.buffers.empty()) {
+        document.json["buffers"] = Json::array({Json{{"byteLength", 0}}});
+        document.buffers.emplace_back();
+        document.buffers[0].source = BufferSource::bin;
+        document.buffers[0].own = true;
+    }
+    return document.buffers[0];
+}
+
+std::size_t appendAligned(Buffer& buffer, Bytes bytes, std::size_t alignment) {
+    buffer.edited = true;
+    return buffer.bytes.append(std::move(bytes), alignment);
+}
+
+struct Moved {
+    std::size_t buffer = 0, offset = 0;
+};
+
+/// Points `object` (a view, or the compression extension of one) at the joined buffer.
+void moveReference(Json& object, const std::vector<Moved>& moved) {
+    const Moved& to = moved[readSize(object, "buffer", "")];
+    const std::size_t offset = readSize(object, "byteOffset", "", 0);
+    object["buffer"] = to.buffer;
+    if (to.offset != 0) object["byteOffset"] = offset + to.offset;
+}
+
+/// All buffers that have data become one, the first; those without data stay behind it.
+void joinBuffers(Document& document) {
+    if (document.buffers.empty()) return;
+    Json old_entries = document.json["buffers"];
+    std::vector<Buffer> old = std::move(document.buffers);
+    std::vector<Moved> moved(old.size());
+    document.buffers.clear();
+    document.buffers.emplace_back();
+    Buffer& bin = document.buffers[0];
+    bin.source = BufferSource::bin;
+    bin.own = true;
+    Json entries = Json::array();
+    for (std::size_t i = 0; i < old.size(); ++i) {
+        if (!old[i].hasStoredBytes()) continue;
+        if (entries.empty()) entries.push_back(old_entries[i]);
+        moved[i] = {0, appendAligned(bin, old[i].bytes.joined(), kJoinAlignment)};
+        old[i].bytes = {};
+    }
+    if (entries.empty()) {
+        entries.push_back(Json::object());
+        bin.bytes = BufferBytes(Bytes(kJoinAlignment, 0));  // glTF has no empty buffers
+    }
+    entries[0].erase("uri");
+    // A mark of the old buffer, that readers of the extension need not load it, would be wrong here.
+    if (const char* mark = meshoptExtension(entries[0])) {
+        entries[0]["extensions"].erase(mark);
+        if (entries[0]["extensions"].empty()) entries[0].erase("extensions");
+    }
+    entries[0]["byteLength"] = bin.bytes.size();
+    for (std::size_t i = 0; i < old.size(); ++i) {
+        if (old[i].hasStoredBytes()) continue;
+        moved[i] = {entries.size(), 0};
+        entries.push_back(old_entries[i]);
+        document.buffers.push_back(std::move(old[i]));
+    }
+    document.json["buffers"] = std::move(entries);
+    if (!document.json.contains("bufferViews")) return;
+    for (std::size_t i = 0; i < document.json["bufferViews"].size(); ++i) {
+        Json& view = document.json["bufferViews"][i];
+        moveReference(view, moved);
+        if (const char* name = meshoptExtension(view)) moveReference(view["extensions"][name], moved);
+    }
+}
+
+/// Replaces "uri" by "bufferView" and "mimeType" at the same place among the members.
+void embedImages(Document& document, std::vector<std::string>& warnings) {
+    for (std::size_t i = 0; i < rootArray(document, "images").size(); ++i) {
+        const std::string place = join("/images", i);
+        const Json& old = rootArray(document, "images")[i];
+        const std::string uri = readString(old, "uri", place);
+        if (uri.empty()) continue;
+        const auto image = loadImage(document, uri, readString(old, "mimeType", place), place, warnings);
+        if (!image) continue;
+        // First, because a new member of the root moves the others.
+        Buffer& bin = binBuffer(document);
+        Json& views = editableRootArray(document, "bufferViews");
+        const std::size_t begin = appendAligned(bin, image->bytes, 4);
+        views.push_back(Json{{"buffer", 0}, {"byteOffset", begin}, {"byteLength", image->bytes.size()}});
+        document.json["buffers"][0]["byteLength"] = bin.bytes.size();
+        Json entry = Json::object();
+        for (const auto& [key, value] : document.json["images"][i].items()) {
+            if (key == "uri") {
+                entry["bufferView"] = views.size() - 1;
+                entry["mimeType"] = image->mime_type;
+            } else if (key != "mimeType") {
+                entry[key] = value;
+            }
+        }
+        document.json["images"][i] = std::move(entry);
+    }
+}
+
+/// Copies one file that the model names to the same relative place in the output's folder.
+void copyNamedFile(const Document& document, const OutputTarget& target, const std::string& uri,
+                   const std::string& place, AtomicOutput& output, std::vector<std::string>& warnings) {
+    if (uri.empty() || uriKind(uri) != UriKind::path || document.new_files.contains(pathOfUri(uri))) return;
+    if (output.isStream() || document.files.areNone()) {
+        warnings.push_back("the file " + inQuotes(uri) + " that the model names does not come along");
+        return;
+    }
+    const Path from = document.files.resolve(uri, place);
+    const fs::path relative = fs::path(Path(pathOfUri(uri))).lexically_normal();
+    if (relative.has_root_path() || *relative.begin() == "..") {
+        warnings.push_back("the file " + inQuotes(uri) + " lies outside of the model's folder and was not copied");
+        return;
+    }
+    const NamedFiles::Kind kind = document.files.kindOf(from);
+    if (kind != NamedFiles::Kind::file) {
+        // Taking it in failed before, with a warning.
+        if (!target.takes_images_in) {
+            const char* why = kind == NamedFiles::Kind::folder ? " is a folder" : " does not exist";
+            warnings.push_back("the file " + inQuotes(uri) + why + " and was not copied");
+        }
+        return;
+    }
+    output.addSource(from);
+    const Path to = fs::path(folderOf(target.path)) / relative;
+    const std::vector<std::string> planned = output.files();
+    if (std::find(planned.begin(), planned.end(), to.string()) != planned.end()) return;
+    if (isThere(to)) {
+        if (!document.files.areInMemory() && isSameFile(from, to)) return;
+        if (output.leave(to, document.files.read(from, place))) return;
+        failFile(ErrorCode::cannotWrite,
+                 "the model needs the file " + inQuotes(uri) + " beside it, but " + pathInQuotes(to) +
+                     " exists already and is another one",
+                 place);
+    }
+    output.addShared(to, document.files.read(from, place));
+}
+
+void copyNamedFiles(const Document& document, const OutputTarget& target, AtomicOutput& output,
+                    std::vector<std::string>& warnings) {
+    for (const auto& [path, bytes] : document.new_files) output.add(folderOf(target.path) / path, bytes);
+    if (target.same_folder) return;
+    const Json& buffers = rootArray(document, "buffers");
+    for (std::size_t i = 0; i < buffers.size(); ++i) {
+        if (document.buffers[i].own || document.buffers[i].source != BufferSource::file) continue;
+        copyNamedFile(document, target, readString(buffers[i], "uri", ""), join("/buffers", i), output, warnings);
+    }
+    const Json& images = rootArray(document, "images");
+    for (std::size_t i = 0; i < images.size(); ++i) {
+        copyNamedFile(document, target, readString(images[i], "uri", ""), join("/images", i), output, warnings);
+    }
+}
+
+std::span<const std::uint8_t> bytesOf(const std::string& text) {
+    return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
+}
+
+}  // namespace
+
+OutputTarget outputTarget(const Document& document, const Path& path, bool is_stream) {
+    OutputTarget target;
+    target.path = path;
+    if (!isGltfName(path) && !isGlbOutput(path)) {
+        failFile(ErrorCode::unsupportedFile, "the output " + pathInQuotes(path) + " is neither .glb nor .gltf");
+    }
+    target.container = isGlbOutput(path) ? Container::glb : Container::gltf;
+    target.takes_images_in =
+        target.container == Container::glb && (document.container == Container::gltf || document.imported);
+    if (is_stream) {
+        if (target.container != Container::glb) failFile(ErrorCode::invalidOption, "only a GLB is one stream of bytes");
+        return target;
+    }
+    target.in_place = !document.files.areInMemory() && isSameFile(document.path, path);
+    target.same_folder = !document.files.areInMemory() && isSameFile(document.files.folder(), folderOf(path));
+    return target;
+}
+
+bool namesFile(const Document& document, const std::string& name) {
+    for (const char* list : {"buffers", "images"}) {
+        for (const Json& entry : rootArray(document, list)) {
+            const Json* uri = findMember(entry, "uri");
+            if (uri != nullptr && uri->is_string() && pathOfUri(uri->text()) == name) return true;
+        }
+    }
+    return false;
+}
+
+std::string freeFileName(const Document& document, const OutputTarget& target, const std::string& ending) {
+    const std::string stem = stemOf(target.path);
+    const std::size_t dot = ending.rfind('.');
+    std::string name = stem + ending;
+    for (int number = 2; namesFile(document, name); ++number) {
+        name = stem + ending.substr(0, dot) + "-" + std::to_string(number) + ending.substr(dot);
+    }
+    return name;
+}
+
+void convertContainer(Document& document, const OutputTarget& target, bool will_edit,
+                      std::vector<std::string>& warnings) {
+    if (target.container == Container::glb) {
+        const bool has_bin = document.buffers.empty() || document.buffers[0].source == BufferSource::bin;
+        if (target.takes_images_in || (!has_bin && will_edit)) joinBuffers(document);
+        document.container = Container::glb;
+        if (!document.buffers.empty() && document.buffers[0].source == BufferSource::bin)
+            document.buffers[0].own = true;
+        return;
+    }
+    const bool from_glb = document.container == Container::glb;
+    document.container = Container::gltf;
+    if (from_glb && !document.extra_chunks.empty()) {
+        warnings.push_back("the GLB has chunks that .gltf cannot hold; they were left out");
+        document.extra_chunks.clear();
+    }
+    const std::string own_name = stemOf(target.path) + kNewBufferEnding;
+    for (std::size_t i = 0; i < document.buffers.size(); ++i) {
+        Buffer& buffer = document.buffers[i];
+        Json& entry = document.json["buffers"][i];
+        if (buffer.source == BufferSource::bin) {
+            buffer.source = BufferSource::file;
+            buffer.path = freeFileName(document, target, ".bin");
+            buffer.own = buffer.edited = true;
+            entry["uri"] = percentEncode(buffer.path.string());
+        } else if (buffer.source == BufferSource::dataUri) {
+            buffer.own = true;
+        } else if (buffer.source == BufferSource::file && (target.in_place || !target.same_folder) &&
+                   pathOfUri(entry["uri"].text()) == own_name) {
+            // An earlier run made this file for a model of this name.
+            buffer.own = true;
+            buffer.path = own_name;
+        }
+    }
+}
+
+void takeImagesIn(Document& document, const OutputTarget& target, std::vector<std::string>& warnings) {
+    if (target.takes_images_in) embedImages(document, warnings);
+}
+
+void writeDocument(Document& document, const OutputTarget& target, AtomicOutput& output,
+                   std::vector<std::string>& warnings, const Execution& execution) {
+    if (target.container == Container::glb) {
+        const std::string text = writeJson(document.json, document.style);
+        const bool has_bin = !document.buffers.empty() && document.buffers[0].source == BufferSource::bin;
+        const GlbFrame frame = frameGlb(text, has_bin ? std::optional(document.buffers[0].bytes.size()) : std::nullopt,
+                                        document.extra_chunks);
+        std::vector<OutputPiece> pieces;
+        if (has_bin) pieces = document.buffers[0].bytes.pieces();
+        pieces.insert(pieces.begin(), frame.head);
+        pieces.push_back(frame.tail);
+        output.add(target.path, pieces, execution);
+    } else {
+        for (std::size_t i = 0; i < document.buffers.size(); ++i) {
+            const Buffer& buffer = document.buffers[i];
+            if (buffer.source != BufferSource::dataUri || !buffer.edited) continue;
+            Json& uri = document.json["buffers"][i]["uri"];
+            const auto& old = uri.text();
+            const std::string mime = old.substr(5, old.find_first_of(";,") - 5);
+            uri = encodeDataUri(mime.empty() ? "application/octet-stream" : mime, buffer.bytes.joined());
+        }
+        output.add(target.path, bytesOf(writeJson(document.json, document.style)));
+        for (const Buffer& buffer : document.buffers) {
+            if (buffer.source == BufferSource::file && buffer.own && (buffer.edited || !target.in_place)) {
+                output.add(folderOf(target.path) / buffer.path.string(), buffer.bytes.pieces(), execution);
+            }
+        }
+    }
+    copyNamedFiles(document, target, output, warnings);
+}
+
+void writeUnchanged(const Document& document, const OutputTarget& target, AtomicOutput& output,
+                    std::vector<std::string>& warnings) {
+    if (target.in_place) return;
+    output.add(target.path, document.file_bytes);
+    for (const Buffer& buffer : document.buffers) {
+        if (buffer.source == BufferSource::file && buffer.own && !target.same_folder) {
+            output.add(folderOf(target.path) / buffer.path.string(), buffer.bytes.pieces());
+        }
+    }
+    copyNamedFiles(document, target, output, warnings);
+}
+
+}  // namespace tspace::gltf

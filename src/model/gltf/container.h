@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+// Changing how a document is stored (.glb or .gltf), and writing it out.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "model/io/atomic_output.h"
+#include "model/gltf/document.h"
+#include "model/io/path.h"
+
+namespace tspace::gltf {
+
+/// Where the document goes.
+struct OutputTarget {
+    Path path = {};
+    Container container = Container::glb;
+    bool in_place = false;         ///< the output is the input
+    bool same_folder = false;      ///< files that the model names need not be copied
+    bool takes_images_in = false;  ///< .gltf to .glb
+};
+
+/// Decides by isGlbOutput(); fails with unsupportedFile for what is neither that nor called .gltf, and with invalidOption for a
+/// stream that is no GLB.
+OutputTarget outputTarget(const Document& document, const Path& path, bool is_stream);
+
+/// Prepares the document for its output: .gltf to .glb joins all buffers in BIN; .glb to .gltf gives BIN a file name.
+/// Marks the buffers that the output owns. `will_edit`: new data is to be expected.
+void convertContainer(Document& document, const OutputTarget& target, bool will_edit,
+                      std::vector<std::string>& warnings);
+
+/// Takes images in BIN where a .gltf becomes a .glb. Behind convertContainer; images have lost their names then.
+void takeImagesIn(Document& document, const OutputTarget& target, std::vector<std::string>& warnings);
+
+/// Whether a buffer or an image of the document names this file, a path from the model's folder.
+bool namesFile(const Document& document, const std::string& name);
+
+/// Name for a buffer file of the output that no URI of the document has: "<stem><ending>".
+std::string freeFileName(const Document& document, const OutputTarget& target, const std::string& ending);
+
+/// Writes model, own buffers, and copies of the other files it names when the folder is another one.
+void writeDocument(Document& document, const OutputTarget& target, AtomicOutput& output,
+                   std::vector<std::string>& warnings, const Execution& execution);
+
+/// Writes the input's own bytes, with copies of the files it names as above.
+void writeUnchanged(const Document& document, const OutputTarget& target, AtomicOutput& output,
+                    std::vector<std::string>& warnings);
+
+}  // namespace tspace::gltf

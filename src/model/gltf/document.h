@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+// A glTF file in memory: its JSON, the bytes of its buffers, and how it was stored. Functions throw
+// FileError.
+#pragma once
+
+#include <array>
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "model/io/file_io.h"
+#include "model/gltf/buffer_bytes.h"
+#include "model/gltf/codecs/draco.h"
+#include "model/gltf/glb.h"
+#include "model/gltf/json.h"
+#include "model/io/memory_budget.h"
+#include "model/io/named_files.h"
+#include "model/io/path.h"
+#include "tspace/asset.h"
+
+namespace tspace::gltf {
+
+enum class Container { glb, gltf };
+
+/// Where the bytes of a buffer came from.
+enum class BufferSource {
+    bin,  ///< the BIN chunk
+    dataUri,
+    file,
+    absent,   ///< none: the fallback buffer of a compression extension, or data that somebody else provides
+    decoded,  ///< a fallback buffer without data: what its compressed views decode to. In memory only
+};
+
+struct Buffer {
+    BufferSource source = BufferSource::absent;
+    BufferBytes bytes = {};  ///< exactly `byteLength` of them, unless absent
+    Path path = {};          ///< the file, for BufferSource::file
+    /// The output stores these bytes itself (BIN, data URI, a file named after the output), so they may be
+    /// edited. Other files belong to the input and are never changed.
+    bool own = false;
+    bool edited = false;  ///< the bytes differ from those that were read
+
+    /// False where no file holds these bytes.
+    [[nodiscard]] bool hasStoredBytes() const {
+        return source != BufferSource::absent && source != BufferSource::decoded;
+    }
+};
+
+struct Document {
+    Path path = {};
+    NamedFiles files = {};  ///< what it names
+    Container container = Container::gltf;
+    Bytes file_bytes = {};  ///< the model file as it was read; BIN lies in it, and is edited there
+    Json json = {};
+    JsonStyle style = {};
+    std::vector<Buffer> buffers = {};  ///< one per entry of /buffers
+    /// Views in a decoded buffer that no extension fills.
+    std::set<std::size_t> views_without_data = {};
+    /// Elements of accessors, tightly packed, that lie in the data of Draco primitives and in no buffer view.
+    std::map<std::size_t, Bytes> elements = {};
+    /// Accessors whose elements lie there and cannot be decoded by this build.
+    std::set<std::size_t> hidden_accessors = {};
+    /// How the values of a Draco attribute were rounded; by view and Draco id.
+    std::map<std::pair<std::size_t, std::uint32_t>, DracoRounding> draco_roundings = {};
+    std::vector<ExtraChunk> extra_chunks = {};
+    std::uint64_t input_bytes = 0;              ///< the model file and its buffer files
+    std::vector<std::string> input_files = {};  ///< what was read beside the model file
+    bool imported = false;                      ///< made from a file of another format: `file_bytes` is not that file
+    bool may_hide_tangents = false;             ///< that file may have tangents which the importer did not read
+    std::string source_generator = {};          ///< what made that file; may be empty
+    std::array<double, 3> coordinate_offset{};  ///< what the importer took out of its coordinates
+    FileOptions options = {};
+    /// Images that the output has beside itself, by the path that their URIs stand for.
+    std::map<std::string, Bytes> new_files = {};
+    std::vector<std::string> warnings = {};                                   ///< what reading had to say
+    std::shared_ptr<MemoryBudget> memory = std::make_shared<MemoryBudget>();  ///< what it may still take
+};
+
+/// Reads a .glb or .gltf (told apart by content) from its bytes, and its buffers. Checks asset.version, buffers, buffer views
+/// and accessors (types, ranges), and that no URI of a buffer or image leads out of the folder, which is that of `path`.
+/// Images are not read.
+Document parseDocument(Bytes file_bytes, const Path& path, const FileOptions& options);
+
+/// Fails with unsupportedFile when a required extension hides the geometry and this build cannot decode it. Adds one
+/// warning for each other required extension that this program does not know; their data survives untouched.
+void checkRequiredExtensions(Document& document);
+
+/// "glb", "gltf", or the extension of a file of another format ("fbx"), for reports.
+std::string formatOf(const Document& document);
+
+/// The program that made the file, in its own words; empty: it does not say.
+std::string generatorOf(const Document& document);
+
+/// Array of the root, whose entries are objects; only the names that loading checks ("meshes", "accessors");
+/// empty when absent.
+const Json& rootArray(const Document& document, const char* name);
+
+/// The same to change it; made when absent, which moves the other members of the root.
+Json& editableRootArray(Document& document, const char* name);
+
+}  // namespace tspace::gltf

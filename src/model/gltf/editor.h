@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MIT
+// Changes to accessors, buffer views and buffers of a document. Array entries are never removed or
+// renumbered, because unknown extensions may point at them; what is replaced is re-used where nothing else
+// needs it.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "model/gltf/accessor.h"
+#include "model/gltf/document.h"
+#include "model/gltf/meshopt_views.h"
+#include "model/gltf/references.h"
+
+namespace tspace::gltf {
+
+inline constexpr unsigned kVertexTarget = 34962;  // ARRAY_BUFFER
+inline constexpr unsigned kIndexTarget = 34963;   // ELEMENT_ARRAY_BUFFER
+
+inline constexpr unsigned kNoTarget = 0;  // the parts of a sparse accessor
+
+/// Elements for a new or replaced accessor, tightly packed.
+struct ElementData {
+    ComponentType component = ComponentType::f32;
+    std::string type = "SCALAR";
+    bool normalized = false;
+    std::size_t count = 0;
+    std::size_t element_bytes = 4;
+    Bytes bytes = {};
+    std::shared_ptr<const ByteMaker> later = {};  ///< in place of `bytes`, which may then be made later
+    unsigned target = kVertexTarget;
+    /// An accessor: the new elements are compressed as its elements are.
+    std::optional<std::size_t> like = {};
+    /// The same elements before `filter` of meshopt, in rows of a multiple of 4 bytes; empty: only `bytes` are known.
+    bool in_draco = false;  ///< they lie in data of a Draco primitive, which the caller stores
+    Bytes unfiltered = {};
+    MeshoptFilter filter = MeshoptFilter::none;
+    /// There: `bytes` holds only the elements at these places, ascending, and all others of the `count` are zero. They
+    /// are stored as a sparse accessor.
+    std::optional<std::vector<std::uint32_t>> places = {};
+    Json min = nullptr, max = nullptr;  ///< written unless null
+
+    [[nodiscard]] std::size_t byteCount() const { return later ? later->size() : bytes.size(); }
+    void makeNow() {
+        if (!later) return;
+        bytes = Bytes(later->size());
+        later->make(0, bytes);
+        later.reset();
+    }
+};
+
+class Editor {
+  public:
+    /// `new_file_name` is the name of the buffer file that new data goes into when there is no better place.
+    Editor(Document& document, std::string new_file_name);
+
+    /// How many places of the document refer to an accessor.
+    [[nodiscard]] std::size_t accessorUses(std::size_t accessor) const { return accessor_uses_[accessor]; }
+    /// One primitive lets go of `from` (if any) and now uses `to`.
+    void moveUse(std::optional<std::size_t> from, std::size_t to);
+
+    /// One primitive lets go of an accessor. When nothing uses it any more its data go: its entry is left as one zero,
+    /// and the entry of a view that nothing uses as one byte, because entries are never removed.
+    void release(std::size_t accessor);
+
+    /// True when the accessor's elements may be overwritten where they are: not sparse, in an own buffer, and
+    /// no other accessor, image or extension sees these bytes.
+    [[nodiscard]] bool canOverwrite(const Accessor& accessor) const;
+    /// Elements of the accessor's own format. Bounds of floats are brought up to date where the accessor has them; of
+    /// others they are removed.
+    void overwrite(const Accessor& accessor, const Bytes& elements);
+
+    /// Makes an accessor for `data`, whose bytes it takes. `replaces`: an accessor that nothing else uses; its entry is
+    /// re-used. Returns its index.
+    std::size_t store(ElementData&& data, std::optional<std::size_t> replaces);
+
+    /// Stores bytes in a view without a target and returns its index; `replaces`: a view that only the caller uses.
+    std::size_t storeBlob(Bytes data, std::optional<std::size_t> replaces);
+    /// One reference to a view is gone.
+    void letGoOfView(std::size_t view);
+    /// Takes the meshopt extension from a view, which then has plain bytes in a file.
+    void unpackView(std::size_t view);
+    /// Has the first `byte_count` bytes of a plain view encoded by EXT_meshopt_compression; zeros follow where it has
+    /// fewer.
+    void packView(std::size_t view, std::size_t byte_count, std::size_t stride, bool is_indices);
+
+    /// The file needs this extension from now on.
+    void require(const char* extension);
+
+    /// JSON of a primitive or accessor, to change it.
+    Json& primitive(std::size_t mesh, std::size_t index);
+    Json& accessor(std::size_t index);
+
+    /// Encodes views and Draco primitives that changed, cuts out bytes that were left behind, and brings lengths up to
+    /// date. Call once, after all edits.
+    void finish();
+
+    [[nodiscard]] bool changed() const { return changed_; }
+    /// The caller has changed the document.
+    void touch() { changed_ = true; }
+
+  private:
+    /// How elements are stored: in the data of Draco primitives; or the meshopt extension of their view, and the
+    /// decoded buffer that the view lies in.
+    struct Form {
+        bool is_draco = false;
+        const char* meshopt = nullptr;
+        std::optional<std::size_t> decoded_buffer = {};
+    };
+    [[nodiscard]] Form formLike(std::optional<std::size_t> accessor) const;
+    std::size_t targetBuffer();
+    std::size_t appendBytes(std::size_t buffer, Bytes bytes, std::size_t element_bytes, std::size_t stride);
+    /// These take the bytes of `data`; what describes them stays.
+    std::size_t storeView(ElementData& data, const Form& form);
+    Json storeSparse(ElementData& data);
+    std::size_t newView();
+    std::size_t fallbackBuffer();
+    /// One reference to a view less; `begin` to `end` of it are free. A view without any is spare.
+    void letGo(std::size_t view, std::size_t begin, std::size_t end);
+    void letGoOf(const Accessor& old);
+    void shrinkView(std::size_t view);
+
+    Document& document_;
+    std::string new_file_name_;
+    std::optional<std::size_t> target_buffer_, fallback_buffer_;
+    std::vector<std::size_t> accessor_uses_;
+    std::vector<std::size_t> view_uses_;
+    std::vector<Extent> extents_;  ///< as the document was before any edit
+    std::vector<ByteRange> vacated_;
+    std::vector<std::size_t> spare_views_;             ///< entries that nothing uses any more
+    std::map<std::size_t, MeshoptRequest> to_encode_;  ///< by view
+    std::set<std::size_t> changed_accessors_;
+    bool changed_ = false;
+};
+
+}  // namespace tspace::gltf

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+// Gathering of elements.
+#include "model/gltf/gather_elements.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <functional>
+#include <limits>
+#include <numeric>
+
+#include "model/gltf/sparse_elements.h"
+#include "core/base/little_endian.h"
+
+namespace tspace::gltf {
+
+namespace {
+
+/// Those of the accessor, but for the elements themselves.
+ElementData describe(const Document& document, const Accessor& accessor, std::size_t count) {
+    ElementData data;
+    data.component = accessor.component;
+    data.type = accessor.type;
+    data.normalized = accessor.normalized;
+    data.like = accessor.index;
+    data.filter = filterOf(document, accessor);
+    data.count = count;
+    data.element_bytes = accessor.element_bytes;
+    // Copies change no bound.
+    const Json& object = rootArray(document, "accessors")[accessor.index];
+    if (const Json* low = findMember(object, "min")) data.min = *low;
+    if (const Json* high = findMember(object, "max")) data.max = *high;
+    return data;
+}
+
+/// BIN lies there. Those bytes stay to the end, and Editor::overwrite takes care before it changes them.
+bool liesInModelFile(const Document& document, const std::uint8_t* data) {
+    const std::uint8_t *begin = document.file_bytes.data(), *end = begin + document.file_bytes.size();
+    return !std::less<>{}(data, begin) && std::less<>{}(data, end);
+}
+
+}  // namespace
+
+ElementData gatherSplit(const Document& document, const Accessor& accessor, const SplitSources& sources) {
+    const std::optional<ElementView> old = viewElements(document, accessor);
+    if (old && liesInModelFile(document, old->data) && filterOf(document, accessor) == MeshoptFilter::none) {
+        ElementData data = describe(document, accessor, sources.size());
+        data.later = std::make_shared<GatheredBytes>(old->data, old->stride, accessor.element_bytes, sources);
+        return data;
+    }
+    std::vector<std::uint32_t> all(sources.kept);
+    std::iota(all.begin(), all.end(), 0u);
+    all.insert(all.end(), sources.copies->begin(), sources.copies->end());
+    return gatherElements(document, accessor, all);
+}
+
+ElementData gatherElements(const Document& document, const Accessor& accessor, std::span<const std::uint32_t> sources) {
+    Bytes packed;
+    std::optional<ElementView> old = viewElements(document, accessor);
+    if (!old) {
+        packed = copyElements(document, accessor);
+        old = {packed.data(), accessor.element_bytes};
+    }
+    ElementData data = describe(document, accessor, sources.size());
+    data.unfiltered = gatherUnfiltered(document, accessor, sources);
+    data.bytes.resize(sources.size() * accessor.element_bytes);
+    withElementSize(data.element_bytes, [&](auto size) {
+        std::uint8_t* const to = data.bytes.data();
+        for (std::size_t i = 0; i < sources.size(); ++i)
+            std::memcpy(to + i * size, old->data + sources[i] * old->stride, size);
+    });
+    if (accessor.sparse && !accessor.view) makeSparseWhereSmaller(data);
+    return data;
+}
+
+void renewBounds(ElementData& data) {
+    if (data.component != ComponentType::f32 || (data.min.is_null() && data.max.is_null())) return;
+    const std::size_t components = data.element_bytes / sizeof(float);
+    std::vector<double> low(components, std::numeric_limits<double>::infinity()), high(components, -low[0]);
+    bool is_finite = true;
+    for (std::size_t i = 0; i < data.bytes.size() / sizeof(float); ++i) {
+        const auto value = loadLittleEndian<float>(data.bytes.data() + i * sizeof(float));
+        is_finite = is_finite && std::isfinite(value);
+        low[i % components] = std::min<double>(low[i % components], value);
+        high[i % components] = std::max<double>(high[i % components], value);
+    }
+    if (!data.min.is_null()) data.min = is_finite ? Json(low) : Json();
+    if (!data.max.is_null()) data.max = is_finite ? Json(high) : Json();
+}
+
+}  // namespace tspace::gltf

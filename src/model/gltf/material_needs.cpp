@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: MIT
+// Finding what asks for tangents: normalTexture, KHR_materials_clearcoat, KHR_materials_anisotropy, each with its UV
+// set, KHR_texture_transform and image.
+#include "model/gltf/material_needs.h"
+
+#include <algorithm>
+#include <array>
+#include <set>
+#include <utility>
+
+#include "model/io/file_error.h"
+#include "model/gltf/packed_layout.h"
+#include "model/gltf/texture_reference.h"
+
+namespace tspace::gltf {
+
+namespace {
+
+bool isUnlit(const Json& material) { return findExtension(material, "KHR_materials_unlit") != nullptr; }
+
+/// Extensions of materials that are known to read no tangents, or whose reading of them is known. Any other may read
+/// them.
+bool isKnownExtension(const std::string& name) {
+    static const std::set<std::string> kKnown{"ASOBO_normal_map_convention",
+                                              "KHR_materials_unlit",
+                                              "KHR_materials_clearcoat",
+                                              "KHR_materials_anisotropy",
+                                              "KHR_materials_sheen",
+                                              "KHR_materials_transmission",
+                                              "KHR_materials_volume",
+                                              "KHR_materials_ior",
+                                              "KHR_materials_specular",
+                                              "KHR_materials_emissive_strength",
+                                              "KHR_materials_iridescence",
+                                              "KHR_materials_dispersion",
+                                              "KHR_materials_diffuse_transmission",
+                                              "KHR_materials_volume_scatter",
+                                              "KHR_materials_pbrSpecularGlossiness",
+                                              "KHR_materials_common",
+                                              "KHR_techniques_webgl",
+                                              "KHR_xmp",
+                                              "KHR_xmp_json_ld"};
+    return kKnown.count(name) != 0;
+}
+
+std::vector<std::string> extensionsOf(const Json& object) {
+    std::vector<std::string> names;
+    const Json* extensions = findMember(object, "extensions");
+    if (extensions == nullptr || !extensions->is_object()) return names;
+    for (const auto& [name, value] : extensions->items()) names.push_back(name);
+    return names;
+}
+
+/// Whether a name is about directions that somebody drew on a surface.
+bool namesFlow(std::string name) {
+    std::transform(name.begin(), name.end(), name.begin(),
+                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+    static constexpr std::array kWords{"tangent", "flow", "aniso", "hair", "brush"};
+    return std::any_of(kWords.begin(), kWords.end(), [&](const char* word) {
+        // Not what tspace itself calls so.
+        return name.find(word) != std::string::npos && name.find("bitangent") == std::string::npos;
+    });
+}
+
+/// Whether the extras of an object name such directions: by a member, or by the text of one.
+bool speaksOfFlow(const Json& object) {
+    const Json* extras = findMember(object, "extras");
+    if (extras == nullptr || !extras->is_object()) return false;
+    for (const auto& [name, value] : extras->items()) {
+        const bool is_off = value.is_null() || (value.is_boolean() && !value.get<bool>());
+        if (!is_off && (namesFlow(name) || (value.is_string() && namesFlow(value.get<std::string>())))) return true;
+    }
+    return false;
+}
+
+/// Microsoft Flight Simulator's models say of the file, in `asset`, or of a material whose convention normal maps follow.
+bool declaresGreenDown(const Json& object) {
+    const Json* extension = findExtension(object, "ASOBO_normal_map_convention");
+    const Json* convention =
+        extension == nullptr || !extension->is_object() ? nullptr : findMember(*extension, "tangent_space_convention");
+    return convention != nullptr && convention->is_string() && convention->text() == "DirectX";
+}
+
+/// Collects the uses of one material.
+class MaterialUses {
+  public:
+    MaterialUses(const Document& document, std::size_t material, bool only_in_variant, std::vector<TangentUse>& uses)
+        : document_(document),
+          material_(material),
+          only_in_variant_(only_in_variant),
+          uses_(uses),
+          first_(uses.size()) {}
+
+    void collect() {
+        const Json& material = rootArray(document_, "materials")[material_];
+        const std::string place = join("/materials", material_);
+        addTexture(material, place, "normalTexture", "normalTexture");
+        if (isUnlit(material)) {
+            // Malformed textures are refused as anywhere else.
+            uses_.resize(first_);
+            return;
+        }
+        const Json* extensions = readObject(material, "extensions", place);
+        if (extensions == nullptr) return;
+        const std::string extension_place = join(place, "extensions");
+        if (const Json* coat = readObject(*extensions, "KHR_materials_clearcoat", extension_place)) {
+            addTexture(*coat, join(extension_place, "KHR_materials_clearcoat"), "clearcoatNormalTexture",
+                       "clearcoatNormalTexture");
+        }
+        if (const Json* anisotropy = readObject(*extensions, "KHR_materials_anisotropy", extension_place)) {
+            addAnisotropy(*anisotropy, join(extension_place, "KHR_materials_anisotropy"));
+        }
+    }
+
+  private:
+    TangentUse& add(const char* needed_by, std::string place) {
+        TangentUse& use = uses_.emplace_back();
+        use.needed_by = needed_by;
+        use.place = std::move(place);
+        use.material = material_;
+        use.only_in_variant = only_in_variant_;
+        return use;
+    }
+
+    /// Returns false when there is no such texture.
+    bool addTexture(const Json& object, const std::string& place, const char* key, const char* needed_by) {
+        const Json* texture = readObject(object, key, place);
+        if (texture == nullptr) return false;
+        TangentUse& use = add(needed_by, join(place, key));
+        const TextureReading reading = readTexture(document_, *texture, use.place);
+        use.uv_set = reading.uv_set;
+        use.transform = reading.transform;
+        use.image = reading.image;
+        use.wrap_u = reading.wrap_u;
+        use.wrap_v = reading.wrap_v;
+        // What is no number counts for nothing, as in viewers: tangents do not depend on it.
+        if (const Json* scale = findMember(*texture, "scale"); scale != nullptr && scale->is_number())
+            use.scale = scale->get<double>();
+        use.is_declared_down = declaresGreenDown(rootArray(document_, "materials")[material_]);
+        if (const Json* asset = findMember(document_.json, "asset"); asset != nullptr && !use.is_declared_down)
+            use.is_declared_down = declaresGreenDown(*asset);
+        return true;
+    }
+
+    void addAnisotropy(const Json& anisotropy, const std::string& place) {
+        if (addTexture(anisotropy, place, "anisotropyTexture", "anisotropy")) return;
+        if (readNumber(anisotropy, "anisotropyStrength", place, 0) == 0) return;
+        TangentUse& use = add("anisotropy", place);
+        use.has_texture = false;
+        // Without a texture of its own it has no UVs of its own either: it turns with the material's other tangents.
+        if (uses_.size() - 1 == first_) return;
+        use.uv_set = uses_[first_].uv_set;
+        use.transform = uses_[first_].transform;
+    }
+
+    const Document& document_;
+    std::size_t material_;
+    bool only_in_variant_;
+    std::vector<TangentUse>& uses_;
+    std::size_t first_;  ///< where those of this material begin
+};
+
+}  // namespace
+
+std::vector<std::size_t> variantMaterials(const Document& document, const Primitive& primitive) {
+    std::vector<std::size_t> materials;
+    const Json& object = document.json["meshes"][primitive.mesh]["primitives"][primitive.index];
+    const Json* variants = findExtension(object, "KHR_materials_variants");
+    if (variants == nullptr) return materials;
+    const std::string place = primitive.place() + "/extensions/KHR_materials_variants";
+    const Json& mappings = readArray(*variants, "mappings", place);
+    std::set<std::size_t> seen;
+    const std::size_t count = rootArray(document, "materials").size();
+    for (std::size_t i = 0; i < mappings.size(); ++i) {
+        // Exporters leave mappings to materials that they dropped. Viewers then keep the primitive's own material.
+        const std::uint64_t material = readWhole(mappings[i], "material", join(place + "/mappings", i), count);
+        if (material >= count) continue;
+        const auto index = static_cast<std::size_t>(material);
+        if (seen.insert(index).second) materials.push_back(index);
+    }
+    return materials;
+}
+
+std::vector<TangentUse> tangentUses(const Document& document, const Primitive& primitive) {
+    std::vector<TangentUse> uses;
+    if (primitive.material) MaterialUses(document, *primitive.material, false, uses).collect();
+    for (const std::size_t material : variantMaterials(document, primitive)) {
+        if (material != primitive.material) MaterialUses(document, material, true, uses).collect();
+    }
+    // Textures decide where tangents point; a factor goes with them.
+    const auto texture = std::find_if(uses.begin(), uses.end(), [](const TangentUse& use) { return use.has_texture; });
+    if (texture == uses.end()) return uses;
+    for (auto use = uses.begin(); use != texture; ++use) {
+        use->uv_set = texture->uv_set;
+        use->transform = texture->transform;
+    }
+    return uses;
+}
+
+std::string otherTangentReader(const Document& document, const Primitive& primitive) {
+    std::vector<std::size_t> materials = variantMaterials(document, primitive);
+    if (primitive.material) materials.insert(materials.begin(), *primitive.material);
+    for (const std::size_t material : materials) {
+        const Json& object = rootArray(document, "materials")[material];
+        for (const std::string& name : extensionsOf(object)) {
+            if (!isKnownExtension(name)) return "the material extension " + name;
+        }
+        if (speaksOfFlow(object)) return "extras of the material";
+    }
+    const Json& mesh = document.json["meshes"][primitive.mesh];
+    const Json& object = mesh["primitives"][primitive.index];
+    if (speaksOfFlow(object)) return "extras of the primitive";
+    if (speaksOfFlow(mesh)) return "extras of the mesh";
+    for (const auto& [name, accessor] : primitive.attributes) {
+        if (name[0] == '_' && !isPackedAttribute(name) && namesFlow(name)) return "the attribute " + name;
+    }
+    for (const std::string& name : extensionsOf(object)) {
+        if (namesFlow(name)) return "the extension " + name;
+    }
+    return {};
+}
+
+SurfaceKind surfaceKind(const Document& document, const Primitive& primitive) {
+    std::vector<std::size_t> materials = variantMaterials(document, primitive);
+    if (primitive.material) materials.push_back(*primitive.material);
+    const Json& list = rootArray(document, "materials");
+    const auto all = [&](auto&& test) {
+        return !materials.empty() && std::all_of(materials.begin(), materials.end(),
+                                                 [&](std::size_t material) { return test(list[material]); });
+    };
+    return {.is_unlit = all(isUnlit), .is_double_sided = all([](const Json& material) {
+                                          const Json* value = findMember(material, "doubleSided");
+                                          return value != nullptr && value->is_boolean() && value->get<bool>();
+                                      })};
+}
+
+std::string materialName(const Document& document, const Primitive& primitive) {
+    if (!primitive.material) return {};
+    return readString(rootArray(document, "materials")[*primitive.material], "name",
+                      join("/materials", *primitive.material));
+}
+
+}  // namespace tspace::gltf

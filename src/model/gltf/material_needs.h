@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+// Which textures and parameters of a primitive's materials are shaded in tangent space.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "model/gltf/document.h"
+#include "model/gltf/primitive_reader.h"
+#include "model/scene/tangent_use.h"
+
+namespace tspace::gltf {
+
+/// Everything in the primitive's materials that needs tangents; empty: nothing does. Unlit materials
+/// (KHR_materials_unlit) need none, whatever textures they name. The first with a
+/// texture decides which UV set and transform the tangents follow.
+///
+/// The primitive's own material comes first, then those of KHR_materials_variants in the order of the mappings, each
+/// material once. Of one material: normalTexture, clearcoatNormalTexture (KHR_materials_clearcoat), anisotropy
+/// (KHR_materials_anisotropy: a texture, or only a strength that is not 0; that has the UVs of the material's first
+/// use, those of the first texture where it is the first of all, and `place` is that of the extension). An image is named where the texture
+/// leads to one. Fails with invalidFile.
+std::vector<TangentUse> tangentUses(const Document& document, const Primitive& primitive);
+
+/// What may read the primitive's tangents beside the uses above, or says that somebody made them, for a person: an
+/// extension of a material that is not known here, or an attribute, extension or entry of `extras` that speaks of
+/// tangents, flow, hair and the like. Empty: nothing.
+std::string otherTangentReader(const Document& document, const Primitive& primitive);
+
+/// The materials that KHR_materials_variants can put on the primitive, in the order of the mappings, each once.
+std::vector<std::size_t> variantMaterials(const Document& document, const Primitive& primitive);
+
+/// What all materials of a primitive, its own and those of variants, have in common. Without any: those of the default
+/// material.
+struct SurfaceKind {
+    bool is_unlit = false;         ///< KHR_materials_unlit: neither normals nor normal maps are looked at
+    bool is_double_sided = false;  ///< back faces are drawn, with their normals turned round
+};
+SurfaceKind surfaceKind(const Document& document, const Primitive& primitive);
+
+/// The name of the primitive's material, may be empty.
+std::string materialName(const Document& document, const Primitive& primitive);
+
+}  // namespace tspace::gltf

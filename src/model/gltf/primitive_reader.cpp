@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: MIT
+// Reading primitives: attributes, indices, and triangles out of lists, strips and fans.
+#include "model/gltf/primitive_reader.h"
+
+#include <algorithm>
+#include <bit>
+
+#include "model/io/file_error.h"
+#include "model/gltf/packed_layout.h"
+
+namespace tspace::gltf {
+
+namespace {
+
+AttributeList readAttributes(const Json& object, const std::string& place, std::size_t accessor_count) {
+    // Looking up an attribute is a linear search, done for each of them.
+    constexpr std::size_t kMaxAttributes = 1000;
+    if (object.size() > kMaxAttributes)
+        failFile(ErrorCode::unsupportedFile, "more than 1000 attributes are not supported", place);
+    AttributeList list;
+    for (const auto& [name, value] : object.items()) {
+        list.emplace_back(name, toIndex(value, join(place, name), accessor_count, "accessor"));
+    }
+    return list;
+}
+
+/// Every attribute of a primitive and of its morph targets has one element per vertex.
+void checkCounts(const Document& document, const AttributeList& list, std::size_t vertex_count,
+                 const std::string& place) {
+    for (const auto& [name, index] : list) {
+        const std::size_t count = readAccessor(document, index).count;
+        if (count != vertex_count) {
+            failFile(ErrorCode::invalidFile,
+                     "the attribute has " + std::to_string(count) + " elements, but the primitive has " +
+                         std::to_string(vertex_count) + " vertices",
+                     join(place, name));
+        }
+    }
+}
+
+/// Packed frames of another length are no reason to refuse a file: they can be made anew.
+void setMiscountedApart(const Document& document, Primitive& primitive) {
+    const auto is_good = [&](const auto& entry) {
+        return !isPackedAttribute(entry.first) || readAccessor(document, entry.second).count == primitive.vertex_count;
+    };
+    AttributeList& list = primitive.attributes;
+    const auto bad = std::stable_partition(list.begin(), list.end(), is_good);
+    primitive.miscounted.assign(bad, list.end());
+    list.erase(bad, list.end());
+}
+
+/// Empty: the accessor can hold tangents (`is_base`), or what a morph target adds to them.
+std::string whyUnreadable(const Accessor& accessor, bool is_base, std::size_t vertex_count) {
+    const std::size_t wanted = is_base ? 4 : 3;
+    if (accessor.type != "VEC" + std::to_string(wanted))
+        return "they do not have " + std::to_string(wanted) + " components";
+    const bool is_signed = accessor.component == ComponentType::i8 || accessor.component == ComponentType::i16;
+    if (accessor.component != ComponentType::f32 && !(is_signed && (accessor.normalized || !is_base)))
+        return "they are " + formatName(accessor) + ", and must be floats or normalised signed integers";
+    if (accessor.count == vertex_count) return {};
+    return "there are " + std::to_string(accessor.count) + " of them for " + std::to_string(vertex_count) + " vertices";
+}
+
+/// A TANGENT that cannot be one is no reason to refuse a file either.
+void setUnreadableApart(const Document& document, Primitive& primitive) {
+    const auto setApart = [&](AttributeList& list, std::ptrdiff_t target) {
+        const auto entry =
+            std::find_if(list.begin(), list.end(), [](const auto& attribute) { return attribute.first == "TANGENT"; });
+        if (entry == list.end()) return;
+        std::string why = whyUnreadable(readAccessor(document, entry->second), target < 0, primitive.vertex_count);
+        if (why.empty()) return;
+        primitive.unreadable_tangents.push_back({target, entry->second, std::move(why)});
+        list.erase(entry);
+    };
+    setApart(primitive.attributes, -1);
+    for (std::size_t i = 0; i < primitive.targets.size(); ++i)
+        setApart(primitive.targets[i], static_cast<std::ptrdiff_t>(i));
+}
+
+std::size_t trianglesOf(Mode mode, std::size_t corners) {
+    if (mode == Mode::triangles) return corners / 3;
+    return hasTriangles(mode) && corners >= 3 ? corners - 2 : 0;
+}
+
+Primitive readPrimitive(const Document& document, const Json& object, std::uint32_t mesh, std::uint32_t index) {
+    Primitive primitive;
+    primitive.mesh = mesh;
+    primitive.index = index;
+    const std::string place = primitive.place();
+    const std::size_t accessor_count = rootArray(document, "accessors").size();
+    const std::uint64_t mode = readWhole(object, "mode", place, static_cast<std::uint64_t>(Mode::triangles));
+    if (mode > static_cast<std::uint64_t>(Mode::triangleFan)) {
+        failFile(ErrorCode::invalidFile, "the mode " + std::to_string(mode) + " does not exist", join(place, "mode"));
+    }
+    primitive.mode = static_cast<Mode>(mode);
+    primitive.indices = readIndex(object, "indices", place, accessor_count, "accessor");
+    primitive.material = readIndex(object, "material", place, rootArray(document, "materials").size(), "material");
+    const Json* attributes = readObject(object, "attributes", place);
+    if (attributes == nullptr) failFile(ErrorCode::invalidFile, "the member 'attributes' is missing", place);
+    primitive.attributes = readAttributes(*attributes, join(place, "attributes"), accessor_count);
+    const Json& targets = readArray(object, "targets", place);
+    for (std::size_t i = 0; i < targets.size(); ++i) {
+        primitive.targets.push_back(readAttributes(targets[i], join(join(place, "targets"), i), accessor_count));
+    }
+    if (!primitive.attributes.empty()) {
+        const auto position = primitive.find("POSITION");
+        primitive.vertex_count = readAccessor(document, position.value_or(primitive.attributes[0].second)).count;
+    }
+    setMiscountedApart(document, primitive);
+    setUnreadableApart(document, primitive);
+    checkCounts(document, primitive.attributes, primitive.vertex_count, join(place, "attributes"));
+    for (std::size_t i = 0; i < primitive.targets.size(); ++i) {
+        checkCounts(document, primitive.targets[i], primitive.vertex_count, join(join(place, "targets"), i));
+    }
+    primitive.corner_count =
+        primitive.indices ? readAccessor(document, *primitive.indices).count : primitive.vertex_count;
+    return primitive;
+}
+
+/// What a primitive costs beside its arrays: its lists, its report and its findings.
+void takePrimitive(const Document& document, const Json& object, std::size_t mesh, std::size_t index) {
+    constexpr std::size_t kPrimitiveBytes = 1500, kTargetBytes = 100;
+    const Json* targets = findMember(object, "targets");
+    const std::size_t count = targets != nullptr && targets->is_array() ? targets->size() : 0;
+    document.memory->take(kPrimitiveBytes + count * kTargetBytes, join(join("/meshes", mesh) + "/primitives", index));
+}
+
+Accessor attributeAccessor(const Document& document, const Primitive& primitive, const std::string& name) {
+    const auto index = primitive.find(name);
+    if (!index)
+        failFile(ErrorCode::invalidFile, "the attribute " + name + " is missing",
+                 join(primitive.place(), "attributes"));
+    return readAccessor(document, *index);
+}
+
+template <class Vec>
+std::optional<StridedSpan<const Vec>> viewVectors(const Document& document, const Accessor& accessor) {
+    // They are turned while they are copied.
+    if constexpr (std::endian::native != std::endian::little) return {};
+    const bool is_float = accessor.component == ComponentType::f32 && accessor.type[0] == 'V';
+    if (!is_float || accessor.element_bytes != sizeof(Vec)) return {};
+    const std::optional<ElementView> elements = viewElements(document, accessor);
+    // A file may put floats anywhere.
+    if (!elements || reinterpret_cast<std::uintptr_t>(elements->data) % alignof(Vec) != 0) return {};
+    if (elements->stride % alignof(Vec) != 0) return {};
+    return StridedSpan<const Vec>(reinterpret_cast<const Vec*>(elements->data), accessor.count, elements->stride);
+}
+
+std::string attributePlace(const Primitive& primitive, const std::string& name) {
+    return join(join(primitive.place(), "attributes"), name);
+}
+
+}  // namespace
+
+const char* modeName(Mode mode) {
+    switch (mode) {
+        case Mode::points:
+            return "points";
+        case Mode::lines:
+            return "lines";
+        case Mode::lineLoop:
+            return "line loop";
+        case Mode::lineStrip:
+            return "line strip";
+        case Mode::triangles:
+            return "triangles";
+        case Mode::triangleStrip:
+            return "triangle strip";
+        case Mode::triangleFan:
+            return "triangle fan";
+    }
+    return "";
+}
+
+std::optional<std::size_t> findAttribute(const AttributeList& list, const std::string& name) {
+    for (const auto& [key, accessor] : list) {
+        if (key == name) return accessor;
+    }
+    return {};
+}
+
+std::size_t Primitive::triangleCount() const { return trianglesOf(mode, corner_count); }
+
+std::vector<Primitive> readPrimitives(const Document& document) {
+    std::vector<Primitive> primitives;
+    const Json& meshes = rootArray(document, "meshes");
+    for (std::size_t mesh = 0; mesh < meshes.size(); ++mesh) {
+        const std::string place = join("/meshes", mesh);
+        const std::string name = readString(meshes[mesh], "name", place);
+        const Json& list = readArray(meshes[mesh], "primitives", place);
+        for (std::size_t index = 0; index < list.size(); ++index) {
+            takePrimitive(document, list[index], mesh, index);
+            primitives.push_back(readPrimitive(document, list[index], static_cast<std::uint32_t>(mesh),
+                                               static_cast<std::uint32_t>(index)));
+            primitives.back().mesh_name = name;
+        }
+    }
+    return primitives;
+}
+
+std::vector<std::uint32_t> readTriangleCorners(const Document& document, const Primitive& primitive) {
+    std::vector<std::uint32_t> list;
+    if (primitive.indices) {
+        list = decodeIndices(document, readAccessor(document, *primitive.indices), primitive.vertex_count,
+                             join(primitive.place(), "indices"));
+    } else {
+        list.resize(primitive.vertex_count);
+        for (std::size_t i = 0; i < list.size(); ++i) list[i] = static_cast<std::uint32_t>(i);
+    }
+    const std::size_t triangles = primitive.triangleCount();
+    if (primitive.mode == Mode::triangles) {
+        list.resize(triangles * 3);
+        return list;
+    }
+    std::vector<std::uint32_t> corners;
+    corners.reserve(triangles * 3);
+    for (std::size_t i = 0; i < triangles; ++i) {
+        if (primitive.mode == Mode::triangleFan) {
+            corners.insert(corners.end(), {list[i + 1], list[i + 2], list[0]});
+        } else {
+            // Every second triangle of a strip runs the other way.
+            corners.insert(corners.end(), {list[i], list[i + 1 + i % 2], list[i + 2 - i % 2]});
+        }
+    }
+    return corners;
+}
+
+std::vector<Vec2> readUvs(const Document& document, const Primitive& primitive, std::size_t uv_set) {
+    const std::string name = "TEXCOORD_" + std::to_string(uv_set);
+    return decodeVec2(document, attributeAccessor(document, primitive, name), attributePlace(primitive, name));
+}
+
+std::vector<Vec3> readVec3(const Document& document, const Primitive& primitive, const char* attribute) {
+    return decodeVec3(document, attributeAccessor(document, primitive, attribute),
+                      attributePlace(primitive, attribute));
+}
+
+std::optional<StridedSpan<const Vec2>> lendUvs(const Document& document, const Primitive& primitive,
+                                               std::size_t uv_set) {
+    return viewVectors<Vec2>(document, attributeAccessor(document, primitive, "TEXCOORD_" + std::to_string(uv_set)));
+}
+
+std::optional<StridedSpan<const Vec3>> lendVec3(const Document& document, const Primitive& primitive,
+                                                const char* attribute) {
+    return viewVectors<Vec3>(document, attributeAccessor(document, primitive, attribute));
+}
+
+std::vector<Vec4> readTangents(const Document& document, const Primitive& primitive) {
+    return decodeVec4(document, attributeAccessor(document, primitive, "TANGENT"),
+                      attributePlace(primitive, "TANGENT"));
+}
+
+std::vector<Vec3> readOffsets(const Document& document, const Primitive& primitive, std::size_t target,
+                              const char* attribute) {
+    const auto index = findAttribute(primitive.targets[target], attribute);
+    if (!index) return {};
+    const std::string place = join(join(join(primitive.place(), "targets"), target), attribute);
+    return decodeVec3(document, readAccessor(document, *index), place);
+}
+
+}  // namespace tspace::gltf

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+// The primitives of a glTF file: what they consist of, and their geometry as triangles.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "model/gltf/accessor.h"
+#include "model/gltf/document.h"
+#include "tspace/span.h"
+
+namespace tspace::gltf {
+
+enum class Mode : std::uint32_t {
+    points = 0,
+    lines = 1,
+    lineLoop = 2,
+    lineStrip = 3,
+    triangles = 4,
+    triangleStrip = 5,
+    triangleFan = 6
+};
+
+/// "triangle strip", for people.
+const char* modeName(Mode mode);
+
+inline bool hasTriangles(Mode mode) { return mode >= Mode::triangles; }
+
+/// Attribute name -> accessor, in the order of the file.
+using AttributeList = std::vector<std::pair<std::string, std::size_t>>;
+
+std::optional<std::size_t> findAttribute(const AttributeList& list, const std::string& name);
+
+/// Whether a morph target can change frames.
+inline bool movesFrames(const AttributeList& target) {
+    return findAttribute(target, "POSITION").has_value() || findAttribute(target, "NORMAL").has_value();
+}
+
+/// A TANGENT that no reader can take for one.
+struct UnreadableTangents {
+    std::ptrdiff_t target = -1;  ///< of which morph target; -1: the primitive's own
+    std::size_t accessor = 0;
+    std::string why = {};  ///< "they do not have 4 components"
+};
+
+struct Primitive {
+    std::uint32_t mesh = 0;
+    std::uint32_t index = 0;  ///< in its mesh
+    std::string mesh_name = {};
+    Mode mode = Mode::triangles;
+    std::optional<std::size_t> indices = {};  ///< accessor
+    std::optional<std::size_t> material = {};
+    AttributeList attributes = {};
+    std::vector<AttributeList> targets = {};
+    /// Attributes of packed frames that have not one element per vertex; not among `attributes`.
+    AttributeList miscounted = {};
+    /// Neither among `attributes` nor in `targets`: they count as missing.
+    std::vector<UnreadableTangents> unreadable_tangents = {};
+    std::size_t vertex_count = 0;
+    std::size_t corner_count = 0;  ///< entries of the index list, or vertices
+
+    /// JSON pointer.
+    [[nodiscard]] std::string place() const {
+        return "/meshes/" + std::to_string(mesh) + "/primitives/" + std::to_string(index);
+    }
+    /// The accessor of an attribute, if there.
+    [[nodiscard]] std::optional<std::size_t> find(const std::string& name) const {
+        return findAttribute(attributes, name);
+    }
+    [[nodiscard]] std::size_t triangleCount() const;
+};
+
+/// All primitives in file order. Checks that attributes exist and agree in length, but for `miscounted` and tangents.
+std::vector<Primitive> readPrimitives(const Document& document);
+
+/// Three vertices per triangle in file order; strips and fans as the specification cuts them. Incomplete
+/// triangles at the end are left out. Every index is checked.
+std::vector<std::uint32_t> readTriangleCorners(const Document& document, const Primitive& primitive);
+
+/// One attribute as floats. The attribute must be there.
+std::vector<Vec2> readUvs(const Document& document, const Primitive& primitive, std::size_t uv_set);
+std::vector<Vec3> readVec3(const Document& document, const Primitive& primitive, const char* attribute);
+std::vector<Vec4> readTangents(const Document& document, const Primitive& primitive);
+/// The same without a copy: nothing where elements are no plain floats one stride apart. Valid while the document's
+/// bytes stay where they are and as they are.
+std::optional<StridedSpan<const Vec2>> lendUvs(const Document& document, const Primitive& primitive,
+                                               std::size_t uv_set);
+std::optional<StridedSpan<const Vec3>> lendVec3(const Document& document, const Primitive& primitive,
+                                                const char* attribute);
+/// Offsets of morph target `target`; empty where it does not move the attribute.
+std::vector<Vec3> readOffsets(const Document& document, const Primitive& primitive, std::size_t target,
+                              const char* attribute);
+
+}  // namespace tspace::gltf

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+// Which files another program reads, what it may take for that, and its result as a document.
+#include "model/imported/import_document.h"
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <locale>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "model/io/file_error.h"
+#include "model/io/file_io.h"
+#include "model/imported/import_process.h"
+
+namespace tspace {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// What Assimp 5 reads, but for OBJ and glTF, which tspace reads itself, and for formats without meshes or with parsers
+/// that nobody maintains.
+constexpr std::array kExtensions = {".3d",  ".3ds",     ".3mf", ".ac",   ".ase", ".b3d", ".blend", ".cob",
+                                    ".dae", ".dxf",     ".fbx", ".hmp",  ".iqm", ".lwo", ".lws",   ".md2",
+                                    ".md3", ".md5mesh", ".mdl", ".ms3d", ".ndo", ".nff", ".off",   ".ply",
+                                    ".q3o", ".q3s",     ".smd", ".stl",  ".ter", ".x",   ".xgl",   ".zgl"};
+
+/// Said by the importer: where it gives no tangents, the file has none.
+constexpr std::string_view kNoTangents = "tangents: none\n";
+
+/// Fit to stand in a message.
+std::string firstLine(const std::string& messages) {
+    constexpr std::size_t kMostBytes = 300;
+    const std::string quoted = inQuotes(messages.substr(0, messages.find('\n')), kMostBytes);
+    return quoted.substr(1, quoted.size() - 2);
+}
+
+/// What the importer says of a file that it could read: its lines that begin with "warning: ".
+std::vector<std::string> warningsIn(const std::string& messages) {
+    constexpr std::string_view kMark = "warning: ";
+    std::vector<std::string> warnings;
+    std::istringstream lines(messages);
+    for (std::string line; std::getline(lines, line);) {
+        if (line.starts_with(kMark)) warnings.push_back(firstLine(line.substr(kMark.size())));
+    }
+    return warnings;
+}
+
+/// What the importer took out of the coordinates: three numbers in its line that begins with "offset: ".
+std::array<double, 3> offsetIn(const std::string& messages) {
+    constexpr std::string_view kMark = "offset: ";
+    std::array<double, 3> offset{};
+    std::istringstream lines(messages);
+    for (std::string line; std::getline(lines, line);) {
+        if (!line.starts_with(kMark)) continue;
+        std::istringstream numbers(line.substr(kMark.size()));
+        numbers.imbue(std::locale::classic());
+        for (double& number : offset) numbers >> number;
+    }
+    return offset;
+}
+
+/// What a file of this size may take. A small one has no use for much; one that claims much is stopped early.
+ImportLimits limitsFor(std::uint64_t size, const FileOptions& options) {
+    constexpr std::uint64_t kMebibyte = std::uint64_t{1} << 20;
+    constexpr std::uint64_t kAnyFile = 192 * kMebibyte, kPerByte = 256;
+    // Assimp reads 20 to 130 MB in a second, and a machine may be a good deal slower than the one of these figures.
+    constexpr std::uint32_t kLeastSeconds = 2;
+    const auto seconds = kLeastSeconds + static_cast<std::uint32_t>(size / kMebibyte);
+    ImportLimits limits;
+    limits.memory_bytes = options.memory_limit_bytes != 0
+                              ? options.memory_limit_bytes
+                              : std::min(options.import_max_memory_bytes, kAnyFile + kPerByte * size);
+    limits.processor_seconds = options.import_max_seconds != 0 ? options.import_max_seconds : seconds;
+    limits.reads_anywhere = options.allow_external;
+    // Others may want the processors too.
+    limits.seconds = options.import_max_seconds != 0 ? options.import_max_seconds : 2 * seconds;
+    return limits;
+}
+
+/// Fails where there is no result, and says why.
+void checkEnd(const ImportResult& result, const ImportLimits& limits) {
+    std::string why;
+    switch (result.end) {
+        case ImportEnd::done:
+            return;
+        case ImportEnd::outOfTime:
+            why = "the importer was stopped after " + std::to_string(limits.processor_seconds) +
+                  " s (--import-seconds allows more)";
+            break;
+        case ImportEnd::outOfSpace:
+            why = "the importer was stopped because its result grew without end";
+            break;
+        case ImportEnd::crashed:
+            why = "the importer crashed on this file";
+            break;
+        case ImportEnd::refused:
+            why = firstLine(result.messages);
+            if (why.empty()) why = "the importer cannot read it";
+            break;
+    }
+    failFile(ErrorCode::invalidFile, why);
+}
+
+}  // namespace
+
+bool isImportedFormat(const Path& path) {
+    const std::string extension = lowerExtension(path);
+    return std::find(kExtensions.begin(), kExtensions.end(), extension) != kExtensions.end();
+}
+
+gltf::Document importDocument(const Path& path, const FileOptions& options, const Progress& progress) {
+    if (options.importer.empty()) {
+        failFile(ErrorCode::unsupportedFile, "reading " + lowerExtension(path) +
+                                                 " files needs tspace-import, which is not there (see docs/import.md)");
+    }
+    std::error_code error;
+    const std::uintmax_t size = fs::file_size(fs::path(path), error);
+    if (error || !fs::is_regular_file(fs::path(path), error)) readFile(path);  // fails, and says why
+    if (size > options.import_max_file_bytes) {
+        failFile(ErrorCode::unsupportedFile, "the file is larger than the importer's limit of " +
+                                                 std::to_string(options.import_max_file_bytes >> 20) + " MiB");
+    }
+    const ImportLimits limits = limitsFor(size, options);
+    ImportResult result = runImporter(options.importer, Path(fs::absolute(fs::path(path))).string(),
+                                      options.keep_coordinates, limits, [&progress] {
+                                          if (progress) progress("reading", 0, 1);
+                                      });
+    checkEnd(result, limits);
+    gltf::Document document = gltf::parseDocument(std::move(result.glb), path, options);
+    document.input_bytes = static_cast<std::uint64_t>(size);
+    // What will be written is made by this program.
+    document.source_generator = gltf::generatorOf(document);
+    document.imported = true;
+    document.json["asset"]["generator"] = "tspace";
+    document.may_hide_tangents = result.messages.find(kNoTangents) == std::string::npos;
+    document.coordinate_offset = offsetIn(result.messages);
+    for (std::string& warning : warningsIn(result.messages)) document.warnings.push_back(std::move(warning));
+    return document;
+}
+
+}  // namespace tspace

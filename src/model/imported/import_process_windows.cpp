@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+// tspace-import limits itself by means that Windows does not have.
+#include "model/io/file_error.h"
+#include "model/imported/import_process.h"
+
+namespace tspace {
+
+ImportResult runImporter(const std::string& program, const std::string&, bool, const ImportLimits&,
+                         const std::function<void()>&) {
+    failFile(ErrorCode::unsupportedFile,
+             "the importer " + pathInQuotes(program) + " is not used on Windows: only glTF and OBJ are read there");
+}
+
+}  // namespace tspace

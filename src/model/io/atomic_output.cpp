@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+// Pieces of outputs one after the other, and what is known of outputs wherever they go.
+#include "model/io/atomic_output.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+
+#include "model/io/file_error.h"
+#include "core/base/parallel.h"
+
+namespace tspace {
+
+namespace {
+
+/// What is written at one time: bytes that are there, and a block of bytes that were made.
+class Batch {
+  public:
+    [[nodiscard]] bool empty() const { return parts_.empty(); }
+
+    /// Takes from the pieces from `piece` and `offset` on, which go on to what is next.
+    void fill(std::span<const OutputPiece> pieces, std::size_t& piece, std::size_t& offset) {
+        parts_.clear();
+        std::size_t used = 0, taken = 0;
+        while (piece < pieces.size() && taken < kMostBytes) {
+            const OutputPiece& from = pieces[piece];
+            std::size_t count = from.size() - offset;
+            if (!from.isThere() && count != 0) {
+                if (block_.empty()) block_.resize(kBlockBytes);
+                count = std::min(count, block_.size() - used);
+                if (count == 0) break;
+                const auto made = std::span(block_).subspan(used, count);
+                from.maker->make(offset, made);
+                parts_.emplace_back(made);
+                used += count;
+            } else if (count != 0) {
+                parts_.push_back(from.bytes);
+            }
+            taken += count;
+            offset += count;
+            if (offset == from.size()) {
+                ++piece;
+                offset = 0;
+            }
+        }
+    }
+    [[nodiscard]] bool write(const Sink& sink) const { return std::all_of(parts_.begin(), parts_.end(), sink); }
+
+  private:
+    static constexpr std::size_t kBlockBytes = std::size_t{1} << 19;  // stays in the second cache
+    static constexpr std::size_t kMostBytes = 4 * kBlockBytes;
+    std::vector<std::span<const std::uint8_t>> parts_;
+    Bytes block_;
+};
+
+/// Returns 0, or errno.
+int writePieces(const Sink& sink, std::span<const OutputPiece> pieces, Parallel& parallel) {
+    Batch batches[2];
+    std::size_t piece = 0, offset = 0;
+    int error = 0;
+    batches[0].fill(pieces, piece, offset);
+    for (std::size_t current = 0; error == 0 && !batches[current].empty(); current ^= 1) {
+        // The other one is filled even where nothing is left: then it is empty. What a caller's sink throws comes out.
+        parallel.forTasks(2, [&](std::size_t task) {
+            if (task == 1) return batches[current ^ 1].fill(pieces, piece, offset);
+            errno = 0;
+            if (!batches[current].write(sink)) error = errno != 0 ? errno : EIO;
+        });
+    }
+    return error;
+}
+
+}  // namespace
+
+void AtomicOutput::failToWrite(const Path& target, const std::string& why) {
+    failFile(ErrorCode::cannotWrite, "cannot write " + pathInQuotes(target) + ": " + why);
+}
+
+AtomicOutput::~AtomicOutput() {
+    if (!committed_) removeTemporaryFiles();
+}
+
+void AtomicOutput::add(const Path& requested_path, std::span<const OutputPiece> pieces, const Execution& execution) {
+    for (const OutputPiece& piece : pieces) byte_count_ += piece.size();
+    const bool any_made = std::any_of(pieces.begin(), pieces.end(), [](const OutputPiece& p) { return !p.isThere(); });
+    Parallel parallel(any_made ? execution : Execution{.thread_count = 1});
+    if (way_.sink) {
+        files_.push_back({requested_path});
+        const int failure = way_.is_dry_run ? 0 : writePieces(way_.sink, pieces, parallel);
+        if (failure != 0) failToWrite(requested_path, std::strerror(failure));
+        return;
+    }
+    File planned = planFile(requested_path);
+    if (way_.is_dry_run) {
+        planned.target = requested_path;
+        files_.push_back(std::move(planned));
+        return;
+    }
+    addFile(std::move(planned), [&](const Sink& to_file) { return writePieces(to_file, pieces, parallel); });
+}
+
+void AtomicOutput::commit() {
+    if (!way_.sink && !way_.is_dry_run) renameFiles();
+    committed_ = true;
+}
+
+void AtomicOutput::addSource(const Path& source) {
+    if (std::find(sources_.begin(), sources_.end(), source.string()) == sources_.end()) {
+        sources_.push_back(source.string());
+    }
+}
+
+std::vector<std::string> AtomicOutput::files() const {
+    std::vector<std::string> names;
+    for (const File& file : files_) names.push_back(file.target.string());
+    return names;
+}
+
+}  // namespace tspace

@@ -1,0 +1,344 @@
+// SPDX-License-Identifier: MIT
+// Temporary files beside their targets, renamed together at the end.
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <map>
+
+#include "model/io/atomic_output.h"
+#include "model/io/file_error.h"
+#include "model/io/file_io.h"
+#include "model/io/system_files.h"
+#include "model/io/temporary_files.h"
+#include "model/io/temporary_name.h"
+
+namespace tspace {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+int writeTo(std::FILE* file, std::span<const std::uint8_t> bytes) {
+    errno = 0;
+    return std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size() ? 0 : errno != 0 ? errno : EIO;
+}
+
+int writeStream(const Path& path, std::span<const std::uint8_t> bytes) {
+    CFile stream = openFile(path, "wb");
+    if (!stream) return errno;
+    const int failure = writeTo(stream.get(), bytes);
+    return std::fclose(stream.release()) == 0 || failure != 0 ? failure : errno;
+}
+
+/// Identities of files that outputs must not replace, by whoever keeps them.
+struct KeptIdentities {
+    std::mutex mutex = {};
+    std::multiset<std::string> identities = {};
+};
+
+KeptIdentities& keptIdentities() {
+    static KeptIdentities kept;
+    return kept;
+}
+
+bool isKept(const std::string& identity) {
+    KeptIdentities& kept = keptIdentities();
+    const std::lock_guard lock(kept.mutex);
+    return kept.identities.contains(identity);
+}
+
+/// What calls of one run did to files, by their paths without links.
+struct RunFile {
+    std::set<std::uint64_t> readers = {};
+    std::uint64_t owner = 0;  ///< the call that wrote or left it
+    bool is_written = false;
+};
+
+struct RunFiles {
+    std::mutex mutex = {};
+    bool is_run = false;
+    std::map<std::string, RunFile> files = {};
+};
+
+RunFiles& runFiles() {
+    static RunFiles files;
+    return files;
+}
+
+std::string runName(const Path& path) {
+    std::error_code error;
+    const fs::path name = fs::weakly_canonical(fs::absolute(fs::path(path), error), error);
+    return name.empty() ? path.string() : Path(name).string();
+}
+
+/// Calls work(file) where there is a run.
+template <class Work>
+void inRun(const Path& path, const Work& work) {
+    RunFiles& run = runFiles();
+    const std::lock_guard lock(run.mutex);
+    if (run.is_run) work(run.files[runName(path)]);
+}
+
+/// A thread that works on another model may bring a file of the same name: looking whether it is there and renaming are
+/// one step.
+std::mutex& renaming() {
+    static std::mutex mutex;
+    return mutex;
+}
+
+bool hasBytes(const Path& path, std::span<const std::uint8_t> bytes) {
+    std::error_code error;
+    if (kindOf(path) != PathKind::file || fs::file_size(fs::path(path), error) != bytes.size()) return false;
+    const Bytes found = readFile(path);
+    return std::equal(found.begin(), found.end(), bytes.begin(), bytes.end());
+}
+
+}  // namespace
+
+OneRun::OneRun() {
+    const std::lock_guard lock(runFiles().mutex);
+    runFiles().is_run = true;
+}
+
+OneRun::~OneRun() {
+    const std::lock_guard lock(runFiles().mutex);
+    runFiles().is_run = false;
+    runFiles().files.clear();
+}
+
+KeptFiles::KeptFiles(const std::vector<std::string>& paths) {
+    for (const std::string& path : paths) {
+        if (!path.empty() && path != "-") identities_.push_back(identityOf(path));
+    }
+    KeptIdentities& kept = keptIdentities();
+    const std::lock_guard lock(kept.mutex);
+    kept.identities.insert(identities_.begin(), identities_.end());
+}
+
+KeptFiles::~KeptFiles() {
+    KeptIdentities& kept = keptIdentities();
+    const std::lock_guard lock(kept.mutex);
+    for (const std::string& identity : identities_) kept.identities.erase(kept.identities.find(identity));
+}
+
+InputFiles::InputFiles() {
+    static std::atomic<std::uint64_t> last = 0;
+    call_ = ++last;
+}
+
+void InputFiles::add(const Path& path) {
+    inRun(path, [&](RunFile& file) {
+        if (file.is_written && file.owner != call_)
+            failFile(ErrorCode::cannotRead,
+                     "cannot read " + pathInQuotes(path) + ": this run has written it for another model");
+        file.readers.insert(call_);
+    });
+    std::string identity = identityOf(path);
+    const std::lock_guard lock(mutex_);
+    identities_.insert(std::move(identity));
+}
+
+void InputFiles::watch(FileOptions& options) {
+    options.opened = [this, told = options.opened](const std::string& path) {
+        add(path);
+        if (told) told(path);
+    };
+}
+
+bool InputFiles::has(const Path& path) const {
+    const std::string identity = identityOf(path);
+    const std::lock_guard lock(mutex_);
+    return identities_.contains(identity);
+}
+
+void AtomicOutput::removeTemporaryFiles() noexcept {
+    for (const File& file : files_) {
+        if (!file.is_made) continue;
+        TemporaryFilesInWork work;
+        removePath(file.temporary);
+        work.forget(file.temporary);
+    }
+    // Only empty folders go: removePath() fails on others.
+    for (auto folder = created_folders_.rbegin(); folder != created_folders_.rend(); ++folder) removePath(*folder);
+}
+
+AtomicOutput::File AtomicOutput::planFile(const Path& requested) {
+    // A link keeps being a link: what it points at is replaced.
+    std::error_code error;
+    if (isForeignLink(requested))
+        failToWrite(requested, "it is a link that another user made in a folder where everybody may write");
+    // A stream keeps its name: links in /proc, as /dev/stdout is one, have no path where a pipe is.
+    const PathKind kind = kindOf(requested);
+    if (kind == PathKind::stream) return {.target = requested, .is_stream = true};
+    if (kind == PathKind::folder) failToWrite(requested, "it is a folder");
+    if (kind == PathKind::other) failToWrite(requested, "it is neither a file nor a stream of bytes");
+    const bool is_link = fs::is_symlink(fs::path(requested), error);
+    const Path target = is_link ? canonicalPath(requested) : requested;
+    if (is_link && (fs::is_symlink(fs::path(target), error) || !fs::exists(fs::path(target), error)))
+        failToWrite(requested, "it is a link to what is not there");
+    if (way_.inputs != nullptr && !way_.replaces_inputs && way_.inputs->has(target))
+        failToWrite(requested, "it is an input");
+    const std::string identity = identityOf(target);
+    if (isKept(identity) || !identities_.insert(identity).second)
+        failToWrite(requested, "another output is the same file");
+    return {.target = target, .temporary = besideName(target, kTemporaryEnding)};
+}
+
+void AtomicOutput::makeFolders(const Path& target) {
+    std::error_code error;
+    std::vector<fs::path> missing;
+    for (fs::path folder = folderOf(target); !folder.empty() && !fs::exists(folder, error);
+         folder = folder.parent_path())
+        missing.push_back(folder);
+    created_folders_.reserve(created_folders_.size() + missing.size());
+    for (auto folder = missing.rbegin(); folder != missing.rend(); ++folder) {
+        Path created = *folder;
+        if (fs::create_directory(*folder, error)) created_folders_.push_back(std::move(created));
+        if (error) failToWrite(target, "cannot make its folder: " + error.message());
+    }
+}
+
+void AtomicOutput::addFile(File planned, const std::function<int(const Sink&)>& writeAll) {
+    files_.push_back(std::move(planned));
+    File& added = files_.back();
+    if (added.is_stream) {
+        const int failure = writeAll([&](std::span<const std::uint8_t> part) {
+            added.held.insert(added.held.end(), part.begin(), part.end());
+            return true;
+        });
+        if (failure != 0) failToWrite(added.target, std::strerror(failure));
+        return;
+    }
+    makeFolders(added.target);
+    CFile file;
+    {
+        TemporaryFilesInWork work;
+        work.add(added.temporary);
+        file = createFile(added.temporary, added.target);
+        added.is_made = file != nullptr;
+        const int why = errno;
+        if (!added.is_made) work.forget(added.temporary);
+        errno = why;
+    }
+    if (!file) failToWrite(added.target, std::strerror(errno));
+    int failure = writeAll([&](std::span<const std::uint8_t> part) {
+        errno = writeTo(file.get(), part);
+        return errno == 0;
+    });
+    if (failure != 0) failToWrite(added.target, std::strerror(failure));
+    if (std::fflush(file.get()) != 0) failToWrite(added.target, std::strerror(errno));
+    takePermissions(file.get(), added.target);
+    if (way_.sync && !syncFile(file.get())) failToWrite(added.target, std::strerror(errno));
+    if (std::fclose(file.release()) != 0) failToWrite(added.target, std::strerror(errno));
+}
+
+void AtomicOutput::leave(File& file) {
+    TemporaryFilesInWork work;
+    removePath(file.temporary);
+    work.forget(file.temporary);
+    file.is_made = false;
+}
+
+void AtomicOutput::leaveSharedFiles() {
+    const std::uint64_t call = way_.inputs != nullptr ? way_.inputs->call() : 0;
+    for (File& file : files_) {
+        if (!file.is_made) continue;
+        bool is_of_other = false, is_read_by_other = false;
+        inRun(file.target, [&](const RunFile& known) {
+            is_of_other = known.owner != 0 && known.owner != call;
+            is_read_by_other = known.readers.size() > known.readers.count(call);
+        });
+        if (kindOf(file.target) == PathKind::nothing || !(file.is_shared || is_of_other || is_read_by_other)) continue;
+        if (!hasBytes(file.target, readFile(file.temporary)))
+            failToWrite(file.target, is_read_by_other ? "it is an input of another model of this run"
+                                     : is_of_other    ? "this run has written another file of that name"
+                                                      : "a file of that name is there by now, and is another one");
+        leave(file);
+        inRun(file.target, [&](RunFile& known) { known.owner = call; });
+    }
+}
+
+bool AtomicOutput::leave(const Path& target, std::span<const std::uint8_t> bytes) {
+    const std::lock_guard lock(renaming());
+    if (!hasBytes(target, bytes)) return false;
+    if (!way_.is_dry_run && way_.inputs != nullptr)
+        inRun(target, [&](RunFile& known) { known.owner = way_.inputs->call(); });
+    return true;
+}
+
+void AtomicOutput::renameFiles() {
+    for (const File& file : files_) {
+        const int failure = file.is_stream ? writeStream(file.target, file.held) : 0;
+        if (failure != 0) failToWrite(file.target, std::strerror(failure));
+    }
+    std::unique_lock lock(renaming());
+    leaveSharedFiles();
+    // Old files are set aside first, so that a failure half-way can be taken back. Nothing takes memory until all is done.
+    struct Aside {
+        Path name = {};
+        bool is_made = false;
+    };
+    std::vector<Aside> aside(files_.size());
+    std::vector<std::string> written;
+    written.reserve(files_.size());
+    std::vector<Path> folders;
+    const auto addFolder = [&](Path folder) {
+        const auto isIt = [&](const Path& known) { return known.string() == folder.string(); };
+        if (way_.sync && std::none_of(folders.begin(), folders.end(), isIt)) folders.push_back(std::move(folder));
+    };
+    for (std::size_t i = 0; i < files_.size(); ++i) {
+        if (!files_[i].is_made) continue;
+        addFolder(folderOf(files_[i].target));
+        if (files_.size() > 1 && kindOf(files_[i].target) == PathKind::file)
+            aside[i].name = besideName(files_[i].target, kAsideEnding);
+    }
+    for (const Path& folder : created_folders_) addFolder(folderOf(folder));
+    int failure = 0;
+    std::size_t failed = files_.size();
+    {
+        TemporaryFilesInWork work;
+        for (std::size_t i = files_.size(); i-- > 0 && failure == 0;) {
+            const File& file = files_[i];
+            if (!file.is_made) continue;
+            failed = i;
+            if (kindOf(file.target) == PathKind::folder) {
+                failure = EISDIR;
+            } else if (!aside[i].name.empty()) {
+                // Not every file system has hard links.
+                failure = linkFile(file.target, aside[i].name);
+                if (failure != 0) failure = renameFile(file.target, aside[i].name);
+                aside[i].is_made = failure == 0;
+            }
+            if (failure == 0) failure = renameFile(file.temporary, file.target);
+        }
+        for (std::size_t i = failed; failure != 0 && i < files_.size(); ++i) {
+            if (aside[i].is_made) {
+                renameFile(aside[i].name, files_[i].target);
+                // Where both names are still one file, renaming does nothing.
+                removePath(aside[i].name);
+            } else if (i != failed && files_[i].is_made) {
+                removePath(files_[i].target);
+            }
+        }
+        for (std::size_t i = 0; failure == 0 && i < files_.size(); ++i) {
+            if (aside[i].is_made) removePath(aside[i].name);
+            work.forget(files_[i].temporary);
+            if (files_[i].is_made) written.push_back(files_[i].target.string());
+            files_[i].is_made = false;
+        }
+    }
+    if (failure != 0) failToWrite(files_[failed].target, std::strerror(failure));
+    committed_ = true;
+    for (const std::string& name : written) {
+        inRun(name, [&](RunFile& known) {
+            known.owner = way_.inputs != nullptr ? way_.inputs->call() : 0;
+            known.is_written = true;
+        });
+    }
+    lock.unlock();
+    for (const Path& folder : folders) syncFolder(folder);
+}
+
+}  // namespace tspace

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+// Reading whole files, and questions about what is on the disk.
+#include "model/io/file_io.h"
+
+#include <filesystem>
+
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <cstring>
+#include <span>
+
+#include "model/io/file_error.h"
+#include "model/io/system_files.h"
+#include "core/base/parallel.h"
+
+namespace tspace {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A step at a time, so that memory is read into while it is in the cache from being cleared.
+bool readSteps(std::FILE* file, std::span<std::uint8_t> to, const Execution& execution) {
+    const std::size_t steps = (to.size() + kHugePage - 1) / kHugePage;
+    std::atomic<bool> good = true;
+    Parallel parallel(to.size() < kLargeBytes ? Execution{.thread_count = 1} : execution);
+    parallel.forTasks(steps, [&](std::size_t step) {
+        const std::size_t begin = step * kHugePage;
+        const auto part = to.subspan(begin, std::min(kHugePage, to.size() - begin));
+        if (to.size() >= kLargeBytes) askForPages(part.data(), part.size());
+        if (!readAt(file, begin, part)) good = false;
+    });
+    return good;
+}
+
+}  // namespace
+
+Bytes readFile(const Path& name, const std::string& place, const Execution& execution) {
+    const fs::path path = name;
+    // What the user named cannot be read; what a model names makes the model incomplete.
+    const ErrorCode code = place.empty() ? ErrorCode::cannotRead : ErrorCode::invalidFile;
+    std::error_code error;
+    const fs::file_status status = fs::status(path, error);
+    const auto fail_open = [&](const std::string& why) {
+        failFile(code, "cannot open the file " + pathInQuotes(name) + ": " + why, place);
+    };
+    if (status.type() == fs::file_type::not_found)
+        failFile(code, "the file " + pathInQuotes(name) + " does not exist", place);
+    if (error) fail_open(error.message());
+    if (fs::is_directory(status)) failFile(code, pathInQuotes(name) + " is a folder", place);
+    // Pipes and devices could block or never end.
+    if (!fs::is_regular_file(status)) {
+        failFile(code, pathInQuotes(name) + " is not a regular file", place);
+    }
+    const std::uintmax_t size = fs::file_size(path, error);
+    const CFile file = error ? nullptr : openFile(name, "rb");
+    if (!file) fail_open(error ? error.message() : std::strerror(errno));
+    Bytes bytes(static_cast<std::size_t>(size));
+    if (!readSteps(file.get(), bytes, execution)) {
+        failFile(code, "cannot read all of the file " + pathInQuotes(name), place);
+    }
+    return bytes;
+}
+
+bool isThere(const Path& path) {
+    std::error_code error;
+    return fs::exists(fs::path(path), error);
+}
+
+bool isFolder(const Path& path) {
+    std::error_code error;
+    return fs::is_directory(fs::path(path), error);
+}
+
+bool isOneFile(const Path& a, const Path& b) {
+    std::error_code error;
+    return fs::equivalent(fs::path(a), fs::path(b), error) && !error;
+}
+
+std::string identityOf(const Path& path) {
+    std::string identity = fileIdentity(path);
+    if (!identity.empty()) return identity;
+    try {
+        return canonicalPath(path).string();
+    } catch (const fs::filesystem_error&) {
+        return Path(fs::absolute(fs::path(path)).lexically_normal()).string();
+    }
+}
+
+bool isSameFile(const Path& a, const Path& b) { return identityOf(a) == identityOf(b); }
+
+}  // namespace tspace

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: MIT
+#include <fcntl.h>
+#include <poll.h>
+#include <signal.h>
+#include <sys/random.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+
+#include "model/io/system_files.h"
+
+namespace tspace {
+
+namespace fs = std::filesystem;
+
+CFile openFile(const Path& path, const char* mode) { return CFile(std::fopen(path.string().c_str(), mode)); }
+
+bool readAt(std::FILE* file, std::size_t begin, std::span<std::uint8_t> to) {
+    const int number = ::fileno(file);
+    while (!to.empty()) {
+        const ::ssize_t count = ::pread(number, to.data(), to.size(), static_cast<::off_t>(begin));
+        if (count < 0 && errno == EINTR) continue;
+        if (count <= 0) return false;
+        begin += static_cast<std::size_t>(count);
+        to = to.subspan(static_cast<std::size_t>(count));
+    }
+    return true;
+}
+
+Path canonicalPath(const Path& path) { return fs::weakly_canonical(fs::absolute(fs::path(path))); }
+
+std::string fileIdentity(const Path& path) {
+    struct stat status = {};
+    if (::stat(path.string().c_str(), &status) != 0) return {};
+    return std::to_string(status.st_dev) + ":" + std::to_string(status.st_ino);
+}
+
+PathKind kindOf(const Path& path) {
+    struct stat status = {};
+    if (::stat(path.string().c_str(), &status) != 0) return PathKind::nothing;
+    if (S_ISREG(status.st_mode)) return PathKind::file;
+    if (S_ISDIR(status.st_mode)) return PathKind::folder;
+    return S_ISCHR(status.st_mode) || S_ISFIFO(status.st_mode) ? PathKind::stream : PathKind::other;
+}
+
+bool isForeignLink(const Path& path) {
+    struct stat link = {}, folder = {};
+    if (::lstat(path.string().c_str(), &link) != 0 || !S_ISLNK(link.st_mode)) return false;
+    if (::stat(folderOf(path).string().c_str(), &folder) != 0) return false;
+    const bool is_shared = (folder.st_mode & S_ISVTX) != 0 && (folder.st_mode & S_IWOTH) != 0;
+    return is_shared && link.st_uid != ::geteuid() && link.st_uid != folder.st_uid;
+}
+
+CFile createFile(const Path& path, const Path& like) {
+    struct stat old = {};
+    const bool is_like = ::stat(like.string().c_str(), &old) == 0 && S_ISREG(old.st_mode);
+    const ::mode_t mode = is_like ? old.st_mode & S_IRWXU : S_IRUSR | S_IWUSR | S_IRGRP | S_IWGRP | S_IROTH | S_IWOTH;
+    const int number = ::open(path.string().c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, mode);
+    if (number < 0) return nullptr;
+    CFile file(::fdopen(number, "wb"));
+    if (!file) {
+        const int why = errno;
+        ::close(number);
+        ::unlink(path.string().c_str());
+        errno = why;
+    }
+    return file;
+}
+
+void takePermissions(std::FILE* file, const Path& like) {
+    const int number = ::fileno(file);
+    struct stat old = {}, made = {};
+    if (::stat(like.string().c_str(), &old) != 0 || !S_ISREG(old.st_mode)) return;
+    // Another user's file stays his where that may be: else its group alone.
+    if (::fchown(number, old.st_uid, old.st_gid) != 0)
+        static_cast<void>(::fchown(number, ~::uid_t{0}, old.st_gid) == 0);  // looked at below
+    ::mode_t mode = old.st_mode & (S_IRWXU | S_IRWXG | S_IRWXO);
+    // Another group gets no more than everybody has.
+    if (::fstat(number, &made) != 0 || made.st_gid != old.st_gid) mode &= ~S_IRWXG | (mode & S_IRWXO) << 3;
+    static_cast<void>(::fchmod(number, mode));
+}
+
+bool syncFile(std::FILE* file) {
+    if (std::fflush(file) != 0) return false;
+    // Some file systems have no such call.
+    return ::fsync(::fileno(file)) == 0 || errno == EINVAL || errno == ENOTSUP || errno == ENOSYS;
+}
+
+void syncFolder(const Path& folder) {
+    const int number = ::open(folder.string().c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (number < 0) return;
+    static_cast<void>(::fsync(number));
+    ::close(number);
+}
+
+int renameFile(const Path& from, const Path& to) noexcept {
+    return ::rename(from.string().c_str(), to.string().c_str()) == 0 ? 0 : errno;
+}
+int linkFile(const Path& from, const Path& to) noexcept {
+    return ::link(from.string().c_str(), to.string().c_str()) == 0 ? 0 : errno;
+}
+int removePath(const Path& path) noexcept { return std::remove(path.string().c_str()) == 0 ? 0 : errno; }
+
+std::uint64_t randomNumber() {
+    std::uint64_t number = 0;
+    if (::getentropy(&number, sizeof number) == 0) return number;
+    // Only a kernel from before 2014: whoever foresees the time meets O_EXCL.
+    return static_cast<std::uint64_t>(std::chrono::steady_clock::now().time_since_epoch().count());
+}
+
+HeldSignals::HeldSignals() {
+    static_assert(sizeof(sigset_t) <= sizeof before_);
+    sigset_t held, before;
+    sigfillset(&held);
+    for (const int fault : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGTRAP, SIGSYS}) sigdelset(&held, fault);
+    pthread_sigmask(SIG_SETMASK, &held, &before);
+    std::memcpy(before_, &before, sizeof before);
+}
+HeldSignals::~HeldSignals() {
+    sigset_t before;
+    std::memcpy(&before, before_, sizeof before);
+    pthread_sigmask(SIG_SETMASK, &before, nullptr);
+}
+
+void waitBriefly() { ::poll(nullptr, 0, 1); }
+
+std::uint32_t processNumber() { return static_cast<std::uint32_t>(::getpid()); }
+
+bool isRunning(std::uint32_t process) {
+    // kill() takes what is not positive for groups.
+    if (process == 0 || process > static_cast<std::uint32_t>(std::numeric_limits<pid_t>::max())) return true;
+    return ::kill(static_cast<pid_t>(process), 0) == 0 || errno != ESRCH;
+}
+
+std::string processSpace() {
+    std::array<char, 256> name = {};
+    ::gethostname(name.data(), name.size() - 1);
+    std::string text = name.data();
+    std::string line;
+    // Both are Linux's: this start of the kernel, and the container. Empty elsewhere.
+    if (std::ifstream boot("/proc/sys/kernel/random/boot_id"); std::getline(boot, line)) text += line;
+    std::error_code ignored;
+    text += fs::read_symlink("/proc/self/ns/pid", ignored).string();
+    return text;
+}
+
+Path ownProgram() {
+    std::error_code failed;
+    return fs::read_symlink("/proc/self/exe", failed);
+}
+
+}  // namespace tspace

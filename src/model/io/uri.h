@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+// URIs as model files use them: data URIs, and paths relative to the model's folder, which are the only ones
+// that are followed unless the caller allows more.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "model/io/file_io.h"
+#include "model/io/path.h"
+
+namespace tspace {
+
+enum class UriKind { data, path, otherScheme };
+
+UriKind uriKind(std::string_view uri);
+
+struct DataUri {
+    std::string mime_type = {};
+    Bytes bytes = {};
+};
+
+/// Decodes a data URI, base64 or percent-encoded. Fails with invalidFile at `place`.
+DataUri decodeDataUri(std::string_view uri, const std::string& place);
+
+std::string encodeBase64(const Bytes& bytes);
+
+std::string encodeDataUri(std::string_view mime_type, const Bytes& bytes);
+
+/// %41 -> A. A percent sign that starts no valid escape stays as it is, because file names contain them.
+std::string percentDecode(std::string_view text);
+
+/// Escapes what may not stand in the path of a URI.
+std::string percentEncode(std::string_view path);
+
+/// The path that a relative URI stands for: escapes decoded, and Windows' separators, which some exporters write, as
+/// slashes.
+std::string pathOfUri(std::string_view uri);
+
+/// The same, checked. Fails with forbiddenPath when it is absolute, has a scheme or a `..`; `allow_external` lifts all of
+/// these but the scheme.
+std::string checkedPathOfUri(std::string_view uri, bool allow_external, const std::string& place);
+
+/// Fails with forbiddenPath: `why` says what is wrong with the URI.
+[[noreturn]] void refuseUri(std::string_view uri, const char* why, const std::string& place);
+
+/// The file that `uri` names in a folder on the disk. Fails as checkedPathOfUri, and with forbiddenPath when a symbolic
+/// link leads out of `folder`, unless `allow_external`; with invalidFile where no file can have that name, as one that is
+/// longer than the system takes.
+Path resolveUri(const Path& folder, std::string_view uri, bool allow_external, const std::string& place);
+
+}  // namespace tspace

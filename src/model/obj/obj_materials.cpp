@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: MIT
+// MTL libraries to materials as glTF sees them.
+#include <filesystem>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <set>
+#include <vector>
+
+#include "model/io/file_error.h"
+#include "model/io/file_io.h"
+#include "model/obj/mtl_lines.h"
+#include "model/obj/obj_lines.h"
+#include "model/obj/obj_reader.h"
+#include "model/obj/tiny_obj_loader.h"
+#include "model/io/uri.h"
+
+namespace tspace::obj {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A path as an MTL or OBJ file writes it: maybe quoted, maybe with Windows' separators.
+std::string plainPath(std::string text) {
+    text.erase(0, std::min(text.find_first_not_of(" \t"), text.size()));
+    text.erase(text.find_last_not_of(" \t") + 1);
+    if (text.size() >= 2 && text.front() == '"' && text.back() == '"') text = text.substr(1, text.size() - 2);
+    std::replace(text.begin(), text.end(), '\\', '/');
+    return text;
+}
+
+float inUnitRange(double number, float otherwise) {
+    const auto value = static_cast<float>(number);
+    return std::isfinite(value) ? std::clamp(value, 0.0f, 1.0f) : otherwise;
+}
+
+Vec3 color(const double rgb[3]) { return {inUnitRange(rgb[0], 1), inUnitRange(rgb[1], 1), inUnitRange(rgb[2], 1)}; }
+
+/// Blinn-Phong exponent to roughness: alpha = sqrt(2 / (n + 2)), roughness = sqrt(alpha) (Walter et al. 2007;
+/// glTF squares its roughness).
+float roughnessOf(const tinyobj::material_t& source) {
+    if (source.roughness > 0) return inUnitRange(source.roughness, 1);
+    const auto shininess = static_cast<float>(source.shininess);
+    if (!(shininess > 0)) return 1;
+    return inUnitRange(std::sqrt(std::sqrt(2.0f / (shininess + 2.0f))), 1);
+}
+
+/// The words of a line.
+std::vector<std::string> splitWords(const std::string& names) {
+    constexpr const char* kBlanks = " \t\n\v\f\r";
+    std::vector<std::string> result;
+    for (std::size_t begin = 0, end = 0; (begin = names.find_first_not_of(kBlanks, end)) != std::string::npos;) {
+        end = std::min(names.find_first_of(kBlanks, begin), names.size());
+        result.push_back(names.substr(begin, end - begin));
+    }
+    return result;
+}
+
+/// Names of the materials that state Kd: the parser gives black to the others, which nobody means.
+std::set<std::string> materialsWithDiffuse(const std::string& text) {
+    std::set<std::string> names;
+    std::string name;
+    for (std::size_t begin = 0, end = 0; begin < text.size(); begin = end + 1) {
+        end = std::min(text.find('\n', begin), text.size());
+        const std::string line = text.substr(begin, end - begin);
+        const std::vector<std::string> words = splitWords(line);
+        const std::string keyword = words.empty() ? "" : words.front();
+        if (keyword == "newmtl") {
+            name = line.substr(std::min(line.find(keyword) + keyword.size() + 1, line.size()));
+            name.erase(name.find_last_not_of(" \t") + 1);
+        }
+        if (keyword == "Kd") names.insert(name);
+    }
+    return names;
+}
+
+Material toMaterial(const tinyobj::material_t& source, const fs::path& folder, bool has_diffuse) {
+    Material material{.name = source.name, .found = true};
+    material.base_color_texture = {plainPath(source.diffuse_texname), folder};
+    // With a texture, Kd is left out: exporters write anything there, black too.
+    if (has_diffuse && !material.base_color_texture.used()) material.base_color = color(source.diffuse);
+    material.opacity = inUnitRange(source.dissolve, 1);
+    material.emission = color(source.emission);
+    material.metallic = inUnitRange(source.metallic, 0);
+    material.roughness = roughnessOf(source);
+    const bool has_norm = !source.normal_texname.empty();
+    material.normal_texture = {plainPath(has_norm ? source.normal_texname : source.bump_texname), folder};
+    material.normal_is_bump = !has_norm && !source.bump_texname.empty();
+    const auto scale = static_cast<float>((has_norm ? source.normal_texopt : source.bump_texopt).bump_multiplier);
+    if (std::isfinite(scale)) material.normal_scale = scale;
+    return material;
+}
+
+std::uint64_t countOf(const std::string& word, const std::string& text) {
+    std::uint64_t count = 0;
+    for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + word.size())) ++count;
+    return count;
+}
+
+/// false when there is no such file. A file that was read before is there, and not read again. Fails with
+/// forbiddenPath.
+bool readLibrary(const std::string& name, Model& model, std::vector<Material>& materials) {
+    if (model.files.areNone()) return false;
+    const Path path = model.files.resolve(percentEncode(plainPath(name)), "mtllib");
+    if (model.files.kindOf(path) != NamedFiles::Kind::file) return false;
+    const auto& known = model.input_files;
+    if (std::find(known.begin(), known.end(), path.string()) != known.end()) return true;
+    const Bytes bytes = model.files.read(path, "mtllib");
+    model.input_bytes += bytes.size();
+    model.input_files.push_back(path.string());
+    model.memory->allow(bytes.size());
+    std::string text(bytes.begin(), bytes.end());
+    makeLineEndsPlain(text);
+    if (completeTextureOptions(text) != 0) {
+        model.warnings.push_back("the material library '" + Path(fs::path(path).filename()).string() +
+                                 "' moves or scales textures (-o, -s, -t), which is not carried over");
+    }
+
+    // Before the parser makes a large thing of each.
+    model.memory->take(countOf("newmtl", text) * (2 * sizeof(tinyobj::material_t) + sizeof(Material)), "mtllib");
+    const std::vector<tinyobj::material_t> sources = parseMtl(text);
+    const std::set<std::string> with_diffuse = materialsWithDiffuse(text);
+    for (const tinyobj::material_t& source : sources) {
+        materials.push_back(toMaterial(source, folderOf(path), with_diffuse.count(source.name) != 0));
+    }
+    return true;
+}
+
+/// Whether the whole line is the name of a file.
+bool isOneFile(const std::string& line, const NamedFiles& files) {
+    bool is_there = false;
+    tryFile([&] {
+        const Path path = files.resolve(percentEncode(plainPath(line)), "mtllib");
+        is_there = files.kindOf(path) != NamedFiles::Kind::missing;
+    });
+    return is_there;
+}
+
+}  // namespace
+
+std::vector<Material> readMaterials(const std::vector<std::string>& names, Model& model) {
+    std::vector<Material> materials;
+    const auto read = [&](const std::string& name) {
+        bool is_there = true;
+        const std::optional<Error> failure = tryFile([&] { is_there = readLibrary(name, model, materials); });
+        if (failure) model.warnings.push_back("material library left out: " + failure->message);
+        return is_there;
+    };
+    std::vector<std::string> seen;
+    for (const std::string& line : names) {
+        if (line.empty() || std::find(seen.begin(), seen.end(), line) != seen.end()) continue;
+        seen.push_back(line);
+        const std::vector<std::string> words = splitWords(line);
+        // File names may have spaces in them, but several files may also stand in one line.
+        if (words.size() == 1 || isOneFile(line, model.files)) {
+            if (!read(line)) model.warnings.push_back("there is no material library '" + line + "'");
+            continue;
+        }
+        for (const std::string& word : words) {
+            if (!read(word)) model.warnings.push_back("there is no material library '" + word + "'");
+        }
+    }
+    return materials;
+}
+
+}  // namespace tspace::obj

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+// An OBJ file in memory: what it says, checked, before anything is made of it.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "model/io/file_io.h"
+#include "model/io/memory_budget.h"
+#include "model/io/named_files.h"
+#include "model/io/path.h"
+#include "core/base/vec_math.h"
+
+namespace tspace::obj {
+
+inline constexpr std::uint32_t kNone = 0xffffffffu;
+
+/// Indices of one corner; kNone where the face gives none.
+struct Corner {
+    std::uint32_t position = kNone;
+    std::uint32_t uv = kNone;
+    std::uint32_t normal = kNone;
+};
+
+struct Face {
+    std::uint32_t first_corner = 0;
+    std::uint32_t corner_count = 0;
+    std::uint32_t shape = 0;     ///< into Model::shape_names
+    std::uint32_t material = 0;  ///< into Model::materials
+    std::uint32_t smoothing_group = 0;
+    std::uint32_t line = 0;  ///< in the file, from 1
+};
+
+/// A texture that a material names. `file` is as the MTL file has it, relative to `folder`.
+struct Texture {
+    std::string file = {};
+    Path folder = {};
+    [[nodiscard]] bool used() const { return !file.empty(); }
+    /// The same for all textures of one file, if they name it alike.
+    [[nodiscard]] std::string path() const { return (folder / file).string(); }
+};
+
+struct Material {
+    std::string name = {};
+    bool found = false;  ///< false: the faces name it, but no MTL file has it (or there is none)
+    Vec3 base_color{1, 1, 1};
+    float opacity = 1;
+    Vec3 emission{0, 0, 0};
+    float metallic = 0;
+    float roughness = 1;
+    Texture base_color_texture = {};
+    Texture normal_texture = {};
+    bool normal_is_bump = false;  ///< it is named by map_bump, which takes height maps too
+    float normal_scale = 1;       ///< -bm: of a normal map its scale, of heights how high white is
+    /// What the output has in place of the normal texture; null: that itself.
+    std::shared_ptr<const Bytes> made_normal_map = {};
+};
+
+struct Model {
+    NamedFiles files = {};             ///< what it names
+    std::vector<Vec3> positions = {};  ///< all finite; without `offset`
+    DVec3 offset = {};                 ///< what was taken out of the file's coordinates; zero near the origin
+    std::vector<Vec2> uvs = {};        ///< v runs down, as in glTF
+    std::vector<Vec3> normals = {};    ///< unit or zero; corners never refer to zero ones
+    std::vector<Corner> corners = {};  ///< every index is in range
+    std::vector<Face> faces = {};      ///< in file order, at least 3 corners each; never empty
+    std::vector<std::string> shape_names = {};
+    std::vector<Material> materials = {};  ///< in order of first use by a face
+    bool has_smoothing_groups = false;     ///< the file has `s` lines
+    /// What the output has in place of some normal maps, by Texture::path.
+    std::map<std::string, Bytes> flipped_maps = {};
+    std::uint64_t input_bytes = 0;              ///< the OBJ and its MTL files
+    std::vector<std::string> input_files = {};  ///< the same
+    std::vector<std::string> warnings = {};
+    std::shared_ptr<MemoryBudget> memory = std::make_shared<MemoryBudget>();  ///< what it may still take
+};
+
+}  // namespace tspace::obj

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: MIT
+// Grouping faces into primitives, making missing normals, and finding the vertices.
+#include "model/obj/obj_primitives.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <numeric>
+#include <span>
+
+#include "core/base/unique_index.h"
+
+namespace tspace::obj {
+namespace {
+
+bool hasUvs(const Model& model, const Face& face) {
+    const auto corner = model.corners.begin() + face.first_corner;
+    return std::all_of(corner, corner + face.corner_count, [](const Corner& c) { return c.uv != kNone; });
+}
+
+bool hasNormals(const Model& model, const Face& face) {
+    const auto corner = model.corners.begin() + face.first_corner;
+    return std::all_of(corner, corner + face.corner_count, [](const Corner& c) { return c.normal != kNone; });
+}
+
+/// The faces without normals as a mesh of their own: positions only.
+struct BareMesh {
+    std::vector<std::uint32_t> faces = {};  // into Model::faces
+    std::vector<std::uint32_t> indices = {};
+    std::vector<std::uint32_t> face_sizes = {};
+    std::vector<std::uint32_t> smoothing_groups = {};
+};
+
+BareMesh collectBareFaces(const Model& model, std::span<const std::uint32_t> faces) {
+    BareMesh mesh;
+    for (const std::uint32_t i : faces) {
+        const Face& face = model.faces[i];
+        if (hasNormals(model, face)) continue;
+        mesh.faces.push_back(i);
+        mesh.face_sizes.push_back(face.corner_count);
+        mesh.smoothing_groups.push_back(face.smoothing_group);
+        for (std::uint32_t c = 0; c < face.corner_count; ++c) {
+            mesh.indices.push_back(model.corners[face.first_corner + c].position);
+        }
+    }
+    return mesh;
+}
+
+NormalOptions normalOptions(const Model& model, const BareMesh& mesh, const GenerateOptions& options) {
+    NormalOptions result = options.normals;
+    if (options.use_smoothing_groups && model.has_smoothing_groups) {
+        result.weighting = NormalWeighting::angle;
+        result.smoothing_groups = mesh.smoothing_groups;
+    }
+    return result;
+}
+
+/// Normals for those of the faces that have none.
+Result<NormalReport> completeFaces(Model& model, std::span<const std::uint32_t> faces, const GenerateOptions& options) {
+    const BareMesh bare = collectBareFaces(model, faces);
+    if (bare.faces.empty()) return NormalReport{};
+    MeshView view;
+    view.positions = model.positions;
+    view.indices = std::span<const std::uint32_t>(bare.indices);
+    view.face_sizes = bare.face_sizes;
+    std::vector<Vec3> normals(bare.indices.size());
+    Result<NormalReport> report =
+        generateNormals(view, normalOptions(model, bare, options), normals, options.execution);
+    if (!report) return report;
+
+    std::size_t next = 0;
+    for (const std::uint32_t index : bare.faces) {
+        const Face& face = model.faces[index];
+        for (std::uint32_t c = 0; c < face.corner_count; ++c) {
+            model.corners[face.first_corner + c].normal = static_cast<std::uint32_t>(model.normals.size());
+            model.normals.push_back(normals[next++]);
+        }
+    }
+    return report;
+}
+
+}  // namespace
+
+bool hasSomeNormals(const Model& model, const ObjPrimitive& primitive) {
+    return std::any_of(primitive.faces.begin(), primitive.faces.end(), [&](std::uint32_t number) {
+        const auto corner = model.corners.begin() + model.faces[number].first_corner;
+        return std::any_of(corner, corner + model.faces[number].corner_count,
+                           [](const Corner& c) { return c.normal != kNone; });
+    });
+}
+
+std::vector<ObjPrimitive> collectPrimitives(const Model& model) {
+    UniqueIndex<std::array<std::uint32_t, 3>> keys;
+    std::vector<ObjPrimitive> primitives;
+    for (std::uint32_t i = 0; i < model.faces.size(); ++i) {
+        const Face& face = model.faces[i];
+        const bool has_uvs = hasUvs(model, face);
+        const std::uint32_t primitive = keys.indexOf({face.shape, face.material, has_uvs});
+        if (primitive == primitives.size()) {
+            primitives.push_back({.shape = face.shape, .material = face.material, .has_uvs = has_uvs});
+        }
+        primitives[primitive].faces.push_back(i);
+    }
+    return primitives;
+}
+
+Result<NormalReport> completeNormals(Model& model, std::vector<ObjPrimitive>& primitives,
+                                     const GenerateOptions& options) {
+    for (ObjPrimitive& primitive : primitives) {
+        primitive.normals_generated = !std::all_of(primitive.faces.begin(), primitive.faces.end(),
+                                                   [&](auto face) { return hasNormals(model, model.faces[face]); });
+    }
+    if (!options.normals_per_primitive) {
+        std::vector<std::uint32_t> all(model.faces.size());
+        std::iota(all.begin(), all.end(), 0u);
+        return completeFaces(model, all, options);
+    }
+    NormalReport sum;
+    for (const ObjPrimitive& primitive : primitives) {
+        const Result<NormalReport> made = completeFaces(model, primitive.faces, options);
+        if (!made) return made;
+        sum.face_count += made->face_count;
+        sum.degenerate_face_count += made->degenerate_face_count;
+        sum.fallback_corner_count += made->fallback_corner_count;
+    }
+    return sum;
+}
+
+MeshView ObjGeometry::view() const {
+    MeshView view;
+    view.positions = pool.positions;
+    view.normals = pool.normals;
+    view.uvs = pool.uvs;
+    view.indices = std::span<const std::uint32_t>(polygons.indices);
+    if (polygons.face_sizes.empty()) {
+        view.face_size = 3;
+    } else {
+        view.face_sizes = polygons.face_sizes;
+    }
+    return view;
+}
+
+ObjGeometry buildGeometry(const Model& model, const ObjPrimitive& primitive) {
+    ObjGeometry geometry;
+    PrimitiveGeometry& polygons = geometry.polygons;
+    VertexPool& pool = geometry.pool;
+    bool has_normals = true;
+    bool all_triangles = true;
+    for (const std::uint32_t index : primitive.faces) {
+        has_normals = has_normals && hasNormals(model, model.faces[index]);
+        all_triangles = all_triangles && model.faces[index].corner_count == 3;
+    }
+    // Normals count by value: generated ones have an index per corner.
+    UniqueIndex<std::array<std::uint32_t, 5>> vertices(primitive.faces.size());
+    for (const std::uint32_t index : primitive.faces) {
+        const Face& face = model.faces[index];
+        if (!all_triangles) polygons.face_sizes.push_back(face.corner_count);
+        for (std::uint32_t c = 0; c < face.corner_count; ++c) {
+            const Corner& corner = model.corners[face.first_corner + c];
+            const Vec3 normal = has_normals ? model.normals[corner.normal] : Vec3{};
+            const std::uint32_t vertex = vertices.indexOf(
+                {corner.position, primitive.has_uvs ? corner.uv : kNone, std::bit_cast<std::uint32_t>(normal.x),
+                 std::bit_cast<std::uint32_t>(normal.y), std::bit_cast<std::uint32_t>(normal.z)});
+            if (vertex == pool.positions.size()) {
+                pool.positions.push_back(model.positions[corner.position]);
+                if (has_normals) pool.normals.push_back(normal);
+                if (primitive.has_uvs) pool.uvs.push_back(model.uvs[corner.uv]);
+            }
+            polygons.indices.push_back(vertex);
+        }
+    }
+    return geometry;
+}
+
+}  // namespace tspace::obj

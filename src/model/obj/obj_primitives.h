@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+// From the faces of an OBJ file to indexed primitives.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "model/obj/obj_model.h"
+#include "core/mesh/pools/primitive.h"
+#include "tspace/asset.h"
+
+namespace tspace::obj {
+
+/// One glTF primitive to be: the faces of one shape and material, all with UVs or all without.
+struct ObjPrimitive {
+    std::uint32_t shape = 0;
+    std::uint32_t material = 0;
+    bool has_uvs = false;
+    bool normals_generated = false;         ///< for any of its faces
+    std::vector<std::uint32_t> faces = {};  ///< into Model::faces, in file order
+};
+
+/// Whether any of its corners has a normal.
+bool hasSomeNormals(const Model& model, const ObjPrimitive& primitive);
+
+/// In order of first face.
+std::vector<ObjPrimitive> collectPrimitives(const Model& model);
+
+/// Gives every corner a normal: faces that lack one on any corner get new ones. Smoothing goes across shapes
+/// and materials, as smoothing groups do, but not with normals_per_primitive. Adds to model.normals, marks the primitives, and returns what was
+/// met.
+Result<NormalReport> completeNormals(Model& model, std::vector<ObjPrimitive>& primitives,
+                                     const GenerateOptions& options);
+
+/// The primitive's own vertices, one per different (position, UV, normal) in order of first use, and its
+/// polygons.
+struct ObjGeometry {
+    VertexPool pool = {};
+    PrimitiveGeometry polygons = {};
+
+    [[nodiscard]] MeshView view() const;
+};
+/// Corners without a normal (before completeNormals) get none: the pool then has no normals at all.
+ObjGeometry buildGeometry(const Model& model, const ObjPrimitive& primitive);
+
+}  // namespace tspace::obj

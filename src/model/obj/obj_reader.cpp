@@ -1,0 +1,338 @@
+// SPDX-License-Identifier: MIT
+// OBJ text to Model. The parser is that of tinyobjloader, through its callbacks: they keep faces of any size,
+// which its mesh interface cuts at 255 corners. It is not trusted: every index it gives is checked here.
+#include "model/obj/obj_reader.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "model/io/disk_paths.h"
+#include "model/io/file_error.h"
+#include "model/io/file_io.h"
+#include "model/obj/far_coordinates.h"
+#include "model/obj/obj_lines.h"
+#include "model/obj/tiny_obj_loader.h"
+#include "tspace/mesh.h"
+
+namespace tspace::obj {
+namespace {
+
+/// Indices of corners that name nothing.
+struct DeadIndices {
+    std::uint64_t count = 0;
+    std::uint32_t first_line = kNone;
+
+    void add(std::uint32_t line) {
+        ++count;
+        first_line = std::min(first_line, line);
+    }
+};
+
+/// What the callbacks write to.
+struct Build {
+    Model* model = nullptr;
+    const LineNotes* notes = nullptr;
+    std::vector<DVec3> positions = {};  // not finite where floats would not be
+    std::size_t face_line = 0;          // the next of notes->faces
+    std::string object = {}, group = {};
+    std::map<std::pair<std::string, std::string>, std::uint32_t> shapes = {};
+    std::uint32_t shape = kNone;  // kNone: looked up by the next face
+    std::map<std::string, std::uint32_t> materials = {};
+    std::string material_name = {};
+    std::uint32_t material = kNone;
+    std::uint64_t bad_position_count = 0;
+    std::uint64_t bad_uv_count = 0;
+    std::uint64_t bad_normal_count = 0;
+    std::uint64_t small_face_count = 0;
+    DeadIndices dead_uvs = {};
+    DeadIndices dead_normals = {};
+};
+
+Build& buildOf(void* user) { return *static_cast<Build*>(user); }
+
+std::string currentPlace(const Build& build) {
+    return "line " + std::to_string(build.notes->faces[build.face_line].line);
+}
+
+void addPosition(void* user, double x, double y, double z, double) {
+    Build& build = buildOf(user);
+    DVec3 position{x, y, z};
+    if (!isFinite(toFloat(position))) {
+        constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+        position = {kNaN, kNaN, kNaN};
+        ++build.bad_position_count;
+    }
+    build.positions.push_back(position);
+}
+
+void addUv(void* user, double u, double v, double) {
+    Build& build = buildOf(user);
+    Vec2 uv{static_cast<float>(u), 1.0f - static_cast<float>(v)};
+    if (!std::isfinite(uv.x) || !std::isfinite(uv.y)) {
+        uv = {};
+        ++build.bad_uv_count;
+    }
+    build.model->uvs.push_back(uv);
+}
+
+/// OBJ does not ask for unit normals, glTF does. Those that are unit by the validator's tolerance keep their
+/// bits.
+void addNormal(void* user, double x, double y, double z) {
+    Build& build = buildOf(user);
+    const Vec3 given = toFloat({x, y, z});
+    const double size = length(toDouble(given));
+    Vec3 normal{};
+    if (std::isfinite(size) && size > 1e-30) {
+        normal = std::abs(size - 1) <= 5e-4
+                     ? given
+                     : Vec3{static_cast<float>(given.x / size), static_cast<float>(given.y / size),
+                            static_cast<float>(given.z / size)};
+    } else {
+        ++build.bad_normal_count;
+    }
+    build.model->normals.push_back(normal);
+}
+
+/// From the file's index to ours: 1 is the first, -1 the latest so far. Positive ones may still point ahead;
+/// kNone for those that count back too far.
+std::uint32_t resolveIndex(int index, std::size_t count_so_far) {
+    if (index > 0) return static_cast<std::uint32_t>(index - 1);
+    const auto back = static_cast<std::size_t>(-static_cast<std::int64_t>(index));
+    return back > count_so_far ? kNone : static_cast<std::uint32_t>(count_so_far - back);
+}
+
+std::uint32_t resolvePosition(const Build& build, int index) {
+    const std::size_t count_so_far = build.positions.size();
+    const std::uint32_t position = resolveIndex(index, count_so_far);
+    if (position == kNone) {
+        failFile(ErrorCode::invalidFile,
+                 "a face counts back to vertex " + std::to_string(index) + ", but there are only " +
+                     std::to_string(count_so_far) + " before it",
+                 currentPlace(build));
+    }
+    return position;
+}
+
+/// Of a UV or normal. 0 is how some exporters write that there is none; others name some that the file does
+/// not have.
+std::uint32_t resolveOptional(int index, std::size_t count_so_far, std::uint32_t line, DeadIndices& dead) {
+    if (index == 0) return kNone;
+    const std::uint32_t resolved = resolveIndex(index, count_so_far);
+    if (resolved == kNone) dead.add(line);
+    return resolved;
+}
+
+/// Every shape and material with faces becomes a primitive: its lists, its report, its JSON.
+constexpr std::uint64_t kPrimitiveBytes = 4000;
+
+std::uint32_t currentShape(Build& build) {
+    if (build.shape == kNone) {
+        const auto next = static_cast<std::uint32_t>(build.model->shape_names.size());
+        const auto [entry, is_new] = build.shapes.emplace(std::pair(build.object, build.group), next);
+        if (is_new) {
+            build.model->memory->take(kPrimitiveBytes, currentPlace(build));
+            const bool both = !build.object.empty() && !build.group.empty();
+            build.model->shape_names.push_back(build.object + (both ? "/" : "") + build.group);
+        }
+        build.shape = entry->second;
+    }
+    return build.shape;
+}
+
+std::uint32_t currentMaterial(Build& build) {
+    if (build.material == kNone) {
+        const auto next = static_cast<std::uint32_t>(build.model->materials.size());
+        const auto [entry, is_new] = build.materials.emplace(build.material_name, next);
+        if (is_new) {
+            build.model->memory->take(kPrimitiveBytes, currentPlace(build));
+            build.model->materials.push_back({.name = build.material_name});
+        }
+        build.material = entry->second;
+    }
+    return build.material;
+}
+
+void addFace(void* user, tinyobj::index_t* indices, int count) {
+    Build& build = buildOf(user);
+    Model& model = *build.model;
+    if (build.face_line >= build.notes->faces.size()) {
+        failFile(ErrorCode::internal, "internal error: the OBJ parser found a face that the first pass did not");
+    }
+    Face face{.first_corner = static_cast<std::uint32_t>(model.corners.size()),
+              .corner_count = static_cast<std::uint32_t>(count),
+              .smoothing_group = build.notes->faces[build.face_line].smoothing_group,
+              .line = build.notes->faces[build.face_line].line};
+    if (model.corners.size() + face.corner_count > kMaxCorners) {
+        failFile(ErrorCode::unsupportedFile, "the file has more corners than fit into one mesh", currentPlace(build));
+    }
+    for (int i = 0; i < count; ++i) {
+        const tinyobj::index_t& index = indices[i];
+        if (index.vertex_index == 0) {
+            failFile(ErrorCode::invalidFile, "a face has a corner without a vertex index; OBJ counts from 1",
+                     currentPlace(build));
+        }
+        model.corners.push_back(
+            {.position = resolvePosition(build, index.vertex_index),
+             .uv = resolveOptional(index.texcoord_index, model.uvs.size(), face.line, build.dead_uvs),
+             .normal = resolveOptional(index.normal_index, model.normals.size(), face.line, build.dead_normals)});
+    }
+    if (count < 3) {
+        ++build.small_face_count;
+        model.corners.resize(face.first_corner);
+    } else {
+        face.shape = currentShape(build);
+        face.material = currentMaterial(build);
+        model.faces.push_back(face);
+    }
+    ++build.face_line;
+}
+
+void setGroup(void* user, const char** names, int count) {
+    Build& build = buildOf(user);
+    build.group.clear();
+    for (int i = 0; i < count; ++i) build.group.append(i == 0 ? "" : " ").append(names[i]);
+    // What exporters write to say "no group".
+    if (build.group == "default" || build.group == "off") build.group.clear();
+    build.shape = kNone;
+}
+
+void setObject(void* user, const char* name) {
+    Build& build = buildOf(user);
+    build.object = name;
+    build.object.erase(build.object.find_last_not_of(" \t") + 1);
+    build.shape = kNone;
+}
+
+void setMaterial(void* user, const char* name, int) {
+    Build& build = buildOf(user);
+    build.material_name = name;
+    build.material_name.erase(build.material_name.find_last_not_of(" \t") + 1);
+    build.material = kNone;
+}
+
+void parse(std::string& text, Build& build) {
+    tinyobj::callback_t callbacks;
+    callbacks.vertex_cb = addPosition;
+    callbacks.texcoord_cb = addUv;
+    callbacks.normal_cb = addNormal;
+    callbacks.index_cb = addFace;
+    callbacks.group_cb = setGroup;
+    callbacks.object_cb = setObject;
+    callbacks.usemtl_cb = setMaterial;
+    if (!parseObj(text, callbacks, &build)) failFile(ErrorCode::invalidFile, "not an OBJ file that can be read");
+}
+
+/// Positive indices could point ahead, so ranges are known only at the end. Without a position there is no
+/// surface; of UVs and normals that do not exist corners let go, as of normals that are zero.
+void checkIndices(Build& build) {
+    Model& model = *build.model;
+    for (const Face& face : model.faces) {
+        for (std::uint32_t i = 0; i < face.corner_count; ++i) {
+            Corner& corner = model.corners[face.first_corner + i];
+            if (corner.position >= build.positions.size()) {
+                failFile(ErrorCode::invalidFile,
+                         "a face refers to vertex " + std::to_string(std::uint64_t{corner.position} + 1) + " of " +
+                             std::to_string(build.positions.size()),
+                         "line " + std::to_string(face.line));
+            }
+            if (corner.uv != kNone && corner.uv >= model.uvs.size()) {
+                build.dead_uvs.add(face.line);
+                corner.uv = kNone;
+            }
+            if (corner.normal == kNone) continue;
+            const bool is_dead = corner.normal >= model.normals.size();
+            if (is_dead) build.dead_normals.add(face.line);
+            if (is_dead || model.normals[corner.normal] == Vec3{}) corner.normal = kNone;
+        }
+    }
+}
+
+void addWarnings(const Build& build, Model& model) {
+    const LineNotes& notes = *build.notes;
+    const auto warn = [&model](const std::string& text) { model.warnings.push_back(text); };
+    const auto warnCount = [&](std::uint64_t count, const char* text) {
+        if (count != 0) warn(text + (": " + std::to_string(count)));
+    };
+    if (notes.unreadable_number_count != 0) {
+        warn("numbers that cannot be read and were taken as 0: " + std::to_string(notes.unreadable_number_count) +
+             ", the first in line " + std::to_string(notes.unreadable_number_line));
+    }
+    warnCount(build.bad_position_count, "positions that are not finite and were moved to the origin");
+    warnCount(build.bad_uv_count, "texture coordinates that are not finite and were set to 0");
+    warnCount(build.bad_normal_count, "normals that are zero or not finite; the faces that use them get new ones");
+    const auto warnDead = [&](const DeadIndices& dead, const std::string& what, const char* result) {
+        if (dead.count == 0) return;
+        warn("indices of " + what + " that do not exist: " + std::to_string(dead.count) + ", the first in line " +
+             std::to_string(dead.first_line) + "; " + result);
+    };
+    warnDead(build.dead_uvs, "texture coordinates", "the faces that use them are taken to have none");
+    warnDead(build.dead_normals, "normals", "the faces that use them get new ones");
+    warnCount(build.small_face_count, "faces with fewer than 3 corners, left out");
+    if (notes.has_vertex_colors) warn("vertex colours are not carried over");
+    if (notes.has_lines_or_points) warn("lines and points are not carried over");
+    if (notes.has_free_form) warn("free-form curves and surfaces are not carried over");
+}
+
+/// Puts what the MTL files say into the materials that faces use.
+void fillMaterials(Model& model, std::vector<Material> library) {
+    std::map<std::string, std::size_t> by_name;
+    for (std::size_t i = 0; i < library.size(); ++i) by_name.emplace(library[i].name, i);
+    for (Material& material : model.materials) {
+        const auto entry = by_name.find(material.name);
+        if (entry != by_name.end()) {
+            material = library[entry->second];
+        } else if (!material.name.empty()) {
+            model.warnings.push_back("the material '" + material.name + "' is not in any material library");
+        }
+    }
+}
+
+}  // namespace
+
+/// What faces cost once they are looked at. Cutting polygons takes more than triangles do.
+void requireFaces(const Model& model) {
+    constexpr std::uint64_t kTriangleCornerBytes = 128, kPolygonCornerBytes = 200;
+    std::uint64_t bytes = 0;
+    for (const Face& face : model.faces) {
+        bytes += face.corner_count * (face.corner_count == 3 ? kTriangleCornerBytes : kPolygonCornerBytes);
+    }
+    model.memory->require(bytes, {});
+}
+
+Model readModel(const Path& path, const FileOptions& options) {
+    // Beyond this, counts of vertices might not fit 32 bits.
+    constexpr std::uint64_t kMostBytes = std::uint64_t{8} << 30;
+    const bool is_in_memory = options.content.data() != nullptr;
+    const std::uint64_t size = is_in_memory ? options.content.size() : fileSize(path);
+    if (size > kMostBytes) failFile(ErrorCode::unsupportedFile, "the OBJ file is larger than 8 GiB");
+    Bytes bytes = is_in_memory ? Bytes(options.content.begin(), options.content.end()) : readFile(path);
+    Model model;
+    model.files = NamedFiles(path, options);
+    model.input_bytes = bytes.size();
+    model.input_files.push_back(path.string());
+    model.memory = std::make_shared<MemoryBudget>(options.memory_limit_bytes);
+    model.memory->allow(bytes.size());
+    model.memory->take(bytes.size(), {});
+    std::string text(bytes.begin(), bytes.end());
+    Bytes().swap(bytes);
+    const LineNotes notes = prepareLines(text);
+    model.has_smoothing_groups = notes.has_smoothing_groups;
+
+    Build build{.model = &model, .notes = &notes};
+    parse(text, build);
+    std::string().swap(text);
+    if (build.face_line != notes.faces.size()) {
+        failFile(ErrorCode::internal, "internal error: the OBJ parser found fewer faces than the first pass");
+    }
+    checkIndices(build);
+    if (model.faces.empty()) failFile(ErrorCode::invalidFile, "the OBJ file has no faces");
+    requireFaces(model);
+    addWarnings(build, model);
+    takePositions(std::move(build.positions), options, model);
+    fillMaterials(model, readMaterials(notes.material_libraries, model));
+    return model;
+}
+
+}  // namespace tspace::obj

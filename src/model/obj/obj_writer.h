@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// A glTF scene made from nothing: meshes, materials, images, and the buffer that holds them.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "model/io/atomic_output.h"
+#include "model/gltf/document.h"
+#include "model/gltf/packed_layout.h"
+#include "model/obj/obj_model.h"
+#include "model/io/path.h"
+
+namespace tspace::obj {
+
+/// An attribute that holds packed frames, and its elements, tightly packed.
+struct PackedAttribute {
+    gltf::PackedPart part;
+    Bytes elements = {};
+};
+
+/// One primitive, ready to be written: triangles over its own vertices.
+struct FinishedPrimitive {
+    std::uint32_t shape = 0;
+    std::uint32_t material = 0;
+    std::vector<Vec3> positions = {};
+    std::vector<Vec3> normals = {};     ///< empty: none
+    std::vector<Vec2> uvs = {};         ///< empty: none
+    std::vector<Vec4> tangents = {};    ///< empty: none
+    std::vector<Vec3> bitangents = {};  ///< empty: none
+    std::vector<PackedAttribute> packed = {};
+    std::vector<std::uint32_t> indices = {};
+    VectorFormat normal_format = VectorFormat::float32, tangent_format = VectorFormat::float32;
+};
+
+/// Writes to `output` (.glb, else .gltf with a .bin beside it). Images that lie in the output's own folder
+/// are named by URI, others go into the file. Textures that are missing, forbidden or neither PNG nor JPEG
+/// are left out with a warning. Throws FileError.
+void writeScene(const Model& model, const std::vector<FinishedPrimitive>& primitives, const Path& output,
+                AtomicOutput& files, std::vector<std::string>& warnings);
+
+}  // namespace tspace::obj

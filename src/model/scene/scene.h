@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+// What a model file holds that frames depend on, in one form for every format. Read-only: check, diff and identify look
+// at it. `generate` edits files in place and does not use it.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "model/io/memory_budget.h"
+#include "model/scene/tangent_use.h"
+#include "core/base/vec_math.h"
+#include "core/mesh/surface/affine.h"
+#include "tspace/asset.h"
+#include "tspace/vec.h"
+
+namespace tspace {
+
+/// A read-only array that its copies share: files draw one accessor in many places.
+template <class T>
+class SharedArray {
+  public:
+    SharedArray() = default;
+    SharedArray(std::vector<T> values) : values_(std::make_shared<const std::vector<T>>(std::move(values))) {}
+
+    [[nodiscard]] const T* data() const { return values_ ? values_->data() : nullptr; }
+    [[nodiscard]] std::size_t size() const { return values_ ? values_->size() : 0; }
+    [[nodiscard]] bool empty() const { return size() == 0; }
+    [[nodiscard]] const T* begin() const { return data(); }
+    [[nodiscard]] const T* end() const { return data() + size(); }
+    const T& operator[](std::size_t i) const { return (*values_)[i]; }
+    [[nodiscard]] std::span<const T> span() const { return {data(), size()}; }
+
+  private:
+    std::shared_ptr<const std::vector<T>> values_ = {};
+};
+
+/// Offsets of one morph target, one per vertex of its primitive. Empty: the target does not move this attribute.
+struct SceneMorphTarget {
+    SharedArray<Vec3> positions = {};
+    SharedArray<Vec3> normals = {};
+    SharedArray<Vec3> tangents = {};
+};
+
+/// A TANGENT that cannot be read.
+struct SceneTangentFault {
+    std::ptrdiff_t target = -1;  ///< of which morph target; -1: the primitive's own
+    std::string why = {};        ///< "they do not have 4 components"
+};
+
+/// Packed frames in one format.
+struct ScenePacked {
+    FrameFormat format = FrameFormat::frame32;
+    std::string attribute = {};  ///< the first that holds them, or the one that `fault` is about
+    std::string fault = {};      ///< why they cannot be read, half a sentence about `attribute`; empty: they can
+    SharedArray<std::uint8_t> words = {};  ///< without padding; empty where there is a fault
+};
+
+struct ScenePrimitive {
+    std::string place = {};  ///< JSON pointer (glTF), or "usemtl NAME" (OBJ)
+    std::uint32_t mesh = 0;
+    std::uint32_t primitive = 0;     ///< in its mesh
+    std::string mesh_name = {};      ///< may be empty
+    std::string material_name = {};  ///< may be empty
+    std::string mode = {};           ///< "triangles", "triangle strip", "points", ...; OBJ: "triangles" or "polygons"
+    /// Three vertices per triangle, every one smaller than positions.size(). Empty for points and lines.
+    SharedArray<std::uint32_t> corners = {};
+    SharedArray<Vec3> positions = {};
+    double position_step = 0;         ///< where they are stored as whole numbers: between neighbours; 0: floats
+    SharedArray<Vec3> normals = {};   ///< one per vertex, or empty: absent
+    SharedArray<Vec4> tangents = {};  ///< one per vertex, or empty: absent
+    std::vector<SceneTangentFault> tangent_faults = {};  ///< of those that count as absent
+    bool tangents_not_read = false;               ///< they are empty, but the importer cannot tell that there are none
+    std::vector<SharedArray<Vec2>> uv_sets = {};  ///< entry n: TEXCOORD_n, empty where absent; v runs down
+    std::vector<SceneMorphTarget> morph_targets = {};
+    std::vector<ScenePacked> packed = {};  ///< in the order of FrameFormat
+    bool is_unlit = false;                 ///< every material of it is unlit: normals are not looked at
+    bool is_double_sided = false;          ///< every material of it shows both sides
+    /// Everything in the primitive's materials (variants too) that needs tangents; the first decides which UV set the
+    /// tangents follow.
+    std::vector<TangentUse> uses = {};
+    /// Where nodes of the scene put it; empty where that was not asked for.
+    std::vector<Affine> places = {};
+    /// What else may read the tangents, or says that somebody made them: "the material extension EXT_hair". Empty: nothing.
+    std::string other_reader = {};
+
+    /// Whether a texture is read with the tangents, so that its UVs say where they must point.
+    [[nodiscard]] bool uvsDecide() const {
+        return std::any_of(uses.begin(), uses.end(), [](const TangentUse& use) { return use.has_texture; });
+    }
+
+    /// There are tangents that something may read, but no texture with them: somebody may have drawn them, along hair or
+    /// brushed metal, and UVs are no authority on them.
+    [[nodiscard]] bool hasFreeTangents() const {
+        return !tangents.empty() && (uses.empty() ? !other_reader.empty() : !uvsDecide());
+    }
+
+    /// The packed frames that are the only ones it has, or null: `generate` then leaves it as it is.
+    [[nodiscard]] const ScenePacked* packedAlone() const {
+        if (!normals.empty() && !tangents.empty()) return nullptr;
+        for (const ScenePacked& frames : packed) {
+            if (frames.fault.empty()) return &frames;
+        }
+        return nullptr;
+    }
+};
+
+/// What checking a primitive takes of memory for a while, about: most where tangents are computed to compare.
+inline std::uint64_t checkBytes(std::uint64_t corner_count, std::uint64_t vertex_count, bool has_tangents) {
+    return corner_count * (has_tangents ? 96 : 24) + 48 * vertex_count;
+}
+
+struct SceneImage {
+    std::string name = {};  ///< may be empty
+    std::string uri = {};   ///< as the file says; empty when embedded
+    /// The encoded image (PNG, JPEG, ...); empty when it was not asked for or cannot be read.
+    std::vector<std::uint8_t> bytes = {};
+};
+
+struct Scene {
+    std::string format = {};                      ///< "glb", "gltf", "obj"
+    std::string generator = {};                   ///< may be empty
+    std::vector<ScenePrimitive> primitives = {};  ///< in file order
+    std::vector<SceneImage> images = {};          ///< TangentUse::image points here
+    std::vector<std::string> warnings = {};       ///< what reading had to say
+    DVec3 offset = {};                            ///< what reading took out of all positions (OBJ)
+    std::shared_ptr<MemoryBudget> memory = {};    ///< what looking at it may still take
+};
+
+}  // namespace tspace

@@ -1,0 +1,411 @@
+// SPDX-License-Identifier: MIT
+// checkFile: findings of a whole file, their places and order.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "model/gltf_builder.h"
+#include "commands/check/patch.h"
+#include "images/images.h"
+#include "support/temp_folder.h"
+
+namespace tspace::test {
+namespace {
+
+using gltf::Json;
+
+template <class T>
+std::vector<float> floatsOf(const SharedArray<T>& values) {
+    const auto* first = reinterpret_cast<const float*>(values.data());
+    return {first, first + values.size() * sizeof(T) / sizeof(float)};
+}
+
+/// Adds a patch to mesh 0; material 0.
+void addPatch(GltfBuilder& builder, const ScenePrimitive& patch) {
+    Json attributes = Json::object();
+    attributes["POSITION"] = builder.addFloats(floatsOf(patch.positions), 3);
+    attributes["NORMAL"] = builder.addFloats(floatsOf(patch.normals), 3);
+    attributes["TANGENT"] = builder.addFloats(floatsOf(patch.tangents), 4);
+    attributes["TEXCOORD_0"] = builder.addFloats(floatsOf(patch.uv_sets[0]), 2);
+    const std::vector<std::uint32_t> corners(patch.corners.begin(), patch.corners.end());
+    const std::size_t indices = builder.addAccessor(corners, 5125, "SCALAR", corners.size());
+    Json& primitive = builder.addPrimitive(attributes);
+    primitive["indices"] = indices;
+    primitive["material"] = 0;
+}
+
+/// A model with a normal map in a file beside it.
+struct TestModel {
+    TempFolder folder = {};
+    GltfBuilder builder = {};
+
+    explicit TestModel(bool green_down = false, bool inverted = false) {
+        folder.write("normal.png", pngFile(normalMapOf(256, bumps, green_down)));
+        builder.json()["images"] = Json::parse(R"([{"uri":"normal.png"}])");
+        builder.json()["textures"] = Json::parse(R"([{"source":0}])");
+        builder.json()["materials"] = Json::parse(R"([{"name":"skin","normalTexture":{"index":0}}])");
+        ScenePrimitive patch = goodPatch(Seam::turned);
+        if (inverted) {
+            edit(patch.tangents, [](auto& tangents) {
+                for (Vec4& t : tangents) t.w = -t.w;
+            });
+        }
+        addPatch(builder, patch);
+        builder.json()["meshes"][0]["name"] = "patch";
+    }
+
+    [[nodiscard]] CheckReport check(const CheckOptions& options = {}) const {
+        const Result<CheckReport> report = checkFile(folder.write("model.gltf", builder.gltfText()), options);
+        EXPECT_TRUE(report) << report.error().message;
+        return report ? *report : CheckReport{};
+    }
+};
+
+std::multiset<std::string> codes(const CheckReport& report) {
+    std::multiset<std::string> result;
+    for (const Finding& finding : report.findings) {
+        result.insert(std::string(severityName(finding.severity)) + " " + findingName(finding.code));
+    }
+    return result;
+}
+
+using Codes = std::multiset<std::string>;
+
+/// Frames belong to the mesh's own space.
+TEST(CheckFile, DoesNotLookAtNodesThatMoveScaleOrMirror) {
+    const TestModel still;
+    TestModel moved;
+    const std::size_t times = moved.builder.addAccessor(std::vector<float>{0, 1}, 5126, "SCALAR", 2);
+    const std::size_t scales = moved.builder.addFloats({1, 1, 1, -2, 0, 3}, 3);
+    moved.builder.json()["nodes"] = Json::parse(R"([{"mesh":0,"scale":[-1,2,0.5]}])");
+    moved.builder.json()["animations"] = Json::array(
+        {Json{{"samplers", Json::array({Json{{"input", times}, {"output", scales}}})},
+              {"channels", Json::array({Json{{"sampler", 0}, {"target", {{"node", 0}, {"path", "scale"}}}}})}}});
+    const CheckReport a = still.check(), b = moved.check();
+    ASSERT_EQ(a.findings.size(), b.findings.size());
+    for (std::size_t i = 0; i < a.findings.size(); ++i) EXPECT_EQ(a.findings[i].message, b.findings[i].message);
+    const TestModel inverted(false, true);
+    EXPECT_GT(inverted.check().error_count, a.error_count);
+}
+
+TEST(CheckFile, FindsNothingInAGoodFile) {
+    const CheckReport report = TestModel().check();
+    EXPECT_EQ(codes(report), Codes{});
+    EXPECT_EQ(report.primitive_count, 1u);
+    EXPECT_EQ(report.tangents_count, 1u);
+    EXPECT_EQ(report.image_count, 1u);
+    EXPECT_EQ(report.format, "gltf");
+}
+
+TEST(CheckFile, SaysWhereAndInWhat) {
+    const CheckReport report = TestModel(false, true).check();
+    ASSERT_EQ(codes(report), Codes{"error signsInverted"});
+    const Finding& finding = report.findings[0];
+    EXPECT_EQ(finding.place, "/meshes/0/primitives/0");
+    EXPECT_EQ(finding.mesh_name, "patch");
+    EXPECT_EQ(finding.material_name, "skin");
+    EXPECT_EQ(finding.count, 2 * kHalf);
+    EXPECT_EQ(finding.vertices.size(), 8u);
+    EXPECT_EQ(finding.remedy, findingRemedy(FindingCode::signsInverted));
+    EXPECT_EQ(report.error_count, 1u);
+}
+
+TEST(CheckFile, FindsANormalMapWhoseGreenPointsDown) {
+    const CheckReport report = TestModel(true).check();
+    ASSERT_EQ(codes(report), Codes{"warning greenFlipped"});
+    EXPECT_EQ(report.findings[0].place, "/materials/0/normalTexture");
+    EXPECT_GT(report.findings[0].confidence, 0.9);
+    EXPECT_NE(report.findings[0].message.find("'normal.png'"), std::string::npos);
+    EXPECT_EQ(codes(TestModel(true).check({.images = false})), Codes{});
+}
+
+TEST(CheckFile, KnowsThatInvertedSignsAndGreenDownCancelOut) {
+    const CheckReport report = TestModel(true, true).check();
+    EXPECT_EQ(codes(report), (Codes{"warning signsInverted", "note greenFlipped"}));
+    for (const Finding& finding : report.findings) {
+        EXPECT_NE(finding.message.find("cancel out"), std::string::npos) << finding.message;
+    }
+    TestModel mixed(true, true);
+    addPatch(mixed.builder, goodPatch());
+    EXPECT_EQ(codes(mixed.check()), (Codes{"warning signsInverted", "warning greenFlipped"}))
+        << "not in the other patch";
+}
+
+TEST(CheckFile, NamesTheFormatOfAnImageThatIsNotRead) {
+    TestModel model;
+    model.folder.write("normal.png", "\xabKTX 20\xbb\r\n\x1a\n");
+    model.builder.json()["textures"] = Json::parse(R"([{"extensions":{"KHR_texture_basisu":{"source":0}}}])");
+    const CheckReport report = model.check();
+    ASSERT_EQ(codes(report), Codes{"note normalMapUnreadable"});
+    EXPECT_NE(report.findings[0].message.find("it is KTX2, which is not read"), std::string::npos);
+}
+
+TEST(CheckFile, LooksAtWebp) {
+    TestModel model;
+    model.folder.write("normal.png", webpFile(normalMapOf(256, bumps, true), false));
+    model.builder.json()["textures"] = Json::parse(R"([{"extensions":{"EXT_texture_webp":{"source":0}}}])");
+    EXPECT_EQ(codes(model.check()), Codes{"warning greenFlipped"});
+}
+
+/// A map whose left half points up and whose right half points down.
+RgbImage halfFlipped() {
+    RgbImage map = normalMapOf(512, bumps);
+    for (std::size_t y = 0; y < 512; ++y) {
+        for (std::size_t x = 256; x < 512; ++x) map.rgb[3 * (512 * y + x) + 1] ^= 0xff;
+    }
+    return map;
+}
+
+/// Half of a square, left or right, with UVs of the same half of the image, moved by whole repeats.
+void addHalf(GltfBuilder& builder, bool is_right, float move = 0) {
+    const float left = is_right ? 0.5f : 0, right = left + 0.5f;
+    std::vector<float> normals, tangents;
+    for (int i = 0; i < 4; ++i) {
+        normals.insert(normals.end(), {0, 0, 1});
+        tangents.insert(tangents.end(), {1, 0, 0, 1});
+    }
+    const std::size_t indices = builder.addAccessor(std::vector<std::uint32_t>{0, 1, 2, 0, 2, 3}, 5125, "SCALAR", 6);
+    Json& primitive = builder.addPrimitive(
+        {{"POSITION", builder.addFloats({left, 0, 0, right, 0, 0, right, 1, 0, left, 1, 0}, 3)},
+         {"NORMAL", builder.addFloats(normals, 3)},
+         {"TANGENT", builder.addFloats(tangents, 4)},
+         {"TEXCOORD_0",
+          builder.addFloats({left + move, 1 - move, right + move, 1 - move, right + move, -move, left + move, -move},
+                            2)}});
+    primitive["indices"] = indices;
+    primitive["material"] = 0;
+}
+
+CheckReport checkHalves(const TempFolder& folder, bool with_left, bool with_right, const char* transform = nullptr) {
+    folder.write("normal.png", pngFile(halfFlipped()));
+    GltfBuilder builder;
+    if (with_left) addHalf(builder, false, 3);
+    if (with_right) addHalf(builder, true, -2);
+    builder.json()["images"] = Json::parse(R"([{"uri":"normal.png"}])");
+    builder.json()["textures"] = Json::parse(R"([{"source":0}])");
+    builder.json()["materials"] = Json::parse(R"([{"normalTexture":{"index":0}}])");
+    if (transform != nullptr) {
+        builder.json()["materials"][0]["normalTexture"]["extensions"]["KHR_texture_transform"] = Json::parse(transform);
+    }
+    const Result<CheckReport> report = checkFile(folder.write("model.gltf", builder.gltfText()));
+    EXPECT_TRUE(report) << report.error().message;
+    return report ? *report : CheckReport{};
+}
+
+TEST(CheckFile, ReadsTheTexelsOfAMapThatTrianglesShow) {
+    const TempFolder folder;
+    EXPECT_EQ(codes(checkHalves(folder, true, false)), Codes{}) << "the other half may hold anything";
+    EXPECT_EQ(codes(checkHalves(folder, false, true)), Codes{"warning greenFlipped"});
+    EXPECT_EQ(codes(checkHalves(folder, false, true, R"({"offset":[0.5,0]})")), Codes{})
+        << "which moves to the left half";
+    EXPECT_EQ(codes(checkHalves(folder, true, false, R"({"offset":[-0.5,7]})")), Codes{"warning greenFlipped"});
+}
+
+TEST(CheckFile, SaysWhichPartOfAMixedMapPointsDown) {
+    const TempFolder folder;
+    const CheckReport report = checkHalves(folder, true, true);
+    ASSERT_EQ(codes(report), Codes{"warning greenMixed"});
+    const Finding& finding = report.findings[0];
+    EXPECT_EQ(finding.primitive, 1u) << "the right half";
+    EXPECT_EQ(finding.place, "/materials/0/normalTexture");
+    EXPECT_NE(finding.message.find("columns 256 to 511, rows 0 to 511"), std::string::npos) << finding.message;
+    EXPECT_NE(finding.message.find("columns 0 to 255, rows 0 to 511"), std::string::npos) << finding.message;
+    EXPECT_NEAR(static_cast<double>(finding.count) / static_cast<double>(finding.total), 0.5, 0.1);
+    EXPECT_NE(finding.message.find(" %"), std::string::npos) << finding.message;
+}
+
+TEST(CheckFile, AdvisesBothOrNeitherWhereTwoFaultsCancelOut) {
+    for (const Finding& finding : TestModel(true, true).check().findings) {
+        EXPECT_NE(finding.remedy.find("both or neither"), std::string::npos) << finding.remedy;
+        EXPECT_EQ(finding.remedy.find("tspace generate"), std::string::npos) << finding.remedy;
+    }
+}
+
+TEST(CheckFile, LeavesOpenWhatAMapThatItCannotReadWouldCancel) {
+    for (const char* content : {"", "RIFF0000WEBP", "\xABKTX 20", "no image"}) {
+        TestModel model(false, true);
+        model.folder.write("normal.png", content);
+        const CheckReport report = model.check();
+        EXPECT_EQ(codes(report), (Codes{"warning signsInverted", "note normalMapUnreadable"})) << content;
+        EXPECT_EQ(report.findings[0].remedy.find("tspace generate"), std::string::npos);
+        std::filesystem::remove(model.folder.path("normal.png"));
+        EXPECT_EQ(codes(model.check()), (Codes{"warning signsInverted", "note normalMapUnreadable"}));
+    }
+    EXPECT_EQ(codes(TestModel(false, true).check({.images = false})), Codes{"warning signsInverted"});
+}
+
+/// Who names another convention says which signs are right.
+TEST(CheckFile, LeavesNothingOpenWhereAnotherConventionIsAskedFor) {
+    TestModel model;
+    model.folder.write("normal.png", "no image");
+    EXPECT_EQ(codes(model.check({.convention = conventions::opengl})),
+              (Codes{"error signsInverted", "note normalMapUnreadable"}));
+    EXPECT_EQ(codes(model.check()), Codes{"note normalMapUnreadable"});
+}
+
+TEST(CheckFile, TakesGreenThatPointsDownForRightWhereTheConventionHasItSo) {
+    const CheckReport report = TestModel(true, true).check({.convention = conventions::directx});
+    ASSERT_EQ(codes(report), Codes{"note greenFlipped"});
+    EXPECT_EQ(report.findings[0].remedy.find("tspace"), std::string::npos);
+}
+
+TEST(CheckFile, NamesNoCommandForAMapThatHalfOfItsMeshesAreMadeFor) {
+    TestModel model(true, true);
+    addPatch(model.builder, goodPatch(Seam::turned));
+    const CheckReport report = model.check();
+    ASSERT_EQ(codes(report), (Codes{"warning signsInverted", "warning greenFlipped"}));
+    for (const Finding& finding : report.findings) EXPECT_EQ(finding.remedy.find("tspace"), std::string::npos);
+}
+
+TEST(CheckFile, WeighsEveryNormalMapOfAPrimitive) {
+    TestModel model(false, true);
+    model.folder.write("down.png", pngFile(normalMapOf(256, bumps, true)));
+    model.builder.json()["images"].push_back(Json{{"uri", "down.png"}});
+    model.builder.json()["textures"].push_back(Json{{"source", 1}});
+    model.builder.json()["materials"][0]["extensions"]["KHR_materials_clearcoat"]["clearcoatNormalTexture"] =
+        Json{{"index", 1}};
+    EXPECT_EQ(codes(model.check()), (Codes{"warning signsInverted", "note greenFlipped"})) << "one of two is cancelled";
+}
+
+TEST(CheckFile, SaysOnceThatTangentsAreNotNeeded) {
+    TestModel model(false, true);
+    Json& primitives = model.builder.json()["meshes"][0]["primitives"];
+    for (int i = 0; i < 3; ++i) primitives.push_back(primitives[0]);
+    for (std::size_t i = 1; i < 4; ++i) primitives[i].erase("material");
+    const CheckReport report = model.check();
+    ASSERT_EQ(codes(report), (Codes{"error signsInverted", "note tangentsUnused"}));
+    EXPECT_EQ(report.findings[1].count, 3u);
+    EXPECT_EQ(report.findings[1].total, 4u);
+    EXPECT_EQ(report.findings[1].unit, "primitives");
+    EXPECT_EQ(report.findings[1].place, "");
+    EXPECT_NE(report.findings[1].remedy.find("tspace generate --strip"), std::string::npos);
+}
+
+/// An empty target is not allowed, so its tangents cannot go.
+TEST(CheckFile, AdvisesNothingThatCannotBeDone) {
+    TestModel model;
+    Json& primitive = model.builder.json()["meshes"][0]["primitives"][0];
+    primitive["targets"] = Json::array({Json{{"TANGENT", primitive["attributes"]["NORMAL"]}}});
+    primitive.erase("material");
+    EXPECT_EQ(codes(model.check()), Codes{}) << "--strip leaves them";
+    TestModel no_uvs;
+    no_uvs.builder.json()["meshes"][0]["primitives"][0]["attributes"].erase("TEXCOORD_0");
+    no_uvs.builder.json()["meshes"][0]["primitives"][0]["attributes"].erase("TANGENT");
+    const CheckReport report = no_uvs.check();
+    EXPECT_EQ(codes(report), (Codes{"error uvsMissing", "warning tangentsMissing"}));
+    for (const Finding& finding : report.findings) {
+        EXPECT_EQ(finding.remedy.find("tspace generate"), std::string::npos) << finding.remedy;
+    }
+}
+
+TEST(CheckFile, LooksAtNothingThatAnUnlitMaterialDoesNotUse) {
+    TestModel model(false, true);
+    model.builder.json()["materials"][0]["extensions"]["KHR_materials_unlit"] = Json::object();
+    EXPECT_EQ(codes(model.check()), Codes{"note tangentsUnused"});
+}
+
+TEST(CheckFile, SaysThatAnImageWasNotLookedAt) {
+    TestModel model;
+    model.folder.write("normal.png", "RIFF0000WEBP");
+    CheckReport report = model.check();
+    EXPECT_EQ(codes(report), Codes{"note normalMapUnreadable"});
+    EXPECT_EQ(report.image_count, 0u);
+    std::filesystem::remove(model.folder.path("normal.png"));
+    EXPECT_EQ(codes(model.check()), Codes{"note normalMapUnreadable"});
+}
+
+TEST(CheckFile, GivesEachPrimitiveItsOwnFindings) {
+    TestModel model(false, true);
+    Json& primitives = model.builder.json()["meshes"][0]["primitives"];
+    primitives.push_back(primitives[0]);  // the same arrays: checked once
+    addPatch(model.builder, goodPatch());
+    primitives.push_back(primitives[0]);
+    primitives[3].erase("material");
+    const CheckReport report = model.check();
+    EXPECT_EQ(codes(report), (Codes{"error signsInverted", "error signsInverted", "note tangentsUnused"}));
+    EXPECT_EQ(report.findings[0].place, "/meshes/0/primitives/0");
+    EXPECT_EQ(report.findings[1].place, "/meshes/0/primitives/1");
+    EXPECT_EQ(report.findings[1].primitive, 1u);
+    EXPECT_EQ(report.findings[2].place, "/meshes/0/primitives/3");
+    EXPECT_TRUE(std::is_sorted(report.findings.begin(), report.findings.end(),
+                               [](const Finding& a, const Finding& b) { return a.severity > b.severity; }));
+}
+
+TEST(CheckFile, IsTheSameForAnyNumberOfThreads) {
+    TestModel model(true, true);
+    for (int i = 0; i < 5; ++i) addPatch(model.builder, goodPatch(Seam::mirrored));
+    const auto texts = [&](unsigned threads) {
+        std::vector<std::string> result;
+        for (const Finding& finding : model.check({.execution = {.thread_count = threads}}).findings) {
+            result.push_back(finding.place + finding.message);
+        }
+        return result;
+    };
+    EXPECT_EQ(texts(1), texts(4));
+    EXPECT_FALSE(texts(1).empty());
+}
+
+TEST(CheckFile, LooksAtAnObjWithoutComplainingThatItHasNoTangents) {
+    const TempFolder folder;
+    folder.write("m.mtl", "newmtl a\nnorm n.png\n");
+    folder.write("n.png", pngFile(normalMapOf(256, bumps, true)));
+    const std::string file = folder.write("a.obj",
+                                          "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvn 0 0 1\n"
+                                          "usemtl a\nf 1/1/1 2/2/1 3/3/1\n");
+    const Result<CheckReport> report = checkFile(file);
+    ASSERT_TRUE(report);
+    EXPECT_EQ(codes(*report), (Codes{"note tangentsMissing", "warning greenFlipped"}));
+    EXPECT_EQ(report->findings[0].place, "usemtl a");
+}
+
+TEST(CheckFile, PassesOnWhatReadingHadToSay) {
+    const TempFolder folder;
+    const std::string file = folder.write("a.obj",
+                                          "v 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0 0\nvt 1 0\nvn 0 0 1\n"
+                                          "f 1/1/1 2/2/1 3/9/1\n");
+    const Result<CheckReport> report = checkFile(file);
+    ASSERT_TRUE(report);
+    ASSERT_EQ(codes(*report), Codes{"note fileRemark"});
+    EXPECT_NE(report->findings[0].message.find("texture coordinates that do not exist: 1, the first in line 7"),
+              std::string::npos)
+        << report->findings[0].message;
+    EXPECT_EQ(report->findings[0].place, "") << "it is about the whole file";
+}
+
+TEST(CheckFile, RefusesOptionsWithoutMeaning) {
+    for (const CheckOptions& options : {CheckOptions{.direction_deg = -1}, CheckOptions{.error_share = NAN}}) {
+        const Result<CheckReport> report = checkFile("unread.glb", options);
+        ASSERT_FALSE(report);
+        EXPECT_EQ(report.error().code, ErrorCode::invalidOption);
+    }
+}
+
+TEST(CheckFile, TellsHowFarItIs) {
+    TestModel model;
+    addPatch(model.builder, goodPatch(Seam::none));
+    addPatch(model.builder, goodPatch(Seam::none));
+    for (const std::uint32_t threads : {1u, 4u}) {
+        std::vector<std::pair<std::string, std::uint64_t>> told;
+        CheckOptions options;
+        options.execution.thread_count = threads;
+        options.progress = [&](const std::string& what, std::uint64_t done, std::uint64_t total) {
+            EXPECT_LE(done, total);
+            told.emplace_back(what, done);
+        };
+        const CheckReport report = model.check(options);
+        EXPECT_EQ(report.primitive_count, 3u);
+        using Told = std::vector<std::pair<std::string, std::uint64_t>>;
+        const Told all = {{"reading", 0},  {"reading", 1},  {"checking", 0},
+                          {"checking", 1}, {"checking", 2}, {"checking", 3}};
+        if (threads == 1) {
+            EXPECT_EQ(told, all);
+        }
+        ASSERT_GE(told.size(), 4u);
+        EXPECT_EQ(told[2], all[2]);
+        EXPECT_EQ(told.back(), all.back());
+    }
+}
+
+}  // namespace
+}  // namespace tspace::test

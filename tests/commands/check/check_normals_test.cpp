@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: MIT
+// Normals far from their triangles, seams between primitives, and normals that targets leave behind.
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "commands/check/check_seams.h"
+#include "commands/check/patch.h"
+#include "support/shared_data.h"
+#include "tspace/check.h"
+
+namespace tspace::test {
+namespace {
+
+bool has(const std::vector<Finding>& findings, FindingCode code) {
+    return std::any_of(findings.begin(), findings.end(), [&](const Finding& finding) { return finding.code == code; });
+}
+
+/// A box of 8 vertices, whose normals point from its centre; or of 24, each with the normal of its side.
+ScenePrimitive box(bool is_smooth) {
+    std::vector<Vec3> positions, normals;
+    std::vector<std::uint32_t> corners;
+    for (int axis = 0; axis < 3; ++axis) {
+        for (const float side : {-1.0f, 1.0f}) {
+            const auto first = static_cast<std::uint32_t>(positions.size());
+            for (const auto& [u, v] : {std::pair(-1.0f, -1.0f), {1.0f, -1.0f}, {1.0f, 1.0f}, {-1.0f, 1.0f}}) {
+                std::array<float, 3> p = {}, n = {};
+                p[std::size_t(axis)] = n[std::size_t(axis)] = side;
+                p[std::size_t(axis + 1) % 3] = u * side;
+                p[std::size_t(axis + 2) % 3] = v;
+                positions.push_back({p[0], p[1], p[2]});
+                const float k = 0.57735027f;
+                normals.push_back(is_smooth ? Vec3{k * p[0], k * p[1], k * p[2]} : Vec3{n[0], n[1], n[2]});
+            }
+            for (const std::uint32_t i : {0u, 1u, 2u, 0u, 2u, 3u}) corners.push_back(first + i);
+        }
+    }
+    ScenePrimitive primitive;
+    primitive.place = "/meshes/0/primitives/0";
+    primitive.positions = positions;
+    primitive.normals = normals;
+    primitive.corners = corners;
+    return primitive;
+}
+
+TEST(CheckNormals, FindsNormalsThatAreFarFromAllTheirTriangles) {
+    const auto smooth = checkPrimitive(box(true), {}, true);
+    ASSERT_TRUE(smooth);
+    ASSERT_EQ(smooth->size(), 1u);
+    EXPECT_EQ(smooth->front().code, FindingCode::normalsFarFromFaces);
+    EXPECT_EQ(smooth->front().severity, Severity::note);
+    EXPECT_NEAR(smooth->front().worst_deg, 54.7, 0.1);
+    EXPECT_EQ(checkPrimitive(box(false), {}, true)->size(), 0u);
+    EXPECT_FALSE(has(*checkPrimitive(goodPatch(), {}, true), FindingCode::normalsFarFromFaces));
+}
+
+/// A strip of a cylinder from angle `first` on, `count` steps of `step` degrees, with the normals of its own triangles or those
+/// of the cylinder.
+ScenePrimitive strip(std::uint32_t number, double first, int count, double step, bool is_own) {
+    std::vector<Vec3> positions, normals;
+    std::vector<std::uint32_t> corners;
+    const auto direction = [](double degrees) {
+        const double a = degrees * std::numbers::pi / 180;
+        return Vec3{static_cast<float>(std::cos(a)), 0, static_cast<float>(-std::sin(a))};
+    };
+    for (int i = 0; i <= count; ++i) {
+        for (int y = 0; y < 4; ++y) {
+            const Vec3 at = direction(first + i * step);
+            positions.push_back({at.x, static_cast<float>(y), at.z});
+            const double lean = !is_own ? 0 : i == 0 ? step / 2 : i == count ? -step / 2 : 0;
+            normals.push_back(direction(first + i * step + lean));
+        }
+    }
+    for (std::uint32_t i = 0; i < std::uint32_t(count); ++i) {
+        for (std::uint32_t y = 0; y < 3; ++y) {
+            const std::uint32_t a = 4 * i + y;
+            for (const std::uint32_t v : {a, a + 4, a + 5, a, a + 5, a + 1}) corners.push_back(v);
+        }
+    }
+    ScenePrimitive primitive;
+    primitive.place = "/meshes/0/primitives/" + std::to_string(number);
+    primitive.primitive = number;
+    primitive.positions = positions;
+    primitive.normals = normals;
+    primitive.corners = corners;
+    return primitive;
+}
+
+std::vector<Finding> seamsOf(std::vector<ScenePrimitive> primitives) {
+    Scene scene;
+    scene.primitives = std::move(primitives);
+    return checkSeams(scene, {});
+}
+
+TEST(CheckSeams, FindsOneSurfaceWhosePrimitivesHaveTheirOwnNormals) {
+    const auto found = seamsOf({strip(0, 0, 6, 8, true), strip(1, 48, 6, 8, true)});
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_EQ(found[0].code, FindingCode::normalSeam);
+    EXPECT_EQ(found[0].severity, Severity::note);
+    EXPECT_EQ(found[0].count, 4u);
+    EXPECT_NEAR(found[0].worst_deg, 8, 0.1);
+    EXPECT_EQ(found[0].place, "/meshes/0/primitives/0");
+}
+
+TEST(CheckSeams, SaysNothingWhereAnEdgeMayBeMeantOrTheSurfaceIsSmooth) {
+    EXPECT_TRUE(seamsOf({strip(0, 0, 6, 8, false), strip(1, 48, 6, 8, false)}).empty()) << "smooth";
+    EXPECT_TRUE(seamsOf({strip(0, 0, 1, 48, true), strip(1, 48, 6, 8, true)}).empty())
+        << "a flat side, and one that bends";
+    auto other = strip(1, 48, 6, 8, true);
+    other.mesh = 1;
+    EXPECT_TRUE(seamsOf({strip(0, 0, 6, 8, true), other}).empty()) << "meshes move apart";
+    // The bend at the border is sharper than what is smooth elsewhere.
+    ScenePrimitive sharp = strip(1, 48, 6, 8, true);
+    std::vector<Vec3> positions(sharp.positions.begin(), sharp.positions.end()),
+        normals(sharp.normals.begin(), sharp.normals.end());
+    const Vec3 pivot = positions[0];
+    const double turn = 30 * std::numbers::pi / 180;
+    const auto turned = [&](const Vec3& v) {
+        return Vec3{static_cast<float>(std::cos(turn) * v.x - std::sin(turn) * -v.z), v.y,
+                    static_cast<float>(-(std::sin(turn) * v.x + std::cos(turn) * -v.z))};
+    };
+    for (std::size_t v = 0; v < positions.size(); ++v) {
+        const Vec3 moved = turned({positions[v].x - pivot.x, positions[v].y, positions[v].z - pivot.z});
+        if (v >= 4) positions[v] = {moved.x + pivot.x, moved.y, moved.z + pivot.z};
+        normals[v] = turned(normals[v]);
+    }
+    sharp.positions = positions;
+    sharp.normals = normals;
+    EXPECT_TRUE(seamsOf({strip(0, 0, 6, 8, true), sharp}).empty()) << "a hard edge";
+}
+
+/// Rolls a flat patch up; `how` is what the target adds to normals, of what the surface's turn adds.
+ScenePrimitive rolled(double how, bool has_normals = true) {
+    constexpr std::uint32_t side = 17;
+    std::vector<Vec3> positions, normals, offsets, turns;
+    std::vector<std::uint32_t> corners;
+    for (std::uint32_t y = 0; y < side; ++y) {
+        for (std::uint32_t x = 0; x < side; ++x) {
+            const double s = x / 16.0;
+            positions.push_back({float(s), float(y / 16.0), 0});
+            normals.push_back({0, 0, 1});
+            offsets.push_back({float(std::sin(s) - s), 0, float(1 - std::cos(s))});
+            turns.push_back({float(how * -std::sin(s)), 0, float(how * (std::cos(s) - 1))});
+            const std::uint32_t a = y * side + x;
+            if (x + 1 == side || y + 1 == side) continue;
+            for (const std::uint32_t v : {a, a + 1, a + side + 1, a, a + side + 1, a + side}) corners.push_back(v);
+        }
+    }
+    ScenePrimitive primitive;
+    primitive.place = "/meshes/0/primitives/0";
+    primitive.positions = positions;
+    primitive.normals = normals;
+    primitive.corners = corners;
+    primitive.morph_targets = {{.positions = offsets}};
+    if (has_normals) primitive.morph_targets[0].normals = turns;
+    return primitive;
+}
+
+TEST(CheckMorphNormals, FindsWhatIsMissingAndWhatIsWrong) {
+    EXPECT_TRUE(checkPrimitive(rolled(1), {}, true)->empty());
+    EXPECT_TRUE(checkPrimitive(rolled(0.9), {}, true)->empty()) << "other weights";
+    for (const auto& [primitive, code] : {std::pair(rolled(0), FindingCode::morphNormalsMissing),
+                                          std::pair(rolled(0, false), FindingCode::morphNormalsMissing),
+                                          std::pair(rolled(-1), FindingCode::morphNormalsWrong)}) {
+        const auto findings = checkPrimitive(primitive, {}, true);
+        ASSERT_EQ(findings->size(), 1u);
+        EXPECT_EQ(findings->front().code, code);
+        EXPECT_EQ(findings->front().place, "/meshes/0/primitives/0/targets/0");
+    }
+    EXPECT_EQ(checkPrimitive(rolled(0), {}, true)->front().severity, Severity::warning);
+    EXPECT_EQ(checkPrimitive(rolled(-1), {}, true)->front().severity, Severity::error) << "114 degrees off";
+    ScenePrimitive unlit = rolled(-1);
+    unlit.is_unlit = true;
+    EXPECT_TRUE(checkPrimitive(unlit, {}, true)->empty());
+}
+
+TEST(CheckMorphNormals, LooksAtTheChangeAndNotAtTheNormals) {
+    ScenePrimitive tilted = rolled(1);
+    const Vec3 lean{0, 0.6f, 0.8f};
+    std::vector<Vec3> offsets;
+    for (const Vec3& turn : tilted.morph_targets[0].normals) offsets.push_back({0.8f * turn.x, 0, 0.8f * turn.z});
+    tilted.normals = std::vector<Vec3>(tilted.positions.size(), lean);
+    tilted.morph_targets[0].normals = offsets;
+    EXPECT_TRUE(checkPrimitive(tilted, {}, true)->empty());
+}
+
+TEST(CheckMorphNormals, FindsOneOffsetThatIsNotFinite) {
+    for (const float bad : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
+        for (const bool in_normals : {false, true}) {
+            ScenePrimitive primitive = rolled(1);
+            primitive.morph_targets.push_back(primitive.morph_targets[0]);
+            SharedArray<Vec3>& array =
+                in_normals ? primitive.morph_targets[1].normals : primitive.morph_targets[1].positions;
+            edit(array, [&](auto& offsets) { offsets[40].y = bad; });
+            const FindingCode code = in_normals ? FindingCode::normalsNotFinite : FindingCode::positionsNotFinite;
+            const auto findings = checkPrimitive(primitive, {}, true);
+            const auto found = std::find_if(findings->begin(), findings->end(),
+                                            [&](const Finding& finding) { return finding.code == code; });
+            ASSERT_NE(found, findings->end());
+            EXPECT_EQ(found->severity, Severity::error);
+            EXPECT_EQ(found->count, 1u);
+            EXPECT_EQ(found->vertices, std::vector<std::uint32_t>{40});
+            EXPECT_EQ(found->place, "/meshes/0/primitives/0/targets/1");
+            EXPECT_NE(found->message.find("target 1"), std::string::npos);
+            EXPECT_EQ(found->remedy.find("--morph-normals all") != std::string::npos, in_normals);
+            primitive.corners = std::vector<std::uint32_t>{0, 1, 18};
+            EXPECT_FALSE(has(*checkPrimitive(primitive, {}, true), code)) << "no triangle uses it";
+        }
+    }
+}
+
+TEST(CheckMorphNormals, FindsOneNormalThatATargetCancels) {
+    ScenePrimitive primitive = rolled(1);
+    edit(primitive.morph_targets[0].normals, [](auto& offsets) { offsets[40] = {0, 0, -1}; });
+    const auto findings = checkPrimitive(primitive, {}, true);
+    ASSERT_EQ(findings->size(), 1u);
+    EXPECT_EQ(findings->front().code, FindingCode::morphNormalsWrong);
+    EXPECT_EQ(findings->front().severity, Severity::error);
+    EXPECT_EQ(findings->front().vertices, std::vector<std::uint32_t>{40});
+    primitive.morph_targets[0].positions = {};
+    EXPECT_EQ(checkPrimitive(primitive, {}, true)->front().remedy, "Export the normals of the targets again.");
+}
+
+TEST(CheckMorphNormals, SaysWhatIsTrueOfFiles) {
+    TSPACE_NEEDS_SHARED("reports/morph_right.glb");
+    const auto find = [](const char* name) {
+        const auto report = checkFile(shared(std::string("reports/") + name).string());
+        EXPECT_TRUE(report);
+        return report->findings;
+    };
+    EXPECT_TRUE(has(find("morph_normal_is_position.glb"), FindingCode::morphNormalsWrong));
+    EXPECT_TRUE(has(find("morph_pos_only.glb"), FindingCode::morphNormalsMissing));
+    EXPECT_FALSE(has(find("morph_right.glb"), FindingCode::morphNormalsWrong));
+    EXPECT_FALSE(has(find("morph_right.glb"), FindingCode::morphNormalsMissing));
+    EXPECT_TRUE(has(find("pillar_smoothed.glb"), FindingCode::normalsFarFromFaces));
+}
+
+}  // namespace
+}  // namespace tspace::test

@@ -1,0 +1,427 @@
+// SPDX-License-Identifier: MIT
+// What an image holds that is used as a normal map: each kind is told, and sound maps are none of them.
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <string>
+#include <utility>
+
+#include "commands/check/map_content.h"
+#include "core/base/unit.h"
+#include "images/images.h"
+
+namespace tspace::test {
+namespace {
+
+MapLook lookAt(const RgbImage& image, std::span<const std::uint8_t> alpha = {},
+               std::span<const TexelOnSurface> surface = {}) {
+    TexelMask all(image.width, image.height);
+    all.fillAll();
+    return lookAtTexels(sampleTexels(image, alpha, all), !alpha.empty(), surface);
+}
+
+/// change(texel) is called for the three bytes of each texel.
+template <class Change>
+RgbImage changed(RgbImage image, const Change& change) {
+    for (std::size_t i = 0; i < image.rgb.size(); i += 3) change(image.rgb.data() + i);
+    return image;
+}
+
+const RgbImage& sound() {
+    static const RgbImage map = normalMapOf(128, [](double x, double y) { return 2 * bumps(x, y); });
+    return map;
+}
+
+std::uint8_t byteOf(double part) { return static_cast<std::uint8_t>(std::lround(255 * std::clamp(part, 0.0, 1.0))); }
+std::uint8_t withSrgb(std::uint8_t c) {
+    const double part = c / 255.0;
+    return byteOf(part <= 0.0031308 ? 12.92 * part : 1.055 * std::pow(part, 1 / 2.4) - 0.055);
+}
+std::uint8_t withoutSrgb(std::uint8_t c) {
+    const double part = c / 255.0;
+    return byteOf(part <= 0.04045 ? part / 12.92 : std::pow((part + 0.055) / 1.055, 2.4));
+}
+
+TEST(MapContent, IsNormalsForSoundMaps) {
+    const auto flat = [](double, double) { return 0.0; };
+    const auto stripes = [](double x, double) { return 0.02 * std::sin(40 * x); };
+    const auto steep = [](double x, double y) { return 10 * bumps(x, y); };
+    for (const RgbImage& map : {sound(), normalMapOf(1, flat), normalMapOf(4, flat), normalMapOf(64, flat),
+                                normalMapOf(64, stripes), normalMapOf(64, steep), normalMapOf(128, bumps, true)}) {
+        EXPECT_EQ(lookAt(map).content, MapContent::normals) << map.width;
+        std::string why;
+        for (const int quality : {50, 90}) {
+            const std::string file = jpegFile(map, quality);
+            EXPECT_EQ(lookAt(*decodeImage(bytesOf(file), 1 << 20, why)).content, MapContent::normals) << quality;
+        }
+    }
+}
+
+TEST(MapContent, IsNormalsForLengthsThatFilteringShortened) {
+    for (const double shortest : {0.7, 0.9}) {
+        const RgbImage map = changed(sound(), [&](std::uint8_t* texel) {
+            const double lean = (255 - texel[2]) / 40.0, size = 1 - (1 - shortest) * std::min(1.0, lean);
+            for (int k = 0; k < 3; ++k) texel[k] = byteOf(0.5 + size * (texel[k] / 255.0 - 0.5));
+        });
+        EXPECT_EQ(lookAt(map).content, MapContent::normals) << shortest;
+    }
+}
+
+/// Flat but for a few texels: blue is constant nearly everywhere.
+TEST(MapContent, IsNormalsForMapsThatAreFlatNearlyEverywhere) {
+    const auto rivet = [](double x, double y) {
+        return 0.02 * std::exp(-900 * ((x - .5) * (x - .5) + (y - .5) * (y - .5)));
+    };
+    EXPECT_EQ(lookAt(normalMapOf(256, rivet)).content, MapContent::normals);
+}
+
+TEST(MapContent, TellsTwoChannels) {
+    for (const int blue : {0, 127, 255}) {
+        const MapLook look =
+            lookAt(changed(sound(), [&](std::uint8_t* texel) { texel[2] = static_cast<std::uint8_t>(blue); }));
+        EXPECT_EQ(look.content, MapContent::twoChannels) << blue;
+        EXPECT_EQ(look.layout.z.channel, MapChannel::none);
+    }
+    const RgbImage flat{8, 8, std::vector<std::uint8_t>(192, 128)};
+    EXPECT_EQ(lookAt(changed(flat, [](std::uint8_t* texel) { texel[2] = 0; })).content, MapContent::twoChannels);
+}
+
+TEST(MapContent, TellsZFromZeroToOne) {
+    const RgbImage map = changed(sound(), [](std::uint8_t* texel) { texel[2] = byteOf(texel[2] / 127.5 - 1); });
+    EXPECT_EQ(lookAt(map).content, MapContent::unsignedZ);
+}
+
+TEST(MapContent, TellsZFromZeroToOneInJpeg) {
+    const RgbImage map = changed(sound(), [](std::uint8_t* texel) { texel[2] = byteOf(texel[2] / 127.5 - 1); });
+    for (const int quality : {70, 85, 95}) {
+        std::string why;
+        const std::string file = jpegFile(map, quality);
+        EXPECT_EQ(lookAt(*decodeImage(bytesOf(file), 1 << 20, why)).content, MapContent::unsignedZ) << quality;
+    }
+}
+
+TEST(MapContent, TellsTwoChannelsThatLeanToOneSide) {
+    const RgbImage leaning = normalMapOf(128, [](double x, double y) { return 2 * bumps(x, y) + 0.4 * x; });
+    EXPECT_EQ(lookAt(leaning).content, MapContent::normals);
+    for (const int blue : {0, 128, 255}) {
+        const RgbImage map = changed(leaning, [&](std::uint8_t* texel) { texel[2] = static_cast<std::uint8_t>(blue); });
+        EXPECT_EQ(lookAt(map).content, MapContent::twoChannels) << blue;
+    }
+}
+
+TEST(MapContent, TellsXInAlphaFromHeightsWithAMask) {
+    std::vector<std::uint8_t> alpha;
+    for (std::size_t i = 0; i < sound().rgb.size(); i += 3) alpha.push_back(sound().rgb[i]);
+    for (const int other : {0, 255, -1}) {
+        const RgbImage map = changed(sound(), [&](std::uint8_t* texel) {
+            texel[0] = texel[2] = other < 0 ? texel[1] : static_cast<std::uint8_t>(other);
+        });
+        const MapLook look = lookAt(map, alpha);
+        EXPECT_EQ(look.content, MapContent::xInAlpha) << other;
+        EXPECT_EQ(look.layout.x.channel, MapChannel::alpha);
+    }
+    const RgbImage heights = changed(sound(), [](std::uint8_t* texel) { texel[0] = texel[2] = texel[1]; });
+    EXPECT_EQ(lookAt(heights).content, MapContent::height);
+    std::vector<std::uint8_t> mask(alpha.size(), 255);
+    std::fill(mask.begin(), mask.begin() + 1000, 0);
+    EXPECT_EQ(lookAt(heights, mask).content, MapContent::height);
+}
+
+TEST(MapContent, TellsExchangedAndInvertedChannels) {
+    struct Case {
+        int order[3];
+        bool is_inverted;
+    };
+    for (const Case& one :
+         {Case{{2, 1, 0}, false}, Case{{0, 2, 1}, false}, Case{{0, 1, 2}, true}, Case{{2, 1, 0}, true}}) {
+        const RgbImage map = changed(sound(), [&](std::uint8_t* texel) {
+            if (one.is_inverted) texel[2] ^= 0xff;
+            const std::uint8_t old[3] = {texel[0], texel[1], texel[2]};
+            for (int k = 0; k < 3; ++k) texel[k] = old[one.order[k]];
+        });
+        const MapLook look = lookAt(map);
+        ASSERT_EQ(look.content, MapContent::exchanged) << one.order[0] << one.order[1] << one.order[2];
+        RgbImage read = map;
+        readByLayout(read, {}, look.layout);
+        EXPECT_EQ(read.rgb, sound().rgb);
+    }
+}
+
+TEST(MapContent, TellsColors) {
+    const auto encode = [](const auto& curve) {
+        return [&curve](std::uint8_t* texel) {
+            for (int k = 0; k < 3; ++k) texel[k] = curve(texel[k]);
+        };
+    };
+    const MapLook on = lookAt(changed(sound(), encode(withSrgb))), off = lookAt(changed(sound(), encode(withoutSrgb)));
+    EXPECT_EQ(on.content, MapContent::encoded);
+    EXPECT_EQ(on.layout.curve, MapCurve::srgb);
+    EXPECT_EQ(off.content, MapContent::encoded);
+    EXPECT_EQ(off.layout.curve, MapCurve::linearised);
+}
+
+/// A map of the normals of a ball, as they are and with other axes.
+TEST(MapContent, TellsObjectSpaceByTheMesh) {
+    constexpr std::uint32_t kSize = 64;
+    for (const bool is_z_up : {false, true}) {
+        RgbImage map{kSize, kSize, {}};
+        std::vector<TexelOnSurface> surface;
+        for (std::uint32_t row = 0; row < kSize; ++row) {
+            for (std::uint32_t column = 0; column < kSize; ++column) {
+                const double u = 6.2831853 * (column + .5) / kSize, v = 3.1415926 * (row + .5) / kSize;
+                const double n[3] = {std::sin(v) * std::cos(u), std::cos(v), std::sin(v) * std::sin(u)};
+                const double stored[3] = {n[0], is_z_up ? -n[2] : n[1], is_z_up ? n[1] : n[2]};
+                TexelBytes texel{0, 0, 0, 255};
+                for (std::size_t k = 0; k < 3; ++k) {
+                    texel[k] = byteOf(0.5 + 0.5 * stored[k]);
+                    map.rgb.push_back(texel[k]);
+                }
+                surface.push_back({{float(n[0]), float(n[1]), float(n[2])}, texel, std::sin(v)});
+            }
+        }
+        const MapLook look = lookAt(map, {}, surface);
+        ASSERT_EQ(look.content, MapContent::objectSpace);
+        EXPECT_TRUE(look.follows_mesh);
+        EXPECT_EQ(look.layout == MapLayout{}, !is_z_up);
+        const MapLook elsewhere = lookAt(map);
+        EXPECT_EQ(elsewhere.content, MapContent::objectSpace) << "the vectors point all around";
+        EXPECT_FALSE(elsewhere.follows_mesh);
+        for (TexelOnSurface& point : surface) point.texel = {128, 128, 255, 255};
+        EXPECT_EQ(lookAt(sound(), {}, surface).content, MapContent::normals);
+    }
+}
+
+/// A surface over u and v from -1 to 1, and a map of it.
+struct Shown {
+    RgbImage map{64, 64, {}};
+    std::vector<TexelOnSurface> surface;
+};
+
+template <class NormalOf, class TexelOf>
+Shown shownBy(const NormalOf& normalOf, const TexelOf& texelOf) {
+    Shown shown;
+    for (int row = 0; row < 64; ++row) {
+        for (int column = 0; column < 64; ++column) {
+            const double u = (column - 31.5) / 32, v = (row - 31.5) / 32;
+            const DVec3 n = normalOf(u, v), t = texelOf(u, v);
+            const TexelBytes texel{byteOf(0.5 + 0.5 * t.x), byteOf(0.5 + 0.5 * t.y), byteOf(0.5 + 0.5 * t.z), 255};
+            shown.map.rgb.insert(shown.map.rgb.end(), texel.begin(), texel.begin() + 3);
+            shown.surface.push_back({{float(n.x), float(n.y), float(n.z)}, texel, 1, {float(u), float(v)}});
+        }
+    }
+    return shown;
+}
+
+MapLook lookAt(const Shown& shown) { return lookAt(shown.map, {}, shown.surface); }
+
+/// Relief of the shape of the mesh goes with its normals, and is in tangent space all the same.
+TEST(MapContent, IsNormalsForABulgeOnABulge) {
+    const auto bulge = [](double half) {
+        return [half](double u, double) { return DVec3{std::sin(half * u), 0, std::cos(half * u)}; };
+    };
+    const auto faces_y = [](double u, double) { return DVec3{std::sin(u), std::cos(u), 0}; };
+    for (const double relief : {0.17, 0.5, 0.9}) {
+        for (const double mesh : {0.17, 0.5, 0.9, 1.2})
+            EXPECT_EQ(lookAt(shownBy(bulge(mesh), bulge(relief))).content, MapContent::normals) << relief << mesh;
+        EXPECT_EQ(lookAt(shownBy(faces_y, bulge(relief))).content, MapContent::normals) << relief;
+    }
+}
+
+/// Hills lean by up to 40 degrees.
+DVec3 hills(double u, double v) {
+    const double x = 0.5 * std::cos(5 * u + 1) * std::cos(4 * v), y = 0.5 * std::cos(7 * v + u);
+    const double size = std::sqrt(x * x + y * y + 1);
+    return {x / size, y / size, 1 / size};
+}
+
+TEST(MapContent, IsInObjectSpaceOnlyWhereItFollowsTheMesh) {
+    const auto turned = [](double u, double v) {
+        const DVec3 n = hills(u, v);
+        return DVec3{n.x, n.z, -n.y};
+    };
+    for (const MapLook& look :
+         {lookAt(shownBy(hills, hills)), lookAt(shownBy(turned, hills)), lookAt(shownBy(turned, turned))}) {
+        EXPECT_EQ(look.content, MapContent::objectSpace);
+        EXPECT_TRUE(look.follows_mesh);
+    }
+    // Green and blue exchanged, on hills that face y as the vectors do.
+    const auto weak = [](double u, double v) { return DVec3{0.07 * std::sin(40 * u), 0.995, 0.07 * std::sin(37 * v)}; };
+    EXPECT_EQ(lookAt(shownBy(turned, weak)).content, MapContent::exchanged);
+}
+
+/// Terrain that leans by 20 degrees at most, and relief on it by over 40, which hides it from single texels.
+TEST(MapContent, IsInObjectSpaceUnderStrongReliefToo) {
+    const auto leaning = [](double x, double y) {
+        const double size = std::sqrt(x * x + y * y + 1);
+        return DVec3{x / size, y / size, 1 / size};
+    };
+    const auto mesh = [](double u, double v) {
+        return std::pair{0.3 * std::cos(2.5 * u + 1), 0.3 * std::cos(3 * v + u)};
+    };
+    const auto relief = [](double u, double v) {
+        return std::pair{0.9 * std::cos(41 * u + 9 * v), 0.9 * std::sin(37 * v - 7 * u)};
+    };
+    const auto of_mesh = [&](double u, double v) {
+        const auto [x, y] = mesh(u, v);
+        return leaning(x, y);
+    };
+    const auto on_mesh = [&](double u, double v) {
+        const auto [x, y] = mesh(u, v);
+        const auto [a, b] = relief(u, v);
+        return leaning(x + a, y + b);
+    };
+    const auto in_tangent_space = [&](double u, double v) {
+        const auto [a, b] = relief(u, v);
+        return leaning(a, b);
+    };
+    const auto turned = [](const auto& of) {
+        return [of](double u, double v) {
+            const DVec3 n = of(u, v);
+            return DVec3{n.x, n.z, -n.y};
+        };
+    };
+    EXPECT_EQ(lookAt(shownBy(of_mesh, on_mesh)).content, MapContent::objectSpace) << "faces z";
+    EXPECT_EQ(lookAt(shownBy(turned(of_mesh), turned(on_mesh))).content, MapContent::objectSpace) << "faces y";
+    EXPECT_EQ(lookAt(shownBy(of_mesh, in_tangent_space)).content, MapContent::normals);
+    EXPECT_EQ(lookAt(shownBy(turned(of_mesh), in_tangent_space)).content, MapContent::normals);
+    EXPECT_EQ(lookAt(shownBy(turned(of_mesh), turned(in_tangent_space))).content, MapContent::exchanged);
+}
+
+/// colorOf(u, v, random) gives red, green and blue from 0 to 1.
+template <class ColorOf>
+RgbImage painted(const ColorOf& colorOf) {
+    RgbImage image{64, 64, {}};
+    std::mt19937 random(7);
+    for (int i = 0; i < 64 * 64; ++i) {
+        const DVec3 color = colorOf(i % 64 / 64.0, i / 64 / 64.0, random);
+        for (const double part : {color.x, color.y, color.z}) image.rgb.push_back(byteOf(part));
+    }
+    return image;
+}
+
+double lightAt(double u, double v) { return 0.5 + 0.4 * std::sin(13 * u) * std::cos(10 * v); }
+
+RgbImage tinted(const DVec3& tint, double least = 0, double most = 1) {
+    return painted([&](double u, double v, std::mt19937&) { return (least + (most - least) * lightAt(u, v)) * tint; });
+}
+
+void isPicture(const RgbImage& image, const char* what) {
+    EXPECT_EQ(static_cast<int>(lookAt(image).content), static_cast<int>(MapContent::picture)) << what;
+    std::string why;
+    const std::string file = jpegFile(image, 85);
+    const RgbImage jpeg = *decodeImage(bytesOf(file), 1 << 20, why);
+    EXPECT_EQ(static_cast<int>(lookAt(jpeg).content), static_cast<int>(MapContent::picture)) << what << " as JPEG";
+}
+
+TEST(MapContent, TellsPictures) {
+    isPicture(tinted({1, 0.8, 0.6}), "wood");
+    isPicture(tinted({1, 0.6, 0.3}), "orange");
+    isPicture(tinted({0.3, 0.8, 0.4}), "leaves");
+    isPicture(tinted({0.35, 0.5, 1}), "sky");
+    isPicture(tinted({1, 0.9, 0.75}, 0.74, 0.98), "plaster, whose texels are unit vectors");
+    isPicture(tinted({1, 0.85, 0.7}, 0.16, 0.3), "dark earth, whose texels are unit vectors");
+    const auto noise = [](double, double, std::mt19937& random) {
+        std::uniform_real_distribution<double> part;
+        return DVec3{part(random), part(random), part(random)};
+    };
+    isPicture(painted(noise), "noise");
+    isPicture(painted([&](double u, double v, std::mt19937& random) {
+                  return DVec3{0.35, 0.35, 0.35} + 0.3 * noise(u, v, random);
+              }),
+              "weak noise");
+    isPicture(painted([](double u, double v, std::mt19937&) {
+                  return DVec3{1 - 0.3 * lightAt(u, v), 0.4 + 0.5 * lightAt(v, u), u + v > 1 ? 1.0 : 0.0};
+              }),
+              "occlusion, roughness, metal");
+    isPicture(painted([](double u, double v, std::mt19937&) {
+                  return DVec3{1, 0.5 + 0.4 * lightAt(u, v), 0};
+              }),
+              "roughness alone");
+    isPicture(painted([&](double u, double v, std::mt19937&) {
+                  const int tile = static_cast<int>(4 * u) + 4 * static_cast<int>(4 * v);
+                  return DVec3{tile % 3 / 2.0, tile % 5 / 4.0, tile % 7 / 6.0};
+              }),
+              "tiles");
+}
+
+TEST(MapContent, TellsHeightsWithATint) {
+    for (const double tint : {0.99, 0.96, 0.92}) {
+        const RgbImage map = tinted({1, (1 + tint) / 2, tint});
+        EXPECT_EQ(lookAt(map).content, MapContent::height) << tint;
+        std::string why;
+        const std::string file = jpegFile(map, 85);
+        EXPECT_EQ(lookAt(*decodeImage(bytesOf(file), 1 << 20, why)).content, MapContent::height) << tint;
+    }
+}
+
+/// Sound maps, and those that have findings of their own.
+TEST(MapContent, IsNoPictureWhereItMayBeVectors) {
+    for (const TexelBytes& color :
+         {TexelBytes{0, 0, 255, 255}, TexelBytes{128, 128, 255, 255}, TexelBytes{200, 90, 10, 255}}) {
+        const RgbImage one{1, 1, {color[0], color[1], color[2]}};
+        EXPECT_EQ(lookAt(one).content, MapContent::normals) << "an image of one color says nothing";
+    }
+    int n = 0;
+    const RgbImage half_black = changed(sound(), [&n](std::uint8_t* texel) {
+        if (n++ % 4 != 0) texel[0] = texel[1] = texel[2] = 0;
+    });
+    EXPECT_EQ(lookAt(half_black).content, MapContent::normals) << "most was never baked";
+    for (const double size : {0.3, 0.6}) {
+        const RgbImage map = changed(sound(), [&](std::uint8_t* texel) {
+            for (int k = 0; k < 3; ++k) texel[k] = byteOf(0.5 + size * (texel[k] / 255.0 - 0.5));
+        });
+        EXPECT_EQ(lookAt(map).content, MapContent::normals) << "vectors that are short, by " << size;
+    }
+    const RgbImage strong = changed(sound(), [](std::uint8_t* texel) {
+        for (int k = 0; k < 2; ++k) texel[k] = byteOf(0.5 + 3 * (texel[k] / 255.0 - 0.5));
+    });
+    EXPECT_EQ(lookAt(strong).content, MapContent::normals) << "x and y are strengthened, and z is not";
+}
+
+TEST(MapContent, IsInWorldSpaceWhereANodeTurnsTheNormals) {
+    for (const double angle : {0.26, 0.8}) {
+        const double c = std::cos(angle), s = std::sin(angle);
+        const auto in_mesh = [](double u, double v) {
+            const DVec3 n = hills(u, v);
+            return DVec3{n.x, n.z, -n.y};
+        };
+        const auto in_world = [&](double u, double v) {
+            const DVec3 n = in_mesh(u, v);
+            return DVec3{c * n.x + s * n.z, n.y, c * n.z - s * n.x};
+        };
+        const Shown shown = shownBy(in_mesh, in_world), baked = shownBy(in_mesh, in_mesh);
+        const std::vector<TexelOnSurface> turned = shownBy(in_world, in_world).surface;
+        TexelMask all(64, 64);
+        all.fillAll();
+        const MapLook look = lookAtTexels(sampleTexels(shown.map, {}, all), false, shown.surface, turned);
+        EXPECT_EQ(look.content, MapContent::objectSpace);
+        EXPECT_TRUE(look.follows_mesh && look.is_in_world) << angle;
+        std::vector<TexelOnSurface> of_mesh = turned;
+        for (std::size_t i = 0; i < of_mesh.size(); ++i) of_mesh[i].texel = baked.surface[i].texel;
+        const MapLook other = lookAtTexels(sampleTexels(baked.map, {}, all), false, baked.surface, of_mesh);
+        EXPECT_TRUE(other.follows_mesh && !other.is_in_world) << angle;
+    }
+}
+
+TEST(MapContent, OfAnyReliefIsToldFromAllOtherKinds) {
+    EXPECT_TRUE(rc::check([] {
+        const double a = *rc::gen::inRange(5, 40), b = *rc::gen::inRange(5, 40), c = *rc::gen::inRange(-20, 20);
+        const auto height = [&](double x, double y) {
+            return 1.0 / (a + b + std::abs(c)) * std::sin(a * x + c * y) * std::cos(b * y);
+        };
+        const RgbImage map = normalMapOf(64, height);
+        RC_ASSERT(lookAt(map).content == MapContent::normals);
+        RC_ASSERT(lookAt(changed(map, [](std::uint8_t* t) { t[2] = 0; })).content == MapContent::twoChannels);
+        RC_ASSERT(lookAt(changed(map, [](std::uint8_t* t) { std::swap(t[0], t[2]); })).content ==
+                  MapContent::exchanged);
+        RC_ASSERT(lookAt(changed(map, [](std::uint8_t* t) {
+                      for (int k = 0; k < 3; ++k) t[k] = withSrgb(t[k]);
+                  })).content == MapContent::encoded);
+    }));
+}
+
+}  // namespace
+}  // namespace tspace::test

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: MIT
+// Pictures of pages: the angles between two models, and places of findings after what their remedies name.
+#include <cmath>
+
+#include "commands/shared/page/diff_pictures.h"
+#include "commands/shared/page/finding_pictures.h"
+#include "commands/shared/page/remedy.h"
+#include "commands/shared/picture/colors.h"
+#include "commands/render/drawn.h"
+
+namespace tspace::test {
+namespace {
+
+RgbImage decoded(const std::vector<std::uint8_t>& png) {
+    std::string why;
+    const auto image = decodeImage(png, 1 << 26, why);
+    EXPECT_TRUE(image.has_value()) << why;
+    return image.value_or(RgbImage{});
+}
+
+FileOptions inMemory(const Bytes& file) {
+    FileOptions options;
+    options.content = file;
+    return options;
+}
+
+/// The square with T turned by an angle, and this sign.
+SquareModel turnedSquare(double degrees, float sign = 1) {
+    SquareModel model;
+    const double a = degrees * M_PI / 180;
+    for (std::size_t i = 0; i < model.tangents.size(); i += 4) {
+        model.tangents[i] = static_cast<float>(std::cos(a));
+        model.tangents[i + 1] = static_cast<float>(std::sin(a));
+        model.tangents[i + 3] = sign;
+    }
+    return model;
+}
+
+/// The colour in the middle of the heat map of two models, from 0 to 1, made as bright as the colour of `degrees`.
+void expectHeat(const SquareModel& a, const SquareModel& b, float degrees) {
+    const Bytes file_a = a.build().glb(), file_b = b.build().glb();
+    DiffOptions options{.file = inMemory(file_a), .file_b = inMemory(file_b)};
+    DiffPictures pictures("a.glb", "b.glb", options);
+    const RgbImage image = decoded(pictures.heatMap(DiffPictures::Side::front));
+    ASSERT_EQ(image.width, DiffPictures::kHeatWidth);
+    // The scale takes some rows at the bottom; the square is symmetric, and so is around the middle of the rest.
+    const std::size_t i = 3 * (std::size_t{image.height / 2 - 10} * image.width + image.width / 2);
+    const Vec3 expected = heatColor(degrees);
+    // Surfaces are darker where they turn away: all channels by one factor.
+    const double factor = image.rgb[i + 2] / (255.0 * expected.z);
+    EXPECT_GT(factor, 0.7);
+    EXPECT_LE(factor, 1.01);
+    EXPECT_NEAR(image.rgb[i] / 255.0, factor * expected.x, 0.01);
+    EXPECT_NEAR(image.rgb[i + 1] / 255.0, factor * expected.y, 0.01);
+}
+
+TEST(DiffPictures, ShowTheLargestAngle) {
+    expectHeat(turnedSquare(0), turnedSquare(0), 0);
+    expectHeat(turnedSquare(0), turnedSquare(30), 30);
+    expectHeat(turnedSquare(10), turnedSquare(0), 10);
+}
+
+TEST(DiffPictures, ASignCountsAsWhatItDoesToB) { expectHeat(turnedSquare(0), turnedSquare(0, -1), 180); }
+
+TEST(DiffPictures, NormalsAreCompared) {
+    SquareModel a, b;
+    a.tangents.clear();
+    b.tangents.clear();
+    const auto s = static_cast<float>(std::sin(20 * M_PI / 180)), c = static_cast<float>(std::cos(20 * M_PI / 180));
+    b.normals = {s, 0, c, s, 0, c, s, 0, c, s, 0, c};
+    expectHeat(a, b, 20);
+}
+
+TEST(DiffPictures, TrianglesAreComparedWithTheirPartners) {
+    SquareModel b = turnedSquare(30);
+    b.indices = {3, 0, 2, 1, 2, 0};
+    expectHeat(turnedSquare(0), b, 30);
+}
+
+TEST(DiffPictures, GreyIsWhereNothingCanBeCompared) {
+    SquareModel without;
+    without.tangents.clear();
+    const Bytes file_a = SquareModel().build().glb(), file_b = without.build().glb();
+    DiffPictures pictures("a.glb", "b.glb", {.file = inMemory(file_a), .file_b = inMemory(file_b)});
+    const RgbImage image = decoded(pictures.heatMap(DiffPictures::Side::front));
+    const std::size_t i = 3 * (std::size_t{image.height / 2 - 10} * image.width + image.width / 2);
+    EXPECT_EQ(image.rgb[i], image.rgb[i + 1]);
+    EXPECT_EQ(image.rgb[i], image.rgb[i + 2]);
+}
+
+TEST(DiffPictures, APlaceIsThePictureOfItsModel) {
+    const Bytes file_a = SquareModel().build().glb(), file_b = turnedSquare(30).build().glb();
+    DiffPictures pictures("a.glb", "b.glb", {.file = inMemory(file_a), .file_b = inMemory(file_b)});
+    const DiffPictures::Place place = pictures.place({.vertex_a = 1, .vertex_b = 1});
+    EXPECT_FALSE(place.a.empty());
+    EXPECT_EQ(place.a, place.b) << "without a normal map the frames shade the same";
+    EXPECT_FALSE(place.angle.empty());
+    EXPECT_TRUE(pictures.place({.mesh_a = 7}).a.empty());
+}
+
+TEST(Remedy, IsTheCommandThatTheSentenceNames) {
+    const auto repair = commandIn("Negate every w: tspace generate --repair. The tool that wrote them");
+    ASSERT_TRUE(repair && repair->options);
+    EXPECT_EQ(repair->text, "tspace generate --repair");
+    EXPECT_EQ(repair->options->existing, ExistingTangents::repair);
+    EXPECT_EQ(repair->options->faces, Faces::automatic) << "as on the command line";
+    const auto plain = commandIn("Run tspace generate, which makes normals too; or export normals as well.");
+    ASSERT_TRUE(plain && plain->options);
+    EXPECT_EQ(plain->options->existing, ExistingTangents::keep);
+    const auto other = commandIn("Anew: tspace generate --overwrite --convention opengl.");
+    ASSERT_TRUE(other && other->options);
+    EXPECT_EQ(other->text, "tspace generate --overwrite --convention opengl");
+    EXPECT_EQ(other->options->tangents.convention.green, conventions::opengl.green);
+    const auto open = commandIn("in the format that the attribute names: tspace generate --pack.");
+    ASSERT_TRUE(open);
+    EXPECT_FALSE(open->options) << "which format is left open";
+    EXPECT_FALSE(commandIn("Unwrap the mesh."));
+}
+
+Finding findingAt(FindingCode code, const std::vector<std::uint32_t>& vertices) {
+    Finding finding{.code = code, .place = "/meshes/0/primitives/0", .vertices = vertices};
+    finding.remedy = findingRemedy(code);
+    return finding;
+}
+
+Bytes mapped(const SquareModel& square) {
+    GltfBuilder builder = square.build();
+    builder.json()["materials"][0]["normalTexture"] = {{"index", addTexture(builder, plainImage(200, 90, 200))}};
+    return builder.glb();
+}
+
+FindingPicture pictureOf(const Bytes& file, const Finding& finding) {
+    return FindingPictures("a.glb", inMemory(file)).draw(finding);
+}
+
+TEST(FindingPictures, AfterIsWhatRepairLeaves) {
+    // T is turned a little, which no check holds against it: repair turns the sign alone.
+    const Bytes wrong = mapped(turnedSquare(8, -1)), mended = mapped(turnedSquare(8, 1));
+    const Finding finding = findingAt(FindingCode::signsInverted, {0, 1, 2, 3});
+    const FindingPicture picture = pictureOf(wrong, finding);
+    EXPECT_EQ(picture.command, "tspace generate --repair");
+    EXPECT_EQ(picture.after, pictureOf(mended, finding).before);
+    EXPECT_NE(picture.after, pictureOf(mapped(turnedSquare(0, 1)), finding).before) << "tangents anew are others";
+    EXPECT_NE(picture.after, picture.before);
+}
+
+TEST(FindingPictures, PlacesAreSeenWhereSomethingStandsInFront) {
+    // A square behind a plate that faces it, and is ten times as large: only without the plate it is seen.
+    GltfBuilder builder = turnedSquare(0).build();
+    SquareModel plate;
+    for (std::size_t i = 0; i < plate.positions.size(); i += 3) {
+        plate.positions[i] *= 10;
+        plate.positions[i + 1] *= 10;
+        plate.positions[i + 2] = 0.01f;
+    }
+    Json& primitive = builder.addPrimitive(
+        {{"POSITION", builder.addFloats(plate.positions, 3)}, {"NORMAL", builder.addFloats(plate.normals, 3)}});
+    primitive["indices"] = builder.addAccessor(plate.indices, 5125, "SCALAR", plate.indices.size());
+    primitive["material"] = 1;
+    builder.json()["materials"] = Json::parse(
+        R"([{"pbrMetallicRoughness": {"baseColorFactor": [1, 0, 0, 1]}},
+            {"pbrMetallicRoughness": {"baseColorFactor": [0, 0, 1, 1]}}])");
+    const RgbImage image = decoded(pictureOf(builder.glb(), findingAt(FindingCode::uvsDegenerate, {0})).before);
+    std::size_t red = 0, blue = 0;
+    for (std::size_t i = 0; i + 2 < image.rgb.size(); i += 3) {
+        red += image.rgb[i] > 100 && image.rgb[i + 1] < 20 && image.rgb[i + 2] < 20;
+        blue += image.rgb[i + 2] > 100 && image.rgb[i] < 20 && image.rgb[i + 1] < 20;
+    }
+    EXPECT_GT(red, 2000U);
+    EXPECT_EQ(blue, 0U);
+}
+
+TEST(FindingPictures, AfterIsTheMapWithItsGreenTurned) {
+    const Bytes file = mapped(SquareModel());
+    Finding finding = findingAt(FindingCode::greenFlipped, {});
+    finding.remedy = "Invert it: tspace generate --flip-green-all.";
+    GltfBuilder turned = SquareModel().build();
+    turned.json()["materials"][0]["normalTexture"] = {{"index", addTexture(turned, plainImage(200, 165, 200))}};
+    EXPECT_EQ(pictureOf(file, finding).after, pictureOf(turned.glb(), finding).before);
+}
+
+TEST(FindingPictures, SayWhyThereIsNoSecondPicture) {
+    const Bytes good = mapped(SquareModel());
+    const FindingPicture nothing = pictureOf(good, findingAt(FindingCode::signsWrong, {0}));
+    EXPECT_TRUE(nothing.after.empty());
+    EXPECT_EQ(nothing.why_no_after, "It changes nothing that this picture shows.");
+    const FindingPicture none = pictureOf(good, findingAt(FindingCode::uvsDegenerate, {0}));
+    EXPECT_FALSE(none.before.empty());
+    EXPECT_EQ(none.command, "");
+    const FindingPicture open = pictureOf(good, findingAt(FindingCode::packedFramesDiffer, {0}));
+    EXPECT_EQ(open.why_no_after, "It leaves a choice open.");
+}
+
+}  // namespace
+}  // namespace tspace::test

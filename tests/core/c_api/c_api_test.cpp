@@ -1,0 +1,529 @@
+// SPDX-License-Identifier: MIT
+// The C API does what the C++ API does, to the bit.
+#include "tspace/tspace.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstring>
+#include <memory>
+#include <new>
+#include <random>
+#include <vector>
+
+#include "core/c_api/random_mesh.h"
+#include "tspace/tspace.hpp"
+
+namespace tspace::test {
+namespace {
+
+/// Results of all kinds for one mesh.
+struct Outputs {
+    explicit Outputs(std::size_t n) : tangents(n), bitangents(n), magnitudes_s(n), magnitudes_t(n) {}
+
+    TangentOutput view() { return {tangents, bitangents, magnitudes_s, magnitudes_t}; }
+    tspace_TangentOutput c() {
+        tspace_TangentOutput out;
+        TSPACE_INIT(out);
+        out.tangents = {&tangents[0].x, tangents.size(), sizeof(Vec4)};
+        out.bitangents = {&bitangents[0].x, bitangents.size(), 0};
+        out.magnitudes_s = {magnitudes_s.data(), magnitudes_s.size(), 0};
+        out.magnitudes_t = {magnitudes_t.data(), magnitudes_t.size(), 0};
+        return out;
+    }
+
+    std::vector<Vec4> tangents;
+    std::vector<Vec3> bitangents;
+    std::vector<float> magnitudes_s, magnitudes_t;
+};
+
+template <class T>
+bool sameBits(const std::vector<T>& a, const std::vector<T>& b) {
+    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
+}
+
+void expectSame(const Outputs& a, const Outputs& b) {
+    EXPECT_TRUE(sameBits(a.tangents, b.tangents));
+    EXPECT_TRUE(sameBits(a.bitangents, b.bitangents));
+    EXPECT_TRUE(sameBits(a.magnitudes_s, b.magnitudes_s));
+    EXPECT_TRUE(sameBits(a.magnitudes_t, b.magnitudes_t));
+}
+
+void expectSame(const TangentReport& cpp, const tspace_TangentReport& c) {
+    EXPECT_EQ(c.struct_size, sizeof(c));
+    EXPECT_EQ(cpp.triangle_count, c.triangle_count);
+    EXPECT_EQ(cpp.degenerate_triangle_count, c.degenerate_triangle_count);
+    EXPECT_EQ(cpp.degenerate_uv_count, c.degenerate_uv_count);
+    EXPECT_EQ(cpp.mirrored_count, c.mirrored_count);
+    EXPECT_EQ(cpp.skipped_face_count, c.skipped_face_count);
+    EXPECT_EQ(cpp.group_count, c.group_count);
+    EXPECT_EQ(cpp.default_corner_count, c.default_corner_count);
+    EXPECT_EQ(cpp.not_finite_count, c.not_finite_count);
+    EXPECT_EQ(cpp.reference_order_abandoned ? 1u : 0u, c.reference_order_abandoned);
+}
+
+TEST(CApi, GivesTheTangentsOfTheCppApiForEveryMethod) {
+    const RandomMesh mesh(1, 60);
+    for (std::uint32_t method = TSPACE_METHOD_MIKKTSPACE; method <= TSPACE_METHOD_BASIS; ++method) {
+        Outputs cpp(mesh.cornerCount()), c(mesh.cornerCount());
+        TangentOptions options{.convention = conventions::opengl};
+        options.method = static_cast<Method>(method);
+        options.angular_threshold_deg = 70.0f;
+        options.pairing = Pairing::corrected;
+        options.ngons = Ngons::skip;
+        options.convention = conventions::gltf;
+        const auto expected = generateTangents(mesh.view(), options, cpp.view());
+        ASSERT_TRUE(expected);
+
+        tspace_TangentOptions c_options = tangentOptions();
+        c_options.method = method;
+        c_options.angular_threshold_deg = 70.0f;
+        c_options.pairing = TSPACE_PAIRING_CORRECTED;
+        c_options.ngons = TSPACE_NGONS_SKIP;
+        c_options.convention.v_axis = TSPACE_V_DOWN;
+        const tspace_Mesh c_mesh = mesh.c();
+        const tspace_TangentOutput out = c.c();
+        tspace_TangentReport report;
+        TSPACE_INIT(report);
+        ASSERT_EQ(TSPACE_OK, tspace_generateTangents(&c_mesh, &c_options, &out, nullptr, &report, nullptr)) << method;
+        expectSame(cpp, c);
+        expectSame(*expected, report);
+    }
+}
+
+TEST(CApi, GivesTangentsPerVertexAsTheCppApi) {
+    const RandomMesh mesh(3, 60);
+    const std::size_t vertex_count = mesh.view().vertexCount();
+    ASSERT_NE(vertex_count, mesh.cornerCount());
+    const tspace_Mesh c_mesh = mesh.c();
+    tspace_Pose pose;
+    TSPACE_INIT(pose);
+    pose.positions = c_mesh.positions;
+    pose.normals = c_mesh.normals;
+    for (const Method method : {Method::lengyel, Method::basis}) {
+        Outputs cpp(vertex_count), c(vertex_count);
+        ASSERT_TRUE(generateTangents(
+            mesh.view(), {.method = method, .convention = conventions::opengl, .domain = OutputDomain::vertex},
+            cpp.view()));
+        tspace_TangentOptions options = tangentOptions();
+        options.method = static_cast<tspace_Method>(method);
+        options.domain = TSPACE_DOMAIN_VERTEX;
+        tspace_TangentPlan* plan = nullptr;
+        ASSERT_EQ(TSPACE_OK, tspace_planTangents(&c_mesh, &options, nullptr, &plan, nullptr));
+        tspace_TangentPlanInfo info;
+        TSPACE_INIT(info);
+        ASSERT_EQ(TSPACE_OK, tspace_describeTangentPlan(plan, &info, nullptr));
+        EXPECT_EQ(info.output_count, vertex_count);
+        EXPECT_EQ(info.corner_count, mesh.cornerCount());
+        const tspace_TangentOutput out = c.c();
+        EXPECT_EQ(TSPACE_OK, tspace_evaluateTangents(plan, &pose, &out, nullptr, nullptr, nullptr));
+        expectSame(cpp, c);
+        tspace_destroyTangentPlan(plan);
+    }
+}
+
+TEST(CApi, DefaultsOfTangentsAreThoseOfCpp) {
+    const RandomMesh mesh(2, 60);
+    Outputs cpp(mesh.cornerCount()), c(mesh.cornerCount());
+    ASSERT_TRUE(generateTangents(mesh.view(), {.convention = conventions::opengl}, cpp.view()));
+    const tspace_Mesh c_mesh = mesh.c();
+    const tspace_TangentOutput out = c.c();
+    const tspace_TangentOptions options = tangentOptions();
+    ASSERT_EQ(TSPACE_OK, tspace_generateTangents(&c_mesh, &options, &out, nullptr, nullptr, nullptr));
+    expectSame(cpp, c);
+    EXPECT_EQ(TangentOptions{}.angular_threshold_deg, options.angular_threshold_deg);
+    EXPECT_EQ(TangentOptions{}.refine, options.refine);
+    tspace_Execution execution;
+    TSPACE_INIT(execution);
+    EXPECT_EQ(0u, execution.thread_count);  // as 1, the default of C++
+    tspace_NormalOptions normals;
+    TSPACE_INIT(normals);
+    EXPECT_EQ(static_cast<std::uint32_t>(NormalOptions{}.weighting), normals.weighting);
+    EXPECT_EQ(NormalOptions{}.crease_angle_deg, normals.crease_angle_deg);
+    EXPECT_EQ(NormalOptions{}.weld_positions ? 1u : 0u, normals.weld_positions);
+    EXPECT_EQ(NormalOptions{}.refine, normals.refine);
+    tspace_IndexedFramesOptions frames;
+    TSPACE_INIT(frames);
+    EXPECT_EQ(IndexedFramesOptions{}.sanitize ? 1u : 0u, frames.sanitize);
+    EXPECT_EQ(IndexedFramesOptions{}.make_normals ? 1u : 0u, frames.make_normals);
+}
+
+TEST(CApi, TheConventionHasNoDefault) {
+    const RandomMesh mesh(2, 60);
+    Outputs c(mesh.cornerCount());
+    const tspace_Mesh c_mesh = mesh.c();
+    const tspace_TangentOutput out = c.c();
+    tspace_TangentOptions options;
+    TSPACE_INIT(options);
+    for (const tspace_TangentOptions* given :
+         {static_cast<const tspace_TangentOptions*>(nullptr), &std::as_const(options)}) {
+        tspace_Error error;
+        EXPECT_EQ(TSPACE_ERROR_INVALID_OPTION, tspace_generateTangents(&c_mesh, given, &out, nullptr, nullptr, &error));
+        EXPECT_NE(nullptr, std::strstr(error.message, "convention")) << error.message;
+        tspace_TangentPlan* plan = nullptr;
+        EXPECT_EQ(TSPACE_ERROR_INVALID_OPTION, tspace_planTangents(&c_mesh, given, nullptr, &plan, nullptr));
+    }
+    EXPECT_EQ(ErrorCode::invalidOption, generateTangents(mesh.view(), {}, c.view()).error().code);
+}
+
+TEST(CApi, ZeroDegreesCanBeSaid) {
+    const RandomMesh mesh(6, 60);
+    const tspace_Mesh c_mesh = mesh.c();
+    Outputs cpp(mesh.cornerCount()), c(mesh.cornerCount());
+    ASSERT_TRUE(
+        generateTangents(mesh.view(), {.convention = conventions::opengl, .angular_threshold_deg = 0}, cpp.view()));
+    tspace_TangentOptions options = tangentOptions();
+    options.angular_threshold_deg = 0;
+    const tspace_TangentOutput out = c.c();
+    ASSERT_EQ(TSPACE_OK, tspace_generateTangents(&c_mesh, &options, &out, nullptr, nullptr, nullptr));
+    expectSame(cpp, c);
+    std::vector<Vec3> hard(mesh.cornerCount()), hard_in_c(mesh.cornerCount()), smooth(mesh.cornerCount());
+    ASSERT_TRUE(generateNormals(mesh.view(), {.crease_angle_deg = 0}, hard));
+    ASSERT_TRUE(generateNormals(mesh.view(), {}, smooth));
+    tspace_NormalOptions normals;
+    TSPACE_INIT(normals);
+    normals.crease_angle_deg = 0;
+    ASSERT_EQ(TSPACE_OK, tspace_generateNormals(&c_mesh, &normals, {&hard_in_c[0].x, hard_in_c.size(), 0}, nullptr,
+                                                nullptr, nullptr));
+    EXPECT_TRUE(sameBits(hard, hard_in_c));
+    EXPECT_FALSE(sameBits(smooth, hard_in_c));
+}
+
+TEST(CApi, GivesTheNormalsOfTheCppApi) {
+    const RandomMesh mesh(3, 60);
+    std::vector<std::uint32_t> groups(mesh.sizes.size());
+    for (std::size_t f = 0; f < groups.size(); ++f) groups[f] = 1u << (f % 3);
+    constexpr std::uint32_t kDefault = TSPACE_NORMAL_WEIGHTING_BEST + 1;
+    for (std::uint32_t weighting = TSPACE_NORMAL_WEIGHTING_FLAT; weighting <= kDefault; ++weighting) {
+        std::vector<Vec3> cpp(mesh.cornerCount()), c(mesh.cornerCount());
+        NormalOptions options;
+        tspace_NormalOptions c_options;
+        TSPACE_INIT(c_options);
+        if (weighting != kDefault) {
+            options = {static_cast<NormalWeighting>(weighting), conventions::unity, 50.0f, groups, true, false};
+            c_options.weighting = weighting;
+            c_options.crease_angle_deg = 50.0f;
+            c_options.smoothing_groups = groups.data();
+            c_options.smoothing_group_count = groups.size();
+            c_options.smoothing_groups_are_masks = 1;
+            c_options.weld_positions = 0;
+            ASSERT_EQ(TSPACE_OK, tspace_findConvention("unity", &c_options.convention, nullptr));
+        }
+        const auto expected = generateNormals(mesh.view(), options, cpp);
+        ASSERT_TRUE(expected);
+        const tspace_Mesh c_mesh = mesh.c();
+        tspace_NormalReport report;
+        TSPACE_INIT(report);
+        ASSERT_EQ(TSPACE_OK,
+                  tspace_generateNormals(&c_mesh, &c_options, {&c[0].x, c.size(), 0}, nullptr, &report, nullptr));
+        EXPECT_TRUE(sameBits(cpp, c)) << weighting;
+        EXPECT_EQ(expected->face_count, report.face_count);
+        EXPECT_EQ(expected->degenerate_face_count, report.degenerate_face_count);
+        EXPECT_EQ(expected->fallback_corner_count, report.fallback_corner_count);
+    }
+}
+
+TEST(CApi, RefinesTangentsAsTheCppApi) {
+    const RandomMesh mesh(5, 60);
+    for (const std::uint32_t refine : {0u, 1u, 2u}) {
+        Outputs cpp(mesh.cornerCount()), c(mesh.cornerCount());
+        ASSERT_TRUE(generateTangents(
+            mesh.view(), {.method = Method::best, .convention = conventions::opengl, .refine = refine}, cpp.view()));
+        tspace_TangentOptions options = tangentOptions();
+        options.method = TSPACE_METHOD_BEST;
+        options.refine = refine;
+        const tspace_Mesh c_mesh = mesh.c();
+        const tspace_TangentOutput out = c.c();
+        ASSERT_EQ(TSPACE_OK, tspace_generateTangents(&c_mesh, &options, &out, nullptr, nullptr, nullptr));
+        expectSame(cpp, c);
+    }
+}
+
+TEST(CApi, RefinesNormalsAsTheCppApi) {
+    const RandomMesh mesh(3, 60);
+    const auto normalsWith = [&](std::uint32_t refine) {
+        std::vector<Vec3> out(mesh.cornerCount());
+        tspace_NormalOptions options;
+        TSPACE_INIT(options);
+        options.weighting = TSPACE_NORMAL_WEIGHTING_BEST;
+        options.refine = refine;
+        const tspace_Mesh c_mesh = mesh.c();
+        EXPECT_EQ(TSPACE_OK,
+                  tspace_generateNormals(&c_mesh, &options, {&out[0].x, out.size(), 0}, nullptr, nullptr, nullptr));
+        return out;
+    };
+    for (const std::uint32_t refine : {0u, 1u, 2u}) {
+        std::vector<Vec3> cpp(mesh.cornerCount());
+        ASSERT_TRUE(generateNormals(mesh.view(), {.weighting = NormalWeighting::best, .refine = refine}, cpp));
+        EXPECT_TRUE(sameBits(cpp, normalsWith(refine))) << refine;
+    }
+    EXPECT_FALSE(sameBits(normalsWith(0), normalsWith(1)));
+}
+
+TEST(CApi, MendsAsTheCppApi) {
+    const RandomMesh mesh(4, 60);
+    for (const std::uint32_t all : {0u, 1u}) {
+        std::vector<Vec4> cpp(mesh.cornerCount());
+        std::mt19937 random(9);
+        std::uniform_real_distribution<float> value(-2.0f, 2.0f);
+        for (Vec4& t : cpp) t = {value(random), value(random), value(random), value(random) < 0 ? -1.0f : 1.0f};
+        std::vector<Vec4> c = cpp;
+        SanitizeOptions options;
+        options.orthogonalize_all = all != 0;
+        const auto expected = sanitizeTangents(mesh.view(), options, cpp);
+        ASSERT_TRUE(expected);
+        tspace_SanitizeOptions c_options;
+        TSPACE_INIT(c_options);
+        c_options.orthogonalize_all = all;
+        const tspace_Mesh c_mesh = mesh.c();
+        tspace_SanitizeReport report;
+        TSPACE_INIT(report);
+        ASSERT_EQ(TSPACE_OK,
+                  tspace_sanitizeTangents(&c_mesh, &c_options, {&c[0].x, c.size(), 0}, nullptr, &report, nullptr));
+        EXPECT_TRUE(sameBits(cpp, c));
+        EXPECT_EQ(expected->mendedCount(), report.mended_count);
+        EXPECT_EQ(expected->not_unit_count, report.not_unit_count);
+        EXPECT_EQ(expected->mixed_sign_count, report.mixed_sign_count);
+        EXPECT_EQ(expected->normalized_count, report.normalized_count);
+        EXPECT_EQ(expected->from_neighbor_count, report.from_neighbor_count);
+        EXPECT_EQ(expected->from_basis_count, report.from_basis_count);
+        EXPECT_GT(report.mended_count, 0u);
+    }
+}
+
+TEST(CApi, SplitsAndTriangulatesAsTheCppApi) {
+    const RandomMesh mesh(5, 60);
+    Outputs outputs(mesh.cornerCount());
+    ASSERT_TRUE(generateTangents(mesh.view(), {.convention = conventions::opengl}, outputs.view()));
+    const CornerAttribute attribute = cornerAttribute(StridedSpan<const Vec4>(outputs.tangents), 1e-5f);
+    const auto expected =
+        splitVertices(mesh.view().indices, mesh.positions.size(), mesh.cornerCount(), {&attribute, 1});
+    ASSERT_TRUE(expected);
+    const tspace_Mesh c_mesh = mesh.c();
+    const tspace_CornerAttribute c_attribute = {attribute.data, 0, 4, 1e-5f};
+    tspace_SplitResult* split = nullptr;
+    ASSERT_EQ(TSPACE_OK, tspace_splitVertices(&c_mesh.indices, mesh.positions.size(), mesh.cornerCount(), &c_attribute,
+                                              1, nullptr, &split, nullptr));
+    EXPECT_EQ(expected->indices, std::vector(split->indices, split->indices + split->corner_count));
+    EXPECT_EQ(expected->source_vertices,
+              std::vector(split->source_vertices, split->source_vertices + split->vertex_count));
+    EXPECT_EQ(expected->source_corners,
+              std::vector(split->source_corners, split->source_corners + split->vertex_count));
+    EXPECT_GT(split->vertex_count, mesh.positions.size());
+    tspace_destroySplitResult(split);
+
+    const auto triangles = triangulate(mesh.view());
+    ASSERT_TRUE(triangles);
+    tspace_Triangulation* cut = nullptr;
+    ASSERT_EQ(TSPACE_OK, tspace_triangulate(&c_mesh, &cut, nullptr));
+    EXPECT_EQ(triangles->corners, std::vector(cut->corners, cut->corners + 3 * cut->triangle_count));
+    EXPECT_EQ(triangles->faces, std::vector(cut->faces, cut->faces + cut->triangle_count));
+    tspace_destroyTriangulation(cut);
+}
+
+TEST(CApi, MakesIndexedFramesAsTheCppApi) {
+    const RandomMesh mesh(8, 60);
+    std::vector<std::uint16_t> uv_indices(mesh.cornerCount());
+    for (std::size_t c = 0; c < uv_indices.size(); ++c)
+        uv_indices[c] = static_cast<std::uint16_t>((mesh.indices[c] + c % 2) % mesh.uvs.size());
+    MeshView view = mesh.view();
+    view.uv_indices = std::span<const std::uint16_t>(uv_indices);
+    tspace_Mesh c_mesh = mesh.c();
+    c_mesh.uv_indices = {uv_indices.data(), uv_indices.size(), TSPACE_INDEX_U16};
+    for (const std::uint32_t make_normals : {0u, 1u}) {
+        const auto expected = makeIndexedFrames(
+            view, {.tangents = {.convention = conventions::opengl}, .make_normals = make_normals != 0});
+        ASSERT_TRUE(expected) << expected.error().message;
+        const tspace_TangentOptions tangents = tangentOptions();
+        tspace_IndexedFramesOptions options;
+        TSPACE_INIT(options);
+        options.tangents = &tangents;
+        options.make_normals = make_normals;
+        tspace_IndexedFrames* frames = nullptr;
+        tspace_Error error;
+        ASSERT_EQ(TSPACE_OK, tspace_makeIndexedFrames(&c_mesh, &options, nullptr, &frames, &error)) << error.message;
+        ASSERT_EQ(frames->vertex_count, expected->vertexCount());
+        ASSERT_EQ(frames->corner_count, expected->indices.size());
+        EXPECT_TRUE(std::equal(expected->indices.begin(), expected->indices.end(), frames->indices));
+        EXPECT_TRUE(
+            std::equal(expected->source_vertices.begin(), expected->source_vertices.end(), frames->source_vertices));
+        EXPECT_TRUE(
+            std::equal(expected->source_corners.begin(), expected->source_corners.end(), frames->source_corners));
+        EXPECT_EQ(0, std::memcmp(expected->normals.data(), frames->normals, sizeof(Vec3) * frames->vertex_count));
+        EXPECT_EQ(0, std::memcmp(expected->tangents.data(), frames->tangents, sizeof(Vec4) * frames->vertex_count));
+        EXPECT_EQ(make_normals != 0, frames->normal_report != nullptr);
+        expectSame(expected->report.tangents, *frames->tangent_report);
+        EXPECT_EQ(expected->report.sanitize.mendedCount(), frames->sanitize_report->mended_count);
+        tspace_destroyIndexedFrames(frames);
+        EXPECT_EQ(TSPACE_ERROR_NULL_DATA, tspace_makeIndexedFrames(&c_mesh, nullptr, nullptr, &frames, nullptr));
+        EXPECT_EQ(frames, nullptr);
+        options.tangents = nullptr;  // no convention
+        EXPECT_EQ(TSPACE_ERROR_INVALID_OPTION, tspace_makeIndexedFrames(&c_mesh, &options, nullptr, &frames, nullptr));
+    }
+    tspace_destroyIndexedFrames(nullptr);
+}
+
+TEST(CApi, SplitsWithoutIndices) {
+    const float values[3] = {1, 2, 3};
+    const tspace_CornerAttribute attribute = {values, 0, 1, 0};
+    tspace_SplitResult* split = nullptr;
+    ASSERT_EQ(TSPACE_OK, tspace_splitVertices(nullptr, 3, 3, &attribute, 1, nullptr, &split, nullptr));
+    EXPECT_EQ(split->vertex_count, 3u);
+    EXPECT_EQ(split->indices[2], 2u);
+    tspace_destroySplitResult(split);
+}
+
+TEST(CApi, KnowsEveryPreset) {
+    for (const char* name : {"gltf", "opengl", "directx", "unreal", "unity", "blender", "godot"}) {
+        const Convention* expected = findConvention(name);
+        ASSERT_NE(expected, nullptr) << name;
+        tspace_Convention convention;
+        ASSERT_EQ(TSPACE_OK, tspace_findConvention(name, &convention, nullptr)) << name;
+        EXPECT_EQ(static_cast<std::uint32_t>(expected->v_axis), convention.v_axis);
+        EXPECT_EQ(static_cast<std::uint32_t>(expected->green), convention.green);
+        EXPECT_EQ(static_cast<std::uint32_t>(expected->stored_sign), convention.stored_sign);
+        EXPECT_EQ(static_cast<std::uint32_t>(expected->handedness), convention.handedness);
+        EXPECT_EQ(static_cast<std::uint32_t>(expected->winding), convention.winding);
+        EXPECT_EQ(signFactor(*expected), tspace_signFactor(convention));
+        EXPECT_EQ(normalFactor(*expected), tspace_normalFactor(convention));
+    }
+}
+
+/// Counts what it gives and takes back, and refuses after `allowed` allocations.
+struct CountingMemory {
+    std::size_t given = 0;
+    std::size_t live = 0;
+    std::size_t allowed = ~std::size_t{0};
+
+    tspace_Allocator hooks() { return {allocate, release, this}; }
+
+    static void* allocate(void* user, std::size_t bytes, std::size_t alignment) {
+        auto& self = *static_cast<CountingMemory*>(user);
+        if (self.given == self.allowed) return nullptr;
+        ++self.given;
+        ++self.live;
+        return ::operator new(bytes, std::align_val_t(alignment));
+    }
+    static void release(void* user, void* memory, std::size_t, std::size_t alignment) {
+        --static_cast<CountingMemory*>(user)->live;
+        ::operator delete(memory, std::align_val_t(alignment));
+    }
+};
+
+void runInReverse(void* user, std::size_t count, void (*task)(void*, std::size_t), void* context) {
+    ++*static_cast<int*>(user);
+    for (std::size_t i = count; i-- > 0;) task(context, i);
+}
+
+TEST(CApi, UsesTheCallersExecutorAndAllocator) {
+    const RandomMesh mesh(6, 6000);
+    Outputs expected(mesh.cornerCount()), c(mesh.cornerCount());
+    ASSERT_TRUE(generateTangents(mesh.view(), {.convention = conventions::opengl}, expected.view()));
+    int run_count = 0;
+    CountingMemory memory;
+    const tspace_Executor executor = {runInReverse, &run_count, 4};
+    const tspace_Allocator allocator = memory.hooks();
+    tspace_TangentOptions options = tangentOptions();
+    tspace_Execution execution;
+    TSPACE_INIT(execution);
+    execution.executor = &executor;
+    execution.allocator = &allocator;
+    const tspace_Mesh c_mesh = mesh.c();
+    const tspace_TangentOutput out = c.c();
+    ASSERT_EQ(TSPACE_OK, tspace_generateTangents(&c_mesh, &options, &out, &execution, nullptr, nullptr));
+    expectSame(expected, c);
+    EXPECT_GT(run_count, 0);
+    EXPECT_GT(memory.given, 0u);
+    EXPECT_EQ(memory.live, 0u);
+}
+
+TEST(CApi, AnArenaServesASecondCallFromWhatItHolds) {
+    const RandomMesh mesh(8, 600);
+    Outputs expected(mesh.cornerCount()), c(mesh.cornerCount());
+    ASSERT_TRUE(generateTangents(mesh.view(), {.convention = conventions::opengl}, expected.view()));
+    tspace_Arena* arena = nullptr;
+    ASSERT_EQ(TSPACE_OK, tspace_createArena(&arena, nullptr));
+    EXPECT_EQ(tspace_arenaHeldBytes(arena), 0u);
+    tspace_TangentOptions options = tangentOptions();
+    tspace_Execution execution;
+    TSPACE_INIT(execution);
+    execution.allocator = tspace_arenaAllocator(arena);
+    const tspace_Mesh c_mesh = mesh.c();
+    const tspace_TangentOutput out = c.c();
+    ASSERT_EQ(TSPACE_OK, tspace_generateTangents(&c_mesh, &options, &out, &execution, nullptr, nullptr));
+    expectSame(expected, c);
+    const std::size_t held = tspace_arenaHeldBytes(arena);
+    EXPECT_GT(held, 0u);
+    EXPECT_EQ(tspace_arenaUsedBytes(arena), 0u);
+    tspace_TangentPlan* plan = nullptr;
+    ASSERT_EQ(TSPACE_OK, tspace_planTangents(&c_mesh, &options, &execution, &plan, nullptr));
+    EXPECT_GT(tspace_arenaUsedBytes(arena), 0u);
+    tspace_destroyTangentPlan(plan);
+    EXPECT_EQ(tspace_arenaUsedBytes(arena), 0u);
+    ASSERT_EQ(TSPACE_OK, tspace_generateTangents(&c_mesh, &options, &out, &execution, nullptr, nullptr));
+    expectSame(expected, c);
+    EXPECT_EQ(tspace_arenaHeldBytes(arena), held);
+    tspace_trimArena(arena);
+    EXPECT_EQ(tspace_arenaHeldBytes(arena), 0u);
+    tspace_destroyArena(arena);
+    tspace_destroyArena(nullptr);
+    EXPECT_EQ(TSPACE_ERROR_NULL_DATA, tspace_createArena(nullptr, nullptr));
+}
+
+TEST(CApi, APlanOutlivesTheStructsItWasMadeWith) {
+    const RandomMesh mesh(7, 60);
+    Outputs expected(mesh.cornerCount()), c(mesh.cornerCount());
+    ASSERT_TRUE(generateTangents(mesh.view(), {.convention = conventions::opengl}, expected.view()));
+    CountingMemory memory;
+    tspace_TangentPlan* plan = nullptr;
+    {
+        // On the heap and freed, so that an address sanitizer sees a plan that still looks at it.
+        const auto allocator = std::make_unique<tspace_Allocator>(memory.hooks());
+        const auto c_mesh = std::make_unique<tspace_Mesh>(mesh.c());
+        tspace_TangentOptions options = tangentOptions();
+        const auto execution = std::make_unique<tspace_Execution>();
+        TSPACE_INIT(*execution);
+        execution->allocator = allocator.get();
+        ASSERT_EQ(TSPACE_OK, tspace_planTangents(c_mesh.get(), &options, execution.get(), &plan, nullptr));
+    }
+    const tspace_Mesh c_mesh = mesh.c();
+    tspace_Pose pose;
+    TSPACE_INIT(pose);
+    pose.positions = c_mesh.positions;
+    pose.normals = c_mesh.normals;
+    const tspace_TangentOutput out = c.c();
+    ASSERT_EQ(TSPACE_OK, tspace_evaluateTangents(plan, &pose, &out, nullptr, nullptr, nullptr));
+    expectSame(expected, c);
+    EXPECT_GT(memory.live, 0u);
+
+    pose.positions.count -= 1;
+    EXPECT_EQ(TSPACE_ERROR_PLAN_MISMATCH, tspace_evaluateTangents(plan, &pose, &out, nullptr, nullptr, nullptr));
+    tspace_destroyTangentPlan(plan);
+    EXPECT_EQ(memory.live, 0u);
+}
+
+TEST(CApi, EveryAllocationThatFailsGivesOutOfMemoryAndLeaksNothing) {
+    const RandomMesh mesh(8, 60);
+    const tspace_Mesh c_mesh = mesh.c();
+    Outputs c(mesh.cornerCount());
+    const tspace_TangentOutput out = c.c();
+    tspace_ErrorCode code = TSPACE_ERROR_OUT_OF_MEMORY;
+    std::size_t allowed = 0;
+    for (; code != TSPACE_OK && allowed < 1000; ++allowed) {
+        CountingMemory memory;
+        memory.allowed = allowed;
+        const tspace_Allocator allocator = memory.hooks();
+        const tspace_TangentOptions options = tangentOptions();
+        tspace_Execution execution;
+        TSPACE_INIT(execution);
+        execution.allocator = &allocator;
+        code = tspace_generateTangents(&c_mesh, &options, &out, &execution, nullptr, nullptr);
+        EXPECT_TRUE(code == TSPACE_OK || code == TSPACE_ERROR_OUT_OF_MEMORY) << code;
+        EXPECT_EQ(memory.live, 0u);
+    }
+    EXPECT_EQ(TSPACE_OK, code);
+    EXPECT_GT(allowed, 1u);
+}
+
+}  // namespace
+}  // namespace tspace::test

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+// Pools and primitives for tests of computeFrames: a few sound ones, and random ones in which everything occurs.
+#pragma once
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <vector>
+
+#include "core/mesh/pools/primitive.h"
+
+namespace tspace::test {
+
+using Indices = std::vector<std::uint32_t>;
+
+template <class T>
+bool sameBits(const std::vector<T>& a, const std::vector<T>& b) {
+    return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
+}
+
+struct Outcome {
+    PoolFrames frames;
+    std::vector<PrimitiveReport> reports;
+};
+
+inline Outcome compute(const VertexPool& pool, const std::vector<PrimitiveGeometry>& primitives,
+                       const GenerateOptions& options) {
+    std::vector<PrimitiveReport> reports(primitives.size());
+    Result<PoolFrames> frames = computeFrames(pool, primitives, options, reports);
+    EXPECT_TRUE(frames.ok()) << (frames.ok() ? "" : frames.error().message);
+    return {frames.ok() ? *std::move(frames) : PoolFrames{}, std::move(reports)};
+}
+
+/// What a reader would see in the written file.
+inline VertexPool rebuilt(const VertexPool& pool, const PoolFrames& frames) {
+    VertexPool result;
+    result.normals = frames.normals;
+    for (const std::uint32_t source : frames.source_vertices) {
+        result.positions.push_back(pool.positions[source]);
+        if (!frames.normals_generated) result.normals.push_back(pool.normals[source]);
+        if (!pool.uvs.empty()) result.uvs.push_back(pool.uvs[source]);
+    }
+    return result;
+}
+
+inline std::vector<PrimitiveGeometry> rebuilt(const PoolFrames& frames) {
+    std::vector<PrimitiveGeometry> result;
+    for (const Indices& indices : frames.indices) result.push_back({.indices = indices});
+    return result;
+}
+
+inline GenerateOptions withMethod(Method method) {
+    GenerateOptions options;
+    options.tangents.method = method;
+    return options;
+}
+
+/// A square of two triangles, UVs straight.
+inline VertexPool square() {
+    return {.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}},
+            .normals = {4, Vec3{0, 0, 1}},
+            .uvs = {{0, 0}, {1, 0}, {0, 1}, {1, 1}}};
+}
+
+inline float anyNumber() {
+    return *rc::gen::element(0.0f, -0.0f, 1.0f, -1.0f, 0.5f, 2.0f, 0.25f, -0.75f, 3.0f, 1e20f, 1e-30f, std::nanf(""));
+}
+
+/// Small numbers nearly always, so that neighbours, mirrored UVs, degenerate faces and collapsed UVs all
+/// occur.
+inline float someNumber() {
+    return *rc::gen::inRange(0, 60) == 0 ? anyNumber() : static_cast<float>(*rc::gen::inRange(-2, 3));
+}
+
+inline VertexPool anyPool() {
+    VertexPool pool;
+    const auto count = *rc::gen::inRange<std::size_t>(1, 14);
+    const bool has_normals = *rc::gen::arbitrary<bool>();
+    for (std::size_t v = 0; v < count; ++v) {
+        pool.positions.push_back({someNumber(), someNumber(), someNumber()});
+        pool.uvs.push_back({someNumber(), someNumber()});
+        if (has_normals) pool.normals.push_back({someNumber(), someNumber(), someNumber()});
+    }
+    return pool;
+}
+
+/// Neither NaN nor huge.
+inline bool isOrdinary(const VertexPool& pool) {
+    const auto are = [](const auto&... values) { return ((std::fabs(values) < 1e6f) && ...); };
+    const auto are3 = [&](const Vec3& v) { return are(v.x, v.y, v.z); };
+    return std::all_of(pool.positions.begin(), pool.positions.end(), are3) &&
+           std::all_of(pool.normals.begin(), pool.normals.end(), are3) &&
+           std::all_of(pool.uvs.begin(), pool.uvs.end(), [&](const Vec2& v) { return are(v.x, v.y); });
+}
+
+inline std::vector<PrimitiveGeometry> anyTriangles(const VertexPool& pool) {
+    std::vector<PrimitiveGeometry> primitives(*rc::gen::inRange<std::size_t>(1, 4));
+    const auto vertices = static_cast<std::uint32_t>(pool.positions.size());
+    for (PrimitiveGeometry& primitive : primitives) {
+        const auto faces = *rc::gen::inRange<std::size_t>(0, 20);
+        primitive.indices = *rc::gen::container<Indices>(3 * faces, rc::gen::inRange<std::uint32_t>(0, vertices));
+    }
+    return primitives;
+}
+
+/// Now and then faces of 1 to 6 corners instead of triangles.
+inline std::vector<PrimitiveGeometry> anyFaces(const VertexPool& pool) {
+    std::vector<PrimitiveGeometry> primitives = anyTriangles(pool);
+    for (PrimitiveGeometry& primitive : primitives) {
+        if (*rc::gen::arbitrary<bool>()) continue;
+        for (std::size_t left = primitive.indices.size(); left > 0; left -= primitive.face_sizes.back()) {
+            const auto size = *rc::gen::inRange<std::uint32_t>(1, 7);
+            primitive.face_sizes.push_back(std::min(size, static_cast<std::uint32_t>(left)));
+        }
+    }
+    return primitives;
+}
+
+inline GenerateOptions anyOptions() {
+    GenerateOptions options =
+        withMethod(*rc::gen::element(Method::mikktspace, Method::uniform, Method::angle, Method::area, Method::flat,
+                                     Method::basis, Method::fast, Method::best));
+    options.normals.weighting =
+        *rc::gen::element(NormalWeighting::flat, NormalWeighting::angle, NormalWeighting::area, NormalWeighting::best);
+    options.normals.crease_angle_deg = *rc::gen::element(180.0f, 30.0f);
+    options.tangents.pairing = *rc::gen::element(Pairing::reference, Pairing::corrected);
+    options.sanitize = *rc::gen::inRange(0, 4) != 0;
+    options.bitangents = *rc::gen::arbitrary<bool>();
+    return options;
+}
+
+}  // namespace tspace::test

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+// The stored sign means the same for every method, whatever convention the mesh is in.
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "core/base/vec_math.h"
+#include "tspace/normals.h"
+#include "tspace/tangents.h"
+
+namespace tspace {
+namespace {
+
+/// Two squares that meet at x = 0; u is mirrored on the left one.
+struct MirroredStrip {
+    std::vector<Vec3> positions{{-1, 0, 0}, {0, 0, 0}, {1, 0, 0}, {-1, 1, 0}, {0, 1, 0}, {1, 1, 0}};
+    std::vector<Vec2> uvs{{1, 0}, {0, 0}, {1, 0}, {1, 1}, {0, 1}, {1, 1}};
+    std::vector<std::uint32_t> indices{0, 1, 4, 0, 4, 3, 1, 2, 5, 1, 5, 4};
+    std::vector<Vec3> normals{6};
+
+    /// Normals of the convention's outside.
+    explicit MirroredStrip(const Convention& convention) {
+        for (Vec3& n : normals) n = {0, 0, normalFactor(convention)};
+    }
+    [[nodiscard]] MeshView view() const {
+        return {.positions = positions,
+                .normals = normals,
+                .uvs = uvs,
+                .indices = IndexView(std::span<const std::uint32_t>(indices))};
+    }
+};
+
+/// dP/dv is (0, 1, 0) on the whole strip; the bitangent that the convention asks for follows from v and green alone.
+Vec3 wantedBitangent(const Convention& c) {
+    return {0, (c.v_axis == VAxis::down) == (c.green == Green::down) ? 1.0f : -1.0f, 0};
+}
+
+TEST(Conventions, GiveEveryMethodTheSignThatRebuildsTheWantedBitangent) {
+    for (const char* preset : {"gltf", "opengl", "directx", "unreal", "unity", "blender", "godot"}) {
+        const Convention convention = *findConvention(preset);
+        const MirroredStrip strip(convention);
+        for (const Method method : {Method::mikktspace, Method::uniform, Method::angle, Method::area, Method::flat,
+                                    Method::fast, Method::best}) {
+            std::vector<Vec4> tangents(strip.indices.size());
+            ASSERT_TRUE(
+                generateTangents(strip.view(), {.method = method, .convention = convention}, {.tangents = tangents}));
+            for (std::size_t c = 0; c < tangents.size(); ++c) {
+                const Vec3 rebuilt = tangents[c].w * cross(strip.normals[strip.indices[c]], xyz(tangents[c]));
+                EXPECT_GT(dot(rebuilt, wantedBitangent(convention)), 0.999f)
+                    << preset << ", method " << static_cast<int>(method) << ", corner " << c;
+            }
+        }
+    }
+}
+
+}  // namespace
+}  // namespace tspace

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: MIT
+// Following a fan by its open ends must agree with pairing all of its half-edges.
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <algorithm>
+#include <iterator>
+#include <set>
+#include <vector>
+
+#include "core/tangents/mikktspace/fan.h"
+#include "core/tangents/mikktspace/groups.h"
+
+namespace tspace::mikk {
+namespace {
+
+struct Corners {
+    std::vector<std::uint32_t> next, previous;
+};
+
+std::vector<NodeCorner> around(const Corners& corners) {
+    std::vector<NodeCorner> around(corners.next.size());
+    for (std::size_t i = 0; i < around.size(); ++i)
+        around[i] = {nullptr, static_cast<std::uint32_t>(i), corners.next[i], corners.previous[i], kFacesUp};
+    return around;
+}
+
+/// How many connected parts the links of groups.h make.
+std::size_t countParts(const Corners& corners) {
+    const auto count = static_cast<std::uint32_t>(corners.next.size());
+    std::vector<std::uint32_t> left(count), right(count), part(count, kNone);
+    linkSmall(around(corners), {left.data(), right.data()});
+    std::size_t parts = 0;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        if (part[i] != kNone) continue;
+        ++parts;
+        for (std::uint32_t m = i; m != kNone && part[m] == kNone; m = left[m]) part[m] = 1;
+        for (std::uint32_t m = right[i]; m != kNone && part[m] == kNone; m = right[m]) part[m] = 1;
+    }
+    return parts;
+}
+
+/// Neighbours around a ring or path, in random order, and some corners that do not fit.
+Corners randomCorners() {
+    const auto size = *rc::gen::inRange<std::uint32_t>(2, 10);
+    const bool closed = *rc::gen::arbitrary<bool>();
+    Corners corners;
+    for (std::uint32_t i = 0; i < size; ++i) {
+        corners.next.push_back(i);
+        corners.previous.push_back(closed ? (i + 1) % size : i + 1);
+    }
+    for (int i = *rc::gen::element(0, 0, 1, 3); i > 0; --i) {
+        const auto a = *rc::gen::inRange<std::uint32_t>(0, size + 2);
+        corners.next.push_back(a);
+        corners.previous.push_back((a + *rc::gen::inRange<std::uint32_t>(1, size + 2)) % (size + 2));
+    }
+    for (std::size_t i = corners.next.size(); *rc::gen::element(true, true, false) && i-- > 1;) {
+        const auto j = *rc::gen::inRange<std::size_t>(0, i + 1);
+        std::swap(corners.next[i], corners.next[j]);
+        std::swap(corners.previous[i], corners.previous[j]);
+    }
+    return corners;
+}
+
+bool isFoundOne(const Corners& corners) {
+    ManyPaths place;
+    FanRoom room(&place);
+    Fan fan;
+    for (std::size_t i = 0; i < corners.next.size(); ++i) fan.add(corners.next[i], corners.previous[i], room);
+    return fan.isOne();
+}
+
+/// Each half-edge once, and one part.
+bool isPlainFan(const Corners& corners) {
+    const auto allDiffer = [](const std::vector<std::uint32_t>& of) {
+        return std::set<std::uint32_t>(of.begin(), of.end()).size() == of.size();
+    };
+    return allDiffer(corners.next) && allDiffer(corners.previous) && countParts(corners) == 1;
+}
+
+RC_GTEST_PROP(Fan, IsOneOnlyWherePairingMakesOnePart, ()) {
+    const Corners corners = randomCorners();
+    const bool found = isFoundOne(corners);
+    RC_TAG(found);
+    if (found) RC_ASSERT(countParts(corners) == 1u);
+    // More corners may begin more paths than there is room for.
+    if (corners.next.size() <= 8 && isPlainFan(corners)) RC_ASSERT(found);
+}
+
+RC_GTEST_PROP(Links, AreTheSameForSmallAndLargeNodes, ()) {
+    Corners corners = randomCorners(), more = randomCorners();
+    corners.next.insert(corners.next.end(), more.next.begin(), more.next.end());
+    corners.previous.insert(corners.previous.end(), more.previous.begin(), more.previous.end());
+    const std::size_t count = corners.next.size();
+    std::vector<std::uint32_t> left(count), right(count), large_left(count), large_right(count);
+    std::vector<std::uint64_t> half_edges(2 * count);
+    linkSmall(around(corners), {left.data(), right.data()});
+    linkLarge(around(corners), {large_left.data(), large_right.data()}, half_edges.data());
+    RC_ASSERT(left == large_left);
+    RC_ASSERT(right == large_right);
+}
+
+TEST(Fan, KnowsAllFansOfUpToFourCornersWithFourNeighbours) {
+    constexpr std::uint32_t kNeighbours = 4, kKinds = kNeighbours * (kNeighbours - 1);
+    std::size_t fans = 0;
+    for (std::size_t count = 1, ways = kKinds; count <= 4; ++count, ways *= kKinds) {
+        for (std::size_t way = 0; way < ways; ++way) {
+            Corners corners;
+            for (std::size_t i = 0, left = way; i < count; ++i, left /= kKinds) {
+                const auto next = static_cast<std::uint32_t>(left % kNeighbours),
+                           further = static_cast<std::uint32_t>(left % kKinds / kNeighbours);
+                corners.next.push_back(next);
+                corners.previous.push_back((next + 1 + further) % kNeighbours);
+            }
+            const bool found = isFoundOne(corners), is_plain = isPlainFan(corners);
+            ASSERT_TRUE(found || !is_plain) << count << " corners, way " << way;
+            ASSERT_TRUE(!found || countParts(corners) == 1) << count << " corners, way " << way;
+            fans += is_plain ? 1 : 0;
+        }
+    }
+    // Rings: 6 of two corners, 8 of three, 6 of four. Paths: 12, 24 and 24. Each in any order.
+    EXPECT_EQ(fans, 12u + 2u * (6 + 24) + 6u * (8 + 24) + 24u * 6);
+}
+
+TEST(Fan, KnowsRingsAndPathsOfEightInAnyOrder) {
+    for (const std::uint32_t neighbours : {8u, 9u}) {
+        std::uint32_t order[] = {0, 1, 2, 3, 4, 5, 6, 7};
+        do {
+            ManyPaths place;
+            FanRoom room(&place);
+            Fan fan;
+            for (const std::uint32_t i : order) fan.add(i, (i + 1) % neighbours, room);
+            ASSERT_TRUE(fan.isOne());
+        } while (std::next_permutation(std::begin(order), std::end(order)));
+    }
+}
+
+TEST(Fan, FollowsTrianglesInTheOrderOfAMesh) {
+    ManyPaths place;
+    FanRoom room(&place);
+    Fan fan;
+    EXPECT_FALSE(fan.isOne());
+    // Two strips of three triangles around a node, as the rows of a grid bring them.
+    const std::uint32_t next[] = {0, 1, 2, 5, 4, 3}, previous[] = {1, 2, 3, 0, 5, 4};
+    for (int i = 0; i < 6; ++i) fan.add(next[i], previous[i], room);
+    EXPECT_TRUE(fan.isOne());
+}
+
+/// Each second triangle of a ring, then the others.
+bool isRingFound(std::uint32_t size) {
+    ManyPaths place;
+    FanRoom room(&place);
+    Fan fan;
+    for (std::uint32_t first : {0u, 1u}) {
+        for (std::uint32_t i = first; i < size; i += 2) fan.add(i, (i + 1) % size, room);
+    }
+    return fan.isOne();
+}
+
+TEST(Fan, GivesUpWhereAFifthPathBegins) {
+    for (const std::uint32_t size : {2u, 4u, 6u, 8u}) EXPECT_TRUE(isRingFound(size)) << size;
+    EXPECT_FALSE(isRingFound(10));
+}
+
+TEST(Fan, GivesItsPlaceBackWhereTwoPathsAreLeft) {
+    ManyPaths places[3] = {};
+    FanRoom room(places);
+    Fan fans[3];
+    for (std::uint32_t i = 0; i < 3; ++i) {
+        for (Fan* fan : {&fans[0], &fans[1]}) fan->add(2 * i, 2 * i + 1, room);
+    }
+    fans[0].add(1, 2, room);
+    for (const std::uint32_t i : {0u, 2u, 4u, 1u, 3u, 5u}) fans[2].add(i, (i + 1) % 6, room);
+    EXPECT_TRUE(fans[2].isOne());
+    fans[0].add(3, 4, room);
+    for (const std::uint32_t i : {1u, 3u}) fans[1].add(i, i + 1, room);
+    EXPECT_TRUE(fans[0].isOne());
+    EXPECT_TRUE(fans[1].isOne());
+    EXPECT_EQ(places[2].paths[0].leaves, 0u);  // never needed
+}
+
+TEST(Fan, StaysComplexOnceTwoWaitForOneNeighbour) {
+    ManyPaths place;
+    FanRoom room(&place);
+    Fan fan;
+    fan.add(0, 1, room);
+    fan.add(0, 2, room);
+    fan.add(3, 0, room);
+    fan.add(2, 3, room);
+    EXPECT_FALSE(fan.isOne());
+}
+
+}  // namespace
+}  // namespace tspace::mikk

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+// The reference's grouping depends on the order of faces (its last edge bucket is not sorted); the corrected one does
+// not.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+#include <random>
+
+#include "core/base/vec_math.h"
+#include "tspace/tangents.h"
+
+namespace tspace {
+namespace {
+
+constexpr unsigned kCells = 2;  // small, so that the last edge is near everything
+
+/// A grid with slanted UVs that differ from cell to cell, so that a lost neighbour shows.
+struct Grid {
+    std::vector<Vec3> positions;
+    std::vector<Vec3> normals;
+    std::vector<Vec2> uvs;
+    std::vector<std::array<std::uint32_t, 3>> faces;
+
+    explicit Grid(std::mt19937& random) {
+        const auto noise = [&] { return static_cast<float>(random() % 1000) / 2500.0f; };
+        for (unsigned y = 0; y <= kCells; ++y) {
+            for (unsigned x = 0; x <= kCells; ++x) {
+                positions.push_back({static_cast<float>(x), static_cast<float>(y), 0});
+                normals.push_back({0, 0, 1});
+                uvs.push_back({static_cast<float>(x) + noise(), static_cast<float>(y) + noise()});
+            }
+        }
+        for (unsigned y = 0; y < kCells; ++y) {
+            for (unsigned x = 0; x < kCells; ++x) {
+                const unsigned a = y * (kCells + 1) + x, b = a + 1, c = a + kCells + 1, d = c + 1;
+                faces.push_back({a, b, d});
+                faces.push_back({a, d, c});
+            }
+        }
+    }
+
+    /// Tangents per (face, corner) as stored here, computed with the faces in the given order.
+    [[nodiscard]] std::vector<Vec4> tangents(const std::vector<std::size_t>& order, Pairing pairing) const {
+        std::vector<std::uint32_t> indices;
+        for (const std::size_t f : order) indices.insert(indices.end(), faces[f].begin(), faces[f].end());
+        MeshView mesh;
+        mesh.positions = positions;
+        mesh.normals = normals;
+        mesh.uvs = uvs;
+        mesh.indices = IndexView(std::span<const std::uint32_t>(indices));
+        std::vector<Vec4> moved(indices.size()), result(indices.size());
+        EXPECT_TRUE(
+            generateTangents(mesh, {.convention = conventions::opengl, .pairing = pairing}, {.tangents = moved}));
+        for (std::size_t i = 0; i < order.size(); ++i) std::copy_n(&moved[3 * i], 3, &result[3 * order[i]]);
+        return result;
+    }
+};
+
+/// The most that any tangent moves when faces are shuffled, over many grids.
+float largestChange(Pairing pairing) {
+    float largest = 0;
+    for (unsigned seed = 0; seed < 500; ++seed) {
+        std::mt19937 random(seed);
+        const Grid grid(random);
+        std::vector<std::size_t> order(grid.faces.size());
+        std::iota(order.begin(), order.end(), std::size_t{0});
+        const std::vector<Vec4> before = grid.tangents(order, pairing);
+        std::shuffle(order.begin(), order.end(), random);
+        const std::vector<Vec4> after = grid.tangents(order, pairing);
+        for (std::size_t c = 0; c < before.size(); ++c) {
+            largest = std::max(largest, length(xyz(before[c]) - xyz(after[c])));
+        }
+    }
+    return largest;
+}
+
+TEST(CorrectedPairing, DoesNotDependOnTheOrderOfFaces) { EXPECT_LT(largestChange(Pairing::corrected), 1e-5f); }
+
+TEST(ReferencePairing, LosesNeighboursInSomeOrdersOfFaces) { EXPECT_GT(largestChange(Pairing::reference), 1e-2f); }
+
+}  // namespace
+}  // namespace tspace

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+// Images that must not be trusted.
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include <algorithm>
+
+#include "images/images.h"
+
+namespace tspace::test {
+namespace {
+
+std::optional<RgbImage> decode(const std::string& file, std::uint64_t most_pixels = 1 << 22) {
+    std::string why;
+    return decodeImage(bytesOf(file), most_pixels, why);
+}
+
+std::string whyNot(const std::string& file, std::uint64_t most_pixels = 1 << 22) {
+    std::string why;
+    return decodeImage(bytesOf(file), most_pixels, why) ? "" : why;
+}
+
+TEST(DecodeImage, GivesThePixelsOfAPng) {
+    const RgbImage image = normalMapOf(33, bumps);
+    const std::optional<RgbImage> decoded = decode(pngFile(image));
+    ASSERT_TRUE(decoded);
+    EXPECT_EQ(decoded->width, 33u);
+    EXPECT_EQ(decoded->rgb, image.rgb);
+}
+
+TEST(DecodeImage, GivesThePixelsOfAWebp) {
+    const RgbImage image = normalMapOf(33, bumps);
+    const std::optional<RgbImage> decoded = decode(webpFile(image, true));
+    ASSERT_TRUE(decoded);
+    EXPECT_EQ(decoded->rgb, image.rgb) << "lossless";
+    const std::optional<RgbImage> lossy = decode(webpFile(image, false));
+    ASSERT_TRUE(lossy);
+    EXPECT_EQ(lossy->height, 33u);
+}
+
+TEST(DecodeImage, RefusesWebpThatItCannotTrust) {
+    const std::string webp = webpFile(normalMapOf(64, bumps), true);
+    EXPECT_EQ(whyNot(webp.substr(0, webp.size() / 2)), "it is a broken WebP");
+    EXPECT_EQ(whyNot(webp, 1000), "it has more pixels than are looked at");
+    // The head of a lossless image: 14 bits each of width - 1 and height - 1, behind a byte 0x2f.
+    std::string claims = webp;
+    const std::size_t head = claims.find("VP8L");
+    ASSERT_NE(head, std::string::npos);
+    for (std::size_t i = 9; i < 12; ++i) claims[head + i] = '\xff';
+    claims[head + 12] = '\x0f';
+    EXPECT_EQ(whyNot(claims, std::uint64_t{1} << 40), "it claims far more pixels than its bytes can hold");
+    const std::string animated = std::string("RIFF\x20\0\0\0WEBPVP8X\x0a\0\0\0\x02\0\0\0\x0f\0\0\x0f\0\0", 30) +
+                                 std::string("ANIM\x06\0\0\0\0\0\0\0\0\0", 14);
+    EXPECT_EQ(whyNot(animated), "it is an animated WebP");
+}
+
+TEST(DecodeImage, SaysWhatItTakesOfMemory) {
+    const RgbImage map = normalMapOf(64, bumps);
+    for (const std::string& file : {pngFile(map), jpegFile(map, 90), webpFile(map, true), webpFile(map, false)}) {
+        EXPECT_EQ(claimedSize(bytesOf(file)).pixels(), 64u * 64u);
+        EXPECT_GE(imageWorkBytes(bytesOf(file)), 3u * 64u * 64u);
+    }
+    EXPECT_EQ(imageWorkBytes(bytesOf("DDS |")), 0u);
+}
+
+TEST(DecodeImage, SaysWhyItDoesNotLook) {
+    const std::string png = pngFile(normalMapOf(64, bumps)), jpeg = jpegFile(normalMapOf(64, bumps), 90);
+    EXPECT_EQ(whyNot(png), "");
+    EXPECT_EQ(whyNot(png, 1000), "it has more pixels than are looked at");
+    EXPECT_EQ(whyNot(jpeg, 1000), "it has more pixels than are looked at");
+    EXPECT_EQ(whyNot("RIFF????WEBP"), "it is a broken WebP");
+    EXPECT_EQ(whyNot(""), "it is neither PNG, JPEG nor WebP");
+    EXPECT_EQ(whyNot("\xabKTX 20\xbb\r\n\x1a\n"), "it is KTX2, which is not read");
+    EXPECT_EQ(whyNot(std::string("sB\x13\0\x4d\0", 6)), "it is a Basis Universal file, which is not read");
+    EXPECT_EQ(whyNot("DDS |"), "it is DDS, which is not read");
+    EXPECT_EQ(whyNot(png.substr(0, png.size() / 2)), "it is a broken PNG");
+    EXPECT_EQ(whyNot(jpeg.substr(0, 10)), "it is a broken JPEG");
+}
+
+TEST(DecodeImage, RefusesAFewBytesThatClaimManyPixels) {
+    std::string png = pngFile(normalMapOf(64, bumps));
+    // Width and height of the header, which then has a wrong checksum; either reason will do.
+    png[18] = png[22] = 0x20;
+    EXPECT_NE(whyNot(png, std::uint64_t{1} << 40), "");
+    std::string jpeg = jpegFile(normalMapOf(64, bumps), 90);
+    const std::size_t frame = jpeg.find("\xff\xc0");
+    ASSERT_NE(frame, std::string::npos);
+    jpeg[frame + 5] = jpeg[frame + 7] = 0x60;
+    EXPECT_EQ(whyNot(jpeg, std::uint64_t{1} << 40), "it claims far more pixels than its bytes can hold");
+}
+
+/// A table of codes has 256 at most; its 16 counts may say 4080.
+TEST(DecodeImage, RefusesAJpegWhoseTableHasTooManyCodes) {
+    std::string jpeg = jpegFile(normalMapOf(64, bumps), 90);
+    const std::size_t table = jpeg.find("\xff\xc4");
+    ASSERT_NE(table, std::string::npos);
+    constexpr std::size_t kCountsAt = 5, kCountsFrom9 = 8;  // 255 each of 9 to 16 bits are codes that there can be
+    std::fill_n(jpeg.begin() + static_cast<std::ptrdiff_t>(table + kCountsAt + kCountsFrom9), 8, '\xff');
+    EXPECT_EQ(whyNot(jpeg), "it is a broken JPEG");
+}
+
+TEST(DecodeImage, SurvivesBrokenFiles) {
+    const RgbImage map = normalMapOf(24, bumps);
+    const std::string files[] = {pngFile(map), jpegFile(map, 80), webpFile(map, true), webpFile(map, false)};
+    EXPECT_TRUE(rc::check([&] {
+        std::string file = files[*rc::gen::inRange(0, 4)];
+        for (int i = 0; i < *rc::gen::inRange(1, 5); ++i) {
+            file[*rc::gen::inRange<std::size_t>(3, file.size())] = *rc::gen::arbitrary<char>();
+        }
+        const std::optional<RgbImage> image = decode(file, 1 << 16);
+        if (image) RC_ASSERT(image->rgb.size() == std::size_t{3} * image->width * image->height);
+    }));
+}
+
+}  // namespace
+}  // namespace tspace::test

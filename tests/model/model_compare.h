@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+// Compares a model before and after generate: everything but the allowed edits must be the same.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "model/gltf/document.h"
+#include "tspace/asset.h"
+
+namespace tspace::test {
+
+/// What differs and should not; empty when all is well. `report` says which primitives were computed. `is_repacked`:
+/// the lists of extensions may differ too. Compares the JSON with its order of members, every accessor of an untouched
+/// primitive by its bytes, every attribute and morph target of a changed primitive corner by corner, and every image by
+/// its bytes.
+std::vector<std::string> differences(const gltf::Document& before, const gltf::Document& after,
+                                     const GenerateReport& report, bool is_repacked = false);
+
+}  // namespace tspace::test

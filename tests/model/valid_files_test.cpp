@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+// Every file in which the glTF validator finds no error loads.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <map>
+
+#include "model/json/json.h"
+#include "model_files.h"
+#include "support/shared_data.h"
+#include "tspace/asset.h"
+
+namespace tspace {
+namespace {
+
+using test::shared;
+
+/// Files without an error that are refused all the same, and why.
+const std::map<std::string, ErrorCode> kRefused = {
+    // A web address is never loaded.
+    {"buffer/non_relative_uri.gltf", ErrorCode::forbiddenPath},
+    // It asks for a version after 2.0.
+    {"asset/min_version_valid.gltf", ErrorCode::unsupportedFile},
+};
+
+TEST(ValidFiles, Load) {
+    const std::string folder = "bad/gltf-validator/base";
+    TSPACE_NEEDS_SHARED("bad/gltf-validator/base");
+    int count = 0;
+    for (const std::string& name : test::modelFiles(folder)) {
+        const auto path = shared(folder) / name;
+        std::ifstream file(path.string() + ".report.json");
+        if (!file) continue;
+        const std::string text(std::istreambuf_iterator<char>(file), {});
+        const Json report = Json::parse(text);
+        if (report.at("issues").at("numErrors") != 0) continue;
+        ++count;
+        const auto inspection = inspectFile(path.string());
+        const auto refused = kRefused.find(name);
+        if (refused == kRefused.end()) {
+            EXPECT_TRUE(inspection) << name << ": " << inspection.error().message << " at " << inspection.error().place;
+        } else {
+            EXPECT_TRUE(!inspection && inspection.error().code == refused->second) << name;
+        }
+    }
+    EXPECT_GT(count, 50);
+}
+
+}  // namespace
+}  // namespace tspace
