@@ -6,9 +6,9 @@
 #include <cstring>
 #include <functional>
 
-#include "job.h"
 #include "core/pack/formats.h"
 #include "core/pack/random_frames.h"
+#include "job.h"
 
 namespace tspace::bench {
 namespace {

@@ -2,8 +2,8 @@
 // The shapes that the tests of linear time use, under the names of the table.
 #include <utility>
 
-#include "mesh.h"
 #include "core/tangents/shapes.h"
+#include "mesh.h"
 
 namespace tspace::bench {
 

@@ -7,11 +7,11 @@
 #include <map>
 #include <tuple>
 
-#include "model/io/file_error.h"
+#include "mesh.h"
 #include "model/gltf/primitive_reader.h"
+#include "model/io/file_error.h"
 #include "model/obj/obj_reader.h"
 #include "model/read/load_document.h"
-#include "mesh.h"
 
 namespace tspace::bench {
 

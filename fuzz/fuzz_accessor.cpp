@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <string>
 
-#include "model/io/file_error.h"
 #include "model/gltf/accessor.h"
 #include "model/gltf/document.h"
+#include "model/io/file_error.h"
 #include "model/io/uri.h"
 
 namespace {

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "files.h"
+#include "images/image.h"
 #include "made_image.h"
 #include "made_model.h"
-#include "images/image.h"
 #include "tspace/bake_file.h"
 #include "tspace/map_convert_file.h"
 #include "tspace/map_height_file.h"

@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
+#include "images/image.h"
 #include "made_image.h"
 #include "made_model.h"
-#include "images/image.h"
 #include "tspace/render.h"
 
 namespace {

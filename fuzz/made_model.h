@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
+#include "byte_reader.h"
 #include "model/gltf/glb.h"
 #include "model/gltf/packed_layout.h"
-#include "byte_reader.h"
 
 namespace tspace::fuzz {
 

@@ -8,8 +8,8 @@
 #include <string>
 #include <string_view>
 
-#include "model/io/file_error.h"
 #include "commands/shared/json_options.h"
+#include "model/io/file_error.h"
 #include "tspace/asset.h"
 #include "tspace/tspace_files.h"
 

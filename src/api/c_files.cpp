@@ -3,8 +3,8 @@
 #include <chrono>
 
 #include "api/c_call.h"
-#include "commands/shared/request.h"
 #include "commands/shared/report.h"
+#include "commands/shared/request.h"
 
 using namespace tspace;           // NOLINT: this file only forwards
 using namespace tspace::c_files;  // NOLINT

@@ -7,9 +7,9 @@
 #include <cstdlib>
 #include <fstream>
 
+#include "commands/render/model_picture.h"
 #include "model/io/file_error.h"
 #include "model/read/read_scene.h"
-#include "commands/render/model_picture.h"
 
 using namespace tspace;  // NOLINT: a small program
 

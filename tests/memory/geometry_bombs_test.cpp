@@ -2,8 +2,8 @@
 // Small glTF files whose geometry claims, or is made to be, far more than their bytes.
 #include <gtest/gtest.h>
 
-#include "model/gltf_builder.h"
 #include "expect_bounded.h"
+#include "model/gltf_builder.h"
 
 namespace tspace {
 namespace {

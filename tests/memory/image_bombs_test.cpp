@@ -2,10 +2,10 @@
 // Images that claim, or hold, far more pixels than their bytes: `check` decodes normal maps.
 #include <gtest/gtest.h>
 
-#include "model/gltf_builder.h"
 #include "expect_bounded.h"
 #include "images/image.h"
 #include "images/images.h"
+#include "model/gltf_builder.h"
 #include "tspace/check.h"
 
 namespace tspace {

@@ -4,8 +4,8 @@
 
 #include <cstdlib>
 
-#include "model/gltf_builder.h"
 #include "measured_run.h"
+#include "model/gltf_builder.h"
 #include "support/temp_folder.h"
 
 namespace tspace {

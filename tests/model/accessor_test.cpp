@@ -6,9 +6,9 @@
 #include <functional>
 #include <limits>
 
+#include "gltf_builder.h"
 #include "model/gltf/accessor.h"
 #include "model/gltf/references.h"
-#include "gltf_builder.h"
 
 namespace tspace::gltf {
 namespace {

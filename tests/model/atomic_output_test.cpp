@@ -9,10 +9,10 @@
 #include <csignal>
 #include <memory>
 
+#include "gltf_builder.h"
 #include "model/io/atomic_output.h"
 #include "model/io/system_files.h"
 #include "model/io/temporary_name.h"
-#include "gltf_builder.h"
 #include "support/temp_folder.h"
 
 namespace tspace {

@@ -4,9 +4,9 @@
 
 #include <cmath>
 
-#include "model/read/load_document.h"
 #include "core/base/vec_math.h"
 #include "generate_run.h"
+#include "model/read/load_document.h"
 
 namespace tspace {
 namespace {

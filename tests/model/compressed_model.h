@@ -6,8 +6,8 @@
 
 #include <string>
 
-#include "model/read/load_document.h"
 #include "gltf_builder.h"
+#include "model/read/load_document.h"
 #include "model_compare.h"
 #include "support/temp_folder.h"
 

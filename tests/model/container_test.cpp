@@ -2,11 +2,11 @@
 // GLB chunks and the JSON in them: what is accepted, and that every defect has its own message.
 #include <gtest/gtest.h>
 
+#include "gltf_builder.h"
 #include "model/gltf/draco_primitives.h"
 #include "model/gltf/glb.h"
 #include "model/gltf/json.h"
 #include "model/gltf/meshopt_views.h"
-#include "gltf_builder.h"
 
 namespace tspace::gltf {
 namespace {

@@ -7,14 +7,14 @@
 #include <cmath>
 #include <random>
 
-#include "model/gltf_builder.h"
-#include "model/read/load_document.h"
-#include "model/read/read_scene.h"
 #include "commands/shared/uv_reading.h"
 #include "images/float_image.h"
 #include "images/images.h"
 #include "maps/shading.h"
 #include "maps/texture_sample.h"
+#include "model/gltf_builder.h"
+#include "model/read/load_document.h"
+#include "model/read/read_scene.h"
 #include "support/shared_data.h"
 #include "support/temp_folder.h"
 #include "tspace/asset.h"

@@ -8,12 +8,12 @@
 #include <cstring>
 #include <functional>
 
+#include "compressed_model.h"
+#include "gltf_builder.h"
 #include "model/gltf/accessor.h"
 #include "model/gltf/draco_primitives.h"
 #include "model/gltf/primitive_reader.h"
 #include "model/read/load_document.h"
-#include "compressed_model.h"
-#include "gltf_builder.h"
 #include "model_files.h"
 
 namespace tspace::gltf {

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <functional>
 
+#include "images/images.h"
 #include "model/gltf/read_scene.h"
 #include "model/gltf_builder.h"
 #include "model/read/load_document.h"
-#include "images/images.h"
 #include "support/temp_folder.h"
 #include "tspace/asset.h"
 #include "tspace/check.h"

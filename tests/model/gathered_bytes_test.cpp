@@ -5,10 +5,10 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "model/io/atomic_output.h"
+#include "gltf_builder.h"
 #include "model/gltf/editor.h"
 #include "model/gltf/gather_elements.h"
-#include "gltf_builder.h"
+#include "model/io/atomic_output.h"
 #include "support/temp_folder.h"
 
 namespace tspace::gltf {

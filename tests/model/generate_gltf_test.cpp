@@ -5,10 +5,10 @@
 
 #include <algorithm>
 
+#include "generate_run.h"
 #include "model/gltf/accessor.h"
 #include "model/gltf/primitive_reader.h"
 #include "model/read/load_document.h"
-#include "generate_run.h"
 
 namespace tspace {
 namespace {

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "gltf_builder.h"
 #include "model/gltf/primitive_reader.h"
 #include "model/read/load_document.h"
-#include "gltf_builder.h"
 #include "model_compare.h"
 #include "support/temp_folder.h"
 

@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-#include "model/gltf/accessor.h"
 #include "generate_run.h"
+#include "model/gltf/accessor.h"
 
 namespace tspace {
 namespace {

@@ -8,10 +8,10 @@
 #include <type_traits>
 #include <vector>
 
-#include "model/io/file_error.h"
-#include "model/gltf/document.h"
-#include "model/io/uri.h"
 #include "core/base/little_endian.h"
+#include "model/gltf/document.h"
+#include "model/io/file_error.h"
+#include "model/io/uri.h"
 
 namespace tspace {
 

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <ostream>
 
+#include "gltf_builder.h"
 #include "model/gltf/primitive_reader.h"
 #include "model/read/load_document.h"
-#include "gltf_builder.h"
 #include "model_files.h"
 #include "support/temp_folder.h"
 

@@ -4,10 +4,10 @@
 
 #include <cmath>
 
-#include "model/gltf/draco_primitives.h"
-#include "maps/position_box.h"
-#include "commands/shared/request.h"
 #include "commands/shared/report.h"
+#include "commands/shared/request.h"
+#include "maps/position_box.h"
+#include "model/gltf/draco_primitives.h"
 #include "support/comma_locale.h"
 #include "support/scene_file.h"
 #include "tspace/asset.h"

@@ -6,12 +6,12 @@
 
 #include <cmath>
 
+#include "compressed_model.h"
+#include "gltf_builder.h"
 #include "model/gltf/accessor.h"
 #include "model/gltf/meshopt_views.h"
 #include "model/gltf/primitive_reader.h"
 #include "model/read/load_document.h"
-#include "compressed_model.h"
-#include "gltf_builder.h"
 
 namespace tspace::gltf {
 namespace {

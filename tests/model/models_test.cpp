@@ -3,8 +3,8 @@
 // no byte.
 #include <gtest/gtest.h>
 
-#include "model/read/load_document.h"
 #include "gltf_builder.h"
+#include "model/read/load_document.h"
 #include "model_compare.h"
 #include "model_files.h"
 #include "support/temp_folder.h"

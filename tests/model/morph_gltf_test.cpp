@@ -4,9 +4,9 @@
 
 #include <cmath>
 
+#include "generate_run.h"
 #include "model/gltf/accessor.h"
 #include "model/read/load_document.h"
-#include "generate_run.h"
 
 namespace tspace {
 namespace {

@@ -9,8 +9,8 @@
 #include <map>
 #include <set>
 
-#include "model/gltf/accessor.h"
 #include "generate_run.h"
+#include "model/gltf/accessor.h"
 #include "support/scene_file.h"
 #include "support/shared_data.h"
 

@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "model/gltf/read_packed.h"
-#include "model/read/load_document.h"
 #include "core/base/angle.h"
 #include "core/base/vec_math.h"
 #include "generate_run.h"
+#include "model/gltf/read_packed.h"
+#include "model/read/load_document.h"
 
 namespace tspace {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <bit>
 
-#include "model/gltf/primitive_reader.h"
 #include "gltf_builder.h"
+#include "model/gltf/primitive_reader.h"
 
 namespace tspace::gltf {
 namespace {

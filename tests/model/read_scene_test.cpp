@@ -2,8 +2,8 @@
 // The scene that check, diff and identify look at: what it holds is what the file says.
 #include <gtest/gtest.h>
 
-#include "model/read/read_scene.h"
 #include "gltf_builder.h"
+#include "model/read/read_scene.h"
 #include "support/shared_data.h"
 #include "support/temp_folder.h"
 

@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include "gltf_builder.h"
 #include "model/gltf/editor.h"
 #include "model/gltf/references.h"
-#include "gltf_builder.h"
 
 namespace tspace::gltf {
 namespace {

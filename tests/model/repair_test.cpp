@@ -8,10 +8,10 @@
 #include <functional>
 #include <limits>
 
-#include "model/read/load_document.h"
 #include "core/base/vec_math.h"
 #include "generate_run.h"
 #include "images/images.h"
+#include "model/read/load_document.h"
 #include "tspace/check.h"
 
 namespace tspace {

@@ -2,8 +2,8 @@
 // --strip: tangents that nobody needs go, with their data.
 #include <gtest/gtest.h>
 
-#include "model/read/load_document.h"
 #include "generate_run.h"
+#include "model/read/load_document.h"
 
 namespace tspace {
 namespace {

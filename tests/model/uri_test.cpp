@@ -2,9 +2,9 @@
 // Which files a model may name, and decoding of data URIs.
 #include <gtest/gtest.h>
 
-#include "model/read/load_document.h"
-#include "model/io/uri.h"
 #include "gltf_builder.h"
+#include "model/io/uri.h"
+#include "model/read/load_document.h"
 #include "support/temp_folder.h"
 
 namespace tspace {

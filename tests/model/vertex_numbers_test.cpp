@@ -6,9 +6,9 @@
 #include <array>
 #include <set>
 
+#include "generate_run.h"
 #include "model/gltf/accessor.h"
 #include "model/gltf/codecs/draco.h"
-#include "generate_run.h"
 #include "support/shared_data.h"
 
 namespace tspace::test {

@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <span>
 
+#include "commands/shared/nearest_name.h"
 #include "console.h"
 #include "help.h"
 #include "jobs.h"
 #include "options.h"
-#include "commands/shared/nearest_name.h"
 #include "read_command_line.h"
 
 namespace tspace::tool {

@@ -6,8 +6,8 @@
 #include <variant>
 #include <vector>
 
-#include "commands/shared/request.h"
 #include "commands/shared/exit_code.h"
+#include "commands/shared/request.h"
 
 namespace tspace::tool {
 

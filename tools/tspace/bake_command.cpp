@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <chrono>
 
-#include "model/io/file_io.h"
 #include "commands.h"
 #include "console.h"
 #include "interrupt.h"
+#include "model/io/file_io.h"
 #include "output_files.h"
 #include "report.h"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // tspace check
 #include "commands.h"
-#include "output_files.h"
 #include "commands/shared/page/check_page.h"
+#include "output_files.h"
 #include "read_files.h"
 #include "standard_input.h"
 

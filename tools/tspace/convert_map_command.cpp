@@ -2,10 +2,10 @@
 // tspace convert-map: one normal map, for other frames.
 #include <fmt/format.h>
 
-#include "model/io/file_io.h"
 #include "commands.h"
 #include "console.h"
 #include "image_command.h"
+#include "model/io/file_io.h"
 #include "output_files.h"
 #include "report.h"
 

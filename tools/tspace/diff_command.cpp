@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // tspace diff: two models, corner by corner.
 #include "commands.h"
+#include "commands/shared/page/diff_page.h"
 #include "console.h"
 #include "output_files.h"
-#include "commands/shared/page/diff_page.h"
 #include "report.h"
 
 namespace tspace::tool {

@@ -2,9 +2,9 @@
 // Results of tspace diff as text.
 #include <algorithm>
 
+#include "commands/diff/diff_text.h"
 #include "console.h"
 #include "report.h"
-#include "commands/diff/diff_text.h"
 
 namespace tspace::tool {
 namespace {

@@ -4,9 +4,9 @@
 
 #include <map>
 
+#include "commands/generate/generate_totals.h"
 #include "console.h"
 #include "report.h"
-#include "commands/generate/generate_totals.h"
 
 namespace tspace::tool {
 namespace {

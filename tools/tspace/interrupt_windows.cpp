@@ -6,8 +6,8 @@
 #include <cstdlib>
 #include <initializer_list>
 
-#include "model/io/temporary_files.h"
 #include "interrupt.h"
+#include "model/io/temporary_files.h"
 
 namespace tspace::tool {
 namespace {

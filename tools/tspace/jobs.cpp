@@ -9,10 +9,10 @@
 #include <map>
 #include <set>
 
+#include "glob.h"
 #include "model/io/disk_paths.h"
 #include "model/io/file_io.h"
 #include "model/io/system_files.h"
-#include "glob.h"
 #include "system.h"
 
 namespace tspace::tool {

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "model/io/c_file.h"
 #include "file_hash.h"
 #include "jobs.h"
+#include "model/io/c_file.h"
 
 namespace tspace::tool {
 

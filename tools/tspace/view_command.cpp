@@ -4,10 +4,10 @@
 
 #include <filesystem>
 
-#include "model/io/file_io.h"
-#include "model/io/system_files.h"
 #include "commands.h"
 #include "console.h"
+#include "model/io/file_io.h"
+#include "model/io/system_files.h"
 #include "output_files.h"
 #include "report.h"
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "model/json/json.h"
 #include "mend.h"
+#include "model/json/json.h"
 
 namespace tspace::import {
 

@@ -10,8 +10,8 @@
 #include <map>
 #include <sstream>
 
-#include "number_text.h"
 #include "core/mesh/surface/float_loss.h"
+#include "number_text.h"
 
 namespace tspace::import {
 

@@ -6,13 +6,13 @@
 #include <map>
 #include <set>
 
-#include "model/io/atomic_output.h"
-#include "model/io/file_error.h"
-#include "model/io/file_io.h"
 #include "commands/bake/map_pictures.h"
 #include "commands/bake/model_surfaces.h"
 #include "images/float_image.h"
 #include "maps/map_calls.h"
+#include "model/io/atomic_output.h"
+#include "model/io/file_error.h"
+#include "model/io/file_io.h"
 
 namespace tspace {
 

@@ -6,10 +6,10 @@
 #include <optional>
 #include <set>
 
-#include "model/io/disk_paths.h"
-#include "model/io/file_error.h"
 #include "model/gltf/container.h"
 #include "model/gltf/editor.h"
+#include "model/io/disk_paths.h"
+#include "model/io/file_error.h"
 #include "model/io/uri.h"
 
 namespace tspace {

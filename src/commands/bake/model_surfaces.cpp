@@ -6,12 +6,12 @@
 #include <cctype>
 #include <map>
 
-#include "model/io/file_io.h"
-#include "model/read/read_scene.h"
 #include "commands/shared/uv_reading.h"
 #include "core/base/unit.h"
-#include "maps/map_surfaces.h"
 #include "core/mesh/surface/float_loss.h"
+#include "maps/map_surfaces.h"
+#include "model/io/file_io.h"
+#include "model/read/read_scene.h"
 
 namespace tspace {
 

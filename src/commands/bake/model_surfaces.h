@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "model/io/file_error.h"
-#include "model/scene/scene.h"
 #include "commands/bake/model_maps.h"
 #include "maps/position_box.h"
 #include "maps/udim_tile.h"
+#include "model/io/file_error.h"
+#include "model/scene/scene.h"
 #include "tspace/bake_file.h"
 
 namespace tspace {

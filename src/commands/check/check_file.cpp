@@ -4,14 +4,14 @@
 #include <cmath>
 #include <iterator>
 
-#include "model/io/file_error.h"
-#include "model/read/read_scene.h"
 #include "commands/check/check_images.h"
 #include "commands/check/check_packed.h"
 #include "commands/check/check_seams.h"
 #include "commands/check/findings.h"
 #include "commands/check/scene_verdict.h"
 #include "core/base/sort.h"
+#include "model/io/file_error.h"
+#include "model/read/read_scene.h"
 #include "tspace/check.h"
 
 namespace tspace {

@@ -9,7 +9,6 @@
 #include <set>
 #include <tuple>
 
-#include "model/io/work_together.h"
 #include "commands/check/findings.h"
 #include "commands/check/map_content.h"
 #include "commands/check/map_findings.h"
@@ -17,6 +16,7 @@
 #include "core/base/unit.h"
 #include "maps/texture_sample.h"
 #include "maps/uv_coverage.h"
+#include "model/io/work_together.h"
 
 namespace tspace {
 

@@ -2,9 +2,9 @@
 // The normal maps of a scene.
 #pragma once
 
-#include "model/scene/scene.h"
 #include "commands/check/map_content.h"
 #include "commands/check/normal_map.h"
+#include "model/scene/scene.h"
 #include "tspace/check.h"
 
 namespace tspace {

@@ -9,11 +9,11 @@
 #include <map>
 #include <tuple>
 
-#include "model/io/file_error.h"
-#include "model/io/work_together.h"
 #include "commands/check/findings.h"
 #include "commands/check/scene_verdict.h"
 #include "core/base/angle.h"
+#include "model/io/file_error.h"
+#include "model/io/work_together.h"
 #include "tspace/pack.h"
 
 namespace tspace {

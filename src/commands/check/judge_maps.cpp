@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <optional>
 
-#include "model/io/file_error.h"
 #include "commands/check/check_images.h"
 #include "commands/check/scene_verdict.h"
 #include "images/flip_green.h"
+#include "model/io/file_error.h"
 #include "tspace/flip_green.h"
 
 namespace tspace {

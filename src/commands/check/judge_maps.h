@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
+#include "commands/check/map_content.h"
 #include "model/io/file_io.h"
 #include "model/scene/scene.h"
-#include "commands/check/map_content.h"
 
 namespace tspace {
 

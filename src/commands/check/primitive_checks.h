@@ -5,11 +5,11 @@
 
 #include <vector>
 
-#include "model/scene/scene.h"
 #include "commands/check/frame_health.h"
 #include "commands/check/quad_reading.h"
 #include "commands/shared/uv_reading.h"
 #include "core/mesh/surface/surface.h"
+#include "model/scene/scene.h"
 #include "tspace/check.h"
 
 namespace tspace {

@@ -10,10 +10,10 @@
 #include <tuple>
 #include <utility>
 
-#include "model/io/file_error.h"
-#include "model/io/work_together.h"
 #include "commands/check/findings.h"
 #include "commands/check/primitive_checks.h"
+#include "model/io/file_error.h"
+#include "model/io/work_together.h"
 
 namespace tspace {
 

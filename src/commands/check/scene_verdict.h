@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "model/scene/scene.h"
 #include "commands/check/check_images.h"
+#include "model/scene/scene.h"
 #include "tspace/check.h"
 
 namespace tspace {

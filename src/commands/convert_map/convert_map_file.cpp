@@ -3,11 +3,11 @@
 #include <charconv>
 #include <optional>
 
+#include "commands/shared/map_image_file.h"
+#include "maps/shading.h"
 #include "model/io/atomic_output.h"
 #include "model/io/file_error.h"
 #include "model/io/file_io.h"
-#include "commands/shared/map_image_file.h"
-#include "maps/shading.h"
 
 namespace tspace {
 

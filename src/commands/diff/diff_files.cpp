@@ -4,11 +4,11 @@
 #include <cmath>
 #include <set>
 
-#include "model/io/file_error.h"
-#include "model/read/read_scene.h"
-#include "core/base/vec_math.h"
 #include "commands/diff/angle_samples.h"
 #include "commands/diff/pair_primitives.h"
+#include "core/base/vec_math.h"
+#include "model/io/file_error.h"
+#include "model/read/read_scene.h"
 #include "tspace/diff.h"
 
 namespace tspace {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "model/scene/scene.h"
 #include "commands/diff/pair_triangles.h"
+#include "model/scene/scene.h"
 
 namespace tspace {
 

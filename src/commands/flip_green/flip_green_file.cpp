@@ -2,10 +2,10 @@
 // flipGreen and flipGreenFile: what an image may take, and files.
 #include <algorithm>
 
+#include "images/flip_green.h"
 #include "model/io/atomic_output.h"
 #include "model/io/file_error.h"
 #include "model/io/memory_budget.h"
-#include "images/flip_green.h"
 #include "tspace/flip_green.h"
 
 namespace tspace {

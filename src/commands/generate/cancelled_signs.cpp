@@ -3,12 +3,12 @@
 
 #include <algorithm>
 
-#include "model/io/file_error.h"
-#include "model/gltf/material_needs.h"
-#include "model/gltf/read_scene.h"
 #include "commands/check/scene_verdict.h"
 #include "commands/shared/uv_reading.h"
 #include "core/mesh/surface/surface.h"
+#include "model/gltf/material_needs.h"
+#include "model/gltf/read_scene.h"
+#include "model/io/file_error.h"
 
 namespace tspace::gltf {
 

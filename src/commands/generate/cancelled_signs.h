@@ -6,8 +6,8 @@
 #include <span>
 #include <string>
 
-#include "model/gltf/generate_plan.h"
 #include "commands/generate/flip_maps.h"
+#include "model/gltf/generate_plan.h"
 
 namespace tspace::gltf {
 

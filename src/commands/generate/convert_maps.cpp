@@ -6,14 +6,14 @@
 #include <optional>
 #include <utility>
 
-#include "model/gltf/material_needs.h"
-#include "model/gltf/read_scene.h"
 #include "commands/generate/map_references.h"
 #include "commands/generate/place_image.h"
 #include "commands/shared/map_mesh.h"
-#include "maps/carried_error.h"
 #include "images/float_image.h"
+#include "maps/carried_error.h"
 #include "maps/uv_coverage.h"
+#include "model/gltf/material_needs.h"
+#include "model/gltf/read_scene.h"
 
 namespace tspace::gltf {
 

@@ -7,14 +7,14 @@
 #include <string>
 #include <utility>
 
-#include "model/gltf/read_look.h"
-#include "model/gltf/read_scene.h"
-#include "model/io/uri.h"
 #include "commands/check/judge_maps.h"
 #include "commands/generate/mend_maps.h"
 #include "commands/generate/place_image.h"
 #include "commands/generate/texture_sources.h"
 #include "images/image.h"
+#include "model/gltf/read_look.h"
+#include "model/gltf/read_scene.h"
+#include "model/io/uri.h"
 
 namespace tspace::gltf {
 

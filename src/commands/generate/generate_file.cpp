@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // generateFile: finds out what the input is and hands it to its reader.
-#include "model/io/file_error.h"
-#include "model/io/file_io.h"
 #include "commands/generate/generate_gltf.h"
 #include "commands/generate/generate_obj.h"
+#include "model/io/file_error.h"
+#include "model/io/file_io.h"
 #include "tspace/asset.h"
 
 namespace tspace {

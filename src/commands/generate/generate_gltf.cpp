@@ -5,7 +5,13 @@
 
 #include <algorithm>
 
-#include "model/io/file_error.h"
+#include "commands/generate/cancelled_signs.h"
+#include "commands/generate/convert_maps.h"
+#include "commands/generate/flip_maps.h"
+#include "commands/generate/generate_warnings.h"
+#include "commands/generate/mend_values.h"
+#include "commands/generate/repair_plan.h"
+#include "core/base/parallel.h"
 #include "model/gltf/apply_frames.h"
 #include "model/gltf/compression/recompress.h"
 #include "model/gltf/compute_pools.h"
@@ -16,13 +22,7 @@
 #include "model/gltf/strip_tangents.h"
 #include "model/gltf/vertex_numbers.h"
 #include "model/gltf/write_packed.h"
-#include "core/base/parallel.h"
-#include "commands/generate/cancelled_signs.h"
-#include "commands/generate/convert_maps.h"
-#include "commands/generate/flip_maps.h"
-#include "commands/generate/generate_warnings.h"
-#include "commands/generate/mend_values.h"
-#include "commands/generate/repair_plan.h"
+#include "model/io/file_error.h"
 
 namespace tspace::gltf {
 

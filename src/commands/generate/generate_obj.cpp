@@ -2,19 +2,19 @@
 // The OBJ path from file to file.
 #include <utility>
 
-#include "model/io/atomic_output.h"
-#include "model/io/disk_paths.h"
-#include "model/io/file_error.h"
-#include "model/gltf/packed_words.h"
-#include "model/obj/obj_primitives.h"
-#include "model/obj/obj_reader.h"
-#include "model/obj/obj_writer.h"
-#include "core/mesh/pools/local_mesh.h"
-#include "core/mesh/pools/surface_faults.h"
-#include "core/mesh/pools/unit_lattice.h"
 #include "commands/generate/generate_obj.h"
 #include "commands/generate/generate_warnings.h"
 #include "commands/generate/obj_maps.h"
+#include "core/mesh/pools/local_mesh.h"
+#include "core/mesh/pools/surface_faults.h"
+#include "core/mesh/pools/unit_lattice.h"
+#include "model/gltf/packed_words.h"
+#include "model/io/atomic_output.h"
+#include "model/io/disk_paths.h"
+#include "model/io/file_error.h"
+#include "model/obj/obj_primitives.h"
+#include "model/obj/obj_reader.h"
+#include "model/obj/obj_writer.h"
 #include "tspace/triangulate.h"
 
 namespace tspace {

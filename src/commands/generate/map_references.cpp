@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <map>
 
-#include "model/gltf/material_needs.h"
 #include "commands/generate/texture_sources.h"
+#include "model/gltf/material_needs.h"
 
 namespace tspace::gltf {
 

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <optional>
 
-#include "model/io/file_error.h"
 #include "commands/shared/map_image_file.h"
+#include "model/io/file_error.h"
 #include "tspace/map_height.h"
 
 namespace tspace {

@@ -4,9 +4,9 @@
 
 #include <string>
 
+#include "commands/check/judge_maps.h"
 #include "model/io/file_io.h"
 #include "model/scene/scene.h"
-#include "commands/check/judge_maps.h"
 
 namespace tspace {
 

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <utility>
 
-#include "model/obj/read_scene.h"
 #include "commands/check/judge_maps.h"
-#include "core/base/short_number.h"
 #include "commands/generate/mend_maps.h"
+#include "core/base/short_number.h"
+#include "model/obj/read_scene.h"
 
 namespace tspace::obj {
 

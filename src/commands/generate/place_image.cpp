@@ -3,8 +3,8 @@
 
 #include <filesystem>
 
-#include "model/io/uri.h"
 #include "images/image.h"
+#include "model/io/uri.h"
 
 namespace tspace::gltf {
 

@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <utility>
 
-#include "model/io/file_error.h"
-#include "model/gltf/primitive_notes.h"
-#include "model/gltf/read_scene.h"
 #include "commands/check/findings.h"
 #include "commands/check/frame_health.h"
 #include "commands/check/scene_verdict.h"
 #include "core/base/sort.h"
+#include "model/gltf/primitive_notes.h"
+#include "model/gltf/read_scene.h"
+#include "model/io/file_error.h"
 
 namespace tspace::gltf {
 

@@ -2,11 +2,11 @@
 // Every primitive against every method, and what that says about the file.
 #include <algorithm>
 
-#include "model/io/file_error.h"
-#include "model/read/read_scene.h"
 #include "commands/identify/explain.h"
 #include "commands/identify/verdict.h"
 #include "core/mesh/quads/fit_quads.h"
+#include "model/io/file_error.h"
+#include "model/read/read_scene.h"
 #include "tspace/identify.h"
 
 namespace tspace {

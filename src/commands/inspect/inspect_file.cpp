@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Chooses the reader by the name of the file.
+#include "commands/inspect/inspect.h"
 #include "model/io/file_error.h"
 #include "model/io/file_io.h"
-#include "commands/inspect/inspect.h"
 
 namespace tspace {
 

@@ -2,7 +2,8 @@
 // What is in a glTF file.
 #include <algorithm>
 
-#include "model/io/file_error.h"
+#include "commands/inspect/inspect.h"
+#include "commands/inspect/uv_map.h"
 #include "model/gltf/accessor.h"
 #include "model/gltf/draco_primitives.h"
 #include "model/gltf/material_needs.h"
@@ -10,9 +11,8 @@
 #include "model/gltf/primitive_notes.h"
 #include "model/gltf/primitive_reader.h"
 #include "model/gltf/read_packed.h"
+#include "model/io/file_error.h"
 #include "model/read/load_document.h"
-#include "commands/inspect/inspect.h"
-#include "commands/inspect/uv_map.h"
 
 namespace tspace {
 namespace {

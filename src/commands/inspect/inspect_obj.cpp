@@ -2,11 +2,11 @@
 // What is in an OBJ file, as it would be in a glTF made from it.
 #include <set>
 
+#include "commands/inspect/inspect.h"
+#include "commands/inspect/uv_map.h"
 #include "model/io/file_error.h"
 #include "model/obj/obj_primitives.h"
 #include "model/obj/obj_reader.h"
-#include "commands/inspect/inspect.h"
-#include "commands/inspect/uv_map.h"
 #include "tspace/triangulate.h"
 
 namespace tspace {

@@ -2,12 +2,12 @@
 #include <algorithm>
 #include <charconv>
 
-#include "model/io/atomic_output.h"
-#include "model/io/file_error.h"
-#include "model/io/file_io.h"
 #include "commands/bake/map_pictures.h"
 #include "commands/bake/model_surfaces.h"
 #include "images/float_image.h"
+#include "model/io/atomic_output.h"
+#include "model/io/file_error.h"
+#include "model/io/file_io.h"
 #include "tspace/bake_file.h"
 
 namespace tspace {

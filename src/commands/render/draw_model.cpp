@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "commands/render/draw_model.h"
 
-#include "core/base/unit.h"
 #include "commands/shared/picture/legend.h"
+#include "core/base/unit.h"
 
 namespace tspace {
 

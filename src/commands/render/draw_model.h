@@ -2,8 +2,8 @@
 // A whole model in a picture.
 #pragma once
 
-#include "commands/shared/picture/draw_surfaces.h"
 #include "commands/render/model_picture.h"
+#include "commands/shared/picture/draw_surfaces.h"
 #include "tspace/render.h"
 
 namespace tspace {

@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "model/io/file_error.h"
+#include "commands/shared/picture/colors.h"
 #include "commands/shared/uv_reading.h"
 #include "core/base/unit.h"
-#include "images/float_image.h"
-#include "commands/shared/picture/colors.h"
 #include "core/mesh/surface/surface.h"
 #include "core/mesh/surface/uv_islands.h"
+#include "images/float_image.h"
+#include "model/io/file_error.h"
 #include "tspace/sanitize.h"
 
 namespace tspace {

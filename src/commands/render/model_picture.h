@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "model/scene/drawn_scene.h"
 #include "commands/shared/picture/draw_surfaces.h"
+#include "model/scene/drawn_scene.h"
 #include "tspace/render.h"
 
 namespace tspace {

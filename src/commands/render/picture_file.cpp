@@ -3,8 +3,8 @@
 
 #include <optional>
 
-#include "model/io/file_error.h"
 #include "images/float_image.h"
+#include "model/io/file_error.h"
 
 namespace tspace {
 

@@ -2,13 +2,13 @@
 // renderFile: reads a model, draws it, writes the picture.
 #include <cmath>
 
-#include "model/io/atomic_output.h"
-#include "model/io/file_error.h"
-#include "model/read/read_scene.h"
-#include "core/base/unit.h"
 #include "commands/render/draw_model.h"
 #include "commands/render/picture_file.h"
 #include "commands/render/shown_heights.h"
+#include "core/base/unit.h"
+#include "model/io/atomic_output.h"
+#include "model/io/file_error.h"
+#include "model/read/read_scene.h"
 
 namespace tspace {
 

@@ -3,9 +3,9 @@
 #include <array>
 #include <cstdlib>
 
-#include "core/base/angle.h"
 #include "commands/shared/file_options.h"
 #include "commands/shared/request.h"
+#include "core/base/angle.h"
 
 namespace tspace::options {
 namespace {

@@ -4,10 +4,10 @@
 #include <array>
 #include <optional>
 
+#include "maps/grey.h"
 #include "model/io/file_error.h"
 #include "model/io/file_io.h"
 #include "model/io/memory_budget.h"
-#include "maps/grey.h"
 
 namespace tspace {
 

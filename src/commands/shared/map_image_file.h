@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "model/io/atomic_output.h"
 #include "commands/shared/map_mesh.h"
 #include "images/float_image.h"
+#include "model/io/atomic_output.h"
 #include "tspace/map_convert.h"
 
 namespace tspace {

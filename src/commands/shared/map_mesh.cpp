@@ -6,10 +6,10 @@
 #include <cmath>
 #include <optional>
 
-#include "model/io/file_error.h"
-#include "model/read/read_scene.h"
 #include "commands/shared/uv_reading.h"
 #include "maps/udim_tile.h"
+#include "model/io/file_error.h"
+#include "model/read/read_scene.h"
 #include "tspace/indexed_frames.h"
 
 namespace tspace {

@@ -6,8 +6,8 @@
 #include <cstdlib>
 #include <optional>
 
-#include "model/json/json.h"
 #include "commands/shared/nearest_name.h"
+#include "model/json/json.h"
 
 namespace tspace::options {
 namespace {

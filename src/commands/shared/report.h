@@ -5,8 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "model/json/json.h"
 #include "commands/shared/exit_code.h"
+#include "commands/view/view_page.h"
+#include "model/json/json.h"
 #include "tspace/asset.h"
 #include "tspace/bake_file.h"
 #include "tspace/check.h"
@@ -16,7 +17,6 @@
 #include "tspace/map_convert_file.h"
 #include "tspace/map_height_file.h"
 #include "tspace/render.h"
-#include "commands/view/view_page.h"
 
 namespace tspace::report {
 

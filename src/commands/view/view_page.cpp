@@ -9,10 +9,10 @@
 #include <string_view>
 #include <utility>
 
+#include "commands/shared/html_text.h"
 #include "model/io/atomic_output.h"
 #include "model/io/file_error.h"
 #include "model/io/file_io.h"
-#include "commands/shared/html_text.h"
 #include "model/io/uri.h"
 
 namespace tspace {

@@ -6,9 +6,9 @@
 #include <array>
 #include <cstring>
 
-#include "model/io/file_error.h"
-#include "model/gltf/meshopt_views.h"
 #include "core/base/little_endian.h"
+#include "model/gltf/meshopt_views.h"
+#include "model/io/file_error.h"
 #include "tspace/mesh.h"
 
 namespace tspace::gltf {

@@ -10,8 +10,6 @@
 #include <optional>
 #include <utility>
 
-#include "model/io/file_error.h"
-#include "model/gltf/weld_vertices.h"
 #include "core/base/parallel.h"
 #include "core/base/sort.h"
 #include "core/base/unit.h"
@@ -19,6 +17,8 @@
 #include "core/mesh/pools/morph_split.h"
 #include "core/mesh/pools/turned_normals.h"
 #include "core/mesh/surface/position_rounding.h"
+#include "model/gltf/weld_vertices.h"
+#include "model/io/file_error.h"
 #include "tspace/arena.h"
 
 namespace tspace::gltf {

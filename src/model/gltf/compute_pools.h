@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
+#include "core/mesh/pools/primitive.h"
 #include "model/gltf/generate_plan.h"
 #include "model/gltf/pool_elements.h"
-#include "core/mesh/pools/primitive.h"
 
 namespace tspace::gltf {
 

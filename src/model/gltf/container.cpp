@@ -6,11 +6,11 @@
 #include <filesystem>
 #include <optional>
 
+#include "images/image.h"
+#include "model/gltf/meshopt_views.h"
 #include "model/io/disk_paths.h"
 #include "model/io/file_error.h"
-#include "model/gltf/meshopt_views.h"
 #include "model/io/uri.h"
-#include "images/image.h"
 
 namespace tspace::gltf {
 

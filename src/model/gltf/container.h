@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "model/io/atomic_output.h"
 #include "model/gltf/document.h"
+#include "model/io/atomic_output.h"
 #include "model/io/path.h"
 
 namespace tspace::gltf {

@@ -6,10 +6,10 @@
 #include <array>
 #include <string_view>
 
-#include "model/io/file_error.h"
 #include "model/gltf/accessor.h"
 #include "model/gltf/draco_primitives.h"
 #include "model/gltf/meshopt_views.h"
+#include "model/io/file_error.h"
 #include "model/io/uri.h"
 
 namespace tspace::gltf {

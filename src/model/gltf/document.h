@@ -11,11 +11,11 @@
 #include <utility>
 #include <vector>
 
-#include "model/io/file_io.h"
 #include "model/gltf/buffer_bytes.h"
 #include "model/gltf/codecs/draco.h"
 #include "model/gltf/glb.h"
 #include "model/gltf/json.h"
+#include "model/io/file_io.h"
 #include "model/io/memory_budget.h"
 #include "model/io/named_files.h"
 #include "model/io/path.h"

@@ -8,10 +8,10 @@
 #include <string>
 #include <utility>
 
-#include "model/io/file_error.h"
 #include "model/gltf/accessor.h"
 #include "model/gltf/packed_layout.h"
 #include "model/gltf/references.h"
+#include "model/io/file_error.h"
 
 namespace tspace::gltf {
 

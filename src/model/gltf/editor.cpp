@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <cstring>
 
+#include "core/base/little_endian.h"
 #include "model/gltf/draco_primitives.h"
 #include "model/gltf/gather_elements.h"
 #include "model/gltf/unreferenced_buffers.h"
 #include "model/io/uri.h"
-#include "core/base/little_endian.h"
 
 namespace tspace::gltf {
 

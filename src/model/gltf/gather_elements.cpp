@@ -9,8 +9,8 @@
 #include <limits>
 #include <numeric>
 
-#include "model/gltf/sparse_elements.h"
 #include "core/base/little_endian.h"
+#include "model/gltf/sparse_elements.h"
 
 namespace tspace::gltf {
 

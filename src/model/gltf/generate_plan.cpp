@@ -8,12 +8,12 @@
 #include <string>
 #include <tuple>
 
+#include "core/base/sort.h"
+#include "core/base/unit.h"
 #include "model/gltf/material_needs.h"
 #include "model/gltf/primitive_notes.h"
 #include "model/gltf/read_packed.h"
 #include "model/gltf/strip_tangents.h"
-#include "core/base/sort.h"
-#include "core/base/unit.h"
 
 namespace tspace::gltf {
 

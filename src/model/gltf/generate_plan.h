@@ -8,10 +8,10 @@
 #include <span>
 #include <vector>
 
-#include "model/gltf/document.h"
-#include "model/gltf/primitive_reader.h"
 #include "core/mesh/pools/mends.h"
 #include "core/mesh/surface/uv_matrix.h"
+#include "model/gltf/document.h"
+#include "model/gltf/primitive_reader.h"
 #include "tspace/asset.h"
 
 namespace tspace {

@@ -8,9 +8,9 @@
 #include <set>
 #include <utility>
 
-#include "model/io/file_error.h"
 #include "model/gltf/packed_layout.h"
 #include "model/gltf/texture_reference.h"
+#include "model/io/file_error.h"
 
 namespace tspace::gltf {
 

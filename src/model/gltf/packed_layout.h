@@ -6,8 +6,8 @@
 #include <span>
 #include <string>
 
-#include "model/io/file_io.h"
 #include "model/gltf/codecs/component_type.h"
+#include "model/io/file_io.h"
 #include "tspace/pack.h"
 
 namespace tspace::gltf {

@@ -3,8 +3,8 @@
 
 #include <mutex>
 
-#include "model/io/file_error.h"
 #include "core/base/parallel.h"
+#include "model/io/file_error.h"
 
 namespace tspace::gltf {
 

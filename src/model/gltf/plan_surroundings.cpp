@@ -8,9 +8,9 @@
 #include <string>
 #include <utility>
 
-#include "model/io/file_error.h"
 #include "core/mesh/pools/surroundings.h"
 #include "core/mesh/surface/joined_pieces.h"
+#include "model/io/file_error.h"
 
 namespace tspace::gltf {
 

@@ -6,10 +6,10 @@
 #include <cstring>
 #include <utility>
 
-#include "model/gltf/gather_elements.h"
-#include "model/gltf/vertex_numbers.h"
 #include "core/base/little_endian.h"
 #include "core/mesh/pools/unit_lattice.h"
+#include "model/gltf/gather_elements.h"
+#include "model/gltf/vertex_numbers.h"
 
 namespace tspace::gltf {
 

@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
+#include "core/mesh/pools/primitive.h"
 #include "model/gltf/editor.h"
 #include "model/gltf/generate_plan.h"
-#include "core/mesh/pools/primitive.h"
 
 namespace tspace::gltf {
 

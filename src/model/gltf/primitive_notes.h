@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "core/mesh/surface/uv_matrix.h"
 #include "model/gltf/document.h"
 #include "model/scene/tangent_use.h"
-#include "core/mesh/surface/uv_matrix.h"
 #include "tspace/asset.h"
 
 namespace tspace::gltf {

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <bit>
 
-#include "model/io/file_error.h"
 #include "model/gltf/packed_layout.h"
+#include "model/io/file_error.h"
 
 namespace tspace::gltf {
 

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cstring>
 
-#include "model/io/file_error.h"
+#include "core/base/little_endian.h"
 #include "model/gltf/accessor.h"
 #include "model/gltf/texture_reference.h"
-#include "core/base/little_endian.h"
+#include "model/io/file_error.h"
 
 namespace tspace::gltf {
 

@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
-#include "model/scene/drawn_scene.h"
 #include "model/gltf/document.h"
 #include "model/gltf/primitive_reader.h"
+#include "model/scene/drawn_scene.h"
 
 namespace tspace::gltf {
 

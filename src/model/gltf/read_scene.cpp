@@ -5,11 +5,11 @@
 #include <set>
 #include <tuple>
 
-#include "model/io/file_error.h"
 #include "model/gltf/accessor.h"
 #include "model/gltf/document.h"
 #include "model/gltf/material_needs.h"
 #include "model/gltf/read_packed.h"
+#include "model/io/file_error.h"
 #include "model/io/uri.h"
 
 namespace tspace::gltf {

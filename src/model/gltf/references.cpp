@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-#include "model/io/file_error.h"
-#include "model/gltf/meshopt_views.h"
 #include "core/base/sort.h"
+#include "model/gltf/meshopt_views.h"
+#include "model/io/file_error.h"
 
 namespace tspace::gltf {
 

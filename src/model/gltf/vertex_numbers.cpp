@@ -8,9 +8,9 @@
 #include <unordered_map>
 #include <utility>
 
-#include "model/io/file_error.h"
-#include "model/gltf/pool_elements.h"
 #include "core/base/little_endian.h"
+#include "model/gltf/pool_elements.h"
+#include "model/io/file_error.h"
 
 namespace tspace::gltf {
 

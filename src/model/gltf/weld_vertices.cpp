@@ -8,9 +8,9 @@
 #include <set>
 #include <string>
 
-#include "model/gltf/packed_layout.h"
 #include "core/base/little_endian.h"
 #include "core/base/unique_index.h"
+#include "model/gltf/packed_layout.h"
 
 namespace tspace::gltf {
 

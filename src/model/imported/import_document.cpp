@@ -12,9 +12,9 @@
 #include <utility>
 #include <vector>
 
+#include "model/imported/import_process.h"
 #include "model/io/file_error.h"
 #include "model/io/file_io.h"
-#include "model/imported/import_process.h"
 
 namespace tspace {
 

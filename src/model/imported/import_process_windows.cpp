@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // tspace-import limits itself by means that Windows does not have.
-#include "model/io/file_error.h"
 #include "model/imported/import_process.h"
+#include "model/io/file_error.h"
 
 namespace tspace {
 

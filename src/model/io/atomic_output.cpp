@@ -6,8 +6,8 @@
 #include <cerrno>
 #include <cstring>
 
-#include "model/io/file_error.h"
 #include "core/base/parallel.h"
+#include "model/io/file_error.h"
 
 namespace tspace {
 

@@ -9,8 +9,8 @@
 #include <type_traits>
 #include <utility>
 
-#include "model/io/path.h"
 #include "core/base/border.h"
+#include "model/io/path.h"
 #include "tspace/result.h"
 
 namespace tspace {

@@ -10,9 +10,9 @@
 #include <cstring>
 #include <span>
 
+#include "core/base/parallel.h"
 #include "model/io/file_error.h"
 #include "model/io/system_files.h"
-#include "core/base/parallel.h"
 
 namespace tspace {
 

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "model/io/path.h"
 #include "core/base/memory.h"
+#include "model/io/path.h"
 #include "tspace/execution.h"
 
 namespace tspace {

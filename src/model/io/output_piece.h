@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "model/io/file_io.h"
 #include "core/base/little_endian.h"
+#include "model/io/file_io.h"
 
 namespace tspace {
 

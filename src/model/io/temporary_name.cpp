@@ -11,9 +11,9 @@
 #include <string_view>
 #include <system_error>
 
-#include "model/io/system_files.h"
 #include "core/base/border.h"
 #include "core/base/hash.h"
+#include "model/io/system_files.h"
 #include "tspace/asset.h"
 
 namespace tspace {

@@ -6,8 +6,8 @@
 #include <exception>
 #include <vector>
 
-#include "model/io/memory_budget.h"
 #include "core/base/parallel.h"
+#include "model/io/memory_budget.h"
 
 namespace tspace {
 

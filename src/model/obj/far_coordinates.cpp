@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "model/json/json.h"
 #include "core/mesh/surface/float_loss.h"
+#include "model/json/json.h"
 
 namespace tspace::obj {
 namespace {

@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
+#include "core/base/vec_math.h"
 #include "model/io/file_io.h"
 #include "model/io/memory_budget.h"
 #include "model/io/named_files.h"
 #include "model/io/path.h"
-#include "core/base/vec_math.h"
 
 namespace tspace::obj {
 

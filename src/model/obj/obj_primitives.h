@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "model/obj/obj_model.h"
 #include "core/mesh/pools/primitive.h"
+#include "model/obj/obj_model.h"
 #include "tspace/asset.h"
 
 namespace tspace::obj {

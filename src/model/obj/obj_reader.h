@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "model/obj/obj_model.h"
 #include "model/io/path.h"
+#include "model/obj/obj_model.h"
 #include "tspace/asset.h"
 
 namespace tspace::obj {

@@ -10,13 +10,13 @@
 #include <string_view>
 #include <utility>
 
-#include "model/io/disk_paths.h"
-#include "model/io/file_error.h"
-#include "model/io/uri.h"
 #include "core/base/little_endian.h"
 #include "core/mesh/pools/unit_lattice.h"
 #include "images/codecs.h"
 #include "images/image.h"
+#include "model/io/disk_paths.h"
+#include "model/io/file_error.h"
+#include "model/io/uri.h"
 
 namespace tspace::obj {
 namespace {

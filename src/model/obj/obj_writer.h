@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "model/io/atomic_output.h"
 #include "model/gltf/document.h"
 #include "model/gltf/packed_layout.h"
-#include "model/obj/obj_model.h"
+#include "model/io/atomic_output.h"
 #include "model/io/path.h"
+#include "model/obj/obj_model.h"
 
 namespace tspace::obj {
 

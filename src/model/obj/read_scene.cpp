@@ -5,8 +5,8 @@
 #include <map>
 
 #include "model/io/file_error.h"
-#include "model/obj/obj_reader.h"
 #include "model/io/uri.h"
+#include "model/obj/obj_reader.h"
 #include "tspace/triangulate.h"
 
 namespace tspace::obj {

@@ -4,8 +4,8 @@
 
 #include <span>
 
-#include "model/scene/drawn_scene.h"
 #include "model/obj/obj_primitives.h"
+#include "model/scene/drawn_scene.h"
 #include "model/scene/scene.h"
 
 namespace tspace::obj {

@@ -2,11 +2,11 @@
 // Chooses the reader by the name of the file.
 #include "model/read/read_scene.h"
 
-#include "model/io/file_error.h"
-#include "model/io/file_io.h"
 #include "model/gltf/primitive_reader.h"
 #include "model/gltf/read_look.h"
 #include "model/gltf/read_scene.h"
+#include "model/io/file_error.h"
+#include "model/io/file_io.h"
 #include "model/obj/obj_reader.h"
 #include "model/obj/read_scene.h"
 #include "model/read/load_document.h"

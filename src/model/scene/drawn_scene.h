@@ -7,9 +7,9 @@
 #include <optional>
 #include <vector>
 
+#include "core/mesh/surface/affine.h"
 #include "model/scene/scene.h"
 #include "model/scene/texture_reading.h"
-#include "core/mesh/surface/affine.h"
 
 namespace tspace {
 

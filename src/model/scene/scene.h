@@ -12,10 +12,10 @@
 #include <utility>
 #include <vector>
 
-#include "model/io/memory_budget.h"
-#include "model/scene/tangent_use.h"
 #include "core/base/vec_math.h"
 #include "core/mesh/surface/affine.h"
+#include "model/io/memory_budget.h"
+#include "model/scene/tangent_use.h"
 #include "tspace/asset.h"
 #include "tspace/vec.h"
 

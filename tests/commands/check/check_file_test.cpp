@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <set>
 
-#include "model/gltf_builder.h"
 #include "commands/check/patch.h"
 #include "images/images.h"
+#include "model/gltf_builder.h"
 #include "support/temp_folder.h"
 
 namespace tspace::test {

@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <array>
 
-#include "model/gltf_builder.h"
 #include "images/images.h"
+#include "model/gltf_builder.h"
 #include "tspace/render.h"
 
 namespace tspace::test {

@@ -2,11 +2,11 @@
 // Pictures of pages: the angles between two models, and places of findings after what their remedies name.
 #include <cmath>
 
+#include "commands/render/drawn.h"
 #include "commands/shared/page/diff_pictures.h"
 #include "commands/shared/page/finding_pictures.h"
 #include "commands/shared/page/remedy.h"
 #include "commands/shared/picture/colors.h"
-#include "commands/render/drawn.h"
 
 namespace tspace::test {
 namespace {

@@ -2,8 +2,8 @@
 // What pictures show, pixel by pixel.
 #include <cmath>
 
-#include "maps/shading.h"
 #include "commands/render/drawn.h"
+#include "maps/shading.h"
 #include "support/temp_folder.h"
 
 namespace tspace::test {

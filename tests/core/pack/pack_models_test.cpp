@@ -4,8 +4,8 @@
 
 #include <filesystem>
 
-#include "model/read/read_scene.h"
 #include "core/pack/frame_list.h"
+#include "model/read/read_scene.h"
 #include "support/shared_data.h"
 #include "tspace/frame.h"
 

@@ -6,11 +6,11 @@
 #include <array>
 #include <filesystem>
 
-#include "support/shared_data.h"
 #include "core/tangents/golden_mesh.h"
 #include "core/tangents/recovery_oracle.h"
 #include "core/tangents/shapes.h"
 #include "core/tangents/smooth_patch.h"
+#include "support/shared_data.h"
 #include "tspace/sanitize.h"
 
 namespace tspace::test {

@@ -8,8 +8,8 @@
 #include <filesystem>
 #include <vector>
 
-#include "support/golden_file.h"
 #include "core/tangents/shapes.h"
+#include "support/golden_file.h"
 
 namespace tspace::test {
 

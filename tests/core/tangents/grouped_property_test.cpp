@@ -6,9 +6,9 @@
 
 #include <numeric>
 
-#include "support/thread_team.h"
 #include "core/tangents/golden_mesh.h"
 #include "core/tangents/shapes.h"
+#include "support/thread_team.h"
 
 namespace tspace::test {
 namespace {

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <limits>
 
+#include "core/tangents/indexed_plan.h"
 #include "support/random_values.h"
 #include "support/simple_mesh.h"
-#include "core/tangents/indexed_plan.h"
 #include "tspace/frame.h"
 
 namespace tspace {

@@ -9,9 +9,9 @@
 #include <new>
 #include <random>
 
+#include "core/tangents/indexed_plan.h"
 #include "support/simple_mesh.h"
 #include "support/thread_team.h"
-#include "core/tangents/indexed_plan.h"
 
 namespace tspace {
 namespace {

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <iostream>
 
+#include "core/tangents/golden_mesh.h"
 #include "support/shared_data.h"
 #include "support/thread_team.h"
-#include "core/tangents/golden_mesh.h"
 
 namespace tspace::test {
 namespace {

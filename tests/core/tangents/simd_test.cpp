@@ -9,11 +9,11 @@
 #include <random>
 
 #include "core/simd/dispatch.h"
-#include "support/thread_team.h"
 #include "core/tangents/golden_mesh.h"
 #include "core/tangents/mikktspace/corner_terms.h"
 #include "core/tangents/mikktspace/vertex_path.h"
 #include "core/tangents/shapes.h"
+#include "support/thread_team.h"
 
 namespace tspace::test {
 namespace {

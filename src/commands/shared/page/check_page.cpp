@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <memory>
 
-#include "model/io/file_error.h"
+#include "commands/shared/counted.h"
 #include "commands/shared/html_text.h"
 #include "commands/shared/page/finding_pictures.h"
 #include "commands/shared/page/page_parts.h"
-#include "commands/shared/counted.h"
+#include "model/io/file_error.h"
 
 namespace tspace {
 

@@ -3,11 +3,11 @@
 
 #include <algorithm>
 
-#include "model/io/file_error.h"
+#include "commands/diff/diff_text.h"
 #include "commands/shared/html_text.h"
 #include "commands/shared/page/diff_pictures.h"
 #include "commands/shared/page/page_parts.h"
-#include "commands/diff/diff_text.h"
+#include "model/io/file_error.h"
 
 namespace tspace {
 

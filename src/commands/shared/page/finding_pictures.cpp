@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <map>
 
-#include "model/io/file_error.h"
 #include "commands/shared/page/place_pictures.h"
 #include "commands/shared/page/remedy.h"
+#include "model/io/file_error.h"
 
 namespace tspace {
 

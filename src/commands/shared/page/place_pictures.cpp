@@ -5,14 +5,14 @@
 #include <cmath>
 #include <numeric>
 
-#include "model/io/file_error.h"
-#include "model/read/read_scene.h"
-#include "core/base/angle.h"
-#include "core/base/unit.h"
-#include "commands/shared/page/page_parts.h"
-#include "commands/shared/picture/legend.h"
 #include "commands/render/picture_file.h"
 #include "commands/render/shown_heights.h"
+#include "commands/shared/page/page_parts.h"
+#include "commands/shared/picture/legend.h"
+#include "core/base/angle.h"
+#include "core/base/unit.h"
+#include "model/io/file_error.h"
+#include "model/read/read_scene.h"
 
 namespace tspace {
 

@@ -5,10 +5,10 @@
 #include <string_view>
 #include <utility>
 
+#include "commands/shared/request.h"
 #include "model/io/file_error.h"
 #include "model/io/named_files.h"
 #include "model/io/uri.h"
-#include "commands/shared/request.h"
 
 namespace tspace {
 

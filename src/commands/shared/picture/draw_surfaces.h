@@ -4,11 +4,11 @@
 
 #include <span>
 
-#include "core/base/parallel.h"
-#include "images/image.h"
 #include "commands/shared/picture/camera.h"
 #include "commands/shared/picture/surface_shader.h"
 #include "commands/shared/picture/visible_triangles.h"
+#include "core/base/parallel.h"
+#include "images/image.h"
 
 namespace tspace {
 

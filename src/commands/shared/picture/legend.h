@@ -4,8 +4,8 @@
 
 #include <string_view>
 
-#include "images/image.h"
 #include "commands/shared/picture/camera.h"
+#include "images/image.h"
 #include "tspace/vec.h"
 
 namespace tspace {

@@ -7,9 +7,9 @@
 #include <span>
 #include <vector>
 
-#include "maps/shading.h"
 #include "commands/shared/picture/picture_texture.h"
 #include "core/mesh/surface/affine.h"
+#include "maps/shading.h"
 #include "tspace/render.h"
 #include "tspace/vec.h"
 

@@ -10,8 +10,8 @@
 #include "core/base/unique_index.h"
 #include "core/base/unit.h"
 #include "core/mesh/pools/morph_frames.h"
-#include "core/normals/pose_normals.h"
 #include "core/mesh/surface/equal_vertices.h"
+#include "core/normals/pose_normals.h"
 
 namespace tspace {
 

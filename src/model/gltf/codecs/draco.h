@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "model/io/file_io.h"
 #include "model/gltf/codecs/component_type.h"
+#include "model/io/file_io.h"
 
 namespace tspace::gltf {
 

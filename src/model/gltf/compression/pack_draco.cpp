@@ -7,12 +7,12 @@
 #include <cstring>
 #include <map>
 
+#include "core/base/sort.h"
 #include "model/gltf/draco_primitives.h"
 #include "model/gltf/extension_lists.h"
 #include "model/gltf/gather_elements.h"
 #include "model/gltf/primitive_reader.h"
 #include "model/gltf/vertex_numbers.h"
-#include "core/base/sort.h"
 
 namespace tspace::gltf {
 

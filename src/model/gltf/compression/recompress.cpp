@@ -6,7 +6,6 @@
 #include <numeric>
 #include <set>
 
-#include "model/io/file_error.h"
 #include "model/gltf/compression/pack_draco.h"
 #include "model/gltf/draco_primitives.h"
 #include "model/gltf/editor.h"
@@ -14,6 +13,7 @@
 #include "model/gltf/gather_elements.h"
 #include "model/gltf/primitive_reader.h"
 #include "model/gltf/unreferenced_buffers.h"
+#include "model/io/file_error.h"
 
 namespace tspace::gltf {
 
