@@ -12,14 +12,17 @@ install(DIRECTORY "${PROJECT_SOURCE_DIR}/shaders" DESTINATION "${CMAKE_INSTALL_D
 tspace_install_export(core tspace_core tspace)
 
 if(TARGET tspace_asset)
-    tspace_install_built(tspace_maps tspace_asset EXPORT tspace_asset ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
-    tspace_install_built(tspace_asset tspace_asset EXPORT tspace_asset ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
+    set(wings tspace_mesh tspace_images tspace_maps tspace_model tspace_commands)
+    foreach(wing ${wings})
+        tspace_install_built(${wing} tspace_asset EXPORT tspace_asset ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
+    endforeach()
+    install(TARGETS tspace_asset EXPORT tspace_asset COMPONENT tspace_asset)
     tspace_install_built(tspace_files tspace_asset EXPORT tspace_files ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
     install(DIRECTORY "${PROJECT_SOURCE_DIR}/include/tspace" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}"
             COMPONENT tspace_asset FILES_MATCHING PATTERN "asset.h" PATTERN "bake_file.h" PATTERN "check.h" PATTERN "diff.h" PATTERN "identify.h"
             PATTERN "maps.h" PATTERN "map_*.h" PATTERN "flip_green.h" PATTERN "render.h" PATTERN "tspace_files.h")
-    tspace_install_export(asset tspace_asset tspace tspace_maps tspace_asset)
-    tspace_install_export(files tspace_asset tspace tspace_maps tspace_asset tspace_files)
+    tspace_install_export(asset tspace_asset tspace ${wings})
+    tspace_install_export(files tspace_asset tspace ${wings} tspace_files)
 endif()
 
 foreach(program tspace_tool tspace_import)

@@ -31,3 +31,16 @@ function(tspace_shared_library target output_name)
     tspace_install_built(${target} ${target} LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}" NAMELINK_COMPONENT ${target}_link
                          ${namelink})
 endfunction()
+
+# tspace_link_needs(TARGET LIBRARY...): links what these libraries need from outside.
+function(tspace_link_needs target)
+    foreach(library ${ARGN})
+        get_target_property(needs ${library} LINK_LIBRARIES)
+        list(FILTER needs EXCLUDE REGEX "^tspace::")
+        # Static libraries of images are not all made to be in a shared one.
+        foreach(image_library turbojpeg webp sharpyuv)
+            list(TRANSFORM needs REPLACE "BUILD_INTERFACE:.*/lib${image_library}[.]a" "BUILD_INTERFACE:${image_library}")
+        endforeach()
+        target_link_libraries(${target} PRIVATE ${needs})
+    endforeach()
+endfunction()

@@ -37,12 +37,12 @@ function(tspace_simd_flags sources)
     endforeach()
 endfunction()
 
-# tspace_simd_kernel(NAME [NOT avx512]): the kernel NAME_kernel.h of this folder will be compiled for every CPU, but for
-# those that it is not faster on: TSPACE_KERNEL_TABLE_NOT_AVX512.
+# tspace_simd_kernel(ROOM/NAME [NOT avx512]): the kernel NAME_kernel.h of a room of the core will be compiled for every CPU,
+# but for those that it is not faster on: TSPACE_KERNEL_TABLE_NOT_AVX512.
 function(tspace_simd_kernel name)
     cmake_parse_arguments(arg "" "NOT" "" ${ARGN})
-    file(RELATIVE_PATH kernel "${PROJECT_SOURCE_DIR}/src" "${CMAKE_CURRENT_SOURCE_DIR}/${name}_kernel.h")
-    string(REGEX REPLACE "/.*" "" room "${kernel}")
+    set(kernel "core/${name}_kernel.h")
+    string(REGEX REPLACE "/.*" "" room "${name}")
     foreach(cpu scalar ${tspace_simd_cpus})
         if(NOT cpu STREQUAL "${arg_NOT}")
             set_property(TARGET tspace APPEND_STRING PROPERTY TSPACE_KERNELS_${room}_${cpu} "#include \"${kernel}\"\n")

@@ -60,10 +60,52 @@ function(tspace_configure_core target)
     endforeach()
 endfunction()
 
-# tspace_optimise(LEVEL FILE...): the level of release builds for sources of the core's current folder, if not -O2: -O3 for
-# loops over a mesh that are faster by it, -Os where nothing is a loop over a mesh.
+# tspace_optimise(LEVEL FILE...): the level of release builds for sources of the core, if not -O2.
 function(tspace_optimise level)
-    set_source_files_properties(${ARGN} TARGET_DIRECTORY tspace PROPERTIES COMPILE_OPTIONS "$<$<CONFIG:Release>:${level}>")
+    set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS "$<$<CONFIG:Release>:${level}>")
+endfunction()
+
+# tspace_sources(TARGET FOLDER... [EXCEPT name...]): all sources of these folders of the current wing. A file of one system ends
+# in _posix or _windows.
+function(tspace_sources target)
+    cmake_parse_arguments(arg "" "" "EXCEPT" ${ARGN})
+    foreach(folder ${arg_UNPARSED_ARGUMENTS})
+        file(GLOB sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/${folder}/*.cpp")
+        if(WIN32)
+            list(FILTER sources EXCLUDE REGEX "_posix\\.cpp$")
+        else()
+            list(FILTER sources EXCLUDE REGEX "_windows\\.cpp$")
+        endif()
+        foreach(name ${arg_EXCEPT})
+            list(FILTER sources EXCLUDE REGEX "/${name}\\.cpp$")
+        endforeach()
+        target_sources(${target} PRIVATE ${sources})
+    endforeach()
+endfunction()
+
+# What all installed libraries have in common; `name` is that of tspace::name.
+function(tspace_configure_library target name)
+    set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} ARCHIVE_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}"
+                          POSITION_INDEPENDENT_CODE ON CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
+endfunction()
+
+# tspace_wing(NAME LINKS target... [SMALL] [FOLDERS folder...] [EXCEPT name...]): the library tspace::NAME of the current
+# folder, or of FOLDERS in it. It sees the public headers and the wings that it links. SMALL: optimised for size.
+function(tspace_wing name)
+    cmake_parse_arguments(arg "SMALL" "" "LINKS;FOLDERS;EXCEPT" ${ARGN})
+    if(NOT arg_FOLDERS)
+        set(arg_FOLDERS .)
+    endif()
+    add_library(tspace_${name} STATIC)
+    add_library(tspace::${name} ALIAS tspace_${name})
+    tspace_configure_target(tspace_${name})
+    tspace_configure_library(tspace_${name} ${name})
+    tspace_batch_sources(tspace_${name})
+    tspace_sources(tspace_${name} ${arg_FOLDERS} EXCEPT ${arg_EXCEPT})
+    target_link_libraries(tspace_${name} PUBLIC ${arg_LINKS})
+    if(arg_SMALL)
+        target_compile_options(tspace_${name} PRIVATE $<$<CONFIG:Release>:-Os>)
+    endif()
 endfunction()
 
 # A second library from the core's sources with other optimisation flags, to prove that the bits do not change.

@@ -1,12 +1,29 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
-# Rooms, the folders of src/, stand in an order: each includes only those below it. tsort finds it, or a loop.
+# The wings, the folders of src/, stand in an order: each includes only itself and those below it. Within a wing its rooms stand
+# in an order too: tsort finds it, or a loop.
 # usage: rooms.sh SOURCE_FOLDER
 set -euo pipefail
 cd "${1:?usage: rooms.sh SOURCE_FOLDER}/src"
-# The folders below asset/ are rooms of their own; those below the others are parts of theirs.
-pairs=$(grep -rE '^#include "[a-z_]+/' --include='*.h' --include='*.cpp' . |
-    sed -E 's|^\./([^:]*)/[^/:]*:#include "(.*)/[^/"]*".*|\1 \2|' |
-    awk '{ for (i = 1; i <= 2; ++i) if ($i !~ /^asset/) sub(/\/.*/, "", $i) } $2 !~ /^tspace/ { print $1, $2 }' | sort -u)
-[ "$(wc -l <<<"$pairs")" -gt 50 ] || { echo "only these includes were found: $pairs"; exit 1; }
-tsort <<<"$pairs"
+wings=$(ls -d -- */ | tr -d / | sort | tr '\n' ' ')
+[ "$wings" = "api commands core images maps model " ] || { echo "these are not the six wings: $wings"; exit 1; }
+
+# "FOLDER FOLDER" for each include. A room is a folder of a wing; those below mesh/ and shared/ are rooms of their own.
+includes=$(grep -rE '^#include "[a-z_]+/' --include='*.h' --include='*.cpp' . |
+    sed -E 's|^\./([^:]*)/[^/:]*:#include "(.*)/[^/"]*".*|\1 \2|' | grep -v ' tspace' | sort -u)
+[ "$(wc -l <<<"$includes")" -gt 50 ] || { echo "only these includes were found: $includes"; exit 1; }
+
+up=$(awk 'function height(folder) {
+              if (folder ~ /^core\/mesh/) return 2
+              sub(/\/.*/, "", folder)
+              return index("core   mesh   images maps   model  commands api", folder)  # columns of 7
+          }
+          { a = height($1); b = height($2); if (a == 2) a = 8; if (b == 2) b = 8; if (b > a) print $1, "includes", $2 }' <<<"$includes")
+[ -z "$up" ] || { echo "these look up:"; echo "$up"; exit 1; }
+
+awk '{ for (i = 1; i <= 2; ++i) {
+           depth = $i ~ /^core\/mesh|^commands\/shared/ ? 3 : 2
+           count = split($i, part, "/")
+           $i = part[1]
+           for (k = 2; k <= depth && k <= count; ++k) $i = $i "/" part[k]
+       } } $1 != $2' <<<"$includes" | sort -u | tsort

@@ -4,7 +4,7 @@ enable_testing()  # in the function it would be forgotten at its end
 function(tspace_add_consumers link compat_dir)
     get_property(languages GLOBAL PROPERTY ENABLED_LANGUAGES)
     add_executable(quickstart_c "${TSPACE_SOURCE_DIR}/examples/quickstart.c")
-    add_executable(engine "${TSPACE_SOURCE_DIR}/tests/c_api/c_mikktspace_test.c")
+    add_executable(engine "${TSPACE_SOURCE_DIR}/tests/core/c_api/c_mikktspace_test.c")
     target_include_directories(engine PRIVATE "${compat_dir}")
     set(programs quickstart_c engine)
     if("CXX" IN_LIST languages)

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "commands.h"
+#include "commands/view/view_report.h"
 #include "console.h"
 #include "model/io/file_io.h"
 #include "model/io/system_files.h"

@@ -16,18 +16,24 @@ const root = resolve(here, "../../..");
 const out = resolve(process.argv[2] ?? join(root, "build/js/wasm"));
 
 /// Rooms of src/ and their files; loops over meshes that are worth more code than -Oz gives.
-const rooms = ["core", "frames", "normals", "tangents", "tangents/mikktspace", "tangents/estimators", "mesh_frames"];
+const rooms = ["base", "frames", "normals", "tangents", "tangents/mikktspace", "tangents/estimators", "indexed"].map((room) => `core/${room}`);
 const fileRooms = [
-  "json", "asset", "asset/read", "asset/obj", "asset/gltf", "asset/gltf/codecs", "asset/gltf/compression", "surface", "quads", "maps", "check",
-  "diff", "generate", "generate_file", "identify", "inspect", "options", "report", "c_files",
+  ...["surface", "quads", "pools"].map((room) => `core/mesh/${room}`), "images", "maps",
+  ...["io", "json", "gltf", "gltf/codecs", "gltf/compression", "obj", "read"].map((room) => `model/${room}`),
+  ...["shared", "bake", "check", "convert_map", "diff", "flip_green", "generate", "height_to_normal", "identify", "inspect", "render"]
+    .map((room) => `commands/${room}`), "api",
 ];
 /// Threads, memory of an operating system, the disk, and readers of other formats; only_memory.cpp is in the place of some.
 const notHere = new Set([
-  "core/parallel.cpp", "core/arena.cpp", "asset/atomic_output_disk.cpp", "asset/file_io.cpp", "asset/resolve_uri.cpp",
-  "asset/system_files_posix.cpp", "asset/system_files_windows.cpp", "asset/temporary_name.cpp", "asset/obj/tiny_obj_loader.cpp",
-  "asset/gltf/codecs/draco_library.cpp", "asset/gltf/codecs/meshopt_library.cpp", "generate_file/convert_maps.cpp", "generate_file/mend_maps.cpp",
-  "maps/exr.cpp", "maps/float_image.cpp", "maps/jpeg.cpp", "maps/png.cpp", "maps/png_pixels.cpp", "maps/rays.cpp",
-  "maps/webp.cpp", "report/diff_text.cpp",
+  "core/base/parallel.cpp", "core/base/arena.cpp", "model/io/atomic_output_disk.cpp", "model/io/file_io.cpp", "model/io/resolve_uri.cpp",
+  "model/io/temporary_name.cpp", "model/obj/tiny_obj_loader.cpp", "model/gltf/codecs/draco_library.cpp", "model/gltf/codecs/meshopt_library.cpp",
+  "images/exr.cpp", "images/float_image.cpp", "images/jpeg.cpp", "images/png.cpp", "images/png_pixels.cpp", "images/webp.cpp", "maps/rays.cpp",
+  "commands/generate/convert_maps.cpp", "commands/generate/mend_maps.cpp", "commands/diff/diff_text.cpp",
+  "commands/shared/map_image_file.cpp", "commands/shared/map_mesh.cpp", "commands/shared/html_text.cpp",
+  ...["bake/bake_file", "bake/map_pictures", "bake/model_maps", "bake/model_surfaces", "convert_map/convert_map_file",
+    "height_to_normal/height_to_normal_file", "render/draw_model", "render/model_picture", "render/picture_file", "render/render_file"]
+    .map((name) => `commands/${name}.cpp`),
+  ...["posix", "windows"].map((system) => `model/io/system_files_${system}.cpp`),
 ]);
 /// Functions that are called once stay functions: inlined, they make large ones with hundreds of locals, which take more
 /// bytes and compress worse. What is smaller than its call is inlined. Loops are compiled without that limit, and the hottest
@@ -36,19 +42,19 @@ const inlined = (threshold) => ["-mllvm", `-inline-threshold=${threshold}`];
 const copiesLess = ["-mllvm", "-enable-pre=false", "-mllvm", "-jump-threading-threshold=0"];
 const smallFlags = ["-fno-slp-vectorize", ...copiesLess, ...inlined(-15)];
 const fastFlags = ["-O2", "-DTSPACE_FAST_KERNELS", ...inlined(600)];
-const loops = /mikktspace\/(grid_order|weld)\.cpp|core\/(sum_rounds|weld|range_lists)\.cpp|frames\/(split|sanitize)\.cpp/;
-const hot = /mikktspace\/(corner_terms_kernel|one_pass\.cpp|node_sums\.cpp)|^pack\/\w+_kernel/;
+const loops = /mikktspace\/(grid_order|weld)\.cpp|core\/base\/(sum_rounds|weld|range_lists)\.cpp|frames\/(split|sanitize)\.cpp/;
+const hot = /mikktspace\/(corner_terms_kernel|one_pass\.cpp|node_sums\.cpp)|core\/pack\/\w+_kernel/;
 
 const modules = {
   core: { sources: ["memory.cpp", "common.cpp", "core.cpp"], isFast: true, defines: [], rooms, kernels: ["normals", "tangents"] },
   mikktspace: {
     sources: ["memory.cpp", "common.cpp", "mikktspace.cpp"], isFast: true, defines: ["TSPACE_MIKKTSPACE_ONLY"], rooms, kernels: ["tangents"],
   },
-  pack: { sources: ["memory.cpp", "pack.cpp"], isFast: true, defines: [], rooms: ["core", "pack"], kernels: ["pack"] },
+  pack: { sources: ["memory.cpp", "pack.cpp"], isFast: true, defines: [], rooms: ["core/base", "core/pack"], kernels: ["pack"] },
   gltf: {
     sources: ["heap.cpp", "c_library.cpp", "throw.cpp", "only_memory.cpp", "codecs.cpp", "images.cpp", "obj_parser.cpp", "gltf.cpp"], isFast: false,
     defines: ["TSPACE_THROWS_END_CALL", "TSPACE_HAS_IMAGES", "TSPACE_HAS_WEBP"],
-    rooms: [...rooms, "pack", ...fileRooms], more: ["c_api/c_convert.cpp"], kernels: ["normals", "tangents", "pack"], throws: true,
+    rooms: [...rooms, "core/pack", ...fileRooms], more: ["core/c_api/c_convert.cpp"], kernels: ["normals", "tangents", "pack"], throws: true,
     imports: [
       "attempt", "decodeDraco", "decodeImage", "decodeMeshopt", "encodeDraco", "encodeImage", "encodeMeshopt", "endCall", "findFile",
       "goOn", "hasCodec", "now", "parseNumber", "takeImage", "tell",
@@ -72,14 +78,10 @@ function write(path, text) {
 
 /// The kernels of a room for the one CPU there is, as CMake makes them: the hot one alone, with other flags.
 function kernelSources(room, isFast) {
-  const kernels = [];
-  for (const file of readdirSync(join(root, "src", room), { recursive: true })) {
-    if (!file.endsWith("CMakeLists.txt")) continue;
-    const text = readFileSync(join(root, "src", room, file), "utf8");
-    for (const [, name] of text.matchAll(/tspace_simd_kernel\((\w+)/g))
-      kernels.push(join(room, dirname(file), `${name}_kernel.h`));
-  }
-  const head = '// SPDX-License-Identifier: MIT\n#include "simd/lanes_wasm.h"\n#define TSPACE_LANES wasm\n';
+  const text = readFileSync(join(root, "src/core/CMakeLists.txt"), "utf8");
+  const kernels = [...text.matchAll(/tspace_simd_kernel\((\S+?)[ )]/g)].map(([, name]) => name)
+    .filter((name) => name.startsWith(`${room}/`)).map((name) => `core/${name}_kernel.h`);
+  const head = '// SPDX-License-Identifier: MIT\n#include "core/simd/lanes_wasm.h"\n#define TSPACE_LANES wasm\n';
   const source = (name, list) =>
     write(join(out, `${name}.cpp`), head + list.map((kernel) => `#include "${kernel}"\n`).join(""));
   const [fast, small] = [kernels.filter((k) => hot.test(k)), kernels.filter((k) => !hot.test(k))];
@@ -105,11 +107,11 @@ function sourcesOf(name, module) {
   const isOf = (list) => (room) => list.includes(room);
   const libraries = {
     core: module.rooms.filter((room) => !isOf(fileRooms)(room)),
-    files: module.rooms.filter((room) => isOf(fileRooms)(room) && room !== "c_files"),
-    c_files: module.rooms.filter(isOf(["c_files"])),
+    files: module.rooms.filter((room) => isOf(fileRooms)(room) && room !== "api"),
+    api: module.rooms.filter(isOf(["api"])),
   };
   const sources = Object.entries(libraries).flatMap(([library, list]) =>
-    inBatches(`${name}_${library}`, list, module.isFast, library === "c_files" ? module.more : []));
+    inBatches(`${name}_${library}`, list, module.isFast, library === "api" ? module.more : []));
   for (const room of module.kernels) sources.push(...kernelSources(room, module.isFast));
   // The parser of OBJ lets exponents of numbers overflow.
   for (const file of ["new.cpp", "state.cpp", ...module.sources])

@@ -14,7 +14,7 @@ import tspace
 from tspace import _abi, _files, _files_abi
 
 ROOT = Path(__file__).resolve().parents[3]
-INCLUDE, OPTIONS = ROOT / "include", ROOT / "src/commands/shared"
+INCLUDE, OPTIONS = ROOT / "include", ROOT / "src/commands"
 HEADERS = ("tspace.h", "tspace_frame.h", "tspace_indexed_frames.h", "tspace_normals.h", "tspace_pack.h", "tspace_files.h")
 ENUMERATIONS = {
     "METHOD": _abi.METHODS,
@@ -63,7 +63,7 @@ class Names(unittest.TestCase):
     def test_options_of_files_are_those_that_the_library_knows(self):
         """Every function is asked, past the check of names, for every option that any has."""
         names = set()
-        for path in OPTIONS.glob("*_options.cpp"):
+        for path in OPTIONS.rglob("*_options.cpp"):
             names.update(name.replace("-", "_") for name in re.findall(r'"--([a-z-]+)"', path.read_text()))
         self.assertGreater(len(names), 40)
         for verb, known in _files._OPTIONS.items():

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "commands/shared/exit_code.h"
-#include "commands/view/view_page.h"
 #include "model/json/json.h"
 #include "tspace/asset.h"
 #include "tspace/bake_file.h"
@@ -50,7 +49,6 @@ std::string flipGreenJson(const Outcome<FlipGreenReport>& outcome, ExitCode exit
 std::string renderJson(const Outcome<RenderReport>& outcome, ExitCode exit_code);
 std::string convertMapJson(const Outcome<ConvertMapFileReport>& outcome, ExitCode exit_code);
 std::string heightToNormalJson(const Outcome<HeightToNormalFileReport>& outcome, ExitCode exit_code);
-std::string viewJson(const Outcome<ViewReport>& outcome, ExitCode exit_code);
 
 /// null, or the error as docs/json.md describes it.
 Json errorJson(const Error* error);

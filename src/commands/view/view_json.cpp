@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A page with a model in it, as JSON.
-#include "commands/shared/report.h"
+#include "commands/view/view_report.h"
 
 namespace tspace::report {
 

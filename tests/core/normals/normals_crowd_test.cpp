@@ -107,7 +107,7 @@ TEST(Crowds, APolygonThatStandsStillAtOnePointCountsOnce) {
     for (const Vec3& n : normalsOf(mesh.view(), {.crease_angle_deg = 60})) ASSERT_EQ(n, (Vec3{0, 0, 1}));
 }
 
-TEST(Threads, DoNotChangeABit) {
+TEST(NormalThreads, DoNotChangeABit) {
     std::mt19937 random(7);
     SimpleMesh mesh;
     for (int v = 0; v < 30'000; ++v) {
