@@ -1,12 +1,15 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
 # Every C++ and C block of the documentation compiles against the public headers. A block with an #include is a file of
-# its own, C always; the others stand, each in a function that has a mesh, in one file.
-# usage: snippets.sh SOURCE_FOLDER COMPILER [FLAG...]
+# its own, C always; the others stand, each in a function that has a mesh, in one program, which is run: no call of the
+# library may end with an error there.
+# usage: snippets.sh SOURCE_FOLDER COMPILER LIBRARY [FLAG...]
 set -euo pipefail
-cd "${1:?usage: snippets.sh SOURCE_FOLDER COMPILER [FLAG...]}"
-compiler=${2:?usage: snippets.sh SOURCE_FOLDER COMPILER [FLAG...]}
-shift 2
+usage="usage: snippets.sh SOURCE_FOLDER COMPILER LIBRARY [FLAG...]"
+cd "${1:?$usage}"
+compiler=${2:?$usage}
+library=${3:?$usage}
+shift 3
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
@@ -14,7 +17,7 @@ find . -name '*.md' -not -path './build/*' -not -path './.git/*' -not -path '*/n
     xargs awk -v work="$work" '
         BEGIN {
             functions = work "/functions.cpp"
-            print "#include <tspace/asset.h>\n#include <tspace/tspace.hpp>\nnamespace {" >functions
+            print "#include \"" work "/checked.h\"\nnamespace {" >functions
         }
         FNR == 1 { inside = 0; number = 0 }
         /^```(cpp|c)$/ { inside = 1; language = substr($0, 4); whole = language == "c"; block = ""; begin = FNR + 1; next }
@@ -25,6 +28,7 @@ find . -name '*.md' -not -path './build/*' -not -path './.git/*' -not -path '*/n
             gsub(/[^A-Za-z0-9]/, "_", name)
             file = whole ? work "/" name "_" ++number "." language : functions
             if (!whole) {
+                runs[blocks] = 1
                 print "[[maybe_unused]] void snippet" blocks "([[maybe_unused]] const tspace::MeshView& mesh," >file
                 print "    [[maybe_unused]] std::vector<tspace::Vec4>& tangents) {" >file
             }
@@ -35,7 +39,30 @@ find . -name '*.md' -not -path './build/*' -not -path './.git/*' -not -path '*/n
         }
         inside { block = block $0 "\n" }
         inside && /^#include/ { whole = 1 }
-        END { print "}" >functions; print blocks >(work "/blocks") }'
+        END {
+            print "}\n" >functions
+            print "void runSnippets(const tspace::MeshView& mesh, std::vector<tspace::Vec4>& tangents) {" >functions
+            for (i = 1; i <= blocks; ++i) if (i in runs) print "snippet" i "(mesh, tangents);" >functions
+            print "}" >functions
+            print blocks >(work "/blocks")
+        }'
+
+# Calls that give a Result are looked at.
+{
+    echo '#include <tspace/asset.h>'
+    echo '#include <tspace/tspace.hpp>'
+    echo 'namespace tspace {'
+    echo 'void failed(const char* call, const Error& error);'
+    echo 'template <class T> Result<T> checked(const char* call, Result<T> result) {'
+    echo '    if (!result) failed(call, result.error());'
+    echo '    return result;'
+    echo '}'
+    echo 'template <class T> T checked(const char*, T value) { return value; }'
+    echo '}'
+    echo 'using namespace tspace;'
+    grep -hoE '^Result<[^;]*> [a-z][A-Za-z]*\(' include/tspace/*.h | sed 's/.* //; s/($//' | sort -u |
+        sed 's/.*/#define &(...) checked("&", &(__VA_ARGS__))/'
+} >"$work/checked.h"
 
 failed=0
 for file in "$work"/*.cpp "$work"/*.c; do
@@ -45,7 +72,33 @@ for file in "$work"/*.cpp "$work"/*.c; do
 done
 echo "$(<"$work/blocks") blocks, $failed of their files do not compile"
 
-# The convention has no default: a call without one compiles, and ends with invalidOption.
-without=$(tr '\n' ' ' <"$work/functions.cpp" | grep -oE '(generate|plan)Tangents\( *mesh, *\{[^;]*;' | grep -v convention || true)
-[ -z "$without" ] || echo "these have no convention: $without"
-[ $failed = 0 ] && [ -z "$without" ]
+[ $failed = 0 ] || exit 1
+cat >"$work/main.cpp" <<'EOF'
+#include <cstdio>
+#include <tspace/tspace.hpp>
+void runSnippets(const tspace::MeshView& mesh, std::vector<tspace::Vec4>& tangents);
+static int failed_count = 0;
+namespace tspace {
+void failed(const char* call, const Error& error) {
+    std::printf("%s: %s: %s\n", call, errorName(error.code), error.message.c_str());
+    ++failed_count;
+}
+}
+int main() {
+    // Two triangles of their own vertices, so that there are as many tangents for corners as for vertices.
+    const tspace::Vec3 positions[] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+    const tspace::Vec2 uvs[] = {{0, 1}, {1, 1}, {1, 0}, {0, 1}, {1, 0}, {0, 0}};
+    const std::vector<tspace::Vec3> normals(6, {0, 0, 1});
+    const std::vector<std::uint32_t> indices = {0, 1, 2, 3, 4, 5};
+    std::vector<tspace::Vec4> tangents(6, {1, 0, 0, 1});
+    tspace::MeshView mesh;
+    mesh.positions = positions;
+    mesh.normals = normals;
+    mesh.uvs = uvs;
+    mesh.indices = std::span<const std::uint32_t>(indices);
+    runSnippets(mesh, tangents);
+    return failed_count == 0 ? 0 : 1;
+}
+EOF
+"$compiler" -std=c++20 -Iinclude "$@" -w "$work/functions.cpp" "$work/main.cpp" "$library" -pthread -o "$work/snippets"
+"$work/snippets"

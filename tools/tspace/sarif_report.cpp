@@ -3,6 +3,7 @@
 // what stands where.
 #include <filesystem>
 
+#include "model/io/path.h"
 #include "report.h"
 
 namespace tspace::tool {
