@@ -71,7 +71,7 @@ void convert(ByteReader& in, const Files& files) {
         options.layout = {componentOf(in), componentOf(in), componentOf(in), static_cast<MapCurve>(in.byte() % 3)};
     options.padding = in.byte() % 4U;
     options.tangents.method = static_cast<Method>(in.byte() % 10);
-    options.tangents.execution.thread_count = 1;
+    options.execution.thread_count = 1;
     options.file.sync = false;
     requireWhole(convertMapFile(files.map, files.out, options), files);
 }
@@ -81,7 +81,7 @@ void heights(ByteReader& in, const Files& files) {
     if (in.byte() % 2 == 0) options.mesh = files.a;
     options.clamp = in.byte() % 2 == 0;
     options.bits = in.byte() % 2 == 0 ? 8 : 16;
-    options.tangents.execution.thread_count = 1;
+    options.execution.thread_count = 1;
     options.file.sync = false;
     requireWhole(heightToNormalFile(files.map, files.out, options), files);
 }
@@ -92,7 +92,7 @@ void bake(ByteReader& in, const Files& files) {
     options.map.height = 1 + in.byte() % 16U;
     options.map.reading = readingOf(in);
     options.map.space = in.byte() % 4 == 0 ? MapSpace::object : MapSpace::tangent;
-    options.map.execution.thread_count = 1;
+    options.execution.thread_count = 1;
     const unsigned flags = in.byte();
     options.udim = (flags & 1) != 0;
     options.unit = (flags & 2) != 0;
@@ -108,7 +108,7 @@ void measure(ByteReader& in, const Files& files) {
     MapErrorFileOptions options;
     options.map.point_count = 200;
     options.map.reading = readingOf(in);
-    options.map.execution.thread_count = 1;
+    options.execution.thread_count = 1;
     options.two_channels = in.byte() % 4 == 0;
     options.heat = files.out;
     options.file.sync = false;

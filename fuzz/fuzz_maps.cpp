@@ -79,9 +79,8 @@ void requireMeasured(ByteReader& in, const MapImage& map, const Corners& low, co
     const LowPoly low_poly{
         .positions = low.positions, .normals = low.normals, .tangents = low.tangents, .uvs = low.uvs};
     const HighPoly high_poly{.positions = high.positions, .normals = high.normals, .corners = corners};
-    MapErrorOptions options{.reading = readingOf(in), .point_count = 50, .heat = true};
-    options.execution.thread_count = 1;
-    const Result<MapError> error = measureMap(map, low_poly, high_poly, options);
+    const MapErrorOptions options{.reading = readingOf(in), .point_count = 50, .heat = true};
+    const Result<MapError> error = measureMap(map, low_poly, high_poly, options, {.thread_count = 1});
     if (!error) return require(!error.error().message.empty(), "an error has a message");
     require(error->point_count + error->missed_count <= options.point_count, "points are counted once");
     require(error->mean_deg >= 0 && error->mean_deg <= error->max_deg + 1e-9 && error->max_deg <= 180.001,
@@ -101,18 +100,16 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     constexpr unsigned kBits[] = {8, 16, 32};
     const unsigned bits = kBits[in.byte() % 3], padding = in.byte() % 4U;
     requireSame(image.texels.size(), [&](unsigned threads, std::vector<Vec3>& out) {
-        ConvertMapOptions options{.bits = bits, .padding = padding};
-        options.execution.thread_count = threads;
-        return convertMap(map, from_side, to_side, out, options);
+        const ConvertMapOptions options{.bits = bits, .padding = padding};
+        return convertMap(map, from_side, to_side, options, out, {.thread_count = threads});
     });
     std::vector<float> heights;
     for (const Vec3& texel : image.texels) heights.push_back(texel.x);
     const HeightMap height_map{image.width, image.height, heights, map.wrap_u, map.wrap_v};
     const double strength = static_cast<double>(value(in)) * 100;
     requireSame(image.texels.size(), [&](unsigned threads, std::vector<Vec3>& out) {
-        HeightToNormalOptions options{.strength = strength, .bits = bits};
-        options.execution.thread_count = threads;
-        return heightToNormal(height_map, from_side, out, options);
+        const HeightToNormalOptions options{.strength = strength, .bits = bits};
+        return heightToNormal(height_map, from_side, options, out, {.thread_count = threads});
     });
     requireMeasured(in, map, from, to);
     return 0;

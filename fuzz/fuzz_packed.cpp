@@ -66,7 +66,7 @@ void checkModel(ByteReader& in, FrameFormat format) {
     options.existing = static_cast<ExistingTangents>(in.byte() % 3);
     options.pack = format;
     options.pack_drop = static_cast<PackDrop>(in.byte() % 3);
-    options.tangents.execution.thread_count = 1;
+    options.execution.thread_count = 1;
     options.format = static_cast<VectorFormat>(in.byte() % 3);
     const std::vector<std::uint8_t> model = fuzz::ModelMaker(in).glb();
     options.file.content = model;

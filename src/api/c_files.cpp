@@ -95,7 +95,7 @@ void diff(const std::string& a, const std::string& b, const options::DiffRequest
 
 void readHeightToNormalOptions(const char* text, HeightToNormalFileOptions& options) {
     options::Given given;
-    options.tangents.execution.thread_count = 1;
+    options.execution.thread_count = 1;
     readOptions(options::heightToNormalOptions(options), text, given);
 }
 

@@ -11,7 +11,7 @@ namespace tspace {
 std::vector<std::string> showHeights(Method method, const Execution& execution, DrawnScene& drawn) {
     GenerateOptions options;
     options.tangents.method = method;
-    options.tangents.execution = execution;
+    options.execution = execution;
     std::vector<std::string> warnings;
     Scene& scene = drawn.scene;
     struct Shown {

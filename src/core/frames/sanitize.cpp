@@ -366,9 +366,8 @@ class Sanitizer {
     /// Where N has no direction a tangent that is made up serves all corners at the position with its sign, so that no
     /// vertex has to be split: the first.
     void alignWithoutNormals() {
-        const Allocator* allocator = options_.execution.allocator;
-        if (points_.empty()) points_ = weldPositions(mesh_, allocator, parallel_);
-        Buffer<Vec4> made(allocator, 2 * mesh_.vertexCount(), Vec4{});
+        if (points_.empty()) points_ = weldPositions(mesh_, allocator_, parallel_);
+        Buffer<Vec4> made(allocator_, 2 * mesh_.vertexCount(), Vec4{});
         for (std::size_t c = 0; c < mesh_.cornerCount(); ++c) {
             const bool is_made_up = causes_[c] == Cure::fromNeighbor || causes_[c] == Cure::fromBasis;
             const Vec3& p = mesh_.positions[mesh_.indices[c]];
