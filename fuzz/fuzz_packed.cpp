@@ -30,11 +30,11 @@ void checkBytes(FrameFormat format, std::span<const std::byte> bytes, bool is_ex
     const std::size_t count = bytes.size() / frameBytes(format);
     std::vector<Vec3> normals(count), again_normals(count);
     std::vector<Vec4> tangents(count), again_tangents(count);
-    require(unpackFrames(format, bytes, std::span(normals), std::span(tangents)).ok(), "any bytes are frames");
+    require(unpackFrames(bytes, format, std::span(normals), std::span(tangents)).ok(), "any bytes are frames");
     requireUnit(normals, tangents);
     std::vector<std::byte> again(bytes.size());
-    require(packFrames(format, std::span<const Vec3>(normals), std::span<const Vec4>(tangents), again).ok() &&
-                unpackFrames(format, again, std::span(again_normals), std::span(again_tangents)).ok(),
+    require(packFrames(std::span<const Vec3>(normals), std::span<const Vec4>(tangents), format, again).ok() &&
+                unpackFrames(again, format, std::span(again_normals), std::span(again_tangents)).ok(),
             "unpacked frames can be packed");
     for (std::size_t i = 0; is_exact && i < count; ++i) {
         require(std::memcmp(&normals[i], &again_normals[i], sizeof(Vec3)) == 0 &&
@@ -56,7 +56,7 @@ void checkFloats(ByteReader& in, FrameFormat format) {
         tangents.push_back({value(), value(), value(), value()});
     }
     std::vector<std::byte> bytes(kCount * frameBytes(format));
-    require(packFrames(format, std::span<const Vec3>(normals), std::span<const Vec4>(tangents), bytes).ok(),
+    require(packFrames(std::span<const Vec3>(normals), std::span<const Vec4>(tangents), format, bytes).ok(),
             "any floats can be packed");
     checkBytes(format, bytes, false);
 }
