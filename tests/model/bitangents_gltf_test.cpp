@@ -22,7 +22,7 @@ GenerateOptions withBitangents(Method method) {
     return options;
 }
 
-std::vector<Vec3> bitangentsOf(const Outcome& outcome) {
+std::vector<Vec3> bitangentsOf(const GenerateRun& outcome) {
     return readVec3(outcome.after, outcome.primitives.at(0), "_BITANGENT");
 }
 
@@ -45,7 +45,7 @@ void expectNear(const Vec3& a, const Vec3& b, double tolerance) {
 TEST(BitangentsGltf, FollowDpDvWhereUvsAreSheared) {
     const Vec3 leaning{-0.6f, 0.8f, 0};  // a shear of 0.75
     for (const Method method : {Method::mikktspace, Method::angle, Method::fast, Method::best}) {
-        const Outcome outcome = run(shearedModel(0.75f, 0.75f), withBitangents(method));
+        const GenerateRun outcome = run(shearedModel(0.75f, 0.75f), withBitangents(method));
         const std::vector<Vec3> bitangents = bitangentsOf(outcome);
         EXPECT_TRUE(outcome.report.primitives[0].bitangents_generated);
         ASSERT_EQ(bitangents.size(), 25u);
@@ -63,7 +63,7 @@ TEST(BitangentsGltf, SplitVerticesWhereOnlyTheyDiffer) {
     options.bitangents = false;
     EXPECT_EQ(run(model, options).report.primitives[0].vertices_after, 25u);
     options.bitangents = true;
-    const Outcome outcome = run(model, options);
+    const GenerateRun outcome = run(model, options);
     EXPECT_EQ(outcome.report.primitives[0].vertices_after, 30u) << "the middle row is doubled";
     for (const Vec3& b : bitangentsOf(outcome)) {
         const bool leans = b.x < -0.3f;
@@ -94,7 +94,7 @@ TEST(BitangentsGltf, HaveTheNumberFormatOfTangents) {
 TEST(BitangentsGltf, AreSharedByPrimitivesThatShareVertices) {
     GltfBuilder model = gridModel(Grid(4));
     model.json()["meshes"][0]["primitives"].push_back(Json(firstPrimitive(model)));
-    const Outcome outcome = run(model, withBitangents(Method::best));
+    const GenerateRun outcome = run(model, withBitangents(Method::best));
     ASSERT_EQ(outcome.primitives.size(), 2u);
     EXPECT_TRUE(outcome.primitives[0].find("_BITANGENT").has_value());
     EXPECT_EQ(outcome.primitives[0].find("_BITANGENT"), outcome.primitives[1].find("_BITANGENT"));
@@ -105,7 +105,7 @@ TEST(BitangentsGltf, OfStripsStayStripsWithoutASplit) {
     const std::size_t strip = model.addAccessor(std::vector<std::uint16_t>{0, 1, 5, 6, 10, 11}, kU16, "SCALAR", 6);
     firstPrimitive(model)["indices"] = strip;
     firstPrimitive(model)["mode"] = 5;
-    const Outcome outcome = run(model, withBitangents(Method::best));
+    const GenerateRun outcome = run(model, withBitangents(Method::best));
     EXPECT_EQ(outcome.primitives.at(0).mode, gltf::Mode::triangleStrip);
     // Vertices that no triangle uses have unit ones too.
     for (const Vec3& b : bitangentsOf(outcome)) EXPECT_NEAR(length(toDouble(b)), 1, 1e-6);
@@ -117,7 +117,7 @@ TEST(BitangentsGltf, HaveNoMorphDeltas) {
     for (std::size_t i = 0; i < 25; ++i) offsets[3 * i + 2] = static_cast<float>(i % 3);
     const std::size_t moved = model.addFloats(offsets, 3);
     firstPrimitive(model)["targets"] = Json::array({Json{{"POSITION", moved}}});
-    const Outcome outcome = run(model, withBitangents(Method::best));
+    const GenerateRun outcome = run(model, withBitangents(Method::best));
     const Json& target = outcome.after.json["meshes"][0]["primitives"][0]["targets"][0];
     EXPECT_TRUE(target.contains("TANGENT"));
     EXPECT_FALSE(target.contains("_BITANGENT"));

@@ -13,13 +13,14 @@
 
 namespace tspace::test {
 
-struct Outcome {
+struct CompressedRun {
     gltf::Document before, after;
     GenerateReport report;
 };
 
 /// Generates all tangents, compares everything that must survive, and runs again, which must change nothing.
-inline Outcome generateAll(const Bytes& glb, GenerateOptions options = {}, const std::string& output_name = "out.glb") {
+inline CompressedRun generateAll(const Bytes& glb, GenerateOptions options = {},
+                                 const std::string& output_name = "out.glb") {
     const TempFolder folder;
     const std::string input = folder.write("in.glb", glb), output = folder.path(output_name).string();
     options.all = true;
@@ -31,7 +32,7 @@ inline Outcome generateAll(const Bytes& glb, GenerateOptions options = {}, const
     const auto second = generateFile(output, output, options);
     EXPECT_TRUE(second && !second->changed);
     EXPECT_EQ(readFile(output), first);
-    Outcome outcome{gltf::loadDocument(input, {}), gltf::loadDocument(output, {}), *report};
+    CompressedRun outcome{gltf::loadDocument(input, {}), gltf::loadDocument(output, {}), *report};
     if (options.compression == Compression::keep) {
         for (const std::string& difference : differences(outcome.before, outcome.after, outcome.report))
             ADD_FAILURE() << difference;

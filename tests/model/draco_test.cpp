@@ -20,11 +20,11 @@ namespace tspace::gltf {
 namespace {
 
 using test::bytesOfValues;
+using test::CompressedRun;
 using test::errorOf;
 using test::expectOrderWhateverByteIsChanged;
 using test::generateAll;
 using test::GltfBuilder;
-using test::Outcome;
 using test::shared;
 
 constexpr int kU16 = 5123, kFloat = 5126;
@@ -122,7 +122,7 @@ TEST(Draco, ReadsWhatTheLibraryReads) {
 }
 
 TEST(DracoKeep, ChangesNoValueAndNoRoundingOfWhatItEncodesAgain) {
-    const Outcome outcome = generateAll(model(grid()).glb());
+    const CompressedRun outcome = generateAll(model(grid()).glb());
     EXPECT_GT(outcome.report.primitives.at(0).vertices_after, 25u) << "the middle column is split";
     const Json& packed = outcome.after.json["meshes"][0]["primitives"][0]["extensions"][kDraco];
     EXPECT_EQ(packed["attributes"].size(), 4u);
@@ -168,7 +168,7 @@ TEST(DracoKeep, SharesTheDataOfPrimitivesThatShareTheirs) {
     GltfBuilder builder = model(grid());
     Json& primitives = builder.json()["meshes"][0]["primitives"];
     primitives.push_back(Json(primitives[0]));
-    const Outcome outcome = generateAll(builder.glb());
+    const CompressedRun outcome = generateAll(builder.glb());
     const Json& after = outcome.after.json["meshes"][0]["primitives"];
     EXPECT_EQ(after[0], after[1]);
     EXPECT_EQ(outcome.after.json["bufferViews"].size(), 1u);
@@ -180,7 +180,7 @@ TEST(DracoKeep, CarriesMorphTargetsOutsideOfTheData) {
     for (int i = 0; i < 75; ++i) deltas.push_back(static_cast<float>(i));
     const std::size_t target = builder.addFloats(deltas, 3);
     builder.json()["meshes"][0]["primitives"][0]["targets"] = Json::array({Json{{"POSITION", target}}});
-    const Outcome outcome = generateAll(builder.glb());
+    const CompressedRun outcome = generateAll(builder.glb());
     const Primitive primitive = readPrimitives(outcome.after).at(0);
     EXPECT_TRUE(readAccessor(outcome.after, primitive.targets.at(0).at(0).second).view.has_value());
 }
@@ -204,7 +204,7 @@ GltfBuilder sharedVertices() {
 }
 
 TEST(DracoPack, BoundsOfTargetsFollowTheVerticesThatStay) {
-    const Outcome outcome = generateAll(sharedVertices().glb(), {.compression = Compression::draco});
+    const CompressedRun outcome = generateAll(sharedVertices().glb(), {.compression = Compression::draco});
     std::vector<double> highest;
     for (const Primitive& primitive : readPrimitives(outcome.after)) {
         const std::size_t target = *findAttribute(primitive.targets.at(0), "POSITION");
@@ -222,7 +222,7 @@ TEST(DracoPack, TakesMeshesThatComeApartAndHaveVerticesThatNobodyDraws) {
     builder.json()["accessors"][0]["count"] = 4;  // the last of which is in no triangle
     builder.json()["accessors"][1]["count"] = 4;
     primitive["indices"] = builder.addAccessor(std::vector<std::uint16_t>{0, 1, 2, 2, 1, 0}, kU16, "SCALAR", 6);
-    const Outcome outcome = generateAll(builder.glb(), {.compression = Compression::draco});
+    const CompressedRun outcome = generateAll(builder.glb(), {.compression = Compression::draco});
     ASSERT_EQ(outcome.report.primitives.size(), 1u);
     EXPECT_EQ(outcome.report.primitives[0].vertices_after, 6u);
 }
@@ -258,7 +258,7 @@ TEST(DracoKeep, UsesAndRenewsPlainDataBesideTheCompressedOnes) {
     const std::size_t view = builder.addView(bytesOfValues(indices));
     accessors[3]["bufferView"] = view;
     builder.json().erase("extensionsRequired");
-    const Outcome outcome = generateAll(builder.glb());
+    const CompressedRun outcome = generateAll(builder.glb());
     EXPECT_TRUE(outcome.after.elements.empty()) << "plain data are there, so they are read";
     // The compressed data hold the same mesh as the plain ones, tangents too.
     const Json& primitive = outcome.after.json["meshes"][0]["primitives"][0];

@@ -19,7 +19,7 @@ using gltf::Primitive;
 using namespace test;
 
 TEST(GenerateGltf, AddsOnlyTangentsWhereNothingIsSplit) {
-    const Outcome outcome = run(gridModel(Grid(4, false)));
+    const GenerateRun outcome = run(gridModel(Grid(4, false)));
     EXPECT_EQ(outcome.report.primitives.at(0).action, PrimitiveAction::generated);
     EXPECT_EQ(outcome.after.json["accessors"].size(), 5u);
     EXPECT_EQ(outcome.after.json["bufferViews"].size(), 5u);
@@ -55,7 +55,7 @@ TEST(GenerateGltf, SplitsAndCarriesEveryAttributeAlong) {
     primitive["attributes"]["WEIGHTS_0"] = weight;
     primitive["attributes"]["_CUSTOM"] = custom;
     primitive["targets"] = Json::array({Json{{"POSITION", custom + 1}}, Json{{"POSITION", 0}}});
-    const Outcome outcome = run(builder);
+    const GenerateRun outcome = run(builder);
     const PrimitiveReport& report = outcome.report.primitives.at(0);
     EXPECT_EQ(report.vertices_before, 25u);
     EXPECT_EQ(report.vertices_after, 30u) << "the middle column of 5 vertices is doubled";
@@ -70,7 +70,7 @@ TEST(GenerateGltf, KeepsVertexAttributesAlignedTo4Bytes) {
     const std::size_t color = builder.addAccessor(Bytes(25 * 4), kU8, "VEC3", 25);
     builder.json()["bufferViews"].back()["byteStride"] = 4;
     builder.json()["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"] = color;
-    const Outcome outcome = run(builder);
+    const GenerateRun outcome = run(builder);
     const auto accessor = readAccessor(outcome.after, *outcome.primitives[0].find("COLOR_0"));
     EXPECT_EQ(accessor.stride, 4u);
     EXPECT_EQ(accessor.element_bytes, 3u);
@@ -78,7 +78,7 @@ TEST(GenerateGltf, KeepsVertexAttributesAlignedTo4Bytes) {
 
 TEST(GenerateGltf, WidensIndicesOnlyWhenTheyNoLongerFit) {
     const auto indexType = [](const Grid& grid, int type) {
-        const Outcome outcome = run(gridModel(grid, type));
+        const GenerateRun outcome = run(gridModel(grid, type));
         EXPECT_GT(outcome.report.primitives.at(0).vertices_after, grid.vertexCount());
         return static_cast<int>(readAccessor(outcome.after, *outcome.primitives[0].indices).component);
     };
@@ -96,7 +96,7 @@ TEST(GenerateGltf, ComputesPrimitivesOfOnePoolTogether) {
     Json& primitives = builder.json()["meshes"][0]["primitives"];
     for (int i = 0; i < 2; ++i) primitives.push_back(Json(primitives[0]));
     primitives[2]["material"] = 1;
-    const Outcome outcome = run(builder);
+    const GenerateRun outcome = run(builder);
     EXPECT_EQ(outcome.report.primitives.at(1).action, PrimitiveAction::generated);
     EXPECT_EQ(outcome.report.primitives.at(2).action, PrimitiveAction::notNeeded);
     const Json& after = outcome.after.json["meshes"][0]["primitives"];
@@ -121,7 +121,7 @@ TEST(GenerateGltf, TurnsSplitStripsAndFansIntoTriangles) {
     builder.addFloats(normals, 3);
     builder.addFloats(uvs, 2);
     builder.addPrimitive({{"POSITION", 0}, {"NORMAL", 1}, {"TEXCOORD_0", 2}})["mode"] = 5;
-    const Outcome outcome = run(builder, {.all = true});
+    const GenerateRun outcome = run(builder, {.all = true});
     EXPECT_EQ(outcome.report.primitives.at(0).vertices_after, 12u);
     EXPECT_EQ(outcome.primitives[0].mode, gltf::Mode::triangles);
     EXPECT_EQ(outcome.primitives[0].corner_count, 24u);
@@ -138,7 +138,7 @@ TEST(GenerateGltf, LeavesPlainTrianglesWithoutIndices) {
     builder.addFloats(positions, 3);
     builder.addFloats(uvs, 2);
     builder.addPrimitive({{"POSITION", 0}, {"TEXCOORD_0", 1}});
-    const Outcome outcome = run(builder, {.all = true});
+    const GenerateRun outcome = run(builder, {.all = true});
     EXPECT_TRUE(outcome.report.primitives.at(0).normals_generated);
     EXPECT_FALSE(outcome.primitives[0].indices.has_value());
     for (const Vec3& normal : readVec3(outcome.after, outcome.primitives[0], "NORMAL"))
@@ -158,7 +158,7 @@ TEST(GenerateGltf, KeepsTangentsUnlessOverwriteIsAskedFor) {
 }
 
 TEST(GenerateGltf, OverwritesTangentsWhereTheyAre) {
-    const Outcome outcome = run(withTangents(Grid(4, false)), {.existing = ExistingTangents::replace});
+    const GenerateRun outcome = run(withTangents(Grid(4, false)), {.existing = ExistingTangents::replace});
     EXPECT_EQ(outcome.report.primitives.at(0).action, PrimitiveAction::replaced);
     EXPECT_EQ(outcome.after.json["bufferViews"], outcome.before.json["bufferViews"]);
     EXPECT_EQ(outcome.after.buffers[0].bytes.size(), outcome.before.buffers[0].bytes.size());
@@ -168,12 +168,12 @@ TEST(GenerateGltf, OverwritesTangentsWhereTheyAre) {
 TEST(GenerateGltf, LeavesOtherReadersOfOldTangentsAlone) {
     GltfBuilder builder = withTangents(Grid(4, false));
     builder.json()["meshes"][0]["primitives"][0]["attributes"]["_COPY"] = 4;
-    const Outcome outcome = run(builder, {.existing = ExistingTangents::replace});
+    const GenerateRun outcome = run(builder, {.existing = ExistingTangents::replace});
     EXPECT_NE(outcome.primitives[0].find("TANGENT"), outcome.primitives[0].find("_COPY"));
 }
 
 TEST(GenerateGltf, LeavesNoOldBytesBehindWhenASplitReplacesThem) {
-    const Outcome outcome = run(withTangents(Grid(16)), {.existing = ExistingTangents::replace});
+    const GenerateRun outcome = run(withTangents(Grid(16)), {.existing = ExistingTangents::replace});
     const std::size_t vertices = outcome.report.primitives.at(0).vertices_after;
     EXPECT_GT(vertices, outcome.report.primitives.at(0).vertices_before);
     const std::size_t needed = vertices * (12 + 12 + 8 + 16) + outcome.primitives[0].corner_count * 2;
@@ -184,7 +184,7 @@ TEST(GenerateGltf, LeavesNoOldBytesBehindWhenASplitReplacesThem) {
 TEST(GenerateGltf, TakesTangentsWithoutNormalsForMissing) {
     GltfBuilder builder = withTangents(Grid(4, false));
     builder.json()["meshes"][0]["primitives"][0]["attributes"].erase("NORMAL");
-    const Outcome outcome = run(builder);
+    const GenerateRun outcome = run(builder);
     EXPECT_EQ(outcome.report.primitives.at(0).action, PrimitiveAction::generated);
     EXPECT_TRUE(outcome.report.primitives.at(0).normals_generated);
     EXPECT_EQ(outcome.report.primitives.at(0).notes,
@@ -208,7 +208,7 @@ TEST(GenerateGltf, SaysWhyAPrimitiveIsLeftAlone) {
     add("mode", 1);
     add("mode", 0);
     add("material", 2);
-    const Outcome outcome = run(builder, {.existing = ExistingTangents::replace});
+    const GenerateRun outcome = run(builder, {.existing = ExistingTangents::replace});
     const std::vector<PrimitiveReport>& reports = outcome.report.primitives;
     ASSERT_EQ(reports.size(), 5u);
     EXPECT_EQ(reports[1].action, PrimitiveAction::notNeeded);
@@ -229,7 +229,7 @@ TEST(GenerateGltf, KeepsChunksExtensionsAndUnknownMembers) {
     builder.json()["accessors"][0]["extras"] = {{"k", "v"}};
     builder.json()["meshes"][0]["primitives"][0]["extensions"] = {{"VENDOR_thing", {{"deep", {1, 2}}}}};
     builder.json()["meshes"][0]["extras"] = {{"targetNames", {"a"}}};
-    const Outcome outcome = run(builder, {}, {{0x31415926, {1, 2, 3, 4, 5, 6, 7, 8}}});
+    const GenerateRun outcome = run(builder, {}, {{0x31415926, {1, 2, 3, 4, 5, 6, 7, 8}}});
     ASSERT_EQ(outcome.report.warnings.size(), 2u);
     EXPECT_NE(outcome.report.warnings[1].find("VENDOR_thing"), std::string::npos) << "vertices were split";
     ASSERT_EQ(outcome.after.extra_chunks.size(), 1u);
@@ -459,7 +459,7 @@ TEST(GenerateGltf, CarriesMatricesWithoutPaddingAtTheEndThroughASplit) {
     }
     const std::size_t accessor = builder.addAccessor(matrices, 5121, "MAT2", grid.vertexCount());
     builder.json()["meshes"][0]["primitives"][0]["attributes"]["_MATRIX"] = accessor;
-    const Outcome outcome = run(builder);
+    const GenerateRun outcome = run(builder);
     EXPECT_GT(outcome.report.primitives.at(0).vertices_after, grid.vertexCount());
 }
 

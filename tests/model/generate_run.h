@@ -82,7 +82,7 @@ inline GltfBuilder withTangents(const Grid& grid) {
 
 inline Json& firstPrimitive(GltfBuilder& builder) { return builder.json()["meshes"][0]["primitives"][0]; }
 
-struct Outcome {
+struct GenerateRun {
     GenerateReport report;
     gltf::Document before, after;
     std::vector<gltf::Primitive> primitives;
@@ -90,12 +90,12 @@ struct Outcome {
 };
 
 /// Generates from `builder` as GLB, compares everything that must survive, and runs again.
-inline Outcome run(const GltfBuilder& builder, GenerateOptions options = {},
-                   const std::vector<gltf::ExtraChunk>& chunks = {}) {
+inline GenerateRun run(const GltfBuilder& builder, GenerateOptions options = {},
+                       const std::vector<gltf::ExtraChunk>& chunks = {}) {
     const TempFolder folder;
     const std::string input = folder.write("in.glb", builder.glb(chunks)), output = folder.path("out.glb").string();
     auto report = generateFile(input, output, options);
-    Outcome outcome;
+    GenerateRun outcome;
     EXPECT_TRUE(report) << report.error().message << " at " << report.error().place;
     if (!report) return outcome;
     outcome = {*std::move(report), gltf::loadDocument(input, {}), gltf::loadDocument(output, {}), {}, readFile(output)};

@@ -13,7 +13,7 @@ namespace {
 
 using namespace test;
 
-void expectUnitTangents(const Outcome& outcome, std::size_t primitive = 0) {
+void expectUnitTangents(const GenerateRun& outcome, std::size_t primitive = 0) {
     for (const Vec4& t : readTangents(outcome.after, outcome.primitives.at(primitive))) {
         EXPECT_NEAR(t.x * t.x + t.y * t.y + t.z * t.z, 1, 1e-5);
         EXPECT_EQ(std::fabs(t.w), 1);
@@ -64,14 +64,14 @@ TEST(GeometryStorage, StripsAndFansStayWhatTheyAreUnlessVerticesAreSplit) {
     for (const bool is_indexed : {false, true}) {
         for (const auto& make : {ribbon, fan}) {
             const GltfBuilder plain = make(false, is_indexed);
-            const Outcome same = run(plain, {.all = true});
+            const GenerateRun same = run(plain, {.all = true});
             EXPECT_EQ(same.report.primitives.at(0).vertices_after, same.report.primitives[0].vertices_before);
             EXPECT_EQ(same.after.json["meshes"][0]["primitives"][0]["mode"],
                       same.before.json["meshes"][0]["primitives"][0]["mode"]);
             EXPECT_EQ(same.primitives[0].indices.has_value(), is_indexed);
             expectUnitTangents(same);
 
-            const Outcome split = run(make(true, is_indexed), {.all = true});
+            const GenerateRun split = run(make(true, is_indexed), {.all = true});
             EXPECT_EQ(split.report.primitives.at(0).vertices_after, split.report.primitives[0].vertices_before + 2);
             EXPECT_EQ(split.primitives[0].mode, gltf::Mode::triangles);
             EXPECT_TRUE(split.primitives[0].indices.has_value());
@@ -99,7 +99,7 @@ TEST(GeometryStorage, PrimitiveRestartIsRefusedInOneSentence) {
 TEST(GeometryStorage, TheLargestIndexIsAVertexWhereThereIsOne) {
     // glTF forbids it, some viewers restart there, others draw it: tspace reads what stands there, and mends it in a
     // split.
-    const Outcome outcome = run(gridModel(Grid(15), kU8));
+    const GenerateRun outcome = run(gridModel(Grid(15), kU8));
     EXPECT_EQ(outcome.report.primitives.at(0).vertices_before, 256u);
     EXPECT_EQ(readAccessor(outcome.after, *outcome.primitives[0].indices).component, gltf::ComponentType::u16);
 }
@@ -109,7 +109,7 @@ TEST(GeometryStorage, TheSameGeometryInManyMeshesIsComputedOnceAndStaysShared) {
     Json& meshes = builder.json()["meshes"];
     for (int i = 0; i < 3; ++i) meshes.push_back(Json(meshes[0]));
     builder.json()["nodes"] = Json::parse(R"([{"mesh":0},{"mesh":1},{"mesh":2},{"mesh":3},{"mesh":1}])");
-    const Outcome outcome = run(builder);
+    const GenerateRun outcome = run(builder);
     ASSERT_EQ(outcome.report.primitives.size(), 4u);
     EXPECT_EQ(outcome.after.json["accessors"].size(), 5u) << "one TANGENT for all, and no copies";
     for (std::size_t i = 1; i < 4; ++i) {
@@ -133,7 +133,7 @@ TEST(GeometryStorage, PiecesOfOneVertexArrayShareItsSplit) {
     primitives.push_back(Json(primitives[0]));
     for (std::size_t i = 0; i < 2; ++i)
         primitives[i]["indices"] = builder.addAccessor(halves[i], kU16, "SCALAR", halves[i].size());
-    const Outcome outcome = run(builder);
+    const GenerateRun outcome = run(builder);
     EXPECT_EQ(outcome.primitives.at(0).attributes, outcome.primitives.at(1).attributes);
     EXPECT_EQ(outcome.report.primitives.at(0).vertices_after, 30u) << "the middle column belongs to both";
 }
@@ -145,7 +145,7 @@ TEST(GeometryStorage, PrimitivesThatShareOnlySomeAccessorsPartOnlyWhereTheyMust)
     Json& primitives = builder.json()["meshes"][0]["primitives"];
     primitives.push_back(Json(primitives[0]));
     primitives[1]["attributes"]["TEXCOORD_0"] = straight;
-    const Outcome outcome = run(builder);
+    const GenerateRun outcome = run(builder);
     EXPECT_EQ(outcome.report.primitives.at(0).vertices_after, 30u);
     EXPECT_EQ(outcome.report.primitives.at(1).vertices_after, 25u);
     EXPECT_EQ(outcome.primitives[1].find("POSITION"), 0u) << "the one without a split keeps what both had";
@@ -163,7 +163,7 @@ TEST(GeometryStorage, PrimitivesOfOneVertexArrayOnDifferentUvSetsGetTangentsOfTh
     Json& primitives = builder.json()["meshes"][0]["primitives"];
     primitives.push_back(Json(primitives[0]));
     primitives[1]["material"] = 2;
-    const Outcome outcome = run(builder);
+    const GenerateRun outcome = run(builder);
     EXPECT_EQ(readTangents(outcome.after, outcome.primitives.at(0))[0], (Vec4{1, 0, 0, 1}));
     EXPECT_EQ(readTangents(outcome.after, outcome.primitives.at(1))[0], (Vec4{0, -1, 0, -1}));
     EXPECT_EQ(outcome.primitives[0].find("POSITION"), outcome.primitives[1].find("POSITION"));
@@ -188,7 +188,7 @@ TEST(GeometryStorage, SkinsGoAlongWithASplit) {
     const std::size_t matrices = builder.addAccessor(std::vector<float>(48, 1.0f), 5126, "MAT4", 3);
     builder.json()["nodes"] = Json::parse(R"([{"mesh":0,"skin":0},{},{},{}])");
     builder.json()["skins"] = Json::array({Json{{"joints", {1, 2, 3}}, {"inverseBindMatrices", matrices}}});
-    const Outcome outcome = run(builder);
+    const GenerateRun outcome = run(builder);
     EXPECT_EQ(outcome.report.primitives.at(0).vertices_after, 30u);
     EXPECT_EQ(outcome.after.json["skins"], outcome.before.json["skins"]);
 }
@@ -199,7 +199,7 @@ TEST(GeometryStorage, InstancesKeepTheirPlacesEvenIfTheyAreThoseOfVertices) {
     builder.json()["extensionsUsed"] = {"EXT_mesh_gpu_instancing"};
     builder.json()["nodes"] =
         Json::parse(R"([{"mesh":0,"extensions":{"EXT_mesh_gpu_instancing":{"attributes":{"TRANSLATION":0}}}}])");
-    const Outcome outcome = run(builder);
+    const GenerateRun outcome = run(builder);
     EXPECT_EQ(outcome.after.json["nodes"], outcome.before.json["nodes"]);
     EXPECT_NE(outcome.primitives.at(0).find("POSITION"), 0u);
     EXPECT_EQ(readAccessor(outcome.after, 0).count, 25u);
@@ -210,9 +210,9 @@ TEST(GeometryStorage, InstancesKeepTheirPlacesEvenIfTheyAreThoseOfVertices) {
 TEST(GeometryStorage, NegativeNodeScaleChangesNothingInTheMesh) {
     GltfBuilder builder = gridModel(Grid(4));
     builder.json()["nodes"] = Json::parse(R"([{"mesh":0,"scale":[1,1,1]}])");
-    const Outcome plain = run(builder);
+    const GenerateRun plain = run(builder);
     builder.json()["nodes"] = Json::parse(R"([{"mesh":0,"scale":[-1,1,1]}])");
-    const Outcome mirrored = run(builder);
+    const GenerateRun mirrored = run(builder);
     EXPECT_EQ(readTangents(plain.after, plain.primitives.at(0)),
               readTangents(mirrored.after, mirrored.primitives.at(0)));
 }
@@ -221,7 +221,7 @@ TEST(GeometryStorage, AccessorsWithoutAViewAreZeros) {
     for (const std::size_t accessor : {0, 1, 2}) {
         GltfBuilder builder = gridModel(Grid(4));
         builder.json()["accessors"][accessor].erase("bufferView");
-        const Outcome outcome = run(builder);
+        const GenerateRun outcome = run(builder);
         EXPECT_EQ(outcome.report.primitives.at(0).action, PrimitiveAction::generated) << accessor;
         expectUnitTangents(outcome);
     }
@@ -242,7 +242,7 @@ TEST(GeometryStorage, SparsePositionsAndUvsCountWithTheirReplacements) {
     builder.json()["accessors"][2]["sparse"] = {{"count", places.size()},
                                                 {"indices", {{"bufferView", indices}, {"componentType", kU8}}},
                                                 {"values", {{"bufferView", values}}}};
-    const Outcome outcome = run(builder);
+    const GenerateRun outcome = run(builder);
     for (const Vec4& tangent : readTangents(outcome.after, outcome.primitives.at(0)))
         EXPECT_EQ(tangent, (Vec4{0, -1, 0, -1}));
     EXPECT_TRUE(outcome.after.json["accessors"][2].contains("sparse")) << "nothing was split, so it stays";
@@ -254,7 +254,7 @@ TEST(GeometryStorage, SparseAttributesAreSplitWithTheirReplacements) {
         {"count", 1},
         {"indices", {{"bufferView", builder.addView(bytesOfValues<std::uint8_t>({2}))}, {"componentType", kU8}}},
         {"values", {{"bufferView", builder.addView(bytesOfValues<float>({0.6f, 0, 0.8f}))}}}};
-    const Outcome outcome = run(builder);
+    const GenerateRun outcome = run(builder);
     EXPECT_EQ(outcome.report.primitives.at(0).vertices_after, 30u);
     EXPECT_EQ(readVec3(outcome.after, outcome.primitives[0], "NORMAL")[2], (Vec3{0.6f, 0, 0.8f}));
     EXPECT_FALSE(outcome.after.json["accessors"][1].contains("sparse"));

@@ -17,11 +17,11 @@ namespace tspace::gltf {
 namespace {
 
 using test::bytesOfValues;
+using test::CompressedRun;
 using test::errorOf;
 using test::expectOrderWhateverByteIsChanged;
 using test::generateAll;
 using test::GltfBuilder;
-using test::Outcome;
 using test::TempFolder;
 
 constexpr int kI8 = 5120, kU16 = 5123, kFloat = 5126;
@@ -252,7 +252,7 @@ PackedModel packedGrid(const char* extension = kExtMeshopt) {
 }
 
 TEST(MeshoptKeep, EncodesSplitVerticesWithTheFilterThatTheyHad) {
-    const Outcome outcome = generateAll(packedGrid().glb());
+    const CompressedRun outcome = generateAll(packedGrid().glb());
     EXPECT_EQ(outcome.report.primitives.at(0).vertices_after, 30u);
     const Primitive primitive = readPrimitives(outcome.after).at(0);
     const auto filter = [&](const char* name) {
@@ -297,7 +297,7 @@ TEST(MeshoptKeep, LeavesCompressedBytesOfUntouchedViewsAsTheyWere) {
     for (std::size_t i = 0; i < 25; ++i)
         uvs.insert(uvs.end(), {static_cast<float>(i % 5), static_cast<float>(4 - i / 5)});
     model.json()["accessors"][2]["bufferView"] = model.addView({.count = 25}, bytesOfValues(uvs), "ATTRIBUTES");
-    const Outcome outcome = generateAll(model.glb());
+    const CompressedRun outcome = generateAll(model.glb());
     ASSERT_EQ(outcome.report.primitives.at(0).vertices_after, 25u);
     for (std::size_t i = 1; i < outcome.before.json["bufferViews"].size(); ++i) {
         const MeshoptView a = *readMeshoptView(outcome.before, i), b = *readMeshoptView(outcome.after, i);
@@ -308,7 +308,7 @@ TEST(MeshoptKeep, LeavesCompressedBytesOfUntouchedViewsAsTheyWere) {
 }
 
 TEST(MeshoptKeep, MovesBetweenContainers) {
-    const Outcome outcome = generateAll(packedGrid().glb(), {}, "out.gltf");
+    const CompressedRun outcome = generateAll(packedGrid().glb(), {}, "out.gltf");
     EXPECT_EQ(outcome.after.buffers[1].source, BufferSource::decoded);
     EXPECT_FALSE(outcome.after.json["buffers"][1].contains("uri"));
 }
@@ -328,7 +328,7 @@ TEST(MeshoptKeep, RenewsPlainDataAndCompressedOnesWhereThereAreBoth) {
                              plain.begin() + static_cast<std::ptrdiff_t>(range.begin + range.byte_count));
     }
     model.json().erase("extensionsRequired");
-    const Outcome outcome = generateAll(model.glb());
+    const CompressedRun outcome = generateAll(model.glb());
     const Primitive primitive = readPrimitives(outcome.after).at(0);
     for (const auto& [name, index] : primitive.attributes) {
         const std::size_t view = *readAccessor(outcome.after, index).view;
@@ -342,7 +342,7 @@ TEST(MeshoptKeep, RenewsPlainDataAndCompressedOnesWhereThereAreBoth) {
 }
 
 TEST(MeshoptKeep, LeavesNoOldCompressedBytesBehind) {
-    const Outcome outcome = generateAll(packedGrid().glb());
+    const CompressedRun outcome = generateAll(packedGrid().glb());
     std::size_t compressed = 4;  // the plain view in front
     for (std::size_t i = 1; i < outcome.after.json["bufferViews"].size(); ++i)
         compressed += readMeshoptView(outcome.after, i)->byte_count;
@@ -352,7 +352,7 @@ TEST(MeshoptKeep, LeavesNoOldCompressedBytesBehind) {
 #if MESHOPTIMIZER_VERSION >= 1000
 
 TEST(MeshoptKhr, IsReadAndKept) {
-    const Outcome outcome = generateAll(packedGrid(kKhrMeshopt).glb());
+    const CompressedRun outcome = generateAll(packedGrid(kKhrMeshopt).glb());
     const Primitive primitive = readPrimitives(outcome.after).at(0);
     for (const auto& [name, index] : primitive.attributes) {
         const auto view = readMeshoptView(outcome.after, *readAccessor(outcome.after, index).view);

@@ -50,7 +50,7 @@ const Json& accessorOf(const Document& document, std::size_t target, const char*
     return document.json["accessors"][targetsOf(document)[target][name].get<std::size_t>()];
 }
 
-std::vector<Vec3> offsetsOf(const Outcome& outcome, std::size_t target, const char* name) {
+std::vector<Vec3> offsetsOf(const GenerateRun& outcome, std::size_t target, const char* name) {
     return readOffsets(outcome.after, outcome.primitives[0], target, name);
 }
 
@@ -76,7 +76,7 @@ TEST(MorphGltf, GivesDeltasToTargetsThatMoveTheSurfaceOnly) {
     const std::size_t colors = builder.addFloats(noneLifted(grid), 3);
     firstPrimitive(builder)["attributes"]["COLOR_0"] = colors;
     targets.push_back(Json{{"COLOR_0", colors}});
-    const Outcome outcome = run(builder);
+    const GenerateRun outcome = run(builder);
     const Json& after = targetsOf(outcome.after);
     for (const std::size_t moving : {0, 1, 2}) EXPECT_TRUE(after[moving].contains("TANGENT")) << moving;
     EXPECT_FALSE(after[3].contains("TANGENT"));
@@ -96,7 +96,7 @@ TEST(MorphGltf, StoresDeltasSparselyWhereMostAreZero) {
         for (std::size_t i = 0; i < offsets.size(); i += 3) offsets[i + 1] = std::sin(grid.positions[i]);
         return offsets;
     }();
-    const Outcome outcome = run(morphModel(grid, {one, noneLifted(grid), slope}));
+    const GenerateRun outcome = run(morphModel(grid, {one, noneLifted(grid), slope}));
     const Json& few = accessorOf(outcome.after, 0, "TANGENT");
     ASSERT_TRUE(few.contains("sparse"));
     EXPECT_FALSE(few.contains("bufferView"));
@@ -116,7 +116,7 @@ TEST(MorphGltf, GivesDeltasToGeneratedNormals) {
     const Grid grid(4);
     GltfBuilder builder = morphModel(grid, {allLifted(grid), lifted(grid, [](float x, float) { return x == 2; })});
     firstPrimitive(builder)["attributes"].erase("NORMAL");
-    const Outcome outcome = run(builder);
+    const GenerateRun outcome = run(builder);
     EXPECT_TRUE(outcome.report.primitives[0].normals_generated);
     const std::vector<Vec3> normals = readVec3(outcome.after, outcome.primitives[0], "NORMAL");
     for (const std::size_t target : {0, 1}) {
@@ -148,7 +148,7 @@ TEST(MorphGltf, SharesWhatPrimitivesShare) {
     GltfBuilder builder = morphModel(grid, {allLifted(grid)});
     const Json first = firstPrimitive(builder);
     builder.json()["meshes"][0]["primitives"].push_back(first);
-    const Outcome outcome = run(builder);
+    const GenerateRun outcome = run(builder);
     ASSERT_EQ(outcome.primitives.size(), 2u);
     EXPECT_EQ(outcome.primitives[0].targets, outcome.primitives[1].targets);
     EXPECT_EQ(outcome.primitives[0].attributes, outcome.primitives[1].attributes);
@@ -169,7 +169,7 @@ TEST(MorphGltf, KeepsSparseTargetsSparseThroughASplit) {
                                              {"indices", {{"bufferView", indices}, {"componentType", kU16}}},
                                              {"values", {{"bufferView", values}}}}}});
     firstPrimitive(builder)["targets"] = Json::array({Json{{"POSITION", 4}}});
-    const Outcome outcome = run(builder);
+    const GenerateRun outcome = run(builder);
     EXPECT_GT(outcome.report.primitives[0].vertices_after, grid.vertexCount());
     const Json& accessor = accessorOf(outcome.after, 0, "POSITION");
     ASSERT_TRUE(accessor.contains("sparse"));
@@ -260,7 +260,7 @@ TEST(MorphGltf, ReadsQuantisedOffsets) {
     builder.json()["bufferViews"].back()["byteStride"] = 4;
     builder.json()["extensionsUsed"] = builder.json()["extensionsRequired"] = {"KHR_mesh_quantization"};
     firstPrimitive(builder)["targets"] = Json::array({Json{{"POSITION", accessor}}});
-    const Outcome outcome = run(builder);
+    const GenerateRun outcome = run(builder);
     // Columns go up and down along y by one step of x, so at the left border T leans by 45 degrees.
     const std::vector<Vec3> deltas = offsetsOf(outcome, 0, "TANGENT");
     const std::vector<Vec4> tangents = readTangents(outcome.after, outcome.primitives[0]);

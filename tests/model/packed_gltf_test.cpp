@@ -79,7 +79,7 @@ const Json& accessorOf(const gltf::Document& document, const Primitive& primitiv
 TEST(PackedGltf, HoldsTheFramesOfTheFileInEveryFormat) {
     for (const FrameFormat format : kFormats) {
         SCOPED_TRACE(frameFormatName(format));
-        const Outcome outcome = run(gridModel(bentGrid()), packing(format));
+        const GenerateRun outcome = run(gridModel(bentGrid()), packing(format));
         ASSERT_EQ(outcome.primitives.size(), 1u);
         EXPECT_TRUE(outcome.report.primitives[0].frames_packed);
         EXPECT_EQ(outcome.report.primitives[0].packing.mendedCount(), 0u);
@@ -93,7 +93,7 @@ TEST(PackedGltf, LiesInAccessorsThatGltfAllows) {
         SCOPED_TRACE(frameFormatName(format));
         const gltf::PackedLayout& layout = gltf::packedLayout(format);
         EXPECT_EQ(layout.format, format);
-        const Outcome outcome = run(gridModel(Grid(4)), packing(format));
+        const GenerateRun outcome = run(gridModel(Grid(4)), packing(format));
         std::size_t bytes = 0;
         for (const gltf::PackedPart& part : layout.parts) {
             EXPECT_EQ(part.begin, bytes) << "together the parts are the word";
@@ -112,7 +112,7 @@ TEST(PackedGltf, LiesInAccessorsThatGltfAllows) {
 }
 
 TEST(PackedGltf, IsFourBytesForFrame32) {
-    const Outcome outcome = run(gridModel(Grid(4)), packing(FrameFormat::frame32));
+    const GenerateRun outcome = run(gridModel(Grid(4)), packing(FrameFormat::frame32));
     const Json& accessor = accessorOf(outcome.after, outcome.primitives.at(0), "_FRAME32");
     EXPECT_EQ(accessor["type"], "VEC4");
     EXPECT_EQ(accessor["componentType"], kU8);
@@ -140,7 +140,7 @@ TEST(PackedGltf, TakesTangentsThatStayAndMendsThemOnTheWay) {
 TEST(PackedGltf, IsLeftOutWithTheReasonWhereAFrameIsMissing) {
     GltfBuilder model = gridModel(Grid(4));
     firstPrimitive(model)["material"] = 1;
-    const Outcome outcome = run(model, packing(FrameFormat::frame32));
+    const GenerateRun outcome = run(model, packing(FrameFormat::frame32));
     const PrimitiveReport& report = outcome.report.primitives.at(0);
     EXPECT_FALSE(outcome.report.changed);
     EXPECT_FALSE(report.frames_packed);
@@ -228,7 +228,7 @@ TEST(PackedGltf, GivesUpNothingThatOthersUse) {
 TEST(PackedGltf, IsSharedByPrimitivesThatShareFrames) {
     GltfBuilder model = gridModel(Grid(4));
     model.json()["meshes"][0]["primitives"].push_back(Json(firstPrimitive(model)));
-    const Outcome outcome = run(model, packing(FrameFormat::frame32));
+    const GenerateRun outcome = run(model, packing(FrameFormat::frame32));
     ASSERT_EQ(outcome.primitives.size(), 2u);
     ASSERT_TRUE(outcome.primitives[0].find("_FRAME32"));
     EXPECT_EQ(outcome.primitives[0].find("_FRAME32"), outcome.primitives[1].find("_FRAME32"));
@@ -240,7 +240,7 @@ TEST(PackedGltf, IsOfTheBaseOfMorphTargetsWhoseBaseStays) {
     for (std::size_t i = 0; i < 25; ++i) offsets[3 * i + 2] = static_cast<float>(i % 3);
     const std::size_t moved = model.addFloats(offsets, 3);
     firstPrimitive(model)["targets"] = Json::array({Json{{"POSITION", moved}}});
-    const Outcome outcome = run(model, packing(FrameFormat::frame32, PackDrop::all));
+    const GenerateRun outcome = run(model, packing(FrameFormat::frame32, PackDrop::all));
     const Primitive& primitive = outcome.primitives.at(0);
     expectPacked(outcome.after, primitive, FrameFormat::frame32);
     EXPECT_FALSE(gltf::findAttribute(primitive.targets.at(0), "_FRAME32"));

@@ -111,7 +111,7 @@ TEST(Repair, ReplacesTangentsThatAreSharedAcrossAMirroredSeam) {
     for (std::size_t i = 0; i < 49; ++i)
         tangents.insert(tangents.end(), {i % 7 > 3 ? -1.0f : 1.0f, 0, 0, i % 7 > 3 ? -1.0f : 1.0f});
     firstPrimitive(builder)["attributes"]["TANGENT"] = builder.addFloats(tangents, 4);
-    const Outcome outcome = run(builder, kRepair);
+    const GenerateRun outcome = run(builder, kRepair);
     EXPECT_EQ(outcome.report.primitives.at(0).action, PrimitiveAction::replaced);
     EXPECT_EQ(outcome.report.primitives.at(0).vertices_after, 56u) << "the seam is split now";
     EXPECT_EQ(outcome.report.primitives.at(0).mended_vertex_count, 7u) << "no other vertex got another tangent";
@@ -143,7 +143,7 @@ TEST(Repair, LeavesPrimitivesWithGoodTangentsAloneBesideWrongOnes) {
     const std::size_t good_accessor = builder.addFloats(good, 4);
     primitives[0]["attributes"]["TANGENT"] = good_accessor;
     primitives[1]["attributes"]["TANGENT"] = builder.addFloats(wrong, 4);
-    const Outcome outcome = run(builder, kRepair);
+    const GenerateRun outcome = run(builder, kRepair);
     EXPECT_EQ(outcome.report.primitives.at(0).action, PrimitiveAction::kept);
     EXPECT_EQ(outcome.report.primitives.at(1).action, PrimitiveAction::replaced);
     EXPECT_EQ(outcome.report.primitives.at(2).action, PrimitiveAction::generated);
@@ -163,7 +163,7 @@ TEST(Repair, AddsDeltasOfMorphTargetsToGoodTangents) {
     const std::size_t tangents = builder.addFloats(good, 4), target = builder.addFloats(lift, 3);
     primitive["attributes"]["TANGENT"] = tangents;
     primitive["targets"] = Json::array({Json{{"POSITION", target}}});
-    const Outcome outcome = run(builder, kRepair);
+    const GenerateRun outcome = run(builder, kRepair);
     EXPECT_EQ(outcome.report.primitives.at(0).action, PrimitiveAction::kept);
     EXPECT_EQ(outcome.primitives[0].find("TANGENT"), tangents);
     EXPECT_EQ(outcome.primitives[0].targets.at(0).size(), 2u) << "POSITION and TANGENT";

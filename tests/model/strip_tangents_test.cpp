@@ -21,7 +21,7 @@ GltfBuilder unneeded(const Grid& grid = Grid(4, false)) {
 }
 
 TEST(StripTangents, TakesThemAwayWithTheirBytes) {
-    const Outcome outcome = run(unneeded(), {.strip = true});
+    const GenerateRun outcome = run(unneeded(), {.strip = true});
     const PrimitiveReport& report = outcome.report.primitives.at(0);
     EXPECT_EQ(report.action, PrimitiveAction::removed);
     EXPECT_EQ(report.reason, "nothing needs its tangents: its material has no texture that needs tangents");
@@ -34,19 +34,20 @@ TEST(StripTangents, TakesThemAwayWithTheirBytes) {
 }
 
 TEST(StripTangents, IsNotDoneUnlessAskedFor) {
-    const Outcome outcome = run(unneeded());
+    const GenerateRun outcome = run(unneeded());
     EXPECT_EQ(outcome.report.primitives.at(0).action, PrimitiveAction::notNeeded);
     EXPECT_FALSE(outcome.report.changed);
 }
 
 TEST(StripTangents, LeavesThoseThatAMaterialOrAVariantNeeds) {
-    const Outcome needed = run(withTangents(Grid(4, false)), {.strip = true, .existing = ExistingTangents::replace});
+    const GenerateRun needed =
+        run(withTangents(Grid(4, false)), {.strip = true, .existing = ExistingTangents::replace});
     EXPECT_EQ(needed.report.primitives.at(0).action, PrimitiveAction::replaced);
 
     GltfBuilder builder = unneeded();
     firstPrimitive(builder)["extensions"]["KHR_materials_variants"]["mappings"] =
         Json::parse(R"([{"material":0,"variants":[0]}])");
-    const Outcome variant = run(builder, {.strip = true, .existing = ExistingTangents::replace});
+    const GenerateRun variant = run(builder, {.strip = true, .existing = ExistingTangents::replace});
     EXPECT_EQ(variant.report.primitives.at(0).action, PrimitiveAction::replaced);
     EXPECT_EQ(variant.report.primitives.at(0).reason,
               "a material variant needs tangents for normalTexture, and overwriting was asked for");
@@ -83,7 +84,7 @@ TEST(StripTangents, LeavesInterleavedNeighboursAsTheyAre) {
             {{"bufferView", view}, {"byteOffset", offset}, {"componentType", 5126}, {"count", 3}, {"type", type}});
     }
     builder.addPrimitive({{"POSITION", 0}, {"TANGENT", 1}});
-    const Outcome outcome = run(builder, {.strip = true});
+    const GenerateRun outcome = run(builder, {.strip = true});
     EXPECT_EQ(outcome.report.primitives.at(0).action, PrimitiveAction::removed);
     EXPECT_EQ(readVec3(outcome.after, outcome.primitives[0], "POSITION")[2], (Vec3{14, 15, 16}));
 }
@@ -93,7 +94,7 @@ TEST(StripTangents, TakesThoseOfMorphTargetsToo) {
     const std::size_t delta = builder.addFloats(std::vector<float>(25 * 3), 3);
     const std::size_t turn = builder.addFloats(std::vector<float>(25 * 3), 3);
     firstPrimitive(builder)["targets"] = Json::array({Json{{"POSITION", delta}, {"TANGENT", turn}}});
-    const Outcome outcome = run(builder, {.strip = true});
+    const GenerateRun outcome = run(builder, {.strip = true});
     EXPECT_EQ(outcome.report.primitives.at(0).action, PrimitiveAction::removed);
     ASSERT_EQ(outcome.primitives[0].targets.size(), 1u);
     EXPECT_EQ(outcome.primitives[0].targets[0].size(), 1u);
@@ -114,7 +115,7 @@ TEST(StripTangents, TakesThemFromPointsAndFromSparseAccessors) {
     accessor["sparse"] = {{"count", 1},
                           {"indices", {{"bufferView", views - 2}, {"componentType", kU16}}},
                           {"values", {{"bufferView", views - 1}}}};
-    const Outcome outcome = run(builder, {.strip = true});
+    const GenerateRun outcome = run(builder, {.strip = true});
     EXPECT_EQ(outcome.report.primitives.at(0).action, PrimitiveAction::removed);
     EXPECT_FALSE(outcome.after.json["accessors"][4].contains("sparse"));
     EXPECT_LT(outcome.after.buffers[0].bytes.size(), outcome.before.buffers[0].bytes.size());
@@ -125,7 +126,7 @@ TEST(StripTangents, CanEmptyABufferThatHeldNothingElse) {
     builder.addFloats(std::vector<float>(12, 0.5f), 4);
     builder.json()["accessors"].push_back({{"componentType", 5126}, {"count", 3}, {"type", "VEC3"}});
     builder.addPrimitive({{"POSITION", 1}, {"TANGENT", 0}});
-    const Outcome outcome = run(builder, {.strip = true});
+    const GenerateRun outcome = run(builder, {.strip = true});
     EXPECT_GT(outcome.after.json["buffers"][0]["byteLength"], 0) << "glTF has no empty buffers";
     EXPECT_LT(outcome.after.json["buffers"][0]["byteLength"], 48);
 }

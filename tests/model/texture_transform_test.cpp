@@ -21,7 +21,7 @@ GltfBuilder transformed(const Json& transform, bool mirrored_grid = false) {
 }
 
 std::vector<Vec4> tangentsOf(const GltfBuilder& builder, const GenerateOptions& options = {}) {
-    const Outcome outcome = run(builder, options);
+    const GenerateRun outcome = run(builder, options);
     return readTangents(outcome.after, outcome.primitives.at(0));
 }
 
@@ -115,7 +115,7 @@ TEST(TextureTransform, PartsPrimitivesThatShareVerticesOnlyWhereTheirTangentsDif
     };
     add({{"rotation", 1}, {"scale", {5, 5}}, {"offset", {1, 2}}});
     add({{"rotation", 2}});
-    const Outcome outcome = run(builder);
+    const GenerateRun outcome = run(builder);
     const auto tangent = [&](std::size_t i) { return outcome.primitives.at(i).find("TANGENT"); };
     EXPECT_EQ(tangent(0), tangent(1)) << "a common scale turns nothing";
     EXPECT_NE(tangent(0), tangent(2));

@@ -172,7 +172,7 @@ Result<std::vector<std::uint8_t>> packInverted(ByteSpan bytes, const PngHeader& 
 
 Error checkPixels(ByteSpan bytes, const PngHeader&) {
     std::string why;
-    return decode(bytes, ~std::uint64_t{0}, why) ? Error{} : Error{ErrorCode::unsupportedFile, why};
+    return decode(bytes, ~std::uint64_t{0}, why) ? Error{ErrorCode::ok} : Error{ErrorCode::unsupportedFile, why};
 }
 
 Result<ChannelImage> readJpegPixels(ByteSpan bytes) { return decodeChannels(bytes, 3); }

@@ -281,8 +281,7 @@ void AtomicOutput::renameFiles() {
         bool is_made = false;
     };
     std::vector<Aside> aside(files_.size());
-    std::vector<std::string> written;
-    written.reserve(files_.size());
+    std::vector<RunFile*> in_run(files_.size());
     std::vector<Path> folders;
     const auto addFolder = [&](Path folder) {
         const auto isIt = [&](const Path& known) { return known.string() == folder.string(); };
@@ -291,6 +290,7 @@ void AtomicOutput::renameFiles() {
     for (std::size_t i = 0; i < files_.size(); ++i) {
         if (!files_[i].is_made) continue;
         addFolder(folderOf(files_[i].target));
+        inRun(files_[i].target, [&](RunFile& known) { in_run[i] = &known; });
         if (files_.size() > 1 && kindOf(files_[i].target) == PathKind::file)
             aside[i].name = besideName(files_[i].target, kAsideEnding);
     }
@@ -325,17 +325,18 @@ void AtomicOutput::renameFiles() {
         for (std::size_t i = 0; failure == 0 && i < files_.size(); ++i) {
             if (aside[i].is_made) removePath(aside[i].name);
             work.forget(files_[i].temporary);
-            if (files_[i].is_made) written.push_back(files_[i].target.string());
             files_[i].is_made = false;
         }
     }
     if (failure != 0) failToWrite(files_[failed].target, std::strerror(failure));
     committed_ = true;
-    for (const std::string& name : written) {
-        inRun(name, [&](RunFile& known) {
-            known.owner = way_.inputs != nullptr ? way_.inputs->call() : 0;
-            known.is_written = true;
-        });
+    {
+        const std::lock_guard run_lock(runFiles().mutex);
+        for (RunFile* const known : in_run) {
+            if (known == nullptr) continue;
+            known->owner = way_.inputs != nullptr ? way_.inputs->call() : 0;
+            known->is_written = true;
+        }
     }
     lock.unlock();
     for (const Path& folder : folders) syncFolder(folder);
