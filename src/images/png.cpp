@@ -271,7 +271,7 @@ Result<std::vector<std::uint8_t>> packInverted(ByteSpan bytes, const PngHeader& 
 Error checkPixels(ByteSpan bytes, const PngHeader& header) {
     return orBroken([&] {
         readRows(bytes, header);
-        return Error{};
+        return Error{ErrorCode::ok};
     });
 }
 
