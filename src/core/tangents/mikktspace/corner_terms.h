@@ -31,6 +31,7 @@ struct CornerSource : VertexArrays {
 
 inline constexpr std::size_t kTermTriangles = 64;  ///< of one block, whose arrays stay in the first cache
 inline constexpr std::size_t kTermCorners = 3 * kTermTriangles;
+inline constexpr std::size_t kTermGroup = 16;  ///< triangles that a kernel reads at once at most
 
 /// Marks of a corner. A threshold of 180 degrees separates only opposite tangents or bitangents, whose cosine rounds to -1. If
 /// all tangents of a node have a component above kSideMargin on one axis, or all have one below -kSideMargin, then any two

@@ -20,7 +20,6 @@ namespace {
 constexpr std::size_t kGroupGrain = 8192, kWriteGrain = 8192;
 
 constexpr std::size_t kGroupsPerTask = 4096;  // at least: below, another thread costs more than it saves
-constexpr std::size_t kTermGroup = 16;        // triangles that kernels read at once at most (corner_terms.h)
 
 /// A plan's triangles, as range lists and estimators read them. A group with kTopBit is no group there: the triangle adds
 /// nothing to it.

@@ -22,7 +22,6 @@ constexpr unsigned kTaskShift = 12;  // nodes of a task at least: below, another
 constexpr unsigned kScatteredShift = 13;
 constexpr std::size_t kScatteredRange = std::size_t{1} << kScatteredShift;
 constexpr std::size_t kTasksPerThread = 4;
-constexpr std::size_t kTermGroup = 16;  // triangles that kernels read at once at most (corner_terms.h)
 /// The locality argument of __builtin_prefetch. The prefetched data of a block do not fit into the first cache beside what
 /// the kernel works on. Measured: 120 ns per triangle with the first cache, 67 with the second.
 constexpr int kSecondCache = 2;
