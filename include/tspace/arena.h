@@ -27,9 +27,9 @@ class Arena {
     /// For Execution::allocator. Valid as long as the arena.
     [[nodiscard]] const Allocator* allocator() const { return &allocator_; }
 
-    /// What the arena holds now, in use or not. Address space that no memory stands behind does not count.
+    /// Bytes of memory that the arena holds now, in use or not. Reserved address space without memory does not count.
     [[nodiscard]] std::size_t heldBytes() const;
-    /// What is in use now: 0 between calls, but for plans.
+    /// Bytes in use now: 0 between calls, except for plans.
     [[nodiscard]] std::size_t usedBytes() const;
 
     /// Gives back what lies behind the last allocation in use; between calls without plans, that is everything.

@@ -6,7 +6,7 @@
 
 namespace tspace {
 
-/// Where v = 0 lies in the texture. It decides every sign, so nothing stands for it when it is not said.
+/// Where v = 0 lies in the texture. It decides every sign, so it has no default.
 enum class VAxis : std::uint32_t {
     unset = 0,  ///< not said; what computes tangents then fails with invalidOption
     up = 1,     ///< v = 0 is the bottom row of the image (OpenGL, Blender, Unity)

@@ -30,7 +30,7 @@ struct FaceFrame {
 
 /// From the edges P1-P0 and P2-P0. Divides by nothing when the determinant is zero or not finite.
 FaceFrame faceFrame(const Vec3 positions[3], const Vec2 uvs[3]);
-/// The same from the edges P1-P0 and P2-P1: equal up to rounding.
+/// faceFrame from the edges P1-P0 and P2-P1: equal up to rounding.
 FaceFrame faceFrameFromPath(const Vec3 positions[3], const Vec2 uvs[3]);
 
 /// Determinant of the matrix with columns T, B, N.
@@ -90,8 +90,8 @@ float lambert(const Frame& frame, const Vec3& light_direction, const Vec3& tange
 /// Object-space normal for a decoded texel: unit(T x + B y + N z) with the frame orthonormalised first.
 Vec3 objectNormal(const Frame& frame, const Vec3& tangent_space_normal);
 
-/// The same in MikkTSpace's convention: T and N as interpolated, not normalised, B = sign * cross(N, T) from them;
-/// only the result is normalised. What bakers assume.
+/// objectNormal in MikkTSpace's convention, which bakers assume: T and N as interpolated, not normalised, B = sign *
+/// cross(N, T) from them; only the result is normalised.
 Vec3 objectNormalMikktspace(const Vec3& interpolated_normal, const Vec4& interpolated_tangent,
                             const Vec3& tangent_space_normal);
 

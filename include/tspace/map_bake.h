@@ -33,7 +33,7 @@ struct BakeOptions {
     std::uint64_t memory_limit_bytes = 0;
 };
 
-/// What a texel of a baked map is.
+/// The origin of a texel of a baked map.
 enum class TexelOrigin : std::uint8_t {
     background = 0,  ///< no triangle is near: flat
     padding = 1,     ///< continues the nearest triangle
@@ -55,7 +55,7 @@ struct BakedMap {
     MapError error = {};                    ///< against the high poly, as shaded
 };
 
-/// What a bake takes at its peak, about; with `solve` that of one whose texels all need rays between them.
+/// The peak memory of a bake, about; with `solve` that of one whose texels all need rays between them.
 std::uint64_t bakeBytes(std::uint64_t low_triangles, std::uint64_t high_triangles, const BakeOptions& options);
 
 /// Bakes one image. The same texels for any thread count. Time: rays, about 1 microsecond

@@ -11,7 +11,7 @@
 
 namespace tspace {
 
-/// What the vectors of a map in a file are told in.
+/// The space of the vectors of a map in a file.
 enum class MapFileSpace : std::uint32_t {
     tangent = 0,
     object = 1,  ///< the coordinates of the mesh, as the model file has them
@@ -30,7 +30,7 @@ struct ConvertMapFileOptions {
     /// Where `input` keeps its vectors: it is read by this first. The output always has x, y and z in red, green and blue,
     /// and alpha only where that was none of them.
     MapLayout layout = {};
-    /// Of a channel: 8 or 16 in a PNG; 16 (half) or 32 (float) in an EXR. 0: the most that the format has.
+    /// Bits of a channel: 8 or 16 in a PNG; 16 (half) or 32 (float) in an EXR. 0: the most that the format has.
     unsigned bits = 0;
     std::uint32_t padding = 0;  ///< ConvertMapOptions::padding
     /// For meshes without tangents, which get them as generateFile gives them.

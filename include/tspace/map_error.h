@@ -84,7 +84,7 @@ struct MapCandidate {
     StridedSpan<const Vec4> tangents = {};  ///< three per triangle; empty: the low poly's
 };
 
-/// The same for each of several readings, at the same points. Without `heat`. Errors as measureMap.
+/// measureMap for each of several readings, at equal points, without `heat`. Errors as measureMap.
 Result<std::vector<MapError>> measureReadings(const MapImage& map, const LowPoly& low, const HighPoly& high,
                                               std::span<const MapCandidate> candidates,
                                               const MapErrorOptions& options = {}, const Execution& execution = {},

@@ -10,7 +10,7 @@
 
 namespace tspace {
 
-/// What the vectors of a map are told in.
+/// The space of the vectors of a map.
 enum class MapSpace : std::uint32_t {
     tangent = 0,
     object = 1  ///< the coordinates of the meshes

@@ -17,7 +17,7 @@ enum class MapChannel : std::uint32_t {
     none = 4  ///< of z only: it is the root of 1 - x^2 - y^2
 };
 
-/// What was done to the numbers of an image that was taken for a picture.
+/// The curve that was applied to the numbers of an image that was taken for a picture.
 enum class MapCurve : std::uint32_t {
     none = 0,
     srgb = 1,       ///< the sRGB curve was put on: a flat texel is (188, 188, 255)

@@ -54,7 +54,7 @@ struct NormalOptions {
     std::uint32_t refine = 1;
 };
 
-/// What was met. Broken input is counted here and never makes the call fail.
+/// Counts of faces and defects of the input. Broken input never makes the call fail.
 struct NormalReport {
     std::uint64_t face_count = 0;             ///< faces with at least 3 corners
     std::uint64_t degenerate_face_count = 0;  ///< faces without a normal (zero area or not finite)

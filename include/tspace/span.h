@@ -28,7 +28,7 @@ struct StridedSpan {
     template <class Container>
     requires std::is_constructible_v<std::span<T>, Container&> constexpr StridedSpan(Container& c)
         : StridedSpan(std::span<T>(c)) {}
-    /// A mutable span is usable where a const one is asked for.
+    /// A mutable span converts to a const one.
     template <class U>
     requires(std::is_same_v<const U, T> && !std::is_const_v<U>) constexpr StridedSpan(const StridedSpan<U>& s)
         : data(s.data), count(s.count), stride_bytes(s.stride_bytes) {}

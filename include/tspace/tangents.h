@@ -96,7 +96,7 @@ struct TangentOptions {
     std::uint32_t refine = 1;
 };
 
-/// What was met, counted. Broken input never makes a call fail.
+/// Counts of triangles, groups and defects of the input. Broken input never makes a call fail.
 struct TangentReport {
     std::uint64_t triangle_count = 0;             ///< triangles computed with, after cutting quads and n-gons
     std::uint64_t degenerate_triangle_count = 0;  ///< two corners at the same position
@@ -196,8 +196,9 @@ Result<TangentPlan> planTangents(const MeshView& mesh, const TangentOptions& opt
 /// Computes frames for a pose with the plan's groups and splits. Each corner has the pose's position and normal of its
 /// own vertex, also where vertices that were equal on the mesh come apart. On the pose the plan was made from the
 /// result is bit for bit that of generateTangents. `execution` replaces the plan's. Scratch memory of the grouping
-/// methods: 12 bytes per group when only tangents are asked for, else 44. Errors: planMismatch when counts differ from
-/// the plan's, and those of span checks. O(corners).
+/// methods: 12 bytes per group when only tangents are asked for, else 44; with several threads also up to 12 bytes per
+/// triangle where triangles are in no order, and next to nothing where they are. Errors: planMismatch when counts differ
+/// from the plan's, and those of span checks. O(corners).
 Result<TangentReport> evaluateTangents(const TangentPlan& plan, const Pose& pose, const TangentOutput& out,
                                        const Execution& execution = {});
 

@@ -243,9 +243,9 @@ tspace_ErrorCode tspace_createArena(tspace_Arena** arena, tspace_Error* error) T
 /* For tspace_Execution.allocator. Valid as long as the arena. */
 const tspace_Allocator* tspace_arenaAllocator(const tspace_Arena* arena) TSPACE_NOEXCEPT;
 
-/* What the arena holds now, in use or not. Address space that no memory stands behind does not count. */
+/* Bytes of memory that the arena holds now, in use or not. Reserved address space without memory does not count. */
 size_t tspace_arenaHeldBytes(const tspace_Arena* arena) TSPACE_NOEXCEPT;
-/* What is in use now: 0 between calls, but for plans. */
+/* Bytes in use now: 0 between calls, except for plans. */
 size_t tspace_arenaUsedBytes(const tspace_Arena* arena) TSPACE_NOEXCEPT;
 
 /* Gives back what lies behind the last allocation in use; between calls without plans, that is everything. */
@@ -254,7 +254,7 @@ void tspace_trimArena(tspace_Arena* arena) TSPACE_NOEXCEPT;
 /* Frees an arena. Null is allowed. */
 void tspace_destroyArena(tspace_Arena* arena) TSPACE_NOEXCEPT;
 
-/* Where v = 0 lies in the texture. It decides every sign, so nothing stands for it when it is not said. */
+/* Where v = 0 lies in the texture. It decides every sign, so it has no default. */
 typedef uint32_t tspace_VAxis;
 enum {
     TSPACE_V_UNSET = 0, /* not said; what computes tangents then fails with INVALID_OPTION */
@@ -399,7 +399,7 @@ typedef struct tspace_TangentOptions {
     uint32_t refine;
 } tspace_TangentOptions;
 
-/* What was met, counted. Broken input never makes a call fail. */
+/* Counts of triangles, groups and defects of the input. Broken input never makes a call fail. */
 typedef struct tspace_TangentReport {
     uint32_t struct_size;
     /* 0 or 1. TSPACE_METHOD_MIKKTSPACE: the input drives the reference itself into quadratic time, so its last step
@@ -490,8 +490,9 @@ typedef struct tspace_Pose {
 /* Computes frames for a pose with the plan's groups and splits. Each corner has the pose's position and normal of
  * its own vertex, also where vertices that were equal on the mesh come apart. On the pose the plan was made from the
  * result is bit for bit that of tspace_generateTangents. `execution` replaces the plan's. Scratch memory of the
- * grouping methods: 12 bytes per group when only tangents are asked for, else 44. Errors: PLAN_MISMATCH when counts
- * differ from the plan's, and those of span checks. O(corners).
+ * grouping methods: 12 bytes per group when only tangents are asked for, else 44; with several threads also up to 12
+ * bytes per triangle where triangles are in no order, and next to nothing where they are. Errors: PLAN_MISMATCH when
+ * counts differ from the plan's, and those of span checks. O(corners).
  * In C: execution null: the default. */
 tspace_ErrorCode tspace_evaluateTangents(const tspace_TangentPlan* plan, const tspace_Pose* pose,
                                          const tspace_TangentOutput* out, const tspace_Execution* execution,

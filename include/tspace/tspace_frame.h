@@ -48,7 +48,7 @@ typedef struct tspace_FaceFrame {
 /* From the edges P1-P0 and P2-P0. Divides by nothing when the determinant is zero or not finite.
  * In C: positions and uvs are 3 each. */
 tspace_FaceFrame tspace_faceFrame(const tspace_Vec3* positions, const tspace_Vec2* uvs) TSPACE_NOEXCEPT;
-/* The same from the edges P1-P0 and P2-P1: equal up to rounding.
+/* tspace_faceFrame from the edges P1-P0 and P2-P1: equal up to rounding.
  * In C: positions and uvs are 3 each. */
 tspace_FaceFrame tspace_faceFrameFromPath(const tspace_Vec3* positions, const tspace_Vec2* uvs) TSPACE_NOEXCEPT;
 
@@ -104,8 +104,8 @@ float tspace_lambert(tspace_Frame frame, tspace_Vec3 light_direction, tspace_Vec
 /* Object-space normal for a decoded texel: unit(T x + B y + N z) with the frame orthonormalised first. */
 tspace_Vec3 tspace_objectNormal(tspace_Frame frame, tspace_Vec3 tangent_space_normal) TSPACE_NOEXCEPT;
 
-/* The same in MikkTSpace's convention: T and N as interpolated, not normalised, B = sign * cross(N, T) from them;
- * only the result is normalised. What bakers assume. */
+/* tspace_objectNormal in MikkTSpace's convention, which bakers assume: T and N as interpolated, not normalised, B =
+ * sign * cross(N, T) from them; only the result is normalised. */
 tspace_Vec3 tspace_objectNormalMikktspace(tspace_Vec3 interpolated_normal, tspace_Vec4 interpolated_tangent,
                                           tspace_Vec3 tangent_space_normal) TSPACE_NOEXCEPT;
 

@@ -57,7 +57,7 @@ typedef struct tspace_NormalOptions {
     uint32_t reserved;
 } tspace_NormalOptions;
 
-/* What was met. Broken input is counted here and never makes the call fail. */
+/* Counts of faces and defects of the input. Broken input never makes the call fail. */
 typedef struct tspace_NormalReport {
     uint32_t struct_size;
     uint32_t reserved;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What each image library gives, behind one shape. Reasons (`why`) are half a sentence: "it is a broken PNG".
+// One interface to all image libraries. Reasons (`why`) are half a sentence: "it is a broken PNG".
 #pragma once
 
 #include "images/float_image.h"
@@ -10,13 +10,14 @@ namespace tspace {
 /// A few bytes may claim any number of pixels. What is honest is rarely more than 64 times as large as its file.
 bool isTooLarge(ImageSize size, std::size_t byte_count, std::uint64_t most_pixels, std::string& why);
 
-/// What a head claims, before any check and without the library, and what decoding it takes of memory.
+/// The size that a file's header claims, read without a library and without any check, and the memory that decoding it
+/// takes.
 struct ImageClaim {
     ImageSize size = {};
     std::uint64_t work_bytes = 0;
 };
 
-/// Of any format; nothing where this build does not decode it.
+/// The claim of a file of any format; nothing where this build does not decode it.
 ImageClaim claimOf(ByteSpan bytes);
 ImageClaim claimOfPng(ByteSpan bytes);
 ImageClaim claimOfJpeg(ByteSpan bytes);
@@ -24,6 +25,9 @@ ImageClaim claimOfWebp(ByteSpan bytes);
 ImageClaim claimOfExr(ByteSpan bytes);
 
 std::optional<RgbImage> decodePng(ByteSpan bytes, std::uint64_t most_pixels, std::string& why);
+/// decodeFloatImage for PNG; samples of fewer than 16 bits are widened by repeating their bits, which keeps n /
+/// largest.
+std::optional<FloatImage> decodeDeepPng(ByteSpan bytes, std::uint64_t most_pixels, std::string& why);
 /// Four channels; nothing where it is broken or has no alpha.
 std::vector<std::uint8_t> decodePngRgba(ByteSpan bytes);
 std::optional<RgbImage> decodeJpeg(ByteSpan bytes, std::uint64_t most_pixels, std::string& why);

@@ -16,7 +16,7 @@ namespace tspace {
 
 namespace {
 
-/// What its head says, as far as it is needed before the library sees it.
+/// The fields of the header that are needed before the library reads the file.
 struct ExrHead {
     ImageSize size = {};
     std::uint64_t channel_count = 0, chunk_pixels = 0;
@@ -208,7 +208,7 @@ class ExrReader {
         openExr().getStorage(file_.context, kPart, &storage);
         if (storage != EXR_STORAGE_SCANLINE && storage != EXR_STORAGE_TILED) return {};
         if (!(storage == EXR_STORAGE_TILED ? readTiles() : readRows())) return {};
-        settleTexels();
+        replaceNotFinite();
         return std::move(image_);
     }
 
@@ -334,8 +334,8 @@ class ExrReader {
         channel.user_line_stride = static_cast<std::int32_t>(pixel_bytes * size_.width);
     }
 
-    /// What is not finite has no direction.
-    void settleTexels() {
+    /// Counts texels that are not finite, which have no direction, and makes them grey.
+    void replaceNotFinite() {
         for (Vec3& texel : image_.texels) {
             if (std::isfinite(texel.x) && std::isfinite(texel.y) && std::isfinite(texel.z)) continue;
             texel = {0.5F, 0.5F, 0.5F};

@@ -14,13 +14,13 @@ struct ChannelImage {
     std::vector<std::uint8_t> pixels = {};
 };
 
-/// What flipping takes of memory, beside the input and the output.
+/// The memory that flipping takes, beside the input and the output.
 std::uint64_t flipWorkBytes(ByteSpan bytes);
-/// What the rows of a PNG unpack to, with 16 bytes more for each row, as its head claims: the time that flipping takes. 0 for
-/// other formats, all of whose pixels are in memory.
+/// The bytes that the rows of a PNG unpack to, by its header, and 16 bytes more for each row: a measure of the time
+/// that flipping takes. 0 for other formats, all of whose pixels are in memory.
 std::uint64_t flipUnpackedBytes(ByteSpan bytes);
 
-/// What flipGreen does, without a look at what the image may take. Of `options`: format and jpeg_quality.
+/// flipGreen without the check of memory. Reads format and jpeg_quality of `options`.
 Result<FlippedImage> flipImage(ByteSpan bytes, const FlipGreenOptions& options);
 
 /// A PNG with its green channel inverted, and all else as it was.

@@ -7,7 +7,7 @@
 
 namespace tspace {
 
-/// What decoding, converting and packing a map hold per pixel, without the decoder's own.
+/// Bytes per pixel that decoding, converting and packing a map hold, without the decoder's own.
 inline constexpr std::uint64_t kMapPixelBytes = 72;
 /// Larger images of a model are not written anew.
 inline constexpr std::uint64_t kMostModelMapPixels = std::uint64_t{1} << 26;
@@ -22,7 +22,7 @@ struct FloatImage {
     std::uint64_t not_finite = 0;   ///< texels of an EXR that were not finite, and are grey now
 };
 
-/// As decodeImage, with all bits of the file. Memory: 16 bytes a pixel, or 12 without alpha, and the decoder's.
+/// decodeImage with all bits of the file. Memory: 16 bytes a pixel, or 12 without alpha, and the decoder's.
 std::optional<FloatImage> decodeFloatImage(ByteSpan bytes, std::uint64_t most_pixels, std::string& why);
 
 /// An EXR with channels of 16 (half) or 32 bits, packed without loss. All are finite. Nothing where it is out of memory.
@@ -32,7 +32,7 @@ std::optional<std::vector<std::uint8_t>> encodeExr(const FloatImage& image, unsi
 /// A PNG of 8 or 16 bits without a word on colours: each channel clamped to 0 to 1, then rounded to the nearest integer
 /// (not finite: 0). Nothing where this build writes no PNG or libspng fails.
 std::optional<std::vector<std::uint8_t>> encodePng(const FloatImage& image, unsigned bits);
-/// The same of bytes.
+/// encodePng for bytes.
 std::optional<std::vector<std::uint8_t>> encodePng(const RgbImage& image);
 
 }  // namespace tspace

@@ -18,7 +18,7 @@ bool has(ByteSpan bytes, std::size_t at, std::string_view text) {
                       [](char a, std::uint8_t b) { return static_cast<std::uint8_t>(a) == b; });
 }
 
-/// Of a format: how it is called, and what decodes it in this build.
+/// A format: its names, and its decoder in this build.
 struct Codec {
     const char* name = "";
     const char* mime_type = "";

@@ -38,7 +38,7 @@ struct ImageSize {
     [[nodiscard]] std::uint64_t pixels() const { return std::uint64_t{width} * height; }
 };
 
-/// What the head of the file says, without any check; at most 2^30 each. 0 where decodeImage decodes nothing.
+/// The size in the file's header, without any check; at most 2^30 each. 0 where decodeImage decodes nothing.
 ImageSize claimedSize(ByteSpan bytes);
 
 /// Decodes PNG, JPEG, WebP and EXR (rounded to 8 bits), told apart by content. Nothing, with the reason in `why` (half a sentence), for other

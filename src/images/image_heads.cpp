@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What PNG and JPEG files say before their pixels, read without a library.
+// Headers of PNG and JPEG files, read without a library.
 #include <algorithm>
 
 #include "images/codecs.h"

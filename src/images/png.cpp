@@ -1,24 +1,202 @@
 // SPDX-License-Identifier: MIT
-// PNG by libspng.
+// All that libspng does: decoding to bytes and floats, encoding, and a PNG packed anew with its green channel inverted.
+#include <spng.h>
+
+#include <cstdlib>
+#include <cstring>
 #include <memory>
 
+#include "core/base/memory.h"
 #include "images/codecs.h"
-#include "images/png_context.h"
+#include "images/flip_green.h"
+#include "images/png_pixels.h"
 
 namespace tspace {
 
-std::optional<RgbImage> decodePng(ByteSpan bytes, std::uint64_t most_pixels, std::string& why) {
-    constexpr std::size_t kMostChunkBytes = std::size_t{64} << 20;
-    const PngContext context(spng_ctx_new(0));
-    spng_ihdr header{};
+namespace {
+
+constexpr std::size_t kMostChunkBytes = std::size_t{64} << 20;
+
+struct FreePngContext {
+    void operator()(spng_ctx* context) const { spng_ctx_free(context); }
+};
+using PngContext = std::unique_ptr<spng_ctx, FreePngContext>;
+
+/// Opens a PNG that may be decoded. Returns false and says why where it is broken or too large.
+bool openPng(ByteSpan bytes, std::uint64_t most_pixels, PngContext& context, spng_ihdr& header, std::string& why) {
     why = "it is a broken PNG";
-    if (!context || spng_set_chunk_limits(context.get(), kMostChunkBytes, kMostChunkBytes) != 0 ||
-        spng_set_png_buffer(context.get(), bytes.data(), bytes.size()) != 0 ||
-        spng_get_ihdr(context.get(), &header) != 0) {
+    context.reset(spng_ctx_new(0));
+    return context && spng_set_chunk_limits(context.get(), kMostChunkBytes, kMostChunkBytes) == 0 &&
+           spng_set_png_buffer(context.get(), bytes.data(), bytes.size()) == 0 &&
+           spng_get_ihdr(context.get(), &header) == 0 &&
+           !isTooLarge({header.width, header.height}, bytes.size(), most_pixels, why);
+}
+
+// -- encoding --
+
+unsigned nearest(float part, unsigned largest) {
+    if (!(part > 0)) return 0;
+    const double scaled = static_cast<double>(part) * largest + 0.5;
+    return scaled >= largest ? largest : static_cast<unsigned>(scaled);
+}
+
+/// Samples one after the other, those of 16 bits as this machine has them: libspng turns them round.
+std::vector<std::uint8_t> samplesOf(const FloatImage& image, unsigned bits) {
+    const bool has_alpha = !image.alpha.empty();
+    const std::size_t sample_bytes = bits / 8;
+    std::vector<std::uint8_t> samples(image.texels.size() * (has_alpha ? 4 : 3) * sample_bytes);
+    std::uint8_t* at = samples.data();
+    const auto put = [&](float part) {
+        const unsigned value = nearest(part, bits == 16 ? 65535 : 255);
+        const auto word = static_cast<std::uint16_t>(value);
+        if (bits == 16) {
+            std::memcpy(at, &word, sizeof word);
+        } else {
+            *at = static_cast<std::uint8_t>(value);
+        }
+        at += sample_bytes;
+    };
+    for (std::size_t i = 0; i < image.texels.size(); ++i) {
+        put(image.texels[i].x);
+        put(image.texels[i].y);
+        put(image.texels[i].z);
+        if (has_alpha) put(image.alpha[i]);
+    }
+    return samples;
+}
+
+/// One filter for all rows: to try all on each row takes as long as all else, and saves a hundredth of the bytes.
+std::optional<std::vector<std::uint8_t>> encodeSamples(spng_ihdr header, const std::vector<std::uint8_t>& samples) {
+    // The lower half of 16 bits is noise: higher levels take four times as long, and save a tenth.
+    const int level = header.bit_depth == 16 ? 1 : 6;  // 6: what zlib takes by itself
+    struct Free {
+        void operator()(void* memory) const { std::free(memory); }
+    };
+    const PngContext context(spng_ctx_new(SPNG_CTX_ENCODER));
+    if (!context || spng_set_option(context.get(), SPNG_ENCODE_TO_BUFFER, 1) != 0 ||
+        spng_set_option(context.get(), SPNG_FILTER_CHOICE, SPNG_FILTER_CHOICE_PAETH) != 0 ||
+        spng_set_option(context.get(), SPNG_IMG_COMPRESSION_LEVEL, level) != 0 ||
+        spng_set_ihdr(context.get(), &header) != 0 ||
+        spng_encode_image(context.get(), samples.data(), samples.size(), SPNG_FMT_PNG, SPNG_ENCODE_FINALIZE) != 0) {
         return {};
     }
+    std::size_t size = 0;
+    int result = 0;
+    const std::unique_ptr<void, Free> file(spng_get_png_buffer(context.get(), &size, &result));
+    if (!file || result != 0) return {};
+    const auto* first = static_cast<const std::uint8_t*>(file.get());
+    return std::vector<std::uint8_t>(first, first + size);
+}
+
+// -- one row after the other, with green inverted --
+
+/// Thrown and caught in this file alone.
+struct BrokenPng {};
+
+void check(int result) {
+    if (result == SPNG_EMEM) throw OutOfMemory{};
+    if (result != 0) throw BrokenPng{};
+}
+
+/// The result of `body`, or the error for what libspng refused in it.
+template <class Body>
+auto orBroken(Body&& body) -> decltype(body()) {
+    try {
+        return body();
+    } catch (const BrokenPng&) {
+        return brokenPng();
+    }
+}
+
+PngContext decoderOf(ByteSpan bytes) {
+    PngContext decoder(spng_ctx_new(0));
+    if (!decoder) throw OutOfMemory{};
+    check(spng_set_chunk_limits(decoder.get(), kMostChunkBytes, kMostChunkBytes));
+    check(spng_set_png_buffer(decoder.get(), bytes.data(), bytes.size()));
+    return decoder;
+}
+
+/// Packs rows into a PNG of its own.
+class RowPacker {
+  public:
+    RowPacker(std::uint32_t width, std::uint32_t height, std::uint8_t bits, std::uint8_t color)
+        : encoder_(spng_ctx_new(SPNG_CTX_ENCODER)) {
+        if (!encoder_) throw OutOfMemory{};
+        spng_ihdr header{};
+        header.width = width;
+        header.height = height;
+        header.bit_depth = bits;
+        header.color_type = color;
+        check(spng_set_option(encoder_.get(), SPNG_ENCODE_TO_BUFFER, 1));
+        check(spng_set_ihdr(encoder_.get(), &header));
+        check(spng_encode_image(encoder_.get(), nullptr, 0, SPNG_FMT_RAW,
+                                SPNG_ENCODE_PROGRESSIVE | SPNG_ENCODE_FINALIZE));
+    }
+    void add(ByteSpan row) {
+        const int result = spng_encode_row(encoder_.get(), row.data(), row.size());
+        if (result != SPNG_EOI) check(result);
+    }
+    std::vector<std::uint8_t> finish() {
+        std::size_t size = 0;
+        int result = 0;
+        const std::unique_ptr<void, decltype(&std::free)> file(spng_get_png_buffer(encoder_.get(), &size, &result),
+                                                               &std::free);
+        check(result);
+        const auto* first = static_cast<const std::uint8_t*>(file.get());
+        return {first, first + size};
+    }
+
+  private:
+    PngContext encoder_;
+};
+
+std::vector<std::uint8_t> packRows(ByteSpan bytes, const PngHeader& header) {
+    const PngContext decoder = decoderOf(bytes);
+    spng_ihdr parsed{};
+    check(spng_get_ihdr(decoder.get(), &parsed));  // which refuses heads that make no sense
+    RowPacker packer(header.width, header.height, header.bits, header.color);
+    const std::size_t row_bytes = header.rowBytes(), sample_bytes = header.bits / 8;
+    std::vector<std::uint8_t> rows(header.is_interlaced ? row_bytes * header.height : row_bytes);
+    if (header.is_interlaced) {
+        check(spng_decode_image(decoder.get(), rows.data(), rows.size(), SPNG_FMT_RAW, 0));
+    } else {
+        check(spng_decode_image(decoder.get(), nullptr, 0, SPNG_FMT_RAW, SPNG_DECODE_PROGRESSIVE));
+    }
+    for (std::uint32_t y = 0; y < header.height; ++y) {
+        const std::span<std::uint8_t> row =
+            std::span(rows).subspan(header.is_interlaced ? y * row_bytes : 0, row_bytes);
+        if (!header.is_interlaced) {
+            const int result = spng_decode_row(decoder.get(), row.data(), row.size());
+            if (result != SPNG_EOI || y + 1 != header.height) check(result);
+        }
+        invertGreenSamples(row, header.channels() * sample_bytes, sample_bytes);
+        packer.add(row);
+    }
+    return packer.finish();
+}
+
+void readRows(ByteSpan bytes, const PngHeader& header) {
+    const PngContext decoder = decoderOf(bytes);
+    spng_ihdr parsed{};
+    check(spng_get_ihdr(decoder.get(), &parsed));
+    std::vector<std::uint8_t> row(std::size_t{4} * header.width);
+    check(spng_decode_image(decoder.get(), nullptr, 0, SPNG_FMT_RAW, SPNG_DECODE_PROGRESSIVE));
+    int result = 0;
+    while (result == 0) {
+        spng_row_info at{};
+        if (spng_get_row_info(decoder.get(), &at) != 0) break;
+        result = spng_decode_scanline(decoder.get(), row.data(), row.size());
+    }
+    if (result != SPNG_EOI) check(result);
+}
+
+}  // namespace
+
+std::optional<RgbImage> decodePng(ByteSpan bytes, std::uint64_t most_pixels, std::string& why) {
+    PngContext context;
+    spng_ihdr header{};
+    if (!openPng(bytes, most_pixels, context, header, why)) return {};
     const ImageSize size{header.width, header.height};
-    if (isTooLarge(size, bytes.size(), most_pixels, why)) return {};
     std::size_t byte_count = 0;
     if (spng_decoded_image_size(context.get(), SPNG_FMT_RGB8, &byte_count) != 0 || byte_count != 3 * size.pixels()) {
         return {};
@@ -42,6 +220,70 @@ std::vector<std::uint8_t> decodePngRgba(ByteSpan bytes) {
     std::vector<std::uint8_t> pixels(byte_count);
     if (spng_decode_image(context.get(), pixels.data(), byte_count, SPNG_FMT_RGBA8, SPNG_DECODE_TRNS) != 0) return {};
     return pixels;
+}
+
+/// Decodes to RGBA of 16 bits, which holds every PNG: samples of fewer bits are widened by repeating them, which keeps
+/// n / largest.
+std::optional<FloatImage> decodeDeepPng(ByteSpan bytes, std::uint64_t most_pixels, std::string& why) {
+    PngContext context;
+    spng_ihdr header{};
+    if (!openPng(bytes, most_pixels, context, header, why)) return {};
+    const ImageSize size{header.width, header.height};
+    std::size_t byte_count = 0;
+    if (spng_decoded_image_size(context.get(), SPNG_FMT_RGBA16, &byte_count) != 0 || byte_count != 8 * size.pixels())
+        return {};
+    std::vector<std::uint16_t> words(4 * size.pixels());
+    if (spng_decode_image(context.get(), words.data(), byte_count, SPNG_FMT_RGBA16, SPNG_DECODE_TRNS) != 0) return {};
+    FloatImage image{size.width, size.height, header.bit_depth == 16 ? 16u : 8u, std::vector<Vec3>(size.pixels()), {}};
+    spng_trns transparency{};
+    const bool has_alpha = (header.color_type & 4) != 0 || spng_get_trns(context.get(), &transparency) == 0;
+    if (has_alpha) image.alpha.resize(image.texels.size());
+    const auto part = [](std::uint16_t word) { return static_cast<float>(word) / 65535.0f; };
+    for (std::size_t i = 0; i < image.texels.size(); ++i) {
+        image.texels[i] = {part(words[4 * i]), part(words[4 * i + 1]), part(words[4 * i + 2])};
+        if (has_alpha) image.alpha[i] = part(words[4 * i + 3]);
+    }
+    return image;
+}
+
+std::optional<std::vector<std::uint8_t>> encodePng(const FloatImage& image, unsigned bits) {
+    spng_ihdr header{};
+    header.width = image.width;
+    header.height = image.height;
+    header.bit_depth = static_cast<std::uint8_t>(bits);
+    header.color_type = image.alpha.empty() ? SPNG_COLOR_TYPE_TRUECOLOR : SPNG_COLOR_TYPE_TRUECOLOR_ALPHA;
+    return encodeSamples(header, samplesOf(image, bits));
+}
+
+std::optional<std::vector<std::uint8_t>> encodePng(const RgbImage& image) {
+    spng_ihdr header{};
+    header.width = image.width;
+    header.height = image.height;
+    header.bit_depth = 8;
+    header.color_type = SPNG_COLOR_TYPE_TRUECOLOR;
+    return encodeSamples(header, image.rgb);
+}
+
+Result<std::vector<std::uint8_t>> packInverted(ByteSpan bytes, const PngHeader& header) {
+    return orBroken([&]() -> Result<std::vector<std::uint8_t>> { return packRows(bytes, header); });
+}
+
+Error checkPixels(ByteSpan bytes, const PngHeader& header) {
+    return orBroken([&] {
+        readRows(bytes, header);
+        return Error{ErrorCode::ok};
+    });
+}
+
+Result<std::vector<std::uint8_t>> writePng(const ChannelImage& image) {
+    const std::uint8_t color = image.channels == 4 ? PngHeader::kHasColor | PngHeader::kHasAlpha : PngHeader::kHasColor;
+    const std::size_t row_bytes = std::size_t{image.channels} * image.width;
+    return orBroken([&]() -> Result<std::vector<std::uint8_t>> {
+        RowPacker packer(image.width, image.height, 8, color);
+        for (std::size_t y = 0; y < image.height; ++y)
+            packer.add(ByteSpan(image.pixels).subspan(y * row_bytes, row_bytes));
+        return packer.finish();
+    });
 }
 
 }  // namespace tspace

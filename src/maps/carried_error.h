@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How much of what a map showed with one set of frames it still shows with another.
+// The error of a map that was converted from one set of frames to another.
 #pragma once
 
 #include <array>
@@ -21,8 +21,8 @@ struct CarriedError {
     std::uint64_t count = 0;          ///< 0: no triangle has such a point, or frames there
 };
 
-/// `from` and `to` have the same triangles in the same order, in tangent space. `converted`: as many texels as `map` has.
-/// Time: linear in the texels that triangles show. The same for any number of threads.
+/// `from` and `to` have the same triangles in the same order, in tangent space. `converted`: as many texels as `map`
+/// has. Time: linear in the texels that triangles show. Equal results for any number of threads.
 CarriedError measureCarried(const MapImage& map, std::span<const Vec3> converted, const MapSide& from,
                             const MapSide& to, Parallel& parallel);
 

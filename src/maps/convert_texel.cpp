@@ -9,19 +9,21 @@ namespace tspace {
 
 namespace {
 
-/// What is closer is the same: far below a step of 16 bits, far above what inverting a frame in double errs by.
+/// Vectors that are closer count as equal: far below a step of 16 bits, far above the error of inverting a frame in
+/// double.
 constexpr double kSameVector = 1e-7;
 
 /// Lengths that texels of 8 bits may have.
 constexpr double kLeastLength = 0.7;
 
-/// What a length counts that is off, beside an angle that is: under the bilinear filter an angle of one texel is an error of
-/// 2/3 of it (root of the mean square over the texels around), a length one of about 0.2 times the angle between neighbours.
+/// Weight of an error in length beside an error in angle: under the bilinear filter an angle of one texel is an error
+/// of 2/3 of it (root of the mean square over the texels around), a length one of about 0.2 times the angle between
+/// neighbours.
 constexpr double kLengthBesideAngle = 0.3;
 
 bool isOnGrid(float channel, unsigned most) {
     const double scaled = static_cast<double>(channel) * most;
-    // A float of n / most errs by half a unit in its last place, and somewhat more after 1 - n / most.
+    // A float n / most is off by half a unit in its last place, and by somewhat more after 1 - n / most.
     return std::fabs(scaled - std::nearbyint(scaled)) <= most * 1.5e-7;
 }
 

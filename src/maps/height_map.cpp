@@ -10,7 +10,6 @@
 #include "core/base/parallel.h"
 #include "maps/carried_error.h"
 #include "maps/convert_texel.h"
-#include "maps/corner_triangles.h"
 #include "maps/texel_triangles.h"
 #include "maps/texture_sample.h"
 
@@ -20,7 +19,7 @@ namespace {
 
 constexpr std::size_t kRowsOfTask = 16;
 
-/// What two differences of one texel width (height) are.
+/// Slopes by differences over one texel width and height.
 struct Slope {
     double along_u = 0, along_v = 0;
 };

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "core/base/border.h"
-#include "maps/map_calls.h"
+#include "maps/map_surfaces.h"
 #include "maps/quantize.h"
 #include "maps/solve_texels.h"
 #include "maps/texel_plan.h"
@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::uint32_t kMostSide = 16384;
 constexpr std::uint32_t kMostPadding = 256;
-/// So much around a triangle is read by the filter inside of it.
+/// Texels around a triangle that the bilinear filter reads inside of it.
 constexpr std::uint32_t kFilterTexels = 2;
 /// Smaller images have texels that are their own neighbours.
 constexpr std::uint32_t kLeastSolved = 4;
@@ -104,11 +104,11 @@ class Baking {
         }
         solveTexels(system, texels, parallel_, allocator_);
         roundTexels(texels, options_.width, {.keeps_lengths = options_.reading.two_channels}, parallel_, allocator_);
-        if (options_.reading.two_channels) settleThirds(texels);
+        if (options_.reading.two_channels) completeThirds(texels);
     }
 
     /// z follows from x and y, which may be those of no unit vector by then.
-    void settleThirds(std::span<Vec3> texels) {
+    void completeThirds(std::span<Vec3> texels) {
         for (Vec3& texel : texels) {
             const float flat = texel.x * texel.x + texel.y * texel.y;
             if (flat <= 1) texel.z = std::sqrt(1 - flat);

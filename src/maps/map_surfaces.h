@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A low poly, the high poly that it stands for, and the lines between them.
+// A low poly, its high poly, and the rays between them; and the checks of a call on both.
 #pragma once
 
 #include <memory>
@@ -8,12 +8,16 @@
 #include "maps/rays.h"
 #include "maps/shading.h"
 #include "maps/uv_coverage.h"
+#include "tspace/map_bake.h"
 #include "tspace/map_error.h"
 
 namespace tspace {
 
-/// What the calls of map_error.h and map_bake.h ask of meshes. An Error with code ok when all is well.
+/// Checks the meshes of a call of map_error.h or map_bake.h. An Error with code ok when all is well.
 Error checkSurfaces(const LowPoly& low, const HighPoly& high, bool needs_tangents);
+
+/// Checks the options of bakeMap for meshes of so many triangles. An Error with code ok when all is well.
+Error checkBakeOptions(const BakeOptions& options, std::size_t low_triangles, std::size_t high_triangles);
 
 class MapSurfaces {
   public:

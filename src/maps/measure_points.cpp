@@ -17,7 +17,7 @@ constexpr std::size_t kPointsOfTask = 1024;
 
 std::uint64_t bitsOf(float value) { return std::bit_cast<std::uint32_t>(value == 0 ? 0.0F : value); }
 
-/// The same for both directions of an edge.
+/// Hash of an edge, equal for both directions.
 std::uint64_t hashEdge(const LowPoly& low, std::size_t a, std::size_t b) {
     const auto hashEnd = [&](std::size_t corner) {
         const Vec2& uv = low.uvs[corner];
@@ -147,7 +147,7 @@ MapError MeasurePoints::measure(const MapImage& map, const MapSurfaces& surfaces
             const Vec2 uv = uvAt(low, point.triangle, weights);
             const DVec3 shaded = shadedAt(map, candidate, surfaces.corners(point.triangle, tangents), weights, uv);
             const double angle = degreesBetween(shaded, toDouble(point.normal));
-            // A point that shades nothing is as wrong as can be.
+            // A point without a shaded direction counts as the largest error.
             angles[i] = dot(shaded, shaded) > 0 && std::isfinite(angle) ? static_cast<float>(angle) : 180.0F;
             near_border[i] = isNearBorder(map, low, point, uv) ? 1 : 0;
         }

@@ -7,7 +7,7 @@
 
 namespace tspace {
 
-/// What a call works with.
+/// Resources of a call.
 struct MapWork {
     const Allocator* allocator;
     Parallel& parallel;

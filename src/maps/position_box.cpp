@@ -10,9 +10,9 @@ namespace tspace {
 
 namespace {
 
-/// So many times as large a model is hardly the same one in the same unit.
+/// Ratio of sizes from which two models are taken to have different units.
 constexpr double kOtherUnit = 8;
-/// Boxes fit each other, or do not, where their sides differ by such a part of the diagonal.
+/// Largest difference of sides, in parts of the diagonal, at which boxes fit, and least one at which they do not.
 constexpr double kFits = 0.02, kFitsNot = 0.1;
 
 /// The box of its corners, as `change` moves them.

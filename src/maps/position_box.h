@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The box around points, and what two boxes say of meshes that should lie on each other.
+// The bounding box of points, and why two meshes that should coincide do not.
 #pragma once
 
 #include <string>
@@ -27,8 +27,8 @@ struct PositionBox {
 /// chosenReach of meshes in these boxes.
 double reachBetween(const PositionBox& low, const PositionBox& high);
 
-/// What seems to keep a high poly from its low poly: another unit, or another axis that points up; one sentence. Empty where nothing
-/// shows.
+/// The likely reason why a high poly does not lie on its low poly: another unit, or another axis that points up; one
+/// sentence. Empty where none shows.
 std::string misplacement(const PositionBox& low, const PositionBox& high);
 
 }  // namespace tspace

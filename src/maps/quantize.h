@@ -6,10 +6,10 @@
 
 namespace tspace {
 
-/// What integers stand for: n from 0 to `most` for 2 n / most - 1.
+/// The vectors that integers stand for: n from 0 to `most` is 2 n / most - 1.
 struct IntegerVectors {
     unsigned most = 255;
-    /// Shorter ones lose under filters that make texels unit.
+    /// Shorter vectors lose weight under filters that make texels unit.
     double least_length = 0.7;
     bool is_two_channel = false;  ///< z follows from x and y, whose vector is unit
     double scale = 1;             ///< readers multiply x and y by it

@@ -99,7 +99,7 @@ struct RaySurface::State {
         if (second_device != nullptr) embree().releaseDevice(second_device);
     }
 
-    /// Where the line meets the plane of a triangle whose front faces against `direction`.
+    /// Intersects the line with the plane of a triangle whose front faces against `direction`.
     bool meet(std::uint32_t triangle, const DVec3& from, const DVec3& direction, PlanePoint& point) const {
         std::array<DVec3, 3> corner{};
         for (std::size_t i = 0; i < 3; ++i) corner[i] = toDouble(positions[corners[3 * triangle + i]]) - from;
@@ -121,7 +121,7 @@ struct RaySurface::State {
 
 namespace {
 
-/// One line and what was met nearest to where it comes from. Embree's part comes first: the filter gets a pointer to it.
+/// A line and its nearest hit. Embree's part comes first: the filter function gets a pointer to it.
 struct Query {
     QueryContext context;
     const RaySurface::State* surface;
@@ -132,7 +132,7 @@ struct Query {
     RayHit best;
 };
 
-/// Sees each triangle that the line meets and refuses it, so that Embree goes on to all of them.
+/// Called for each triangle that the line meets; rejects it, so that Embree goes on to all others.
 void collectHit(const RTCFilterFunctionNArguments* arguments) {
     arguments->valid[0] = 0;
     auto& query = *reinterpret_cast<Query*>(arguments->context);
@@ -211,7 +211,7 @@ Result<std::unique_ptr<const RaySurface>> RaySurface::make(StridedSpan<const Vec
         const RTCError why = api.getDeviceError(nullptr);
         if (why == RTC_ERROR_UNSUPPORTED_CPU)
             return makeError(ErrorCode::unsupportedFile, kNoElement, "Embree does not run on this CPU");
-        // The settings are right: it says other codes, too, where memory ends.
+        // Settings are right, so any error here is a lack of memory, for which Embree has several codes.
         return makeError(ErrorCode::outOfMemory, kNoElement, "Embree does not start for lack of memory: its code is %u",
                          static_cast<unsigned>(why));
     }
@@ -252,8 +252,8 @@ bool shoot(const RaySurface::State& state, const DVec3& from, const DVec3& direc
     query.most = std::max(std::fabs(begin), std::fabs(end));
     query.group = group;
     query.is_hit = false;
-    // Embree ends the process where a ray begins or ends beyond 1.8e18: only the part near the surface is asked for, whose
-    // box has sides of 1 about the centre.
+    // Embree ends the process where a ray begins or ends beyond 1.8e18: only the part near the surface is given to it,
+    // whose box has sides of 1 about the centre.
     constexpr double kBeyond = 2;
     const double middle = dot(state.centre - from, direction);
     begin = std::max(begin, middle - kBeyond / state.scale);

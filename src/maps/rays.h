@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where lines meet a surface. The one place that knows Embree, which is loaded when the first surface is made: it and what
-// it needs are 60 MB, and most runs shoot no ray.
+// Intersections of lines and a surface. Only this file knows Embree, which is loaded with the first surface: Embree and
+// its dependencies take 60 MB, and most runs shoot no ray.
 #pragma once
 
 #include <array>

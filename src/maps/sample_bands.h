@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Points of triangles on a grid of n x n a texel, cut into bands of texel rows, one after the other in a band: what all
-// threads add up is the same for any number of them.
+// Points of triangles on a grid of n x n a texel, cut into bands of texel rows. Within a band points come one after the
+// other, so sums are equal for any number of threads.
 #pragma once
 
 #include <utility>

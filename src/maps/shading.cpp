@@ -14,7 +14,7 @@ DVec3 mixed(const std::array<DVec3, 3>& of, const std::array<double, 3>& weights
     return weights[0] * of[0] + weights[1] * of[1] + weights[2] * of[2];
 }
 
-/// Zero and what is not finite stay: they shade nothing anyway.
+/// Zero and vectors that are not finite are returned as they are: they shade nothing.
 DVec3 unitOrSame(DVec3 v) {
     normalize(v);
     return v;
@@ -81,7 +81,7 @@ DVec3 encodeTexel(const DVec3& vector, const MapReading& reading) {
     const double scale = reading.scale;
     DVec3 stored{vector.x / scale, (reading.green == Green::down ? -vector.y : vector.y) / scale, vector.z};
     if (reading.two_channels) {
-        // What z comes back as must fit x and y times the scale.
+        // The decoded z must fit x and y times the scale.
         const double wanted = std::sqrt(stored.x * stored.x + stored.y * stored.y + stored.z * stored.z);
         if (wanted > 0) stored = (1 / wanted) * stored;
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The shading reference: from a texel and the frames of a triangle to the normal that a renderer shades, and back. In
-// double, so that what is measured with it is not its own rounding. See tspace/map_reading.h.
+// double, so that measured errors are not its own rounding. See tspace/map_reading.h.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace tspace {
 
-/// What the three corners of a triangle store.
+/// The stored frames of a triangle's three corners.
 struct CornerFrames {
     std::array<Vec3, 3> normals = {};
     std::array<Vec4, 3> tangents = {};
@@ -26,8 +26,8 @@ struct ShadingFrame {
 /// does).
 ShadingFrame shadingFrame(const CornerFrames& corners, const std::array<double, 3>& weights, const MapReading& reading);
 
-/// A texel, channels from 0 to 1, as a vector along T, B and N: green, scale and the third channel are settled. As long as
-/// it is.
+/// Decodes a texel, channels from 0 to 1, to a vector along T, B and N, with green, scale and the third channel
+/// applied. The length is not changed.
 DVec3 decodeTexel(const Vec3& texel, const MapReading& reading);
 /// The texel that is decoded to the vector, or nearly: channels beyond 0 to 1 are not clamped. With two channels the vector
 /// is made unit, and its z must not be negative.

@@ -12,8 +12,7 @@ namespace tspace {
 
 namespace {
 
-/// Rows of a system are worked on so many at a time, and the sums over them added in order, so that they do not depend on
-/// threads.
+/// Rows of a task. Sums over tasks are added in order, so that they do not depend on threads.
 constexpr std::size_t kSystemRows = 2048;
 
 class TaskSums {
@@ -45,7 +44,7 @@ SymmetricBlock inverseOf(SymmetricBlock m) {
             factor * (m[0] * m[3] - m[1] * m[1])};
 }
 
-/// Conjugate gradients for what is to be added to the texels, so that numbers are small and floats do.
+/// Conjugate gradients for the change of the texels, whose numbers are small enough for floats.
 class Gradients {
   public:
     Gradients(const TexelSystem& system, std::span<Vec3> texels, Parallel& parallel, const Allocator* allocator)
@@ -91,7 +90,7 @@ class Gradients {
         });
     }
 
-    /// What the texels around ask, where `of(row, texel)` says what they are.
+    /// The products of the neighbours' blocks with their values, which `of(row, texel)` gives.
     template <class Of>
     Vec3 around(std::size_t row, const Of& of) const {
         const std::uint32_t texel = system_.texelOf(row);
@@ -185,8 +184,8 @@ class IntegerTexel {
             tryTwoChannels(start.z);
             return best_;
         }
-        // The value is a sum of squares but for what the texels around add, which only they change. The best real numbers are
-        // taken to leave next to nothing: squared, of a sample that the texel is half of.
+        // The value is a sum of squares, up to a constant that only the neighbours change. For the best real numbers it
+        // is taken to be next to nothing: this much, squared, of a sample of which the texel is half.
         constexpr float kLeftOver = 2e-6F;
         const float x = start_x_ + slope_x_ * start.z, y = start_y_ + slope_y_ * start.z;
         const float linear = 2 * (m_[2] * x + m_[4] * y + m_[5] * start.z + h_.z);
@@ -204,7 +203,7 @@ class IntegerTexel {
     }
 
   private:
-    /// So many z are looked at side by side, in loops without branches, which compilers make lanes of.
+    /// Candidates for z that are tried together, in loops without branches, which compilers vectorise.
     static constexpr std::size_t kPlanes = 8;
     using Planes = std::array<float, kPlanes>;
     /// The squared length of the texels around, times their part in what is mixed.
@@ -218,7 +217,7 @@ class IntegerTexel {
         return std::max(0.0F, std::min(index, last_)) * step_ - 1;
     }
     [[nodiscard]] bool isInside(float real) const { return real >= -1 && real <= 1; }
-    /// What is added to the value of real numbers by integers that are off by so much.
+    /// The increase of the energy over its value for real numbers, by an error of dx and dy.
     [[nodiscard]] float added(float dx, float dy) const { return dx * (m_[0] * dx + 2 * m_[1] * dy) + m_[3] * dy * dy; }
 
     /// The four integers around the best x and y beside the z from `first` on, where real numbers have the value
@@ -244,7 +243,7 @@ class IntegerTexel {
             for (std::size_t i = 0; i < kPlanes; ++i) {
                 const float column = left[i] + right, row = top[i] + down;
                 const float squared = column * column + row * row + z[i] * z[i];
-                // What does not fit loses, without a branch.
+                // A penalty excludes vectors of a forbidden length, without a branch.
                 const float beyond = std::max(0.0F, least_square - squared) + std::max(0.0F, squared - most_square) +
                                      std::max(0.0F, std::fabs(x[i]) - 1) + std::max(0.0F, std::fabs(y[i]) - 1);
                 // Angles are errors in parts of the length of what is mixed: of the texel, and of those around.
@@ -263,7 +262,7 @@ class IntegerTexel {
         }
     }
 
-    /// The same where z follows from x and y, and errors of them alone count.
+    /// As above where z follows from x and y: only errors of x and y count.
     void tryTwoChannels(float z) {
         const float x = start_x_ + slope_x_ * z, y = start_y_ + slope_y_ * z;
         if (!isInside(x) || !isInside(y)) return;
@@ -285,7 +284,7 @@ class IntegerTexel {
     float least_ = INFINITY;
 };
 
-/// What an integer vector is held to where nothing else is asked.
+/// The sample that holds an integer vector where no other sample constrains it.
 FitSample holdAt(const IntegerChoice& choice, const Vec3& wanted) {
     return choice.is_two_channel ? twoChannelSample(wanted) : acrossSample(wanted, 1e-6F, 0.95F);
 }
@@ -295,7 +294,7 @@ FitSample holdAt(const IntegerChoice& choice, const Vec3& wanted) {
 void chooseIntegers(const TexelSystem& system, const IntegerChoice& choice, std::span<Vec3> texels, unsigned rounds,
                     Parallel& parallel, const Allocator* allocator) {
     const std::uint32_t width = system.width(), height = system.height();
-    // Those that are not chosen yet have about the length that they will have.
+    // Texels that are not chosen yet are taken to have the usual length of a chosen one.
     constexpr float kUsualLength = 0.9F;
     if (!choice.is_two_channel) {
         for (Vec3& texel : texels) texel = kUsualLength * texel;
@@ -306,7 +305,7 @@ void chooseIntegers(const TexelSystem& system, const IntegerChoice& choice, std:
         for (std::uint32_t x = 0; x < width; ++x) {
             const std::size_t at = std::size_t{y} * width + x;
             const TexelRow& row = system.row(system.rowOf(x, y));
-            // Held to its direction a little, for texels that no sample asks anything of.
+            // A weak pull to its own direction, for texels that no sample constrains.
             DVec3 unit_wanted = toDouble(wanted[at]);
             if (!normalize(unit_wanted)) continue;
             const FitSample hold = holdAt(choice, toFloat(unit_wanted));
@@ -335,7 +334,8 @@ class StepRounding {
 
     [[nodiscard]] Vec3 nearest(const Vec3& v) const { return {nearest(v.x), nearest(v.y), nearest(v.z)}; }
 
-    /// Of vectors beside `wanted` that are a little longer or shorter, the one that is least off across it.
+    /// Among lattice vectors near `wanted`, which may be a little longer or shorter, the one with the least error
+    /// across it.
     [[nodiscard]] Vec3 nearestAcross(const Vec3& wanted) const {
         std::array<float, 3> v{wanted.x, wanted.y, wanted.z};
         std::size_t main = 0;
@@ -350,7 +350,7 @@ class StepRounding {
         const float stride =
             steepest * kMostStride > kMove ? std::floor(std::max(1.0F, kMove / steepest)) : kMostStride;
         const float first = std::min(nearest(size) - stride * (kLengths / 2), middle_ - stride * (kLengths - 1));
-        // Of a vector that is short beside a step nothing is across.
+        // A vector that is short compared with a step has no meaningful error across it.
         if (!(first > stride * kLengths)) return nearest(wanted);
         const float shorter = 1 / (1 + slope_b * slope_b + slope_c * slope_c);
         std::array<float, kLengths> b, c, off;
@@ -370,8 +370,8 @@ class StepRounding {
     }
 
   private:
-    /// So many lengths are looked at, as far apart as move one of the other numbers by so much of a step, but no further than that
-    /// many steps.
+    /// Lengths that are tried. Their spacing moves one of the other components by a fraction of a step, up to a limit
+    /// of steps.
     static constexpr int kLengths = 8;
     static constexpr float kMove = 0.4F, kMostStride = 40;
 
@@ -389,8 +389,8 @@ void roundTexels(std::span<Vec3> texels, std::uint32_t width, const TexelRoundin
                  const Allocator* allocator) {
     const auto height = static_cast<std::uint32_t>(texels.size() / width);
     const StepRounding steps(rounding);
-    // What is wrong so far, in steps; each texel's own numbers are settled with those around as they are. What is off along a
-    // vector turns nothing, and does not count.
+    // The rounding errors so far, in steps; each texel is rounded with its neighbours fixed. An error along a vector
+    // turns nothing, and does not count.
     Buffer<Vec3> off(allocator, texels.size(), Vec3{});
     const auto roundRow = [&](std::uint32_t y) {
         const std::size_t here = std::size_t{y} * width, above = std::size_t{y > 0 ? y - 1 : height - 1} * width,

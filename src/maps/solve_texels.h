@@ -9,8 +9,8 @@
 
 namespace tspace {
 
-/// How strongly texels are held to where they were, in parts of what one sample at the texel's centre asks. It decides
-/// where samples say next to nothing: at the rim of a chart.
+/// Weight that holds texels to their start values, relative to one sample at the texel's centre. It decides where
+/// samples constrain next to nothing: at the rim of a chart.
 inline constexpr float kHold = 0.004F;
 
 /// Things in a ring, of which no two at the same time are beside each other: some(first, number) for every second one from
@@ -36,7 +36,7 @@ void forRowsApart(Parallel& parallel, std::uint32_t height, const Row& row) {
 /// number of threads.
 void solveTexels(const TexelSystem& system, std::span<Vec3> texels, Parallel& parallel, const Allocator* allocator);
 
-/// What integers stand for: n from 0 to `most` for 2 n / most - 1.
+/// The vectors that integers stand for: n from 0 to `most` is 2 n / most - 1.
 struct IntegerChoice {
     unsigned most = 255;
     float least_length = 0.7F, most_length = 1.1F;  ///< of vectors; no component may be over 1

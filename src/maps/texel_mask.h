@@ -21,7 +21,7 @@ class TexelMask {
     TexelMask() = default;
     TexelMask(std::uint32_t width, std::uint32_t height);
 
-    /// What a mask of that size takes of memory.
+    /// Memory of a mask of that size.
     static std::uint64_t bytesOf(std::uint64_t width, std::uint64_t height) { return (width / 64 + 1) * 8 * height; }
 
     [[nodiscard]] std::uint32_t width() const { return width_; }

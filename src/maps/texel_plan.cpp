@@ -65,7 +65,7 @@ class Planning {
 
         [[nodiscard]] std::size_t at(std::size_t x, std::size_t y) const { return rows[y] + columns[x]; }
         [[nodiscard]] std::size_t own() const { return at(1, 1); }
-        /// Of the cell that has the texel at the upper left.
+        /// The four texels of the cell whose upper left corner is this texel.
         [[nodiscard]] std::array<std::size_t, 4> corners() const { return {at(1, 1), at(2, 1), at(1, 2), at(2, 2)}; }
         /// Cells that have the texel as a corner.
         [[nodiscard]] std::array<std::size_t, 4> cells() const { return {at(0, 0), at(1, 0), at(0, 1), at(1, 1)}; }

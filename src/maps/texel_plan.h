@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where the map between texel centres follows from what is wanted at the centres, and where rays have to say it: at creases
-// of the low poly, edges and small detail of the high poly, and the rims of charts.
+// Cells between texel centres: smooth ones, where the map follows from the vectors wanted at the centres, and others, which
+// need rays: at creases of the low poly, edges and small detail of the high poly, and the rims of charts.
 #pragma once
 
 #include "core/base/parallel.h"
@@ -32,8 +32,9 @@ struct CellSampling {
     std::uint32_t points = 3;  ///< points of a texel in a row, in cells that are not smooth
 };
 
-/// Of 16 bits, as much as they can tell; less in maps of more than 1024 x 1024 texels, whose texels are small beside what
-/// they show, and take most of the time. Of 8 bits, whose rounding is far larger, less always.
+/// Rays per cell. For 16 bits, as many as such texels can resolve; fewer in maps of more than 1024 x 1024 texels, whose
+/// texels are small beside the detail, and take most of the time. For 8 bits, whose rounding is far larger, always
+/// fewer.
 CellSampling samplingOf(const BakeOptions& options);
 
 /// How long vectors of real numbers shall be: below 1, so that no channel of a texel around has to be more.

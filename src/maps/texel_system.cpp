@@ -64,7 +64,7 @@ FitSample acrossSample(const Vec3& wanted, float along, float wanted_length) {
 }
 
 FitSample twoChannelSample(const Vec3& wanted) {
-    // What a change of x and y does to z. Where the surface is seen from the side it has no bound, and is kept from one.
+    // The derivative of z by x and y. It is unbounded where the surface is seen from the side, so it is clamped.
     const float z = std::max(wanted.z, 0.1f), x = wanted.x / z, y = wanted.y / z;
     const SymmetricBlock metric{1 + x * x, x * y, 0, 1 + y * y, 0, 0};
     return {metric, blockTimes(metric, wanted)};

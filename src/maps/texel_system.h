@@ -21,8 +21,8 @@ inline Vec3 blockTimes(const SymmetricBlock& m, const Vec3& v) {
             m[2] * v.x + m[4] * v.y + m[5] * v.z};
 }
 
-/// What the samples ask of one texel: its block with itself and those with the neighbours right, left below, below and
-/// right below; the other four are theirs. And the right side.
+/// The row of the normal equations of one texel: its diagonal block, its blocks with the neighbours right, left below,
+/// below and right below (the other four are stored by those neighbours), and the right side.
 struct TexelRow {
     std::array<SymmetricBlock, 5> blocks = {};
     Vec3 side = {};
@@ -34,7 +34,7 @@ struct FitSample {
     Vec3 side = {};  ///< metric times target
 };
 
-/// What becomes of a texel.
+/// The part that a texel plays in the system.
 enum class TexelRole : std::uint8_t {
     apart,   ///< samples ask nothing of it that is remembered
     fixed,   ///< samples mix it with others, which are unknown
@@ -54,7 +54,7 @@ class TexelSystem {
     [[nodiscard]] std::uint32_t below(std::uint32_t y) const { return y + 1 < height_ ? y + 1 : 0; }
     [[nodiscard]] std::uint32_t above(std::uint32_t y) const { return y > 0 ? y - 1 : height_ - 1; }
 
-    /// Row 0 belongs to all texels that are apart, and asks nothing.
+    /// Row 0 is zero, and shared by all texels that take no part.
     [[nodiscard]] std::size_t rowCount() const { return rows_.size(); }
     [[nodiscard]] std::uint32_t rowOf(std::uint32_t x, std::uint32_t y) const {
         return row_of_[std::size_t{y} * width_ + x];
@@ -67,7 +67,7 @@ class TexelSystem {
     /// that is apart is left out.
     void add(std::uint32_t x, std::uint32_t y, float fx, float fy, const FitSample& sample);
 
-    /// What the samples ask of a texel, times the texels around it, which `at(x, y)` gives: all but its block with itself.
+    /// The row of a texel times its neighbours, whose values `at(x, y)` gives: all but the diagonal block.
     template <class At>
     [[nodiscard]] Vec3 aroundTexel(std::uint32_t x, std::uint32_t y, const At& at) const {
         const std::uint32_t left_x = left(x), right_x = right(x), above_y = above(y), below_y = below(y);

@@ -12,7 +12,7 @@
 namespace tspace {
 
 inline constexpr std::uint32_t kNoTriangle = 0xffffffffu;
-/// As padding: every texel has a triangle, if there is one at all.
+/// A padding without limit: every texel has a triangle, if there is one at all.
 inline constexpr std::uint32_t kAllTexels = 0xffffffffu;
 
 enum class TexelKind : std::uint8_t {
@@ -55,7 +55,7 @@ struct TexelTriangles {
 /// a clamped image ends at its edge, beyond which triangles are not looked for.
 ///
 /// Nothing where there is more work than sound models need (kCoverSteps). Time: linear in triangles, their rows, and texels.
-/// The same result for any number of threads. Throws OutOfMemory; 27 bytes a texel while it runs, 15 stay.
+/// Equal results for any number of threads. Throws OutOfMemory; 27 bytes a texel while it runs, 15 stay.
 std::optional<TexelTriangles> findTexelTriangles(const UvTriangles& triangles, std::uint32_t width,
                                                  std::uint32_t height, std::uint32_t padding, Parallel& parallel,
                                                  const Allocator* allocator = nullptr);

@@ -14,7 +14,7 @@
 
 namespace tspace {
 
-/// What of a texture decides which texels are read.
+/// Size and wrap modes of a texture, which decide the texels that a sample reads.
 struct TextureShape {
     std::uint32_t width = 0, height = 0;  ///< both at least 1
     TextureWrap wrap_u = TextureWrap::repeat, wrap_v = TextureWrap::repeat;

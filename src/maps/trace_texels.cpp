@@ -97,7 +97,7 @@ class Tracing {
             });
         };
         forTasksTold(work_, bands.bandCount(), "tracing", traceBand);
-        settleVotes();
+        decideVotes();
     }
 
     void vote(std::size_t texel, bool is_hit, const Vec3& wanted) {
@@ -108,7 +108,7 @@ class Tracing {
         ++votes_[texel];
     }
 
-    void settleVotes() {
+    void decideVotes() {
         for (std::size_t i = 0; i < votes_.size(); ++i) {
             if (votes_[i] == 0) continue;
             const float size = length(traced_.wanted[i]);

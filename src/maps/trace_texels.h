@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Rays for the texels of a map: what its samples ask, and the vector wanted at each texel's centre.
+// Rays for the texels of a map: the vector wanted at each texel's centre, and samples between centres.
 #pragma once
 
 #include "maps/measure_points.h"
@@ -9,7 +9,7 @@
 
 namespace tspace {
 
-/// What rays said of the texels. All vectors are unit, along T, B and N, or of the object.
+/// The results of rays for texels. All vectors are unit, along T, B and N, or of the object.
 struct TracedTexels {
     Buffer<Vec3> wanted = {};  ///< at the centre; the mean where several triangles show it. Zero: not known
     Buffer<TexelOrigin> origins = {};

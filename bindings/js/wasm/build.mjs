@@ -27,7 +27,7 @@ const fileRooms = [
 const notHere = new Set([
   "core/base/parallel.cpp", "core/base/arena.cpp", "model/io/atomic_output_disk.cpp", "model/io/file_io.cpp", "model/io/resolve_uri.cpp",
   "model/io/temporary_name.cpp", "model/obj/tiny_obj_loader.cpp", "model/gltf/codecs/draco_library.cpp", "model/gltf/codecs/meshopt_library.cpp",
-  "images/exr.cpp", "images/float_image.cpp", "images/jpeg.cpp", "images/png.cpp", "images/png_pixels.cpp", "images/webp.cpp", "maps/rays.cpp",
+  "images/exr.cpp", "images/float_image.cpp", "images/jpeg.cpp", "images/png.cpp", "images/webp.cpp", "maps/rays.cpp",
   "commands/generate/convert_maps.cpp", "commands/generate/mend_maps.cpp", "commands/diff/diff_text.cpp",
   "commands/shared/map_image_file.cpp", "commands/shared/map_mesh.cpp", "commands/shared/html_text.cpp",
   ...["bake/bake_file", "bake/map_pictures", "bake/model_maps", "bake/model_surfaces", "convert_map/convert_map_file",

@@ -9,7 +9,7 @@
 #include "commands/bake/map_pictures.h"
 #include "commands/bake/model_surfaces.h"
 #include "images/float_image.h"
-#include "maps/map_calls.h"
+#include "maps/map_surfaces.h"
 #include "model/io/atomic_output.h"
 #include "model/io/file_error.h"
 #include "model/io/file_io.h"

@@ -76,7 +76,8 @@ void endSpace(std::byte*, std::size_t) {}
 class Arena::Impl {
   public:
     Impl() {
-        // Where addresses are limited, most are left to others.
+        // Where address space is limited (ulimit -v), a quarter of what can be reserved is taken, and the rest is left
+        // to others.
         std::size_t bytes = kReserved;
         while (bytes > kStep && (space_ = reserveSpace(bytes)) == nullptr) bytes /= 4;
         if (space_ != nullptr && bytes < kReserved) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What every public function does first and last: check the caller's spans, and let no exception out.
+// The border of the library: checks of the caller's spans, and no exception gets out.
 #pragma once
 
 #include <type_traits>
@@ -16,7 +16,7 @@ class Parallel;
 /// code each.
 [[gnu::format(printf, 3, 4)]] Error makeError(ErrorCode code, std::uint64_t element, const char* format, ...);
 
-/// What the exception means that is being handled. Throws nothing, also where there is no memory left.
+/// The Error for the exception that is being handled. Throws nothing, even without free memory.
 Error caughtError();
 
 /// Runs `body`, which returns a Result, and turns running out of memory (and any defect of our own) into an Error.
@@ -46,7 +46,7 @@ Error checkSpan(const StridedSpan<T>& span, std::size_t expected_count, const ch
     return checkSpan(span.data, span.count, span.stride_bytes, sizeof(T), expected_count, name);
 }
 
-/// What validate() checks. With `parallel`, indices are looked at by all threads.
+/// The checks of validate(). With `parallel`, all threads check indices.
 Error checkMesh(const MeshView& mesh, Parallel* parallel = nullptr);
 
 /// Checks that there are indices and that each is below `vertex_count`, with `parallel` by all threads. Error as

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Cache lines are asked for before they are needed, and large outputs are written past the caches: they leave these anyway
-// before somebody reads them, and written in the usual way, each line is read first.
+// Prefetching of cache lines, and streaming stores for large outputs: such outputs leave the caches before they are
+// read, and an ordinary store reads each line first.
 #pragma once
 
 #include <cstddef>
@@ -13,8 +13,8 @@
 
 namespace tspace {
 
-/// Asks for the lines of `bytes` bytes that lie `ahead` bytes after `place`, where they will be read or written.
-/// Processors do this by themselves, but not across pages. There need not be any memory: then this asks for nothing.
+/// Prefetches the lines of `bytes` bytes that lie `ahead` bytes after `place`, to read or to write them. Hardware
+/// prefetchers do not cross pages. The addresses need not exist.
 template <bool kToWrite = false>
 inline void prefetchLines(const void* place, std::size_t bytes, std::size_t ahead = 4096) {
     constexpr std::size_t kLine = 64;
@@ -33,7 +33,7 @@ inline bool areStreamed([[maybe_unused]] const void* to, [[maybe_unused]] std::s
 #endif
 }
 
-/// to[0..3] = row[0..3]; both aligned to 16 bytes. Nobody may read it before endOfRows, on the thread that wrote it.
+/// to[0..3] = row[0..3]; both aligned to 16 bytes. No thread may read it before this one has called endOfRows.
 inline void streamRow(float* to, const float* row) {
 #if defined(TSPACE_SIMD_X86)
     _mm_stream_ps(to, _mm_load_ps(row));

@@ -25,7 +25,7 @@ using Float4 = float __attribute__((vector_size(16)));
 using Mask4 = std::int32_t __attribute__((vector_size(16)));  ///< per lane all bits or none, from a comparison
 using Double2 = double __attribute__((vector_size(16)));      ///< here a carrier of two pairs of floats
 
-// As they lie in arrays: at any multiple of 4 bytes, and over any type. Clang overlooks `aligned` behind the equals sign.
+// Float4 at any multiple of 4 bytes, aliasing any type. Clang ignores `aligned` after the equals sign.
 using Float4InMemory __attribute__((aligned(4), may_alias)) = Float4;
 
 inline Float4 splat(float f) { return Float4{f, f, f, f}; }

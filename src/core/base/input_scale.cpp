@@ -23,7 +23,8 @@ class MeanSize {
         ++count_;
     }
 
-    /// What brings that size near 1. The exponent is even, so that a square root of it is a power of two as well.
+    /// The factor that brings the mean size near 1. Its exponent is even, so that its square root is a power of two as
+    /// well.
     [[nodiscard]] float scale() const {
         return count_ == 0 ? 1.0f : std::ldexp(1.0f, std::clamp(-exponents_ / count_, -126, 126) / 2 * 2);
     }

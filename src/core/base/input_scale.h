@@ -15,7 +15,7 @@ namespace tspace {
 struct InputScale {
     float positions = 1, uvs = 1;
 
-    /// What lengths of dP/du in scaled units are multiplied with.
+    /// The factor for lengths of dP/du in scaled units.
     [[nodiscard]] float lengthFactor() const {
         return static_cast<float>(std::clamp(static_cast<double>(uvs) / positions, double{FLT_MIN}, double{FLT_MAX}));
     }

@@ -40,8 +40,8 @@ inline void askForHugePages([[maybe_unused]] void* memory, [[maybe_unused]] std:
 #endif
 }
 
-/// Touching fresh 4 KB pages one by one can cost as much as all the computing on them (a fault is 0.5 us and more on
-/// a virtual machine). So a large block asks for its pages at once, and for huge ones. Hints only: they may fail.
+/// Page faults of fresh memory can cost as much as all the computing on it (0.5 us and more for each 4 KB on a virtual
+/// machine). So a large block is populated at once, with huge pages. Hints only: they may fail.
 inline void askForPages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t bytes) {
 #if defined(__linux__) && defined(MADV_POPULATE_WRITE)
     constexpr std::size_t kPage = 4096, kWorthACall = 32 * kPage;
@@ -77,7 +77,8 @@ inline void askForPages([[maybe_unused]] void* memory, [[maybe_unused]] std::siz
     }
 }
 
-/// An array of plain values of fixed size, not initialised unless asked for. Move-only. The allocator must outlive it.
+/// An array of plain values of fixed size, uninitialised unless a value is given. Move-only. The allocator must outlive
+/// it.
 template <class T>
 class Buffer {
     static_assert(std::is_trivially_copyable_v<T> && std::is_trivially_destructible_v<T>);

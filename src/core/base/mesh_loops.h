@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Loops over all faces, with the number of their first corner, and over all indices: their type is asked for once, not for
-// each corner.
+// Loops over all faces, and over all indices: their type is dispatched once per loop, not per corner.
 #pragma once
 
 #include <cstddef>
@@ -40,7 +39,7 @@ inline std::uint32_t faceSize(const MeshView& mesh, std::size_t face) {
 template <class Body>
 void forEachFace(const MeshView& mesh, Body&& body) {
     const std::size_t faces = mesh.faceCount();
-    // In variables of their own, which no store of the body can change.
+    // Local copies, which stores of the body cannot alias.
     const std::uint32_t* const sizes = mesh.face_sizes.data();
     const bool one_size = mesh.face_sizes.empty();
     const std::uint32_t same_size = mesh.face_size;

@@ -24,8 +24,8 @@ void pauseBriefly() {
 
 }  // namespace
 
-/// Loops are open to helpers while their caller works on them. A helper that comes late finds the loop closed, and
-/// nobody waits for it.
+/// Helpers may join a loop while its caller works on it. A helper that wakes too late finds the loop closed; the caller
+/// does not wait for it.
 class Parallel::Pool {
   public:
     explicit Pool(bool looks_out) : look_out_(looks_out ? kLookOut : kLookOut.zero()) {}

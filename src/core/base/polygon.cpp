@@ -63,7 +63,8 @@ class Cutter {
         tree_ = scratch.tree.data();
     }
 
-    /// Where the least rotation of the sequence of corners starts: two candidates that leap over each other, O(n).
+    /// The start of the lexicographically least rotation of the corners, by two candidates that overtake each other,
+    /// O(n).
     static std::uint32_t canonicalStart(std::span<const PolygonVertex> vertices) {
         const std::size_t count = vertices.size();
         std::size_t i = 0, j = 1, same = 0;
@@ -107,7 +108,7 @@ class Cutter {
             renew(before, orderOf(before));
             renew(after, orderOf(after));
         }
-        // Of the three vertices left, the first in canonical order.
+        // Three vertices are left: the triangle begins with the first in canonical order.
         writeEar(std::min({any_left, vertices_[any_left].previous, vertices_[any_left].next}));
     }
 
@@ -174,7 +175,7 @@ class Cutter {
         });
     }
 
-    /// Of the diagonal that cuts a vertex off, squared.
+    /// The squared length in UV space of the diagonal that cuts a vertex off.
     [[nodiscard]] double lengthInUv(std::uint32_t v) const {
         const float *from = vertices_[vertices_[v].previous].values, *to = vertices_[vertices_[v].next].values;
         const double du = double{to[3]} - double{from[3]}, dv = double{to[4]} - double{from[4]};

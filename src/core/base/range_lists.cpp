@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t kBlocksPerTask = 256;
 constexpr std::uint32_t kNoRange = 0xffffffffu, kSeveral = 0xfffffffeu;
 
-/// Reads blocks, and says what they are listed as.
+/// Reads blocks and finds the ranges that their triangles add to.
 class Walk {
   public:
     Walk(const TriangleGroups& triangles, std::size_t block_size, std::size_t group_count, std::size_t range_size)
@@ -87,8 +87,7 @@ RangeLists::RangeLists(const TriangleGroups& triangles, std::size_t block_size, 
     if (count_ <= 1) return;
     const std::size_t blocks = blockCount(triangles.count);
     const std::size_t tasks = std::clamp<std::size_t>(blocks / kBlocksPerTask, 1, parallel.width());
-    // First how many entries each task has for each range, then where they go: task after task within a
-    // range.
+    // Counts of entries per task and range first, then positions: task after task within a range.
     Buffer<std::size_t> places(allocator, tasks * count_, std::size_t{0});
     Buffer<std::uint32_t> range_of(allocator, blocks);
     const auto forEntries = [&](bool is_known, const auto& body) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Owner computes, range by range: which triangles have corners in which range of groups (vertices, points, groups of
-// corners). What is kept per group is too much to keep all of it near, and has one writer only; so ranges are worked on
-// one after the other, or by different threads, each with the triangles that are listed for it, in their order. The
-// results have the same bits for any number of ranges and threads.
+// Owner computes: which triangles have corners in which range of groups (vertices, points, groups of corners). The data
+// of all groups do not fit into a cache, and each group has one writer only; so ranges are worked on one after the
+// other, or by different threads, each with the triangles that are listed for it, in their order. Results have equal
+// bits for any number of ranges and threads.
 #pragma once
 
 #include <algorithm>
@@ -24,13 +24,13 @@ class TriangleGroups {
     /// more, and above all groups) means that nothing is added.
     virtual void read(std::size_t first, std::size_t triangles, std::uint32_t* vertices,
                       std::uint32_t* groups) const = 0;
-    /// The same for any triangles.
+    /// read() for any list of triangles.
     virtual void readSome(const std::uint32_t* numbers, std::size_t size, std::uint32_t* vertices,
                           std::uint32_t* groups) const {
         for (std::size_t i = 0; i < size; ++i)
             read(numbers[i], 1, vertices == nullptr ? nullptr : vertices + 3 * i, groups + 3 * i);
     }
-    /// Where read() needs not copy: the numbers of these triangles, if their vertices are their groups. Or null.
+    /// Pointer to the groups of these triangles, where they lie in memory and equal the vertices; else null.
     [[nodiscard]] virtual const std::uint32_t* inPlace(std::size_t, std::size_t) const { return nullptr; }
 
     const std::size_t count;
@@ -39,8 +39,8 @@ class TriangleGroups {
     ~TriangleGroups() = default;
 };
 
-/// Kernels read whole groups of triangles, so the last one is filled up. The triangles' vertices: `vertices`, or
-/// `buffer`, which may be the same.
+/// Kernels read whole groups of triangles: fills the last group with a valid vertex. Returns `vertices` where that is
+/// not needed, else `buffer`, which may be the same.
 inline const std::uint32_t* fillGroup(const std::uint32_t* vertices, std::size_t count, std::size_t group,
                                       std::uint32_t* buffer) {
     const std::size_t end = (count + group - 1) / group * group;
@@ -50,7 +50,7 @@ inline const std::uint32_t* fillGroup(const std::uint32_t* vertices, std::size_t
     return buffer;
 }
 
-/// Triangles that are worked on together. Behind the last ones is what was in `own_` before.
+/// Triangles that a kernel works on together. Beyond `count` the own arrays have stale entries.
 struct TriangleBatch {
     static constexpr std::size_t kMost = 64;
 
@@ -58,7 +58,7 @@ struct TriangleBatch {
     bool is_block = false;  ///< the triangles follow one another
     bool is_whole = false;  ///< and all their groups are in the range (or no groups)
     const std::uint32_t *vertices = own_vertices, *groups = own_groups;
-    std::uint32_t numbers[kMost];  ///< of a block the first one
+    std::uint32_t numbers[kMost];  ///< of a block only the first number
     std::uint32_t own_vertices[3 * kMost], own_groups[3 * kMost];
 
     [[nodiscard]] std::uint32_t number(std::size_t t) const {
@@ -92,7 +92,7 @@ class RangeLists {
     RangeLists(const TriangleGroups& triangles, std::size_t block_size, std::size_t group_count, std::size_t range_size,
                const Allocator* allocator, Parallel& parallel);
 
-    /// Whether most blocks add to one range only. Looks at some.
+    /// Whether most blocks add to one range only, by a sample of 64 blocks.
     static bool areCompact(const TriangleGroups& triangles, std::size_t block_size, std::size_t group_count,
                            std::size_t range_size);
 
@@ -126,7 +126,8 @@ class RangeLists {
         std::size_t next_, end_;                  ///< entries or blocks
     };
 
-    /// What a range lists, ascending: blocks that add to it alone, marked as such; of others, the triangles.
+    /// The list of a range, ascending: blocks that add to this range alone, with kBlock; single triangles of other
+    /// blocks.
     static constexpr std::uint32_t kBlock = 0x80000000u;
     [[nodiscard]] std::span<const std::uint32_t> entries(std::size_t range) const {
         return {entries_.data() + begin_[range], begin_[range + 1] - begin_[range]};

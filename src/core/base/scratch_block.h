@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One block of memory for the many small buffers of a short call, or for what needs no memory after it. What
-// does not fit comes from the caller's allocator.
+// One block of memory for the many small buffers of a short call, or for scratch memory that borrows an output.
+// Requests that do not fit go to the caller's allocator.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@ class ScratchBlock {
   public:
     ScratchBlock(const Allocator* parent, std::size_t bytes)
         : parent_(parent), own_(parent, bytes), block_(own_.data()), size_(bytes) {}
-    /// Gives out memory of somebody else.
+    /// Gives out memory that the caller owns.
     ScratchBlock(const Allocator* parent, std::span<std::byte> memory) : parent_(parent) {
         const std::size_t skip = -reinterpret_cast<std::uintptr_t>(memory.data()) % kMemoryAlignment;
         if (memory.size() <= skip) return;
@@ -45,7 +45,7 @@ class ScratchBlock {
 
     static void release(void* user, void* memory, std::size_t bytes, std::size_t) {
         auto& self = *static_cast<ScratchBlock*>(user);
-        // As numbers, since pointers into different memory must not be compared.
+        // Compared as numbers: comparing pointers into different arrays is undefined.
         const std::size_t offset =
             reinterpret_cast<std::uintptr_t>(memory) - reinterpret_cast<std::uintptr_t>(self.block_);
         if (offset >= self.size_) {

@@ -25,7 +25,7 @@ void sortRows(void* rows, std::size_t count, std::size_t row_bytes, RowIsLess is
             const unsigned char* b = from + middle * row_bytes;
             const unsigned char* const a_end = b;
             const unsigned char* const b_end = from + end * row_bytes;
-            // Where the two runs are in order already, as in most lists that a mesh gives, one look is enough.
+            // Runs that are in order already, as in most lists of a mesh, take one comparison.
             if (b != b_end && isLess(less, b, b - row_bytes)) {
                 while (a != a_end && b != b_end) copy(target, isLess(less, b, a) ? b : a, words);
             }

@@ -10,7 +10,7 @@
 
 namespace tspace {
 
-/// What a round adds, and what it makes of the sums. By blocks, as kernels want it.
+/// One round: rows that triangles add to groups, and what a group makes of its sums. Works on blocks, for kernels.
 class SumRound {
   public:
     static constexpr std::size_t kTriangles = 32;  ///< of one block; their rows stay in the first cache

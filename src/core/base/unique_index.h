@@ -37,7 +37,7 @@ class UniqueIndex {
         return slot;
     }
 
-    /// The same, or 0xffffffff when it was not seen.
+    /// The index of a key, or 0xffffffff when it was not seen.
     [[nodiscard]] std::uint32_t find(const Key& key) const { return slots_[findSlot(key)]; }
 
     [[nodiscard]] std::size_t size() const { return keys_.size(); }

@@ -19,7 +19,7 @@ namespace tspace {
 
 namespace {
 
-constexpr std::size_t kAskAhead = 32;  // lookups; all that they touch has to stay in the first cache
+constexpr std::size_t kPrefetchAhead = 32;  // lookups; all that they touch has to stay in the first cache
 
 constexpr std::size_t kGrain = 16384;  // vertices per task: below, starting threads costs more than it saves
 
@@ -155,8 +155,8 @@ class Welder {
         return list_.empty() ? static_cast<std::uint32_t>(i) : list_[i];
     }
 
-    /// Lists those that may be equal to others, unless they are too many. Returns how many are listed, or about how many
-    /// different ones there are.
+    /// Lists vertices that may be equal to others, unless these are most. Returns how many are listed, or about how
+    /// many different vertices there are.
     std::size_t listCandidates() {
         const std::size_t ranges = RepeatedHashes::rangesFor(count_, parallel_);
         RepeatedHashes counting(transient_, count_, ranges);
@@ -180,7 +180,7 @@ class Welder {
         return std::min(count_, kShare * counting.sum(parallel_));
     }
 
-    /// All of few vertices, by hashes alone: what is read and written stays in the first cache.
+    /// Finds roots of few vertices, by hashes alone: the table stays in the first cache.
     bool matchFew() {
         Buffer<std::uint32_t> table(transient_, std::bit_ceil(2 * count_), Weldable::kNoRoot);
         for (std::uint32_t v = 0, mask = static_cast<std::uint32_t>(table.size() - 1); v < count_; ++v) {
@@ -192,15 +192,15 @@ class Welder {
         return true;
     }
 
-    /// The same for many: each task has those of one range, and a part of the table. Returns false where hashes collide more
-    /// than chance explains.
+    /// Finds roots of many vertices, by hashes alone: each task has the vertices of one range of hashes and a part of
+    /// the table. Returns false where hashes collide more than chance explains.
     bool matchHashes(std::size_t distinct) {
         const std::size_t tasks =
             entry_count_ < 2 * kGrain
                 ? 1
                 : std::min<std::size_t>(parallel_.width(), std::size_t{2} * RepeatedHashes::kMostRanges);
-        // The guess may be bad.
-        for (std::size_t slots = std::bit_ceil(2 * distinct / tasks + 2 * kAskAhead);; slots *= 4) {
+        // The table grows where `distinct`, an estimate, was too low.
+        for (std::size_t slots = std::bit_ceil(2 * distinct / tasks + 2 * kPrefetchAhead);; slots *= 4) {
             Buffer<Slot> table(transient_, tasks * slots);
             std::atomic<std::size_t> done{0};
             parallel_.forTasks(tasks, [&](std::size_t task) {
@@ -213,13 +213,14 @@ class Welder {
         }
     }
 
-    /// Those of one range of hashes. Returns false when the table is too small, or its rows of taken slots too long.
+    /// Finds roots of one range of hashes. Returns false when the table is too small, or its probe sequences are too
+    /// long.
     bool matchRange(std::size_t task, std::size_t tasks, Slot* table, std::size_t slots) {
         const std::size_t mask = slots - 1;
         std::size_t room = slots - slots / 4, steps = 16 * entry_count_ + 1024;
-        Item items[kAskAhead];
-        for (std::size_t begin = 0; begin < entry_count_; begin += kAskAhead) {
-            const std::size_t end = std::min(begin + kAskAhead, entry_count_);
+        Item items[kPrefetchAhead];
+        for (std::size_t begin = 0; begin < entry_count_; begin += kPrefetchAhead) {
+            const std::size_t end = std::min(begin + kPrefetchAhead, entry_count_);
             std::size_t count = 0;
             for (std::size_t i = begin; i < end; ++i) {
                 const std::uint32_t vertex = vertexOf(i), hash = hashes_[vertex];
@@ -244,7 +245,7 @@ class Welder {
         return true;
     }
 
-    /// Those without a root. A NaN equals nothing that it lies beside.
+    /// Finds roots of vertices whose hash another vertex has, by sorting. A NaN equals no neighbour in the order.
     [[gnu::cold]] void matchBySorting() {
         std::uint32_t* const roots = roots_.data();
         Buffer<std::uint32_t> rest(
@@ -307,7 +308,7 @@ class Positions final : public Weldable {
     bool compare(const std::uint32_t* list, std::size_t begin, std::size_t end, std::uint32_t* roots) override {
         bool different = false;
         for (std::size_t i = begin; i < end; ++i) {
-            if (i + kAskAhead < end) __builtin_prefetch(&positions_[roots[i + kAskAhead]]);
+            if (i + kPrefetchAhead < end) __builtin_prefetch(&positions_[roots[i + kPrefetchAhead]]);
             const std::size_t vertex = list == nullptr ? i : list[i];
             if (roots[i] == vertex || positions_[vertex] == positions_[roots[i]]) continue;
             roots[i] = kNoRoot;

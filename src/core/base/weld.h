@@ -10,7 +10,7 @@
 
 namespace tspace {
 
-/// What is compared. A vertex that does not equal itself (a NaN) equals no other.
+/// Vertices to compare. A vertex that does not equal itself (a NaN) equals no other.
 class Weldable {
   public:
     static constexpr std::uint32_t kNoRoot = 0xffffffffu;
@@ -30,11 +30,11 @@ class Weldable {
 /// For each vertex its root: the lowest vertex that equals it. May be empty when no two are equal. Linear for any ordinary
 /// input, O(n log n) for one made to defeat the hash. `is_indexed`: few vertices are equal to others, most likely. Takes 10
 /// to 12 bytes per vertex while it works, up to 24 with four threads, and up to 32 when most vertices are equal to others.
-/// `transient`: for all but the result.
+/// `transient` allocates all but the result.
 Buffer<std::uint32_t> findRoots(Weldable& vertices, std::size_t count, bool is_indexed, const Allocator* allocator,
                                 const Allocator* transient, Parallel& parallel);
 
-/// The same of positions. Coordinates are compared exactly, but -0 equals 0; a position with a NaN equals no other.
+/// findRoots for positions. Coordinates are compared exactly, but -0 equals 0; a position with a NaN equals no other.
 Buffer<std::uint32_t> weldPositions(const MeshView& mesh, const Allocator* allocator, Parallel& parallel);
 
 }  // namespace tspace

@@ -67,7 +67,7 @@ tspace_ErrorCode finish(const Error& error, tspace_Error* out) noexcept {
     return code;
 }
 
-// It stands in the middle of other structs, so that no field can ever be added to it.
+// tspace_Convention stands in the middle of other structs, so no field can ever be added to it.
 static_assert(sizeof(tspace_Convention) == 5 * sizeof(std::uint32_t));
 
 Error checkStructSize(std::uint32_t size, std::span<const std::size_t> known, const char* name) {

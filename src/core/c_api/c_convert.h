@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What every function of the C API does: turn C structs into C++ ones, and Results into codes.
+// Shared by all functions of the C API: C structs become C++ ones, and Results become codes.
 #pragma once
 
 #include <algorithm>
@@ -62,7 +62,7 @@ Error checkSized(const Struct* sized, const char* name) {
     return checkStructSize(sized->struct_size, kSizes<Struct>, name);
 }
 
-/// The same for a struct that must be given.
+/// As checkSized, for a struct that must not be null.
 template <class Struct>
 Error checkNeeded(const Struct* sized, const char* name) {
     if (sized == nullptr) return makeError(ErrorCode::nullData, kNoElement, "%s is null", name);

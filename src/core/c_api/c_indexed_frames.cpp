@@ -12,7 +12,7 @@ using namespace tspace::c_api;  // NOLINT
 
 namespace {
 
-/// What the caller sees, first, and what its pointers lead into.
+/// The struct of the C API, as the first base, and the memory that its pointers point into.
 struct OwnedFrames : tspace_IndexedFrames {
     explicit OwnedFrames(IndexedFrames&& made)
         : tspace_IndexedFrames(),

@@ -16,7 +16,7 @@ namespace {
 
 static_assert(TSPACE_NO_CORNER == kNoCorner);
 
-/// What the caller sees, first, and what its pointers lead into.
+/// The struct of the C API, as the first base, and the memory that its pointers point into.
 struct OwnedSplit : tspace_SplitResult {
     SplitResult result;
 };

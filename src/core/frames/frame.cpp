@@ -14,8 +14,7 @@ namespace tspace {
 
 namespace {
 
-// Below this sine two directions given in floats (relative error 6e-8) no longer say anything about each
-// other.
+// Below this sine the angle between two directions given in floats (relative error 6e-8) is rounding.
 constexpr double kParallelSine = 1e-6;
 
 Vec3 unitOr(DVec3 v, const Vec3& substitute) { return normalize(v) ? toFloat(v) : substitute; }
@@ -66,7 +65,7 @@ FaceFrame divided(const UvFrame& sums) {
 
 float fraction(double x) {
     const float f = static_cast<float>(x - std::floor(x));
-    return f >= 0 && f < 1 ? f : 0.0f;  // rounding can give 1; what is not finite lies nowhere
+    return f >= 0 && f < 1 ? f : 0.0f;  // rounding can give 1; values that are not finite become 0
 }
 
 }  // namespace

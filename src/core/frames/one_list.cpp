@@ -9,7 +9,7 @@ namespace tspace {
 
 namespace {
 
-/// The entry of an attribute that each vertex has: that of its corner in the attribute's own list, or that of its vertex.
+/// For each vertex its entry of an attribute: that of its corner in the attribute's own list, or its own number.
 std::vector<std::uint32_t> sourcesOf(const IndexView& list, const SplitResult& split) {
     if (list.type == IndexType::none) return split.source_vertices;
     std::vector<std::uint32_t> sources(split.vertexCount());
@@ -32,7 +32,7 @@ std::vector<T> gathered(const StridedSpan<const T>& values, const std::vector<st
 Result<Done> useOneList(const MeshView& mesh, const Execution& execution, OneListMesh& made,
                         std::span<const std::uint32_t> welded, std::span<const CornerAttribute> further) {
     const std::size_t corner_count = mesh.cornerCount();
-    // What tells corners apart: values, or numbers as floats, whose bits the split compares.
+    // The attributes that tell corners apart: values, or index numbers as floats, whose bits the split compares.
     std::vector<CornerAttribute> attributes(further.begin(), further.end());
     std::vector<std::uint32_t> numbers[2];
     const auto add = [&](const auto& values, const IndexView& list, std::vector<std::uint32_t>& memory) {
@@ -51,7 +51,7 @@ Result<Done> useOneList(const MeshView& mesh, const Execution& execution, OneLis
                                               corner_count, attributes, execution);
     if (!split) return std::move(split).error();
     if (!welded.empty()) {
-        // Without indices a corner is a vertex: the one whose other attributes these are.
+        // Without indices a corner is a vertex, and the new vertex takes its other attributes.
         for (std::size_t v = 0; v < split->vertexCount(); ++v) {
             if (split->source_corners[v] != kNoCorner) split->source_vertices[v] = split->source_corners[v];
         }

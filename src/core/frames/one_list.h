@@ -22,7 +22,7 @@ struct OneListMesh {
     std::vector<Vec3> positions = {};
     std::vector<Vec3> normals = {};  ///< zero where no corner uses the vertex
     std::vector<Vec2> uvs = {};
-    MeshView view = {};  ///< of what stands above, which must stay where it is
+    MeshView view = {};  ///< a view of the members above: the struct must not move
 
     OneListMesh() = default;
     OneListMesh(const OneListMesh&) = delete;

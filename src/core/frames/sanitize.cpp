@@ -28,7 +28,7 @@ namespace {
 
 /// The glTF validator's tolerance for the length of a tangent.
 constexpr double kUnitTolerance = 5e-4;
-/// Its sine.
+/// The sine of one degree.
 constexpr double kOneDegree = 0.017452406437283512;
 /// Sound tangents this close to unit and orthogonal are left alone by orthogonalize_all. Rounding to float
 /// leaves less than 1.5e-7, so what was written once is not written again.
@@ -38,7 +38,7 @@ constexpr double kOrthogonalTolerance = 5e-7;
 constexpr std::size_t kFacesPerBlock = 4;
 constexpr std::size_t kScanGrain = 1024;
 
-/// What is counted: what is wrong with tangents, what they are mended with, and more.
+/// Counters of the report: defects of tangents, the sources of their repair, and more.
 enum class Counted : std::uint8_t {
     notFinite,
     zero,
@@ -84,7 +84,7 @@ bool isUsable(const Vec3& direction, const DVec3& n) {
     return size >= double{FLT_MIN} && length(cross(n, t)) >= (isZero(n) ? 0.0 : kOneDegree * size);
 }
 
-/// Whether nobody chose this direction: see sanitize.h.
+/// Whether the direction is a placeholder that some exporter wrote: see sanitize.h.
 bool isPlaceholder(const Vec4& tangent, const DVec3& n) {
     return xyz(tangent) == Vec3{1, 0, 0} && std::abs(n.x) > kOrthogonalTolerance;
 }
@@ -123,7 +123,7 @@ struct SurelySound {
     static constexpr float kSquareLean = 1e-13f;            // below kOrthogonalTolerance^2
     static constexpr float kLeast = 1e-20f, kMost = 1e20f;  // squares of components neither vanish nor overflow
 
-    /// Of four, with their signs apart.
+    /// Tests four tangents at once; `w` has their signs.
     static Mask4 of(const Vec3x4& t, Float4 w, const Vec3x4& n) {
         const Float4 nn = dot(n, n), nt = dot(n, t);
         const Float4 most = select4(or4(t.y, t.z) == splat(0), splat(kSquareLean), splat(kSquareCosine));
@@ -229,7 +229,7 @@ class Sanitizer {
         });
     }
 
-    /// The four triangles of a full block.
+    /// Scans the four triangles of a full block.
     template <class VertexOf>
     [[nodiscard]] bool areFine(std::size_t first, VertexOf vertexOf) const {
         static_assert(kFacesPerBlock == 4);
@@ -271,7 +271,7 @@ class Sanitizer {
         return c;
     }
 
-    /// Finds causes, and the corners whose cure may lie at their position.
+    /// Finds the defects of a face's corners, and marks corners that look for a sound tangent at their position.
     void detect(std::size_t first, std::uint32_t size, Counts& counts) {
         bool all_sound = true;
         for (std::size_t c = first; c < first + size; ++c) {
@@ -320,8 +320,9 @@ class Sanitizer {
         return found.w != 0 ? &found : nullptr;
     }
 
-    /// What the sound corners say, those first whose N has a direction: without one a sign says nothing; without any, what
-    /// the broken ones with a sign say; without any, what the first sound corner at one of the face's positions says; else +1.
+    /// The sign of a face's corners: of its sound corners, first those whose N has a direction (without one a sign
+    /// means nothing); else of broken corners that have a sign; else of the first sound corner at one of the face's
+    /// positions; else +1.
     [[nodiscard]] float signOf(std::size_t first, std::uint32_t size) const {
         const auto votes = [this](std::size_t c, int round) {
             if (round == 2) return isSign(tangents_[c].w);
@@ -363,8 +364,8 @@ class Sanitizer {
         }
     }
 
-    /// Where N has no direction a tangent that is made up serves all corners at the position with its sign, so that no
-    /// vertex has to be split: the first.
+    /// Where N has no direction, all corners at a position with one sign share the first substituted tangent, so that
+    /// no vertex has to be split.
     void alignWithoutNormals() {
         if (points_.empty()) points_ = weldPositions(mesh_, allocator_, parallel_);
         Buffer<Vec4> made(allocator_, 2 * mesh_.vertexCount(), Vec4{});
@@ -394,11 +395,11 @@ class Sanitizer {
     Buffer<std::uint8_t> candidates_;      ///< one per block
     Buffer<std::uint32_t> block_corners_;  ///< each block's first corner; empty when all faces have one size
     Buffer<Cause> causes_;
-    // Where corners seek: the point of each vertex (empty: its own), and the first sound tangent there; its sign is 0 where
-    // there is none.
+    // Corners without a sound tangent look here: the point of each vertex (empty: its own number), and the first sound
+    // tangent at each point; a sign of 0 means none.
     Buffer<std::uint32_t> points_;
     Buffer<Vec4> found_;
-    /// Of all tasks together: sums of whole numbers do not depend on their order.
+    /// Sums over all tasks; integer sums do not depend on their order.
     std::array<std::atomic<std::uint64_t>, kCounted> counts_{};
 };
 

@@ -58,7 +58,7 @@ constexpr std::uint32_t kNoVariant = 0xffffffffu;  ///< and no number of a node
 /// Further than this many cells from 0, floats lie more than 100 tolerances apart: only equal values match.
 constexpr double kMostCells = 4294967296.0;
 
-/// Where a component lies on its line; what is equal to it lies there or in a cell beside it.
+/// The cell of a component; equal components (within the tolerance) lie in one cell or in neighbouring ones.
 std::uint64_t cellOf(float value, float tolerance) {
     const double cells = double{value} / (double{tolerance} * kCellMargin);
     if (!(std::abs(cells) < kMostCells)) return 0x7ff8000000000000u | std::bit_cast<std::uint32_t>(value);
@@ -76,8 +76,8 @@ std::uint64_t cellOf(float value, float tolerance) {
 /// The variants of vertices: a vertex itself with its first corner, and the copies that later corners got.
 class Variants {
   public:
-    /// `result` needs a first corner in source_corners for each vertex that is asked for. It gets the copies; its
-    /// source_vertices serve as links between variants and are to be written when all corners are done.
+    /// `result` must have a first corner in source_corners for each vertex that is looked up. Copies are appended to
+    /// it; until all corners are done, its source_vertices link the variants of a vertex.
     Variants(AttributeSpan attributes, SplitResult& result)
         : attributes_(attributes), corners_(result.source_corners), next_(result.source_vertices) {}
 
@@ -174,13 +174,13 @@ class Variants {
     std::vector<std::uint64_t> cells_, reached_, further_;
 };
 
-/// Of corners one behind the other, writes those that do not equal the first one of their vertex to `different`, and returns
-/// how many they are. These first ones, `firsts` of all vertices, are found on the way. For exact attributes with these
-/// numbers of components, in this order; any where there are none.
+/// Writes the corners of a range that do not equal the first corner of their vertex to `different`, and returns their
+/// count. First corners, `firsts` of all vertices, are found on the way. For exact attributes with these component
+/// counts, in this order; for any attributes where none are given.
 template <std::uint32_t... Counts>
 std::size_t listDifferent(AttributeSpan attributes, std::uint32_t corner, std::size_t count,
                           const std::uint32_t* vertices, std::uint32_t* firsts, std::uint32_t* different) {
-    std::array<CornerAttribute, sizeof...(Counts)> exact;  // copies, which no store can change
+    std::array<CornerAttribute, sizeof...(Counts)> exact;  // local copies, which no store can alias
     std::copy_n(attributes.begin(), exact.size(), exact.begin());
     const auto at = [&](std::size_t i, std::uint32_t which) { return cornerValues(exact[i], which); };
     std::size_t different_count = 0;

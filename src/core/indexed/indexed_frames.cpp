@@ -54,7 +54,7 @@ class FramesMaker {
         return Done{};
     }
 
-    /// Of a mesh without indices: for each vertex the first at its position. Else empty.
+    /// For a mesh without indices, the first vertex at the position of each vertex; else empty.
     std::span<const std::uint32_t> weld() {
         if (mesh_.indices.type != IndexType::none) return {};
         Parallel parallel(execution_, mesh_.cornerCount());

@@ -36,8 +36,8 @@ struct BestKernel {
     void (*finish)(float* sums, const float* robust, const float* sharp, std::size_t count);
 };
 
-/// `sharp` gives the means by `max`, `fit` what both means say together, `step` moves that. Each reads what is before
-/// it.
+/// The rounds in order, each of which reads the results before it: `sharp` gives the means by `max`, `fit` the normals
+/// that both means and the edges give, `step` refines these.
 struct BestKernels {
     BestKernel sharp, fit, step;
 };

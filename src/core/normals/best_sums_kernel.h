@@ -23,8 +23,8 @@ using namespace simd::TSPACE_LANES;
 
 namespace {
 
-// Where each doubt is even (the blend half and half), found by trying values on analytic surfaces with and without
-// noise and on bevels (docs/accuracy.md).
+// The value of each doubt at which the blend is half and half, found by trying values on analytic surfaces with and
+// without noise and on bevels (docs/accuracy.md).
 constexpr double kNoise = 0.45;   // of the bend of the edges, what no normal explains
 constexpr double kKink = 1.5;     // misfit of the sharp normals, in that of the robust ones
 constexpr double kJump = 2.5;     // turn over the longest edge if all of it bent like the most bent one, in
@@ -32,15 +32,16 @@ constexpr double kJump = 2.5;     // turn over the longest edge if all of it ben
 constexpr double kTurn = 0.8;     // twice the sine of half the angle between the sharp normals at an edge's ends
 constexpr double kSpread = 0.42;  // sine between fit and robust mean
 
-// Of the quadratic part's own size: enough for rings with too few edges, and too little to matter elsewhere. Weighed as
-// in the method `best` (tangents/estimators/quadratic_recovery_kernel.h): second derivatives by their Frobenius norm.
+// The ridge, relative to the quadratic part: enough for rings with too few edges, negligible elsewhere. It weighs
+// second derivatives by their Frobenius norm, as in the method `best`
+// (tangents/estimators/quadratic_recovery_kernel.h).
 constexpr double kFitRidge = 3e-4, kFitRidgeShare = 0.3;
 
 constexpr double kNoTrust = 1e12;  // so large that a blend has the bits of one side
 
 constexpr std::size_t kFitStep = 12 * kFitRows;  // floats from triangle to triangle
 
-// Where the trust in a step is half, found in the same way.
+// The values at which the trust in a step is half, found by the same trials.
 constexpr double kStepLeft = 0.5;          // of what the step explains, what it does not
 constexpr double kStepNoise = 1.0 / 30.0;  // of the turn over the edges, what the step does not explain
 
@@ -106,9 +107,9 @@ void finishSharp(float* rows, const float*, const float*, std::size_t count) {
     }
 }
 
-/// What both ends of an edge see alike: it counts where both have a `max` normal.
+/// Terms of an edge that are equal at both its ends. The edge counts where both ends have a `max` normal.
 struct EdgeDoubt {
-    Floats misfit;  ///< of the sharp normals, for who looks along the edge
+    Floats misfit;  ///< of the sharp normals, as seen along the edge
     Floats bend, count, sharp_misfit, robust_misfit, square;
     Mask counts;
 
@@ -126,7 +127,7 @@ struct EdgeDoubt {
     }
 };
 
-/// An edge as its beginning sees it, in the plane across the sharp normal.
+/// An edge in the plane across the sharp normal of its first end.
 struct Seen {
     Floats x, y, slope, b0, b1, b2, misfit, curvature;
 
@@ -197,7 +198,7 @@ void addFit(const BestSource& source, const std::uint32_t* vertices, const std::
         addFitOf(source, vertices + 3 * t, points + 3 * t, rows + kFitStep * t);
 }
 
-// -- what a point makes of it --
+// -- the normal of a point, from its sums --
 
 struct PointSums {
     Floats xx, xy, yy, xs, ys;
@@ -226,7 +227,7 @@ struct Slopes {
     Mask spanned;  ///< whether edges point in more than one direction
     Floats xx, xy, yy;
 
-    /// Of the sums of squares and products of the edges' two coordinates.
+    /// Arguments: sums of squares and products of the two coordinates of the edges.
     Slopes(Floats sum_xx, Floats sum_xy, Floats sum_yy) {
         const Floats determinant = sum_xx * sum_yy - sum_xy * sum_xy, all = sum_xx + sum_yy;
         spanned = determinant > broadcast(1e-6f) * (all * all);
@@ -369,7 +370,7 @@ void finishStep(float* sums, const float* normals, const float*, std::size_t cou
         const Slopes slopes(xx, xy, yy);
         const Flat lean = minus(one) * slopes.solve(xm, ym);
         const Floats explained = minus(lean.x * xm + lean.y * ym), left = larger(mm - explained, zero());
-        // Not a number where there is nothing to explain.
+        // NaN where the edges leave nothing to explain.
         const Floats share =
             half / (trust(kStepLeft, left / explained) * trust(kStepNoise, left / turn) * (one + dot(lean, lean)));
         const Plane plane(n);

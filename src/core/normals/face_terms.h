@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What each triangle of a block adds to the sums of its points: its normal, times the angle at the corner. Written once
-// (face_terms_kernel.h), compiled for several CPUs, same bits from all of them.
+// The terms of a block of triangles: the face normal times the angle at the corner, which is added to the corner's
+// point. Written once (face_terms_kernel.h), compiled for several CPUs, equal bits from all of them.
 #pragma once
 
 #include <cstddef>
@@ -41,9 +41,9 @@ struct FaceKernel {
     /// before `end`.
     void (*add)(const FaceTerms& terms, const std::uint32_t* points, std::size_t count, double* sums,
                 std::uint32_t begin, std::uint32_t end);
-    /// Of `count` rows of sums, a multiple of kTermGroup: writes four floats to the front of each row, the unit normal
-    /// and 0; or, where the sum is not above `least` of the weights (the fourth number), three zeros and -0. Returns of
-    /// how many rows with weights that is so.
+    /// Finishes `count` rows of sums, a multiple of kTermGroup: writes four floats to the front of each row, the unit
+    /// normal and 0; or three zeros and -0 where the sum is not above `least` times the weights (the fourth number).
+    /// Returns the count of such rows that have weights.
     std::uint64_t (*finish)(double* sums, std::size_t count, double least);
 };
 

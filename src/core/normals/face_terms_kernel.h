@@ -65,8 +65,8 @@ inline unsigned faceNormals(DoubleVectors o, DoubleVectors p1, DoubleVectors p2,
     return bitsOf(sound);
 }
 
-/// What the steps of a block leave for the next one. The steps are loops of their own, because each is a long chain of
-/// operations that wait for one another: of short loops a processor works on several rounds at the same time.
+/// Intermediate results of a block. Each step is a loop of its own: one long loop body would be one chain of dependent
+/// operations, while of short loops a processor overlaps several rounds.
 struct Steps {
     alignas(64) float position[3][3][kTermTriangles];  ///< of each corner: x, y, z
     alignas(64) float angle[3][kTermTriangles];        ///< of each corner; first its cotangent
@@ -74,7 +74,7 @@ struct Steps {
 
 inline void readPositions(const FaceSource& source, const std::uint32_t* vertices, std::size_t t, Steps& steps) {
     const bool exact = namesLast(vertices, source.last_vertex);
-#pragma GCC unroll 3  // or what the loop indexes lies in memory
+#pragma GCC unroll 3  // keeps the arrays in registers
     for (std::size_t k = 0; k < 3; ++k) {
         const Vectors p = gatherVectors(source.positions, source.stride, vertices + k, exact);
         store(steps.position[k][0] + t, p.x);

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: MIT
-// Based on: Newell's method as in Sutherland, Sproull & Schumacker, "A Characterization of Ten Hidden-Surface
-// Algorithms", 1974.
-#include "core/normals/faces.h"
+// The faces of a mesh, their normals, and the flat normals of corners. Based on: Newell's method as in Sutherland,
+// Sproull & Schumacker, "A Characterization of Ten Hidden-Surface Algorithms", 1974.
+#include "core/normals/normals_call.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 #include "core/base/caches.h"
 #include "core/base/mesh_loops.h"
+#include "core/base/range_lists.h"
 
 namespace tspace {
 
@@ -45,7 +47,7 @@ const std::uint32_t* PointItems::inPlace(std::size_t first, std::size_t) const {
     if (in_place_ == nullptr || points_.empty()) return in_place_ == nullptr ? nullptr : in_place_ + 3 * first;
     constexpr std::size_t kBlock = TriangleBatch::kMost;
     std::uint8_t* const block = &blocks_[first / kBlock];
-    std::uint8_t known = __atomic_load_n(block, __ATOMIC_RELAXED);  // of two threads at once both find the same
+    std::uint8_t known = __atomic_load_n(block, __ATOMIC_RELAXED);  // two threads at once store equal answers
     if (known == unknown) {
         const std::size_t begin = first / kBlock * kBlock, end = std::min(begin + kBlock, count);
         const std::uint32_t *v = in_place_ + 3 * begin, *const past = in_place_ + 3 * end,
@@ -110,6 +112,50 @@ FaceRow faceRow(const MeshView& mesh, std::uint32_t first, std::uint32_t past, d
     const DVec3 unit = (factor / l) * sum;
     const double size = by_area ? l : 1;
     return {size * unit.x, size * unit.y, size * unit.z, size};
+}
+
+NormalReport writeFaceNormals(const NormalsCall& call) {
+    using smooth::FaceTerms, smooth::kTermGroup, smooth::kTermTriangles;
+    const Faces& faces = call.faces;
+    std::atomic<std::uint64_t> degenerate_faces{0}, degenerate_corners{0};
+    const auto write = [&](std::uint32_t face, const FaceRow& row, NormalReport& counts) {
+        const std::uint32_t first = faces.first(face), past = faces.past(face);
+        if (row.isDegenerate()) {
+            ++counts.degenerate_face_count;
+            counts.fallback_corner_count += past - first;
+            return;
+        }
+        const Vec3 normal = toFloat({row.x, row.y, row.z});
+        for (std::uint32_t corner = first; corner != past; ++corner) call.out[corner] = normal;
+    };
+    const auto writeBlocks = [&](std::size_t begin, std::size_t end, NormalReport& counts) {
+        TriangleBatch batch;
+        FaceTerms terms;
+        for (RangeLists::Batches batches(call.items, kTermTriangles, begin, end); batches.next(batch);) {
+            const std::uint32_t* const v = fillGroup(batch.vertices, batch.count, kTermGroup, batch.own_vertices);
+            call.kernel.compute(call.source(call.posed, false, false), v, batch.count, terms);
+            for (std::size_t t = 0; t < batch.count; ++t) {
+                const auto& [x, y, z, size] = terms.normal[t];
+                write(batch.number(t), {x, y, z, size}, counts);
+            }
+        }
+    };
+    const auto writePolygons = [&](std::size_t begin, std::size_t end, NormalReport& counts) {
+        for (auto face = static_cast<std::uint32_t>(begin); face != end; ++face) {
+            const std::uint32_t first = faces.first(face), past = faces.past(face);
+            const bool is_used = faces.isUsed(face);
+            write(face, is_used ? faceRow(call.posed, first, past, call.factor, false) : FaceRow{0, 0, 0, 1}, counts);
+        }
+    };
+    const std::size_t step = call.are_triangles ? kTermTriangles : 1;
+    const std::size_t steps = (call.mesh.faceCount() + step - 1) / step;
+    call.parallel.forRanges(steps, Parallel::kGrain / step, [&](std::size_t begin, std::size_t end) {
+        NormalReport counts;
+        call.are_triangles ? writeBlocks(begin, end, counts) : writePolygons(begin, end, counts);
+        degenerate_faces += counts.degenerate_face_count;
+        degenerate_corners += counts.fallback_corner_count;
+    });
+    return {faces.usedCount(), degenerate_faces, degenerate_corners};
 }
 
 }  // namespace tspace

@@ -1,16 +1,100 @@
 // SPDX-License-Identifier: MIT
-// What both ways to smooth normals read, these ways, and the rounds of NormalWeighting::best, which both end with.
+// Smoothing normals: the arguments and faces of a call, the two ways (smoothTriangles, smoothFaces), and the rounds of
+// NormalWeighting::best, with which both end.
 #pragma once
+
+#include <cstdint>
 
 #include "core/base/call.h"
 #include "core/base/memory.h"
 #include "core/base/parallel.h"
+#include "core/base/range_lists.h"
+#include "core/base/vec_math.h"
 #include "core/base/weld.h"
 #include "core/normals/face_terms.h"
-#include "core/normals/faces.h"
+#include "tspace/mesh.h"
 #include "tspace/normals.h"
 
 namespace tspace {
+
+/// The faces of a mesh by their corners. Faces of one size need no table; otherwise 4 bytes per corner and face.
+class Faces {
+  public:
+    Faces(const MeshView& mesh, const Allocator* allocator);
+
+    /// The face of a corner, the first corner of a face, and the one after its last.
+    [[nodiscard]] std::uint32_t of(std::uint32_t corner) const {
+        return size_ == 3 ? corner / 3 : size_ != 0 ? corner / size_ : corner_faces_[corner];
+    }
+    [[nodiscard]] std::uint32_t first(std::uint32_t face) const {
+        return size_ != 0 ? face * size_ : first_corners_[face];
+    }
+    [[nodiscard]] std::uint32_t past(std::uint32_t face) const { return first(face + 1); }
+    struct Around {
+        std::uint32_t corners[3];  ///< a corner, the one after it on the border of its face and the one before
+    };
+    [[nodiscard]] Around around(std::uint32_t corner) const {
+        const std::uint32_t face = of(corner), begin = first(face), end = past(face);
+        return {{corner, corner + 1 == end ? begin : corner + 1, (corner == begin ? end : corner) - 1}};
+    }
+    [[nodiscard]] std::uint32_t next(std::uint32_t corner) const { return around(corner).corners[1]; }
+    [[nodiscard]] std::uint32_t previous(std::uint32_t corner) const { return around(corner).corners[2]; }
+    /// Faces of fewer than 3 corners are ignored everywhere.
+    [[nodiscard]] bool isUsed(std::uint32_t face) const { return past(face) - first(face) >= 3; }
+    [[nodiscard]] std::uint64_t usedCount() const { return used_count_; }
+
+  private:
+    std::uint32_t size_ = 0;  ///< of every face; 0: they differ
+    std::uint64_t used_count_ = 0;
+    Buffer<std::uint32_t> first_corners_, corner_faces_;
+};
+
+/// The items that range lists sort by points: triangles, or for other faces single corners.
+class PointItems final : public TriangleGroups {
+  public:
+    /// `points`: of each vertex; empty when each is its own.
+    PointItems(const MeshView& mesh, const Faces& faces, const Buffer<std::uint32_t>& points,
+               const Allocator* allocator);
+
+    static bool areTriangles(const MeshView& mesh) { return mesh.face_sizes.empty() && mesh.face_size == 3; }
+
+    [[nodiscard]] std::uint32_t pointOf(std::uint32_t corner) const {
+        const std::uint32_t vertex = mesh_.indices[corner];
+        return points_.empty() ? vertex : points_[vertex];
+    }
+    /// A corner comes with the next and the previous one, and its own point three times; those of faces with fewer than
+    /// 3 corners have none.
+    void read(std::size_t first, std::size_t size, std::uint32_t* vertices, std::uint32_t* points) const override;
+    void readSome(const std::uint32_t* numbers, std::size_t size, std::uint32_t* vertices,
+                  std::uint32_t* points) const override;
+    [[nodiscard]] const std::uint32_t* inPlace(std::size_t first, std::size_t) const override;
+
+  private:
+    template <class NumberOf>
+    void readEach(NumberOf numberOf, std::size_t size, std::uint32_t* vertices, std::uint32_t* points) const;
+
+    enum Block : std::uint8_t { unknown, own, shared };  // own: each vertex is its own point
+
+    const MeshView& mesh_;
+    const Faces& faces_;
+    const Buffer<std::uint32_t>& points_;
+    const std::uint32_t* in_place_;  ///< the indices; null where they are not triangles of 32-bit numbers
+    /// What was found of each block by inPlace. Nearly all are `own` where triangles lie close together, and comparing
+    /// once is cheaper than looking points up in each pass.
+    mutable Buffer<std::uint8_t> blocks_;
+};
+
+/// The normal of a face times `size`, and `size`: zeros if it is degenerate.
+struct FaceRow {
+    double x, y, z, size;
+
+    [[nodiscard]] bool isDegenerate() const { return size == 0; }
+    [[nodiscard]] DVec3 unit() const { return (1 / size) * DVec3{x, y, z}; }
+};
+
+/// By Newell's sum over the corners from `first` to before `past`. size: its length, twice the area, if that is a
+/// weight, else 1. `factor` is normalFactor(convention).
+FaceRow faceRow(const MeshView& mesh, std::uint32_t first, std::uint32_t past, double factor, bool by_area);
 
 /// A call whose mesh and options have been checked.
 struct NormalsCall {
@@ -59,19 +143,19 @@ struct NormalsCall {
 };
 
 /// The common case by a shorter way: triangles, all weightings but max, and a point has one normal. Scratch
-/// memory: 4 bytes per vertex, core/range_lists.h and 1 MB, or up to 4 MB for each of several threads; where triangles
-/// that follow one another are far apart 36 bytes per vertex; for `best` 60, and core/sum_rounds.h. While vertices are
+/// memory: 4 bytes per vertex, core/base/range_lists.h and 1 MB, or up to 4 MB for each of several threads; where triangles
+/// that follow one another are far apart 36 bytes per vertex; for `best` 60, and core/base/sum_rounds.h. While vertices are
 /// welded 10 to 24. Throws OutOfMemory.
 NormalReport smoothTriangles(const NormalsCall& call);
 
 /// Any mesh: faces of any size, hard edges, all weightings. Range by range of points, with a list of the corners around
-/// each. Scratch memory: 4 bytes per vertex, core/range_lists.h, faces.h where faces differ in size, and for each task
+/// each. Scratch memory: 4 bytes per vertex, core/base/range_lists.h, Faces where faces differ in size, and for each task
 /// 150 bytes per triangle of a range, which are an eighth of a small mesh and about 8000 of a large one; for `best`
 /// also 28 bytes per corner. While vertices are welded 10 to 24 bytes per vertex. Throws OutOfMemory.
 NormalReport smoothFaces(const NormalsCall& call);
 
-/// The weighting `flat`, but that corners of degenerate faces keep what they have; these are what it counts as substitutes.
-/// Looks at no points.
+/// The weighting `flat`, except that corners of degenerate faces are left as they are and counted as substitutes.
+/// Points are not read.
 NormalReport writeFaceNormals(const NormalsCall& call);
 
 namespace smooth {
@@ -86,7 +170,7 @@ inline constexpr std::size_t kBehind = 2;
 /// sharp           the means by `max`, or zero where one vanished, and kBehind more; empty: they are found by the same
 ///                 triangles. Where one vanished the mean by angle * area stays
 ///
-/// Scratch memory: 24 bytes per group with `sharp`, and core/sum_rounds.h. Linear. Throws OutOfMemory.
+/// Scratch memory: 24 bytes per group with `sharp`, and core/base/sum_rounds.h. Linear. Throws OutOfMemory.
 void refine(const NormalsCall& call, const TriangleGroups& triangles, std::size_t adding_corners,
             StridedSpan<Vec3> normals, Buffer<Vec3> sharp);
 

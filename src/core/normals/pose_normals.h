@@ -6,10 +6,9 @@
 
 namespace tspace {
 
-/// As generateNormals on the mesh with these positions instead of its own, but which vertices are one point, and which
-/// edges are hard by the crease angle, is decided by the mesh's own positions. So corners that share a normal on the
-/// mesh for being smooth do so in every pose, and where nothing near a corner moves it gets the bits that it has on the
-/// mesh.
+/// generateNormals with other positions. The mesh's own positions still decide which vertices are one point and which
+/// edges are hard by the crease angle. So corners that share a normal on the mesh share it in every pose, and a normal
+/// near which nothing moves has the bits that it has on the mesh.
 ///
 /// positions   one per vertex of the mesh
 /// Errors, complexity, memory and threads: as generateNormals.

@@ -95,12 +95,12 @@ double maxWeight(const DVec3& e1, const DVec3& e2) {
     return lengths > 0 ? length(cross(e1, e2)) / lengths : 0;
 }
 
-/// What all ranges have in common.
+/// Arguments that all ranges share.
 struct Setting {
     explicit Setting(const NormalsCall& c) : call(c), rule(c) {}
 
-    /// What a face's row is multiplied with at a corner, in double. A face that visits a point with several corners in
-    /// a row (a collapsed edge) counts once, at the first of them: the others weigh 0.
+    /// The weight of a face's row at a corner, in double. A face that visits a point with several consecutive corners
+    /// (a collapsed edge) counts once, at the first of them: the others weigh 0.
     [[nodiscard]] double weightOf(NormalWeighting by, std::uint32_t point, std::uint32_t corner,
                                   const FaceRow& row) const {
         const std::uint32_t previous = call.faces.previous(corner);
@@ -190,7 +190,8 @@ class RangeWork {
         size_ += static_cast<std::uint32_t>(count);
     }
 
-    /// What the kernel does not know.
+    /// What the kernel leaves open: degenerate triangles, weights of `max`, and rows of the mesh beside those of the
+    /// pose.
     void mend() {
         for (std::size_t t = size_; t < size_ + batch_.count; ++t) {
             LocalTriangle& triangle = room_.triangles[t];
@@ -206,7 +207,7 @@ class RangeWork {
         }
     }
 
-    /// Of other faces the items are corners.
+    /// For faces that are no triangles, the items are corners.
     void addCorners() {
         for (std::size_t i = 0; i < batch_.count; ++i) {
             const std::uint32_t corner = batch_.number(i), point = batch_.groups[3 * i], face = call_.faces.of(corner);

@@ -228,7 +228,7 @@ class TriangleSmoother {
         return substitutes;
     }
 
-    /// What stands for a mean that vanished.
+    /// The substitute for a mean that vanished.
     [[nodiscard]] Vec3 ownNormal(std::size_t triangle) const {
         std::uint32_t vertices[3 * kTermGroup];
         FaceTerms terms;

@@ -19,7 +19,7 @@ constexpr std::uint32_t kFew = 8;  ///< corners at a point: enough nearly everyw
 // Positions are floats: an edge of 90 degrees by intent is up to some 1e-7 rad more by its numbers.
 constexpr double kCreaseSlackRad = 1e-6;
 
-/// Where a normal stands on its turn about an edge: monotonic in the angle, in [0, 4), without trigonometry.
+/// The position of a normal on its turn about an edge: monotonic in the angle, in [0, 4), without trigonometry.
 class Turn {
   public:
     explicit Turn(const DVec3& edge) {

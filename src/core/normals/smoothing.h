@@ -31,7 +31,7 @@ struct PointCorners {
     [[nodiscard]] double weight(std::uint32_t slot) const { return at(slot).weights[entries[slot] & 3]; }
 };
 
-/// What keeps faces from being smoothed together: creases and groups.
+/// Which faces may be smoothed together: creases and smoothing groups.
 struct SmoothingRule {
     explicit SmoothingRule(const NormalsCall& c);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is known of each format: its bytes, its bounds, its kernel.
+// The table of formats: bytes, bounds, kernel.
 #pragma once
 
 #include <cstddef>

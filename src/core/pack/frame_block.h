@@ -24,8 +24,8 @@ struct FrameBlock {
     alignas(64) std::uint32_t mirrored[kBlockFrames];
 };
 
-/// Where decoded frames go: three numbers for each normal, and one more after the last; four for each tangent, the
-/// fourth of which is the sign.
+/// Output of decoding: three numbers for each normal, and one more after the last; four for each tangent, the fourth of
+/// which is the sign.
 struct FrameRows {
     float *normals, *tangents;
 };

@@ -3,7 +3,7 @@
 // set to its namespace. Each lane is one frame.
 #pragma once
 
-#include "core/pack/frame_lanes.h"
+#include "core/pack/frame_kernel.h"
 
 namespace tspace::pack::TSPACE_LANES {
 
@@ -36,7 +36,7 @@ inline void storeNumbers(const Floats (&numbers)[kCount], WordBlock& words, std:
     }
 }
 
-/// Where a number is negative, the sign bit.
+/// The sign bit of negative numbers.
 inline Bits signOf(Floats number) { return orWhere(broadcastBits(0), number < zero(), 0x80000000u); }
 
 // ---- quaternions
@@ -48,8 +48,8 @@ inline Quaternions selectOf(Mask m, const Quaternions& yes, const Quaternions& n
     return {select(m, yes.x, no.x), select(m, yes.y, no.y), select(m, yes.z, no.z), select(m, yes.w, no.w)};
 }
 
-/// Those of the rotations with columns T, N x T, N; w >= 0. The largest component comes from the diagonal, and divides
-/// the others: no digits cancel.
+/// Quaternions of the rotations with columns T, N x T, N; w >= 0. The largest component comes from the diagonal and
+/// divides the others, so no digits cancel.
 inline Quaternions quaternionsOf(Vectors t, Vectors n) {
     const Floats one = broadcast(1.0f);
     const Vectors b = cross(n, t);

@@ -32,7 +32,7 @@
     TSPACE_IN_NAMESPACE(neon, __VA_ARGS__)                         \
     TSPACE_IN_NAMESPACE(wasm, __VA_ARGS__)
 
-/// Those functions that this build has, for simd::choose. NOT_AVX512: where AVX2 is as fast.
+/// The table of a kernel's functions in this build, for simd::choose. NOT_AVX512: AVX2 is as fast there.
 #if defined(TSPACE_SIMD_X86)
 #define TSPACE_KERNEL_TABLE(function) \
     { TSPACE_SCALAR_OR_NULL(function, sse2), sse2::function, avx2::function, avx512::function }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What compilers make of their own vector types as well as intrinsics say it: arithmetic, bits, masks. Included inside the
-// namespace of each lanes_*.h of more than one lane, behind its kWidth, so that each CPU has functions of its own: see
-// the rules in lanes.h. Without a guard, for the same reason.
+// Arithmetic, bits and masks in the compiler's own vector types, from which it makes code as good as from intrinsics.
+// Included inside the namespace of each lanes_*.h of more than one lane, after its kWidth, so that each CPU has
+// functions of its own: see the rules in lanes.h. For this reason it has no include guard.
 
 using FloatVector = float __attribute__((vector_size(4 * kWidth)));
 using WordVector = std::uint32_t __attribute__((vector_size(4 * kWidth)));
@@ -41,13 +41,13 @@ template <int kBy>
 inline Bits shiftRight(Bits a) {
     return {a.v >> kBy};
 }
-/// Of numbers below 2^31.
+/// Operands must be below 2^31.
 inline Bits smaller(Bits a, Bits b) {
     return {reinterpret_cast<WholeVector>(a.v) < reinterpret_cast<WholeVector>(b.v) ? a.v : b.v};
 }
 /// The lower half of the product.
 inline Bits product(Bits a, std::uint32_t k) { return {a.v * k}; }
-/// Of numbers below 2^31. Compilers multiply; of what is even they know that the factor fits into 32 bits.
+/// Division by a constant, of numbers below 2^31. Compilers multiply; for even numbers the factor fits into 32 bits.
 template <std::uint32_t kBy>
 inline Bits quotient(Bits a) {
     return {(a.v << 1) / (2 * kBy)};
@@ -158,7 +158,7 @@ inline Quad quad(FloatVector v) {
 }
 inline Quad joinQuads(Quad a) { return a; }
 
-/// Of each quad of x (0 to 3) and the same of y (4 to 7) four floats.
+/// Shuffles within each quad: kFrom and kLane pick from the quad of x (0 to 3) and the quad of y (4 to 7).
 template <std::size_t... kFrom, std::size_t... kLane>
 inline FloatVector inFours(FloatVector x, FloatVector y, std::index_sequence<kFrom...>, std::index_sequence<kLane...>) {
     constexpr std::size_t kPlaces[] = {(kFrom < 4 ? kFrom : kFrom - 4 + kWidth)...};

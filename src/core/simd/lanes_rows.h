@@ -95,7 +95,7 @@ template <std::size_t kStep>
 TSPACE_ROWS inline void loadRows(const float* rows, Floats& x, Floats& y, Floats& z, Floats& w) {
     columnsAt([&](std::size_t i) { return loadQuad(rows + kStep * i); }, x, y, z, w);
 }
-/// As storeRows, for two values.
+/// storeRows for rows of two values.
 template <std::size_t kStep>
 TSPACE_ROWS inline void storePairs(float* rows, Floats x, Floats y) {
     storeQuadPairs<kStep>(rows, mixLow(x.v, y.v), mixHigh(x.v, y.v), kQuads);

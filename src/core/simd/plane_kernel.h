@@ -33,7 +33,7 @@ inline Vector unit(Vector v) {
     return keep((square > zero()) & isFinite(square) & isFinite(scale), scale * v);
 }
 
-/// Of length 1, with -0 as +0; the z axis where a normal has no direction.
+/// The unit normal, with -0 as +0; the z axis where a normal has no direction.
 inline Vectors unitNormal(Vectors n) {
     const Vectors u = unit(n);
     const Mask none = !(dot(u, u) > zero());

@@ -26,7 +26,7 @@ inline constexpr bool kEndsMatter = false;
 inline constexpr bool kEndsMatter = true;
 #endif
 
-/// Rarely asked for, and long: so it is no part of the loops.
+/// Rarely called, and long: kept out of the loops.
 [[gnu::noinline]] inline Vectors gatherExactly(const std::byte* base, std::size_t stride, const std::uint32_t* index) {
     Vectors v;
     gather3(base, stride, index, true, v.x, v.y, v.z);

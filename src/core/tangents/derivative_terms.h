@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// dP/du and dP/dv of blocks of triangles, their sums at vertices, and the frames that come of these: what is
-// the same for all sound input, in single precision. Written once (derivative_terms_kernel.h), compiled for
-// several CPUs, same bits from all of them. What is not sound is left to the caller.
+// dP/du and dP/dv of blocks of triangles, their sums at vertices, and frames from these sums, in single precision, for
+// input where that is exact enough. Written once (derivative_terms_kernel.h), compiled for several CPUs, equal bits
+// from all of them. Other input is left to the caller.
 #pragma once
 
 #include <cstddef>
@@ -28,7 +28,7 @@ struct DerivativeTerms {
     std::uint64_t mirrored = 0;                 ///< of the safe ones those with negative UV area
 };
 
-/// Where sums are.
+/// The arrays of sums.
 struct SumArrays {
     float* heads = nullptr;  ///< s.x s.y s.z t.x of each vertex
     float* tails = nullptr;  ///< t.y t.z
@@ -43,11 +43,11 @@ struct DerivativeKernel {
     /// Adds the rows of triangles `begin` to before `end` to the sums of their vertices.
     void (*add)(const DerivativeTerms& terms, const std::uint32_t* vertices, std::size_t begin, std::size_t end,
                 SumArrays sums);
-    /// The same for vertices from `first` to before `past` only.
+    /// As `add`, for the vertices from `first` to before `past` only.
     void (*add_some)(const DerivativeTerms& terms, const std::uint32_t* vertices, std::size_t begin, std::size_t end,
                      SumArrays sums, std::uint32_t first, std::uint32_t past);
-    /// Of `count` vertices, a multiple of kTermGroup and at most 64: turns heads into tangents with the sign
-    /// times `sign_factor` where single precision is enough, and returns the bits of these. Reads the four
+    /// Finishes `count` vertices, a multiple of kTermGroup and at most 64: turns heads into tangents with the sign
+    /// times `sign_factor` where single precision is enough, and returns the bits of these vertices. Reads the four
     /// bytes after each normal, too.
     std::uint64_t (*finish)(SumArrays sums, const std::byte* normals, std::size_t stride, float sign_factor,
                             std::size_t count);

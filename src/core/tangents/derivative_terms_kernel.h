@@ -45,7 +45,7 @@ struct GroupBits {
     unsigned safe, mirrored;
 };
 
-/// Of kWidth triangles.
+/// Writes the rows of kWidth triangles.
 [[gnu::always_inline]] inline GroupBits writeRows(const Group& g, float* rows) {
     const Floats zero = broadcast(0.0f);
     const Floats s1 = g.u[1] - g.u[0], t1 = g.v[1] - g.v[0], s2 = g.u[2] - g.u[0], t2 = g.v[2] - g.v[0];
@@ -97,11 +97,11 @@ void compute(const TriangleSource& source, const std::uint32_t* vertices, std::s
     }
 }
 
-// As they lie in arrays: at any multiple of 4 bytes, and over any type. Clang overlooks `aligned` behind the equals sign.
+// Four floats at any multiple of 4 bytes, aliasing any type. Clang ignores `aligned` after the equals sign.
 using Head __attribute__((aligned(4), may_alias)) = float __attribute__((vector_size(16)));
 using Tail __attribute__((aligned(4), may_alias)) = float __attribute__((vector_size(8)));
 
-/// What one triangle adds at a vertex.
+/// The row that one triangle adds at a vertex.
 struct Addend {
     Head head;
     Tail tail;
@@ -163,8 +163,8 @@ struct Consecutive {
     }
 };
 
-/// What makeCornerFrame does, in single precision. Returns the bits of the vertices whose tangents are right;
-/// the heads of the others stay as they are.
+/// makeCornerFrame in single precision. Returns the bits of the vertices whose tangents are right; the heads of the
+/// others stay as they are.
 [[gnu::always_inline]] inline unsigned finishGroup(float* heads, const float* tails, Vectors n, float sign_factor) {
     Vectors s, t;
     loadRows<4>(heads, s.x, s.y, s.z, t.x);

@@ -30,7 +30,7 @@ CornerFrame makeCornerFrame(const Derivatives& derivatives, const Vec3& normal, 
 /// The length of sum / count as a float, which a mean of floats can exceed only by its rounding.
 float meanLength(const DVec3& sum, double count);
 
-/// Writes the outputs that are asked for; the second all but the tangent.
+/// Write the outputs that are wanted; writeExtras all but the tangent.
 void writeFrame(const TangentOutput& out, std::size_t entry, const CornerFrame& frame);
 void writeExtras(const TangentOutput& out, std::size_t entry, const CornerFrame& frame);
 

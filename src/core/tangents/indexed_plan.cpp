@@ -17,7 +17,7 @@ namespace tspace {
 
 namespace {
 
-/// Where there are other faces than triangles.
+/// Cuts faces, unless all are triangles.
 void cutFaces(const MeshView& mesh, Ngons ngons, const Allocator* allocator, IndexedPlan& plan) {
     plan.triangle_vertices = plan.corner_vertices;
     mikk::TriangleList cut = mikk::cutFaces(mesh, ngons, allocator);
@@ -35,7 +35,7 @@ void cutFaces(const MeshView& mesh, Ngons ngons, const Allocator* allocator, Ind
     plan.face_begins[mesh.faceCount()] = static_cast<std::uint32_t>(mesh.cornerCount());
 }
 
-/// Copies what the plan looks at.
+/// Copies an array that a kept plan reads.
 template <class View, class T>
 void keep(const View& from, Buffer<T>& kept, const Allocator* allocator, Parallel& parallel) {
     kept = Buffer<T>(allocator, from.count);

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The classic: sums of unnormalised dP/du and dP/dv per vertex index, then Gram-Schmidt.
+// The classic method: sums of unnormalised dP/du and dP/dv per vertex index, then Gram-Schmidt. Both steps run in
+// single precision by kernels (derivative_terms.h); triangles and vertices for which that is not exact enough go again
+// in double. Memory traffic is most of the work, so sums lie in the outputs' memory where they fit.
 // Based on: Lengyel, "Computing Tangent Space Basis Vectors for an Arbitrary Mesh", 2001.
 #include <algorithm>
 #include <array>
@@ -20,7 +22,7 @@ namespace tspace {
 
 namespace {
 
-/// Of one range. Triangles are those whose first vertex is in it, by what is wrong with them.
+/// Counts of one range of vertices: defects of triangles whose first vertex is in it.
 struct RangeCounts {
     std::uint64_t degenerate = 0;          ///< two corners at one position
     std::uint64_t degenerate_uv = 0;       ///< no UV area
@@ -28,12 +30,12 @@ struct RangeCounts {
     std::uint64_t used = 0, defaults = 0;  ///< vertices
 };
 
-/// The sums of all vertices, in single precision and in triangle order: six floats each, since reading and
-/// writing these is most of the work. Two arrays, since either may lie in memory that outputs come to later.
+/// The sums of all vertices, in single precision and in triangle order: six floats each, since memory traffic is most
+/// of the work. Two arrays, since either may lie in memory that outputs are written to later.
 struct VertexSums : derivatives::SumArrays {
     [[nodiscard]] float* head(std::size_t vertex) const { return heads + 4 * vertex; }
     [[nodiscard]] float* tail(std::size_t vertex) const { return tails + 2 * vertex; }
-    /// The sum of nothing. -0 + x is x, also when x is 0; and what is added to s.x is never -0.
+    /// Marks vertices as untouched. -0 + x is x for all x, also 0, and addends of s.x are never -0.
     void clear(GroupRange range) const {
         fill(head(range.begin), head(range.end), -0.0f);
         fill(tail(range.begin), tail(range.end), -0.0f);
@@ -57,7 +59,7 @@ std::uint64_t lowBits(std::size_t count) { return ~std::uint64_t{0} >> (64 - cou
 static_assert(TriangleBatch::kMost == derivatives::kTermTriangles);
 static_assert(TriangleBatch::kMost % derivatives::kTermGroup == 0);
 
-/// Their vertices, as groups.
+/// Triangles whose vertices are their groups.
 class IndexedTriangles final : public TriangleGroups {
   public:
     explicit IndexedTriangles(const IndexView& vertices) : TriangleGroups(vertices.count / 3), vertices_(vertices) {}
@@ -148,8 +150,8 @@ class FaceSums {
         }
     }
 
-    /// In double. A triangle that has no derivatives adds nothing, but its vertices have been named. Apart: its registers would
-    /// be missing in the loop around it.
+    /// Adds one triangle in double. One without derivatives adds nothing, but marks its vertices as used. A function of
+    /// its own: inlined, it would take registers from the loop around it.
     [[gnu::noinline]] void addUnsafe(const std::uint32_t* v, GroupRange range, RangeCounts& counts) const {
         const Vec3 &p0 = positions_[v[0]], &p1 = positions_[v[1]], &p2 = positions_[v[2]];
         const UvFrame frame = uvFrame(p0, p1, p2, plan_.uvs[v[0]], plan_.uvs[v[1]], plan_.uvs[v[2]]);
@@ -228,7 +230,7 @@ class VertexFrames {
         finishOthers(first, count, safe, counts);
     }
 
-    /// The same for any vertices and all outputs.
+    /// Finishes any vertices, in a copy, with all outputs.
     [[gnu::noinline]] void finishCopy(std::uint32_t first, std::uint32_t count, RangeCounts& counts) const {
         float heads[4 * kMost] = {}, tails[2 * kMost] = {};
         Vec3 normals[kMost + 1] = {};
@@ -244,7 +246,7 @@ class VertexFrames {
         }
     }
 
-    /// In double: those that are not `done`, which are counted as well.
+    /// Finishes the vertices that are not `done` in double, and counts all.
     void finishOthers(std::uint32_t first, std::uint32_t count, std::uint64_t done, RangeCounts& counts) const {
         counts.used += static_cast<unsigned>(std::popcount(done & lowBits(count)));
         for (std::uint64_t rest = ~done & lowBits(count); rest != 0; rest &= rest - 1)
@@ -313,8 +315,8 @@ void copyToCorners(const IndexedPlan& plan, const T* from, const StridedSpan<T>&
     }
 }
 
-/// Copies the tangents of used corners; returns how many of them are defaults, of which `is_default` knows,
-/// one per vertex; null: none.
+/// Copies the tangents of used corners; returns how many of them are defaults by `is_default`, one per vertex; null:
+/// none.
 std::uint64_t copyTangents(const IndexedPlan& plan, const float* from, const std::uint8_t* is_default,
                            const StridedSpan<Vec4>& out, std::size_t begin, std::size_t end) {
     const std::uint8_t* const used = plan.corner_used.data();
@@ -323,7 +325,7 @@ std::uint64_t copyTangents(const IndexedPlan& plan, const float* from, const std
         auto* to = reinterpret_cast<std::byte*>(&out[begin]);
         std::uint64_t defaults = 0;
         for (std::size_t c = begin; c < end; ++c, to += out.stride_bytes) {
-            // Writing waits for the lines that it will replace, unless they were asked for before.
+            // A store waits for the line that it changes, unless that was prefetched.
             prefetchLines<true>(to, 1, kAhead);
             if (used != nullptr && used[c] == 0) continue;
             const std::size_t vertex = vertexOf(c);
@@ -334,7 +336,7 @@ std::uint64_t copyTangents(const IndexedPlan& plan, const float* from, const std
     });
 }
 
-/// The places of the sums. Fresh memory costs time, so what the outputs' memory can hold meanwhile is there:
+/// Memory for the sums. Page faults of fresh memory cost time, so a part lies in the outputs until these are written:
 /// the tails, or, where outputs are per vertex, the heads, which then become the tangents in place.
 struct SumPlaces {
     Buffer<float> head_buffer, tail_buffer;

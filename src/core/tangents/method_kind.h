@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What methods have in common. With TSPACE_MIKKTSPACE_ONLY there is one method, and nothing is compiled that others need.
+// Kinds of methods. With TSPACE_MIKKTSPACE_ONLY there is one method, and nothing that others need is compiled.
 #pragma once
 
 #include "tspace/tangents.h"

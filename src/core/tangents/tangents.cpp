@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The public entry points: checks, and the choice between the plans that group faces and those that do not.
+// The public functions: checks, the symmetric frame, and the choice between plans that group faces and plans that do
+// not.
 #include "tspace/tangents.h"
 
 #include <memory>
@@ -9,15 +10,64 @@
 
 #include "core/base/border.h"
 #include "core/base/call.h"
+#include "core/base/memory.h"
 #include "core/base/parallel.h"
+#include "core/base/unit.h"
 #include "core/frames/one_list.h"
 #include "core/tangents/estimators/group_estimates.h"
 #include "core/tangents/indexed_plan.h"
 #include "core/tangents/method_kind.h"
 #include "core/tangents/mikktspace/evaluation_plan.h"
-#include "core/tangents/symmetric_frame.h"
 
 namespace tspace {
+
+namespace {
+
+/// FrameShape::symmetric: the orthonormal frame nearest to dP/du and dP/dv, both of which count alike. Returns the tangent of
+/// that frame, or `tangent` where one of the three has no direction.
+/// Based on: Löwdin, "On the Non-Orthogonality Problem", 1950 (symmetric orthogonalisation), here for two unit vectors.
+Vec3 symmetricTangent(const Vec3& tangent, const Vec3& bitangent, const Vec3& normal) {
+    DVec3 n = toDouble(normal);
+    if (!normalize(n)) return tangent;
+    const auto across = [&](const Vec3& v) { return toDouble(v) - dot(n, toDouble(v)) * n; };
+    DVec3 t = across(tangent), b = across(bitangent);
+    if (!normalize(t) || !normalize(b)) return tangent;
+    // Perpendicular to the bitangent, on the tangent's side: the other of the two such directions would belong to the
+    // opposite orientation of the UVs or of N.
+    DVec3 p = cross(b, n);
+    if (dot(p, t) < 0) p = -1.0 * p;
+    DVec3 sum = t + p;
+    return normalize(sum) ? toFloat(sum) : tangent;
+}
+
+/// Turns each tangent, in the plane across its normal, half of the way to the direction that is perpendicular
+/// to the bitangent. So cross(N, T) and T are each off by half of the UVs' shear, where T alone was exact
+/// before. normalOf(i): the normal of entry i. An entry without tangent, bitangent or normal stays as it is.
+template <class NormalOf>
+void makeSymmetric(const StridedSpan<Vec4>& tangents, const StridedSpan<Vec3>& bitangents, const NormalOf& normalOf,
+                   Parallel& parallel) {
+    parallel.forRanges(tangents.count, Parallel::kGrain, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            Vec4& tangent = tangents[i];
+            const Vec3 turned = symmetricTangent(xyz(tangent), bitangents[i], normalOf(i));
+            tangent = {turned.x, turned.y, turned.z, tangent.w};
+        }
+    });
+}
+
+/// Memory for bitangents that only the symmetric frame reads.
+struct NeededBitangents {
+    Buffer<Vec3> own;
+    TangentOutput out;
+
+    NeededBitangents(const TangentOutput& wanted, const Allocator* allocator) : out(wanted) {
+        if (!wanted.bitangents.empty()) return;
+        own = Buffer<Vec3>(allocator, wanted.tangents.count);
+        out.bitangents = {own.data(), own.size()};
+    }
+};
+
+}  // namespace
 
 struct TangentPlan::State {
     std::variant<IndexedPlan, mikk::EvaluationPlan> plan;
@@ -28,7 +78,7 @@ struct TangentPlan::State {
     bool is_symmetric = false;
     Buffer<std::uint32_t> corner_vertices;  ///< for a symmetric frame, one per corner; empty: outputs are per vertex
     std::size_t normal_count = 0;           ///< of a pose
-    /// Where the mesh had several index lists: the pose's position and normal of each vertex that the plan works on.
+    /// For a mesh with several index lists: the pose's position and normal of each vertex that the plan works on.
     std::vector<std::uint32_t> source_vertices, source_normals;
 
     [[nodiscard]] TangentReport evaluate(const Pose& pose, const TangentOutput& out, const Execution& execution,
@@ -39,7 +89,7 @@ struct TangentPlan::State {
         return mikk::evaluateGroups(grouped, pose, {grouped.uvs.data(), grouped.uvs.size()}, out, execution, parallel);
     }
 
-    /// The same with the frame that was asked for.
+    /// evaluate(), with the frame that the options chose.
     [[nodiscard]] TangentReport evaluateFrames(const Pose& pose, const TangentOutput& out, const Execution& execution,
                                                Parallel& parallel) const {
         if (!is_symmetric) return evaluate(pose, out, execution, parallel);
@@ -136,7 +186,8 @@ Buffer<Vec3> gathered(const StridedSpan<const Vec3>& values, const std::vector<s
     return result;
 }
 
-/// Results per vertex have no place where vertices are combinations that only we know.
+/// With several index lists vertices are combinations that the caller does not know, so there are no results per
+/// vertex.
 Error checkDomain(const TangentOptions& options) {
     if (options.domain == OutputDomain::corner) return {ErrorCode::ok, {}};
     return {ErrorCode::invalidOption, "results per vertex need a mesh with one index list"};

@@ -8,7 +8,6 @@
 #include "core/base/border.h"
 #include "core/base/memory.h"
 #include "core/mesh/pools/local_mesh.h"
-#include "core/mesh/pools/mend_bitangents.h"
 #include "core/mesh/pools/mend_tangents.h"
 #include "core/mesh/pools/morph_frames.h"
 #include "core/mesh/pools/morph_normals.h"
@@ -24,7 +23,7 @@ namespace tspace {
 
 namespace {
 
-/// A convention may be asked for by an engine's name, but the geometry stays the file's: right-handed, faces
+/// A convention may be chosen by an engine's name, but the geometry stays the file's: right-handed, faces
 /// counter-clockwise, in every format that is read.
 GenerateOptions inFileCoordinates(GenerateOptions options) {
     for (Convention* convention : {&options.tangents.convention, &options.normals.convention}) {
@@ -34,7 +33,7 @@ GenerateOptions inFileCoordinates(GenerateOptions options) {
     return options;
 }
 
-/// Corners after polygons are cut.
+/// The number of corners after polygons are cut.
 std::size_t cornersOfTriangles(const PrimitiveGeometry& primitive) {
     if (primitive.face_sizes.empty()) return primitive.indices.size();
     std::size_t triangle_count = 0;
@@ -146,8 +145,8 @@ class FrameComputer {
 
     [[nodiscard]] bool takesQuads() const { return options_.tangents.method == Method::mikktspace; }
 
-    /// Makes the triangles of the mesh quads where these are asked for and there are any; `polygons` are those of the
-    /// file. What morph targets add to tangents that stay is computed on the faces that these were made on.
+    /// Turns triangles into quads where the options choose that and there are any; `polygons` are the file's own. What
+    /// morph targets add to tangents that stay is computed on the faces that these tangents were made on.
     Result<Done> chooseQuads(QuadFaces&& polygons, LocalMesh& mesh, PrimitiveReport& report) const {
         if (!takesQuads()) return Done{};
         QuadFaces faces = std::move(polygons);
@@ -175,7 +174,7 @@ class FrameComputer {
         return tspace::chooseFaces(mesh.view(), stored, pool_.is_blenders, faces, options_.execution);
     }
 
-    /// The next ones of tangents() and bitangents().
+    /// Computes the tangents of the next corners, into tangents() and bitangents().
     Result<Done> computeTangents(const LocalMesh& mesh, PrimitiveReport& report) {
         const std::size_t first = corners_.size(), count = mesh.triangleCornerCount();
         const std::span<Vec4> tangents = this->tangents().subspan(first, count);
@@ -212,7 +211,7 @@ class FrameComputer {
         return Done{};
     }
 
-    /// Those of the mesh just computed, which is the next to be appended.
+    /// Mends the tangents of the mesh just computed, which is appended next.
     void mendTangents(std::span<const std::uint32_t> vertices, const Mends& mends) {
         const std::span<Vec4> tangents = this->tangents().subspan(corners_.size(), vertices.size());
         const std::vector<Vec4> computed(tangents.begin(), tangents.end());
@@ -227,7 +226,7 @@ class FrameComputer {
         }
     }
 
-    /// `vertices`: of the primitive's corners. Those of the only primitive are taken where they are.
+    /// `vertices`: of the primitive's corners. Those of a single primitive are not copied.
     void append(std::span<const std::uint32_t> vertices, bool is_cut, std::vector<Vec3>&& normals) {
         if (primitives_.size() == 1 && !is_cut) {
             corners_ = vertices;
@@ -304,7 +303,7 @@ class FrameComputer {
         frames.source_vertices = std::move(split.source_vertices);
     }
 
-    /// To each primitive its own.
+    /// Cuts the indices of all primitives into those of each.
     void cutIndices(std::vector<std::uint32_t>&& indices, PoolFrames& frames) const {
         if (corner_counts_.size() == 1) {
             frames.indices.push_back(std::move(indices));
@@ -318,7 +317,7 @@ class FrameComputer {
         }
     }
 
-    /// Of the vertices to be mended those that got another tangent, or other offsets of targets.
+    /// Counts the vertices to be mended that got another tangent, or other offsets of targets.
     void countMended(const SplitResult& split, std::span<const Vec4> tangents) {
         std::vector<bool> changed(pool_.positions.count, false);
         for (std::size_t v = 0; v < split.vertexCount(); ++v) {
@@ -338,7 +337,7 @@ class FrameComputer {
     }
 
     void writeTangents(const SplitResult& split, PoolFrames& frames) const {
-        // Room first: pages that the vector would find missing one by one.
+        // Reserved first: growing would touch fresh pages one by one.
         frames.tangents.reserve(split.vertexCount());
         askForPages(frames.tangents.data(), split.vertexCount() * sizeof(Vec4));
         if (generates_bitangents_) frames.bitangents.reserve(split.vertexCount());
@@ -380,11 +379,11 @@ class FrameComputer {
     LocalMeshes local_meshes_;
     MorphTangents morph_tangents_;
 
-    // The vertices of all corners of all primitives, what was computed for them, and how many each primitive has.
+    // The vertices of all corners of all primitives, their computed frames, and the corner count of each primitive.
     std::span<const std::uint32_t> corners_;
     std::vector<std::uint32_t> own_corners_;
     std::vector<Vec3> normals_;
-    // What was computed for them has room for all from the start.
+    // Allocated for all primitives from the start.
     Buffer<Vec4> tangents_;
     Buffer<Vec3> bitangents_;
     std::vector<std::size_t> corner_counts_;

@@ -26,8 +26,8 @@ struct LocalMesh {
     /// The vertex of the pool that each vertex was when the mesh was made; empty: the same.
     std::vector<std::uint32_t> sources;
     std::vector<std::uint32_t> own_face_sizes;
-    /// Where the faces are quads that triangles were paired to: per corner of the triangles, the corner of a face that
-    /// it is. Empty: corners are those of the triangles.
+    /// For quads that were paired from triangles: the face corner of each corner of the triangles. Empty: faces are the
+    /// triangles.
     std::vector<std::uint32_t> face_corners;
 
     LocalMesh() = default;

@@ -7,14 +7,16 @@
 
 namespace tspace {
 
-/// What is mended at a vertex. Bits.
+/// Parts of a vertex's frame to mend, as bits.
 namespace mend {
-inline constexpr std::uint8_t kValues = 1;  ///< what no tangent may be: not finite, not unit, along N, w not +1 or -1
+inline constexpr std::uint8_t kValues =
+    1;  ///< values that no tangent may have: not finite, not unit, along N, w not +1 or -1
 inline constexpr std::uint8_t kStraighten = 2;  ///< made perpendicular to N; its direction in the surface stays
 inline constexpr std::uint8_t kTurnSign = 4;    ///< w is negated
-inline constexpr std::uint8_t kSides = 8;   ///< anew at those corners whose triangle needs the other sign, or direction
-inline constexpr std::uint8_t kWhole = 16;  ///< anew at all its corners
-inline constexpr std::uint8_t kDeltas = 32;  ///< anew is what morph targets add to it
+inline constexpr std::uint8_t kSides =
+    8;  ///< computed anew at corners whose triangle needs the other sign, or direction
+inline constexpr std::uint8_t kWhole = 16;   ///< computed anew at all its corners
+inline constexpr std::uint8_t kDeltas = 32;  ///< offsets of morph targets are computed anew
 }  // namespace mend
 
 struct VertexMend {
@@ -24,10 +26,10 @@ struct VertexMend {
     friend bool operator==(const VertexMend&, const VertexMend&) = default;
 };
 
-/// What one primitive is mended of. Values are mended at every vertex of the pool, named or not.
+/// The mends of one primitive. Values are mended at every vertex of the pool, listed or not.
 struct Mends {
     std::vector<VertexMend> vertices = {};  ///< ascending
-    /// Its signs stay inverted, and what is computed anew gets such signs too.
+    /// Its signs stay inverted, and tangents that are computed anew get such signs too.
     bool inverted_signs = false;
 
     friend bool operator==(const Mends&, const Mends&) = default;

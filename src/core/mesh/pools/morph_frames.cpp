@@ -13,6 +13,7 @@
 #include <string>
 #include <utility>
 
+#include "core/base/unique_index.h"
 #include "core/base/unit.h"
 #include "tspace/frame.h"
 #include "tspace/sanitize.h"
@@ -26,7 +27,7 @@ constexpr double kTenthOfADegree = 0.0017453283658983088;  // its sine
 
 Vec3 sum(const Vec3& a, const Vec3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
 
-/// What a viewer makes of a normal and its offset. Without a direction it stays as it is, and is mended later.
+/// The moved normal as viewers compute it. A sum without direction stays as it is, and is mended later.
 Vec3 unitSum(const Vec3& normal, const Vec3& offset) {
     const Vec3 moved = sum(normal, offset);
     const DVec3 wide = toDouble(moved);
@@ -78,7 +79,41 @@ bool move(const StridedSpan<const Vec3>& values, const LocalMesh& mesh, const st
     return moves;
 }
 
+/// By bits, so that a NaN is itself; both zeros are one value.
+bool areOne(const Vec3& a, const Vec3& b) {
+    return weldBits(a.x) == weldBits(b.x) && weldBits(a.y) == weldBits(b.y) && weldBits(a.z) == weldBits(b.z);
+}
+
 }  // namespace
+
+bool WeldClasses::findApart(std::span<const std::uint32_t> corners, std::span<const Vec3> positions,
+                            std::span<const Vec3> normals, std::vector<bool>& apart) const {
+    apart.assign(classes_.class_count, false);
+    if (classes_.class_count == classes_.class_of.size()) return false;
+    constexpr std::uint32_t kNoVertex = 0xffffffffu;
+    std::vector<std::uint32_t> first(classes_.class_count, kNoVertex);
+    bool any = false;
+    for (const std::uint32_t v : corners) {
+        std::uint32_t& other = first[of(v)];
+        if (other == kNoVertex) other = v;
+        if (areOne(positions[v], positions[other]) && areOne(normals[v], normals[other])) continue;
+        apart[of(v)] = any = true;
+    }
+    return any;
+}
+
+void WeldClasses::spread(const LocalMesh& mesh, unsigned rounds, std::vector<bool>& apart) const {
+    const auto classAt = [&](std::size_t c) {
+        return of(mesh.indices[mesh.face_corners.empty() ? c : mesh.face_corners[c]]);
+    };
+    for (; rounds != 0; --rounds) {
+        const std::vector<bool> before = apart;
+        for (std::size_t c = 0; c < mesh.triangleCornerCount(); c += 3) {
+            const std::uint32_t a = classAt(c), b = classAt(c + 1), d = classAt(c + 2);
+            if (before[a] || before[b] || before[d]) apart[a] = apart[b] = apart[d] = true;
+        }
+    }
+}
 
 Result<MorphOffsets> readTarget(const PoolView& pool, std::size_t i) {
     Result<MorphOffsets> offsets = pool.targets.read(i);
@@ -170,7 +205,7 @@ Result<Done> MorphTangents::evaluate(const Piece& piece, std::span<const Vec4> b
     }
     stays_.assign(base.size(), false);
     if (options_.sanitize) {
-        // Mending looks around, and what moves elsewhere must not reach those that stay.
+        // Sanitize reads other corners at a position: moves elsewhere must not change corners that stay.
         for (std::size_t c = 0; c < base.size(); ++c) stays_[c] = staysAt(piece, c);
         carryOver(piece, base);
         const Result<SanitizeReport> mended =
@@ -186,8 +221,9 @@ Result<Done> MorphTangents::evaluate(const Piece& piece, std::span<const Vec4> b
     return Done{};
 }
 
-/// Where equal vertices came apart. Where the corner's own triangles give it nothing (a default leans out of the
-/// plane), or the other sign, which no target can bring about, the tangent of the base's group is laid into the plane.
+/// Groups the moved shape anew where equal vertices came apart. Where the corner's own triangles give no tangent (a
+/// default leans out of the plane), or the other sign, which no target can cause, the tangent of the base's group is
+/// laid into the plane.
 Result<Done> MorphTangents::regroup(const Piece& piece, const MeshView& posed) {
     regrouped_.resize(tangents_.size());
     const Result<TangentReport> made =
@@ -213,7 +249,7 @@ bool MorphTangents::staysAt(const Piece& piece, std::size_t corner) const {
            piece.mesh.normals[v] == pose_.normals()[v];
 }
 
-/// Where faces collapsed, or their tangents cancel out.
+/// Keeps the base's tangents where faces collapsed, or where their tangents cancel out.
 void MorphTangents::carryOver(const Piece& piece, std::span<const Vec4> base) {
     for (std::size_t c = 0; c < base.size(); ++c) {
         const std::uint32_t v = piece.mesh.indices[c];

@@ -1,19 +1,40 @@
 // SPDX-License-Identifier: MIT
-// What morph targets add to the tangents of a pool: tangents of the moved shape with the groups of the base, minus
-// those of the base. Where a target takes vertices apart that are equal on the base, groups are those of the moved
-// shape.
+// Offsets that morph targets add to the tangents of a pool: tangents of the moved shape with the groups of the base,
+// minus those of the base. Where a target takes vertices apart that are equal on the base, the moved shape is grouped
+// anew.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "core/mesh/pools/local_mesh.h"
 #include "core/mesh/pools/morph_split.h"
-#include "core/mesh/pools/weld_classes.h"
+#include "core/mesh/surface/equal_vertices.h"
 #include "tspace/tangents.h"
 
 namespace tspace {
+
+/// Vertices with equal position, normal and UV, over which the grouping methods go on.
+class WeldClasses {
+  public:
+    /// Expected linear time; keeps 4 bytes per vertex.
+    explicit WeldClasses(const LocalMesh& mesh) : classes_(findEqualVertices(mesh.positions, mesh.normals, mesh.uvs)) {}
+
+    [[nodiscard]] std::uint32_t of(std::uint32_t vertex) const { return classes_.class_of[vertex]; }
+
+    /// Marks the classes whose vertices, those that `corners` name, have different positions or normals in a pose.
+    /// Returns whether there is one. Linear.
+    bool findApart(std::span<const std::uint32_t> corners, std::span<const Vec3> positions,
+                   std::span<const Vec3> normals, std::vector<bool>& apart) const;
+
+    /// Marks all classes of a triangle that has a marked one, `rounds` times. Linear in each.
+    void spread(const LocalMesh& mesh, unsigned rounds, std::vector<bool>& apart) const;
+
+  private:
+    EqualVertices classes_;
+};
 
 /// Target `i` of a pool. Fails with countMismatch where its counts are not those of the pool.
 Result<MorphOffsets> readTarget(const PoolView& pool, std::size_t i);
@@ -34,7 +55,7 @@ class MorphPose {
 /// to - from, without signed zeros; zero where it is not finite.
 Vec3 offsetBetween(const Vec3& from, const Vec3& to);
 
-/// Where tangents are mended: corners whose offsets stay those of the file, in targets that have some.
+/// For repair: corners whose offsets stay those of the file, in targets that have offsets.
 struct KeptOffsets {
     std::span<const std::uint32_t> vertices = {};  ///< of the pool, one per corner
     const std::vector<bool>& is_new;               ///< one per corner

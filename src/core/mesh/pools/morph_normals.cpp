@@ -78,7 +78,7 @@ class PoolNormals {
         std::vector<Vec3> offsets(normals_.size());
         std::size_t first = 0;
         for (std::size_t p = 0; p < meshes_.size(); first += primitives_[p++].indices.size()) {
-            // What is around it may move alone.
+            // The surroundings of a primitive may move although it does not.
             if (!pose_.take(meshes_[p], *moved) && !primitives_[p].around) continue;
             const std::span<Vec3> own = std::span(offsets).subspan(first, primitives_[p].indices.size());
             const Result<NormalReport> made = makers_[p].pose(StridedSpan<const Vec3>(pose_.positions()), target, own);

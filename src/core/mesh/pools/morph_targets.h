@@ -11,7 +11,8 @@
 
 namespace tspace {
 
-/// What one target adds to the vertices of a pool, one entry per vertex. Empty: it does not move this attribute.
+/// Offsets that one target adds to the vertices of a pool, one entry per vertex. Empty: it does not move this
+/// attribute.
 struct MorphOffsets {
     std::vector<Vec3> positions = {};
     std::vector<Vec3> tangents = {};  ///< what the file has; looked at only where tangents are mended
@@ -31,7 +32,7 @@ struct VertexOffsets {
     std::vector<Vec3> offsets = {};  ///< finite
 };
 
-/// What one target adds to the frames of the new vertices.
+/// Offsets that one target adds to the frames of the new vertices.
 struct MorphFrames {
     VertexOffsets normals = {};   ///< only where normals were generated
     VertexOffsets tangents = {};  ///< to xyz; the sign cannot be morphed

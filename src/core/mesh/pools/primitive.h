@@ -44,14 +44,15 @@ struct VertexPool {
     bool mends_tangents = false;
 };
 
-/// A pool in memory of somebody else, who must outlive it: a VertexPool, or a file's own bytes.
+/// A pool whose arrays the caller owns and keeps: a VertexPool, or a file's own bytes.
 struct PoolView {
     StridedSpan<const Vec3> positions = {}, normals = {};
     StridedSpan<const Vec2> uvs = {};
     UvMatrix uv_matrix = {};
     MorphTargets targets = {};
     std::span<const Vec4> kept_tangents = {};
-    /// Tangents that are computed anew, one per vertex, or empty: they may tell on which faces they were made.
+    /// Old values of tangents that are computed anew, one per vertex, or empty: they may tell on which faces they were
+    /// made.
     std::span<const Vec4> old_tangents = {};
     bool is_blenders = false;  ///< Blender wrote the file
     bool mends_tangents = false;
@@ -74,8 +75,8 @@ struct PoolFrames {
     /// New vertex -> old vertex, identity first (SplitResult::source_vertices).
     std::vector<std::uint32_t> source_vertices = {};
     std::vector<Vec3> normals = {};     ///< one per new vertex when normals_generated, else empty
-    std::vector<Vec4> tangents = {};    ///< one per new vertex; empty when no tangents were asked for or possible
-    std::vector<Vec3> bitangents = {};  ///< the same where GenerateOptions::bitangents asks for them, else empty
+    std::vector<Vec4> tangents = {};    ///< one per new vertex; empty when tangents are not wanted or not possible
+    std::vector<Vec3> bitangents = {};  ///< one per new vertex where GenerateOptions::bitangents is set, else empty
     /// Per primitive: triangles after cutting n-gons, three new vertices each, in face order.
     std::vector<std::vector<std::uint32_t>> indices = {};
     /// One per morph target. With kept tangents it is empty where these are not the tangents that would be
@@ -90,9 +91,9 @@ struct PoolFrames {
 };
 
 /// Runs normals (if missing), tangents per primitive, sanitize, and one split over all primitives of the pool.
-/// Reports count what is odd about the triangles (surface_faults.h).
+/// Reports count faults of the triangles (surface_faults.h).
 /// Vertices that no corner uses get a frame from their normal, so that every tangent written is unit. With sanitize
-/// every bitangent is unit as well (mend_bitangents.h). `reports` has one entry per primitive; its normals, tangents,
+/// every bitangent is unit as well (mend_tangents.h). `reports` has one entry per primitive; its normals, tangents,
 /// sanitize and count fields are filled (vertices are those of the pool). Morph targets: base + offset is the frame of
 /// the moved shape, computed with the base's hard edges and groups. There is one split for the base and all targets.
 /// Where faces collapse in a target the base's tangent stays. A vertex whose frame no target changes has the offset (0,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is odd about the triangles that frames were made on, counted for a report.
+// Faults of the triangles that frames were made on, counted for a report.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The mesh and what is around it become one mesh for the call.
+// The mesh and the triangles around it become one mesh for the call.
 #include "core/mesh/pools/surroundings.h"
 
 #include <algorithm>
@@ -18,8 +18,8 @@ namespace tspace {
 namespace {
 
 constexpr std::uint32_t kNone = 0xffffffffu;
-/// A normal that stays differs by half of the bend at the border from the one that would be made, if it was made on its own
-/// side alone; by more where a hard edge is meant.
+/// A stored normal that was made on its own side alone differs from the common one by half of the bend at the border;
+/// one that differs by more is meant as a hard edge.
 constexpr double kMostTakenDeg = 30;
 
 }  // namespace
@@ -48,7 +48,7 @@ MeshView BorderedNormals::whole() const {
 
 Result<NormalReport> BorderedNormals::base(StridedSpan<Vec3> out) {
     if (around_ == nullptr) return generateNormals(mesh_.view(), options_, out, execution_);
-    // Those around it are not to be counted.
+    // Triangles of the surroundings are left out of counts.
     MeshView others;
     others.positions = StridedSpan<const Vec3>(std::span<const Vec3>(around_->positions));
     others.indices = IndexView(std::span<const std::uint32_t>(around_->indices));

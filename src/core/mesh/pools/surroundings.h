@@ -19,7 +19,7 @@ struct Surroundings {
     std::vector<std::uint32_t> indices = {};
     std::size_t triangles_before = 0;  ///< of them, those whose primitive is before this one in the file
     std::uint64_t point_count = 0;     ///< positions that the primitive shares with the others
-    /// What a target adds to these vertices, as MorphTargets::read; none: nothing.
+    /// As MorphTargets::read, for these vertices; no function: targets do not move them.
     std::function<Result<MorphOffsets>(std::size_t)> read = {};
 };
 

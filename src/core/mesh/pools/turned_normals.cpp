@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The change of the surface, not its normals: base normals that somebody has chosen (of bevels, of foliage) turn with it.
+// Base normals that an artist has chosen (of bevels, of foliage) turn with the surface; they are not computed from it.
 #include "core/mesh/pools/turned_normals.h"
 
 #include "core/base/unit.h"

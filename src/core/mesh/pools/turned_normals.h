@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What morph targets should add to normals that stay.
+// Offsets that morph targets should add to normals that stay.
 #pragma once
 
 #include <span>
@@ -15,7 +15,7 @@ class TurnedNormals {
     /// The pool has normals.
     TurnedNormals(const PoolView& pool, std::span<const PrimitiveGeometry> primitives);
 
-    /// Per vertex: what takes its normal to where the surface around it turns it, by the positions that a target adds (one
+    /// Per vertex the offset that turns its normal as the surface around it turns, when a target adds `positions` (one
     /// per vertex, or none). Zero where nothing turns, and where triangles vanish.
     [[nodiscard]] std::vector<Vec3> offsets(std::span<const Vec3> positions) const;
 

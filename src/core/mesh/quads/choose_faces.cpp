@@ -8,7 +8,8 @@ namespace tspace {
 
 namespace {
 
-/// Of a mesh of quads as Blender writes it nearly all triangles meet in one of its two ways; of triangles few do.
+/// In a mesh of quads as Blender writes it nearly all triangles meet in one of its two ways; in one of triangles few
+/// do.
 constexpr double kMostTriangles = 0.6;
 
 /// Blender cuts a quad along its first and third corner, one that this would turn over along the others, and writes the

@@ -13,17 +13,17 @@ namespace tspace {
 
 namespace {
 
-/// Of the corners that triangles leave unexplained, quads must explain this part to win. Chosen pairs explain up to 6 %
+/// The part of the corners left unexplained by triangles that quads must explain to win. Chosen pairs explain up to 6 %
 /// of them in meshes of other makers, and over 70 % where the quads are the real ones.
 constexpr double kExplainedPart = 0.4;
 /// And this share of all corners.
 constexpr double kExplainedShare = 0.01;
-/// What explains less than half of the corners has not made them.
+/// Faces that explain less than half of the corners are not those that the tangents were made on.
 constexpr double kMakerShare = 0.5;
 /// Where the first two choices of pairs explain less than this share, no other will explain half.
 constexpr double kHopelessShare = 0.25;
 
-/// What a pair explains depends on its neighbours, so choices are made anew when these are better.
+/// The corners that a pair explains depend on its neighbours, so pairs are chosen again while that explains more.
 constexpr int kRounds = 4;
 
 double shareOf(std::uint64_t count, std::uint64_t total) {

@@ -14,8 +14,8 @@
 
 namespace tspace {
 
-/// Whether quads explain clearly more corners than triangles do. Which pairs are quads is chosen by what they explain,
-/// and so explains a little more of anything: hence a part of the unexplained is asked for, and some corners.
+/// Whether quads explain clearly more corners than triangles do. Pairs are chosen by the corners that they explain,
+/// which explains a few more of any mesh; so quads must explain a part of the unexplained corners, and a least number.
 bool quadsWin(std::uint64_t corner_count, std::uint64_t near_on_triangles, std::uint64_t near_on_quads);
 
 struct QuadFit {

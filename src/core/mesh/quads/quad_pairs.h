@@ -36,9 +36,9 @@ class QuadCandidates {
     std::size_t count_ = 0;
 };
 
-/// What triangle t is. Where both diagonals of a quad are equally long MikkTSpace cuts it between its first and third
-/// corner, so there it matters with which one it began: with an end of the triangles' common edge, as Blender writes
-/// them since 2.80, or with another corner.
+/// The part of a quad that triangle t is. Where both diagonals of a quad are equally long MikkTSpace cuts it between
+/// its first and third corner, so there its first corner matters: an end of the triangles' common edge, as Blender
+/// writes them since 2.80, or another corner.
 enum class PairKind : std::uint8_t {
     none = 0,    ///< a triangle, or the second of a quad
     quad = 1,    ///< one quad with triangle t + 1
@@ -60,8 +60,8 @@ struct QuadFaces {
 /// one quad of t and t + 1; 0 or less: not. Of equal sums the one with the earlier pairs. None is turned. Linear.
 QuadPairs choosePairs(const QuadCandidates& candidates, std::span<const float> gains);
 
-/// The pairs that look most like the quads that somebody modelled: as many as there can be, and of those first the ones
-/// whose triangles meet as most in this list do, and whose corners are nearest to square.
+/// The pairs that look most like quads of a modeller: as many as there can be, and among these choices the one whose
+/// triangles meet as most in this list do, and whose corners are nearest to square.
 QuadPairs pairsByShape(const MeshView& triangles, const QuadCandidates& candidates);
 
 /// Whether MikkTSpace cuts one of these quads otherwise when it is turned.

@@ -13,7 +13,8 @@ struct Affine {
     [[nodiscard]] DVec3 direction(const DVec3& d) const { return d.x * x + d.y * y + d.z * z; }
     [[nodiscard]] DVec3 point(const DVec3& p) const { return direction(p) + origin; }
     [[nodiscard]] double determinant() const { return dot(x, cross(y, z)); }
-    /// What stays perpendicular to surfaces and on their outside, for any matrix; its length means nothing.
+    /// Maps a normal: it stays perpendicular to surfaces and on their outside, for any matrix. The length has no
+    /// meaning.
     [[nodiscard]] DVec3 normal(const DVec3& n) const {
         const DVec3 turned = n.x * cross(y, z) + n.y * cross(z, x) + n.z * cross(x, y);
         return determinant() < 0 ? -1.0 * turned : turned;

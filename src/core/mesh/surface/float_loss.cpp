@@ -20,7 +20,7 @@ struct Middle {
     double low = 0, high = 0;
 };
 
-/// Of `parts` equal parts of the corners, in order, the first and the last are left out.
+/// The middle along an axis, without the first and the last of `parts` equal parts of the sorted corners.
 Middle middleOf(const VisitEdges& edges, std::size_t axis, std::size_t parts) {
     std::vector<double> values;
     edges([&](const DVec3& from, const DVec3&) {

@@ -27,16 +27,16 @@ struct FloatLoss {
     [[nodiscard]] bool isNoticeable() const { return isNoticeable(changed_count); }
 };
 
-/// Of rounding what is left of the positions without `offset`. Linear.
+/// The loss when positions minus `offset` are rounded. Linear.
 FloatLoss floatLoss(const VisitEdges& edges, const DVec3& offset);
 
 /// The middle of nine tenths of the corners along each axis (a twentieth, 1 / `parts`, is left out at both ends), rounded to
 /// the largest power of ten that is no larger than they reach. Linear; 8 bytes per corner.
 DVec3 roundMiddle(const VisitEdges& edges, std::size_t parts = 20);
 
-/// What to take out of positions before they become floats, along the axes where the loss is noticeable: the middle of nine
-/// tenths of the corners, or else of half of them. Zero where nothing noticeable is lost, or where neither halves the loss.
-/// Linear.
+/// The offset to subtract from positions before they become floats, along the axes where the loss is noticeable: the
+/// middle of nine tenths of the corners, or else of half of them. Zero where the loss is not noticeable, or where
+/// neither halves it. Linear.
 DVec3 offsetForFloats(const VisitEdges& edges);
 
 }  // namespace tspace

@@ -75,7 +75,7 @@ std::vector<JoinedPieces::EdgeUse> JoinedPieces::sharedEdges() const {
     return edges;
 }
 
-/// Where more than two triangles meet at an edge nobody can say which of them are neighbours.
+/// Edges of more than two triangles have no vote: which of these are neighbours is ambiguous.
 void JoinedPieces::voteByEdges(const std::vector<EdgeUse>& edges, std::map<Pair, Votes>& votes) {
     for (std::size_t i = 0, past = 0; i < edges.size(); i = past) {
         while (past < edges.size() && edges[past].low == edges[i].low && edges[past].high == edges[i].high) ++past;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What every triangle says on its own: its normal and area, where u grows on it, and on which side v lies.
+// Properties of single triangles: normal and area, where u grows on it, and on which side v lies.
 #pragma once
 
 #include <array>

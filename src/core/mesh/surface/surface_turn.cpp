@@ -16,7 +16,7 @@ namespace {
 
 /// A mean below this part of its weights has no direction: the triangles cancel out.
 constexpr double kVanished = 1e-3;
-/// Of the area: a hundredth of each side.
+/// Ratio of areas below which a triangle has collapsed: a hundredth of each side.
 constexpr double kCollapsed = 1e-4;
 /// Beside the square of the longest edge: what rounding leaves of a triangle without area.
 constexpr double kThin = 1e-6;
@@ -94,7 +94,7 @@ std::vector<VertexTurn> SurfaceTurns::under(std::span<const Vec3> offsets) const
             Fan& fan = fans[fan_of[corners_[c + k]]];
             add(from, k, fan.from, fan.from_weight);
             add(to, k, fan.to, fan.to_weight);
-            // What is nothing before and after is in nobody's way.
+            // A triangle that is thin before and after does not make the turn uncertain.
             fan.is_certain = fan.is_certain && (is_certain || (from.is_thin && to.is_thin));
         }
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How a surface turns around its vertices when it is moved, and what that makes of normals that somebody has chosen.
+// How a moved surface turns around its vertices, and how that turns normals that an artist has chosen.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a stored tangent must be whatever the UVs are: finite, unit, with a sign of +1 or -1, and not along N.
+// Values that a stored tangent must have whatever the UVs are: finite, unit, a sign of +1 or -1, and not along N.
 #pragma once
 
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the examinations look at: arrays of one triangle mesh, from whatever file.
+// The arrays of one triangle mesh that checks read, from a file of any format.
 #pragma once
 
 #include <cstdint>

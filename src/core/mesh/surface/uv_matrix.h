@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a texture transform does to frames: a 2x2 matrix on UVs, without all that leaves directions as they are.
+// The effect of a texture transform on frames: a 2x2 matrix on UVs, without factors that leave directions as they are.
 #pragma once
 
 #include <span>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// What the methods `fast` and `best` compute for a group. Both go over the triangles, `best` once more for each step,
-// add some rows of numbers to each group, and then turn a group's rows into its tangent:
+// The estimators of the methods `fast` and `best`. Both go over the triangles, `best` once more for each step, add some
+// rows of numbers to each group, and then turn a group's rows into its tangent:
 //
 // fast   two_weights_kernel.h: two weighted means of the same vectors, mixed by the angle between them
-// best   quadratic_recovery_kernel.h: a quadratic map from UVs to the tangent plane, fitted to the edges;
-//        edge_step_kernel.h: a step towards frames that give the edges when they are interpolated
+// best   quadratic_recovery_kernel.h: a quadratic map from UVs to the tangent plane, fitted to the edges; then steps towards
+//        frames that give the edges when they are interpolated
 //
 // Each is written once, and compiled for several CPUs with the same bits from all.
 #pragma once
@@ -26,7 +26,7 @@ struct VertexSource : VertexArrays {
 inline constexpr std::size_t kBlockTriangles = 32;  ///< its rows stay in the first cache
 inline constexpr std::size_t kLaneGroup = 16;       ///< kernels work on whole groups of so many lanes
 inline constexpr std::size_t kStepRows = 2;         ///< the same, of a step
-/// What a step reads of a group: dP/du and the robust mean's share, dP/dv and 0. Zeros: the group takes no part.
+/// Floats of a group that a step reads: dP/du and the robust mean's share, dP/dv and 0. Zeros: the group takes no part.
 inline constexpr std::size_t kStepFloats = 8;
 
 /// One method on one CPU.
@@ -42,7 +42,7 @@ struct Estimator {
     /// T.z, |dP/du|}, {B.x, B.y, B.z, |dP/dv|}. A direction that no triangle gives is zero, and never is anything not finite. With
     /// two rows, there are tangents only.
     void (*finish)(float* sums, const float* normals, std::size_t count) = nullptr;
-    /// The same for a step, null where a method has none. groups: three per triangle; `from` has kStepFloats for each
+    /// As `add`, for a step; null where a method has none. groups: three per triangle; `from` has kStepFloats for each
     /// group that is named.
     void (*add_step)(const VertexSource& source, const std::uint32_t* vertices, const std::uint32_t* groups,
                      const float* from, std::size_t count, float* rows) = nullptr;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What both estimators read and compute alike, on lanes. Included after lanes_*.h, with TSPACE_LANES set to
-// its namespace. Each lane is one triangle, or one group.
+// Shared by both estimators, on lanes. Included after lanes_*.h, with TSPACE_LANES set to its namespace. Each lane is
+// one triangle, or one group.
 #pragma once
 
 #include "core/simd/plane_kernel.h"

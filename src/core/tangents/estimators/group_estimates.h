@@ -11,15 +11,15 @@
 
 namespace tspace::estimators {
 
-/// What there is of a group, or of its sum, when more than tangents is asked for.
+/// Bitangent and lengths of a group, or their sums, for outputs beyond tangents.
 struct GroupRest {
     float t[4] = {0, 0, 0, 0};  ///< bitangent, |dP/du|
     float length_t = 0;         ///< |dP/dv|
     float weight = 0;           ///< of a sum
 };
 
-/// Where results of `count` groups go: for group g three floats at tangents + g * tangent_stride, and what else there is to
-/// rest[g]. What no triangle gives is 0.
+/// Output for `count` groups: three floats at tangents + g * tangent_stride for group g, bitangent and lengths in
+/// rest[g]. Groups that no triangle adds to get 0.
 struct GroupEstimates {
     std::byte* tangents = nullptr;
     std::size_t tangent_stride = 0;

@@ -63,7 +63,7 @@ void addTwoWeights(const VertexSource& source, const std::uint32_t* vertices, st
     }
 }
 
-/// Where one of the two has no direction the other stands for both.
+/// Mixes both means; where one has no direction the other takes its place.
 inline Vectors mixed(Vectors n, Vectors accurate, Vectors robust) {
     const Vectors a = unit(accurate - dot(n, accurate) * n), b = unit(robust - dot(n, robust) * n);
     const Vectors across = cross(a, b);

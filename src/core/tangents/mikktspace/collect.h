@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Marks of vertices and nodes, and the triangles that have them, with as many threads as there are.
+// Collects the triangles that have a marked vertex or node, with several threads.
 #pragma once
 
 #include <algorithm>
@@ -25,12 +25,11 @@ inline Buffer<std::uint32_t> numbersBelow(std::size_t count, const Allocator* al
     return numbers;
 }
 
-/// Marks of vertices or nodes, a byte each: looked up in the middle of lists, where taking a bit out of a
-/// word costs more than the memory does.
+/// Marks of vertices or nodes, a byte each: they are read in random order, where extracting a bit costs more than the memory.
 using Marks = Buffer<std::uint8_t>;
 inline Marks noMarks(const Allocator* allocator, std::size_t count) { return Marks(allocator, count, std::uint8_t{0}); }
 
-/// The triangles with a corner at whose vertex markOf(vertex) has a bit of `mask`, ascending. `any`: of all marks.
+/// The triangles, ascending, with a vertex for which markOf(vertex) has a bit of `mask`. `any` gets the bits of all marks.
 template <class MarkOf>
 Buffer<std::uint32_t> collectTriangles(const MeshView& mesh, const TriangleList& triangles, const MarkOf& markOf,
                                        std::uint32_t mask, const Allocator* allocator, Parallel& parallel,
@@ -52,7 +51,7 @@ Buffer<std::uint32_t> collectTriangles(const MeshView& mesh, const TriangleList&
     const std::size_t block_count = (triangles.count + kCollectBlock - 1) / kCollectBlock;
     if (block_count == 0) return {};
     Buffer<std::uint64_t> passed(allocator, block_count);
-    Buffer<std::uint32_t> ends(allocator, block_count);  // first how many, then where they end
+    Buffer<std::uint32_t> ends(allocator, block_count);  // counts first, then where each block's triangles end
     parallel.forRanges(block_count, kGrain, [&](std::size_t begin, std::size_t end) {
         for (std::size_t block = begin; block < end; ++block) {
             passed[block] = bitsOf(block);

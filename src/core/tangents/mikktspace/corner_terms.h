@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// What each corner of a block of triangles adds to the sums of its node: the projected tangent times the
-// corner's weight, and the same for the bitangent and both lengths. Written once (corner_terms_kernel.h),
-// compiled for several CPUs, same bits from all of them.
+// What each corner of a block of triangles adds to the sums of its node: the face tangent, projected along N and normalised,
+// times the corner's weight; and the bitangent and both lengths times that weight. The angle weight of MikkTSpace is
+// Weighting::projected_angle; its formula is in weightOrCosine. Written once (corner_terms_kernel.h), compiled for several
+// CPUs, with equal bits from all of them.
 #pragma once
 
 #include <cstddef>
@@ -17,38 +18,38 @@ enum class Weighting : std::uint32_t {
     one,
     angle,  ///< the interior angle
     area,   ///< the triangle's area
-    none,   ///< nothing is summed: only marks and counts are written
+    none,   ///< only marks are written (estimators sum on their own)
 };
 
 /// The vertex data of one call.
 struct CornerSource : VertexArrays {
     Weighting weighting = Weighting::projected_angle;
     bool tangents_only = false;  ///< leave out `t` and `lengths_t`
-    /// Leave out rows of triangles that are degenerate or have no UV area, where that is less work.
+    /// Rows of triangles that are degenerate or have no UV area are not read: the kernel may skip them.
     bool adding_only = false;
 };
 
-inline constexpr std::size_t kTermTriangles = 64;  ///< of one block; its arrays stay in the first cache
+inline constexpr std::size_t kTermTriangles = 64;  ///< of one block, whose arrays stay in the first cache
 inline constexpr std::size_t kTermCorners = 3 * kTermTriangles;
+inline constexpr std::size_t kTermGroup = 16;  ///< triangles that a kernel reads at once at most
 
-/// Marks of a corner. The angular test under the threshold of 180 degrees separates only opposite tangents or bitangents:
-/// those whose cosine rounds to -1. If all of a node have a component above kSideMargin on one axis, or all have one below
-/// -kSideMargin, then every two of them have a cosine of 2 * kSideMargin^2 - 1 at least, far more than what rounding takes
-/// away. So where all corners of a node have one such mark of tangents in common, and one of bitangents, its group cannot
-/// split. A NaN sets no mark.
+/// Marks of a corner. A threshold of 180 degrees separates only opposite tangents or bitangents, whose cosine rounds to -1. If
+/// all tangents of a node have a component above kSideMargin on one axis, or all have one below -kSideMargin, then any two
+/// of them have a cosine of at least 2 * kSideMargin^2 - 1, and rounding is far smaller than that margin. So where all corners
+/// of a node have one mark of tangents in common, and one of bitangents, its group cannot split. A NaN sets no mark.
 inline constexpr std::uint32_t kFacesUp = 0x01;    ///< positive UV area
 inline constexpr std::uint32_t kFacesDown = 0x02;  ///< the opposite
 inline constexpr std::uint32_t kFacing = kFacesUp | kFacesDown;
-/// The projected tangent: above on x, below on x, and so on; and the same of the projected bitangent.
+/// The projected tangent, and the projected bitangent: above the margin on x, below it on x, then y and z.
 inline constexpr std::uint32_t kTangentSides = 0x3f << 2, kBitangentSides = 0x3f << 8;
 inline constexpr std::uint32_t kAllMarks = kFacing | kTangentSides | kBitangentSides;
 inline constexpr unsigned kFlagShift = 16;
 inline constexpr std::uint32_t kNoUvArea = 1u << kFlagShift;  ///< the triangle has no usable UV area
-/// Two corners at one position: nothing else means anything.
+/// Two corners are at one position: all other marks are undefined.
 inline constexpr std::uint32_t kDegenerateMark = 2u << kFlagShift;
 inline constexpr std::uint32_t kMirroredMark = 4u << kFlagShift;  ///< no positive UV area
-/// Vectors of a smaller square may have no unit length after all. Bitangents are marked before they are brought to it, and
-/// have a square below kLargestSquare.
+/// Tangents of a smaller square may not be unit after normalising, and set no marks. Bitangents are marked before they are
+/// normalised, and set marks where their square is below kLargestSquare.
 inline constexpr float kSideMargin = 1.0f / 128, kSmallestSquare = 1e-30f, kLargestSquare = 4;
 
 /// Rows of four: row 3 * t + k belongs to corner k of triangle t.

@@ -22,9 +22,8 @@ inline Vectors select(Mask m, Vectors yes, Vectors no) {
     return {select(m, yes.x, no.x), select(m, yes.y, no.y), select(m, yes.z, no.z)};
 }
 
-/// unit() of results.h, of a vector whose square is known. A squared length above zero shows that some
-/// component is above the smallest normal number (others have a square of zero), so the rule for small
-/// vectors is needed only where it is zero or NaN.
+/// unit() of results.h for a vector whose square is known. Where the square is above zero some component is above the
+/// smallest normal number (the squares of smaller ones are zero), so notZero is tested only where the square is zero or NaN.
 inline Vectors unitByRules(Vectors v, Floats square) {
     const Vectors scaled = (broadcast(1.0f) / squareRoot(square)) * v;
     if (all(square > broadcast(0.0f))) [[likely]]
@@ -42,7 +41,7 @@ struct Group {
     Floats u[3], v[3];
 
     void load(const CornerSource& source, const std::uint32_t* vertices, bool exact) {
-#pragma GCC unroll 3  // or what the loop indexes lies in memory
+#pragma GCC unroll 3  // keeps the arrays in registers
         for (std::size_t k = 0; k < 3; ++k) {
             position[k] = gatherVectors(source.positions, source.position_stride, vertices + k, exact);
             if (source.uv_stride == 8)
@@ -100,7 +99,8 @@ inline Bits sidesOf(Vectors s, Floats square, Vectors t, Bits facing) {
     return shiftLeft<2>(keepWhere(sides, are_sure)) | facing;
 }
 
-/// The weight of a corner, or for the two weightings that are angles, its cosine.
+/// The weight of a corner; for the two weightings that are angles the cosine of the weight. projected_angle is MikkTSpace's: the
+/// two edges at the corner are projected along N and normalised, and the angle between them is the weight.
 inline Floats weightOrCosine(Weighting weighting, const Vectors& normal, const Vectors& previous, const Vectors& next) {
     if (weighting == Weighting::projected_angle) return dot(flatten(normal, previous), flatten(normal, next));
     if (weighting == Weighting::angle) return dot(unitByRules(previous), unitByRules(next));

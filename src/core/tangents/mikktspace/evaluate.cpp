@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: MIT
-// Tangents of a pose. For each group the weighted sum of its members' projected tangents, in
-// ascending order of triangles, and the same for bitangents and lengths.
+// The evaluation half: tangents of a pose by a plan. For each group the weighted sums of its members' projected tangents,
+// bitangents and lengths, in ascending order of triangles; a group that splits has such sums for each member.
 //
-// mikktspace: weight = the angle between the two edges at the corner after projection along N.
-// uniform, angle, area: weight = 1, the interior angle of the triangle at the corner, or its area. The terms
-// are unit face tangents projected along the corner's N and normalised again, as in mikktspace.
-// fast, best: the estimators' results (estimators/) take the place of sums.
+// What a member adds, and with which weight, is in corner_terms.h: the angle weight of mikktspace, the weights of uniform,
+// angle and area. For fast and best the results of the estimators (estimators/) take the place of sums.
 #include <algorithm>
 #include <atomic>
 #include <bit>
 
 #include "core/base/float4.h"
+#include "core/base/range_lists.h"
 #include "core/tangents/method_kind.h"
 #include "core/tangents/mikktspace/results.h"
 
@@ -20,101 +19,10 @@ namespace {
 
 constexpr std::size_t kGroupGrain = 8192, kWriteGrain = 8192;
 
-// -- sums of groups, of which a task owns a range, as in node_sums.cpp: it computes the triangles that have a corner there --
-
 constexpr std::size_t kGroupsPerTask = 4096;  // at least: below, another thread costs more than it saves
 
-class GroupSummer {
-  public:
-    GroupSummer(const EvaluationPlan& plan, const CornerSource& source, CornerTermsFunction terms, GroupSums& sums,
-                std::size_t first_group, std::size_t end_group)
-        : plan_(plan),
-          source_(source),
-          terms_of_(terms),
-          sums_(sums),
-          first_group_(static_cast<std::uint32_t>(first_group)),
-          group_count_(static_cast<std::uint32_t>(end_group - first_group)),
-          wants_all_(end_group - first_group == sums.groups.size() || !plan.terms.empty()) {}
-
-    void run() {
-        std::fill_n(sums_.groups.data() + first_group_, group_count_, Vec3{});
-        if (!sums_.rest.empty()) std::fill_n(sums_.rest.data() + first_group_, group_count_, GroupRest{});
-        if (wants_all_) {
-            for (std::size_t t = 0; t < plan_.triangle_count; t += kTermTriangles) {
-                const std::size_t count = std::min(kTermTriangles, plan_.triangle_count - t);
-                const bool is_known = !plan_.terms.empty();
-                add(plan_.groups.data() + 3 * t, count,
-                    is_known ? plan_.terms[t / kTermTriangles] : termsOf(plan_.vertices.data() + 3 * t, count));
-            }
-            return;
-        }
-        for (std::size_t t = 0; t < plan_.triangle_count;) {
-            std::size_t count = 0;
-            for (; t < plan_.triangle_count && count < kTermTriangles; ++t) count += keep(t, count);
-            add(groups_, count, termsOf(vertices_, count));
-        }
-    }
-
-  private:
-    /// False for kNone and for groups with kTopBit, too: those are not below any count.
-    [[nodiscard]] bool owns(std::uint32_t group) const { return group - first_group_ < group_count_; }
-
-    /// Copies a triangle to a place of the block; returns 1 when it is to stay there.
-    std::size_t keep(std::size_t t, std::size_t place) {
-        const std::uint32_t *v = plan_.vertices.data() + 3 * t, *g = plan_.groups.data() + 3 * t;
-        for (std::size_t k = 0; k < 3; ++k) {
-            vertices_[3 * place + k] = v[k];
-            groups_[3 * place + k] = g[k];
-        }
-        return (int{owns(g[0])} | int{owns(g[1])} | int{owns(g[2])}) != 0 ? 1 : 0;
-    }
-
-    const CornerTerms& termsOf(const std::uint32_t* vertices, std::size_t count) {
-        terms_of_(source_, vertices, count, terms_);
-        return terms_;
-    }
-
-    void add(const std::uint32_t* groups, std::size_t count, const CornerTerms& terms) {
-        for (std::size_t i = 0; sums_.rest.empty() && i < 3 * count; ++i) {
-            if (owns(groups[i])) addVector(&sums_.groups[groups[i]].x, terms.s[i]);
-        }
-        for (std::size_t i = 0; !sums_.rest.empty() && i < 3 * count; ++i) {
-            if (!owns(groups[i])) continue;
-            addVector(&sums_.groups[groups[i]].x, terms.s[i]);
-            addRest(sums_.rest[groups[i]], terms, i / 3, i % 3);
-            sums_.rest[groups[i]].weight += terms.s[i][3];
-        }
-    }
-
-    const EvaluationPlan& plan_;
-    const CornerSource& source_;
-    CornerTermsFunction terms_of_;
-    GroupSums& sums_;
-    std::uint32_t first_group_, group_count_;
-    bool wants_all_;  // triangles
-    std::uint32_t vertices_[kTermCorners] = {};
-    std::uint32_t groups_[kTermCorners] = {};
-    CornerTerms terms_;
-};
-
-/// In the order of triangles.
-GroupSums sumGroups(const EvaluationPlan& plan, const CornerSource& source, CornerTermsFunction terms,
-                    const Allocator* allocator, Parallel& parallel) {
-    GroupSums sums = roomForSums(plan, source.tangents_only, allocator);
-    if (plan.group_count == 0) return sums;
-    const std::size_t groups = plan.group_count;
-    const std::size_t tasks =
-        std::clamp<std::size_t>(groups / kGroupsPerTask, 1, std::max<std::size_t>(1, parallel.width()));
-    parallel.forTasks(tasks, [&](std::size_t task) {
-        GroupSummer(plan, source, terms, sums, groups * task / tasks, groups * (task + 1) / tasks).run();
-    });
-    return sums;
-}
-
-// -- a plan --
-
-/// A plan's triangles, as estimators read them. Groups with kTopBit, to which a triangle adds nothing, are no groups
-/// there.
+/// A plan's triangles, as range lists and estimators read them. A group with kTopBit is no group there: the triangle adds
+/// nothing to it.
 class PlanTriangles final : public TriangleGroups {
   public:
     explicit PlanTriangles(const EvaluationPlan& plan) : TriangleGroups(plan.triangle_count), plan_(plan) {}
@@ -126,6 +34,53 @@ class PlanTriangles final : public TriangleGroups {
   private:
     const EvaluationPlan& plan_;
 };
+
+/// Sums of a range of groups, in the order of triangles.
+void sumRange(const EvaluationPlan& plan, const CornerSource& source, CornerTermsFunction termsOf, GroupRange range,
+              RangeLists::Batches triangles, GroupSums& sums) {
+    const bool are_known = !plan.terms.empty();  // then triangles come in whole blocks
+    std::fill_n(sums.groups.data() + range.begin, range.size(), Vec3{});
+    if (!sums.rest.empty()) std::fill_n(sums.rest.data() + range.begin, range.size(), GroupRest{});
+    TriangleBatch batch;
+    CornerTerms computed;
+    while (triangles.next(batch, !are_known)) {
+        if (!are_known) {
+            termsOf(source, fillGroup(batch.vertices, batch.count, kTermGroup, batch.own_vertices), batch.count,
+                    computed);
+        }
+        const CornerTerms& terms = are_known ? plan.terms[batch.numbers[0] / kTermTriangles] : computed;
+        for (std::size_t i = 0; sums.rest.empty() && i < 3 * batch.count; ++i) {
+            const std::uint32_t group = batch.groups[i];
+            if (range.has(group)) addVector(&sums.groups[group].x, terms.s[i]);
+        }
+        for (std::size_t i = 0; !sums.rest.empty() && i < 3 * batch.count; ++i) {
+            const std::uint32_t group = batch.groups[i];
+            if (!range.has(group)) continue;
+            addVector(&sums.groups[group].x, terms.s[i]);
+            addRest(sums.rest[group], terms, i / 3, i % 3);
+            sums.rest[group].weight += terms.s[i][3];
+        }
+    }
+}
+
+/// Sums of all groups. A task owns a range of groups, as in node_sums.cpp.
+GroupSums sumGroups(const EvaluationPlan& plan, const CornerSource& source, CornerTermsFunction terms,
+                    const Allocator* allocator, Parallel& parallel) {
+    GroupSums sums = roomForSums(plan, source.tangents_only, allocator);
+    const std::size_t groups = plan.group_count;
+    if (groups == 0) return sums;
+    const PlanTriangles triangles(plan);
+    const std::size_t tasks =
+        std::clamp<std::size_t>(groups / kGroupsPerTask, 1, std::max<std::size_t>(1, parallel.width()));
+    const std::size_t size = std::bit_ceil((groups + tasks - 1) / tasks);
+    const RangeLists lists = plan.terms.empty()
+                                 ? RangeLists(triangles, kTermTriangles, groups, size, allocator, parallel)
+                                 : RangeLists(kTermTriangles, groups, size);
+    parallel.forTasks(lists.count(), [&](std::size_t task) {
+        sumRange(plan, source, terms, lists.range(task), {triangles, lists, task}, sums);
+    });
+    return sums;
+}
 
 class Evaluation {
   public:
@@ -142,7 +97,7 @@ class Evaluation {
           allocator_(execution.allocator),
           parallel_(parallel) {}
 
-    /// `estimates`: null, or what the estimators gave.
+    /// `estimates`: null, or results of the estimators, which are moved from.
     TangentReport run(GroupSums* estimates) {
         TangentReport report = plan_.report;
         if (plan_.vertex_count == 0) return report;
@@ -183,8 +138,7 @@ class Evaluation {
             bool any_zero = false, all_finite = true;
             for (std::size_t g = begin; g < end; ++g) {
                 Tangents r = finished(g);
-                // The reference leaves a sum that vanishes zero, and so does mikktspace; others get a
-                // default.
+                // A sum that vanishes stays zero in the reference, and in mikktspace; other methods write a default.
                 if (replaces && !notZero(r.s) && r.s.x == r.s.x) {
                     r = Tangents{};
                     replaced_[g] = 1;
@@ -218,7 +172,7 @@ class Evaluation {
 
     void writeCorners() {
         parallel_.forRanges(plan_.triangle_count, kWriteGrain, [&](std::size_t begin, std::size_t end) {
-            // In variables of their own, which no store can change.
+            // Local copies, which stores through `tangents` cannot alias.
             const std::uint32_t *const groups = plan_.groups.data(), *const slots = plan_.slots.data();
             const std::uint32_t* const triangles = plan_.triangles.data();
             const std::uint8_t* const positive = plan_.group_positive.data();
@@ -243,14 +197,14 @@ class Evaluation {
         });
     }
 
-    /// Room for one group in which each member has a subset of its own (angular threshold).
-    struct SplitRoom {
+    /// Scratch for one group that splits.
+    struct SplitScratch {
         CornerTerms* blocks;
         std::uint32_t vertices[kTermCorners] = {};
     };
 
-    /// Writes the results of all members but those whose corner has several, which are kept. Quadratic in the size of a
-    /// group, which is limited when plans are made.
+    /// Evaluates groups that split. Results of corners that have several are kept in members_, all others are written.
+    /// Quadratic in the size of a group, which the planner limits (kLargestSplitGroup).
     void evaluateSplits() {
         const std::size_t count = plan_.splits.size(), blocks = plan_.largest_split / kTermTriangles + 1;
         if (count == 0) return;
@@ -259,14 +213,14 @@ class Evaluation {
             std::min<std::size_t>(count / 64 + 1, parallel_.width() == 1 ? 1 : 4 * parallel_.width());
         Buffer<CornerTerms> terms(allocator_, plan_.terms.empty() ? tasks * blocks : 0);
         parallel_.forTasks(tasks, [&](std::size_t task) {
-            SplitRoom room{terms.empty() ? nullptr : terms.data() + task * blocks};
+            SplitScratch scratch{terms.empty() ? nullptr : terms.data() + task * blocks};
             for (std::size_t i = count * task / tasks; i < count * (task + 1) / tasks; ++i)
-                evaluateSplit(plan_.splits[i], room);
+                evaluateSplit(plan_.splits[i], scratch);
         });
     }
 
-    void evaluateSplit(const EvaluatedSplit& split, SplitRoom& room) {
-        computeTerms(split, room);
+    void evaluateSplit(const EvaluatedSplit& split, SplitScratch& scratch) {
+        computeTerms(split, scratch);
         const std::size_t words = (std::size_t{split.count} + 63) / 64;
         const std::uint64_t* row = plan_.split_rows.data() + split.rows;
         Tangents result;
@@ -276,7 +230,7 @@ class Evaluation {
                 GroupRest rest;
                 for (std::size_t word = 0; word < words; ++word) {
                     for (std::uint64_t bits = row[word]; bits != 0; bits &= bits - 1)
-                        add(split, 64 * word + static_cast<unsigned>(std::countr_zero(bits)), room, sum, rest);
+                        add(split, 64 * word + static_cast<unsigned>(std::countr_zero(bits)), scratch, sum, rest);
                 }
                 result = meanOf(sum, rest, rest.weight, split.positive);
                 if (!isFinite(result.s)) finite_ = false;
@@ -290,30 +244,31 @@ class Evaluation {
         }
     }
 
-    void add(const EvaluatedSplit& split, std::size_t member, const SplitRoom& room, Vec3& sum, GroupRest& rest) const {
+    void add(const EvaluatedSplit& split, std::size_t member, const SplitScratch& scratch, Vec3& sum,
+             GroupRest& rest) const {
         const std::uint32_t half_edge = plan_.members[split.begin + member];
         const bool is_known = !plan_.terms.empty();
         const CornerTerms& terms =
-            is_known ? plan_.terms[half_edge / kTermCorners] : room.blocks[member / kTermTriangles];
+            is_known ? plan_.terms[half_edge / kTermCorners] : scratch.blocks[member / kTermTriangles];
         const std::size_t t = is_known ? half_edge / 3 % kTermTriangles : member % kTermTriangles, k = half_edge % 3;
         sum = sum + vectorOf(terms.s[3 * t + k]);
         rest.weight += terms.s[3 * t + k][3];
         if (!source_.tangents_only) addRest(rest, terms, t, k);
     }
 
-    void computeTerms(const EvaluatedSplit& split, SplitRoom& room) const {
+    void computeTerms(const EvaluatedSplit& split, SplitScratch& scratch) const {
         for (std::uint32_t begin = 0; plan_.terms.empty() && begin < split.count; begin += kTermTriangles) {
             const std::uint32_t count = std::min<std::uint32_t>(kTermTriangles, split.count - begin);
             for (std::uint32_t i = 0; i < count; ++i) {
                 const std::uint32_t first = plan_.members[split.begin + begin + i] / 3 * 3;
-                std::copy_n(plan_.vertices.data() + first, 3, room.vertices + 3 * i);
+                std::copy_n(plan_.vertices.data() + first, 3, scratch.vertices + 3 * i);
             }
-            terms_(source_, room.vertices, count, room.blocks[begin / kTermTriangles]);
+            terms_(source_, scratch.vertices, count, scratch.blocks[begin / kTermTriangles]);
         }
     }
 
-    /// Two results is what the reference knows (the corners at a quad's diagonal); further ones, which only
-    /// n-gons have, are merged one by one.
+    /// Merges the results of corners that have several: two in the reference (at a quad's diagonal), more in n-gons, merged
+    /// one after the other.
     void mergeConflicts() {
         const auto result = [&](const Conflict& c) {
             return (c.source & kTopBit) != 0 ? members_[c.source & kValue] : resultOf(c.source);
@@ -327,12 +282,12 @@ class Evaluation {
                 for (++i; i < conflicts.size() && conflicts[i].corner == corner; ++i)
                     merge(merged, result(conflicts[i]));
                 if (!isFinite(merged.s)) finite_ = false;
-                if (is_first) sink_.write(corner, merged);  // else another thread does
+                if (is_first) sink_.write(corner, merged);  // else the thread with its first conflict writes it
             }
         });
     }
 
-    /// Corners of groups whose sum vanishes.
+    /// Counts the corners of groups whose sum vanished.
     [[nodiscard]] std::uint64_t countZero() const {
         std::uint64_t count = 0;
         for (const std::uint32_t group : plan_.groups) {
@@ -363,8 +318,8 @@ class Evaluation {
     const Allocator* allocator_;
     Parallel& parallel_;
     GroupSums sums_;
-    Buffer<Tangents> members_;       // results of groups that split, one per member, where there are conflicts
-    Buffer<std::uint8_t> replaced_;  // one per group: 1 when its sum vanishes and it got a default
+    Buffer<Tangents> members_;       // results of members of groups that split; empty where no corner has several
+    Buffer<std::uint8_t> replaced_;  // one per group: 1 when its sum vanished and a default replaced it
     std::atomic<bool> zero_{false}, finite_{true};
 };
 

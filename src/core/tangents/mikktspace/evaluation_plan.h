@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What is left of a plan for evaluating poses: where each corner's data are, which sum it adds to, and which
-// result each corner of the mesh holds.
+// The plan of a grouping method: where the data of each corner are, which sum it adds to, and which result each corner of
+// the mesh takes. plan.cpp has a table of its lists.
 #pragma once
 
 #include "core/base/call.h"
@@ -29,26 +29,26 @@ struct GroupSums;
 
 struct EvaluationPlan {
     Method method = Method::mikktspace;
-    std::uint32_t refine = 0;  ///< of `best`: steps
+    std::uint32_t refine = 0;  ///< steps of `best`
     Convention convention;
     std::size_t vertex_count = 0;
     std::size_t corner_count = 0;
     std::size_t triangle_count = 0;
-    std::uint32_t group_count = 0;  ///< groups that do not split
+    std::uint32_t group_count = 0;  ///< those that split are counted, but no half-edge names them
 
-    /// One per half-edge: the vertex whose data stand for its corner. In a plan that is kept that is the corner's own,
-    /// because vertices that are equal on the mesh may come apart in a pose. Followed by the numbers of some more valid
-    /// vertices, so that kernels can read whole blocks.
+    /// One per half-edge: the vertex whose data stand for its corner. A plan that is kept has the corner's own vertex,
+    /// because vertices that are equal on the mesh may come apart in a pose. Some more valid vertices follow at the end, so
+    /// that kernels can read whole blocks.
     Buffer<std::uint32_t> vertices;
     /// One per half-edge: the group it belongs to, with kTopBit if it adds nothing to it; kNone without one,
     /// and for members of groups that split.
     Buffer<std::uint32_t> groups;
     /// One per half-edge: its corner of the mesh, with kTopBit where that is among the conflicts. Empty: half-edges are corners.
     Buffer<std::uint32_t> slots;
-    Buffer<std::uint32_t> triangles;      ///< of some nodes' plan: their numbers in the mesh, ascending
+    Buffer<std::uint32_t> triangles;      ///< numbers in the mesh, ascending; empty: the plan is of all nodes
     Buffer<std::uint8_t> group_positive;  ///< one per group: its orientation
     Buffer<Vec2> uvs;                     ///< one per vertex; empty in a plan that is used once
-    Buffer<CornerTerms> terms;            ///< of that one: what its triangles add
+    Buffer<CornerTerms> terms;            ///< in a plan that is used once: what its triangles add
 
     Buffer<EvaluatedSplit> splits;
     Buffer<std::uint32_t> members;     ///< half-edges of these groups
@@ -73,14 +73,13 @@ EvaluationPlan planGrouped(const MeshView& mesh, const Call<TangentOptions>& opt
                            PlanUse use = PlanUse::kept);
 
 /// Evaluates one pose into checked outputs and completes the plan's report. `uvs`: one per vertex. Scratch memory: 12
-/// bytes per group when only tangents are asked for, else 36. `estimates`: null, or what estimators have given for the
-/// groups, in the room for it (results.h). Throws OutOfMemory.
+/// bytes per group when only tangents are wanted, else 36, and core/base/range_lists.h where several threads sum. `estimates`: null, or the estimators' results for the groups
+/// (roomForSums in results.h), which are moved from. Throws OutOfMemory.
 TangentReport evaluateGroups(const EvaluationPlan& plan, const Pose& pose, const StridedSpan<const Vec2>& uvs,
                              const TangentOutput& out, const Execution& execution, Parallel& parallel,
                              GroupSums* estimates = nullptr);
 
-/// The bits of planGrouped and evaluateGroups on the mesh's own pose, in one call, into checked outputs. Throws
-/// OutOfMemory.
+/// Equals planGrouped and evaluateGroups on the mesh's own pose, bit for bit, in one call. Throws OutOfMemory.
 TangentReport generateGrouped(const MeshView& mesh, const Call<TangentOptions>& options, const TangentOutput& out,
                               Parallel& parallel);
 

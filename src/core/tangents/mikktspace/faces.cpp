@@ -13,7 +13,7 @@ namespace tspace::mikk {
 
 namespace {
 
-/// Which sizes of faces are cut, all others are skipped: 3 and 4, and those of n-gons if wanted.
+/// The sizes of faces that are cut: 3 and 4, and those of n-gons if wanted. All others are skipped.
 class UsedSizes {
   public:
     explicit UsedSizes(Ngons ngons) : count_(ngons == Ngons::triangulate ? 0u - kLeast : 5 - kLeast) {}
@@ -24,13 +24,13 @@ class UsedSizes {
     std::uint32_t count_;
 };
 
-/// How many faces and corners of each kind there are. Corners are fewer than 2^31.
+/// Counts of faces and corners. Corners are fewer than 2^31.
 struct FaceCounts {
     std::uint32_t triangles = 0;  // after cutting
     std::uint32_t faces_of_three = 0, skipped_faces = 0, skipped_corners = 0;
 };
 
-/// Without a branch, so that the loop becomes SIMD: a size that is not used counts as 0.
+/// The loop has no branch, so that it becomes SIMD: a size that is not used counts as 0.
 FaceCounts countFaces(std::span<const std::uint32_t> sizes, Ngons ngons) {
     const UsedSizes used(ngons);
     std::uint32_t corners = 0, used_corners = 0, used_faces = 0, faces_of_three = 0;
@@ -45,7 +45,7 @@ FaceCounts countFaces(std::span<const std::uint32_t> sizes, Ngons ngons) {
     return {used_corners - 2 * used_faces, faces_of_three, faces - used_faces, corners - used_corners};
 }
 
-/// The same for a mesh whose faces may have one size.
+/// Counts the faces of a mesh by their list of sizes, or by the one size of all.
 FaceCounts countFaces(const MeshView& mesh, Ngons ngons) {
     if (!mesh.face_sizes.empty()) return countFaces(mesh.face_sizes, ngons);
     const std::uint32_t size = mesh.face_size;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Cutting faces into triangles: for all methods.
+// Faces cut into triangles.
 #pragma once
 
 #include "core/base/memory.h"
@@ -26,11 +26,12 @@ struct TriangleList {
 
 TriangleList cutFaces(const MeshView& mesh, Ngons ngons, const Allocator* allocator);
 
-/// Where faces were cut.
+/// readTriangles where faces were cut.
 const std::uint32_t* readCutTriangles(const MeshView& mesh, const TriangleList& triangles, std::size_t first,
                                       std::size_t count, std::uint32_t* buffer);
 
-/// The vertices of the triangles [first, first + count), three each: where they lie, or in `buffer`.
+/// The vertices of the triangles [first, first + count), three each: a pointer into the indices where they can be read in
+/// place, else `buffer`.
 inline const std::uint32_t* readTriangles(const MeshView& mesh, const TriangleList& triangles, std::size_t first,
                                           std::size_t count, std::uint32_t* buffer) {
     if (triangles.corners.empty()) return readIndices(mesh.indices, 3 * first, 3 * count, buffer);

@@ -3,10 +3,10 @@
 //
 // The rule of groups.h links a triangle's leaving half-edge (to the next node) with the oldest waiting
 // arriving one from that node, and the other way round. As long as no two half-edges of one direction wait
-// for the same neighbour, there is nothing to choose, and the links make paths, each of which is known by its
-// two waiting ends. A fan has room for two paths. More may begin before they meet, where triangles come in random order
-// or the second ones of all quads follow the first ones: such a fan borrows room for four until two are left again. A
-// fifth path, and whatever else happens, makes the fan complex, and the node is left to the vertex path.
+// for the same neighbour, links are unambiguous and make paths, each of which is described by its two waiting ends. A Fan
+// holds two paths. More may begin before they meet, where triangles come in random order or the second triangles of all
+// quads follow the first ones: such a fan takes a ManyPaths of four paths until two are left again. A fifth path, an
+// ambiguous link, or a ring beside other paths makes the fan complex, and its node goes the vertex path.
 #pragma once
 
 #include <bit>
@@ -26,7 +26,7 @@ struct ManyPaths {
     } paths[kMost];
 };
 
-/// Places for fans of many paths, numbered from 1. There must be as many as fans of three triangles and more.
+/// A pool of ManyPaths, numbered from 1. It must have one for each fan of three triangles or more.
 class FanRoom {
   public:
     explicit FanRoom(ManyPaths* places) : places_(places) {}
@@ -45,8 +45,8 @@ class FanRoom {
 
   private:
     ManyPaths* places_;
-    std::uint32_t used_ = 0;  // so many were ever taken
-    std::uint32_t free_ = 0;  // a list of those that were given back
+    std::uint32_t used_ = 0;  // how many were ever taken
+    std::uint32_t free_ = 0;  // head of the list of those given back, linked through paths[0].leaves
 };
 
 class Fan {
@@ -55,8 +55,8 @@ class Fan {
     /// 0: there is at most one path.
     [[nodiscard]] std::uint32_t secondPath() const { return ends_[2]; }
 
-    /// Adds the triangle whose corner here goes on to `next` and comes from `previous`. Without branches: where triangles
-    /// come in any order, a processor cannot foresee what each does.
+    /// Adds the triangle whose corner at this node is followed by the node `next` and preceded by `previous`. Without
+    /// branches: in meshes without order a processor could not predict them.
     void add(std::uint32_t next, std::uint32_t previous, FanRoom& room) {
         const Four own = Four{next, previous, next, previous} | kTopBit;
         const Four extended = std::bit_cast<Four>(ends_ == __builtin_shufflevector(own, own, 1, 0, 3, 2));
@@ -65,7 +65,8 @@ class Fan {
         const bool is_complex = laneBits(std::bit_cast<Mask4>(ends_ == own)) != 0;
         if (is_complex || (laneBits(std::bit_cast<Mask4>(other == 0)) & 5) == 0) [[unlikely]]
             return addToMany({own[0], own[1]}, room);
-        // Kept ends take the place of the triangle's own. A ring is left with ends that no triangle meets.
+        // The other ends of the paths that it extends replace the triangle's own. A closed ring keeps ends that no triangle
+        // meets.
         const Four changes = ((ends_ ^ own) | extended) & kept;
         const Four grown = own ^ changes ^ turned(changes);
         ends_ = __builtin_shufflevector(grown, other | turned(other), 0, 1, 4, 5);
@@ -110,8 +111,8 @@ class Fan {
         return kept;
     }
 
-    /// Path i leaves towards ends_[2 * i], where a triangle on its other side may follow, and arrives from ends_[2 * i + 1]:
-    /// nodes with kTopBit; 0: no path. Of many paths: 1, 0, their place, their number; of a complex fan: kComplex.
+    /// Path i leaves towards the node ends_[2 * i], where a triangle may follow, and arrives from ends_[2 * i + 1]; nodes have
+    /// kTopBit, 0 is no path. A fan with ManyPaths has {1, 0, its number, count of paths}; a complex one kComplex.
     Four ends_{};
 };
 

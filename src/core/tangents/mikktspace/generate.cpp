@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A mesh in its own pose in one call, and a plan for others.
+// The two entries of this folder: generateGrouped for a mesh in its own pose, planGrouped for plans of other poses.
 #include "core/tangents/mikktspace/evaluation_plan.h"
 
 #include <algorithm>
@@ -18,26 +18,26 @@ namespace tspace::mikk {
 
 namespace {
 
-/// For meshes of fewer corners the many small allocations would take a fifth of the time. A corner mostly needs so many
-/// bytes, of which no more than a fixed number are asked for: the system takes pages of large blocks back each time. The
-/// vertex path may ask for more.
+/// Meshes of at most kSmallMesh corners take their scratch memory from one block: many small allocations would take a fifth of
+/// the time. Most need kBytesPerCorner; blocks above kLargestBlock are not taken, because the system unmaps them after each
+/// call. The vertex path may need more memory, which comes from the caller's allocator.
 constexpr std::size_t kSmallMesh = 4096, kBytesPerCorner = 32, kLeastBlock = 4096, kLargestBlock = 98304,
                       kStackRoom = 8192;
 
-/// Tangents are written last, so until then their memory can serve.
+/// The memory of the tangents, which serves as scratch memory until they are written at the end.
 std::span<std::byte> unwritten(const TangentOutput& out) {
     if (out.tangents.stride_bytes != sizeof(Vec4)) return {};
     return {reinterpret_cast<std::byte*>(out.tangents.data), out.tangents.count * sizeof(Vec4)};
 }
 
-/// Where it is asked for. What is not finite has no order there.
+/// The last bucket, for Pairing::reference and finite meshes: the reference's order of others is not reproduced.
 LastBucket lastBucketOf(const WeldedMesh& welded, const Call<TangentOptions>& options, const Allocator* transient,
                         Parallel& parallel) {
     if (!isMikktspace(options.method) || options.pairing != Pairing::reference || !welded.nodes.all_finite) return {};
     return findLastBucket(welded, transient, options.execution.allocator, parallel);
 }
 
-/// By a plan for this call alone.
+/// Generates by a plan for this call alone: for angular thresholds, and where one pass is not compiled in.
 TangentReport planAndEvaluate(const MeshView& mesh, const Call<TangentOptions>& options, const TangentOutput& out,
                               Parallel& parallel) {
     const EvaluationPlan plan = planGrouped(mesh, options, parallel, PlanUse::once);

@@ -5,7 +5,7 @@
 // representative.
 //
 // Every partition halves one axis of a float box, so the number of levels is bounded by the range of floats
-// whatever the input; the work list below stays short because the larger side is always put off.
+// whatever the input; the stack of ranges stays short because the smaller side is always divided first.
 #include "core/tangents/mikktspace/grid_order.h"
 
 #include <algorithm>
@@ -23,10 +23,10 @@ namespace {
 
 constexpr int kCells = 2048;
 constexpr std::size_t kVertexGrain = 16384;  // a multiple of 4
-// The mark of a vertex: the number of its cell among those that are looked at, from 1; and whether it is at an end of
-// the grid.
+// Mark of a vertex: the number of its cell among the cells of wanted vertices, from 1, or 0; and flags for vertices at
+// either end of the grid.
 constexpr std::uint16_t kNumber = 0x0fff, kAtLow = 0x4000, kAtHigh = 0x8000;
-constexpr std::uint32_t kWanted = kNone - 1;  // as a representative: not known yet
+constexpr std::uint32_t kWanted = kNone - 1;  // stands for a representative that is wanted and not known yet
 
 /// An entry of the corner list, in one cell of the reference's grid.
 struct alignas(16) CellElement {
@@ -62,10 +62,10 @@ struct Box {
     }
 };
 
-/// What the reference does with the corners in one cell of its grid.
-/// found(entry): called for all entries of leaves, within each in an order such that the last call for a node
-/// is for its representative. All entries of a node are in one leaf, because equal positions always go to the
-/// same side. Ranges where no element is marked are left out.
+/// Divides the corners of one cell of the grid as the reference does, down to leaves of equal positions.
+/// found(entry) is called for all entries of leaves, in an order such that the last call for a node is for its
+/// representative. All entries of a node are in one leaf, because equal positions always go to the same side. Ranges where no
+/// element is marked are skipped.
 template <class Found>
 class Cell {
   public:
@@ -146,9 +146,9 @@ struct GridOrder {
         Buffer<std::uint32_t> found;
         if (in.triangles.count == 0) return found;
         for (const std::uint32_t v : wanted) representatives[in.nodes.ofVertex(v)] = kWanted;
-        // The box of all vertices is made much faster than that of the list, and does for us when vertices on both ends
-        // of its longest axis are in the list: that of the list may be shorter on other axes only, and so has the same
-        // longest one.
+        // The reference takes the box of the corner list. The box of all vertices is computed much faster, and may be used
+        // when vertices at both ends of its longest axis are in the list: the list's box is then as long along that axis and
+        // shorter along others only.
         if (in.triangles.corner(0) != 0 || !findIn(boxOfVertices(), true, found)) findIn(boxOfList(), false, found);
         for (const std::uint32_t v : wanted) {
             std::uint32_t& representative = representatives[in.nodes.ofVertex(v)];
@@ -157,8 +157,7 @@ struct GridOrder {
         return found;
     }
 
-    /// What the reference computes: the box of the corner list but for its first entry, starting from corner 0 of the
-    /// mesh.
+    /// The reference's box: of the corner list without its first entry, starting from corner 0 of the mesh.
     [[nodiscard]] Box boxOfList() const {
         Box box(loadVec3(in.mesh.positions[in.mesh.indices[0]]));
         for (std::size_t i = 1; i < 3 * in.triangles.count; ++i) box.add(loadVec3(in.mesh.positions[in.vertexAt(i)]));
@@ -179,11 +178,11 @@ struct GridOrder {
         return whole;
     }
 
-    /// `if_listed`: only when vertices at both ends of the box are in the list; else returns false.
+    /// `if_listed`: returns false where vertices at either end of the box are not in the corner list.
     bool findIn(const Box& box, bool if_listed, Buffer<std::uint32_t>& found) {
         const int axis = box.longestAxis();
         const Float4 low = splat(box.low[axis]), high = splat(box.high[axis]);
-        // By the float-to-int conversion of x86: what does not fit becomes the smallest int, which lands in cell 0.
+        // As the float-to-int conversion of x86: values that do not fit become the smallest int, which lands in cell 0.
         const auto cellsOf = [=](Float4 x) {
             const Float4 q = splat(kCells) * ((x - low) / (high - low));
             const Float4 fitting = select4(q < splat(2147483648.0f), max4(q, Float4{}), Float4{});
@@ -217,9 +216,9 @@ struct GridOrder {
         return true;
     }
 
-    /// Cells share nothing: a node lies in one of them.
+    /// Divides each cell on its own: a node lies in one cell.
     void followCells(const Buffer<std::uint32_t>& found, const std::uint16_t* marks, std::size_t cells) {
-        // The first entry of each one up, first how many each has. Number 0 is none.
+        // A counting sort of entries by cell: counts first, then where each cell begins. Number 0 is no cell.
         std::array<std::uint32_t, kCells + 2> begin;
         std::fill_n(begin.data(), cells + 2, 0u);
         std::uint32_t buffer[3];
@@ -240,7 +239,7 @@ struct GridOrder {
             }
         }
         const auto name = [&](std::uint32_t entry) { representatives[in.nodeAt(entry)] = in.triangles.corner(entry); };
-        constexpr std::size_t kElements = 4096;  // for a thread: fewer are done sooner than one is started
+        constexpr std::size_t kElements = 4096;  // per thread: fewer take less time than starting one
         const std::size_t grain = 1 + cells * kElements / (elements.size() + 1);
         parallel.forRanges(cells, grain, [&](std::size_t first, std::size_t last) {
             for (std::size_t cell = first; cell < last; ++cell) {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// The grouping itself: links, groups, and contested triangles. groups.h has the proofs.
 #include "core/tangents/mikktspace/groups.h"
 
 #include <algorithm>
@@ -20,7 +21,7 @@ bool areOneFan(std::span<const NodeCorner> around) {
     return fan.isOne();
 }
 
-/// Spreads a group from its first corner to both sides. joins(i): whether it may take corner i.
+/// Spreads a group from its first corner to both sides. joins(i): whether corner i may join it.
 template <class Joins>
 void spread(std::uint32_t seed, const CornerLinks& links, std::uint32_t* group, const Joins& joins) {
     for (const std::uint32_t* link : {links.left, links.right}) {
@@ -53,8 +54,8 @@ void linkSmall(std::span<const NodeCorner> around, const CornerLinks& links) {
     }
 }
 
-/// A number is 2 * corner, one more for the edge that leaves, behind the neighbour. Of the half-edges of one neighbour, the
-/// unlinked ones all run in one direction.
+/// Sort keys: the neighbour in the high word; 2 * corner in the low one, plus 1 for the edge that leaves. Of one neighbour's
+/// half-edges those that wait all run in one direction, so the oldest is the partner of the next opposite one.
 void linkLarge(std::span<const NodeCorner> around, const CornerLinks& links, std::uint64_t* half_edges) {
     const std::size_t count = 2 * around.size();
     for (std::size_t i = 0; i < around.size(); ++i) {
@@ -85,14 +86,14 @@ Grouping::Grouping(const VertexPath& path, VertexCorners& corners)
     std::size_t largest = 0;
     for (std::size_t place = 0; place < chosen_.size(); ++place)
         largest = std::max(largest, corners.around(place).size());
-    room_ = Buffer<std::uint32_t>(allocator, 3 * largest);
+    scratch_ = Buffer<std::uint32_t>(allocator, 3 * largest);
     if (largest > kSmallNode) half_edges_ = Buffer<std::uint64_t>(allocator, 2 * largest);
     if (corners.report.degenerate_uv_count == 0) return;
     findContested(allocator);
     if (!contested_.empty()) spreadContested(allocator);
 }
 
-/// Groups of a node without contested triangles: those without UV area join any.
+/// In a node without contested triangles, those without UV area join any group.
 NodeGroups Grouping::groupsOf(std::size_t place) {
     const std::span<const NodeCorner> around = corners_.around(place);
     if (!contested_of_.empty() && contested_of_[place] != kNone) {
@@ -105,7 +106,7 @@ NodeGroups Grouping::groupsOf(std::size_t place) {
         if (!bucket_.concerns(chosen_[place]) && areOneFan(around)) return {around, nullptr, 1};
     }
     const auto count = static_cast<std::uint32_t>(around.size());
-    std::uint32_t* const group = room_.data();
+    std::uint32_t* const group = scratch_.data();
     const CornerLinks links{group + count, group + 2 * std::size_t{count}};
     link(place, links);
     std::fill_n(group, count, kNone);
@@ -125,7 +126,7 @@ void Grouping::link(std::size_t place, const CornerLinks& links) {
     if (bucket_.concerns(chosen_[place])) applyBucket(around, links);
 }
 
-/// Replaces links by those of the reference's last bucket.
+/// Replaces the links of half-edges that the reference pairs in another way (last_bucket.h).
 void Grouping::applyBucket(std::span<const NodeCorner> around, const CornerLinks& links) const {
     const auto turn = [](std::uint32_t half_edge, std::uint32_t by) {
         return half_edge / 3 * 3 + (half_edge + by) % 3;
@@ -146,8 +147,8 @@ void Grouping::applyBucket(std::span<const NodeCorner> around, const CornerLinks
     }
 }
 
-/// Marks contested triangles and their nodes. (Where a node of such a triangle is not chosen, it has no groups, or it is
-/// known that its triangles agree.)
+/// Marks contested triangles and their nodes. (A node of such a triangle that is not chosen has no groups, or its triangles
+/// are known to agree.)
 void Grouping::findContested(const Allocator* allocator) {
     const auto add = [&](std::uint32_t place) {
         if (corners_.facing[place] == 0 || contested_of_[place] != kNone) return;
@@ -166,8 +167,8 @@ void Grouping::findContested(const Allocator* allocator) {
     }
 }
 
-/// Nodes of contested triangles: linked first, then walked over in the reference's order, which is that of triangles. A
-/// cursor per node follows its corners along.
+/// Groups the nodes of contested triangles: links them first, then goes through all triangles in the reference's order. A
+/// cursor per node moves along its corners.
 void Grouping::spreadContested(const Allocator* allocator) {
     std::size_t size = 0;
     for (Contested& node : contested_) {

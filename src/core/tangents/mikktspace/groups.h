@@ -7,17 +7,17 @@
 // opposite one or waiting. Proof: waiters of one edge always run in one direction, else two of them would
 // have been linked. Say the first half-edge is linked to j by the reference: all between run its own way, so
 // it is still the oldest waiter when j comes, and j takes it. Take the pair out and repeat. An edge's
-// half-edges are seen completely from either of its ends, in the same (ascending) order, so each node can
-// work alone and both ends come to the same links. No edge table is needed.
+// half-edges are seen completely from either of its ends, in one (ascending) order, so each node can work alone and both
+// ends find equal links. No edge table is needed.
 //
 // Groups: the corners of a node that share tangents. The links around a node form paths and rings. Going through a
 // node's corners in ascending order, each that has no group and a usable UV area opens one, which spreads along the links
 // to both sides until it meets the other orientation or another group. (The reference recurses from triangle to triangle;
 // on a path or ring that visits the same corners.)
 //
-// A triangle without UV area takes the orientation of the first group that reaches it, at any of its nodes. Where its
-// nodes have one orientation only, that is the one, whoever is first. Others are contested: the nodes of those are
-// grouped one after the other, in the reference's order.
+// A triangle without UV area takes the orientation of the first group that reaches it, at any of its nodes. Where all its
+// nodes have one orientation, the order of groups does not matter. Other such triangles are contested: their nodes are
+// grouped together, going through the triangles in the reference's order.
 #pragma once
 
 #include <span>
@@ -30,31 +30,32 @@ namespace tspace::mikk {
 /// Nodes of up to this many corners are paired by comparing all with all, on the stack.
 inline constexpr std::uint32_t kSmallNode = 64;
 
-/// For each corner of a node the one that lies across the edge that leaves here, and across the edge that arrives: its
-/// place among them, or kNone.
+/// For each corner of a node the corner across the edge that leaves the node, and across the edge that arrives: a position
+/// in the node's list of corners, or kNone.
 struct CornerLinks {
     std::uint32_t* left;
     std::uint32_t* right;
 };
 
-/// For small nodes.
+/// Links a node of at most kSmallNode corners, in quadratic time.
 void linkSmall(std::span<const NodeCorner> around, const CornerLinks& links);
 
-/// For any: by sorting `half_edges`, which has room for two numbers per corner.
+/// Links a node of any size by sorting `half_edges`, scratch for two numbers per corner. O(n log n).
 void linkLarge(std::span<const NodeCorner> around, const CornerLinks& links, std::uint64_t* half_edges);
 
 /// The corners of one node and their groups, which are numbered in the order in which the reference opens them.
 struct NodeGroups {
     std::span<const NodeCorner> corners;
-    const std::uint32_t* group = nullptr;  ///< one per corner, or kNone; null: all are in one, if there is one
-    std::uint32_t count = 0;               ///< of groups
+    const std::uint32_t* group =
+        nullptr;              ///< one per corner, or kNone; null: all corners are in group 0, if count is 1
+    std::uint32_t count = 0;  ///< number of groups
 
     [[nodiscard]] std::uint32_t of(std::size_t i) const { return group != nullptr ? group[i] : count == 0 ? kNone : 0; }
 };
 
 class Grouping {
   public:
-    /// Settles the contested triangles' orientation, in corners.flags. All must outlive this object.
+    /// Gives contested triangles their orientation in corners.flags. The arguments must outlive this object.
     Grouping(const VertexPath& path, VertexCorners& corners);
 
     /// The result is valid until the next call.
@@ -75,10 +76,10 @@ class Grouping {
     std::span<const std::uint32_t> chosen_;
     const LastBucket& bucket_;
     VertexCorners& corners_;
-    Buffer<std::uint32_t> room_;          // for the links and groups of one node
-    Buffer<std::uint64_t> half_edges_;    // of one that is not small
+    Buffer<std::uint32_t> scratch_;       // links and groups of one node
+    Buffer<std::uint64_t> half_edges_;    // scratch of linkLarge
     Buffer<std::uint32_t> contested_of_;  // one per chosen node, and one more: its number in contested_, or kNone;
-                                          // empty when there are none
+                                          // empty where no triangle is contested
     Growing<Contested> contested_;
     Buffer<std::uint32_t> contested_groups_;
 };

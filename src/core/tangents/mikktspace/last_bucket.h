@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The defect of the reference's edge list. Its edges are sorted by their lower end, then by the
-// higher end, then by triangle; but the loops that do the second and third sort never reach the last bucket:
-// the edges whose lower end is the largest of all. There equal edges may lie apart, and those pairs are not
-// found. Nearly always that changes nothing, which is known without any list of edges or of corners.
+// The defect of the reference's edge list. A bucket is the edges with one lower end. The reference sorts all edges by their
+// lower end, and then within each bucket by the higher end and by triangle; but the loops of the second and third sort never
+// reach the last bucket, whose lower end is the largest of all. There equal edges may lie apart, and the reference does not
+// pair them. Nearly always that changes nothing, which last_bucket.cpp shows without a list of edges or of corners.
 #pragma once
 
 #include <algorithm>
@@ -13,16 +13,15 @@
 
 namespace tspace::mikk {
 
-/// The links of the last bucket's half-edges, where they differ from those that linking by nodes finds. Empty for most
-/// meshes.
+/// The half-edges of the last bucket that the reference pairs otherwise than a sorted list would. Empty for most meshes.
 struct LastBucket {
     struct Link {
         std::uint32_t half_edge;  ///< 3 * triangle + k, of the triangle list
         std::uint32_t partner;    ///< kNone: no neighbour
     };
-    Buffer<Link> links;           ///< by half-edges
+    Buffer<Link> links;           ///< ascending by half-edge
     Buffer<std::uint32_t> nodes;  ///< ends of these edges, ascending; some more than once
-    bool abandoned = false;       ///< the input drives the reference's sort into quadratic time; links are not known
+    bool abandoned = false;       ///< the input drives the reference's sort into quadratic time: no links were computed
 
     [[nodiscard]] bool concerns(std::uint32_t node) const {
         return !nodes.empty() && std::binary_search(nodes.begin(), nodes.end(), node);
@@ -35,9 +34,9 @@ struct LastBucket {
     }
 };
 
-/// Nodes must be all finite. Takes about two bytes per vertex, four per node, and what the corners of a few cells of the
-/// reference's grid need; mostly reads all vertices and indices once. Where the order of the bucket matters, up to 60
-/// bytes per triangle. `transient`: for all but the result.
+/// Nodes must be all finite. Takes about two bytes per vertex, four per node, and 16 per corner in a few cells of the
+/// reference's grid; mostly reads all vertices and indices once. Where the order of the bucket matters, up to 60 bytes per
+/// triangle. `transient`: allocates all but the result.
 LastBucket findLastBucket(const WeldedMesh& welded, const Allocator* transient, const Allocator* allocator,
                           Parallel& parallel);
 

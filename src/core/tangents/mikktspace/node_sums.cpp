@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The sums of all nodes. A task owns a range of nodes: it goes through the triangles that have a node there, in order, and
 // adds to these nodes only. So each sum is made by one task, in the reference's order, and no task waits for another.
-// Triangles at the border of two ranges are computed twice. Triangles that lie close together need few ranges, one for
-// each task; for others ranges are so small that all data of their nodes stay in the second cache.
+// Triangles at the border of two ranges are computed twice. Where consecutive triangles have nearby nodes, a few ranges per
+// task are enough; elsewhere ranges are so small that all data of their nodes stay in the second cache.
 #include "core/tangents/mikktspace/node_sums.h"
 
 #include <algorithm>
@@ -22,20 +22,19 @@ constexpr unsigned kTaskShift = 12;  // nodes of a task at least: below, another
 constexpr unsigned kScatteredShift = 13;
 constexpr std::size_t kScatteredRange = std::size_t{1} << kScatteredShift;
 constexpr std::size_t kTasksPerThread = 4;
-constexpr std::size_t kTermGroup = 16;  // triangles that kernels read at once at most (corner_terms.h)
-/// Where early requests put memory (__builtin_prefetch): there is more of it than a block needs of the first
-/// cache, which the kernel works in. Measured: 120 ns per triangle with the first cache, 67 with the second.
+/// The locality argument of __builtin_prefetch. The prefetched data of a block do not fit into the first cache beside what
+/// the kernel works on. Measured: 120 ns per triangle with the first cache, 67 with the second.
 constexpr int kSecondCache = 2;
 
-/// What to sum.
+/// The arguments of a sum over all triangles.
 struct Sweep : WeldedMesh {
     const CornerSource& source;
     CornerTermsFunction terms;
     NodeSums& sums;
-    bool asks = false;  // for memory that is in no near cache
+    bool prefetches = false;  // node data lie outside of the second cache
 };
 
-/// One task's worth of ranges.
+/// Sums the ranges of one task, one after the other.
 class Summer {
   public:
     explicit Summer(const Sweep& sweep) : sweep_(sweep), sums_(sweep.sums) {}
@@ -46,7 +45,7 @@ class Summer {
         std::fill_n(sums_.nodes.data() + range.begin, range.size(), NodeSum{});
         std::fill_n(sums_.marks.data() + range.begin, range.size(), std::uint16_t{kAllMarks});
         if (!sums_.rest.empty()) std::fill_n(sums_.rest.data() + range.begin, range.size(), GroupRest{});
-        // One batch is read, and memory asked for what it needs, before the one before it is computed.
+        // A batch is read, and its data prefetched, before the previous one is computed.
         TriangleBatch batches[2];
         bool more = read(triangles, batches[0]);
         for (std::size_t current = 0; more; current ^= 1) {
@@ -59,13 +58,12 @@ class Summer {
     bool read(RangeLists::Batches& triangles, TriangleBatch& batch) {
         if (!triangles.next(batch)) return false;
         batch.vertices = fillGroup(batch.vertices, batch.count, kTermGroup, batch.own_vertices);
-        if (sweep_.asks) askFor(batch);
+        if (sweep_.prefetches) prefetch(batch);
         return true;
     }
 
-    /// Inlined by force: GCC 12 sees a function that only asks for memory as one without effect, and drops
-    /// calls to it.
-    [[gnu::always_inline]] void askFor(const TriangleBatch& batch) const {
+    /// Inlined by force: GCC 12 takes a function that only prefetches for one without effect, and drops the call.
+    [[gnu::always_inline]] void prefetch(const TriangleBatch& batch) const {
         const CornerSource& source = sweep_.source;
         for (std::size_t i = 0; i < 3 * batch.count; ++i) {
             __builtin_prefetch(&sums_.nodes[batch.groups[i]], 1, kSecondCache);
@@ -95,7 +93,7 @@ class Summer {
 
     enum class Sums { none, tangents, all };
 
-    /// Where sums are made: a copy, so that pointers stay in registers.
+    /// Pointers to the sums: a local copy, so that they stay in registers.
     struct Target {
         NodeSum* nodes;
         std::uint16_t* marks;
@@ -125,7 +123,7 @@ class Summer {
         }
     }
 
-    /// Triangles that add nothing to the sums. Nodes of degenerate ones are left to the vertex path.
+    /// A triangle that adds nothing to the sums: a degenerate one makes its nodes complex, one without UV area extends fans.
     void addUnusual(const std::uint32_t* n, bool degenerate) {
         for (std::size_t k = 0; k < 3; ++k) {
             if (!range_.has(n[k])) continue;
@@ -144,7 +142,7 @@ class Summer {
     CornerTerms terms_;
 };
 
-/// Where triangles are in no order but have their nodes in one range, ranges pay.
+/// log2 of the nodes of a range. Small ranges pay where triangles are scattered but each has its nodes in one range.
 unsigned rangeShift(const Sweep& sweep, const MeshTriangles& by_node, unsigned width) {
     const std::size_t nodes = sweep.nodes.count;
     if (sweep.sums.scattered && RangeLists::areCompact(by_node, 1, nodes, kScatteredRange)) return kScatteredShift;
@@ -213,12 +211,12 @@ void sumNodes(const WeldedMesh& welded, const CornerSource& source, CornerTermsF
     const MeshTriangles by_node(welded, nullptr);
     sums.scattered = !RangeLists::areCompact(by_node, kTermTriangles, node_count, kScatteredRange);
     const unsigned shift = range_shift != 0 ? range_shift : rangeShift(sweep, by_node, parallel.width());
-    sweep.asks = sums.scattered && shift > kScatteredShift;
+    sweep.prefetches = sums.scattered && shift > kScatteredShift;
     const RangeLists lists(by_node, kTermTriangles, node_count, std::size_t{1} << shift, transient.allocator(),
                            parallel);
     const std::size_t ranges = lists.count(), tasks = std::min<std::size_t>(ranges, parallel.width());
     const std::size_t fans_each = std::min(lists.range(0).size(), lists.mostTriangles(welded.triangles.count));
-    Buffer<ManyPaths> many_paths(transient.allocator(), tasks * fans_each);  // few are touched in most meshes
+    Buffer<ManyPaths> many_paths(transient.allocator(), tasks * fans_each);  // most stay untouched pages
     std::atomic<std::size_t> next{0};
     parallel.forTasks(tasks, [&](std::size_t task) {
         Summer summer(sweep);

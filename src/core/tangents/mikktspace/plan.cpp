@@ -1,5 +1,28 @@
 // SPDX-License-Identifier: MIT
-// Groups written down as a plan.
+// The plan half of the method: groups every chosen node (groups.h), finds the groups that an angular threshold splits
+// (splits.h), and writes both down as an EvaluationPlan, which evaluate.cpp runs on any pose.
+//
+// h stands for a half-edge of the plan's own triangles, 3 * t + k: triangle t is triangle triangles[t] of the mesh, or t where
+// that list is empty.
+//
+// list             how many               an entry is                                its top bit (kTopBit) says
+// vertices         one per h              the vertex whose data stand for the corner  -
+// groups           one per h              the group that takes its result            it adds nothing to the sum (no UV area)
+// slots            one per h, or empty    its corner of the mesh                     the corner has several results: conflicts
+// triangles        one per t, or empty    its number in the mesh                     -
+// group_positive   one per group          1: positive UV area                        -
+// uvs, terms       vertices; blocks of t  kept plans have UVs, others CornerTerms    -
+// splits           one per split group    a range of `members`, its first row        -
+// members          members of these       an h                                       -
+// split_rows       one row per member     bit b: member b counts for this member     -
+// conflicts        two or more a corner   a corner of the mesh, and a source:        source is a place in `members`, not
+//                                         a group whose result it takes              a group
+// default_corners  corners without group  a corner of the mesh                       -
+// skipped_corners  of ignored faces       a corner of the mesh                       -
+// copies           of degenerate t        a corner that copies, and the one copied   -
+//
+// groups[h] is kNone for half-edges without a group, and for members of groups that split: these have their result from
+// splits. While the planner works on a node, groups[h] is a source as in conflicts.
 #include "core/tangents/mikktspace/vertex_path.h"
 
 #include <algorithm>
@@ -21,7 +44,8 @@ bool sameBits(const T& a, const T& b) {
     return std::memcmp(&a, &b, sizeof(T)) == 0;
 }
 
-/// Equal vertices may differ in the sign of a zero; then only those of the node give the reference's bits.
+/// Whether two equal vertices have equal bits. Where a zero's sign differs, only the data of the node's own vertex give the
+/// reference's bits.
 bool sameData(const MeshView& mesh, std::uint32_t a, std::uint32_t b) {
     return sameBits(mesh.positions[a], mesh.positions[b]) && sameBits(mesh.normals[a], mesh.normals[b]) &&
            sameBits(mesh.uvs[a], mesh.uvs[b]);
@@ -94,7 +118,7 @@ class Planner {
         return in_.triangles.corner(corners_.halfEdgeOf(half_edge));
     }
 
-    /// Until a node is done, to_.groups has the sources of its half-edges, as in Conflict; kNone without.
+    /// Numbers the groups of a node, splits them, and turns the sources in to_.groups into groups.
     void addNode(std::size_t place) {
         const NodeGroups groups = grouping_.groupsOf(place);
         const auto first = static_cast<std::uint32_t>(positive_.size());
@@ -120,7 +144,7 @@ class Planner {
         }
     }
 
-    /// Returns whether any splits.
+    /// Returns whether any group of the node splits.
     bool splitGroups(std::size_t place, const NodeGroups& groups) {
         if (groups.group == nullptr) return splitGroup(place, groups.corners);
         // By groups, and ascending within each, as a counting sort leaves them.
@@ -156,14 +180,14 @@ class Planner {
         return true;
     }
 
-    /// One corner of the mesh of a node, with one of its half-edges.
+    /// A corner of the mesh, with one of its half-edges at this node.
     struct Repeat {
         std::uint32_t slot, group, index;
         auto operator<=>(const Repeat&) const = default;
     };
 
-    /// Half-edges of a polygon's triangles that have one corner of the mesh. Returns false, and does nothing, where there
-    /// are none.
+    /// Finds corners of the mesh that several half-edges have, as at a quad's diagonal: each of these half-edges becomes a
+    /// conflict. Returns false, and does nothing, where there are none.
     bool addRepeats(const NodeGroups& groups) {
         bool ascending = true;
         repeats_.drop(repeats_.size());
@@ -191,7 +215,8 @@ class Planner {
         }
     }
 
-    /// Corners of degenerate triangles: what they copy, or the default where that is one or where there is nothing to copy.
+    /// Plans the corners of degenerate triangles: a copy, or the default where the copied corner has the default or where
+    /// there is none to copy.
     void addCopies() {
         if (corners_.copies.empty()) return;
         Marks is_default = noMarks(allocator_, mesh_.cornerCount());
@@ -214,11 +239,11 @@ class Planner {
     Grouping grouping_;
     EvaluationPlan to_;
     SplitFinder splits_;
-    // Of one node.
-    Growing<std::uint32_t> ends_;  // of groups in members_
-    Growing<NodeCorner> members_;  // of groups
+    // Scratch, used again for each node.
+    Growing<std::uint32_t> ends_;  // where each group ends in members_
+    Growing<NodeCorner> members_;  // the node's corners, group by group
     Growing<Repeat> repeats_;
-    // Of the plan.
+    // Lists of the plan while they grow.
     Growing<std::uint8_t> positive_;
     Growing<EvaluatedSplit> split_groups_;
     Growing<std::uint32_t> split_members_;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What results are asked for, what a group sums up to, what one result is, how several for one corner of the mesh are
-// merged, and where they go.
+// Sums of a group, the result that they make, how several results of one corner are merged, and the outputs.
 #pragma once
 
 #include <cfloat>
@@ -33,7 +32,7 @@ inline bool wantsTangentsOnly(const TangentOutput& out) {
     return out.bitangents.empty() && out.magnitudes_s.empty() && out.magnitudes_t.empty();
 }
 
-/// `fast` and `best` sum in a way of their own (estimators/), and use these kernels for marks.
+/// Estimators sum on their own (estimators/); for `fast` and `best` these kernels write marks alone.
 inline Weighting weightingOf(Method method) {
     switch (method) {
         case Method::fast:
@@ -67,10 +66,10 @@ struct Tangents {
     bool positive = false;
 };
 
-/// All but the tangent and the orientation, in the place of its sum.
+/// A result without tangent and orientation, stored in the place of the sum.
 inline GroupRest restOf(const Tangents& r) { return {{r.t.x, r.t.y, r.t.z, r.mag_s}, r.mag_t}; }
 
-/// Of a group whose members add up to s and `rest`: rows as in corner_terms.h.
+/// The result of a group whose members' rows (corner_terms.h) add up to s and `rest`.
 inline Tangents meanOf(const Vec3& s, const GroupRest& rest, float weight, bool positive) {
     Tangents r{unit(s), unit(vectorOf(rest.t)), rest.t[3], rest.length_t, positive};
     if (weight > 0) {
@@ -95,7 +94,7 @@ inline void merge(Tangents& first, const Tangents& second) {
     first.t = unit(first.t + second.t);
 }
 
-/// The outputs, of which some may be missing.
+/// Writes the outputs that are wanted.
 class Sink {
   public:
     /// The UV determinant speaks of the side that cross(P1-P0, P2-P0) points to; the sign must speak of N's side.
@@ -140,17 +139,18 @@ inline void addRest(GroupRest& sum, const CornerTerms& terms, std::size_t t, std
 }
 
 struct GroupSums {
-    Buffer<Vec3> groups;     ///< weighted tangents: most of what evaluating holds
+    Buffer<Vec3> groups;     ///< weighted tangents: most of the memory that evaluation takes
     Buffer<GroupRest> rest;  ///< empty when tangents_only
 };
 
-/// Whether results for one corner are merged or kept depends on all their parts.
+/// Conflicts need bitangents and lengths too: whether two results of a corner are merged depends on all their parts.
 inline bool wantsOnlyTangents(const EvaluationPlan& plan, const TangentOutput& out) {
     return wantsTangentsOnly(out) && plan.conflicts.empty();
 }
 
-/// Room for sums or what the estimators give, and how these reach it.
+/// Memory for the sums or estimates of a plan's groups.
 GroupSums roomForSums(const EvaluationPlan& plan, bool tangents_only, const Allocator* allocator);
+/// That memory as estimators write to it.
 estimators::GroupEstimates estimatesIn(GroupSums& sums);
 
 }  // namespace tspace::mikk

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// The angular threshold: quick tests that nothing splits, and the comparison of all members with all.
 #include "core/tangents/mikktspace/splits.h"
 
 #include <algorithm>
@@ -12,17 +13,17 @@ namespace tspace::mikk {
 
 namespace {
 
-/// Far more than the rounding errors of a projection and three dot products, as the sine of an angle from a plane, and as
-/// a difference of cosines.
+/// Margins far above the rounding of a projection and three dot products: the sine of an angle from a plane, and a difference
+/// of cosines.
 constexpr float kOffPlane = 0.02f, kMargin = 1e-3f;
-constexpr float kLeastWeight = 1e-4f;    // below, a corner says too little about its direction
-constexpr std::size_t kFewMembers = 64;  // all pairs of so few are compared at most
+constexpr float kLeastWeight = 1e-4f;    // below, rounding decides the direction of a corner's row
+constexpr std::size_t kFewMembers = 64;  // largest group of which the quick test compares all pairs
 
 /// If all members lie within half the threshold of one direction, all pairs are within the threshold: the cosine of the
 /// half angle is sqrt((1 + c) / 2).
 float halfAngleLimit(float threshold_cosine) { return std::sqrt((1.0f + threshold_cosine) * 0.5f) + kOffPlane; }
 
-/// Whether all lie near the direction of their sum.
+/// Whether all members lie near the direction of their sum.
 bool areNearSum(Members members, float limit) {
     Float4 s{}, t{};
     for (const NodeCorner& corner : members) {
@@ -99,9 +100,9 @@ double cosine(double r) {
 /// Without the C library, so that it has the same bits everywhere. Based on: Cody and Waite, "Software Manual for the
 /// Elementary Functions", 1980: pi/2 in two parts, so that what is taken away from the angle is exact.
 float thresholdCosine(float degrees) {
-    if (degrees == 180.0f) return -1.0f;  // what nearly every call asks for, and what the rest gives
+    if (degrees == 180.0f) return -1.0f;  // the default; the formula below gives this value too
     const double angle = std::fabs((degrees * 3.14159274f) / 180.0f);
-    if (!(angle < 1e6)) return std::nanf("");  // nothing is within
+    if (!(angle < 1e6)) return std::nanf("");  // no two directions are within it
     const auto quarter_turns = static_cast<unsigned>(angle * 0x1.45f306dc9c883p-1 + 0.5);
     const double r = (angle - quarter_turns * 0x1.921fb544p+0) - quarter_turns * 0x1.0b4611a626331p-34;
     return static_cast<float>(std::array{cosine(r), -sine(r), -cosine(r), sine(r)}[quarter_turns % 4]);
@@ -133,7 +134,7 @@ SplitFinder::Direction SplitFinder::directionOf(const NodeCorner& corner, const 
     return {flatten(normal, direction.s), flatten(normal, direction.t)};
 }
 
-/// For groups that are too large to compare all: whether all members lie near their mean direction.
+/// For groups above kLargestSplitGroup: whether all members lie near their mean direction.
 bool SplitFinder::isNarrow(Members members) const {
     Vec3 s, t;
     const auto forEach = [&](const auto& body) {
@@ -169,7 +170,7 @@ bool SplitFinder::splits(Members members, const Vec3& normal) {
     for (std::uint32_t a = 0; a < count; ++a) {
         const Direction& da = directions_[a];
         for (std::uint32_t b = 0; b < count; ++b) {
-            if (members[b].facing == 0) continue;  // belongs to every subset, but adds nothing
+            if (members[b].facing == 0) continue;  // it adds nothing to any subset
             const Direction& db = directions_[b];
             const bool together = members[a].facing == 0 || (dot(da.s, db.s) > cosine_ && dot(da.t, db.t) > cosine_) ||
                                   face(a) == face(b);

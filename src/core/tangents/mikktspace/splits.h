@@ -9,13 +9,13 @@
 
 namespace tspace::mikk {
 
-/// Cosine of an angular threshold in degrees, in the reference's arithmetic: for 0 to 360.
+/// The cosine of an angular threshold of 0 to 360 degrees, in the reference's arithmetic.
 float thresholdCosine(float degrees);
 
-/// Corners of one group, ascending, those that add nothing too.
+/// Corners of one group, ascending, with those that add nothing.
 using Members = std::span<const NodeCorner>;
 
-/// Whether it is plain that every two members are within the threshold. No may also mean that it is not plain.
+/// A quick test: true only if every two members are within the threshold. False may also mean that it could not tell.
 bool areTogether(Members members, float threshold_cosine);
 
 /// Subsets are quadratic in the size of a group by definition: every member may have another one, and float
@@ -33,7 +33,7 @@ class SplitFinder {
     bool splits(Members members, const Vec3& normal);
 
     Growing<std::uint64_t> rows;  ///< bit b of row a: member b counts for member a
-    bool abandoned = false;       ///< some large group might split
+    bool abandoned = false;       ///< some group above kLargestSplitGroup might split, and stayed whole
 
   private:
     struct Direction {

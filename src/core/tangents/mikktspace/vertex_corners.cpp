@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Lists the corners of chosen nodes: finds the triangles around them, computes them, gives each face one
-// orientation, counts which node has how many, puts corners where they belong, plans copies for corners of
-// degenerate triangles.
+// Lists the corners of chosen nodes: finds the triangles around them, computes their terms, gives each face one orientation,
+// sorts corners by node (a counting sort), and plans copies for corners of degenerate triangles.
 #include "core/tangents/mikktspace/vertex_path.h"
 
 #include <algorithm>
@@ -78,7 +77,7 @@ class CornerReader {
             const auto nowhere = static_cast<std::uint32_t>(path_.chosen.size());
             for (std::size_t i = 0; i < 3 * count; ++i) places[i] = std::min(place_of_[nodes[i]], nowhere);
         }
-        // The rest of the block may be any vertex; a block has one triangle at least.
+        // Kernels read whole blocks, so the rest of the block needs valid vertices. A block has at least one triangle.
         std::fill(vertices + 3 * count, vertices + kTermCorners, vertices[0]);
         CornerTerms& terms = to_.terms[block];
         terms_(source_, vertices, count, terms);
@@ -86,7 +85,7 @@ class CornerReader {
         for (std::size_t t = 0; t < count; ++t) flags[t] = flagsOf(terms.marks[0][t]);
     }
 
-    /// Corners of all triangles but degenerate ones; and makes room for them.
+    /// Counts the corners of each node, without those of degenerate triangles, and allocates their list.
     void countCorners() {
         const std::size_t chosen_count = path_.chosen.size();
         to_.facing = noMarks(allocator_, chosen_count + 1);
@@ -105,7 +104,7 @@ class CornerReader {
             }
         }
         facing[chosen_count] = 0;
-        // Now begin[place + 1] becomes where the place begins, and by placing corners where it ends.
+        // begin[place + 1] now becomes where the place begins; placeCorners moves it to where the place ends.
         for (std::size_t place = 0; place < chosen_count; ++place) begin[place + 2] += begin[place + 1];
         to_.corners = Buffer<NodeCorner>(allocator_, begin[chosen_count + 1]);
     }
@@ -143,7 +142,7 @@ class CornerReader {
 
     [[nodiscard]] std::uint32_t faceOf(std::size_t t) const { return in_.triangles.faces[to_.triangleOf(t)]; }
 
-    /// One orientation for each face. All triangles of a face that does not simply agree have been found.
+    /// Gives all triangles of a face one orientation. Of faces whose triangles differ, all triangles have been found.
     void uniteFaces() {
         for (std::size_t t = 1; t < count_;) {
             if (to_.flags[t] == to_.flags[t - 1] || faceOf(t) != faceOf(t - 1)) {
@@ -157,7 +156,7 @@ class CornerReader {
         }
     }
 
-    /// Degenerate triangles have no say.
+    /// Degenerate triangles do not take part.
     void uniteFace(std::size_t first, std::size_t end) {
         good_.drop(good_.size());
         std::uint32_t facing = 0;
@@ -176,8 +175,8 @@ class CornerReader {
 
     [[nodiscard]] bool isAny(std::size_t i) const { return (to_.flags[good_[i]] & kAny) != 0; }
 
-    /// In a quad the first, unless the second has a usable UV area and the first's is not at least as large; in an n-gon
-    /// the largest that has a usable one.
+    /// The triangle whose orientation the face takes. In a quad the first, unless the second has a usable UV area and the
+    /// first's is not at least as large; in an n-gon the largest with a usable UV area.
     [[nodiscard]] std::size_t orientingTriangle() const {
         const auto area = [&](std::size_t i) { return std::fabs(uvArea(good_[i])); };
         if (good_.size() == 2) return good_[!isAny(1) && !(area(0) >= area(1)) ? 1 : 0];
@@ -188,12 +187,12 @@ class CornerReader {
         return good_[chosen];
     }
 
-    /// Corners that only degenerate triangles have. Where a face has good triangles too, such a corner takes the result of
-    /// the corner at its own position in the same face; else that of the first good corner of its node. (The reference
-    /// searches the face's good triangle for the position; in a quad there is only one such corner.) All corners of
-    /// degenerate triangles are at chosen nodes.
+    /// Plans copies for corners that only degenerate triangles have. Where the face has good triangles too, such a corner
+    /// copies the corner of the face at its own position; else the first good corner of its node. (The reference searches the
+    /// face's good triangle for the position; in a quad there is only one such corner.) All corners of degenerate triangles
+    /// are at chosen nodes.
     void planCopies() {
-        Buffer<std::uint8_t> done;  // of polygons' corners: 1 has a good triangle, 2 is planned
+        Buffer<std::uint8_t> done;  // one per corner of polygons: 1 has a good triangle, 2 is planned
         if (!in_.triangles.faces.empty()) {
             done = Buffer<std::uint8_t>(allocator_, in_.mesh.cornerCount(), std::uint8_t{0});
             for (std::size_t t = 0; t < count_; ++t) {
@@ -218,7 +217,7 @@ class CornerReader {
         }
     }
 
-    /// The corner at the same position in the same triangle, if a good triangle of its face has it too; else kNone.
+    /// Another corner of the triangle at the same position, if a good triangle of the face has it too; else kNone.
     std::uint32_t copiedInFace(std::size_t t, std::uint32_t k, const Buffer<std::uint8_t>& done) const {
         const auto position = [&](std::uint32_t corner) { return in_.mesh.positions[in_.mesh.indices[corner]]; };
         for (std::uint32_t j = 1; j < 3; ++j) {
@@ -239,9 +238,9 @@ class CornerReader {
     const Allocator* allocator_;
     MeshTriangles by_node_;
     VertexCorners to_;
-    Buffer<std::uint32_t> place_of_;  // of each node, its number in `chosen`, or kNone
-    std::size_t count_ = 0;           // of triangles
-    Growing<std::uint32_t> good_;     // of one face
+    Buffer<std::uint32_t> place_of_;  // one per node: its position in `chosen`, or kNone
+    std::size_t count_ = 0;           // number of triangles
+    Growing<std::uint32_t> good_;     // the triangles of one face that are not degenerate
 };
 
 }  // namespace

@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: MIT
-// The vertex path: nodes whose corners are listed after all, grouped node by node, and written down as a plan, which is
-// evaluated (evaluation_plan.h). It takes those that one pass leaves complex: several groups, fans of too many parts,
-// triangles without UV area that groups of both orientations reach, sums that do not show that nothing splits, corners of
-// degenerate triangles, the reference's last bucket. And it takes all nodes, to make a plan that is kept.
+// The vertex path lists the corners around each chosen node, links them across their shared edges, groups them, and writes
+// a plan, which is evaluated (evaluation_plan.h). One pass chooses the complex nodes: several groups, fans of too many parts,
+// contested triangles, sums that do not show that nothing splits, corners of degenerate triangles, the reference's last
+// bucket. planTangents chooses all nodes.
+//
+//   vertex_corners.cpp  triangles around the chosen nodes, one orientation per face, corners node by node
+//   groups.cpp          links between the corners of a node, groups, contested triangles
+//   splits.cpp          groups that an angular threshold below 180 degrees separates
+//   plan.cpp            the plan
 #pragma once
 
 #include <cstddef>
@@ -17,8 +22,8 @@
 
 namespace tspace::mikk {
 
-/// What to compute of the nodes of a mesh.
-struct NodeSetting : WeldedMesh {  ///< nodes.vertex() must be valid
+/// A welded mesh and the options of the call. nodes.vertex() must be valid.
+struct NodeSetting : WeldedMesh {
     const Call<TangentOptions>& options;
     const LastBucket& bucket;
 
@@ -26,26 +31,25 @@ struct NodeSetting : WeldedMesh {  ///< nodes.vertex() must be valid
     [[nodiscard]] bool maySplit() const { return isMikktspace(options.method); }
 };
 
-/// Which nodes.
+/// The nodes to plan.
 struct VertexPath {
     const NodeSetting& setting;
-    /// Ascending. They must have the nodes of triangles without UV area whose three nodes may have both orientations,
-    /// unless no other triangle is there, and those of degenerate triangles and of faces whose triangles do not simply
-    /// agree (node_sums.cpp).
+    /// Ascending. Must include all nodes of degenerate triangles, of contested triangles (unless a node has no other
+    /// triangle), and of faces whose triangles differ in orientation or degeneracy (checkPolygons in one_pass.cpp).
     std::span<const std::uint32_t> chosen;
     bool are_all;  ///< `chosen` are all nodes
-    PlanUse use;   ///< once: the plan has the mesh's own terms, but for estimators
+    PlanUse use;   ///< once: the plan has the mesh's own terms, except for estimators
     Parallel& parallel;
 };
 
-/// Of a triangle, beside kFacesUp or kFacesDown: the orientation of its groups, after faces were made uniform.
+/// Flags of a triangle, beside kFacesUp or kFacesDown, which all triangles of a face share (uniteFaces).
 enum TriangleFlag : std::uint8_t {
     kAny = 4,        ///< no usable UV area: joins groups of either orientation, opens none, adds nothing
-    kContested = 8,  ///< groups.h; takes the orientation of the first group that asks
+    kContested = 8,  ///< groups.h: takes the orientation of the first group that reaches it
     kDegenerate = 16,
 };
 
-/// A corner of a triangle that is not degenerate. Those of a node lie side by side.
+/// A corner of a triangle that is not degenerate. The corners of a node lie side by side.
 struct NodeCorner {
     const float* s;                ///< its row of CornerTerms::s
     std::uint32_t half_edge;       ///< 3 * the triangle's number in `found` + k
@@ -60,21 +64,21 @@ struct NodeCorner {
 
 struct VertexCorners {
     // One per triangle around a chosen node.
-    Buffer<std::uint32_t> found;  ///< their numbers in the mesh, ascending; empty: all
+    Buffer<std::uint32_t> found;  ///< numbers in the mesh, ascending; empty: all triangles
     Buffer<std::uint8_t> flags;
     Buffer<CornerTerms> terms;  ///< kTermTriangles each
     // Three per triangle.
     Buffer<std::uint32_t> nodes;
-    Buffer<std::uint32_t> places;  ///< numbers of their nodes in `chosen`, of others its size; empty: as `nodes`
+    Buffer<std::uint32_t> places;  ///< position of the node in `chosen`, or chosen.size(); empty: as `nodes`
     TangentReport report;          ///< counts of triangles
 
     Buffer<NodeCorner> corners;  ///< node by node, ascending by triangle
     // One per chosen node.
-    Buffer<std::uint32_t> begin;  ///< of its range of `corners`, where that of the next one begins
-    /// Which orientations the triangles that add to it have: kFacesUp, kFacesDown. One more, 0, for nodes
+    Buffer<std::uint32_t> begin;  ///< where its corners begin in `corners`; they end where the next node's begin
+    /// The orientations of the triangles that add to it: kFacesUp, kFacesDown, or both. One more entry, 0, stands for nodes
     /// that are not chosen.
     Marks facing;
-    /// Corners that only degenerate triangles have, as corners of the mesh, with the corners that they copy, or kNone.
+    /// Corners of the mesh that only degenerate triangles have, with the corners that they copy, or kNone.
     Growing<Copy> copies;
 
     explicit VertexCorners(const Allocator* allocator) : copies(allocator) {}
@@ -85,7 +89,7 @@ struct VertexCorners {
     [[nodiscard]] std::uint32_t triangleOf(std::size_t t) const {
         return found.empty() ? static_cast<std::uint32_t>(t) : found[t];
     }
-    /// In the mesh.
+    /// The number that a half-edge has in the mesh.
     [[nodiscard]] std::uint32_t halfEdgeOf(std::uint32_t half_edge) const {
         return 3 * triangleOf(half_edge / 3) + half_edge % 3;
     }
@@ -96,13 +100,13 @@ struct VertexCorners {
 
 VertexCorners readCorners(const VertexPath& path);
 
-/// A plan of the chosen nodes: groups and corners, and of the triangles around them what the report counts. Takes about 210
-/// bytes per triangle around these nodes. Throws OutOfMemory.
+/// Plans the chosen nodes; the report counts the triangles around them. Takes about 210 bytes per triangle around these
+/// nodes. Throws OutOfMemory.
 EvaluationPlan planChosen(const VertexPath& path);
 
-/// One pass (one_pass.cpp), and the vertex path for what it leaves. Writes tangents of the mesh's own pose, but for an angular
-/// threshold. `transient`: for what is not needed any more when tangents are written: their own memory, unless somebody looks
-/// at it. `range_shift`: log2 of the nodes of a range; 0: what suits the mesh. Throws OutOfMemory.
+/// Tangents of the mesh's own pose: simple nodes by one pass (one_pass.cpp), complex ones by the vertex path. Not for angular
+/// thresholds below 180 degrees. `transient`: scratch memory for data that are not read any more when tangents are written,
+/// so that it may lie in the output. `range_shift`: log2 of the nodes of a range; 0: chosen for the mesh. Throws OutOfMemory.
 TangentReport evaluateInOnePass(const NodeSetting& setting, const TangentOutput& out, ScratchBlock& transient,
                                 Parallel& parallel, unsigned range_shift = 0);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Welding. The reference sorts corners into cells and compares all of a small cell with each other;
-// here the vertices of the mesh are hashed (core/weld.h). The classes are the same; their representative, where it matters,
-// comes from grid_order.cpp.
+// The reference sorts corners into cells of a grid and compares those of a small cell with each other. Here the vertices of
+// the mesh are hashed (core/base/weld.h). Both find the same classes; grid_order.cpp finds the reference's representatives
+// where they matter.
 #include "core/tangents/mikktspace/weld.h"
 
 #include <algorithm>
@@ -23,7 +23,7 @@ namespace {
 
 /// The reference adds the ends of intervals of positions: above this the sum may overflow and welding stops.
 constexpr float kHugePosition = 1.6e38f;
-constexpr std::size_t kAhead = 32;  // entries, whose roots are in the cache when they are compared
+constexpr std::size_t kPrefetchAhead = 32;  // entries between the prefetch of a root and its comparison
 
 struct Vertex {
     Vec3 position, normal;
@@ -49,8 +49,8 @@ std::uint64_t pairAt(const void* at) {
     return pair;
 }
 
-/// Whether two vertices have the same bits. Words are read as they lie: a copy would be written in small
-/// pieces and read in large ones, which processors are slow at.
+/// Whether two vertices have equal bits. Words are read in place: a copy would be stored in small pieces and loaded in large
+/// ones, which defeats store forwarding.
 bool sameBits(const MeshView& mesh, std::size_t a, std::size_t b) {
     const Vec3 &p = mesh.positions[a], &q = mesh.positions[b], &m = mesh.normals[a], &n = mesh.normals[b];
     const std::uint64_t xy = (pairAt(&p) ^ pairAt(&q)) | (pairAt(&m) ^ pairAt(&n));
@@ -89,14 +89,14 @@ bool hashVertices(const MeshView& mesh, std::size_t begin, std::size_t end, std:
     return (finite[0] & finite[1] & finite[2] & finite[3]) != 0;
 }
 
-/// All that a node has in common.
+/// Positions, normals and UVs, which the vertices of a node have in common.
 class CornerData final : public Weldable {
   public:
     explicit CornerData(const MeshView& mesh) : mesh_(mesh) {}
 
-    /// Valid when all are hashed, and when roots are found: whether all are finite and not huge; whether some vertex equals
-    /// its root but for a zero's sign.
+    /// Whether all vertices are finite and not huge; valid when all are hashed.
     [[nodiscard]] bool allFinite() const { return all_finite_; }
+    /// Whether some vertex differs from its root in the sign of a zero; valid when roots are found.
     [[nodiscard]] bool mixed() const { return mixed_; }
 
     void hash(std::size_t begin, std::size_t end, std::uint32_t* hashes) override {
@@ -106,7 +106,8 @@ class CornerData final : public Weldable {
         const auto vertexOf = [=](std::size_t i) { return list == nullptr ? static_cast<std::uint32_t>(i) : list[i]; };
         bool mixed = false, different = false;
         for (std::size_t i = begin; i < end; ++i) {
-            if (i + kAhead < end && roots[i + kAhead] != vertexOf(i + kAhead)) askFor(roots[i + kAhead]);
+            const std::size_t later = i + kPrefetchAhead;
+            if (later < end && roots[later] != vertexOf(later)) prefetch(roots[later]);
             const std::uint32_t vertex = vertexOf(i), root = roots[i];
             if (root == vertex) continue;
             if (sameBits(mesh_, vertex, root)) continue;
@@ -136,7 +137,7 @@ class CornerData final : public Weldable {
             words[i++] = std::bit_cast<std::uint32_t>(x + 0.0f);  // -0 as +0
         return words;
     }
-    void askFor(std::uint32_t vertex) const {
+    void prefetch(std::uint32_t vertex) const {
         __builtin_prefetch(&mesh_.positions[vertex]);
         __builtin_prefetch(&mesh_.normals[vertex]);
         __builtin_prefetch(&mesh_.uvs[vertex]);
@@ -146,12 +147,12 @@ class CornerData final : public Weldable {
     std::atomic<bool> all_finite_{true}, mixed_{false};
 };
 
-/// Numbers the nodes by their first vertices. Without branches: which vertex is the first is in no order.
+/// Numbers the nodes by their first vertices. Without branches, which processors could not predict.
 void numberNodes(Buffer<std::uint32_t> root_of, Nodes& nodes) {
     std::uint32_t next = 0;
     for (std::size_t v = 0; v < root_of.size(); ++v) {
         const std::uint32_t root = root_of[v];
-        const std::uint32_t node = root_of[root];  // a node already, but for the first vertex itself
+        const std::uint32_t node = root_of[root];  // a node already, unless v is the root
         const std::uint32_t is_first = root == v ? 1 : 0;
         root_of[v] = node + is_first * (next - node);
         next += is_first;
@@ -161,7 +162,7 @@ void numberNodes(Buffer<std::uint32_t> root_of, Nodes& nodes) {
     nodes.of_vertex = std::move(root_of);
 }
 
-/// Where nodes mix -0 and +0, the reference's representative decides on the bits.
+/// Where nodes mix -0 and +0, takes the data of the reference's representative, whose bits count.
 [[gnu::cold]] void resolveMixed(const MeshView& mesh, const TriangleList& triangles, Nodes& nodes,
                                 const Allocator* allocator, Parallel& parallel) {
     listVertices(nodes, allocator);
@@ -208,7 +209,7 @@ void listVertices(Nodes& nodes, const Allocator* allocator) {
     std::uint32_t next = 0;
     std::uint32_t* const vertices = nodes.vertices.data();
     for (std::size_t v = 0; next < nodes.count; ++v) {
-        vertices[next] = static_cast<std::uint32_t>(v);  // until the first one of the node stands there
+        vertices[next] = static_cast<std::uint32_t>(v);  // overwritten until v is the first vertex of node `next`
         next += nodes.of_vertex[v] == next ? 1 : 0;
     }
 }

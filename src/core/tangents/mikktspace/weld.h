@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Welding: vertices with equal position, normal and UV become one node. A NaN equals its
-// own bits, so that it does not matter whether a file stores a vertex once or twice.
+// own bits, so that a file may store such a vertex once or twice.
 #pragma once
 
 #include "core/base/memory.h"
@@ -25,7 +25,7 @@ struct Nodes {
     [[nodiscard]] std::uint32_t ofVertex(std::uint32_t vertex) const {
         return of_vertex.empty() ? vertex : of_vertex[vertex];
     }
-    /// The nodes of some vertices: where these lie, or in `to`.
+    /// The nodes of some vertices. Returns `some` where each vertex is its own node, else writes to `to` and returns it.
     const std::uint32_t* ofVertices(const std::uint32_t* some, std::size_t some_count, std::uint32_t* to) const {
         for (std::size_t i = 0; !of_vertex.empty() && i < some_count; ++i) to[i] = of_vertex[some[i]];
         return of_vertex.empty() ? some : to;
@@ -48,8 +48,8 @@ struct WeldedMesh {
     [[nodiscard]] std::uint32_t nodeAt(std::size_t half_edge) const { return nodes.ofVertex(vertexAt(half_edge)); }
 };
 
-/// Takes what findRoots of core/weld.h takes, of which up to 4 bytes per vertex remain. `transient`: for what does not
-/// remain; null: `allocator`.
+/// Memory: findRoots of core/base/weld.h; up to 4 bytes per vertex remain. `transient` allocates what does not remain; null:
+/// `allocator`.
 Nodes weld(const MeshView& mesh, const TriangleList& triangles, const Allocator* allocator, Parallel& parallel,
            const Allocator* transient = nullptr);
 

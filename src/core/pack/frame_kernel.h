@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Frames on lanes: what the kernels of this room share. Included after lanes_*.h, with TSPACE_LANES set to its
-// namespace.
+// Frames on lanes, shared by the kernels of this room, and the kernel that finds sound frames. Included once per CPU,
+// after lanes_*.h and with TSPACE_LANES set to its namespace.
 #pragma once
 
 #include "core/pack/frame_block.h"
@@ -76,14 +76,26 @@ inline Frames framesOf(Floats x, Floats y, Floats z, Floats w) {
             {one - k * (y * y + z * z), k * (x * y + w * z), k * (z * x - w * y)}};
 }
 
-/// What a small turn in the frame's own axes moves N or T by, squared, whichever moves farther: x and y turn N, y and z
-/// turn T.
+/// By how much a small turn about the frame's own axes moves N or T, squared, whichever moves farther: x and y turn N,
+/// y and z turn T.
 inline Floats squaredReach(Vectors turn) { return turn.y * turn.y + larger(turn.x * turn.x, turn.z * turn.z); }
 
 /// `signs`: the sign bit set where the frame is mirrored.
 inline void storeFrames(const FrameRows& rows, std::size_t at, const Frames& f, Bits signs) {
     storeRows<3>(rows.normals + 3 * at, f.normal.x, f.normal.y, f.normal.z, zero());
     storeRows<4>(rows.tangents + 4 * at, f.tangent.x, f.tangent.y, f.tangent.z, flipped(broadcast(1.0f), signs));
+}
+
+/// Bit i: N and T of frame i are unit and orthogonal, to float rounding; what is not a number is not.
+std::uint64_t soundFrames(const FrameBlock& frames, std::size_t count) {
+    const Doubles one = broadcastDouble(1.0), tolerance = broadcastDouble(kSoundTolerance);
+    const auto isUnit = [&](DoubleVectors v) { return tolerance + tolerance > absolute(dot(v, v) - one); };
+    std::uint64_t sound = 0;
+    for (std::size_t at = 0; at < count; at += kPart) {
+        const DoubleVectors n = loadAsDoubles(frames.normal, at), t = loadAsDoubles(frames.tangent, at);
+        sound |= std::uint64_t{bitsOf(isUnit(n) & isUnit(t) & (tolerance > absolute(dot(n, t))))} << at;
+    }
+    return sound;
 }
 
 }  // namespace tspace::pack::TSPACE_LANES
