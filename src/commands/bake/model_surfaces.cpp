@@ -6,6 +6,7 @@
 #include <cctype>
 #include <map>
 
+#include "commands/generate/generate_model.h"
 #include "commands/shared/uv_reading.h"
 #include "core/base/unit.h"
 #include "core/mesh/surface/float_loss.h"
@@ -25,16 +26,14 @@ std::vector<Vec2> mapUvs(const ScenePrimitive& primitive) {
     return textureUvs(primitive.uv_sets[set].span(), use == nullptr ? UvTransform{} : use->transform);
 }
 
+/// Whether something that draws triangles lacks normals or tangents.
 bool needsFrames(const Scene& scene) {
     return std::any_of(scene.primitives.begin(), scene.primitives.end(), [](const ScenePrimitive& primitive) {
         return !primitive.corners.empty() && (primitive.normals.empty() || primitive.tangents.empty());
     });
 }
 
-/// The model as a GLB in memory, with all frames. `made`: some were missing.
-Bytes generatedGlb(const std::string& low, const BakeFileOptions& options, ExistingTangents existing, Faces faces,
-                   bool* made = nullptr) {
-    Bytes glb;
+GenerateOptions allFrames(const BakeFileOptions& options, ExistingTangents existing, Faces faces) {
     GenerateOptions generate;
     generate.all = true;
     generate.existing = existing;
@@ -44,35 +43,34 @@ Bytes generatedGlb(const std::string& low, const BakeFileOptions& options, Exist
     generate.file = options.file;
     generate.execution = options.execution;
     generate.progress = options.progress;
+    return generate;
+}
+
+/// The low poly as the GLB that is written with its maps later. What is written is what is baked for.
+DrawnScene readFromGlb(const std::string& low, const BakeFileOptions& options, BakeModels& models) {
+    GenerateOptions generate = allFrames(options, ExistingTangents::keep, Faces::triangles);
     generate.sink = [&](std::span<const std::uint8_t> bytes) {
-        glb.insert(glb.end(), bytes.begin(), bytes.end());
+        models.low_glb.insert(models.low_glb.end(), bytes.begin(), bytes.end());
         return true;
     };
     const GenerateReport report = valueOrThrow(generateFile(low, "low.glb", generate));
-    if (made == nullptr) return glb;
-    *made = std::any_of(report.primitives.begin(), report.primitives.end(), [](const PrimitiveReport& primitive) {
-        return primitive.action == PrimitiveAction::generated;
-    });
-    return glb;
-}
-
-DrawnScene readGlb(const Bytes& glb, const BakeFileOptions& options) {
+    models.low.frames_made =
+        std::any_of(report.primitives.begin(), report.primitives.end(),
+                    [](const PrimitiveReport& primitive) { return primitive.action == PrimitiveAction::generated; });
     FileOptions in_memory = options.file;
-    in_memory.content = glb;
+    in_memory.content = models.low_glb;
     return readDrawnScene("low.glb", in_memory, false);
 }
 
 DrawnScene readWithFrames(const std::string& low, const BakeFileOptions& options, BakeModels& models) {
-    if (!options.out_mesh.empty()) {
-        // What is written is what is baked for.
-        models.low_glb = generatedGlb(low, options, ExistingTangents::keep, Faces::triangles, &models.low.frames_made);
-        return readGlb(models.low_glb, options);
-    }
+    if (!options.out_mesh.empty()) return readFromGlb(low, options, models);
     DrawnScene scene = readDrawnScene(low, options.file, false);
     // OBJ has no tangents, and reading it gives normals that it lacks.
     models.low.frames_made = needsFrames(scene.scene);
     if (!models.low.frames_made) return scene;
-    return readGlb(generatedGlb(low, options, ExistingTangents::keep, Faces::triangles), options);
+    scene = {};
+    const GenerateOptions generate = allFrames(options, ExistingTangents::keep, Faces::triangles);
+    return generateModel(low, generate, false).model.drawnScene(false);
 }
 
 /// "Body" of "Body_low", "BODY_HP" and so on, in lower case.
@@ -333,7 +331,8 @@ std::size_t LowModel::triangleCount() const {
 
 std::optional<LowModel> readLowAnew(const std::string& low, const BakeFileOptions& options, Faces faces,
                                     const LowModel& known) {
-    DrawnScene scene = readGlb(generatedGlb(low, options, ExistingTangents::replace, faces), options);
+    const GenerateOptions generate = allFrames(options, ExistingTangents::replace, faces);
+    DrawnScene scene = generateModel(low, generate, false).model.drawnScene(false);
     moveBy(known.origin, scene);
     LowModel model = lowModel(scene, nullptr, nullptr);
     bool fits = model.images.size() == known.images.size();
