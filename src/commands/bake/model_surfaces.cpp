@@ -5,6 +5,7 @@
 #include <array>
 #include <cctype>
 #include <map>
+#include <utility>
 
 #include "commands/generate/generate_model.h"
 #include "commands/shared/uv_reading.h"
@@ -12,6 +13,7 @@
 #include "core/mesh/surface/float_loss.h"
 #include "maps/map_surfaces.h"
 #include "model/io/file_io.h"
+#include "model/read/load_document.h"
 #include "model/read/read_scene.h"
 
 namespace tspace {
@@ -27,9 +29,12 @@ std::vector<Vec2> mapUvs(const ScenePrimitive& primitive) {
 }
 
 /// Whether something that draws triangles lacks normals or tangents.
-bool needsFrames(const Scene& scene) {
-    return std::any_of(scene.primitives.begin(), scene.primitives.end(), [](const ScenePrimitive& primitive) {
-        return !primitive.corners.empty() && (primitive.normals.empty() || primitive.tangents.empty());
+bool lacksFrames(gltf::Model& model) {
+    const std::vector<gltf::Primitive>& primitives = model.primitives();
+    return std::any_of(primitives.begin(), primitives.end(), [](const gltf::Primitive& primitive) {
+        const bool draws = gltf::hasTriangles(primitive.mode) && primitive.find("POSITION") &&
+                           primitive.vertex_count != 0 && primitive.triangleCount() != 0;
+        return draws && (!primitive.find("NORMAL") || !primitive.find("TANGENT"));
     });
 }
 
@@ -62,15 +67,26 @@ DrawnScene readFromGlb(const std::string& low, const BakeFileOptions& options, B
     return readDrawnScene("low.glb", in_memory, false);
 }
 
+/// OBJ has no tangents, and reading it gives normals that it lacks.
+DrawnScene readObjWithFrames(const std::string& low, const GenerateOptions& generate, bool& frames_made) {
+    DrawnScene drawn = readDrawnScene(low, generate.file, false);
+    frames_made = std::any_of(drawn.scene.primitives.begin(), drawn.scene.primitives.end(),
+                              [](const ScenePrimitive& primitive) { return !primitive.corners.empty(); });
+    if (!frames_made) return drawn;
+    drawn = {};
+    return generateModel(low, generate, false).model.drawnScene(false);
+}
+
 DrawnScene readWithFrames(const std::string& low, const BakeFileOptions& options, BakeModels& models) {
     if (!options.out_mesh.empty()) return readFromGlb(low, options, models);
-    DrawnScene scene = readDrawnScene(low, options.file, false);
-    // OBJ has no tangents, and reading it gives normals that it lacks.
-    models.low.frames_made = needsFrames(scene.scene);
-    if (!models.low.frames_made) return scene;
-    scene = {};
     const GenerateOptions generate = allFrames(options, ExistingTangents::keep, Faces::triangles);
-    return generateModel(low, generate, false).model.drawnScene(false);
+    if (lowerExtension(low) == ".obj") return readObjWithFrames(low, generate, models.low.frames_made);
+    gltf::Document document = gltf::loadDocument(low, options.file, options.execution, options.progress);
+    gltf::checkRequiredExtensions(document);
+    gltf::Model model(std::move(document));
+    models.low.frames_made = lacksFrames(model);
+    if (!models.low.frames_made) return model.drawnScene(false);
+    return gltf::generateModel(std::move(model), generate, false).model.drawnScene(false);
 }
 
 /// "Body" of "Body_low", "BODY_HP" and so on, in lower case.

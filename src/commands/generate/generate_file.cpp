@@ -48,6 +48,9 @@ gltf::GeneratedModel generateFromObj(const std::string& input, GenerateOptions o
         return true;
     };
     GenerateReport report = valueOrThrow(generateObj(input, "model.glb", options));
+    report.input_files.clear();
+    report.output_files.clear();
+    report.output_bytes = 0;
     return {gltf::Model(gltf::parseDocument(std::move(glb), input, options.file)), std::move(report)};
 }
 
