@@ -5,12 +5,15 @@
 #include <array>
 #include <cctype>
 #include <map>
+#include <utility>
 
+#include "commands/generate/generate_model.h"
 #include "commands/shared/uv_reading.h"
 #include "core/base/unit.h"
 #include "core/mesh/surface/float_loss.h"
 #include "maps/map_surfaces.h"
 #include "model/io/file_io.h"
+#include "model/read/load_document.h"
 #include "model/read/read_scene.h"
 
 namespace tspace {
@@ -25,16 +28,17 @@ std::vector<Vec2> mapUvs(const ScenePrimitive& primitive) {
     return textureUvs(primitive.uv_sets[set].span(), use == nullptr ? UvTransform{} : use->transform);
 }
 
-bool needsFrames(const Scene& scene) {
-    return std::any_of(scene.primitives.begin(), scene.primitives.end(), [](const ScenePrimitive& primitive) {
-        return !primitive.corners.empty() && (primitive.normals.empty() || primitive.tangents.empty());
+/// Whether something that draws triangles lacks normals or tangents.
+bool lacksFrames(gltf::Model& model) {
+    const std::vector<gltf::Primitive>& primitives = model.primitives();
+    return std::any_of(primitives.begin(), primitives.end(), [](const gltf::Primitive& primitive) {
+        const bool draws = gltf::hasTriangles(primitive.mode) && primitive.find("POSITION") &&
+                           primitive.vertex_count != 0 && primitive.triangleCount() != 0;
+        return draws && (!primitive.find("NORMAL") || !primitive.find("TANGENT"));
     });
 }
 
-/// The model as a GLB in memory, with all frames. `made`: some were missing.
-Bytes generatedGlb(const std::string& low, const BakeFileOptions& options, ExistingTangents existing, Faces faces,
-                   bool* made = nullptr) {
-    Bytes glb;
+GenerateOptions allFrames(const BakeFileOptions& options, ExistingTangents existing, Faces faces) {
     GenerateOptions generate;
     generate.all = true;
     generate.existing = existing;
@@ -44,35 +48,45 @@ Bytes generatedGlb(const std::string& low, const BakeFileOptions& options, Exist
     generate.file = options.file;
     generate.execution = options.execution;
     generate.progress = options.progress;
+    return generate;
+}
+
+/// The low poly as the GLB that is written with its maps later. What is written is what is baked for.
+DrawnScene readFromGlb(const std::string& low, const BakeFileOptions& options, BakeModels& models) {
+    GenerateOptions generate = allFrames(options, ExistingTangents::keep, Faces::triangles);
     generate.sink = [&](std::span<const std::uint8_t> bytes) {
-        glb.insert(glb.end(), bytes.begin(), bytes.end());
+        models.low_glb.insert(models.low_glb.end(), bytes.begin(), bytes.end());
         return true;
     };
     const GenerateReport report = valueOrThrow(generateFile(low, "low.glb", generate));
-    if (made == nullptr) return glb;
-    *made = std::any_of(report.primitives.begin(), report.primitives.end(), [](const PrimitiveReport& primitive) {
-        return primitive.action == PrimitiveAction::generated;
-    });
-    return glb;
-}
-
-DrawnScene readGlb(const Bytes& glb, const BakeFileOptions& options) {
+    models.low.frames_made =
+        std::any_of(report.primitives.begin(), report.primitives.end(),
+                    [](const PrimitiveReport& primitive) { return primitive.action == PrimitiveAction::generated; });
     FileOptions in_memory = options.file;
-    in_memory.content = glb;
+    in_memory.content = models.low_glb;
     return readDrawnScene("low.glb", in_memory, false);
 }
 
+/// OBJ has no tangents, and reading it gives normals that it lacks.
+DrawnScene readObjWithFrames(const std::string& low, const GenerateOptions& generate, bool& frames_made) {
+    DrawnScene drawn = readDrawnScene(low, generate.file, false);
+    frames_made = std::any_of(drawn.scene.primitives.begin(), drawn.scene.primitives.end(),
+                              [](const ScenePrimitive& primitive) { return !primitive.corners.empty(); });
+    if (!frames_made) return drawn;
+    drawn = {};
+    return generateModel(low, generate, false).model.drawnScene(false);
+}
+
 DrawnScene readWithFrames(const std::string& low, const BakeFileOptions& options, BakeModels& models) {
-    if (!options.out_mesh.empty()) {
-        // What is written is what is baked for.
-        models.low_glb = generatedGlb(low, options, ExistingTangents::keep, Faces::triangles, &models.low.frames_made);
-        return readGlb(models.low_glb, options);
-    }
-    DrawnScene scene = readDrawnScene(low, options.file, false);
-    // OBJ has no tangents, and reading it gives normals that it lacks.
-    models.low.frames_made = needsFrames(scene.scene);
-    if (!models.low.frames_made) return scene;
-    return readGlb(generatedGlb(low, options, ExistingTangents::keep, Faces::triangles), options);
+    if (!options.out_mesh.empty()) return readFromGlb(low, options, models);
+    const GenerateOptions generate = allFrames(options, ExistingTangents::keep, Faces::triangles);
+    if (lowerExtension(low) == ".obj") return readObjWithFrames(low, generate, models.low.frames_made);
+    gltf::Document document = gltf::loadDocument(low, options.file, options.execution, options.progress);
+    gltf::checkRequiredExtensions(document);
+    gltf::Model model(std::move(document));
+    models.low.frames_made = lacksFrames(model);
+    if (!models.low.frames_made) return model.drawnScene(false);
+    return gltf::generateModel(std::move(model), generate, false).model.drawnScene(false);
 }
 
 /// "Body" of "Body_low", "BODY_HP" and so on, in lower case.
@@ -333,7 +347,8 @@ std::size_t LowModel::triangleCount() const {
 
 std::optional<LowModel> readLowAnew(const std::string& low, const BakeFileOptions& options, Faces faces,
                                     const LowModel& known) {
-    DrawnScene scene = readGlb(generatedGlb(low, options, ExistingTangents::replace, faces), options);
+    const GenerateOptions generate = allFrames(options, ExistingTangents::replace, faces);
+    DrawnScene scene = generateModel(low, generate, false).model.drawnScene(false);
     moveBy(known.origin, scene);
     LowModel model = lowModel(scene, nullptr, nullptr);
     bool fits = model.images.size() == known.images.size();

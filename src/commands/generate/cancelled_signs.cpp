@@ -36,19 +36,19 @@ bool looksInverted(const ScenePrimitive& primitive, const Convention& convention
     return inverted > 0;
 }
 
-/// Primitives whose tangents are replaced, and that show a normal map.
-std::vector<Primitive> replacedPrimitives(const Document& document, std::span<const Primitive> primitives,
-                                          const GeneratePlan& plan) {
+/// Numbers of the primitives whose tangents are replaced, and that show a normal map.
+std::vector<std::size_t> replacedPrimitives(Model& model, const GeneratePlan& plan) {
+    const std::span<const Primitive> primitives = model.primitives();
     std::vector<bool> is_replaced(primitives.size());
     for (const Pool& pool : plan.pools) {
         for (const std::size_t number : pool.primitives) is_replaced[number] = pool.has_tangents;
     }
-    std::vector<Primitive> replaced;
+    std::vector<std::size_t> replaced;
     for (std::size_t i = 0; i < primitives.size(); ++i) {
         if (!is_replaced[i]) continue;
-        const std::vector<TangentUse> uses = tangentUses(document, primitives[i]);
+        const std::vector<TangentUse> uses = tangentUses(model.document(), primitives[i]);
         if (std::any_of(uses.begin(), uses.end(), [](const TangentUse& use) { return use.image.has_value(); }))
-            replaced.push_back(primitives[i]);
+            replaced.push_back(i);
     }
     return replaced;
 }
@@ -66,10 +66,10 @@ struct Cancelled {
     std::uint64_t sure = 0, open = 0;
 };
 
-Cancelled countCancelled(const Document& document, std::span<const Primitive> primitives, const MapFlips& flips,
+Cancelled countCancelled(Model& model, std::span<const std::size_t> primitives, const MapFlips& flips,
                          const GenerateOptions& options) {
     Cancelled cancelled;
-    Scene scene = sceneOf(document, primitives);
+    Scene scene = model.sceneOf(primitives);
     if (std::none_of(scene.primitives.begin(), scene.primitives.end(), [&](const ScenePrimitive& primitive) {
             return looksInverted(primitive, options.tangents.convention);
         })) {
@@ -79,7 +79,7 @@ Cancelled countCancelled(const Document& document, std::span<const Primitive> pr
     check.convention = options.tangents.convention;
     check.execution = options.execution;
     check.execution.allocator = nullptr;
-    readImages(document, scene);
+    readImages(model.document(), scene);
     std::vector<PrimitiveJudgement> judgements = judgePrimitives(scene, check);
     ImageFindings images = checkImages(scene, check);
     weighImages(scene, check, images, judgements);
@@ -96,16 +96,16 @@ std::string primitivesText(std::uint64_t count) {
 
 }  // namespace
 
-std::string warnOfCancelledSigns(const Document& document, std::span<const Primitive> primitives,
-                                 const GeneratePlan& plan, const MapFlips& flips, const GenerateOptions& options) {
+std::string warnOfCancelledSigns(Model& model, const GeneratePlan& plan, const MapFlips& flips,
+                                 const GenerateOptions& options) {
     if (options.existing != ExistingTangents::replace || options.convert_maps) return {};
-    const std::vector<Primitive> replaced = replacedPrimitives(document, primitives, plan);
+    const std::vector<std::size_t> replaced = replacedPrimitives(model, plan);
     if (replaced.empty()) return {};
-    const std::int64_t left = document.memory->left();
+    MemoryBudget& memory = *model.document().memory;
+    const std::int64_t left = memory.left();
     Cancelled cancelled;
-    const std::optional<Error> failure =
-        tryFile([&] { cancelled = countCancelled(document, replaced, flips, options); });
-    document.memory->giveBack(left);
+    const std::optional<Error> failure = tryFile([&] { cancelled = countCancelled(model, replaced, flips, options); });
+    memory.giveBack(left);
     if (failure && failure->code != ErrorCode::tooLarge) throw FileError{*failure};
     if (failure) {
         return "whether the signs that are replaced and green of the normal maps cancelled out was not looked at: that "

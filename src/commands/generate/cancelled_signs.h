@@ -3,17 +3,17 @@
 // points down.
 #pragma once
 
-#include <span>
 #include <string>
 
 #include "commands/generate/flip_maps.h"
 #include "model/gltf/generate_plan.h"
+#include "model/gltf/model.h"
 
 namespace tspace::gltf {
 
 /// A warning where tangents are to be replaced whose signs a normal map makes up for, or may, and that map stays as it is;
 /// else empty. Judges as `check` does, but only where signs look inverted. Fails as reading the attributes does.
-std::string warnOfCancelledSigns(const Document& document, std::span<const Primitive> primitives,
-                                 const GeneratePlan& plan, const MapFlips& flips, const GenerateOptions& options);
+std::string warnOfCancelledSigns(Model& model, const GeneratePlan& plan, const MapFlips& flips,
+                                 const GenerateOptions& options);
 
 }  // namespace tspace::gltf

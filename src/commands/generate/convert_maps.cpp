@@ -288,16 +288,15 @@ class MapPlacer {
 
 }  // namespace
 
-MapConversion::MapConversion(Document& document, std::span<const Primitive> primitives, const GenerateOptions& options)
-    : document_(document), options_(options) {
-    std::vector<Primitive> showing;
+MapConversion::MapConversion(Model& model, const GenerateOptions& options) : model_(model), options_(options) {
+    Document& document = model.document();
+    const std::span<const Primitive> primitives = model.primitives();
     for (std::size_t i = 0; i < primitives.size(); ++i) {
         const std::vector<TangentUse> uses = tangentUses(document, primitives[i]);
         if (!hasTriangles(primitives[i].mode) || std::none_of(uses.begin(), uses.end(), showsImage)) continue;
         numbers_.push_back(i);
-        showing.push_back(primitives[i]);
     }
-    before_ = sceneOf(document, showing);
+    before_ = model.sceneOf(numbers_);
     for (const ScenePrimitive& primitive : before_.primitives) {
         for (const TangentUse& use : primitive.uses) {
             if (!showsImage(use) || images_.contains(*use.image)) continue;
@@ -311,10 +310,9 @@ MapConversion::MapConversion(Document& document, std::span<const Primitive> prim
 
 std::vector<ConvertedMapReport> MapConversion::run(Editor& editor, const OutputTarget& target,
                                                    std::span<const PrimitiveReport> reports) {
-    const std::vector<Primitive> primitives = readPrimitives(document_);
-    std::vector<Primitive> showing;
-    for (const std::size_t number : numbers_) showing.push_back(primitives[number]);
-    const Scene after = sceneOf(document_, showing);
+    Document& document = model_.document();
+    const std::span<const Primitive> primitives = model_.primitives();
+    const Scene after = model_.sceneOf(numbers_);
     std::map<std::size_t, OneMap> maps;
     for (std::size_t i = 0; i < numbers_.size(); ++i) {
         const ScenePrimitive& before = before_.primitives[i];
@@ -324,8 +322,8 @@ std::vector<ConvertedMapReport> MapConversion::run(Editor& editor, const OutputT
             map->second.add({&primitives[numbers_[i]], &use}, before, after.primitives[i], reports[numbers_[i]]);
         }
     }
-    ImagePlacer placer(document_, editor, target, "-converted");
-    MapPlacer places(document_, primitives, placer);
+    ImagePlacer placer(document, editor, target, "-converted");
+    MapPlacer places(document, primitives, placer);
     std::vector<ConvertedMapReport> told;
     for (auto& [image, map] : maps) {
         if (!map.isNeeded()) continue;

@@ -8,23 +8,23 @@
 
 #include "model/gltf/container.h"
 #include "model/gltf/editor.h"
-#include "model/gltf/primitive_reader.h"
+#include "model/gltf/model.h"
 #include "model/scene/scene.h"
 
 namespace tspace::gltf {
 
 class MapConversion {
   public:
-    /// Takes what the document shows now: call it before anything in it is changed. All must outlive it but `primitives`.
-    MapConversion(Document& document, std::span<const Primitive> primitives, const GenerateOptions& options);
+    /// Takes what the model shows now: call it before anything in it is changed. Both must outlive it.
+    MapConversion(Model& model, const GenerateOptions& options);
 
-    /// Once the document has the new tangents: puts new maps in where they bring the picture closer to the old one.
+    /// Once the model has the new tangents, and wasEdited: puts new maps in where they bring the picture closer to the old one.
     /// `reports`: of all primitives. Files beside the document are never changed: the output has new ones.
     std::vector<ConvertedMapReport> run(Editor& editor, const OutputTarget& target,
                                         std::span<const PrimitiveReport> reports);
 
   private:
-    Document& document_;
+    Model& model_;
     const GenerateOptions& options_;
     std::vector<std::size_t> numbers_ = {};     ///< primitives that show normal maps
     Scene before_ = {};                         ///< these, in this order

@@ -182,18 +182,18 @@ void mendInPlace(Document& document, const Scene& scene, const GenerateOptions& 
 
 }  // namespace
 
-MapFlips planFlips(Document& document, std::span<const Primitive> primitives, std::span<const PrimitiveReport> reports,
-                   const GenerateOptions& options) {
+MapFlips planFlips(Model& model, std::span<const PrimitiveReport> reports, const GenerateOptions& options) {
+    Document& document = model.document();
     MapFlips flips;
     std::vector<bool> keeps_tangents;
     for (const PrimitiveReport& report : reports) {
         keeps_tangents.push_back(report.action == PrimitiveAction::kept ||
                                  options.existing == ExistingTangents::repair);
     }
+    Scene scene = model.scene();
     const std::int64_t left = document.memory->left();
-    Scene scene = sceneOf(document, primitives);
     readImages(document, scene);
-    tellPlaces(document, primitives, scene);
+    tellPlaces(document, model.primitives(), scene);
     std::vector<JudgedMap> maps = judgeMaps(scene, keeps_tangents, options);
     for (JudgedMap& map : maps) {
         if (options.mend_maps) mendInPlace(document, scene, options, map, flips);

@@ -9,7 +9,7 @@
 
 #include "model/gltf/container.h"
 #include "model/gltf/editor.h"
-#include "model/gltf/primitive_reader.h"
+#include "model/gltf/model.h"
 
 namespace tspace::gltf {
 
@@ -22,8 +22,7 @@ struct MapFlips {
 /// Decides about the normal maps of the document, before anything in it is changed. An image that another format of the
 /// same texture stands beside goes only with it. `reports`: what becomes of the tangents of its primitives, which are all
 /// of the document's.
-MapFlips planFlips(Document& document, std::span<const Primitive> primitives, std::span<const PrimitiveReport> reports,
-                   const GenerateOptions& options);
+MapFlips planFlips(Model& model, std::span<const PrimitiveReport> reports, const GenerateOptions& options);
 
 /// Puts them in. An image that is something else as well, such as a base colour, stays, and the normal maps get one of
 /// their own. Files beside the document are never changed: the output has new ones.

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// The glTF pipeline: load, plan, compute pool by pool, put the frames in, write.
-#include "commands/generate/generate_gltf.h"
-#include "model/read/load_document.h"
-
+// The glTF pipeline: read, decide, compute pool by pool and put the frames in, write.
 #include <algorithm>
+#include <optional>
+#include <utility>
 
 #include "commands/generate/cancelled_signs.h"
 #include "commands/generate/convert_maps.h"
 #include "commands/generate/flip_maps.h"
+#include "commands/generate/generate_model.h"
 #include "commands/generate/generate_warnings.h"
 #include "commands/generate/mend_values.h"
 #include "commands/generate/repair_plan.h"
@@ -23,6 +23,7 @@
 #include "model/gltf/vertex_numbers.h"
 #include "model/gltf/write_packed.h"
 #include "model/io/file_error.h"
+#include "model/read/load_document.h"
 
 namespace tspace::gltf {
 
@@ -64,94 +65,154 @@ void noteMissingBitangents(std::span<const Primitive> primitives, std::span<Prim
     }
 }
 
-GenerateReport generate(const std::string& input, const std::string& output_path, const GenerateOptions& requested) {
-    GenerateReport report;
-    InputFiles inputs;
-    GenerateOptions options = requested;
-    inputs.watch(options.file);
-    tell(options, "reading", 0, 1);
-    Document document = loadDocument(input, options.file, options.execution, options.progress);
-    // Other formats leave open whose conventions their tangents follow: only those stay that are right in glTF.
-    if (document.imported && options.existing == ExistingTangents::keep) options.existing = ExistingTangents::repair;
-    const OutputTarget target = outputTarget(document, output_path, options.sink != nullptr);
-    checkRequiredExtensions(document);
-    report.warnings = document.warnings;
-    std::copy_n(document.coordinate_offset.begin(), 3, report.coordinate_offset);
-    std::vector<Primitive> primitives = readPrimitives(document);
-    const bool removed = removeMiscounted(document, primitives, options.pack);
-    const bool converted = target.container != document.container || document.imported;
-    const bool keeps_compression = options.compression == Compression::keep;
-    if (!keeps_compression) convertContainer(document, target, true, report.warnings);
-    const std::string new_file = freeFileName(document, target, ".tspace.bin");
-    const bool unpacked = unpackGeometry(document, options.compression, new_file, report.warnings);
-    if (unpacked) primitives = readPrimitives(document);
-    GeneratePlan plan = planGenerate(document, primitives, options);
-    if (options.existing == ExistingTangents::repair) planRepair(document, primitives, options, plan);
-    planSurroundings(document, primitives, options, plan);
-    MapFlips flips;
-    if (options.flip_green != FlipGreen::none || options.mend_maps)
-        flips = planFlips(document, primitives, plan.reports, options);
-    if (const std::string warning = warnOfCancelledSigns(document, primitives, plan, flips, options); !warning.empty())
-        report.warnings.push_back(warning);
-    std::optional<MapConversion> maps;
-    if (options.convert_maps) maps.emplace(document, primitives, options);
-    report.input_bytes = document.input_bytes;
-    std::vector<std::vector<std::size_t>> broken;
-    if (options.existing != ExistingTangents::keep) broken = findBrokenValues(document, primitives, plan);
-    const bool is_unreadable = std::any_of(primitives.begin(), primitives.end(), [](const Primitive& primitive) {
-        return !primitive.unreadable_tangents.empty();
-    });
-    const bool will_edit = !plan.pools.empty() || !flips.images.empty() || !flips.mended.empty() ||
-                           options.pack.has_value() || !broken.empty() || is_unreadable;
-    if (keeps_compression) convertContainer(document, target, will_edit, report.warnings);
-    takeImagesIn(document, target, report.warnings);
-    tell(options, "reading", 1, 1);
+/// A model that was read, and where it goes.
+struct Input {
+    Model model;
+    OutputTarget target = {};
+    GenerateOptions options = {};  ///< as this model lets them be followed
+    bool is_converted = false;     ///< the output is of another container or format, whatever is edited
+};
 
-    Editor editor(document, new_file);
-    if (removed) editor.touch();
-    if (is_unreadable) removeUnreadableTangents(editor, primitives, plan);
+/// Fails where the model cannot become that output.
+Input toInput(Model&& model, const Path& output, bool is_stream, const GenerateOptions& requested) {
+    Document& document = model.document();
+    Input input{std::move(model), outputTarget(document, output, is_stream), requested};
+    // Other formats leave open whose conventions their tangents follow: only those stay that are right in glTF.
+    if (document.imported && requested.existing == ExistingTangents::keep)
+        input.options.existing = ExistingTangents::repair;
+    input.is_converted = input.target.container != document.container || document.imported;
+    checkRequiredExtensions(document);
+    return input;
+}
+
+/// How geometry lies in the document when it is edited.
+struct Storage {
+    std::string new_file = {};  ///< the buffer file that new data go into when there is no better place
+    bool is_unpacked = false;   ///< it is no longer compressed as it was
+    bool lost_packing = false;  ///< packed frames with a wrong count went
+};
+
+/// Takes away what is made anew whatever it says, and unpacks geometry that is to be stored in another way.
+Storage prepareStorage(Input& input, std::vector<std::string>& warnings) {
+    Document& document = input.model.document();
+    Storage storage{.lost_packing = removeMiscounted(document, input.model.primitives(), input.options.pack)};
+    const Compression compression = input.options.compression;
+    if (compression != Compression::keep) convertContainer(document, input.target, true, warnings);
+    storage.new_file = freeFileName(document, input.target, ".tspace.bin");
+    storage.is_unpacked = unpackGeometry(document, compression, storage.new_file, warnings);
+    if (storage.is_unpacked) input.model.wasEdited();
+    return storage;
+}
+
+/// What is to become of a model: all that is decided before anything of it is computed or changed.
+struct Decisions {
+    GeneratePlan plan = {};
+    MapFlips flips = {};
+    std::optional<MapConversion> maps = {};             ///< has seen what the old tangents show
+    std::vector<std::vector<std::size_t>> broken = {};  ///< primitives of each TANGENT whose values are mended
+    bool has_unreadable_tangents = false;
+
+    [[nodiscard]] bool changeGeometryOrMaps() const {
+        return !plan.pools.empty() || !flips.images.empty() || !flips.mended.empty() || !broken.empty() ||
+               has_unreadable_tangents;
+    }
+};
+
+/// The plan comes first and repair narrows it down; all others follow what the plan says then. Arrays that were decoded to
+/// look at are let go at the end: pools mostly read the file's own bytes, and all arrays together may be larger than they.
+Decisions decide(Model& model, const GenerateOptions& options, std::vector<std::string>& warnings) {
+    Decisions decisions{.plan = planGenerate(model.document(), model.primitives(), options)};
+    GeneratePlan& plan = decisions.plan;
+    if (options.existing == ExistingTangents::repair) planRepair(model, options, plan);
+    planSurroundings(model, options, plan);
+    if (options.flip_green != FlipGreen::none || options.mend_maps)
+        decisions.flips = planFlips(model, plan.reports, options);
+    if (std::string warning = warnOfCancelledSigns(model, plan, decisions.flips, options); !warning.empty())
+        warnings.push_back(std::move(warning));
+    if (options.convert_maps) decisions.maps.emplace(model, options);
+    if (options.existing != ExistingTangents::keep) decisions.broken = findBrokenValues(model, plan);
+    decisions.has_unreadable_tangents =
+        std::any_of(model.primitives().begin(), model.primitives().end(),
+                    [](const Primitive& primitive) { return !primitive.unreadable_tangents.empty(); });
+    model.dropScene();
+    return decisions;
+}
+
+/// Computes pools and puts their frames in, in turns, so that frames of few pools at a time wait in memory.
+void computeAndApply(Input& input, Decisions& decisions, Editor& editor, std::vector<std::string>& warnings) {
+    Document& document = input.model.document();
+    const std::span<const Primitive> primitives = input.model.primitives();
+    GeneratePlan& plan = decisions.plan;
     VertexNumbers numbers(document, editor);
     std::uint64_t total = 0, done = 0;
     for (const Pool& pool : plan.pools) total += pool.corner_count;
-    PoolComputer computer(document, primitives, options);
+    PoolComputer computer(document, input.model.arrays(), primitives, input.options);
     for (std::span<const Pool> rest = plan.pools; !rest.empty();) {
-        tell(options, "computing tangents", done, total);
-        const std::span<const Pool> pools = rest.first(countTogether(rest, document, primitives, options.execution));
+        tell(input.options, "computing tangents", done, total);
+        const std::span<const Pool> pools =
+            rest.first(countTogether(rest, document, primitives, input.options.execution));
         rest = rest.subspan(pools.size());
         std::vector<PoolElements> elements = computer.compute(pools, plan.reports);
         for (std::size_t i = 0; i < pools.size(); ++i) {
             if (!elements[i].warning.empty())
-                report.warnings.push_back(primitives[pools[i].primitives[0]].place() + ": " + elements[i].warning);
+                warnings.push_back(primitives[pools[i].primitives[0]].place() + ": " + elements[i].warning);
             applyFrames(editor, document, primitives, pools[i], std::move(elements[i]), numbers, plan.reports);
             done += pools[i].corner_count;
         }
     }
-    tell(options, "computing tangents", total, total);
-    mendBrokenValues(editor, document, primitives, broken, plan.reports);
-    if (is_unreadable) noteUnreadableTangents(primitives, plan.reports);
-    for (std::string& warning : numbers.warnings()) report.warnings.push_back(std::move(warning));
-    if (options.bitangents) noteMissingBitangents(primitives, plan.reports);
-    noteStalePackedFrames(document, primitives, options, plan.reports);
-    stripTangents(editor, primitives, plan.reports);
-    if (maps) report.converted_maps = maps->run(editor, target, plan.reports);
-    if (options.pack) writePackedFrames(editor, document, options, plan.reports);
-    report.normal_maps = std::move(flips.reports);
-    if (!flips.images.empty() || !flips.mended.empty()) applyFlips(document, editor, target, std::move(flips));
-    editor.finish();
-    const bool packed = packGeometry(document, options.compression, new_file);
+    tell(input.options, "computing tangents", total, total);
+    // Behind the new frames, whose accessors it does not touch, and before tangents go: their notes come in this order.
+    mendBrokenValues(editor, document, primitives, decisions.broken, plan.reports);
+    for (std::string& warning : numbers.warnings()) warnings.push_back(std::move(warning));
+}
 
-    AtomicOutput files({.sink = options.sink,
-                        .is_dry_run = options.dry_run,
-                        .sync = options.file.sync,
-                        .inputs = &inputs,
-                        .replaces_inputs = target.in_place});
-    tell(options, "writing", 0, 1);
-    report.changed = editor.changed() || converted || unpacked || packed;
-    if (report.changed) {
-        writeDocument(document, target, files, report.warnings, options.execution);
-    } else {
-        writeUnchanged(document, target, files, report.warnings);
+/// Carries the decisions out. Fills the report but for its files. Returns whether the document is another one now.
+bool edit(Input& input, const Storage& storage, Decisions&& decisions, GenerateReport& report) {
+    Document& document = input.model.document();
+    const GenerateOptions& options = input.options;
+    const std::span<const Primitive> primitives = input.model.primitives();
+    std::vector<PrimitiveReport>& reports = decisions.plan.reports;
+    Editor editor(document, storage.new_file);
+    if (storage.lost_packing) editor.touch();
+    if (decisions.has_unreadable_tangents) removeUnreadableTangents(editor, primitives, decisions.plan);
+    computeAndApply(input, decisions, editor, report.warnings);
+    if (decisions.has_unreadable_tangents) noteUnreadableTangents(primitives, reports);
+    if (options.bitangents) noteMissingBitangents(primitives, reports);
+    noteStalePackedFrames(document, primitives, options, reports);
+    stripTangents(editor, primitives, reports);
+    // What follows looks at the new tangents.
+    input.model.wasEdited();
+    if (decisions.maps) report.converted_maps = decisions.maps->run(editor, input.target, reports);
+    if (options.pack) writePackedFrames(editor, document, options, reports);
+    MapFlips& flips = decisions.flips;
+    report.normal_maps = std::move(flips.reports);
+    if (!flips.images.empty() || !flips.mended.empty()) applyFlips(document, editor, input.target, std::move(flips));
+    editor.finish();
+    const bool is_packed = packGeometry(document, options.compression, storage.new_file);
+    report.primitives = std::move(reports);
+    return editor.changed() || input.is_converted || storage.is_unpacked || is_packed;
+}
+
+/// All but reading and writing.
+void generate(Input& input, bool with_images, GenerateReport& report) {
+    Document& document = input.model.document();
+    report.warnings = document.warnings;
+    std::copy_n(document.coordinate_offset.begin(), 3, report.coordinate_offset);
+    const Storage storage = prepareStorage(input, report.warnings);
+    Decisions decisions = decide(input.model, input.options, report.warnings);
+    report.input_bytes = document.input_bytes;
+    if (input.options.compression == Compression::keep) {
+        const bool will_edit = decisions.changeGeometryOrMaps() || input.options.pack.has_value();
+        convertContainer(document, input.target, will_edit, report.warnings);
     }
+    // Behind the decisions on maps, which find images by their names.
+    if (with_images) takeImagesIn(document, input.target, report.warnings);
+    tell(input.options, "reading", 1, 1);
+    report.changed = edit(input, storage, std::move(decisions), report);
+}
+
+/// Names the files in the report.
+void tellFiles(const std::string& input, const Document& document, const AtomicOutput& files, GenerateReport& report) {
     report.input_files = {input};
     for (const std::vector<std::string>& more : {document.input_files, files.sources()}) {
         for (const std::string& file : more) {
@@ -162,7 +223,30 @@ GenerateReport generate(const std::string& input, const std::string& output_path
     }
     report.output_files = files.files();
     report.output_bytes = files.files().empty() ? document.input_bytes : files.byteCount();
-    report.primitives = std::move(plan.reports);
+}
+
+GenerateReport generateToFile(const std::string& path, const std::string& output, const GenerateOptions& requested) {
+    GenerateReport report;
+    InputFiles inputs;
+    GenerateOptions options = requested;
+    inputs.watch(options.file);
+    tell(options, "reading", 0, 1);
+    Input input = toInput(Model(loadDocument(path, options.file, options.execution, options.progress)), output,
+                          options.sink != nullptr, options);
+    Document& document = input.model.document();
+    generate(input, true, report);
+    AtomicOutput files({.sink = options.sink,
+                        .is_dry_run = options.dry_run,
+                        .sync = options.file.sync,
+                        .inputs = &inputs,
+                        .replaces_inputs = input.target.in_place});
+    tell(options, "writing", 0, 1);
+    if (report.changed) {
+        writeDocument(document, input.target, files, report.warnings, options.execution);
+    } else {
+        writeUnchanged(document, input.target, files, report.warnings);
+    }
+    tellFiles(path, document, files, report);
     addWarnings(requested, report);
     tell(options, "writing", 1, 1);
     // Nothing that can fail comes after it.
@@ -172,9 +256,17 @@ GenerateReport generate(const std::string& input, const std::string& output_path
 
 }  // namespace
 
+GeneratedModel generateModel(Model&& model, const GenerateOptions& options, bool with_images) {
+    Input input = toInput(std::move(model), "model.glb", true, options);
+    GenerateReport report;
+    generate(input, with_images, report);
+    input.model.readAnew();
+    return {std::move(input.model), std::move(report)};
+}
+
 Result<GenerateReport> generateGltf(const std::string& input, const std::string& output,
                                     const GenerateOptions& options) {
-    return atFileBorder([&]() -> Result<GenerateReport> { return generate(input, output, options); });
+    return atFileBorder([&]() -> Result<GenerateReport> { return generateToFile(input, output, options); });
 }
 
 }  // namespace tspace::gltf

@@ -48,10 +48,10 @@ Stored readStored(const Document& document, const Primitive& primitive) {
     return stored;
 }
 
-bool areBroken(const Document& document, const Primitive& primitive) {
-    const std::vector<Vec4> tangents = readTangents(document, primitive);
-    std::vector<Vec3> normals;
-    if (isRead(document, primitive)) normals = readVec3(document, primitive, "NORMAL");
+bool areBroken(Model& model, const Primitive& primitive) {
+    const SharedArray<Vec4> tangents = model.arrays().borrowTangents(primitive);
+    SharedArray<Vec3> normals;
+    if (isRead(model.document(), primitive)) normals = model.arrays().borrowVec3(primitive, "NORMAL");
     for (std::size_t v = 0; v < tangents.size(); ++v) {
         if (!hasSoundValues(tangents[v]) || (!normals.empty() && !hasDirection(tangents[v], normals[v]))) return true;
     }
@@ -66,8 +66,9 @@ VectorFormat formatOf(const Accessor& accessor) {
 
 }  // namespace
 
-std::vector<std::vector<std::size_t>> findBrokenValues(const Document& document, std::span<const Primitive> primitives,
-                                                       const GeneratePlan& plan) {
+std::vector<std::vector<std::size_t>> findBrokenValues(Model& model, const GeneratePlan& plan) {
+    const Document& document = model.document();
+    const std::span<const Primitive> primitives = model.primitives();
     std::vector<bool> is_computed(primitives.size(), false);
     for (const Pool& pool : plan.pools) {
         for (const std::size_t number : pool.primitives) is_computed[number] = !pool.keeps_tangents;
@@ -84,7 +85,7 @@ std::vector<std::vector<std::size_t>> findBrokenValues(const Document& document,
     for (const auto& [accessor, numbers] : sharing) {
         const Primitive& judge = primitives[judgeOf(document, primitives, numbers)];
         document.memory->require((sizeof(Vec4) + sizeof(Vec3)) * judge.vertex_count, judge.place());
-        if (areBroken(document, judge)) groups.push_back(numbers);
+        if (areBroken(model, judge)) groups.push_back(numbers);
     }
     return groups;
 }

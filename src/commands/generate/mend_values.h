@@ -7,14 +7,14 @@
 
 #include "model/gltf/editor.h"
 #include "model/gltf/generate_plan.h"
+#include "model/gltf/model.h"
 
 namespace tspace::gltf {
 
 /// Primitives whose tangents stay and lie in one accessor, where these have values that no tangent may have
 /// (surface/tangent_values.h) at some vertex, used by triangles or not. Tangents along N count where a material reads
 /// them: elsewhere they may be normals for outlines.
-std::vector<std::vector<std::size_t>> findBrokenValues(const Document& document, std::span<const Primitive> primitives,
-                                                       const GeneratePlan& plan);
+std::vector<std::vector<std::size_t>> findBrokenValues(Model& model, const GeneratePlan& plan);
 
 /// Mends them, in the format that they have, and says so in the reports. All other elements keep their bits.
 void mendBrokenValues(Editor& editor, const Document& document, std::span<const Primitive> primitives,

@@ -116,15 +116,15 @@ void readAsAsked(const GenerateOptions& options, Scene& scene) {
     }
 }
 
-/// The verdicts on these primitives. Memory for them is given back at the end.
-std::vector<Verdict> judge(const Document& document, std::span<const Primitive> primitives,
-                           const GenerateOptions& options) {
+/// The verdicts on all primitives. Memory for them is given back at the end; the scene stays with the model.
+std::vector<Verdict> judge(Model& model, const GenerateOptions& options) {
+    const Document& document = model.document();
+    Scene scene = model.scene();
     const std::int64_t left = document.memory->left();
     CheckOptions check;
     check.convention = options.tangents.convention;
     check.execution = options.execution;
     check.execution.allocator = nullptr;
-    Scene scene = sceneOf(document, primitives);
     readAsAsked(options, scene);
     std::vector<PrimitiveJudgement> judgements = judgePrimitives(scene, check, true);
     if (waitForImages(judgements)) {
@@ -181,8 +181,8 @@ Pool selected(const Pool& pool, std::span<const Primitive> primitives, const Men
 
 }  // namespace
 
-void planRepair(const Document& document, std::span<const Primitive> primitives, const GenerateOptions& options,
-                GeneratePlan& plan) {
+void planRepair(Model& model, const GenerateOptions& options, GeneratePlan& plan) {
+    const std::span<const Primitive> primitives = model.primitives();
     // Tangents of normals that are made anew are computed anew with them.
     const auto isJudged = [](const Pool& pool) {
         return pool.has_tangents && pool.makes_tangents && !pool.overwrites_normals;
@@ -192,7 +192,7 @@ void planRepair(const Document& document, std::span<const Primitive> primitives,
         is_needed = is_needed || hasOnlyItsOwn(primitives[i], plan.reports[i]);
     if (!is_needed) return;
     // All of them, since normal maps are weighed by what the whole file shows of them.
-    const std::vector<Verdict> verdicts = judge(document, primitives, options);
+    const std::vector<Verdict> verdicts = judge(model, options);
     for (std::size_t i = 0; i < primitives.size(); ++i) {
         if (verdicts[i].is_free && hasOnlyItsOwn(primitives[i], plan.reports[i])) keep(verdicts[i], plan.reports[i]);
     }

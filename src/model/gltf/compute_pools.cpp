@@ -69,23 +69,31 @@ void copyReport(const PrimitiveReport& computed, bool keeps_tangents, PrimitiveR
     report.quad_count = computed.quad_count;
 }
 
-/// What the tangents of a pool are computed from, without copies where that is possible. `copies` must outlive the
-/// result, and get what cannot be lent. `first`: any primitive of the pool.
-PoolView lendVertices(const Document& document, const Primitive& first, const Pool& pool, VertexPool& copies) {
-    const auto vec3 = [&](const char* attribute, std::vector<Vec3>& copy) {
+/// What of a pool does not lie in the file as plain floats.
+struct DecodedVertices {
+    SharedArray<Vec3> positions = {}, normals = {};
+    SharedArray<Vec2> uvs = {};
+    SharedArray<Vec4> kept_tangents = {}, old_tangents = {};
+};
+
+/// What the tangents of a pool are computed from, without copies where that is possible. `decoded` must outlive the
+/// result, and gets what cannot be lent. `first`: any primitive of the pool.
+PoolView lendVertices(const Document& document, DecodedArrays& arrays, const Primitive& first, const Pool& pool,
+                      DecodedVertices& decoded) {
+    const auto vec3 = [&](const char* attribute, SharedArray<Vec3>& array) {
         if (const auto lent = lendVec3(document, first, attribute)) return *lent;
-        copy = readVec3(document, first, attribute);
-        return StridedSpan<const Vec3>(copy);
+        array = arrays.borrowVec3(first, attribute);
+        return StridedSpan<const Vec3>(array.span());
     };
     PoolView vertices;
-    vertices.positions = vec3("POSITION", copies.positions);
-    if (pool.has_normals) vertices.normals = vec3("NORMAL", copies.normals);
+    vertices.positions = vec3("POSITION", decoded.positions);
+    if (pool.has_normals) vertices.normals = vec3("NORMAL", decoded.normals);
     if (pool.uses_uvs) {
         if (const auto lent = lendUvs(document, first, pool.uv_set)) {
             vertices.uvs = *lent;
         } else {
-            copies.uvs = readUvs(document, first, pool.uv_set);
-            vertices.uvs = copies.uvs;
+            decoded.uvs = arrays.borrowUvs(first, pool.uv_set);
+            vertices.uvs = decoded.uvs.span();
         }
     }
     vertices.uv_matrix = pool.uv_matrix;
@@ -117,7 +125,7 @@ std::string warnOfRounding(const PoolView& vertices, std::span<const PrimitiveGe
     return {};
 }
 
-/// Leaves the first of the vertices that only their frames keep apart. `copies` as in lendVertices.
+/// Leaves the first of the vertices that only their frames keep apart. `copies` gets them, and must outlive `vertices`.
 void weld(const WeldedVertices& welded, std::vector<PrimitiveGeometry>& geometries, PoolView& vertices,
           VertexPool& copies) {
     copies.positions = gather(vertices.positions, welded.kept);
@@ -198,11 +206,11 @@ PoolFrames asTheyAre(const PoolView& vertices) {
 }
 
 /// The triangles of each geometry of a pool.
-std::vector<PrimitiveGeometry> readGeometries(const Document& document, std::span<const Primitive> primitives,
+std::vector<PrimitiveGeometry> readGeometries(DecodedArrays& arrays, std::span<const Primitive> primitives,
                                               const Pool& pool) {
     std::vector<PrimitiveGeometry> geometries;
     for (const PoolGeometry& geometry : pool.geometries)
-        geometries.push_back({.indices = readTriangleCorners(document, primitives[geometry.primitives[0]]),
+        geometries.push_back({.indices = arrays.copyCorners(primitives[geometry.primitives[0]]),
                               .mends = geometry.mends,
                               .around = geometry.around});
     return geometries;
@@ -230,9 +238,13 @@ class PoolComputer::Arenas {
     std::vector<std::unique_ptr<Arena>> idle_;
 };
 
-PoolComputer::PoolComputer(const Document& document, std::span<const Primitive> primitives,
+PoolComputer::PoolComputer(const Document& document, DecodedArrays& arrays, std::span<const Primitive> primitives,
                            const GenerateOptions& options)
-    : document_(document), primitives_(primitives), options_(options), arenas_(std::make_unique<Arenas>()) {}
+    : document_(document),
+      arrays_(arrays),
+      primitives_(primitives),
+      options_(options),
+      arenas_(std::make_unique<Arenas>()) {}
 
 PoolComputer::~PoolComputer() = default;
 
@@ -241,23 +253,23 @@ PoolElements PoolComputer::computeOne(const Pool& pool, const Execution& executi
     GenerateOptions options = options_;
     options.execution = execution;
     const Primitive& first = primitives_[pool.primitives[0]];
-    VertexPool copies;
-    PoolView vertices = lendVertices(document_, first, pool, copies);
+    DecodedVertices decoded;
+    PoolView vertices = lendVertices(document_, arrays_, first, pool, decoded);
     vertices.targets = targetsOf(document_, first, pool.mendsTangents());
     vertices.mends_tangents = pool.mendsTangents();
-    if (pool.keeps_tangents || pool.mendsTangents()) copies.kept_tangents = readTangents(document_, first);
-    vertices.kept_tangents = copies.kept_tangents;
-    std::vector<Vec4> old_tangents;
+    if (pool.keeps_tangents || pool.mendsTangents()) decoded.kept_tangents = arrays_.borrowTangents(first);
+    vertices.kept_tangents = decoded.kept_tangents.span();
     const bool keeps_signs = pool.overwrites_normals && options.existing == ExistingTangents::keep;
     if ((pool.tries_quads || keeps_signs) && pool.has_tangents && !pool.keeps_tangents) {
         if (readAccessor(document_, *first.find("TANGENT")).component_count == 4)
-            old_tangents = readTangents(document_, first);
+            decoded.old_tangents = arrays_.borrowTangents(first);
     }
-    vertices.old_tangents = old_tangents;
+    vertices.old_tangents = decoded.old_tangents.span();
     vertices.is_blenders = pool.is_blenders;
     vertices.makes_tangents = pool.makes_tangents;
-    std::vector<PrimitiveGeometry> geometries = readGeometries(document_, primitives_, pool);
+    std::vector<PrimitiveGeometry> geometries = readGeometries(arrays_, primitives_, pool);
     WeldedVertices welded;
+    VertexPool copies;
     if (pool.overwrites_normals) welded = weldVertices(document_, first);
     const bool was_welded = welded.kept.size() != welded.number_of.size();
     if (was_welded) weld(welded, geometries, vertices, copies);
@@ -282,7 +294,7 @@ PoolElements PoolComputer::computeOne(const Pool& pool, const Execution& executi
     if (was_welded) {
         for (std::uint32_t& source : frames.source_vertices) source = welded.kept[source];
     }
-    if (keeps_signs && haveInvertedSigns(old_tangents, frames)) {
+    if (keeps_signs && haveInvertedSigns(vertices.old_tangents, frames)) {
         for (Vec4& tangent : frames.tangents) tangent.w = -tangent.w;
         for (const std::size_t number : pool.primitives) {
             reports[number].notes.emplace_back(

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/mesh/pools/primitive.h"
+#include "model/gltf/decoded_arrays.h"
 #include "model/gltf/generate_plan.h"
 #include "model/gltf/pool_elements.h"
 
@@ -15,8 +16,9 @@ namespace tspace::gltf {
 /// Computes pools of one document, several at the same time. Scratch memory serves one after the other.
 class PoolComputer {
   public:
-    /// All must outlive it.
-    PoolComputer(const Document& document, std::span<const Primitive> primitives, const GenerateOptions& options);
+    /// All must outlive it. `arrays`: of the document.
+    PoolComputer(const Document& document, DecodedArrays& arrays, std::span<const Primitive> primitives,
+                 const GenerateOptions& options);
     ~PoolComputer();
 
     /// Frames of each pool, in their order. Fills normals, tangents and sanitize of the reports of their primitives.
@@ -28,6 +30,7 @@ class PoolComputer {
     PoolElements computeOne(const Pool& pool, const Execution& execution, std::span<PrimitiveReport> reports);
 
     const Document& document_;
+    DecodedArrays& arrays_;
     std::span<const Primitive> primitives_;
     const GenerateOptions& options_;
     std::unique_ptr<Arenas> arenas_;

@@ -29,21 +29,24 @@ struct NearVertex {
 /// The primitives of one mesh that have triangles.
 class MeshPieces {
   public:
-    MeshPieces(const Document& document, std::span<const Primitive> primitives, std::vector<std::size_t> numbers)
-        : document_(document), primitives_(primitives), numbers_(std::move(numbers)) {
+    MeshPieces(Model& model, std::vector<std::size_t> numbers)
+        : document_(model.document()),
+          arrays_(model.arrays()),
+          primitives_(model.primitives()),
+          numbers_(std::move(numbers)) {
         std::map<std::size_t, std::size_t> list_of;  // POSITION -> number of its vertex list
         for (const std::size_t number : numbers_) {
             const Primitive& primitive = primitives_[number];
-            document.memory->require(
+            document_.memory->require(
                 kBytesPerVertex * primitive.vertex_count + kBytesPerCorner * 3 * primitive.triangleCount(),
                 primitive.place());
             const auto [entry, is_new] = list_of.try_emplace(*primitive.find("POSITION"), vertices_.size());
-            if (is_new) vertices_.push_back(readVec3(document, primitive, "POSITION"));
+            if (is_new) vertices_.push_back(arrays_.borrowVec3(primitive, "POSITION"));
             lists_.push_back(entry->second);
-            corners_.push_back(readTriangleCorners(document, primitive));
+            corners_.push_back(arrays_.borrowCorners(primitive));
         }
-        for (const std::vector<Vec3>& list : vertices_) vertex_spans_.emplace_back(list);
-        for (std::size_t i = 0; i < numbers_.size(); ++i) pieces_.push_back({lists_[i], corners_[i]});
+        for (const SharedArray<Vec3>& list : vertices_) vertex_spans_.push_back(list.span());
+        for (std::size_t i = 0; i < numbers_.size(); ++i) pieces_.push_back({lists_[i], corners_[i].span()});
         joined_ = std::make_unique<JoinedPieces>(vertex_spans_, pieces_);
     }
 
@@ -90,12 +93,12 @@ class MeshPieces {
 
     void takeNormals(const std::vector<NearVertex>& sources, const std::vector<bool>& makes_normals,
                      Surroundings& result) const {
-        std::map<std::uint32_t, std::vector<Vec3>> normals;  // of pieces that keep theirs
+        std::map<std::uint32_t, SharedArray<Vec3>> normals;  // of pieces that keep theirs
         for (std::size_t i = 0; i < sources.size(); ++i) {
             const auto [piece, vertex] = sources[i];
             if (!keeps(piece, makes_normals)) continue;
             const auto [entry, is_new] = normals.try_emplace(piece);
-            if (is_new) entry->second = readVec3(document_, primitives_[numbers_[piece]], "NORMAL");
+            if (is_new) entry->second = arrays_.borrowVec3(primitives_[numbers_[piece]], "NORMAL");
             result.normals.resize(sources.size());
             result.normals[i] = entry->second[vertex];
         }
@@ -136,12 +139,13 @@ class MeshPieces {
     }
 
     const Document& document_;
+    DecodedArrays& arrays_;
     std::span<const Primitive> primitives_;
     std::vector<std::size_t> numbers_;  ///< of the primitives
-    std::vector<std::vector<Vec3>> vertices_ = {};
+    std::vector<SharedArray<Vec3>> vertices_ = {};
     std::vector<std::span<const Vec3>> vertex_spans_ = {};
     std::vector<std::size_t> lists_ = {};  ///< per piece
-    std::vector<std::vector<std::uint32_t>> corners_ = {};
+    std::vector<SharedArray<std::uint32_t>> corners_ = {};
     std::vector<SurfacePiece> pieces_ = {};
     std::unique_ptr<JoinedPieces> joined_;
 };
@@ -157,9 +161,9 @@ std::string noteOf(std::size_t others, std::uint64_t points, bool any_keeps) {
 
 }  // namespace
 
-void planSurroundings(const Document& document, std::span<const Primitive> primitives, const GenerateOptions& options,
-                      GeneratePlan& plan) {
+void planSurroundings(Model& model, const GenerateOptions& options, GeneratePlan& plan) {
     if (options.normals_per_primitive || options.normals.weighting == NormalWeighting::flat) return;
+    const std::span<const Primitive> primitives = model.primitives();
     std::vector<bool> makes_normals(primitives.size(), false);
     std::map<std::size_t, PoolGeometry*> geometry_of;  // first primitive -> its geometry
     for (Pool& pool : plan.pools) {
@@ -180,7 +184,7 @@ void planSurroundings(const Document& document, std::span<const Primitive> primi
             any = any || geometry_of.contains(past);
         }
         if (numbers.size() < 2 || !any) continue;
-        const MeshPieces pieces(document, primitives, numbers);
+        const MeshPieces pieces(model, numbers);
         for (std::uint32_t piece = 0; piece < numbers.size(); ++piece) {
             const auto found = geometry_of.find(numbers[piece]);
             if (found == geometry_of.end()) continue;

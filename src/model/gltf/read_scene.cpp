@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "model/gltf/read_scene.h"
 
-#include <map>
 #include <set>
-#include <tuple>
 
 #include "model/gltf/accessor.h"
 #include "model/gltf/document.h"
@@ -18,32 +16,6 @@ namespace {
 
 /// Sets beyond are not looked at: no renderer has so many, and a file may claim billions.
 constexpr std::size_t kMaxUvSets = 64;
-
-/// Attributes as float vectors, each accessor decoded once.
-template <class Vec>
-class VectorCache {
-  public:
-    using Decode = std::vector<Vec> (*)(const Document&, const Accessor&, const std::string& place);
-    explicit VectorCache(Decode decode) : decode_(decode) {}
-
-    /// Empty where the list has no such attribute. `place`: that of the list.
-    SharedArray<Vec> read(const Document& document, const AttributeList& list, const std::string& name,
-                          const std::string& place, MemoryBudget& budget) {
-        for (const auto& [key, index] : list) {
-            if (key != name) continue;
-            const auto found = arrays_.find(index);
-            if (found != arrays_.end()) return found->second;
-            const Accessor accessor = readAccessor(document, index);
-            budget.take(std::uint64_t{accessor.count} * sizeof(Vec), accessor.place());
-            return arrays_.emplace(index, decode_(document, accessor, join(place, name))).first->second;
-        }
-        return {};
-    }
-
-  private:
-    Decode decode_;
-    std::map<std::size_t, SharedArray<Vec>> arrays_ = {};
-};
 
 /// Between neighbouring numbers of an accessor of whole numbers; 0 for floats.
 double stepOf(const Accessor& accessor) {
@@ -63,7 +35,7 @@ double stepOf(const Accessor& accessor) {
 
 class PrimitiveLoader {
   public:
-    explicit PrimitiveLoader(const Document& document) : document_(document), budget_(*document.memory) {}
+    PrimitiveLoader(const Document& document, DecodedArrays& arrays) : document_(document), arrays_(arrays) {}
 
     ScenePrimitive load(const Primitive& primitive) {
         ScenePrimitive result;
@@ -91,7 +63,7 @@ class PrimitiveLoader {
         }
         for (const StoredPacking& stored : findPacked(document_, primitive))
             result.packed.push_back(loadPacked(primitive, stored));
-        if (hasTriangles(primitive.mode) && !result.positions.empty()) result.corners = corners(primitive);
+        if (hasTriangles(primitive.mode) && !result.positions.empty()) result.corners = arrays_.corners(primitive);
         return result;
     }
 
@@ -103,9 +75,13 @@ class PrimitiveLoader {
         if (const auto index = primitive.find("POSITION"))
             result.position_step = stepOf(readAccessor(document_, *index));
         result.normals = vec3(list, "NORMAL", place);
-        result.tangents = vec4_.read(document_, list, "TANGENT", place, budget_);
+        if (const auto index = primitive.find("TANGENT"))
+            result.tangents = arrays_.vec4(*index, join(place, "TANGENT"));
         for (std::size_t set = 0; set < kMaxUvSets; ++set) {
-            SharedArray<Vec2> uvs = vec2_.read(document_, list, "TEXCOORD_" + std::to_string(set), place, budget_);
+            const std::string name = "TEXCOORD_" + std::to_string(set);
+            const auto index = primitive.find(name);
+            if (!index) continue;
+            SharedArray<Vec2> uvs = arrays_.vec2(*index, join(place, name));
             if (uvs.empty()) continue;
             result.uv_sets.resize(set + 1);
             result.uv_sets[set] = std::move(uvs);
@@ -115,48 +91,18 @@ class PrimitiveLoader {
     ScenePacked loadPacked(const Primitive& primitive, const StoredPacking& stored) {
         ScenePacked packed{stored.layout->format, stored.attribute, stored.fault};
         if (!stored.fault.empty()) return packed;
-        std::vector<std::size_t> accessors;
-        for (const PackedPart& part : stored.layout->parts) accessors.push_back(*primitive.find(part.attribute));
-        auto& words = words_[accessors];
-        if (words.empty()) {
-            budget_.take(std::uint64_t{2} * primitive.vertex_count * frameBytes(packed.format), primitive.place());
-            const Bytes bytes = readPackedWords(document_, primitive, *stored.layout);
-            words = std::vector<std::uint8_t>(bytes.begin(), bytes.end());
-        }
-        packed.words = words;
+        packed.words = arrays_.packedWords(primitive, *stored.layout);
         return packed;
     }
 
+    /// Empty where the list has no such attribute. `place`: that of the list.
     SharedArray<Vec3> vec3(const AttributeList& list, const char* name, const std::string& place) {
-        return vec3_.read(document_, list, name, place, budget_);
+        const auto index = findAttribute(list, name);
+        return index ? arrays_.vec3(*index, join(place, name)) : SharedArray<Vec3>();
     }
-
-    SharedArray<std::uint32_t> corners(const Primitive& primitive) {
-        const std::size_t no_indices = rootArray(document_, "accessors").size();
-        const CornerKey key{primitive.indices.value_or(no_indices), primitive.vertex_count, primitive.mode};
-        const auto found = corners_.find(key);
-        if (found != corners_.end()) return found->second;
-        takeCorners(primitive);
-        return corners_.emplace(key, readTriangleCorners(document_, primitive)).first->second;
-    }
-
-    /// The corners, and what looking at them takes for a while.
-    void takeCorners(const Primitive& primitive) {
-        const std::uint64_t corners = std::uint64_t{3} * primitive.triangleCount();
-        budget_.take(corners * sizeof(std::uint32_t), primitive.place());
-        budget_.require(checkBytes(corners, primitive.vertex_count, primitive.find("TANGENT").has_value()),
-                        primitive.place());
-    }
-
-    using CornerKey = std::tuple<std::size_t, std::size_t, Mode>;
 
     const Document& document_;
-    MemoryBudget& budget_;
-    VectorCache<Vec2> vec2_{decodeVec2};
-    VectorCache<Vec3> vec3_{decodeVec3};
-    VectorCache<Vec4> vec4_{decodeVec4};
-    std::map<CornerKey, SharedArray<std::uint32_t>> corners_ = {};
-    std::map<std::vector<std::size_t>, SharedArray<std::uint8_t>> words_ = {};  ///< by the accessors that hold them
+    DecodedArrays& arrays_;
 };
 
 Bytes readImageBytes(const Document& document, const Json& image, const std::string& place) {
@@ -211,13 +157,13 @@ void readImages(const Document& document, const std::set<std::size_t>& wanted, S
     }
 }
 
-Scene sceneOf(const Document& document, std::span<const Primitive> primitives) {
+Scene sceneOf(const Document& document, DecodedArrays& arrays, std::span<const Primitive> primitives) {
     Scene scene;
     scene.warnings = document.warnings;
     scene.memory = document.memory;
     scene.format = formatOf(document);
     scene.generator = generatorOf(document);
-    PrimitiveLoader loader(document);
+    PrimitiveLoader loader(document, arrays);
     for (const Primitive& primitive : primitives) scene.primitives.push_back(loader.load(primitive));
     const Json& list = rootArray(document, "images");
     for (std::size_t i = 0; i < list.size(); ++i) {

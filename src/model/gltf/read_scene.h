@@ -5,15 +5,16 @@
 #include <set>
 #include <span>
 
+#include "model/gltf/decoded_arrays.h"
 #include "model/gltf/document.h"
 #include "model/gltf/primitive_reader.h"
 #include "model/scene/scene.h"
 
 namespace tspace::gltf {
 
-/// These primitives, in their order, and what the file says of itself; names of images, but no bytes. Every accessor is
-/// decoded once. Takes from the document's memory budget what the arrays hold.
-Scene sceneOf(const Document& document, std::span<const Primitive> primitives);
+/// These primitives, in their order, and what the file says of itself; names of images, but no bytes. `arrays`: of
+/// the document.
+Scene sceneOf(const Document& document, DecodedArrays& arrays, std::span<const Primitive> primitives);
 
 /// Reads the bytes of the images that the scene's primitives use for tangents. One that cannot be read stays empty.
 void readImages(const Document& document, Scene& scene);

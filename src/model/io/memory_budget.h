@@ -40,6 +40,9 @@ class MemoryBudget {
         left_ -= limited(bytes);
     }
 
+    /// So much of what was taken is free again.
+    void release(std::uint64_t bytes) { left_ += limited(bytes); }
+
     /// What is left now; and all that was taken since is given back.
     [[nodiscard]] std::int64_t left() const { return left_; }
     void giveBack(std::int64_t left_before) {

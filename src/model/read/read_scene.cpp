@@ -2,7 +2,9 @@
 // Chooses the reader by the name of the file.
 #include "model/read/read_scene.h"
 
-#include "model/gltf/primitive_reader.h"
+#include <utility>
+
+#include "model/gltf/model.h"
 #include "model/gltf/read_look.h"
 #include "model/gltf/read_scene.h"
 #include "model/io/file_error.h"
@@ -13,19 +15,27 @@
 
 namespace tspace {
 
+namespace {
+
+gltf::Model readModel(const std::string& input, const FileOptions& options) {
+    gltf::Document document = gltf::loadDocument(input, options);
+    gltf::checkRequiredExtensions(document);
+    return gltf::Model(std::move(document));
+}
+
+}  // namespace
+
 Scene readScene(const std::string& input, const FileOptions& options, bool with_images) {
     // An OBJ file has no magic word, so only its name tells it.
     if (lowerExtension(input) == ".obj") {
         const obj::Model model = obj::readModel(input, options);
         return obj::sceneOf(model, obj::collectPrimitives(model), with_images);
     }
-    gltf::Document document = gltf::loadDocument(input, options);
-    gltf::checkRequiredExtensions(document);
-    const std::vector<gltf::Primitive> primitives = gltf::readPrimitives(document);
-    Scene scene = gltf::sceneOf(document, primitives);
+    gltf::Model model = readModel(input, options);
+    Scene scene = model.sceneOf();
     if (with_images) {
-        gltf::readImages(document, scene);
-        gltf::tellPlaces(document, primitives, scene);
+        gltf::readImages(model.document(), scene);
+        gltf::tellPlaces(model.document(), model.primitives(), scene);
     }
     return scene;
 }
@@ -37,14 +47,7 @@ DrawnScene readDrawnScene(const std::string& input, const FileOptions& options, 
         valueOrThrow(obj::completeNormals(model, primitives, {}));
         return obj::drawnSceneOf(model, primitives, with_images);
     }
-    gltf::Document document = gltf::loadDocument(input, options);
-    gltf::checkRequiredExtensions(document);
-    const std::vector<gltf::Primitive> primitives = gltf::readPrimitives(document);
-    DrawnScene drawn{.scene = gltf::sceneOf(document, primitives)};
-    for (const gltf::Primitive& primitive : primitives) drawn.looks.push_back(gltf::readLook(document, primitive));
-    drawn.placements = gltf::readPlacements(document, primitives);
-    if (with_images) gltf::readImages(document, gltf::imagesOf(drawn.looks), drawn.scene);
-    return drawn;
+    return readModel(input, options).drawnScene(with_images);
 }
 
 }  // namespace tspace

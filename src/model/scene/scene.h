@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What a model file holds that frames depend on, in one form for every format. Read-only: check, diff and identify look
-// at it. `generate` edits files in place and does not use it.
+// at it; generate decides by it, and edits the file's own document (gltf/model.h).
 #pragma once
 
 #include <algorithm>
@@ -27,6 +27,7 @@ class SharedArray {
   public:
     SharedArray() = default;
     SharedArray(std::vector<T> values) : values_(std::make_shared<const std::vector<T>>(std::move(values))) {}
+    explicit SharedArray(std::shared_ptr<const std::vector<T>> values) : values_(std::move(values)) {}
 
     [[nodiscard]] const T* data() const { return values_ ? values_->data() : nullptr; }
     [[nodiscard]] std::size_t size() const { return values_ ? values_->size() : 0; }
@@ -35,6 +36,8 @@ class SharedArray {
     [[nodiscard]] const T* end() const { return data() + size(); }
     const T& operator[](std::size_t i) const { return (*values_)[i]; }
     [[nodiscard]] std::span<const T> span() const { return {data(), size()}; }
+    /// Expires when nobody has the array any more.
+    [[nodiscard]] std::weak_ptr<const std::vector<T>> watch() const { return values_; }
 
   private:
     std::shared_ptr<const std::vector<T>> values_ = {};

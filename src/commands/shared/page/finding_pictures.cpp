@@ -15,11 +15,8 @@ struct FindingPictures::Model {
     struct MendedModel {
         MendedModel(const std::string& input, const FileOptions& options, const Scene& before,
                     const GenerateOptions& command)
-            : file(input, options, command),
-              model("mended.glb", file.open()),
-              pairs(pairPrimitives(before, model.scene())) {}
+            : model(mendedScene(input, options, command)), pairs(pairPrimitives(before, model.scene())) {}
 
-        MendedFile file;
         PicturedModel model;
         std::vector<PrimitivePair> pairs;
     };

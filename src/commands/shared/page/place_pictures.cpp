@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "commands/render/picture_file.h"
 #include "commands/render/shown_heights.h"
@@ -119,7 +120,10 @@ void drawOutline(RgbImage& image, const Camera& camera, const DVec3& from, const
 }  // namespace
 
 PicturedModel::PicturedModel(const std::string& input, const FileOptions& options)
-    : drawn_(readDrawnScene(input, options, true)), textures_(drawn_.scene, std::uint64_t{1} << 26) {
+    : PicturedModel(readDrawnScene(input, options, true)) {}
+
+PicturedModel::PicturedModel(DrawnScene&& drawn)
+    : drawn_(std::move(drawn)), textures_(drawn_.scene, std::uint64_t{1} << 26) {
     showHeights(Method::mikktspace, {}, drawn_);
 }
 

@@ -18,6 +18,7 @@ class PicturedModel {
   public:
     /// Throws FileError.
     PicturedModel(const std::string& input, const FileOptions& options);
+    explicit PicturedModel(DrawnScene&& drawn);
     PicturedModel(const PicturedModel&) = delete;
     PicturedModel& operator=(const PicturedModel&) = delete;
 

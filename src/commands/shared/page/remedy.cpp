@@ -5,10 +5,8 @@
 #include <string_view>
 #include <utility>
 
+#include "commands/generate/generate_model.h"
 #include "commands/shared/request.h"
-#include "model/io/file_error.h"
-#include "model/io/named_files.h"
-#include "model/io/uri.h"
 
 namespace tspace {
 
@@ -52,30 +50,9 @@ std::optional<RemedyCommand> commandIn(const std::string& remedy) {
     return command;
 }
 
-MendedFile::MendedFile(const std::string& input, const FileOptions& file, GenerateOptions options)
-    : input_(input), file_(file) {
+DrawnScene mendedScene(const std::string& input, const FileOptions& file, GenerateOptions options) {
     options.file = file;
-    options.sink = [&](std::span<const std::uint8_t> part) {
-        bytes_.insert(bytes_.end(), part.begin(), part.end());
-        return true;
-    };
-    valueOrThrow(generateFile(input, "mended.glb", options));
-}
-
-FileOptions MendedFile::open() {
-    FileOptions result = file_;
-    result.content = bytes_;
-    result.find_file = [this](const std::string& path) {
-        return atFileBorder([&]() -> Result<std::span<const std::uint8_t>> {
-            auto known = named_.find(path);
-            if (known == named_.end()) {
-                const NamedFiles beside(Path(input_), file_);
-                known = named_.emplace(path, beside.read(beside.resolve(percentEncode(path), {}))).first;
-            }
-            return std::span<const std::uint8_t>(known->second);
-        });
-    };
-    return result;
+    return generateModel(input, options, true).model.drawnScene(true);
 }
 
 }  // namespace tspace

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// Generating in memory, and generateFile for glTF inputs: read, decide, compute, edit, write.
+#pragma once
+
+#include <string>
+
+#include "model/gltf/model.h"
+#include "tspace/asset.h"
+
+namespace tspace::gltf {
+
+/// A model whose frames were generated in memory, and what was done. No file is written, and the report names none.
+struct GeneratedModel {
+    Model model;
+    GenerateReport report = {};
+};
+
+/// Generates what a GLB would hold, and gives the model as a reader of that GLB would get it. `with_images`: it takes them in
+/// as a GLB does. GenerateOptions::sink and dry_run mean nothing. Throws FileError.
+GeneratedModel generateModel(Model&& input, const GenerateOptions& options, bool with_images);
+
+/// generateFile for glTF inputs, and for what the importer makes of other formats.
+Result<GenerateReport> generateGltf(const std::string& input, const std::string& output,
+                                    const GenerateOptions& options);
+
+}  // namespace tspace::gltf
+
+namespace tspace {
+
+/// The same for a model file of any format.
+gltf::GeneratedModel generateModel(const std::string& input, const GenerateOptions& options, bool with_images);
+
+}  // namespace tspace
