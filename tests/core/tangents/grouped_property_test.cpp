@@ -74,7 +74,7 @@ RC_GTEST_PROP(GroupedProperty, AVertexPerCornerGivesTheSame, ()) {
     const SimpleMesh shape = randomShape();
     const TangentOptions options = randomOptions();
     SimpleMesh loose;
-    for (const std::uint32_t v : shape.indices) loose.vertex(shape.positions[v], shape.normals[v], shape.uvs[v]);
+    for (const std::uint32_t v : shape.indices) loose.addVertex(shape.positions[v], shape.normals[v], shape.uvs[v]);
     MeshView mesh = loose.view();
     mesh.indices = {};
     mesh.face_sizes = shape.face_sizes;
