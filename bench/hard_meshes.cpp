@@ -11,7 +11,7 @@ namespace {
 
 struct HardMesh {
     const char* name;
-    test::Shape (*make)(std::size_t triangles);
+    test::SimpleMesh (*make)(std::size_t triangles);
 };
 
 constexpr HardMesh kHardMeshes[] = {
@@ -37,7 +37,7 @@ std::vector<std::string> hardMeshNames() {
 Mesh hardMesh(const std::string& name, std::size_t triangles) {
     for (const HardMesh& mesh : kHardMeshes) {
         if (name != mesh.name) continue;
-        test::Shape shape = mesh.make(triangles);
+        test::SimpleMesh shape = mesh.make(triangles);
         return {.positions = std::move(shape.positions),
                 .normals = std::move(shape.normals),
                 .uvs = std::move(shape.uvs),

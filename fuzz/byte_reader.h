@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The input of a fuzz target as values.
+// Reads values from the input of a fuzz target.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <cstring>
 
-/// Ends the program, which is the finding, where `what` does not hold.
+/// Aborts where `what` does not hold: that is the finding.
 inline void require(bool holds, const char* what) {
     if (holds) return;
     std::fprintf(stderr, "fuzz: this does not hold: %s\n", what);
@@ -20,7 +20,7 @@ class ByteReader {
     ByteReader(const std::uint8_t* data, std::size_t size) : data_(data), size_(size) {}
 
     std::uint8_t byte() { return at_ < size_ ? data_[at_++] : 0; }
-    /// Any bits at all.
+    /// A value of arbitrary bits.
     float any() {
         std::uint8_t bytes[4] = {byte(), byte(), byte(), byte()};
         float value = 0;

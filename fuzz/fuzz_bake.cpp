@@ -16,7 +16,7 @@ class BakeReader : public ByteReader {
   public:
     using ByteReader::ByteReader;
 
-    /// Mostly small steps, so that surfaces meet; now and then any bits at all.
+    /// Mostly multiples of a small step, so that surfaces meet; now and then arbitrary bits.
     float value() {
         const std::uint8_t b = byte();
         return b == 255 ? any() : static_cast<float>(b % 17) / 8 - 1;

@@ -23,7 +23,7 @@ class Reader : public ByteReader {
   public:
     using ByteReader::ByteReader;
 
-    /// Few different values, so that corners weld and triangles collapse; now and then any bits at all.
+    /// Few different values, so that corners weld and triangles collapse; now and then arbitrary bits.
     float value() {
         const std::uint8_t b = byte();
         return b == 255 ? any() : static_cast<float>(b % 7) - 3;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What an importer answers that a hostile model has taken over: any messages, any result, through every command.
+// Answers of an importer that a hostile model has taken over: arbitrary messages and results, through every command.
 #include "whole_file.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Stands for an importer that a model has taken over: it writes what stands in the "model". How it ends (1 byte), how long its
-// messages are (2 bytes, the low one first), its messages, and the rest as its result.
+// Stands for an importer that a model has taken over. The "model" is its script: how it ends (1 byte), the length of its
+// messages (2 bytes, low byte first), the messages, and its result.
 #include <cstdio>
 #include <cstdlib>
 #include <iterator>

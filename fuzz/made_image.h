@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A small image out of the input.
+// Makes a small image from the input.
 #pragma once
 
 #include <cstdint>

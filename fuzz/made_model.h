@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A GLB out of the input: what it says is well-formed for the most part, so that all behind the reader meets what is in it,
-// which is anything. Files that are broken are the work of other targets.
+// Makes a GLB from the input. Its structure is mostly valid, so that the code behind the reader runs, on arbitrary values.
+// Broken files are the work of other targets.
 #pragma once
 
 #include <cmath>
@@ -15,7 +15,7 @@
 
 namespace tspace::fuzz {
 
-/// What an accessor has its numbers in.
+/// The component type of an accessor.
 struct NumberFormat {
     gltf::ComponentType component;
     bool is_normalized = false;
@@ -52,12 +52,12 @@ class ModelMaker {
     using ComponentType = gltf::ComponentType;
     using Numbers = NumberFormat;
 
-    /// Mostly small steps, so that corners weld and triangles meet; now and then any bits at all.
+    /// Mostly multiples of a small step, so that corners weld and triangles meet; now and then arbitrary bits.
     float value() {
         const std::uint8_t b = in_.byte();
         return b == 255 ? in_.any() : static_cast<float>(b % 17) / 8 - 1;
     }
-    /// The same as JSON has numbers.
+    /// A number that JSON can spell.
     std::string number() {
         const float x = value();
         char text[40];

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
-// A mesh that owns its arrays, and a few shapes.
+// The mesh of all tests of the core: it owns its arrays. And cubes.
 #pragma once
 
 #include <array>
 #include <cstdint>
+#include <initializer_list>
+#include <span>
 #include <vector>
 
 #include "tspace/mesh.h"
@@ -15,12 +17,24 @@ struct SimpleMesh {
     std::vector<Vec3> normals = {};
     std::vector<Vec2> uvs = {};
     std::vector<std::uint32_t> indices = {};
-    std::vector<std::uint32_t> face_sizes = {};
+    std::vector<std::uint32_t> face_sizes = {};  ///< empty: triangles
 
+    std::uint32_t addVertex(const Vec3& position, const Vec3& normal, const Vec2& uv) {
+        positions.push_back(position);
+        normals.push_back(normal);
+        uvs.push_back(uv);
+        return static_cast<std::uint32_t>(positions.size() - 1);
+    }
+    /// For meshes of triangles alone.
+    void addTriangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) { indices.insert(indices.end(), {a, b, c}); }
     void addFace(std::initializer_list<std::uint32_t> vertices) {
-        indices.insert(indices.end(), vertices);
+        addFace(std::span(vertices.begin(), vertices.size()));
+    }
+    void addFace(std::span<const std::uint32_t> vertices) {
+        indices.insert(indices.end(), vertices.begin(), vertices.end());
         face_sizes.push_back(static_cast<std::uint32_t>(vertices.size()));
     }
+    [[nodiscard]] std::size_t cornerCount() const { return indices.size(); }
     [[nodiscard]] MeshView view() const {
         MeshView mesh;
         mesh.positions = positions;
@@ -28,7 +42,6 @@ struct SimpleMesh {
         mesh.uvs = uvs;
         mesh.indices = IndexView(std::span<const std::uint32_t>(indices));
         mesh.face_sizes = face_sizes;
-        if (face_sizes.empty()) mesh.face_size = 3;
         return mesh;
     }
 };

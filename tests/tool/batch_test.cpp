@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "model/io/temporary_name.h"
+#include "model/io/temporary_files.h"
 #include "tool/run_tool.h"
 
 namespace tspace::test {

@@ -8,7 +8,7 @@
 #include <set>
 #include <tuple>
 
-#include "model/io/temporary_name.h"
+#include "model/io/temporary_files.h"
 #include "tool/run_tool.h"
 
 namespace tspace::test {

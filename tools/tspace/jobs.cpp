@@ -10,7 +10,6 @@
 #include <set>
 
 #include "glob.h"
-#include "model/io/disk_paths.h"
 #include "model/io/file_io.h"
 #include "model/io/system_files.h"
 #include "system.h"

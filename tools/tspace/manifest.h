@@ -9,7 +9,7 @@
 
 #include "file_hash.h"
 #include "jobs.h"
-#include "model/io/c_file.h"
+#include "model/io/system_files.h"
 
 namespace tspace::tool {
 

@@ -25,8 +25,8 @@ const fileRooms = [
 ];
 /// Threads, memory of an operating system, the disk, and readers of other formats; only_memory.cpp is in the place of some.
 const notHere = new Set([
-  "core/base/parallel.cpp", "core/base/arena.cpp", "model/io/atomic_output_disk.cpp", "model/io/file_io.cpp", "model/io/resolve_uri.cpp",
-  "model/io/temporary_name.cpp", "model/obj/tiny_obj_loader.cpp", "model/gltf/codecs/draco_library.cpp", "model/gltf/codecs/meshopt_library.cpp",
+  "core/base/parallel.cpp", "core/base/arena.cpp", "model/io/atomic_output_disk.cpp", "model/io/file_io.cpp",
+  "model/io/temporary_files.cpp", "model/obj/tiny_obj_loader.cpp", "model/gltf/codecs/draco_library.cpp", "model/gltf/codecs/meshopt_library.cpp",
   "images/exr.cpp", "images/float_image.cpp", "images/jpeg.cpp", "images/png.cpp", "images/webp.cpp", "maps/rays.cpp",
   "commands/generate/convert_maps.cpp", "commands/generate/mend_maps.cpp", "commands/diff/diff_text.cpp",
   "commands/shared/map_image_file.cpp", "commands/shared/map_mesh.cpp", "commands/shared/html_text.cpp",

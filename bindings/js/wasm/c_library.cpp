@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: MIT
-// Functions of the C library that JavaScript has, or that nobody needs: those of the library are 30 KB.
+// Functions of the C library in small: JavaScript does the work, or no module needs the result. The library's own take
+// 30 KB.
 #include <cstdarg>
 #include <cstddef>
 #include <ctime>
 
 extern "C" {
 
-/// The number that a text of JSON spells, which is there and is right.
+/// Parses a number of JSON whose syntax was checked before.
 __attribute__((import_module("env"), import_name("parseNumber"))) double tspace_js_parseNumber(const char* text);
-/// As in exports.h, which includes headers that declare what is defined below in another way.
+/// Repeated from exports.h, whose includes declare some functions below differently.
 __attribute__((import_module("env"), import_name("endCall"), noreturn)) void tspace_js_endCall(int code);
 /// Milliseconds from some start.
 __attribute__((import_module("env"), import_name("now"))) double tspace_js_now();
 
-/// The JSON library is the only one that asks, and has looked at every character.
+/// Called by the JSON library alone, which has checked every character.
 double strtod(const char* text, char** end) {
     if (end != nullptr) {
         *end = const_cast<char*>(text);
@@ -21,14 +22,14 @@ double strtod(const char* text, char** end) {
     }
     return tspace_js_parseNumber(text);
 }
-// The others of the same file of the C library, which would come along with it. They are not called.
+// Never called. Defined because the linker would take the C library's file for them, which defines the above again.
 float strtof(const char* text, char** end) { return static_cast<float>(strtod(text, end)); }
 long double strtold(const char* text, char** end) { return strtod(text, end); }
 double strtod_l(const char* text, char** end, void*) { return strtod(text, end); }
 float strtof_l(const char* text, char** end, void*) { return strtof(text, end); }
 long double strtold_l(const char* text, char** end, void*) { return strtold(text, end); }
 
-/// What the JSON library spells by it: text with numbers of four hexadecimal digits, by "%04x" or "%.4X".
+/// Supports what the JSON library prints: numbers of four hexadecimal digits, by "%04x" or "%.4X".
 int snprintf(char* to, std::size_t size, const char* format, ...) {
     std::va_list numbers;
     va_start(numbers, format);

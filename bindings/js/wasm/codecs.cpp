@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Codecs of compressed geometry: those that the caller hands in from npm.
+// Codecs of compressed geometry, by JavaScript packages that the caller passes in.
 #include "codecs.h"
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 namespace tspace::js {
 namespace {
 
-/// As JavaScript reads and writes it. Arrays that it gives are to be released.
+/// Shared with JavaScript. The caller releases arrays that JavaScript returns.
 struct DracoAttributeWords {
     std::uint32_t id, kind, component, component_count, is_normalized;
     std::uint8_t* values;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the caller may hand in beside the model: codecs from npm, behind functions of JavaScript.
+// Functions of JavaScript that the caller may pass in beside the model: codecs from npm.
 #pragma once
 
 #define TSPACE_JS_IMPORT(name) __attribute__((import_module("env"), import_name(#name)))
@@ -16,7 +16,7 @@ extern "C" {
 /// Whether the caller may stop the call.
 extern bool tspace_js_can_stop;
 
-/// Whether the caller handed it in.
+/// Whether the caller passed this codec in.
 TSPACE_JS_IMPORT(hasCodec) int tspace_js_hasCodec(tspace::js::Codec codec);
 
 }  // extern "C"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the modules that compute frames export: the mesh of the next call, and the three functions that the smaller one has.
+// Exports of all modules that compute frames: the mesh of the next call, and the three functions of `mikktspace`.
 #include "common.h"
 
 namespace tspace::js {

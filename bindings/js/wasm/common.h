@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Shared by the modules: the mesh of a call, and ways for results to go back.
+// Shared by the modules: the mesh of a call, and how results are returned.
 #pragma once
 
 #include <cstring>
@@ -13,7 +13,7 @@
 
 namespace tspace::js {
 
-/// What setMesh was given.
+/// The mesh that setMesh() received.
 const MeshView& mesh();
 
 /// v axis in the lowest two bits, then a bit each for green, stored sign, handedness and winding.

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the WebAssembly modules have in common: names that JavaScript calls, and the state of one call. There is one
-// thread, and JavaScript makes one call after the other.
+// Common to the WebAssembly modules: exported names, and the state of one call. There is one thread, so calls never overlap.
 #pragma once
 
 #include <cstddef>

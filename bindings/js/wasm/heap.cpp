@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Memory for a module that takes many small pieces: that of the C library, over the memory of the instance.
+// Memory for the module that allocates many small blocks: the C library's allocator, over the memory of the instance.
 #include <cstdint>
 #include <cstdlib>
 
 #include "codecs.h"
 #include "exports.h"
 
-extern "C" unsigned char __heap_base;  // the linker's: the first byte that is nobody's
+extern "C" unsigned char __heap_base;  // from the linker: the first free byte
 
 namespace {
 
@@ -17,7 +17,7 @@ std::uintptr_t heap_end = 0;
 
 extern "C" {
 
-/// What malloc asks for more memory.
+/// Called by malloc for more memory.
 void* sbrk(std::intptr_t more) {
     void* const none = reinterpret_cast<void*>(-1);
     if (heap_end == 0) heap_end = (reinterpret_cast<std::uintptr_t>(&__heap_base) + kUnit - 1) / kUnit * kUnit;
@@ -36,7 +36,7 @@ bool tspace_js_can_stop = false;
 /// Throws where the caller wants the call to stop.
 TSPACE_JS_IMPORT(goOn) void tspace_js_goOn();
 
-/// All work asks for memory now and then, so this is where it is asked whether to go on.
+/// Asks the caller whether to go on: all work allocates now and then.
 void* tspace_js_allocate(std::size_t bytes) {
     constexpr std::size_t kLarge = 4096;
     constexpr unsigned kSmallOnes = 64;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pixels of images: decoded and encoded by what the caller hands in. What files claim is looked at here, before.
+// Pixels of images, decoded and encoded by functions that the caller passes in. The claims of files are checked here first.
 #include <cstdlib>
 #include <memory>
 #include <string_view>
@@ -29,7 +29,7 @@ namespace tspace {
 
 namespace {
 
-/// Why there are no pixels; empty where there are.
+/// Why there are no pixels; else empty.
 std::string decodeInto(ByteSpan bytes, ImageSize size, std::uint32_t channels, std::uint32_t sample_bytes, void* to) {
     const char* type = mimeType(imageFormat(bytes));
     const std::unique_ptr<char, decltype(&std::free)> why(

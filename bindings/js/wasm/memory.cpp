@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: MIT
-// Memory for a program of one thread without an operating system, which takes and gives back a few large arrays.
+// A small allocator for modules that allocate a few large arrays, in one thread and without an operating system.
 #include <cstddef>
 #include <cstdint>
 
 #include "exports.h"
 
-extern "C" unsigned char __heap_base;  // the linker's: the first byte that is nobody's
+extern "C" unsigned char __heap_base;  // from the linker: the first free byte
 
 namespace {
 
-/// The core asks for 64. What is given out is a multiple of it, less the head before it.
+/// The alignment that the core needs. Blocks are multiples of it, less the head in front.
 constexpr std::size_t kUnit = 64, kHead = 16, kPage = 65536;
 
-/// Free memory is a list in the order of addresses; no two of it touch.
+/// A list of free blocks in the order of addresses; adjacent ones are joined.
 struct Block {
     std::size_t bytes;  // with this head
     Block* next;        // only while it is free
@@ -41,7 +41,7 @@ void giveBack(Block* block) {
     }
 }
 
-/// The first block that is large enough: large ones that were given back are found again by the next call.
+/// First fit: large blocks that one call frees are found again by the next.
 Block* take(std::size_t bytes) {
     for (Block** at = &first_free; *at != nullptr; at = &(*at)->next) {
         Block* block = *at;

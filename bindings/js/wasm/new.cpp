@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Memory for C++, and what happens when there is none left: a call into JavaScript, which throws, so that the call ends
-// there. The instance is then thrown away.
+// operator new. When memory runs out it calls JavaScript, which throws: the call ends, and the instance is thrown away.
 #include <cstddef>
 #include <new>
 
@@ -9,7 +8,7 @@
 extern "C" {
 
 void tspace_endCallOutOfMemory() { tspace_js_endCall(9); }
-/// The C++ library comes here for lists that are longer than the address space.
+/// Called by the C++ library for lists longer than the address space.
 void abort() { tspace_js_endCall(9); }
 
 }  // extern "C"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The parser of OBJ files with streams that only do what it asks of them. Those of the C++ library, with all their locales,
-// would be a sixth of the module.
+// The parser of OBJ files with minimal streams. The C++ library's streams, with their locales, would be a sixth of the
+// module.
 #include <algorithm>
 #include <cassert>
 #include <cctype>
@@ -22,7 +22,7 @@
 // In std, for that is where the parser looks.
 namespace std::tspace_js {
 
-/// Over text in memory; without any, nothing is there to be read.
+/// Reads text in memory.
 class Buffer {
   public:
     int sgetc() const { return at_ == end_ ? -1 : static_cast<unsigned char>(*at_); }
@@ -68,7 +68,7 @@ class File : public Input {
     explicit File(const Name&) {}
 };
 
-/// Texts one behind the other. Numbers are left out: they are only in warnings, which tspace does not show.
+/// Appends texts, and drops numbers: the parser writes those into warnings alone, which tspace does not show.
 class Text : public Input {
   public:
     Text() = default;
@@ -85,7 +85,7 @@ class Text : public Input {
     std::string text_ = {};
 };
 
-/// Nobody looks for files in several folders.
+/// Used by the parser's search in several folders, which tspace does not call.
 inline bool getline(const Input&, std::string&, char) { return false; }
 
 }  // namespace std::tspace_js

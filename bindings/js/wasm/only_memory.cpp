@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
-// What the file layer does elsewhere with a disk and with other programs. Here models are bytes in memory: all else fails, and
-// the linker leaves out what is only behind it.
+// Replaces the functions of the file layer that use a disk or other programs. Models are bytes in memory here: everything
+// else fails, and the linker drops the code that only those functions reach.
 #include <cerrno>
 #include <new>
 
 #include "model/io/atomic_output.h"
-#include "model/io/disk_paths.h"
 #include "model/io/file_error.h"
 #include "model/imported/import_document.h"
 #include "model/io/uri.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What every module exports: error and report of the last call.
+// Exports of every module: error and report of the last call.
 #include <new>
 
 #include "exports.h"
@@ -7,7 +7,7 @@
 namespace tspace::js {
 
 namespace {
-// Never destroyed: an instance ends all at once.
+// Never destroyed: the memory of an instance is dropped as a whole.
 alignas(Error) unsigned char error_room[sizeof(Error)];
 }  // namespace
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Exceptions of a module in which nobody catches any: they end the call, as running out of memory does. Code that cleans up
-// behind exceptions would be a tenth of the module, and there is nothing to clean up in an instance that is thrown away.
+// Exceptions end the call and its instance, as running out of memory does: no module catches any. Code for unwinding would
+// be a tenth of the module, and an instance that is thrown away needs no clean-up.
 #include <cstdlib>
 #include <new>
 #include <stdexcept>

@@ -8,7 +8,6 @@
 
 #include "model/gltf/container.h"
 #include "model/gltf/editor.h"
-#include "model/io/disk_paths.h"
 #include "model/io/file_error.h"
 #include "model/io/uri.h"
 

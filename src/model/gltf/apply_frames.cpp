@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// From PoolElements to accessors.
+// Writes PoolElements into the accessors of a document.
 #include "model/gltf/apply_frames.h"
 
 #include <algorithm>
@@ -35,9 +35,9 @@ class Applier {
         return changed;
     }
 
-    /// Targets whose deltas were computed.
+    /// Morph targets whose tangent deltas were computed.
     [[nodiscard]] std::uint32_t computedTargets() const { return computed_targets_; }
-    /// Those whose offsets of normals that stay were.
+    /// Morph targets whose normal offsets were computed although the base normals stay.
     [[nodiscard]] std::uint32_t newNormals() const { return new_normals_; }
 
   private:
@@ -60,7 +60,7 @@ class Applier {
         }
     }
 
-    /// A copy of a shared accessor is still the same thing to a person.
+    /// A copy of a shared accessor keeps its name, which tells a person what it holds.
     void keepName(std::size_t from, std::size_t to) {
         const Json* name = findMember(rootArray(document_, "accessors")[from], "name");
         if (name != nullptr) editor_.accessor(to)["name"] = Json(*name);
@@ -79,7 +79,7 @@ class Applier {
         }
     }
 
-    /// Deltas of every target that moves the surface; where tangents are kept only those that are missing.
+    /// Sets the deltas of every target that moves the surface. Where tangents are kept, only missing deltas are set.
     bool setTargets() {
         const Primitive& first = primitives_[pool_.primitives[0]];
         bool changed = false;
@@ -96,7 +96,7 @@ class Applier {
             if (!elements_.has_tangent_deltas) continue;
             const bool has_tangents = findAttribute(first.targets[i], "TANGENT").has_value();
             if (pool_.keeps_tangents && has_tangents && !turns_normals) continue;
-            // New ones belong to tangents that would be computed.
+            // New deltas would fit the computed tangents, but the file keeps its own.
             if (pool_.mendsTangents() && elements_.differing_count != 0 && !has_tangents) continue;
             ++computed_targets_;
             changed |= setAttribute(target, "TANGENT", elementsOf(elements_.morphs[i].tangents));
@@ -104,7 +104,7 @@ class Applier {
         return changed;
     }
 
-    /// For all primitives of the pool. Returns false when the file has these very bits already.
+    /// Sets an attribute of all primitives of the pool. Returns false when the file has exactly these bits already.
     bool setAttribute(std::ptrdiff_t target, const char* name, ElementData&& data) {
         return gltf::setAttribute(editor_, document_,
                                   {.primitives = primitives_,
@@ -115,7 +115,7 @@ class Applier {
                                   std::move(data));
     }
 
-    /// Whether old accessors of frames may stay: not those of tangents without normals, nor what was split.
+    /// Whether old accessors of frames may stay: not where vertices were split, nor where tangents were missing.
     [[nodiscard]] bool mayStay() const { return pool_.has_tangents && !elements_.was_split; }
 
     Editor& editor_;
@@ -131,7 +131,7 @@ bool anyHasTangents(const Primitive& primitive) {
                        [](const AttributeList& target) { return findAttribute(target, "TANGENT").has_value(); });
 }
 
-/// What became of offsets of normals that stay; empty: nothing.
+/// A note on normal offsets that were computed although the base normals stay; empty where none were.
 std::string morphNormalsNote(const Pool& pool, const PoolElements& elements, const Primitive& primitive,
                              std::uint32_t count) {
     if (count == 0) return {};
@@ -142,7 +142,7 @@ std::string morphNormalsNote(const Pool& pool, const PoolElements& elements, con
     return note;
 }
 
-/// What extensions say about vertices, where they were split.
+/// Brings vertex numbers in extensions up to date after a split.
 void carryNumbers(std::span<const Primitive> primitives, const Pool& pool, const PoolElements& elements,
                   VertexNumbers& numbers) {
     for (std::size_t i = 0; i < elements.corners.size(); ++i) {

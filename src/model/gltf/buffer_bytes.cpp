@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Keeping pieces in order.
+// Pieces of a buffer: appending, cutting and making lazy bytes.
 #include "model/gltf/buffer_bytes.h"
 
 #include <algorithm>
@@ -25,7 +25,7 @@ class BufferBytes::Later {
         });
         return bytes_;
     }
-    /// For who only writes them to a file.
+    /// For writing to a file: bytes that were not made yet are made block by block, and not kept.
     [[nodiscard]] OutputPiece piece() const { return is_made_ ? OutputPiece(bytes_) : OutputPiece(maker_); }
 
   private:

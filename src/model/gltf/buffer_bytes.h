@@ -21,7 +21,7 @@ class BufferBytes {
   public:
     BufferBytes() = default;
     explicit BufferBytes(Bytes bytes) { append(std::move(bytes), 1); }
-    /// Bytes of somebody else, who must outlive this.
+    /// A view of bytes that the caller owns; they must outlive this.
     explicit BufferBytes(std::span<std::uint8_t> bytes);
     BufferBytes(BufferBytes&&) = default;
     BufferBytes& operator=(BufferBytes&&) = default;
@@ -33,17 +33,17 @@ class BufferBytes {
     [[nodiscard]] std::span<const std::uint8_t> range(std::size_t begin, std::size_t count) const;
     [[nodiscard]] std::span<std::uint8_t> range(std::size_t begin, std::size_t count);
 
-    /// The same as a copy, which may come from several pieces.
+    /// A copy of the range, which may span several pieces.
     [[nodiscard]] Bytes copy(std::size_t begin, std::size_t count) const;
 
     /// Appends at the next multiple of `alignment`, behind zeros, and returns where that is.
     std::size_t append(Bytes bytes, std::size_t alignment);
-    /// The same with bytes that are made when they are written, or when somebody looks at them.
+    /// Appends bytes that are made lazily: when they are written, or when range(), copy() or joined() reads them.
     std::size_t append(std::shared_ptr<const ByteMaker> maker, std::size_t alignment);
     /// Makes all bytes that were not made yet.
     void makeAll();
 
-    /// Takes ranges out, which are in order and do not overlap.
+    /// Removes ranges. They must be in order and disjoint.
     void cut(std::span<const ByteCut> cuts);
 
     /// All bytes, one piece after the other.
@@ -54,7 +54,7 @@ class BufferBytes {
     class Later;
     struct Piece {
         std::size_t begin = 0, count = 0;
-        std::span<std::uint8_t> bytes = {};  ///< empty: those of `later`
+        std::span<std::uint8_t> bytes = {};  ///< empty: `later` has the bytes
         std::shared_ptr<Later> later = {};
 
         [[nodiscard]] std::span<std::uint8_t> there() const;
@@ -63,9 +63,9 @@ class BufferBytes {
     void pad(std::size_t alignment);
 
     std::vector<Piece> pieces_;   ///< none is empty
-    std::vector<Bytes> storage_;  ///< of the pieces that are not somebody else's
+    std::vector<Bytes> storage_;  ///< owns the bytes of all pieces but views
     std::size_t size_ = 0;
-    std::size_t there_count_ = 0;  ///< of the pieces; so many are there for sure
+    std::size_t there_count_ = 0;  ///< leading pieces whose bytes are known to be made
 };
 
 }  // namespace tspace::gltf

@@ -8,7 +8,6 @@
 
 #include "images/image.h"
 #include "model/gltf/meshopt_views.h"
-#include "model/io/disk_paths.h"
 #include "model/io/file_error.h"
 #include "model/io/uri.h"
 
@@ -21,7 +20,7 @@ namespace {
 constexpr std::size_t kJoinAlignment = 8;  // more than glTF's 4: data of extensions may want 8
 constexpr const char* kNewBufferEnding = ".tspace.bin";
 
-/// The bytes and media type behind an image's URI, or nothing (with a warning) when they cannot be had.
+/// The bytes and media type that an image's URI names, or nothing (with a warning) when they cannot be read.
 std::optional<DataUri> loadImage(Document& document, const std::string& uri, const std::string& declared,
                                  const std::string& place, std::vector<std::string>& warnings) {
     DataUri image;
@@ -104,7 +103,7 @@ void joinBuffers(Document& document) {
         bin.bytes = BufferBytes(Bytes(kJoinAlignment, 0));  // glTF has no empty buffers
     }
     entries[0].erase("uri");
-    // A mark of the old buffer, that readers of the extension need not load it, would be wrong here.
+    // A `fallback` mark of the old buffer (readers of the extension need not load it) would be wrong on the joined one.
     if (const char* mark = meshoptExtension(entries[0])) {
         entries[0]["extensions"].erase(mark);
         if (entries[0]["extensions"].empty()) entries[0].erase("extensions");
@@ -134,7 +133,7 @@ void embedImages(Document& document, std::vector<std::string>& warnings) {
         if (uri.empty()) continue;
         const auto image = loadImage(document, uri, readString(old, "mimeType", place), place, warnings);
         if (!image) continue;
-        // First, because a new member of the root moves the others.
+        // First, because a new member of the root invalidates references to the others.
         Buffer& bin = binBuffer(document);
         Json& views = editableRootArray(document, "bufferViews");
         const std::size_t begin = appendAligned(bin, image->bytes, 4);
@@ -169,7 +168,7 @@ void copyNamedFile(const Document& document, const OutputTarget& target, const s
     }
     const NamedFiles::Kind kind = document.files.kindOf(from);
     if (kind != NamedFiles::Kind::file) {
-        // Taking it in failed before, with a warning.
+        // Embedding it failed before, with a warning.
         if (!target.takes_images_in) {
             const char* why = kind == NamedFiles::Kind::folder ? " is a folder" : " does not exist";
             warnings.push_back("the file " + inQuotes(uri) + why + " and was not copied");

@@ -16,12 +16,12 @@ struct OutputTarget {
     Path path = {};
     Container container = Container::glb;
     bool in_place = false;         ///< the output is the input
-    bool same_folder = false;      ///< files that the model names need not be copied
+    bool same_folder = false;      ///< as the input's: files that the model names need not be copied
     bool takes_images_in = false;  ///< .gltf to .glb
 };
 
-/// Decides by isGlbOutput(); fails with unsupportedFile for what is neither that nor called .gltf, and with invalidOption for a
-/// stream that is no GLB.
+/// Decides by isGlbOutput(). Fails with unsupportedFile for names that are neither a GLB's nor end in .gltf, and with
+/// invalidOption for a .gltf that goes to a stream.
 OutputTarget outputTarget(const Document& document, const Path& path, bool is_stream);
 
 /// Prepares the document for its output: .gltf to .glb joins all buffers in BIN; .glb to .gltf gives BIN a file name.
@@ -29,7 +29,7 @@ OutputTarget outputTarget(const Document& document, const Path& path, bool is_st
 void convertContainer(Document& document, const OutputTarget& target, bool will_edit,
                       std::vector<std::string>& warnings);
 
-/// Takes images in BIN where a .gltf becomes a .glb. Behind convertContainer; images have lost their names then.
+/// Embeds images in BIN where a .gltf becomes a .glb. Call after convertContainer; images have no URIs afterwards.
 void takeImagesIn(Document& document, const OutputTarget& target, std::vector<std::string>& warnings);
 
 /// Whether a buffer or an image of the document names this file, a path from the model's folder.

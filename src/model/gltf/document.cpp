@@ -48,13 +48,13 @@ constexpr std::array<const char*, 28> kHarmless = {"KHR_mesh_quantization",
 
 bool isCompression(const std::string& name) { return name == kExtMeshopt || name == kKhrMeshopt || name == kDraco; }
 
-/// Why this build cannot read it; empty when it can.
+/// Why this build cannot read an extension; empty when it can.
 std::string compressionMissing(const std::string& name) {
     return name == kDraco ? dracoMissing() : meshoptMissing(name == kKhrMeshopt);
 }
 
-/// Once, so that later code may take every entry of these arrays for an object, and finding an array is
-/// cheap.
+/// Checked once, so that later code may assume that every entry of these arrays is an object, and finds arrays in
+/// constant time.
 void checkRoot(const Json& root) {
     // Looking up a member is a linear search, done for every accessor.
     constexpr std::size_t kMaxRootMembers = 1000;
@@ -65,7 +65,7 @@ void checkRoot(const Json& root) {
     }
 }
 
-/// A better word than "syntax error" for a file of another kind.
+/// Names other kinds of files in place of a "syntax error".
 void checkLooksLikeJson(std::span<const std::uint8_t> text) {
     std::string_view view(reinterpret_cast<const char*>(text.data()), text.size());
     if (view.substr(0, 3) == "\xef\xbb\xbf") view.remove_prefix(3);  // byte order mark
@@ -129,7 +129,7 @@ Buffer loadBuffer(Document& document, const Json& entry, std::size_t index, cons
         buffer.path = document.files.resolve(text, join(place, "uri"));
         bytes = document.files.read(buffer.path, join(place, "uri"));
         const std::string name = buffer.path.string();
-        // A file that is named twice is read twice, but has its bytes once.
+        // A file that is named twice is read twice, but its bytes count once.
         if (std::find(document.input_files.begin(), document.input_files.end(), name) == document.input_files.end()) {
             document.input_bytes += bytes.size();
             document.memory->allow(bytes.size());
@@ -157,13 +157,13 @@ void checkImageUris(const Document& document) {
         const std::string place = join("/images", i);
         const std::string uri = readString(images[i], "uri", place);
         if (uri.empty() || uriKind(uri) == UriKind::data) continue;
-        // With allow_external a web address is nobody's file: it stays as it is.
+        // With allow_external a web address is left as it is: it names no local file.
         if (uriKind(uri) == UriKind::otherScheme && document.options.allow_external) continue;
         document.files.note(document.files.resolve(uri, join(place, "uri")));
     }
 }
 
-/// What each entry costs whatever it says: in tables of uses, places and reports. A few bytes of JSON make one.
+/// Charges each entry a fixed cost for tables of uses, places and reports: an entry takes only a few bytes of JSON.
 void takeEntries(const Document& document) {
     struct List {
         const char* name;
@@ -268,6 +268,30 @@ void checkRequiredExtensions(Document& document) {
             document.warnings.push_back("the file requires the extension " + inQuotes(name) +
                                         ", which tspace does not know; its data is kept as it is");
         }
+    }
+}
+
+namespace {
+
+constexpr const char* kLists[] = {"extensionsUsed", "extensionsRequired"};
+
+}  // namespace
+
+void requireExtension(Document& document, const char* name) {
+    for (const char* key : kLists) {
+        const Json& list = readArray(document.json, key, "", false);
+        if (std::find(list.begin(), list.end(), name) == list.end()) document.json[key].push_back(name);
+    }
+}
+
+void dropExtension(Document& document, const char* name) {
+    for (const char* key : kLists) {
+        const Json& list = readArray(document.json, key, "", false);
+        const auto found = std::find(list.begin(), list.end(), name);
+        if (found == list.end()) continue;
+        Json& edited = document.json[key];
+        edited.erase(static_cast<std::size_t>(found - list.begin()));
+        if (edited.empty()) document.json.erase(key);
     }
 }
 

@@ -30,8 +30,8 @@ enum class BufferSource {
     bin,  ///< the BIN chunk
     dataUri,
     file,
-    absent,   ///< none: the fallback buffer of a compression extension, or data that somebody else provides
-    decoded,  ///< a fallback buffer without data: what its compressed views decode to. In memory only
+    absent,   ///< none: the fallback buffer of a compression extension, or data that an extension provides
+    decoded,  ///< decoded views of a fallback buffer without data; never written
 };
 
 struct Buffer {
@@ -51,7 +51,7 @@ struct Buffer {
 
 struct Document {
     Path path = {};
-    NamedFiles files = {};  ///< what it names
+    NamedFiles files = {};  ///< files that the model names
     Container container = Container::gltf;
     Bytes file_bytes = {};  ///< the model file as it was read; BIN lies in it, and is edited there
     Json json = {};
@@ -61,7 +61,7 @@ struct Document {
     std::set<std::size_t> views_without_data = {};
     /// Elements of accessors, tightly packed, that lie in the data of Draco primitives and in no buffer view.
     std::map<std::size_t, Bytes> elements = {};
-    /// Accessors whose elements lie there and cannot be decoded by this build.
+    /// Accessors of Draco primitives that this build cannot decode.
     std::set<std::size_t> hidden_accessors = {};
     /// How the values of a Draco attribute were rounded; by view and Draco id.
     std::map<std::pair<std::size_t, std::uint32_t>, DracoRounding> draco_roundings = {};
@@ -69,13 +69,13 @@ struct Document {
     std::uint64_t input_bytes = 0;              ///< the model file and its buffer files
     std::vector<std::string> input_files = {};  ///< what was read beside the model file
     bool imported = false;                      ///< made from a file of another format: `file_bytes` is not that file
-    bool may_hide_tangents = false;             ///< that file may have tangents which the importer did not read
-    std::string source_generator = {};          ///< what made that file; may be empty
-    std::array<double, 3> coordinate_offset{};  ///< what the importer took out of its coordinates
+    bool may_hide_tangents = false;             ///< the original may have tangents that the importer did not read
+    std::string source_generator = {};          ///< the program that made the original; may be empty
+    std::array<double, 3> coordinate_offset{};  ///< subtracted from its coordinates by the importer
     FileOptions options = {};
-    /// Images that the output has beside itself, by the path that their URIs stand for.
+    /// Images that are written beside the output, by the path that their URIs stand for.
     std::map<std::string, Bytes> new_files = {};
-    std::vector<std::string> warnings = {};                                   ///< what reading had to say
+    std::vector<std::string> warnings = {};                                   ///< from reading
     std::shared_ptr<MemoryBudget> memory = std::make_shared<MemoryBudget>();  ///< what it may still take
 };
 
@@ -91,14 +91,20 @@ void checkRequiredExtensions(Document& document);
 /// "glb", "gltf", or the extension of a file of another format ("fbx"), for reports.
 std::string formatOf(const Document& document);
 
-/// The program that made the file, in its own words; empty: it does not say.
+/// The program that made the file, as asset.generator says; may be empty.
 std::string generatorOf(const Document& document);
 
 /// Array of the root, whose entries are objects; only the names that loading checks ("meshes", "accessors");
 /// empty when absent.
 const Json& rootArray(const Document& document, const char* name);
 
-/// The same to change it; made when absent, which moves the other members of the root.
+/// The array for editing. Made when absent, which invalidates references to other members of the root.
 Json& editableRootArray(Document& document, const char* name);
+
+/// Names the extension in extensionsUsed and extensionsRequired, where it is not named yet.
+void requireExtension(Document& document, const char* name);
+
+/// Removes the name from both lists, and lists that become empty.
+void dropExtension(Document& document, const char* name);
 
 }  // namespace tspace::gltf

@@ -17,12 +17,11 @@ namespace tspace::gltf {
 
 namespace {
 
-/// What decoding may take where the user has not said it. Draco has no smallest size per vertex (a flat grid
-/// takes next to nothing), so this is a choice: a file of any size may decode to 4 MiB, and a large one to
-/// 256 times its size.
+/// Memory that decoding may take without a user's limit. Draco has no smallest size per vertex (a flat grid takes next
+/// to nothing), so the bound is a choice: a file of any size may decode to 4 MiB, a large one to 256 times its size.
 constexpr std::uint64_t kFreeBytes = std::uint64_t{4} << 20;
 constexpr std::uint64_t kRatio = 256;
-/// What the library needs beside the values themselves.
+/// Scratch memory of the library per point, beside the values.
 constexpr std::uint64_t kWorkFactor = 4;
 
 constexpr std::size_t kTriangles = 4;
@@ -138,7 +137,7 @@ class Decoder {
             document_.hidden_accessors.insert(attribute.accessor);
     }
 
-    /// Uses of accessors that have nothing to do with Draco.
+    /// References to accessors from outside of Draco primitives.
     void countOtherUses(const std::vector<Packed>& all) {
         other_uses_ = countAccessorUses(document_);
         for (const Packed& packed : all) {
@@ -147,8 +146,8 @@ class Decoder {
         }
     }
 
-    /// The accessor that stands for `source` in this primitive: the given one, or a copy where that one is something
-    /// else too.
+    /// The accessor that stands for `source` in this primitive: the given one, or a copy where it stands for other data
+    /// elsewhere.
     std::size_t own(std::size_t accessor, const Source& source) {
         const auto [entry, is_new] = sources_.try_emplace(accessor, source);
         const bool has_others = accessor < other_uses_.size() && other_uses_[accessor] > 0;
@@ -181,7 +180,7 @@ class Decoder {
         if (packed.mode != kTriangles) json["mode"] = kTriangles;
     }
 
-    /// Before values are decoded: what their accessors claim.
+    /// Charges the budget for what accessors claim, before values are decoded.
     void takeFromBudget(std::uint64_t bytes, const std::string& place) {
         if (document_.memory->isUsers()) {
             document_.memory->require(bytes * kWorkFactor, place);
@@ -225,7 +224,7 @@ class Decoder {
     }
 
     void takeElements(Packed& packed, DracoMesh mesh) {
-        // The limit is a multiple of what is unpacked, whose own limit is above.
+        // Unpacked bytes count as bytes of the file, so the budget grows with them; DracoLimits bound them.
         std::size_t bytes = mesh.corners.size() * sizeof(std::uint32_t);
         for (const DracoAttribute& attribute : mesh.attributes) bytes += attribute.values.size();
         document_.memory->allow(bytes);
@@ -295,7 +294,7 @@ class Encoder {
     void encodeGroup(const std::vector<Packed>& group) {
         const Packed& first = group[0];
         if (!dracoMissing().empty()) {
-            // There are plain data, or the change could not have been made; the compressed ones are no longer true.
+            // Plain data exists, or the edit could not have been made; the compressed copy is stale.
             for (const Packed& packed : group) dropExtension(primitiveJson(document_, packed));
             return;
         }
@@ -330,7 +329,8 @@ class Encoder {
         if (primitive["extensions"].empty()) primitive.erase("extensions");
     }
 
-    /// Attributes without a view exist in the Draco data only; with one, those that were there, and frames.
+    /// The attributes to encode: all without a view (they exist in Draco data only), and of the others those that the data
+    /// had before, and frames.
     [[nodiscard]] bool belongs(const Packed& packed, const std::string& name, std::size_t accessor) const {
         return document_.elements.count(accessor) != 0 || name == "TANGENT" || name == "NORMAL" ||
                name == "_BITANGENT" || isPackedAttribute(name) || oldId(packed, name);

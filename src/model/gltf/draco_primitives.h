@@ -14,7 +14,7 @@ namespace tspace::gltf {
 
 inline constexpr const char* kDraco = "KHR_draco_mesh_compression";
 
-/// What Draco takes an attribute of this name for.
+/// The kind of attribute that Draco is told for this name.
 DracoKind dracoKind(const std::string& name);
 
 /// Decodes the primitives whose accessors have no data of their own. Accessors without data that stand for different

@@ -8,7 +8,7 @@
 #include "core/base/little_endian.h"
 #include "model/gltf/draco_primitives.h"
 #include "model/gltf/gather_elements.h"
-#include "model/gltf/unreferenced_buffers.h"
+#include "model/gltf/references.h"
 #include "model/io/uri.h"
 
 namespace tspace::gltf {
@@ -34,7 +34,7 @@ void Editor::release(std::size_t index) {
     accessor["count"] = 1;
 }
 
-/// The bytes of an accessor that is to be replaced are free, and so are views that nothing else uses.
+/// Frees the bytes of an accessor that is to be replaced, and views that nothing else uses.
 void Editor::letGoOf(const Accessor& old) {
     if (old.view) {
         const std::size_t begin = old.byte_offset;
@@ -62,7 +62,7 @@ void Editor::letGo(std::size_t index, std::size_t begin, std::size_t end) {
     spare_views_.push_back(index);
 }
 
-/// Nothing uses the view any more, but entries are never removed. One byte stays: a view must not be empty.
+/// Shrinks an unused view to one byte: entries are never removed, and a view must not be empty.
 void Editor::shrinkView(std::size_t index) {
     const BufferView old = readBufferView(document_, index);
     Json& view = document_.json["bufferViews"][index];
@@ -72,7 +72,7 @@ void Editor::shrinkView(std::size_t index) {
     if (!document_.buffers[old.buffer].own) {
         view["byteLength"] = 1;
         if (!has_own_bytes) return;
-        // Nor is its buffer kept in use by it.
+        // Moved to the output's own buffer, so that an unused view does not keep the old buffer referenced.
         vacated_.push_back({old.buffer, old.begin, old.begin + old.byte_count});
         view["buffer"] = targetBuffer();
         view["byteOffset"] = 0;
@@ -108,7 +108,7 @@ bool Editor::canOverwrite(const Accessor& accessor) const {
 
 void Editor::overwrite(const Accessor& accessor, const Bytes& elements) {
     const BufferView view = readBufferView(document_, *accessor.view);
-    // What is to be copied later may lie here.
+    // Lazy pieces may still have to read these bytes.
     for (Buffer& any : document_.buffers) any.bytes.makeAll();
     Buffer& buffer = document_.buffers[view.buffer];
     std::uint8_t* to =
@@ -248,7 +248,7 @@ Json Editor::storeSparse(ElementData& data) {
 }
 
 std::size_t Editor::store(ElementData&& data, std::optional<std::size_t> replaces) {
-    // Each stays until the file is written; vertices that many primitives share are stored for each that needs its own.
+    // Charged for the whole run: it stays in memory until the file is written.
     document_.memory->take(data.byteCount() + data.unfiltered.size(), "/accessors");
     changed_ = true;
     const Form form = data.in_draco ? Form{.is_draco = true} : formLike(data.like);
@@ -257,7 +257,7 @@ std::size_t Editor::store(ElementData&& data, std::optional<std::size_t> replace
     std::optional<std::size_t> view;
     Json sparse;
     if (form.is_draco) {
-        // Its bytes go to the elements, below.
+        // The bytes are moved into Draco data below.
     } else if (!data.places) {
         view = storeView(data, form);
     } else if (!data.places->empty()) {
@@ -343,6 +343,63 @@ void Editor::finish() {
         if (document_.buffers[i].edited) buffers[i]["byteLength"] = document_.buffers[i].bytes.size();
     }
     removeEmptiedBuffers(document_);
+}
+
+void Editor::require(const char* extension) { requireExtension(document_, extension); }
+
+void Editor::letGoOfView(std::size_t view) {
+    letGo(view, 0, readBufferView(document_, view).byte_count);
+    changed_ = true;
+}
+
+void Editor::unpackView(std::size_t index) {
+    const MeshoptView packed = *readMeshoptView(document_, index);
+    const BufferView range = readBufferView(document_, index);
+    vacated_.push_back({packed.buffer, packed.begin, packed.begin + packed.byte_count});
+    if (document_.buffers[range.buffer].source == BufferSource::decoded) {
+        Bytes plain = document_.buffers[range.buffer].bytes.copy(range.begin, range.byte_count);
+        const std::size_t target = targetBuffer();
+        const std::size_t begin = appendBytes(target, std::move(plain), 1, 1);
+        document_.json["bufferViews"][index]["buffer"] = target;
+        document_.json["bufferViews"][index]["byteOffset"] = begin;
+    }
+    Json& view = document_.json["bufferViews"][index];
+    view["extensions"].erase(packed.extension);
+    if (view["extensions"].empty()) view.erase("extensions");
+    changed_ = true;
+}
+
+/// A buffer for the plain form of views that only have a compressed one in the file.
+std::size_t Editor::fallbackBuffer() {
+    if (fallback_buffer_) return *fallback_buffer_;
+    targetBuffer();  // first, because BIN is buffer 0
+    for (std::size_t i = 0; i < document_.buffers.size(); ++i) {
+        if (document_.buffers[i].source == BufferSource::decoded) fallback_buffer_ = i;
+    }
+    if (fallback_buffer_) return *fallback_buffer_;
+    Json& buffers = document_.json["buffers"];
+    fallback_buffer_ = buffers.size();
+    Json entry = Json::object();
+    entry["byteLength"] = 0;
+    entry["extensions"][kExtMeshopt]["fallback"] = true;
+    buffers.push_back(std::move(entry));
+    document_.buffers.emplace_back().source = BufferSource::decoded;
+    return *fallback_buffer_;
+}
+
+void Editor::packView(std::size_t index, std::size_t byte_count, std::size_t stride, bool is_indices) {
+    const BufferView range = readBufferView(document_, index);
+    Bytes plain = document_.buffers[range.buffer].bytes.copy(range.begin, range.byte_count);
+    plain.resize(byte_count, 0);
+    vacated_.push_back({range.buffer, range.begin, range.begin + range.byte_count});
+    const std::size_t fallback = fallbackBuffer();
+    const std::size_t begin = appendBytes(fallback, std::move(plain), 1, 1);
+    Json& view = document_.json["bufferViews"][index];
+    view["buffer"] = fallback;
+    view["byteOffset"] = begin;
+    view["byteLength"] = byte_count;
+    to_encode_[index] = {kExtMeshopt, MeshoptFilter::none, {}, is_indices, stride};
+    changed_ = true;
 }
 
 }  // namespace tspace::gltf

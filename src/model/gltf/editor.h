@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Changes to accessors, buffer views and buffers of a document. Array entries are never removed or
-// renumbered, because unknown extensions may point at them; what is replaced is re-used where nothing else
-// needs it.
+// renumbered, because unknown extensions may point at them; entries that lose their last use are re-used.
 #pragma once
 
 #include <cstdint>
@@ -32,15 +31,15 @@ struct ElementData {
     std::size_t count = 0;
     std::size_t element_bytes = 4;
     Bytes bytes = {};
-    std::shared_ptr<const ByteMaker> later = {};  ///< in place of `bytes`, which may then be made later
+    std::shared_ptr<const ByteMaker> later = {};  ///< makes the elements when they are written; `bytes` is then empty
     unsigned target = kVertexTarget;
-    /// An accessor: the new elements are compressed as its elements are.
+    /// The accessor whose compression the new elements get.
     std::optional<std::size_t> like = {};
     /// The same elements before `filter` of meshopt, in rows of a multiple of 4 bytes; empty: only `bytes` are known.
     bool in_draco = false;  ///< they lie in data of a Draco primitive, which the caller stores
     Bytes unfiltered = {};
     MeshoptFilter filter = MeshoptFilter::none;
-    /// There: `bytes` holds only the elements at these places, ascending, and all others of the `count` are zero. They
+    /// Where set, `bytes` holds only the elements at these ascending places and all others of the `count` are zero: they
     /// are stored as a sparse accessor.
     std::optional<std::vector<std::uint32_t>> places = {};
     Json min = nullptr, max = nullptr;  ///< written unless null
@@ -61,11 +60,11 @@ class Editor {
 
     /// How many places of the document refer to an accessor.
     [[nodiscard]] std::size_t accessorUses(std::size_t accessor) const { return accessor_uses_[accessor]; }
-    /// One primitive lets go of `from` (if any) and now uses `to`.
+    /// Moves one primitive's use from `from` (if any) to `to`.
     void moveUse(std::optional<std::size_t> from, std::size_t to);
 
-    /// One primitive lets go of an accessor. When nothing uses it any more its data go: its entry is left as one zero,
-    /// and the entry of a view that nothing uses as one byte, because entries are never removed.
+    /// Drops one primitive's use of an accessor. After the last use the data is freed; its entry stays as one zero, and
+    /// the entry of an unused view as one byte.
     void release(std::size_t accessor);
 
     /// True when the accessor's elements may be overwritten where they are: not sparse, in an own buffer, and
@@ -81,27 +80,27 @@ class Editor {
 
     /// Stores bytes in a view without a target and returns its index; `replaces`: a view that only the caller uses.
     std::size_t storeBlob(Bytes data, std::optional<std::size_t> replaces);
-    /// One reference to a view is gone.
+    /// Drops one reference to a view.
     void letGoOfView(std::size_t view);
-    /// Takes the meshopt extension from a view, which then has plain bytes in a file.
+    /// Removes the meshopt extension of a view, whose plain bytes are then stored in the file.
     void unpackView(std::size_t view);
     /// Has the first `byte_count` bytes of a plain view encoded by EXT_meshopt_compression; zeros follow where it has
     /// fewer.
     void packView(std::size_t view, std::size_t byte_count, std::size_t stride, bool is_indices);
 
-    /// The file needs this extension from now on.
+    /// Adds the extension to extensionsUsed and extensionsRequired.
     void require(const char* extension);
 
-    /// JSON of a primitive or accessor, to change it.
+    /// JSON of a primitive or accessor, for editing.
     Json& primitive(std::size_t mesh, std::size_t index);
     Json& accessor(std::size_t index);
 
-    /// Encodes views and Draco primitives that changed, cuts out bytes that were left behind, and brings lengths up to
-    /// date. Call once, after all edits.
+    /// Encodes views and Draco primitives that changed, cuts out freed bytes, and updates lengths. Call once, after all
+    /// edits.
     void finish();
 
     [[nodiscard]] bool changed() const { return changed_; }
-    /// The caller has changed the document.
+    /// Notes a change that the caller made to the document.
     void touch() { changed_ = true; }
 
   private:
@@ -115,12 +114,12 @@ class Editor {
     [[nodiscard]] Form formLike(std::optional<std::size_t> accessor) const;
     std::size_t targetBuffer();
     std::size_t appendBytes(std::size_t buffer, Bytes bytes, std::size_t element_bytes, std::size_t stride);
-    /// These take the bytes of `data`; what describes them stays.
+    /// These move the bytes out of `data`; its description stays.
     std::size_t storeView(ElementData& data, const Form& form);
     Json storeSparse(ElementData& data);
     std::size_t newView();
     std::size_t fallbackBuffer();
-    /// One reference to a view less; `begin` to `end` of it are free. A view without any is spare.
+    /// Drops one reference to a view and frees its bytes from `begin` to `end`. A view without references is spare.
     void letGo(std::size_t view, std::size_t begin, std::size_t end);
     void letGoOf(const Accessor& old);
     void shrinkView(std::size_t view);

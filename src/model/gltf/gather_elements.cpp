@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Gathering of elements.
+// Copies of elements, made at once or when they are written, and sparse storage.
 #include "model/gltf/gather_elements.h"
 
 #include <algorithm>
@@ -10,13 +10,12 @@
 #include <numeric>
 
 #include "core/base/little_endian.h"
-#include "model/gltf/sparse_elements.h"
 
 namespace tspace::gltf {
 
 namespace {
 
-/// Those of the accessor, but for the elements themselves.
+/// The accessor's description without its elements.
 ElementData describe(const Document& document, const Accessor& accessor, std::size_t count) {
     ElementData data;
     data.component = accessor.component;
@@ -33,13 +32,34 @@ ElementData describe(const Document& document, const Accessor& accessor, std::si
     return data;
 }
 
-/// BIN lies there. Those bytes stay to the end, and Editor::overwrite takes care before it changes them.
+/// Whether the bytes lie in the model file (in BIN). Those live to the end of the run, and Editor::overwrite makes lazy
+/// pieces before it changes them.
 bool liesInModelFile(const Document& document, const std::uint8_t* data) {
     const std::uint8_t *begin = document.file_bytes.data(), *end = begin + document.file_bytes.size();
     return !std::less<>{}(data, begin) && std::less<>{}(data, end);
 }
 
 }  // namespace
+
+void GatheredBytes::make(std::size_t begin, std::span<std::uint8_t> to) const {
+    if (to.empty()) return;
+    std::size_t element = begin / element_bytes_;
+    std::uint8_t* out = to.data();
+    if (const std::size_t skipped = begin % element_bytes_; skipped != 0) {
+        const std::size_t count = std::min(element_bytes_ - skipped, to.size());
+        std::memcpy(out, at(element++) + skipped, count);
+        out += count;
+    }
+    const auto left = [&] { return static_cast<std::size_t>(to.data() + to.size() - out); };
+    withElementSize(element_bytes_, [&](auto size) {
+        const std::size_t end = element + left() / size, end_of_kept = std::min(end, sources_.kept);
+        for (; element < end_of_kept; ++element, out += size) std::memcpy(out, data_ + element * stride_, size);
+        const std::uint32_t* copies = sources_.copies->data();
+        for (; element < end; ++element, out += size)
+            std::memcpy(out, data_ + copies[element - sources_.kept] * stride_, size);
+    });
+    if (left() != 0) std::memcpy(out, at(element), left());
+}
 
 ElementData gatherSplit(const Document& document, const Accessor& accessor, const SplitSources& sources) {
     const std::optional<ElementView> old = viewElements(document, accessor);
@@ -86,6 +106,32 @@ void renewBounds(ElementData& data) {
     }
     if (!data.min.is_null()) data.min = is_finite ? Json(low) : Json();
     if (!data.max.is_null()) data.max = is_finite ? Json(high) : Json();
+}
+
+namespace {
+
+/// The bytes of JSON for `sparse` and two buffer views, roughly.
+constexpr std::size_t kJsonBytes = 256;
+
+}  // namespace
+
+void makeSparseWhereSmaller(ElementData& data) {
+    const std::size_t size = data.element_bytes;
+    std::vector<std::uint32_t> places;
+    for (std::size_t i = 0; i < data.count; ++i) {
+        const std::uint8_t* const element = data.bytes.data() + i * size;
+        if (std::any_of(element, element + size, [](std::uint8_t byte) { return byte != 0; })) {
+            places.push_back(static_cast<std::uint32_t>(i));
+        }
+    }
+    const std::size_t sparse_bytes = places.empty() ? 0 : places.size() * (size + sizeof(std::uint32_t)) + kJsonBytes;
+    if (2 * places.size() > data.count || sparse_bytes >= data.bytes.size()) return;
+    Bytes kept(places.size() * size);
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        std::memcpy(kept.data() + i * size, data.bytes.data() + places[i] * size, size);
+    }
+    data.bytes = std::move(kept);
+    data.places = std::move(places);
 }
 
 }  // namespace tspace::gltf

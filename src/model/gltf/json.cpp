@@ -19,7 +19,7 @@ namespace {
     failFile(ErrorCode::invalidFile, std::move(message), std::move(place));
 }
 
-/// What values take is asked of the budget of the file.
+/// Charges the memory of values to the budget of the file.
 class BudgetMemory final : public JsonMemory {
   public:
     explicit BudgetMemory(MemoryBudget& budget) : budget_(budget) {}
@@ -52,7 +52,7 @@ JsonStyle styleOf(std::string_view text) {
     return style;
 }
 
-/// Of 64 bits also where a size has 32, so that it is compared as what it is.
+/// Reads 64 bits also where size_t has 32, so that large numbers are compared and not truncated.
 std::optional<std::uint64_t> wholeNumber(const Json& value) {
     if (value.is_number_integer()) {
         // Parsed numbers are unsigned; those that this program wrote may be signed.

@@ -46,8 +46,8 @@ const Json* findMember(const Json& object, const char* key);
 std::uint64_t readWhole(const Json& object, const char* key, const std::string& place,
                         std::optional<std::uint64_t> fallback = {});
 
-/// The same where the number counts what is in memory. Beyond what a size holds, which has 32 bits in WebAssembly, it
-/// fails: there is no such data.
+/// readWhole for counts of things in memory. Fails for numbers beyond size_t (32 bits in WebAssembly): such data cannot
+/// exist there.
 std::size_t readSize(const Json& object, const char* key, const std::string& place,
                      std::optional<std::size_t> fallback = {});
 
@@ -55,7 +55,7 @@ std::size_t readSize(const Json& object, const char* key, const std::string& pla
 std::optional<std::size_t> readIndex(const Json& object, const char* key, const std::string& place, std::size_t limit,
                                      const char* what);
 
-/// The same for a value that is already at hand.
+/// readIndex for a value that was looked up already.
 std::size_t toIndex(const Json& value, const std::string& place, std::size_t limit, const char* what);
 
 double readNumber(const Json& object, const char* key, const std::string& place, double fallback);

@@ -1,25 +1,103 @@
 // SPDX-License-Identifier: MIT
-// Finding what asks for tangents: normalTexture, KHR_materials_clearcoat, KHR_materials_anisotropy, each with its UV
-// set, KHR_texture_transform and image.
+// Finds the uses of tangents (normalTexture, KHR_materials_clearcoat, KHR_materials_anisotropy), each with its UV set,
+// KHR_texture_transform and image.
 #include "model/gltf/material_needs.h"
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <set>
 #include <utility>
 
 #include "model/gltf/packed_layout.h"
-#include "model/gltf/texture_reference.h"
 #include "model/io/file_error.h"
 
 namespace tspace::gltf {
 
 namespace {
 
+/// Fails beyond 31 bits: reports number UV sets in 32.
+std::size_t readUvSet(const Json& object, const std::string& place, std::size_t fallback) {
+    constexpr std::size_t kMaxUvSet = 0x7fffffff;
+    const std::uint64_t set = readWhole(object, "texCoord", place, fallback);
+    if (set > kMaxUvSet) failFile(ErrorCode::invalidFile, "no file has so many UV sets", join(place, "texCoord"));
+    return static_cast<std::size_t>(set);
+}
+
+/// UV set and transform of a texture reference. The texCoord of KHR_texture_transform overrides the reference's.
+void readUvs(const Json& texture, const std::string& place, TextureReading& reading) {
+    reading.uv_set = readUvSet(texture, place, 0);
+    const Json* extensions = readObject(texture, "extensions", place);
+    if (extensions == nullptr) return;
+    const std::string extension_place = join(place, "extensions");
+    const Json* transform = readObject(*extensions, "KHR_texture_transform", extension_place);
+    if (transform == nullptr) return;
+    const std::string transform_place = join(extension_place, "KHR_texture_transform");
+    reading.uv_set = readUvSet(*transform, transform_place, reading.uv_set);
+    readNumbers(*transform, "offset", transform_place, reading.transform.offset);
+    reading.transform.rotation = readNumber(*transform, "rotation", transform_place, 0);
+    readNumbers(*transform, "scale", transform_place, reading.transform.scale);
+}
+
+/// A member that is an index below `limit`, or nothing. A wrong image does not affect frames, so the file is not refused.
+std::optional<std::size_t> indexBelow(const Json& object, const char* key, std::size_t limit) {
+    const Json* value = findMember(object, key);
+    if (value == nullptr || !value->is_number_integer()) return {};
+    const auto index = value->get<std::int64_t>();
+    if (index < 0 || static_cast<std::uint64_t>(index) >= limit) return {};
+    return static_cast<std::size_t>(index);
+}
+
+/// The texture that a reference names, or null.
+const Json* textureOf(const Document& document, const Json& reference) {
+    const Json* textures = findMember(document.json, "textures");
+    if (textures == nullptr || !textures->is_array()) return nullptr;
+    const auto index = indexBelow(reference, "index", textures->size());
+    return index ? &(*textures)[*index] : nullptr;
+}
+
+/// `source` where there is one: the other formats are alternatives to it.
+std::optional<std::size_t> imageOf(const Document& document, const Json& texture) {
+    const Json* images = findMember(document.json, "images");
+    if (images == nullptr || !images->is_array()) return {};
+    if (const auto source = indexBelow(texture, "source", images->size())) return source;
+    for (const char* name : {"EXT_texture_webp", "EXT_texture_avif", "KHR_texture_basisu", "MSFT_texture_dds"}) {
+        const Json* extension = findExtension(texture, name);
+        if (extension == nullptr) continue;
+        if (const auto source = indexBelow(*extension, "source", images->size())) return source;
+    }
+    return {};
+}
+
+/// `key`: "wrapS" or "wrapT".
+TextureWrap wrapOf(const Document& document, const Json& texture, const char* key) {
+    constexpr int kClamp = 33071, kMirror = 33648;
+    const Json* samplers = findMember(document.json, "samplers");
+    if (samplers == nullptr || !samplers->is_array()) return TextureWrap::repeat;
+    const auto sampler = indexBelow(texture, "sampler", samplers->size());
+    const Json* wrap = sampler ? findMember((*samplers)[*sampler], key) : nullptr;
+    if (wrap != nullptr && *wrap == kClamp) return TextureWrap::clamp;
+    return wrap != nullptr && *wrap == kMirror ? TextureWrap::mirror : TextureWrap::repeat;
+}
+
+}  // namespace
+
+TextureReading readTexture(const Document& document, const Json& texture, const std::string& place) {
+    TextureReading reading;
+    readUvs(texture, place, reading);
+    if (const Json* entry = textureOf(document, texture)) {
+        reading.image = imageOf(document, *entry);
+        reading.wrap_u = wrapOf(document, *entry, "wrapS");
+        reading.wrap_v = wrapOf(document, *entry, "wrapT");
+    }
+    return reading;
+}
+
+namespace {
+
 bool isUnlit(const Json& material) { return findExtension(material, "KHR_materials_unlit") != nullptr; }
 
-/// Extensions of materials that are known to read no tangents, or whose reading of them is known. Any other may read
-/// them.
+/// Extensions of materials that read no tangents, or whose use of tangents is collected here. Any other may read them.
 bool isKnownExtension(const std::string& name) {
     static const std::set<std::string> kKnown{"ASOBO_normal_map_convention",
                                               "KHR_materials_unlit",
@@ -51,18 +129,18 @@ std::vector<std::string> extensionsOf(const Json& object) {
     return names;
 }
 
-/// Whether a name is about directions that somebody drew on a surface.
+/// Whether a name suggests hand-made directions on a surface (flow maps, hair, brushed metal).
 bool namesFlow(std::string name) {
     std::transform(name.begin(), name.end(), name.begin(),
                    [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
     static constexpr std::array kWords{"tangent", "flow", "aniso", "hair", "brush"};
     return std::any_of(kWords.begin(), kWords.end(), [&](const char* word) {
-        // Not what tspace itself calls so.
+        // _BITANGENT is tspace's own attribute.
         return name.find(word) != std::string::npos && name.find("bitangent") == std::string::npos;
     });
 }
 
-/// Whether the extras of an object name such directions: by a member, or by the text of one.
+/// Whether the extras of an object suggest such directions, by the name of a member or by its text.
 bool speaksOfFlow(const Json& object) {
     const Json* extras = findMember(object, "extras");
     if (extras == nullptr || !extras->is_object()) return false;
@@ -73,7 +151,7 @@ bool speaksOfFlow(const Json& object) {
     return false;
 }
 
-/// Microsoft Flight Simulator's models say of the file, in `asset`, or of a material whose convention normal maps follow.
+/// Microsoft Flight Simulator's models declare the convention of normal maps, in `asset` or in a material.
 bool declaresGreenDown(const Json& object) {
     const Json* extension = findExtension(object, "ASOBO_normal_map_convention");
     const Json* convention =
@@ -96,7 +174,7 @@ class MaterialUses {
         const std::string place = join("/materials", material_);
         addTexture(material, place, "normalTexture", "normalTexture");
         if (isUnlit(material)) {
-            // Malformed textures are refused as anywhere else.
+            // Malformed textures are refused here too.
             uses_.resize(first_);
             return;
         }
@@ -133,7 +211,7 @@ class MaterialUses {
         use.image = reading.image;
         use.wrap_u = reading.wrap_u;
         use.wrap_v = reading.wrap_v;
-        // What is no number counts for nothing, as in viewers: tangents do not depend on it.
+        // A value that is no number is ignored, as viewers do: tangents do not depend on it.
         if (const Json* scale = findMember(*texture, "scale"); scale != nullptr && scale->is_number())
             use.scale = scale->get<double>();
         use.is_declared_down = declaresGreenDown(rootArray(document_, "materials")[material_]);
@@ -147,7 +225,7 @@ class MaterialUses {
         if (readNumber(anisotropy, "anisotropyStrength", place, 0) == 0) return;
         TangentUse& use = add("anisotropy", place);
         use.has_texture = false;
-        // Without a texture of its own it has no UVs of its own either: it turns with the material's other tangents.
+        // Without a texture it has no UVs of its own, and follows those of the material's other uses.
         if (uses_.size() - 1 == first_) return;
         use.uv_set = uses_[first_].uv_set;
         use.transform = uses_[first_].transform;
@@ -157,7 +235,7 @@ class MaterialUses {
     std::size_t material_;
     bool only_in_variant_;
     std::vector<TangentUse>& uses_;
-    std::size_t first_;  ///< where those of this material begin
+    std::size_t first_;  ///< index of the first use of this material
 };
 
 }  // namespace
@@ -172,7 +250,7 @@ std::vector<std::size_t> variantMaterials(const Document& document, const Primit
     std::set<std::size_t> seen;
     const std::size_t count = rootArray(document, "materials").size();
     for (std::size_t i = 0; i < mappings.size(); ++i) {
-        // Exporters leave mappings to materials that they dropped. Viewers then keep the primitive's own material.
+        // Exporters leave mappings to materials that they dropped; viewers then keep the primitive's own material.
         const std::uint64_t material = readWhole(mappings[i], "material", join(place + "/mappings", i), count);
         if (material >= count) continue;
         const auto index = static_cast<std::size_t>(material);
@@ -187,7 +265,7 @@ std::vector<TangentUse> tangentUses(const Document& document, const Primitive& p
     for (const std::size_t material : variantMaterials(document, primitive)) {
         if (material != primitive.material) MaterialUses(document, material, true, uses).collect();
     }
-    // Textures decide where tangents point; a factor goes with them.
+    // Textures decide where tangents point; uses without one (a factor alone) follow them.
     const auto texture = std::find_if(uses.begin(), uses.end(), [](const TangentUse& use) { return use.has_texture; });
     if (texture == uses.end()) return uses;
     for (auto use = uses.begin(); use != texture; ++use) {

@@ -8,6 +8,7 @@
 #include "model/gltf/document.h"
 #include "model/gltf/primitive_reader.h"
 #include "model/scene/tangent_use.h"
+#include "model/scene/texture_reading.h"
 
 namespace tspace::gltf {
 
@@ -22,16 +23,16 @@ namespace tspace::gltf {
 /// leads to one. Fails with invalidFile.
 std::vector<TangentUse> tangentUses(const Document& document, const Primitive& primitive);
 
-/// What may read the primitive's tangents beside the uses above, or says that somebody made them, for a person: an
-/// extension of a material that is not known here, or an attribute, extension or entry of `extras` that speaks of
-/// tangents, flow, hair and the like. Empty: nothing.
+/// A sentence on what may read the primitive's tangents beside the uses above, or suggests that an artist made them: an
+/// unknown extension of a material, or an attribute, extension or entry of `extras` that names tangents, flow, hair and
+/// the like. Empty: nothing does.
 std::string otherTangentReader(const Document& document, const Primitive& primitive);
 
 /// The materials that KHR_materials_variants can put on the primitive, in the order of the mappings, each once.
 std::vector<std::size_t> variantMaterials(const Document& document, const Primitive& primitive);
 
-/// What all materials of a primitive, its own and those of variants, have in common. Without any: those of the default
-/// material.
+/// Properties that all materials of a primitive, its own and those of variants, share. Without any: the default
+/// material's.
 struct SurfaceKind {
     bool is_unlit = false;         ///< KHR_materials_unlit: neither normals nor normal maps are looked at
     bool is_double_sided = false;  ///< back faces are drawn, with their normals turned round
@@ -40,5 +41,8 @@ SurfaceKind surfaceKind(const Document& document, const Primitive& primitive);
 
 /// The name of the primitive's material, may be empty.
 std::string materialName(const Document& document, const Primitive& primitive);
+
+/// `texture`: the reference, at `place`. An image is named where the texture leads to one. Fails with invalidFile.
+TextureReading readTexture(const Document& document, const Json& texture, const std::string& place);
 
 }  // namespace tspace::gltf

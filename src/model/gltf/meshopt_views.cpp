@@ -13,8 +13,8 @@ namespace tspace::gltf {
 
 namespace {
 
-/// What a fallback buffer without data may have beyond its compressed views, whatever the file's size: gaps cost
-/// memory.
+/// Bytes that a fallback buffer without data may have beyond its compressed views, for files of any size: gaps take
+/// memory too.
 constexpr std::uint64_t kFreeGap = std::uint64_t{4} << 20;
 constexpr std::uint64_t kGapRatio = 16;
 
@@ -107,7 +107,7 @@ void makeFallback(Document& document, std::size_t index, std::span<const std::si
                      std::to_string(covered),
                  join(place, "byteLength"));
     }
-    // The limit is a multiple of what is unpacked, whose own limit is above.
+    // Unpacked bytes count as bytes of the file, so the budget grows with them; meshoptRatio bounds them.
     document.memory->allow(covered);
     document.memory->take(length, place);
     Buffer& buffer = document.buffers[index];

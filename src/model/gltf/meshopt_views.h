@@ -37,14 +37,14 @@ std::optional<MeshoptView> readMeshoptView(const Document& document, std::size_t
 /// library those buffers stay absent.
 void decodeMeshoptViews(Document& document);
 
-/// Elements sources[0], sources[1], ... of an accessor as they are before the filter of its view, in rows of a multiple
-/// of 4 bytes; empty when there is no filter, or when it cannot be told which bytes belong to the accessor.
+/// Elements sources[0], sources[1], ... of an accessor before the filter of its view, in rows of a multiple of 4 bytes.
+/// Empty when there is no filter, or when the filter mixes bytes of several accessors.
 Bytes gatherUnfiltered(const Document& document, const Accessor& accessor, std::span<const std::uint32_t> sources);
 
 /// The filter of the view that an accessor lies in.
 MeshoptFilter filterOf(const Document& document, const Accessor& accessor);
 
-/// How a view that was stored anew is to be compressed.
+/// How to compress a view that was stored anew.
 struct MeshoptRequest {
     const char* extension = kExtMeshopt;
     MeshoptFilter filter = MeshoptFilter::none;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Packed frames as attributes: which accessors hold the words of each format. docs/pack.md has the table.
+// Packed frames as attributes: the words, and which accessors hold those of each format. docs/pack.md has the table.
 #pragma once
 
 #include <cstddef>
@@ -8,6 +8,7 @@
 
 #include "model/gltf/codecs/component_type.h"
 #include "model/io/file_io.h"
+#include "tspace/execution.h"
 #include "tspace/pack.h"
 
 namespace tspace::gltf {
@@ -31,11 +32,15 @@ std::span<const PackedLayout> packedLayouts();
 /// `format` must be one of the enumerators.
 const PackedLayout& packedLayout(FrameFormat format);
 
-/// Whether the attribute is one of those that hold packed frames.
+/// Whether an attribute of this name holds packed frames.
 bool isPackedAttribute(const std::string& name);
 
-/// The bytes of one part out of whole words, tightly packed; and the way back.
+/// Copies the bytes of one part out of whole words, tightly packed; putPart copies them back.
 Bytes takePart(const Bytes& words, FrameFormat format, const PackedPart& part);
 void putPart(const Bytes& elements, FrameFormat format, const PackedPart& part, Bytes& words);
+
+/// One word of `format` for each frame, without padding, by all threads. Adds repaired frames to `report`.
+Bytes packWords(FrameFormat format, std::span<const Vec3> normals, std::span<const Vec4> tangents,
+                const Execution& execution, PackReport& report);
 
 }  // namespace tspace::gltf

@@ -8,7 +8,7 @@ namespace tspace::gltf {
 
 namespace {
 
-/// Enough to see what is wrong; a file may have any number of variants.
+/// The most notes per primitive: a file may have any number of variants.
 constexpr std::size_t kMaxDifferences = 8;
 
 std::string nameOf(const TangentUse& use) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a person should know about a primitive's tangents besides what was done to it.
+// Notes for a person about a primitive's textures and their transforms.
 #pragma once
 
 #include <set>
@@ -13,10 +13,10 @@
 
 namespace tspace::gltf {
 
-/// The matrix that the tangents of a use follow.
+/// The matrix of UVs that the tangents of a use follow.
 UvMatrix uvMatrixOf(const TangentUse& use, TextureTransform reading);
 
-/// True when tangents for one fit the other: the same UV set, turned the same way.
+/// True when tangents for one use fit the other: equal UV sets, and transforms that turn UVs alike.
 bool haveSameTangents(const TangentUse& a, const TangentUse& b, TextureTransform reading);
 
 /// JSON pointers that animations move (KHR_animation_pointer).

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Materials as pictures show them, and the transforms of nodes.
+// Materials for rendering, and the transforms of nodes.
 #include "model/gltf/read_look.h"
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 
 #include "core/base/little_endian.h"
 #include "model/gltf/accessor.h"
-#include "model/gltf/texture_reference.h"
+#include "model/gltf/material_needs.h"
 #include "model/io/file_error.h"
 
 namespace tspace::gltf {
@@ -39,7 +39,7 @@ Affine readTransform(const Json& node, const std::string& place) {
             {move[0], move[1], move[2]}};
 }
 
-/// The nodes of a document as a forest: what has several parents, or none that a root leads to, is cut off.
+/// The nodes of a document as a forest: nodes with several parents, and cycles, are cut off.
 class Nodes {
   public:
     explicit Nodes(const Document& document)
@@ -54,7 +54,7 @@ class Nodes {
         below(roots_);
     }
 
-    /// Those of the scene that is shown, parents before children.
+    /// The nodes of the default scene, parents before children.
     std::vector<std::size_t> shown() {
         const Json& scenes = rootArray(document_, "scenes");
         if (scenes.empty()) return below(roots_);
@@ -75,7 +75,7 @@ class Nodes {
         return result;
     }
 
-    /// Each node once; the first time that it is met its transform is taken.
+    /// Visits each node once, with the transform by which it is reached first.
     std::vector<std::size_t> below(const std::vector<std::size_t>& roots) {
         ++walk_;
         std::vector<std::size_t> order;

@@ -15,13 +15,13 @@ namespace tspace::gltf {
 /// Of the primitive's own material. Fails with invalidFile.
 SurfaceLook readLook(const Document& document, const Primitive& primitive);
 
-/// Every primitive at each node of the file's scene that draws it: the scene that it names, else its first, else all
-/// nodes. Where that draws nothing, all primitives without a transform. A mesh with a skin stands where the first joint
-/// of the skin puts it, which is where all of them do in the pose that it was bound in. Nodes are taken once each,
-/// whatever graph they make. Fails with invalidFile, and with tooLarge where the budget does not have the places.
+/// Every primitive at each node that draws it, in the default scene, else the first scene, else all nodes. Where those
+/// draw nothing: all primitives, without a transform. A skinned mesh stands where the first joint of its skin puts it,
+/// which is exact in the bind pose. Each node is visited once, whatever the graph. Fails with invalidFile, and with
+/// tooLarge where the budget does not suffice.
 std::vector<ScenePlacement> readPlacements(const Document& document, std::span<const Primitive> primitives);
 
-/// Sets `places` of the scene's primitives, which are these, in this order. Nodes that cannot be read put nothing anywhere.
+/// Sets `places` of the scene's primitives, which must be these, in this order. Nodes that cannot be read draw nothing.
 void tellPlaces(const Document& document, std::span<const Primitive> primitives, Scene& scene);
 
 /// The images that these looks name.

@@ -9,7 +9,7 @@ namespace tspace::gltf {
 
 namespace {
 
-/// What the accessor of a part must be, as formatName would say it.
+/// The format that the accessor of a part must have, spelled as formatName does.
 std::string wantedFormat(const PackedPart& part) {
     Accessor wanted;
     wanted.component = part.component;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Packed frames that a primitive has.
+// Reads the packed frames of a primitive.
 #pragma once
 
 #include <optional>
@@ -16,22 +16,22 @@ namespace tspace::gltf {
 struct StoredPacking {
     const PackedLayout* layout = nullptr;
     std::string attribute = {};  ///< the first of them, or the one that `fault` is about
-    /// Why they are no packed frames, half a sentence about `attribute`; empty: they are.
+    /// Why they are not valid packed frames, half a sentence about `attribute`; empty when they are.
     std::string fault = {};
 };
 
 /// The formats of which the primitive has an attribute, in the order of FrameFormat.
 std::vector<StoredPacking> findPacked(const Document& document, const Primitive& primitive);
 
-/// The attribute whose packed frames are the only ones that the primitive has: there are no fit NORMAL and TANGENT beside
-/// them. Empty: it has others, or none.
+/// The attribute with the primitive's only frames: packed ones without valid NORMAL and TANGENT beside them. Empty when
+/// the primitive has others, or none.
 std::string packedAlone(const Document& document, const Primitive& primitive);
 
 /// The words, without padding, of a format without fault. Fails as copyElements.
 Bytes readPackedWords(const Document& document, const Primitive& primitive, const PackedLayout& layout);
 
-/// Takes Primitive::miscounted out of the document where packing in `pack` makes them anew, and fails with invalidFile
-/// where there are others. Returns whether the document changed.
+/// Removes the attributes in Primitive::miscounted that packing as `pack` makes anew; fails with invalidFile where there
+/// are others. Returns whether the document changed.
 bool removeMiscounted(Document& document, std::span<Primitive> primitives, std::optional<FrameFormat> pack);
 
 }  // namespace tspace::gltf

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Counting references, and closing gaps in buffers.
+// Counts references, closes gaps in buffers, and removes buffers without readers.
 #include "model/gltf/references.h"
 
 #include <algorithm>
+#include <utility>
+#include <vector>
 
 #include "core/base/sort.h"
 #include "model/gltf/meshopt_views.h"
@@ -12,12 +14,11 @@ namespace tspace::gltf {
 
 namespace {
 
-/// Cuts are made in multiples of this, so that everything behind keeps the alignment it had (4 is what glTF
-/// asks for; data of extensions may want 8).
+/// Cuts are multiples of this, so that everything behind keeps its alignment (glTF requires 4; data of extensions may
+/// need 8).
 constexpr std::size_t kCutAlignment = 8;
 
-/// Wrong types are passed over here: what this program reads itself was checked before, the rest is not its
-/// own.
+/// Skips values of wrong types: members that tspace interprets were checked at loading, and others are not its concern.
 void count(std::vector<std::size_t>& uses, const Json* value) {
     if (value == nullptr || !value->is_number() || !(value->get<double>() >= 0)) return;
     const double index = value->get<double>();
@@ -231,7 +232,7 @@ std::vector<Extent> collectExtents(const Document& document) {
                 {Extent::kNoAccessor, packed->buffer, packed->begin, packed->begin + packed->byte_count, 0, 0});
         }
     }
-    // Views that images, extensions or nobody we know reads are taken as a whole.
+    // Views that are read by images, by extensions or by nothing known count as a whole.
     const std::vector<std::size_t> all = countViewUses(document), known = accessorViewUses(document);
     for (std::size_t i = 0; i < all.size(); ++i) {
         if (known[i] > 0 && known[i] == all[i] && !rootArray(document, "bufferViews")[i].contains("extensions"))
@@ -257,6 +258,61 @@ void cutVacated(Document& document, std::span<const ByteRange> vacated) {
         const std::vector<ByteRange> cuts = cutsOf(i, vacated, live);
         if (!cuts.empty()) cutBuffer(document, i, cuts);
     }
+}
+
+namespace {
+
+/// Whether a view lies in each buffer.
+std::vector<bool> usedBuffers(const Document& document) {
+    std::vector<bool> is_used(document.buffers.size(), false);
+    for (std::size_t i = 0; i < rootArray(document, "bufferViews").size(); ++i) {
+        is_used[readBufferView(document, i).buffer] = true;
+        if (const auto packed = readMeshoptView(document, i)) is_used[packed->buffer] = true;
+    }
+    return is_used;
+}
+
+void keepOnly(Document& document, const std::vector<bool>& is_kept) {
+    std::vector<std::size_t> moved(document.buffers.size(), 0);
+    std::vector<Buffer> buffers;
+    Json entries = Json::array();
+    for (std::size_t i = 0; i < document.buffers.size(); ++i) {
+        moved[i] = buffers.size();
+        if (!is_kept[i]) continue;
+        buffers.push_back(std::move(document.buffers[i]));
+        entries.push_back(document.json["buffers"][i]);
+    }
+    const bool is_idle_found = buffers.size() < document.buffers.size();
+    document.buffers = std::move(buffers);
+    if (!is_idle_found) return;
+    document.json["buffers"] = std::move(entries);
+    for (std::size_t i = 0; i < rootArray(document, "bufferViews").size(); ++i) {
+        Json& view = document.json["bufferViews"][i];
+        view["buffer"] = moved[view["buffer"].get<std::size_t>()];
+        if (const char* name = meshoptExtension(view)) {
+            Json& extension = view["extensions"][name];
+            extension["buffer"] = moved[extension["buffer"].get<std::size_t>()];
+        }
+    }
+}
+
+}  // namespace
+
+void removeUnreferencedBuffers(Document& document) {
+    std::vector<bool> is_kept = usedBuffers(document);
+    for (std::size_t i = 0; i < is_kept.size(); ++i) is_kept[i] = is_kept[i] || document.buffers[i].own;
+    keepOnly(document, is_kept);
+}
+
+void removeEmptiedBuffers(Document& document) {
+    const auto is_emptied = [](const Buffer& buffer) {
+        return buffer.own && buffer.edited && buffer.source != BufferSource::bin && buffer.bytes.size() == 0;
+    };
+    // Rare, and checked first: finding used buffers reads every view.
+    if (std::none_of(document.buffers.begin(), document.buffers.end(), is_emptied)) return;
+    std::vector<bool> is_kept = usedBuffers(document);
+    for (std::size_t i = 0; i < is_kept.size(); ++i) is_kept[i] = is_kept[i] || !is_emptied(document.buffers[i]);
+    keepOnly(document, is_kept);
 }
 
 }  // namespace tspace::gltf

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Who refers to which accessor, buffer view and byte: what an edit must know before it touches anything.
+// References to accessors, buffer views and bytes, which an edit must know before it changes or frees any of them.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@
 
 namespace tspace::gltf {
 
-/// The bytes that one accessor reads, or a whole buffer view when somebody else may read it.
+/// The bytes that one accessor reads, or a whole buffer view when something other than accessors may read it.
 struct Extent {
     static constexpr std::size_t kNoAccessor = ~std::size_t{0};
 
@@ -31,8 +31,8 @@ std::vector<std::size_t> countAccessorUses(const Document& document);
 /// References to each buffer view from anywhere: every member named "bufferView".
 std::vector<std::size_t> countViewUses(const Document& document);
 
-/// The bytes of an accessor's own view (not of its sparse parts); the whole view for an unknown type. It must
-/// have a view.
+/// The bytes of an accessor in its view (not those of its sparse parts); the whole view for an unknown type. The accessor
+/// must have a view.
 Extent extentOf(const Document& document, const Accessor& accessor);
 
 /// Everything that reads bytes of any buffer.
@@ -41,8 +41,14 @@ std::vector<Extent> collectExtents(const Document& document);
 /// True when both read a byte in common. Interleaved elements of one stride are told apart.
 bool overlaps(const Extent& a, const Extent& b);
 
-/// Removes those bytes of the ranges that nothing reads any more from own buffers, and moves what lies
-/// behind.
+/// Cuts the bytes of `vacated` that nothing reads any more out of the output's own buffers, and moves all offsets behind.
 void cutVacated(Document& document, std::span<const ByteRange> vacated);
+
+/// Removes buffers that neither a view nor a compression extension names, except the output's own. Indices in views and
+/// extensions are renumbered.
+void removeUnreferencedBuffers(Document& document);
+
+/// Removes own buffers that lost all their bytes: a buffer of length 0 is not valid.
+void removeEmptiedBuffers(Document& document);
 
 }  // namespace tspace::gltf

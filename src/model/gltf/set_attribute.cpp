@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Keeping, overwriting or storing elements.
+// Keeps, overwrites or stores elements.
 #include "model/gltf/set_attribute.h"
 
 #include <utility>
 
+#include "model/gltf/gather_elements.h"
 #include "model/gltf/packed_layout.h"
-#include "model/gltf/sparse_elements.h"
 
 namespace tspace::gltf {
 
@@ -41,7 +41,8 @@ bool setAttribute(Editor& editor, const Document& document, const SharedAttribut
     }
     if (current) data.makeNow();
     if (current && copyElements(document, *current) == data.bytes) return false;
-    // The extension is about the attributes of the specification; those of others may always be integers.
+    // KHR_mesh_quantization widens the formats of the specification's attributes; application-specific ones may always
+    // be integers.
     if (data.normalized && !isPackedAttribute(attribute.name)) editor.require("KHR_mesh_quantization");
     if (attribute.target != kBase) makeSparseWhereSmaller(data);
     // Of a target, as what moves its vertices: Draco holds no targets.

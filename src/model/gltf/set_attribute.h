@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// New elements for one attribute of primitives that share it.
+// Sets one attribute of the primitives that share it.
 #pragma once
 
 #include <cstddef>
@@ -15,17 +15,16 @@ namespace tspace::gltf {
 
 struct SharedAttribute {
     std::span<const Primitive> primitives = {};  ///< all of the document, as it was when `numbers` were chosen
-    std::span<const std::size_t> numbers = {};   ///< those that share the attribute, or have none
+    std::span<const std::size_t> numbers = {};   ///< the primitives that share the attribute, or lack it
     std::ptrdiff_t target = kBase;
     std::string name = {};
-    /// Whether elements that are there may stay, or be overwritten where they are.
+    /// Whether existing elements may stay, or be overwritten in place.
     bool may_stay = true;
-    /// An accessor that these primitives alone have used for something that they no longer have: its entry is taken for
-    /// what is new.
+    /// An accessor that only these primitives used, for an attribute that was removed: its entry is re-used.
     std::optional<std::size_t> spare = {};
 };
 
-/// Sets the attribute in all of them. Returns false when the document has these very bits already.
+/// Sets the attribute in all of `numbers`. Returns false when the document has exactly these bits already.
 bool setAttribute(Editor& editor, const Document& document, const SharedAttribute& attribute, ElementData&& data);
 
 }  // namespace tspace::gltf

@@ -31,7 +31,7 @@ bool canStripTangents(const Primitive& primitive) {
     return has;
 }
 
-/// Whoever decodes the primitive must not look for an attribute that it no longer has.
+/// Removes the name from the primitive's Draco extension: decoders must not look for a removed attribute.
 void eraseAttribute(Editor& editor, const Primitive& primitive, const char* name) {
     Json& object = editor.primitive(primitive.mesh, primitive.index);
     object["attributes"].erase(name);
@@ -72,7 +72,7 @@ void removeUnreadableTangents(Editor& editor, std::span<const Primitive> primiti
                 Json& targets = editor.primitive(primitive.mesh, primitive.index)["targets"];
                 targets[static_cast<std::size_t>(tangents.target)].erase("TANGENT");
             }
-            // Of a type that nobody knows nothing says how long its data are: they stay.
+            // The size of an unknown type is unknown, so its data cannot be freed.
             if (hasKnownType(editor.accessor(tangents.accessor))) editor.release(tangents.accessor);
             if (!is_base || is_computed[i]) continue;
             PrimitiveReport& report = plan.reports[i];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Taking away attributes: tangents that nobody needs, or nobody can read.
+// Removes attributes: tangents that no material needs, and those that cannot be read.
 #pragma once
 
 #include <span>
@@ -10,22 +10,21 @@
 
 namespace tspace::gltf {
 
-/// True when the primitive or one of its morph targets has tangents, and they can go. They cannot where a morph target
-/// moves nothing else: an empty target is not allowed, and taking it away would renumber the weights.
+/// True when the primitive or one of its morph targets has tangents that can be removed. They cannot where a morph
+/// target has nothing else: an empty target is not valid, and removing it would renumber the weights.
 bool canStripTangents(const Primitive& primitive);
 
-/// Takes TANGENT out of the primitives whose report says `removed`, and of their morph targets. Data that nothing else
-/// uses go too.
+/// Removes TANGENT from the primitives whose report says `removed`, and from their morph targets. Data without other
+/// uses is freed.
 void stripTangents(Editor& editor, std::span<const Primitive> primitives, std::span<const PrimitiveReport> reports);
 
-/// Takes every Primitive::unreadable_tangents away, before new ones are stored. Primitives of which nothing is computed
-/// become `removed`: what morph targets add to tangents has to go with these.
+/// Removes every Primitive::unreadable_tangents, before new tangents are stored. Primitives without new tangents become
+/// `removed`: the tangent deltas of their morph targets must go too.
 void removeUnreadableTangents(Editor& editor, std::span<const Primitive> primitives, GeneratePlan& plan);
-/// Says so in the reports, when everything is computed.
+/// Notes the removal in the reports; call when all tangents are computed.
 void noteUnreadableTangents(std::span<const Primitive> primitives, std::span<PrimitiveReport> reports);
 
-/// Takes the name of an attribute out of a primitive, and of the list of what its Draco data hold. Its accessor still
-/// counts as used.
+/// Removes the name of an attribute from a primitive and from its Draco extension. The accessor still counts as used.
 void eraseAttribute(Editor& editor, const Primitive& primitive, const char* name);
 
 }  // namespace tspace::gltf

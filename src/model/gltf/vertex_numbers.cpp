@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// New numbers for old ones.
+// Renumbers vertices in extensions.
 #include "model/gltf/vertex_numbers.h"
 
 #include <algorithm>
@@ -18,7 +18,7 @@ namespace {
 
 constexpr const char* kOutline = "CESIUM_primitive_outline";
 constexpr const char* kFeatures = "EXT_mesh_features";
-/// Extensions of primitives and meshes that name no vertices, or are seen to elsewhere.
+/// Extensions of primitives and meshes that name no vertices, or that are handled elsewhere.
 constexpr std::array kNamesNoVertices = {kOutline,
                                          kFeatures,
                                          "KHR_draco_mesh_compression",
@@ -30,7 +30,7 @@ constexpr std::array kNamesNoVertices = {kOutline,
                                          "KHR_meshopt_compression",
                                          "EXT_structural_metadata",
                                          "EXT_instance_features"};
-/// Of scenes: how many vertices there are.
+/// An extension of scenes that states the count of vertices.
 constexpr const char* kCounts = "FB_geometry_metadata";
 
 const Json& meshOf(const Document& document, const Primitive& primitive) {
@@ -71,8 +71,8 @@ using Edge = std::pair<std::uint32_t, std::uint32_t>;
 
 std::uint64_t keyOf(std::uint32_t a, std::uint32_t b) { return std::uint64_t{std::min(a, b)} << 32 | std::max(a, b); }
 
-/// The edges of triangles that were these edges. Where the triangles on both sides have vertices of their own now, both
-/// have theirs in the list. An edge that no triangle has stays, as far as its vertices do.
+/// Renumbers outline edges. Where the triangles on both sides have vertices of their own now, the list gets the edge of
+/// both. An edge of no triangle stays if its vertices do.
 std::vector<std::uint32_t> carriedEdges(std::span<const std::uint32_t> edges, const NewVertices& vertices) {
     std::unordered_map<std::uint64_t, std::vector<Edge>> found;
     for (std::size_t i = 0; i + 1 < edges.size(); i += 2) found[keyOf(edges[i], edges[i + 1])];
@@ -89,7 +89,7 @@ std::vector<std::uint32_t> carriedEdges(std::span<const std::uint32_t> edges, co
     std::vector<std::uint32_t> result;
     for (std::size_t i = 0; i + 1 < edges.size(); i += 2) {
         for (const Edge& edge : found[keyOf(edges[i], edges[i + 1])]) {
-            // In the direction of the file.
+            // Keeps the direction in which the file lists the edge.
             const bool turned = vertices.sources[edge.first] != edges[i];
             result.push_back(turned ? edge.second : edge.first);
             result.push_back(turned ? edge.first : edge.second);
@@ -113,7 +113,7 @@ std::size_t freeFeatureId(const Document& document, std::span<const Primitive* c
     }
 }
 
-/// Old numbers of vertices as the attribute that EXT_mesh_features knows: shorts, and floats where those do not do.
+/// Old numbers of vertices as an attribute for EXT_mesh_features: shorts, or floats for numbers beyond 16 bits.
 ElementData numbersOf(const NewVertices& vertices) {
     constexpr std::size_t kMostShort = 65536, kMostFloat = std::size_t{1} << 24;
     if (vertices.old_count > kMostFloat)
@@ -150,7 +150,7 @@ bool mayNameVertices(const Document& document, const Primitive& primitive) {
 }
 
 void VertexNumbers::carry(std::span<const Primitive* const> primitives, const NewVertices& vertices) {
-    // A broken extension is no reason to give up: it stays as it is, like those that are not known.
+    // A broken extension is left as it is, like unknown ones.
     if (tryFile([&] { carryOutline(primitives, vertices); })) left_[kOutline] += primitives.size();
     if (tryFile([&] { carryFeatureIds(primitives, vertices); })) left_[kFeatures] += primitives.size();
     for (const Primitive* primitive : primitives) noteOthers(*primitive);

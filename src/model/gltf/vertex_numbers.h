@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Extensions that name vertices by number, where vertices get new numbers or more of them.
+// Extensions that name vertices by number, after vertices were renumbered or split.
 #pragma once
 
 #include <cstddef>
@@ -15,24 +15,23 @@
 
 namespace tspace::gltf {
 
-/// Whether a primitive has an extension, or its mesh has one, that may name its vertices.
+/// Whether a primitive or its mesh has an extension that may name vertices.
 bool mayNameVertices(const Document& document, const Primitive& primitive);
 
-/// The vertices of primitives that draw the same triangles, as they are now.
+/// The new vertices of primitives that share vertices and triangles.
 struct NewVertices {
-    std::span<const std::uint32_t> sources;  ///< the old vertex that each was
+    std::span<const std::uint32_t> sources;  ///< the old number of each vertex
     std::span<const std::uint32_t> corners;  ///< three of them per triangle
     std::size_t old_count = 0;
 };
 
-/// Carries over what is known: edges of CESIUM_primitive_outline stay edges of triangles, and feature ids of
-/// EXT_mesh_features that are numbers of vertices become an attribute. Other extensions stay as they are, and a warning
-/// names them.
+/// Carries known extensions over: edges of CESIUM_primitive_outline are renumbered, and feature ids of EXT_mesh_features
+/// that are numbers of vertices become an attribute. Other extensions stay as they are, and a warning names them.
 class VertexNumbers {
   public:
     VertexNumbers(Document& document, Editor& editor) : document_(document), editor_(editor) {}
 
-    /// All that have these very vertices and triangles. Their attributes are those of the new vertices already.
+    /// `primitives`: all that share these vertices and triangles. Their attributes must be those of the new vertices.
     void carry(std::span<const Primitive* const> primitives, const NewVertices& vertices);
     /// Sentences about what could not be carried over.
     [[nodiscard]] std::vector<std::string> warnings() const;
@@ -46,7 +45,7 @@ class VertexNumbers {
 
     Document& document_;
     Editor& editor_;
-    std::map<std::string, std::size_t> left_ = {};  ///< primitives by the extension that was not carried over
+    std::map<std::string, std::size_t> left_ = {};  ///< count of primitives, by extension that was not carried over
 };
 
 }  // namespace tspace::gltf

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Attribute by attribute: vertices that were one so far stay so where 16 bytes more of them are equal.
+// Refines classes of equal vertices attribute by attribute, 16 bytes at a time.
 #include "model/gltf/weld_vertices.h"
 
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Vertices that only their frames keep apart.
+// Finds vertices that differ in their frames alone.
 #pragma once
 
 #include <cstdint>
@@ -11,13 +11,13 @@
 namespace tspace::gltf {
 
 struct WeldedVertices {
-    std::vector<std::uint32_t> kept = {};       ///< the first vertex of each, ascending
-    std::vector<std::uint32_t> number_of = {};  ///< per vertex: which of them it becomes
+    std::vector<std::uint32_t> kept = {};       ///< the first vertex of each class of equal ones, ascending
+    std::vector<std::uint32_t> number_of = {};  ///< per vertex: its index in `kept`
 };
 
-/// Vertices are one where all attributes are equal, those of morph targets too, but for NORMAL, TANGENT, _BITANGENT and
-/// packed frames. Floats are compared by their bits, but -0 equals 0. Primitives with CESIUM_primitive_outline, whose lists
-/// name vertices, keep all. Linear.
+/// Vertices are equal where all attributes are, those of morph targets too, except NORMAL, TANGENT, _BITANGENT and packed
+/// frames. Floats are compared by bits, with -0 equal to 0. Primitives with CESIUM_primitive_outline, whose lists name
+/// vertices, keep all. Linear.
 WeldedVertices weldVertices(const Document& document, const Primitive& primitive);
 
 }  // namespace tspace::gltf

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Grouping primitives by what they share, and packing each group once.
+// Groups primitives that share frames, and packs each group once.
 #include "model/gltf/write_packed.h"
 
 #include <algorithm>
@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "model/gltf/packed_layout.h"
-#include "model/gltf/packed_words.h"
 #include "model/gltf/read_packed.h"
 #include "model/gltf/set_attribute.h"
 #include "model/gltf/strip_tangents.h"
@@ -23,7 +22,7 @@ bool movesAttribute(const Primitive& primitive, const char* name) {
                        [&](const AttributeList& target) { return findAttribute(target, name).has_value(); });
 }
 
-/// Which of NORMAL and TANGENT go.
+/// Which of NORMAL and TANGENT are removed.
 struct Dropped {
     bool normals = false, tangents = false;
 
@@ -35,7 +34,7 @@ struct Dropped {
     }
 };
 
-/// Deltas of morph targets need what they are added to, and tangents count for nothing without normals.
+/// Attributes that morph targets add to must stay, and normals stay where tangents do: TANGENT is ignored without NORMAL.
 Dropped droppedFrom(const Primitive& primitive, PackDrop asked) {
     Dropped dropped;
     dropped.tangents = asked != PackDrop::nothing && !movesAttribute(primitive, "TANGENT");
@@ -61,7 +60,7 @@ class PackedWriter {
   private:
     using Key = std::array<std::size_t, 6>;
 
-    /// Primitives that share N, T and the packed attributes that they have, in file order.
+    /// Groups of primitives that share NORMAL, TANGENT and existing packed attributes, in file order.
     std::vector<std::vector<std::size_t>> groups() {
         std::vector<std::vector<std::size_t>> list;
         std::map<Key, std::size_t> known;
@@ -87,14 +86,14 @@ class PackedWriter {
         return list;
     }
 
-    /// Packed by an earlier run, which took away what they were packed from.
+    /// Whether an earlier run packed the frames and removed NORMAL and TANGENT.
     [[nodiscard]] bool isDone(const Primitive& primitive) const {
         const std::string alone = packedAlone(document_, primitive);
         return std::any_of(layout_.parts.begin(), layout_.parts.end(),
                            [&](const PackedPart& part) { return alone == part.attribute; });
     }
 
-    /// Half a sentence; empty: it has frames.
+    /// Why the primitive cannot be packed, half a sentence; empty when it can.
     [[nodiscard]] std::string whyNot(const Primitive& primitive, const PrimitiveReport& report) const {
         if (const std::string alone = packedAlone(document_, primitive); !alone.empty())
             return "it has others in " + alone + ", and not what they were packed from";
@@ -142,7 +141,7 @@ class PackedWriter {
         for (const std::size_t number : numbers) tell(reports_[number], dropped, packing);
     }
 
-    /// Takes the names away. Returns the accessors that nothing else uses, which the new attributes may have.
+    /// Removes the attributes. Returns accessors without other uses, whose entries the packed attributes re-use.
     std::vector<std::size_t> drop(const std::vector<std::size_t>& numbers, const Dropped& dropped) {
         std::vector<std::size_t> spare;
         for (const char* name : dropped.names()) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which files another program reads, what it may take for that, and its result as a document.
+// Formats that the importer reads, its limits, and its result as a document.
 #include "model/imported/import_document.h"
 
 #include <algorithm>
@@ -22,24 +22,24 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// What Assimp 5 reads, but for OBJ and glTF, which tspace reads itself, and for formats without meshes or with parsers
-/// that nobody maintains.
+/// The formats of Assimp 5, except OBJ and glTF, which tspace reads itself, and formats without meshes or with
+/// unmaintained parsers.
 constexpr std::array kExtensions = {".3d",  ".3ds",     ".3mf", ".ac",   ".ase", ".b3d", ".blend", ".cob",
                                     ".dae", ".dxf",     ".fbx", ".hmp",  ".iqm", ".lwo", ".lws",   ".md2",
                                     ".md3", ".md5mesh", ".mdl", ".ms3d", ".ndo", ".nff", ".off",   ".ply",
                                     ".q3o", ".q3s",     ".smd", ".stl",  ".ter", ".x",   ".xgl",   ".zgl"};
 
-/// Said by the importer: where it gives no tangents, the file has none.
+/// The importer's mark that a result without tangents means a file without tangents.
 constexpr std::string_view kNoTangents = "tangents: none\n";
 
-/// Fit to stand in a message.
+/// Text of the importer for a message.
 std::string firstLine(const std::string& messages) {
     constexpr std::size_t kMostBytes = 300;
     const std::string quoted = inQuotes(messages.substr(0, messages.find('\n')), kMostBytes);
     return quoted.substr(1, quoted.size() - 2);
 }
 
-/// What the importer says of a file that it could read: its lines that begin with "warning: ".
+/// The importer's warnings: its lines that begin with "warning: ".
 std::vector<std::string> warningsIn(const std::string& messages) {
     constexpr std::string_view kMark = "warning: ";
     std::vector<std::string> warnings;
@@ -50,7 +50,7 @@ std::vector<std::string> warningsIn(const std::string& messages) {
     return warnings;
 }
 
-/// What the importer took out of the coordinates: three numbers in its line that begins with "offset: ".
+/// The offset that the importer subtracted from coordinates: three numbers in its line that begins with "offset: ".
 std::array<double, 3> offsetIn(const std::string& messages) {
     constexpr std::string_view kMark = "offset: ";
     std::array<double, 3> offset{};
@@ -64,11 +64,11 @@ std::array<double, 3> offsetIn(const std::string& messages) {
     return offset;
 }
 
-/// What a file of this size may take. A small one has no use for much; one that claims much is stopped early.
+/// Limits by the size of the file, so that a small file with large claims is stopped early.
 ImportLimits limitsFor(std::uint64_t size, const FileOptions& options) {
     constexpr std::uint64_t kMebibyte = std::uint64_t{1} << 20;
     constexpr std::uint64_t kAnyFile = 192 * kMebibyte, kPerByte = 256;
-    // Assimp reads 20 to 130 MB in a second, and a machine may be a good deal slower than the one of these figures.
+    // Assimp reads 20 to 130 MB per second on the machine where that was measured; others may be much slower.
     constexpr std::uint32_t kLeastSeconds = 2;
     const auto seconds = kLeastSeconds + static_cast<std::uint32_t>(size / kMebibyte);
     ImportLimits limits;
@@ -77,12 +77,12 @@ ImportLimits limitsFor(std::uint64_t size, const FileOptions& options) {
                               : std::min(options.import_max_memory_bytes, kAnyFile + kPerByte * size);
     limits.processor_seconds = options.import_max_seconds != 0 ? options.import_max_seconds : seconds;
     limits.reads_anywhere = options.allow_external;
-    // Others may want the processors too.
+    // The clock gets more than the processor, because other programs may use the processors too.
     limits.seconds = options.import_max_seconds != 0 ? options.import_max_seconds : 2 * seconds;
     return limits;
 }
 
-/// Fails where there is no result, and says why.
+/// Fails, with the reason, where there is no result.
 void checkEnd(const ImportResult& result, const ImportLimits& limits) {
     std::string why;
     switch (result.end) {
@@ -133,7 +133,7 @@ gltf::Document importDocument(const Path& path, const FileOptions& options, cons
     checkEnd(result, limits);
     gltf::Document document = gltf::parseDocument(std::move(result.glb), path, options);
     document.input_bytes = static_cast<std::uint64_t>(size);
-    // What will be written is made by this program.
+    // The output is tspace's, not the importer's.
     document.source_generator = gltf::generatorOf(document);
     document.imported = true;
     document.json["asset"]["generator"] = "tspace";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Formats that another program reads: tspace-import turns them into a GLB.
+// Formats that tspace-import, a program of its own, converts to GLB.
 #pragma once
 
 #include "model/gltf/document.h"

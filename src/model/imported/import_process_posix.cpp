@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A child process with two pipes. It limits itself before it looks at the file (tools/tspace_import), and dies with the
-// thread that started it, which waits for it here.
+// A child process with two pipes. It confines itself before it reads the file (tools/tspace_import), and is killed when the
+// thread that started it, and waits for it here, ends.
 #include "model/imported/import_process.h"
 
 #include <fcntl.h>
@@ -52,8 +52,8 @@ struct Pipe {
     Descriptor read_end, write_end;
 };
 
-/// No program that another thread starts inherits it. Its numbers are not those of stdin, stdout and stderr, which the
-/// child gets anew, also where this program was started without them.
+/// A pipe that programs started by other threads do not inherit (close-on-exec). Its descriptors are above 2 even if this
+/// program was started without stdin, stdout or stderr, because the child replaces those.
 Pipe makePipe() {
     std::array<int, 2> ends = {-1, -1};
 #ifdef __linux__
@@ -71,7 +71,7 @@ Pipe makePipe() {
     return pipe;
 }
 
-/// A running process: killed, where nobody waited for its end.
+/// A running process, killed by the destructor unless it was waited for.
 class Child {
   public:
     explicit Child(pid_t number) : number_(number) {}
@@ -87,7 +87,7 @@ class Child {
     [[nodiscard]] bool hasEnded() {
         if (has_ended_) return true;
         const pid_t done = waitpid(number_, &status_, WNOHANG);
-        // Another error than a signal: whoever started this program has chosen to have no children to wait for.
+        // An error other than EINTR: the parent of this program set SIGCHLD to be ignored, and children are not waited for.
         has_ended_ = done == number_ || (done < 0 && errno != EINTR);
         return has_ended_;
     }
@@ -99,7 +99,7 @@ class Child {
     bool has_ended_ = false;
 };
 
-/// With `result` as stdout, `messages` as stderr, every signal as it is by default, and nothing of the environment.
+/// Starts a program with `result` as stdout, `messages` as stderr, default signals, and an empty environment.
 pid_t start(const std::vector<std::string>& command, const Descriptor& result, const Descriptor& messages) {
     std::vector<char*> arguments;
     for (const std::string& argument : command) arguments.push_back(const_cast<char*>(argument.c_str()));
@@ -130,7 +130,7 @@ pid_t start(const std::vector<std::string>& command, const Descriptor& result, c
     return child;
 }
 
-/// Room for all of a GLB, which says its length after eight bytes; not more than `most`.
+/// Reserves the length that a GLB's header states, at most `most`.
 void reserveWhole(Bytes& glb, std::uint64_t most) {
     constexpr std::size_t kLengthEnd = 12;
     if (glb.size() < kLengthEnd) return;
@@ -139,7 +139,7 @@ void reserveWhole(Bytes& glb, std::uint64_t most) {
     glb.reserve(static_cast<std::size_t>(std::min(length, most)));
 }
 
-/// What the child writes, until it has closed both pipes. False where time or space ends first.
+/// Reads until the child has closed both pipes. False where time or space runs out before.
 class Reader {
   public:
     Reader(Descriptor glb, Descriptor messages, std::uint64_t most_bytes)
@@ -148,7 +148,7 @@ class Reader {
     ImportEnd read(Clock::time_point end, const std::function<void()>& tick, ImportResult& result) {
         while (glb_.isOpen() || messages_.isOpen()) {
             if (Clock::now() >= end) return ImportEnd::outOfTime;
-            // A closed one has number -1, which poll leaves out.
+            // Closed pipes have the descriptor -1, which poll() skips.
             std::array<pollfd, 2> polled = {pollfd{glb_.number(), POLLIN, 0}, pollfd{messages_.number(), POLLIN, 0}};
             if (poll(polled.data(), polled.size(), kTickMs) <= 0) {
                 tick();
@@ -162,7 +162,7 @@ class Reader {
     }
 
   private:
-    /// What is there; empty at the end.
+    /// The bytes that are available; empty at the end of the pipe.
     std::span<const std::uint8_t> take(Descriptor& from) {
         const ssize_t count = ::read(from.number(), block_.data(), block_.size());
         if (count == 0 || (count < 0 && errno != EINTR)) from.close();
@@ -184,10 +184,10 @@ class Reader {
     static constexpr std::size_t kMostMessages = std::size_t{64} << 10;
     Descriptor glb_, messages_;
     std::uint64_t most_bytes_;
-    std::vector<std::uint8_t> block_ = std::vector<std::uint8_t>(std::size_t{64} << 10);  // what a pipe holds
+    std::vector<std::uint8_t> block_ = std::vector<std::uint8_t>(std::size_t{64} << 10);  // the capacity of a pipe
 };
 
-/// False where time ends first.
+/// False where time runs out before.
 bool waitForEnd(Child& child, Clock::time_point end, const std::function<void()>& tick) {
     for (auto pause = milliseconds(1); !child.hasEnded(); pause = std::min(pause * 2, milliseconds(20))) {
         if (Clock::now() >= end) return false;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// tspace-import limits itself by means that Windows does not have.
+// tspace-import confines itself by Landlock and seccomp, so there is none on Windows.
 #include "model/imported/import_process.h"
 #include "model/io/file_error.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pieces of outputs one after the other, and what is known of outputs wherever they go.
+// Writes the pieces of an output in order, and holds what is common to outputs on disk and in memory.
 #include "model/io/atomic_output.h"
 
 #include <algorithm>
@@ -13,12 +13,12 @@ namespace tspace {
 
 namespace {
 
-/// What is written at one time: bytes that are there, and a block of bytes that were made.
+/// The bytes of one write: views of existing bytes, and a block of made ones.
 class Batch {
   public:
     [[nodiscard]] bool empty() const { return parts_.empty(); }
 
-    /// Takes from the pieces from `piece` and `offset` on, which go on to what is next.
+    /// Fills it from the pieces, beginning at `piece` and `offset`, and advances both.
     void fill(std::span<const OutputPiece> pieces, std::size_t& piece, std::size_t& offset) {
         parts_.clear();
         std::size_t used = 0, taken = 0;
@@ -47,7 +47,7 @@ class Batch {
     [[nodiscard]] bool write(const Sink& sink) const { return std::all_of(parts_.begin(), parts_.end(), sink); }
 
   private:
-    static constexpr std::size_t kBlockBytes = std::size_t{1} << 19;  // stays in the second cache
+    static constexpr std::size_t kBlockBytes = std::size_t{1} << 19;  // fits the L2 cache
     static constexpr std::size_t kMostBytes = 4 * kBlockBytes;
     std::vector<std::span<const std::uint8_t>> parts_;
     Bytes block_;
@@ -60,7 +60,8 @@ int writePieces(const Sink& sink, std::span<const OutputPiece> pieces, Parallel&
     int error = 0;
     batches[0].fill(pieces, piece, offset);
     for (std::size_t current = 0; error == 0 && !batches[current].empty(); current ^= 1) {
-        // The other one is filled even where nothing is left: then it is empty. What a caller's sink throws comes out.
+        // The next batch is filled while this one is written; at the end it is empty. An exception of the caller's sink
+        // is passed on.
         parallel.forTasks(2, [&](std::size_t task) {
             if (task == 1) return batches[current ^ 1].fill(pieces, piece, offset);
             errno = 0;

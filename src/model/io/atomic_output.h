@@ -16,17 +16,18 @@
 
 namespace tspace {
 
-/// Files that outputs of one call must not take the place of.
+/// The input files of one call, which its outputs must not replace.
 class InputFiles {
   public:
     InputFiles();
-    /// Fails with cannotRead (FileError) where another call of the same OneRun wrote the file.
+    /// Fails with cannotRead (FileError) where another call of the same OneRun wrote this file.
     void add(const Path& path);
-    /// Makes `options` tell about every file that is opened, also to whom they told it before. Lives longer than they.
+    /// Makes `options` report every file that is opened to this, and then to the callback that they had. Must outlive
+    /// `options`.
     void watch(FileOptions& options);
-    /// Whether `path` is one of them, under whatever name.
+    /// Whether `path` is one of the inputs, under any name (links, relative paths).
     [[nodiscard]] bool has(const Path& path) const;
-    /// No other call of this process has it.
+    /// Unique in this process.
     [[nodiscard]] std::uint64_t call() const { return call_; }
 
   private:
@@ -35,9 +36,8 @@ class InputFiles {
     std::set<std::string> identities_ = {};
 };
 
-/// While it lives, no output of this process takes the place of these files, which it writes itself in another way or at
-/// another time: names of outputs that are made from others are known only when they are written. Empty paths and "-" are
-/// none.
+/// While it lives, no output of this process replaces these files (reports and manifests, which are written in other
+/// ways or later; the names of derived outputs are known only when they are written). Empty paths and "-" are skipped.
 class KeptFiles {
   public:
     explicit KeptFiles(const std::vector<std::string>& paths);
@@ -49,8 +49,8 @@ class KeptFiles {
     std::vector<std::string> identities_ = {};
 };
 
-/// While it lives, calls with InputFiles of their own are one run over several models, perhaps at one time: none of them
-/// changes a file that another one read, or wrote, or left because it needs just that. One at a time.
+/// While it lives, all calls belong to one run over several models, perhaps in parallel: no call changes a file that
+/// another call read, wrote, or left because it already had the right bytes. At most one may exist.
 class OneRun {
   public:
     OneRun();
@@ -61,21 +61,21 @@ class OneRun {
 
 /// How outputs are written.
 struct OutputWay {
-    /// The one file goes there at once, in place of the disk.
+    /// Where set, receives the single output file in place of the disk.
     Sink sink = {};
     bool is_dry_run = false;  ///< writes nothing
-    /// Files are on the disk, and not in its cache alone, before they take their places. Costs some milliseconds for each.
+    /// Flushes files from the disk's cache before they are renamed. Costs some milliseconds per file.
     bool sync = true;
-    const InputFiles* inputs = nullptr;  ///< of the call: no output may be one of these; null: there are none
-    bool replaces_inputs = false;        ///< outputs may be those all the same: the model is changed in place
+    const InputFiles* inputs = nullptr;  ///< inputs of the call, which outputs must not replace; null: none
+    bool replaces_inputs = false;        ///< outputs may replace inputs: the model is changed in place
 };
 
 /// Collects files, then commit() puts them in place. Without commit() the destructor removes every temporary
 /// file. All functions fail with cannotWrite by throwing FileError.
 ///
-/// A target that is a link is what it points at, but where isForeignLink(). A character device or FIFO is written into, in
-/// commit(); what is neither that nor a file is refused. A file that was there leaves its owner, group and permissions to
-/// the new one, and until then nobody may do more with that.
+/// Links are followed, except where isForeignLink(). A character device or FIFO is written into by commit(); any other
+/// target that is not a regular file is refused. A replaced file passes its owner, group and permissions on, and the
+/// temporary file never has more permissions than it.
 class AtomicOutput {
   public:
     explicit AtomicOutput(OutputWay way = {}) : way_(std::move(way)) {}
@@ -92,19 +92,19 @@ class AtomicOutput {
     }
     void add(const Path& target, std::span<const std::uint8_t> bytes) { add(target, {OutputPiece(bytes)}); }
 
-    /// The same for a file that other outputs may bring too, and that is not there yet. Where it is there by the time of
-    /// commit(), with the same bytes, it stays; with others commit() fails. That holds for all threads of the process.
+    /// add() for a file that several outputs may write (a shared texture) and that does not exist yet. Where it exists at
+    /// commit() with equal bytes, it stays; with other bytes commit() fails. Atomic among the threads of this process.
     void addShared(const Path& target, std::span<const std::uint8_t> bytes) {
         add(target, bytes);
         files_.back().is_shared = true;
     }
 
-    /// Whether a file is there and has these bytes. It then stays so until the end of OneRun.
+    /// Whether a file exists and has these bytes. If so, other calls of OneRun cannot change it.
     bool leave(const Path& target, std::span<const std::uint8_t> bytes);
 
     [[nodiscard]] bool isStream() const { return way_.sink != nullptr; }
 
-    /// Remembers a file whose content went into an output.
+    /// Notes a file whose content went into an output.
     void addSource(const Path& source);
     [[nodiscard]] const std::vector<std::string>& sources() const { return sources_; }
 
@@ -118,22 +118,22 @@ class AtomicOutput {
 
   private:
     struct File {
-        Path target;  ///< no link
+        Path target;  ///< with links resolved
         Path temporary = {};
-        bool is_made = false;  ///< the temporary file is there
+        bool is_made = false;  ///< the temporary file exists
         Bytes held = {};       ///< for a stream
         bool is_stream = false;
         bool is_shared = false;  ///< see addShared()
     };
 
     [[noreturn]] static void failToWrite(const Path& target, const std::string& why);
-    // What is done on the disk.
+    // Implemented on the disk (atomic_output_disk.cpp).
     /// The entry for a target that may be written.
     File planFile(const Path& requested);
     /// writeTo(sink) returns 0, or errno.
     void addFile(File planned, const std::function<int(const Sink&)>& writeTo);
     void makeFolders(const Path& target);
-    /// Fails where another call of the run needs a file as it is; leaves those that have the same bytes already.
+    /// Fails where another call of the run relies on a target; skips targets that have equal bytes already.
     void leaveSharedFiles();
     void leave(File& file);
     void renameFiles();

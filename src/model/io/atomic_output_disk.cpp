@@ -12,7 +12,6 @@
 #include "model/io/file_io.h"
 #include "model/io/system_files.h"
 #include "model/io/temporary_files.h"
-#include "model/io/temporary_name.h"
 
 namespace tspace {
 
@@ -32,7 +31,7 @@ int writeStream(const Path& path, std::span<const std::uint8_t> bytes) {
     return std::fclose(stream.release()) == 0 || failure != 0 ? failure : errno;
 }
 
-/// Identities of files that outputs must not replace, by whoever keeps them.
+/// Identities of files that outputs must not replace, by their KeptFiles.
 struct KeptIdentities {
     std::mutex mutex = {};
     std::multiset<std::string> identities = {};
@@ -49,10 +48,10 @@ bool isKept(const std::string& identity) {
     return kept.identities.contains(identity);
 }
 
-/// What calls of one run did to files, by their paths without links.
+/// What the calls of one run did to files, by resolved path.
 struct RunFile {
     std::set<std::uint64_t> readers = {};
-    std::uint64_t owner = 0;  ///< the call that wrote or left it
+    std::uint64_t owner = 0;  ///< the call that wrote it, or left it unchanged
     bool is_written = false;
 };
 
@@ -73,7 +72,7 @@ std::string runName(const Path& path) {
     return name.empty() ? path.string() : Path(name).string();
 }
 
-/// Calls work(file) where there is a run.
+/// Calls work(file) if there is a OneRun.
 template <class Work>
 void inRun(const Path& path, const Work& work) {
     RunFiles& run = runFiles();
@@ -81,8 +80,8 @@ void inRun(const Path& path, const Work& work) {
     if (run.is_run) work(run.files[runName(path)]);
 }
 
-/// A thread that works on another model may bring a file of the same name: looking whether it is there and renaming are
-/// one step.
+/// Held from the check whether a file exists to its renaming: a thread that works on another model may write the same
+/// name.
 std::mutex& renaming() {
     static std::mutex mutex;
     return mutex;
@@ -160,16 +159,16 @@ void AtomicOutput::removeTemporaryFiles() noexcept {
         removePath(file.temporary);
         work.forget(file.temporary);
     }
-    // Only empty folders go: removePath() fails on others.
+    // removePath() removes only empty folders.
     for (auto folder = created_folders_.rbegin(); folder != created_folders_.rend(); ++folder) removePath(*folder);
 }
 
 AtomicOutput::File AtomicOutput::planFile(const Path& requested) {
-    // A link keeps being a link: what it points at is replaced.
+    // A link stays a link: the file that it points at is replaced.
     std::error_code error;
     if (isForeignLink(requested))
         failToWrite(requested, "it is a link that another user made in a folder where everybody may write");
-    // A stream keeps its name: links in /proc, as /dev/stdout is one, have no path where a pipe is.
+    // A stream keeps its name: /dev/stdout links into /proc, where a pipe has no path.
     const PathKind kind = kindOf(requested);
     if (kind == PathKind::stream) return {.target = requested, .is_stream = true};
     if (kind == PathKind::folder) failToWrite(requested, "it is a folder");
@@ -275,7 +274,7 @@ void AtomicOutput::renameFiles() {
     }
     std::unique_lock lock(renaming());
     leaveSharedFiles();
-    // Old files are set aside first, so that a failure half-way can be taken back. Nothing takes memory until all is done.
+    // Old files are set aside first, so that a failure half-way can be undone. No memory is allocated from here on.
     struct Aside {
         Path name = {};
         bool is_made = false;

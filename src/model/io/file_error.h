@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// How the file readers give up: deep inside a parser an error is thrown as FileError, and the public function
-// that started the work turns it into a Result. No exception leaves the library.
+// Errors of the file layer: parsers throw FileError, and atFileBorder turns it into a Result. No exception leaves the
+// library.
 #pragma once
 
 #include <optional>
@@ -15,12 +15,12 @@
 
 namespace tspace {
 
-/// Thrown inside the asset layer only; caught by atFileBorder.
+/// Thrown in the model wing and above; caught by atFileBorder.
 struct FileError {
     Error error;
 };
 
-/// Thrown where a function of the caller says that the call is over. Nobody between there and the border catches it.
+/// Thrown when a callback of the caller ends the call. Only atFileBorder catches it.
 struct CallerError {
     Error error;
 };
@@ -28,8 +28,8 @@ struct CallerError {
 /// `message` is one sentence without a line break; `place` a JSON pointer, line or byte offset.
 [[noreturn]] void failFile(ErrorCode code, std::string message, std::string place = {});
 
-/// Text from a file or of a user, fit to stand inside a one-line message: in quotation marks, valid UTF-8,
-/// without control characters, cut after `limit` bytes.
+/// Text from a file or a user for a one-line message: in quotation marks, valid UTF-8, without control characters, cut
+/// after `limit` bytes.
 std::string inQuotes(std::string_view text, std::size_t limit = 80);
 std::string pathInQuotes(const Path& path);
 
@@ -40,8 +40,8 @@ T valueOrThrow(Result<T> result) {
     return *std::move(result);
 }
 
-/// Runs `body`; where that throws a FileError, its error comes back. Bindings that are compiled without exceptions have
-/// another way to come back (tryFile of a function and its context).
+/// Runs `body` and returns the error of a FileError that it throws. Bindings without exceptions unwind in another way
+/// (tryFile of a function and its context).
 #ifdef TSPACE_THROWS_END_CALL
 std::optional<Error> tryFile(void (*body)(void*), void* context);
 template <class Body>
@@ -60,8 +60,8 @@ std::optional<Error> tryFile(Body&& body) {
 }
 #endif
 
-/// What is being thrown, where it is a FileError, a CallerError or one of std::filesystem; all else flies on. Only inside
-/// a catch.
+/// The error of the exception in flight, for FileError, CallerError and std::filesystem's; rethrows any other. Call
+/// inside a catch block.
 Error fileErrorInFlight();
 
 /// Runs `body`, which returns a Result and may throw FileError or CallerError.

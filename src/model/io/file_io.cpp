@@ -2,17 +2,19 @@
 // Reading whole files, and questions about what is on the disk.
 #include "model/io/file_io.h"
 
-#include <filesystem>
-
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 #include <span>
+#include <system_error>
 
 #include "core/base/parallel.h"
 #include "model/io/file_error.h"
+#include "model/io/folder_rule.h"
 #include "model/io/system_files.h"
+#include "model/io/uri.h"
 
 namespace tspace {
 
@@ -20,7 +22,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// A step at a time, so that memory is read into while it is in the cache from being cleared.
+/// Reads in steps of a huge page: the kernel has just cleared the page, so it is still in the cache.
 bool readSteps(std::FILE* file, std::span<std::uint8_t> to, const Execution& execution) {
     const std::size_t steps = (to.size() + kHugePage - 1) / kHugePage;
     std::atomic<bool> good = true;
@@ -38,7 +40,7 @@ bool readSteps(std::FILE* file, std::span<std::uint8_t> to, const Execution& exe
 
 Bytes readFile(const Path& name, const std::string& place, const Execution& execution) {
     const fs::path path = name;
-    // What the user named cannot be read; what a model names makes the model incomplete.
+    // A file that the user named is cannotRead; one that a model names makes the model invalid.
     const ErrorCode code = place.empty() ? ErrorCode::cannotRead : ErrorCode::invalidFile;
     std::error_code error;
     const fs::file_status status = fs::status(path, error);
@@ -89,5 +91,38 @@ std::string identityOf(const Path& path) {
 }
 
 bool isSameFile(const Path& a, const Path& b) { return identityOf(a) == identityOf(b); }
+
+Path resolveUri(const Path& in_folder, std::string_view uri, bool allow_external, const std::string& place) {
+    const fs::path folder = in_folder, relative{Path(checkedPathOfUri(uri, allow_external, place))};
+    const fs::path root = canonicalPath(in_folder);
+    fs::path file;
+    try {
+        file = canonicalPath(root / relative);
+    } catch (const fs::filesystem_error& failure) {
+        // Names that are too long, or links in a circle.
+        failFile(ErrorCode::invalidFile,
+                 "the URI " + inQuotes(uri, 200) + " can be no file: " + failure.code().message(), place);
+    }
+    if (!allow_external && !isBelow(root, file)) {
+        refuseUri(uri, "leads out of the model's folder by a symbolic link", place);
+    }
+    return folder / relative;
+}
+
+std::uint64_t fileSize(const Path& path) {
+    std::error_code no_file;
+    const std::uintmax_t size = fs::file_size(fs::path(path), no_file);
+    return no_file ? 0 : size;
+}
+
+bool isGlbOutput(const Path& path) {
+    return isGlbName(path) || (kindOf(path) == PathKind::stream && lowerExtension(path) != ".gltf");
+}
+
+std::string pathBelow(const Path& folder, const Path& file) {
+    const fs::path root = canonicalPath(folder);
+    const fs::path relative = fs::path(canonicalPath(file)).lexically_relative(root);
+    return relative.empty() || *relative.begin() == ".." ? "" : Path(relative).string();
+}
 
 }  // namespace tspace

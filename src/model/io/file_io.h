@@ -16,8 +16,8 @@ namespace tspace {
 
 inline constexpr std::size_t kLargeBytes = 2 * kHugePage;
 
-/// Takes memory as Buffer does, with its pages at once where it is not large, and leaves new elements as they are: what
-/// is to be overwritten need not be zero before.
+/// Allocates as Buffer does, with pages touched at once unless the block is large, and leaves new elements uninitialised:
+/// readers overwrite them anyway.
 template <class T>
 struct UnsetAllocator {
     using value_type = T;
@@ -29,7 +29,7 @@ struct UnsetAllocator {
     T* allocate(std::size_t count) {
         const std::size_t bytes = count * sizeof(T);
         if (bytes < kLargeBytes) return static_cast<T*>(allocateArray(nullptr, bytes, 1));
-        // Several threads may fill it, each with pages of its own.
+        // Pages of large blocks are touched by the threads that fill them.
         void* memory = ::operator new(bytes, std::align_val_t(defaultAlignment(bytes)), std::nothrow);
         if (memory == nullptr) throw OutOfMemory{};
         askForHugePages(memory, bytes);
@@ -53,19 +53,28 @@ struct UnsetAllocator {
 /// Bytes(n) and resize(n) leave new bytes unset; say Bytes(n, 0) for zeros.
 using Bytes = std::vector<std::uint8_t, UnsetAllocator<std::uint8_t>>;
 
-/// Reads a regular file, a large one with all threads. Fails with cannotRead; with invalidFile when `place` says where
-/// a model names it.
+/// Reads a regular file, a large one with all threads. Fails with cannotRead, or with invalidFile when `place` (where a
+/// model names the file) is not empty.
 Bytes readFile(const Path& path, const std::string& place = {}, const Execution& execution = {.thread_count = 1});
 
-/// Whether there is something of that name; false where nobody can tell.
+/// Whether the path exists; false where the system cannot tell.
 bool isThere(const Path& path);
 bool isFolder(const Path& path);
 
 /// True when both paths name the same existing file.
 bool isOneFile(const Path& a, const Path& b);
-/// One text for all names of a file, also of one that is not there yet.
+/// Equal for all names of a file, which need not exist yet.
 std::string identityOf(const Path& path);
 /// True when both paths name the same existing file, or are the same path where nothing exists yet.
 bool isSameFile(const Path& a, const Path& b);
+
+/// In bytes; 0 where there is no such file.
+std::uint64_t fileSize(const Path& path);
+
+/// The path of `file` relative to `folder`, with slashes; empty where it lies elsewhere.
+std::string pathBelow(const Path& folder, const Path& file);
+
+/// Whether a model written to this path is a GLB: isGlbName(), or a stream (kindOf()) that is not called .gltf.
+bool isGlbOutput(const Path& path);
 
 }  // namespace tspace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Looking on the disk, or asking the caller.
+// Reads named files from disk, or by the caller's callback.
 #include "model/io/named_files.h"
 
 #include <filesystem>

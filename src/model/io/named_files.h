@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The files that a model names: those in its folder, or what the caller gives for a model in memory.
+// The files that a model names: in its folder, or given by the caller's callback for a model in memory.
 #pragma once
 
 #include <functional>
@@ -17,25 +17,25 @@ class NamedFiles {
     enum class Kind { file, folder, missing };
 
     NamedFiles() = default;
-    /// Of the model `model`, a path or, with FileOptions::content, what it is called.
+    /// `model`: the path of the model or, with FileOptions::content, its name.
     NamedFiles(const Path& model, const FileOptions& options);
 
-    /// The model is not in a file.
+    /// Whether the model is in memory.
     [[nodiscard]] bool areInMemory() const { return is_in_memory_; }
-    /// No file can be had: the model is not in a file, and nobody gives those that it names.
+    /// Whether no file can be read: the model is in memory, and the caller gave no callback.
     [[nodiscard]] bool areNone() const { return is_in_memory_ && !find_file_; }
     /// The folder of the model; empty where it is in memory.
     [[nodiscard]] const Path& folder() const { return folder_; }
 
-    /// The file that `uri` names, for the other functions. Fails as resolveUri; with invalidFile where there are none.
+    /// The path of the file that `uri` names, for the other functions. Fails as resolveUri; with invalidFile if areNone().
     [[nodiscard]] Path resolve(std::string_view uri, const std::string& place) const {
         return resolve(folder_, uri, place);
     }
-    /// The same of a URI that stands in a file of another folder.
+    /// resolve() for a URI in a file of another folder.
     [[nodiscard]] Path resolve(const Path& folder, std::string_view uri, const std::string& place) const;
 
     [[nodiscard]] Kind kindOf(const Path& file) const;
-    /// Says of a file that is not read, or not yet, that the model names it.
+    /// Reports a named file that is not read, or not yet.
     void note(const Path& file) const;
     /// Fails as readFile.
     [[nodiscard]] Bytes read(const Path& file, const std::string& place = {}) const;

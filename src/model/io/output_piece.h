@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Parts of an output file: bytes that are there, or that are made when they are written.
+// Parts of an output file: existing bytes, or bytes that are made when they are written.
 #pragma once
 
 #include <cstddef>
@@ -19,13 +19,13 @@ class ByteMaker {
   public:
     virtual ~ByteMaker() = default;
     [[nodiscard]] virtual std::size_t size() const = 0;
-    /// Writes the bytes from `begin` on. By several threads at the same time; the same bytes each time.
+    /// Fills `to` with the bytes from `begin` on. Must be thread-safe and deterministic.
     virtual void make(std::size_t begin, std::span<std::uint8_t> to) const = 0;
-    /// All of them, where they need not be made: they live as long as this.
+    /// All bytes, where they exist already; valid as long as this object. Else empty.
     [[nodiscard]] virtual std::span<const std::uint8_t> there() const { return {}; }
 };
 
-/// Keeps what somebody made, so that nobody copies it. T: numbers of four bytes without gaps.
+/// Owns a vector and serves its bytes without a copy. T: numbers of four bytes without padding.
 template <class T>
 class KeptBytes final : public ByteMaker {
   public:
@@ -55,7 +55,7 @@ struct OutputPiece {
     [[nodiscard]] std::size_t size() const { return maker ? maker->size() : bytes.size(); }
 
     std::span<const std::uint8_t> bytes = {};
-    std::shared_ptr<const ByteMaker> maker = {};  ///< who keeps them, or makes them in their place
+    std::shared_ptr<const ByteMaker> maker = {};  ///< owner or maker of the bytes
 };
 
 }  // namespace tspace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Paths as text: nothing is looked up.
+// Paths as text, without access to the disk.
 #include "model/io/path.h"
 
 #include <filesystem>

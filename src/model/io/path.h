@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The path of a file or folder: UTF-8, with slashes, on every system. It converts from and to std::filesystem::path, whose
-// header takes most of a second to compile: only the files that look at the disk, or take paths apart, include that. Make
-// one from text by a Path: on Windows std::filesystem takes text for another encoding.
+// header takes most of a second to compile, so only files that access the disk or take paths apart include that. Convert
+// text by way of Path: on Windows, std::filesystem reads char strings in the system's code page.
 #pragma once
 
 #include <string>

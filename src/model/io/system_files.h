@@ -1,62 +1,68 @@
 // SPDX-License-Identifier: MIT
-// What the file layer asks an operating system for, and std::filesystem does not give: one file for each kind of system
-// (system_files_posix.cpp, system_files_windows.cpp).
+// System calls that std::filesystem does not cover; system_files_posix.cpp and system_files_windows.cpp implement them.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <cstdio>
+#include <memory>
 #include <span>
 #include <string>
 
-#include "model/io/c_file.h"
 #include "model/io/path.h"
 
 namespace tspace {
 
-/// As fopen: null, with errno, where it cannot be opened.
+/// A file of the C library that closes itself.
+struct CloseFile {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+};
+using CFile = std::unique_ptr<std::FILE, CloseFile>;
+
+/// As fopen, for UTF-8 paths: null, with errno, on failure.
 CFile openFile(const Path& path, const char* mode);
 
-/// Fills `to` with the bytes of an open file from `begin` on, whatever was read before; any thread may. False where there
-/// are fewer.
+/// Fills `to` with the bytes of an open file from `begin` on, independently of the file's position. Thread-safe. False
+/// where the file is shorter.
 bool readAt(std::FILE* file, std::size_t begin, std::span<std::uint8_t> to);
 
-/// The path without links and "..", as far as there is something; what is not there yet follows as it is written.
+/// The path without links and "..", as far as it exists; the rest follows as it is spelled.
 Path canonicalPath(const Path& path);
 
-/// The same text for all names of an existing file; empty where there is none.
+/// Equal for all names of an existing file; empty where there is none.
 std::string fileIdentity(const Path& path);
 
-/// What is at the end of a path, links followed. A stream (character device, FIFO) takes bytes and keeps none of them.
+/// The kind of file at a path, with links followed. A stream is a character device or FIFO.
 enum class PathKind { nothing, file, folder, stream, other };
 PathKind kindOf(const Path& path);
 
-/// Whether a path is a symbolic link that somebody else may have put there as a trap: in a folder where everybody may
-/// write, but nobody takes away what belongs to others (/tmp), and made by neither this user nor the folder's owner.
+/// Whether a path is a symbolic link that another user may have planted: in a world-writable sticky folder (/tmp), and
+/// owned by neither this user nor the folder's owner. The rule of Linux' protected_symlinks.
 bool isForeignLink(const Path& path);
 
-/// Makes a file that was not there, for writing; a link of that name is none. Where `like` is there, nobody may do more
-/// with the new file than with that one, and its owner alone does anything. Null with errno.
+/// Creates a file exclusively, for writing: an existing file or link fails. Where `like` exists, the new file gets at
+/// most the permissions of its owner. Null, with errno, on failure.
 CFile createFile(const Path& path, const Path& like);
-/// The owner, group and permissions of `like`, as far as this user may give them; never more permissions than that has.
+/// Copies owner, group and permissions of `like`, as far as this user may; never more permissions than `like` has.
 void takePermissions(std::FILE* file, const Path& like);
 
-/// Sends all to the disk, and not to its cache alone; false with errno.
+/// Flushes a file to the disk (fsync); false, with errno, on failure.
 bool syncFile(std::FILE* file);
-/// The same for the names in a folder; a hint, for not every file system can.
+/// Flushes a folder's entries; best effort, as not every file system can.
 void syncFolder(const Path& folder);
 
-// These return 0 or errno, and throw nothing.
+// The following return 0 or errno, and do not throw.
 
 int renameFile(const Path& from, const Path& to) noexcept;
-/// A second name for a file.
+/// Makes a hard link.
 int linkFile(const Path& from, const Path& to) noexcept;
 /// Removes a file or an empty folder.
 int removePath(const Path& path) noexcept;
 
-/// Bytes that nobody can foresee.
+/// An unpredictable number.
 std::uint64_t randomNumber();
 
-/// While one of these lives, no signal interrupts the thread that made it, but for those of its own faults.
+/// Blocks signals of this thread while it lives, except those of its own faults (SIGSEGV and the like).
 class HeldSignals {
   public:
     HeldSignals();
@@ -65,19 +71,19 @@ class HeldSignals {
     HeldSignals& operator=(const HeldSignals&) = delete;
 
   private:
-    [[maybe_unused]] unsigned char before_[128] = {};  ///< what the system's type takes at most
+    [[maybe_unused]] unsigned char before_[128] = {};  ///< holds the system's signal mask
 };
-/// About a millisecond; may be called in handlers of signals.
+/// Sleeps for about a millisecond; async-signal-safe.
 void waitBriefly();
 
-/// The number of this process.
+/// The id of this process.
 std::uint32_t processNumber();
-/// False only where there is surely no process of that number.
+/// False only if there is certainly no process of this id.
 bool isRunning(std::uint32_t process);
-/// Where numbers of processes mean something: another machine, start or container gives another text.
+/// Identifies the space of process ids: another machine, boot or container gives another text.
 std::string processSpace();
 
-/// The program that runs; empty where nobody can tell.
+/// The path of the running program; empty where the system cannot tell.
 Path ownProgram();
 
 }  // namespace tspace

@@ -79,18 +79,18 @@ void takePermissions(std::FILE* file, const Path& like) {
     const int number = ::fileno(file);
     struct stat old = {}, made = {};
     if (::stat(like.string().c_str(), &old) != 0 || !S_ISREG(old.st_mode)) return;
-    // Another user's file stays his where that may be: else its group alone.
+    // Keeps the owner where this user may, else the group alone.
     if (::fchown(number, old.st_uid, old.st_gid) != 0)
         static_cast<void>(::fchown(number, ~::uid_t{0}, old.st_gid) == 0);  // looked at below
     ::mode_t mode = old.st_mode & (S_IRWXU | S_IRWXG | S_IRWXO);
-    // Another group gets no more than everybody has.
+    // Where the group differs, it gets no more than the permissions of others.
     if (::fstat(number, &made) != 0 || made.st_gid != old.st_gid) mode &= ~S_IRWXG | (mode & S_IRWXO) << 3;
     static_cast<void>(::fchmod(number, mode));
 }
 
 bool syncFile(std::FILE* file) {
     if (std::fflush(file) != 0) return false;
-    // Some file systems have no such call.
+    // Some file systems do not support this call.
     return ::fsync(::fileno(file)) == 0 || errno == EINVAL || errno == ENOTSUP || errno == ENOSYS;
 }
 
@@ -112,7 +112,7 @@ int removePath(const Path& path) noexcept { return std::remove(path.string().c_s
 std::uint64_t randomNumber() {
     std::uint64_t number = 0;
     if (::getentropy(&number, sizeof number) == 0) return number;
-    // Only a kernel from before 2014: whoever foresees the time meets O_EXCL.
+    // Only on kernels before 2014. The time is predictable, but O_EXCL still protects.
     return static_cast<std::uint64_t>(std::chrono::steady_clock::now().time_since_epoch().count());
 }
 
@@ -135,7 +135,7 @@ void waitBriefly() { ::poll(nullptr, 0, 1); }
 std::uint32_t processNumber() { return static_cast<std::uint32_t>(::getpid()); }
 
 bool isRunning(std::uint32_t process) {
-    // kill() takes what is not positive for groups.
+    // kill() takes ids that are not positive for groups.
     if (process == 0 || process > static_cast<std::uint32_t>(std::numeric_limits<pid_t>::max())) return true;
     return ::kill(static_cast<pid_t>(process), 0) == 0 || errno != ESRCH;
 }
@@ -145,7 +145,7 @@ std::string processSpace() {
     ::gethostname(name.data(), name.size() - 1);
     std::string text = name.data();
     std::string line;
-    // Both are Linux's: this start of the kernel, and the container. Empty elsewhere.
+    // Linux only: the id of this boot, and of the namespace of processes. Empty elsewhere.
     if (std::ifstream boot("/proc/sys/kernel/random/boot_id"); std::getline(boot, line)) text += line;
     std::error_code ignored;
     text += fs::read_symlink("/proc/self/ns/pid", ignored).string();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// All by the functions for UTF-16: what those for bytes take for text depends on the machine.
+// Calls the UTF-16 functions of Windows: the encoding of the byte functions depends on the machine.
 #define _CRT_RAND_S  // NOLINT: rand_s is declared then
 #include <fcntl.h>
 #include <io.h>
@@ -27,14 +27,14 @@ struct EndHandle {
 };
 using Handle = std::unique_ptr<void, EndHandle>;
 
-/// For questions about a file or folder; null where there is none.
+/// Opens a file or folder to query it; null where there is none.
 Handle openToLook(const fs::path& path) {
     const HANDLE handle = CreateFileW(path.c_str(), 0, FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE, nullptr,
                                       OPEN_EXISTING, FILE_FLAG_BACKUP_SEMANTICS, nullptr);
     return Handle(handle == INVALID_HANDLE_VALUE ? nullptr : handle);
 }
 
-/// Without the mark of paths that may be long, which std::filesystem does not take apart.
+/// Removes the \\?\ prefix of long paths, which std::filesystem does not parse.
 fs::path withoutMark(std::wstring text) {
     constexpr std::wstring_view kLong = L"\\\\?\\", kShare = L"\\\\?\\UNC\\";
     if (text.starts_with(kShare)) return L"\\\\" + text.substr(kShare.size());
@@ -42,7 +42,7 @@ fs::path withoutMark(std::wstring text) {
     return text;
 }
 
-/// Where links lead; empty where nobody can tell.
+/// The path with links resolved; empty where the system cannot tell.
 fs::path finalPath(const fs::path& path) {
     const Handle file = openToLook(path);
     if (!file) return {};
@@ -126,7 +126,7 @@ CFile createFile(const Path& path, const Path&) {
     return file;
 }
 
-// What a file may be used for comes from its folder.
+// Permissions are inherited from the folder.
 void takePermissions(std::FILE*, const Path&) {}
 
 bool syncFile(std::FILE* file) {
@@ -163,7 +163,7 @@ std::uint64_t randomNumber() {
     return std::uint64_t{high} << 32 | low;
 }
 
-// Handlers run on a thread of their own, and interrupt nobody.
+// Console handlers run on a thread of their own, and interrupt no other.
 HeldSignals::HeldSignals() = default;
 HeldSignals::~HeldSignals() = default;
 

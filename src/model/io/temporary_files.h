@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The temporary files of this process, so that a program that a signal ends can take them away.
+// Temporary files: their names, which tell whose they are, and the list of this process's, which a signal handler removes.
 #pragma once
 
 #include "model/io/path.h"
@@ -7,8 +7,16 @@
 
 namespace tspace {
 
-/// What must not end half-way by a signal: names of temporary files are made, taken back or put in place inside of one. One
-/// thread at a time; where removeTemporaryFiles() was called, nobody any more.
+inline constexpr const char* kTemporaryEnding = ".tmp";
+/// The old file while new ones are renamed.
+inline constexpr const char* kAsideEnding = ".old";
+
+/// An unpredictable name beside `target`: TARGET.tspace-MACHINE-PROCESS-RANDOM and the ending. Long names of targets are
+/// cut, so that it has at most 255 bytes.
+Path besideName(const Path& target, const char* ending);
+
+/// A critical section in which temporary files are created, removed or renamed; signals are blocked, and one thread at a
+/// time is inside. Never returns once removeTemporaryFiles() was called.
 class TemporaryFilesInWork {
   public:
     TemporaryFilesInWork();
@@ -16,16 +24,16 @@ class TemporaryFilesInWork {
     TemporaryFilesInWork(const TemporaryFilesInWork&) = delete;
     TemporaryFilesInWork& operator=(const TemporaryFilesInWork&) = delete;
 
-    /// Before the file is made.
+    /// Call before the file is created.
     void add(const Path& path);
-    /// Once it is gone or in its place. Throws nothing.
+    /// Call when the file is removed or renamed.
     void forget(const Path& path) noexcept;
 
   private:
     HeldSignals signals_;
 };
 
-/// Removes all of them, and lets nobody make others: the program ends. May be called in handlers of signals.
+/// Removes all temporary files, and stops threads that would make others: the program ends. Async-signal-safe.
 void removeTemporaryFiles();
 
 }  // namespace tspace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Decoding of URIs and the rule about which files a model may name (RFC 3986, RFC 2397, RFC 4648).
+// Decodes URIs (RFC 3986, RFC 2397, RFC 4648), and checks which files a model may name.
 #include "model/io/uri.h"
 
 #include <algorithm>

@@ -37,11 +37,11 @@ std::string percentEncode(std::string_view path);
 /// slashes.
 std::string pathOfUri(std::string_view uri);
 
-/// The same, checked. Fails with forbiddenPath when it is absolute, has a scheme or a `..`; `allow_external` lifts all of
-/// these but the scheme.
+/// pathOfUri with checks. Fails with forbiddenPath when the path is absolute, has a scheme or a `..`; `allow_external`
+/// lifts all of these but the scheme.
 std::string checkedPathOfUri(std::string_view uri, bool allow_external, const std::string& place);
 
-/// Fails with forbiddenPath: `why` says what is wrong with the URI.
+/// Fails with forbiddenPath. `why`: the fault, a predicate of the URI.
 [[noreturn]] void refuseUri(std::string_view uri, const char* why, const std::string& place);
 
 /// The file that `uri` names in a folder on the disk. Fails as checkedPathOfUri, and with forbiddenPath when a symbolic

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Values of JSON: their memory, members and comparison.
+// JSON values: memory, members and comparison.
 #include "model/json/json.h"
 
 #include <algorithm>
 
 namespace tspace {
 
-// Not in the header: reports are made of hundreds of them.
+// Not inline: reports construct hundreds of members.
 Json::Json(const char* text) : Json(std::string(text)) {}
 Json::Json(std::string_view text) : Json(std::string(text)) {}
 Json::Json(std::string text) : kind_(Kind::text) { value_.text = new std::string(std::move(text)); }

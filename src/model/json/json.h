@@ -30,10 +30,10 @@ class JsonError : public std::exception {
 
     std::string message = {};
     std::optional<std::size_t> byte = {};      ///< where the text cannot be read
-    std::optional<std::string> repeated = {};  ///< the member that one object has twice
+    std::optional<std::string> repeated = {};  ///< the name of a repeated member
 };
 
-/// Is asked before memory is taken for what a text claims, and may throw.
+/// Called before memory is allocated for values; may throw.
 class JsonMemory {
   public:
     virtual void take(std::size_t bytes) = 0;
@@ -99,12 +99,12 @@ class Json {
     static Json array() { return Json(Kind::array); }
     static Json array(std::initializer_list<Json> values);
     static Json object() { return Json(Kind::object); }
-    /// The same as braces alone, without copies of values.
+    /// Builds an object from braces without copies of values.
     static Json object(std::initializer_list<Member> members);
 
     /// Throws JsonError: syntax, numbers that no double can hold, repeated members, nesting. `memory` may be null.
     static Json parse(std::string_view text, JsonMemory* memory = nullptr);
-    /// The same, but nothing is thrown by it: nothing comes back, and `error` says why.
+    /// Does not throw: returns nothing on failure, and `error` says why.
     static std::optional<Json> read(std::string_view text, JsonError& error, JsonMemory* memory = nullptr);
     /// `indent`: characters per level; -1: all on one line.
     [[nodiscard]] std::string dump(int indent = -1, char indent_char = ' ', BadUtf8 bad = BadUtf8::refuse) const;
@@ -179,7 +179,7 @@ class Json {
         expect(Kind::array);
         return value_.children->values[static_cast<std::size_t>(index)];
     }
-    /// The same to change it. Null becomes an array, which gets elements (null) up to this one where it is shorter.
+    /// The element for editing. Null becomes an array; a shorter array is padded with null.
     template <class Index>
     requires std::is_integral_v<Index>
     [[nodiscard]] Json& operator[](Index index) { return element(static_cast<std::size_t>(index)); }

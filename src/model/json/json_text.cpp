@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// JSON as text. The parser, and the spelling of numbers and of special characters, are those of nlohmann's library; no
-// other file includes it.
+// JSON as text. nlohmann's library parses, and spells numbers and special characters; no other file includes it.
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <unordered_set>
@@ -12,11 +11,11 @@ namespace {
 using Library = nlohmann::json;
 }
 
-/// Makes values from the parser's events. Members are appended, and repeated ones are found once, when the object
-/// closes: a search for every new member would be quadratic.
+/// Builds values from the parser's events. Members are appended, and repetitions are found once per object, when it
+/// closes: a search per member would be quadratic.
 class JsonBuilder {
   public:
-    /// Each function is true, or false with `error`.
+    /// Functions return false after setting `error`.
     JsonBuilder(Json& root, JsonError& error, JsonMemory* memory) : root_(root), error_(error), memory_(memory) {}
 
     bool null() { return put(nullptr); }
@@ -59,7 +58,7 @@ class JsonBuilder {
     }
 
   private:
-    /// A small block of the heap: a string, or the head of an array or object.
+    /// The cost of a small heap block: a string, or the head of an array or object.
     static constexpr std::size_t kBlockBytes = 64;
 
     bool put(Json value) {
@@ -77,7 +76,7 @@ class JsonBuilder {
         stack_.push_back(&place);
         return true;
     }
-    /// Where the next value goes: in an object its name is there already.
+    /// The slot of the next value. In an object its name was appended already.
     Json& slot() {
         if (stack_.empty()) return root_;
         std::vector<Json>& values = stack_.back()->value_.children->values;
@@ -88,8 +87,8 @@ class JsonBuilder {
     void take(std::size_t bytes) {
         if (memory_ != nullptr) memory_->take(bytes);
     }
-    /// Before an element is added. The old memory of long lists is not always of use to others: hence twice. That of
-    /// short ones serves the next.
+    /// Charges the growth of a list, before an element is added. Long lists count twice, because the allocator may not
+    /// re-use their old block; blocks of short lists are re-used by the next.
     template <class List>
     void takeGrowth(const List& list) {
         if (list.size() < list.capacity()) return;

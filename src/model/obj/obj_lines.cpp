@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The first pass over an OBJ file.
+// A first pass over the text of an OBJ file, before the parser.
 #include "model/obj/obj_lines.h"
 
 #include <algorithm>
@@ -67,11 +67,11 @@ void noteNumbers(std::string_view rest, std::uint32_t line, bool is_position, Li
     if (is_position && count >= 6) notes.has_vertex_colors = true;
 }
 
-/// The parser would take the words of a comment behind a face for indices.
+/// Blanks a comment behind a face: the parser would read its words as indices.
 void blankFaceComment(std::string& text, std::size_t begin, std::size_t end) {
     while (begin < end && isBlank(text[begin])) ++begin;
     if (begin + 1 >= end || text[begin] != 'f' || !isBlank(text[begin + 1])) return;
-    // Not text.find: it would look through the rest of the file for each face.
+    // Not text.find(), which would search the rest of the file for each face.
     const auto first = text.begin() + static_cast<std::ptrdiff_t>(begin);
     const auto last = text.begin() + static_cast<std::ptrdiff_t>(end);
     std::fill(std::find(first, last, '#'), last, ' ');

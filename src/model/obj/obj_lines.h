@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A first pass over the text of an OBJ file: makes it safe for the parser, and notes what the parser does not
-// tell.
+// A first pass over the text of an OBJ file: makes it safe for the parser, and collects what the parser does not report.
 #pragma once
 
 #include <cstdint>

@@ -1,23 +1,132 @@
 // SPDX-License-Identifier: MIT
-// MTL libraries to materials as glTF sees them.
-#include <filesystem>
-
+// Reads MTL libraries as materials of glTF. Texture lines are completed first, because the parser misreads short ones.
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <filesystem>
 #include <map>
 #include <optional>
 #include <set>
+#include <string_view>
 #include <vector>
 
 #include "model/io/file_error.h"
 #include "model/io/file_io.h"
 #include "model/io/uri.h"
-#include "model/obj/mtl_lines.h"
 #include "model/obj/obj_lines.h"
 #include "model/obj/obj_reader.h"
 #include "model/obj/tiny_obj_loader.h"
 
 namespace tspace::obj {
+
+namespace {
+
+bool isDecimal(char c) { return c >= '0' && c <= '9'; }
+
+/// [+-] digits [. digits] [e [+-] digits], with a digit on one side of the point.
+bool isNumber(std::string_view word) {
+    std::size_t i = 0;
+    const auto skipSign = [&] { i += i < word.size() && (word[i] == '+' || word[i] == '-'); };
+    const auto skipDigits = [&] {
+        const std::size_t begin = i;
+        while (i < word.size() && isDecimal(word[i])) ++i;
+        return i - begin;
+    };
+    skipSign();
+    std::size_t digits = skipDigits();
+    if (i < word.size() && word[i] == '.') {
+        ++i;
+        digits += skipDigits();
+    }
+    if (digits == 0) return false;
+    if (i < word.size() && (word[i] == 'e' || word[i] == 'E')) {
+        ++i;
+        skipSign();
+        if (skipDigits() == 0) return false;
+    }
+    return i == word.size();
+}
+
+struct Option {
+    std::string_view name;
+    std::size_t number_count;
+    std::array<std::string_view, 3> defaults;
+    bool moves_texture;
+};
+constexpr std::array<Option, 4> kOptions = {{{"-o", 3, {"0", "0", "0"}, true},
+                                             {"-s", 3, {"1", "1", "1"}, true},
+                                             {"-t", 3, {"0", "0", "0"}, true},
+                                             {"-mm", 2, {"0", "1", ""}, false}}};
+
+const Option* findOption(std::string_view word) {
+    for (const Option& option : kOptions) {
+        if (word == option.name) return &option;
+    }
+    return nullptr;
+}
+
+/// A word, and the blanks before it.
+struct Word {
+    std::string_view blanks, text;
+};
+
+std::vector<Word> wordsOf(std::string_view line) {
+    std::vector<Word> words;
+    while (true) {
+        const std::size_t begin = std::min(line.find_first_not_of(" \t"), line.size());
+        const std::size_t end = std::min(line.find_first_of(" \t", begin), line.size());
+        if (begin == end) return words;
+        words.push_back({line.substr(0, begin), line.substr(begin, end - begin)});
+        line.remove_prefix(end);
+    }
+}
+
+bool namesTexture(std::string_view keyword) {
+    return keyword.starts_with("map_") || keyword == "bump" || keyword == "norm" || keyword == "disp" ||
+           keyword == "decal" || keyword == "refl";
+}
+
+/// Appends the line with its options completed. True when an option moves the texture.
+bool appendLine(std::string_view line, std::string& out) {
+    const std::vector<Word> words = wordsOf(line);
+    if (words.empty() || !namesTexture(words[0].text)) {
+        out.append(line);
+        return false;
+    }
+    bool moves = false;
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        out.append(words[i].blanks).append(words[i].text);
+        const Option* option = i == 0 ? nullptr : findOption(words[i].text);
+        if (option == nullptr) continue;
+        for (std::size_t number = 0; number < option->number_count; ++number) {
+            // The last word is the file, also when its name is a number.
+            const bool is_given = i + 2 < words.size() && isNumber(words[i + 1].text);
+            const std::string_view value = is_given ? words[++i].text : option->defaults[number];
+            out.append(" ").append(value);
+            moves = moves || (option->moves_texture && value != option->defaults[number]);
+        }
+    }
+    return moves;
+}
+
+}  // namespace
+
+/// The options -o, -s, -t and -mm of a texture take up to three numbers (-mm: two). Where a line has fewer, the parser
+/// would take the name of the file for the next one; here the missing ones are written out. Returns how many lines
+/// move, scale or stir a texture by -o, -s or -t.
+std::size_t completeTextureOptions(std::string& text) {
+    std::string result;
+    result.reserve(text.size());
+    std::size_t moved = 0;
+    for (std::size_t begin = 0; begin <= text.size();) {
+        const std::size_t end = std::min(text.find('\n', begin), text.size());
+        moved += appendLine(std::string_view(text).substr(begin, end - begin), result);
+        if (end < text.size()) result.push_back('\n');
+        begin = end + 1;
+    }
+    text = std::move(result);
+    return moved;
+}
 namespace {
 
 namespace fs = std::filesystem;
@@ -58,7 +167,7 @@ std::vector<std::string> splitWords(const std::string& names) {
     return result;
 }
 
-/// Names of the materials that state Kd: the parser gives black to the others, which nobody means.
+/// Names of the materials that state Kd. The parser makes the others black; here they stay white.
 std::set<std::string> materialsWithDiffuse(const std::string& text) {
     std::set<std::string> names;
     std::string name;
@@ -79,7 +188,7 @@ std::set<std::string> materialsWithDiffuse(const std::string& text) {
 Material toMaterial(const tinyobj::material_t& source, const fs::path& folder, bool has_diffuse) {
     Material material{.name = source.name, .found = true};
     material.base_color_texture = {plainPath(source.diffuse_texname), folder};
-    // With a texture, Kd is left out: exporters write anything there, black too.
+    // With a texture, Kd is ignored: exporters write anything there, even black.
     if (has_diffuse && !material.base_color_texture.used()) material.base_color = color(source.diffuse);
     material.opacity = inUnitRange(source.dissolve, 1);
     material.emission = color(source.emission);
@@ -99,7 +208,7 @@ std::uint64_t countOf(const std::string& word, const std::string& text) {
     return count;
 }
 
-/// false when there is no such file. A file that was read before is there, and not read again. Fails with
+/// False when there is no such file. Each file is read once. Fails with
 /// forbiddenPath.
 bool readLibrary(const std::string& name, Model& model, std::vector<Material>& materials) {
     if (model.files.areNone()) return false;
@@ -118,7 +227,7 @@ bool readLibrary(const std::string& name, Model& model, std::vector<Material>& m
                                  "' moves or scales textures (-o, -s, -t), which is not carried over");
     }
 
-    // Before the parser makes a large thing of each.
+    // Charged before the parser makes a large object of each material.
     model.memory->take(countOf("newmtl", text) * (2 * sizeof(tinyobj::material_t) + sizeof(Material)), "mtllib");
     const std::vector<tinyobj::material_t> sources = parseMtl(text);
     const std::set<std::string> with_diffuse = materialsWithDiffuse(text);

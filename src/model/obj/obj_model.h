@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// An OBJ file in memory: what it says, checked, before anything is made of it.
+// An OBJ file in memory: checked, with its own structure of faces, corners and smoothing groups.
 #pragma once
 
 #include <cstdint>
@@ -39,7 +39,7 @@ struct Texture {
     std::string file = {};
     Path folder = {};
     [[nodiscard]] bool used() const { return !file.empty(); }
-    /// The same for all textures of one file, if they name it alike.
+    /// Equal for textures that name one file by the same path.
     [[nodiscard]] std::string path() const { return (folder / file).string(); }
 };
 
@@ -54,15 +54,15 @@ struct Material {
     Texture base_color_texture = {};
     Texture normal_texture = {};
     bool normal_is_bump = false;  ///< it is named by map_bump, which takes height maps too
-    float normal_scale = 1;       ///< -bm: of a normal map its scale, of heights how high white is
-    /// What the output has in place of the normal texture; null: that itself.
+    float normal_scale = 1;       ///< -bm: the scale of a normal map, or the height of white in a height map
+    /// Replaces the normal texture in the output; null: the texture stays.
     std::shared_ptr<const Bytes> made_normal_map = {};
 };
 
 struct Model {
-    NamedFiles files = {};             ///< what it names
+    NamedFiles files = {};             ///< files that the model names
     std::vector<Vec3> positions = {};  ///< all finite; without `offset`
-    DVec3 offset = {};                 ///< what was taken out of the file's coordinates; zero near the origin
+    DVec3 offset = {};                 ///< subtracted from the file's coordinates; zero near the origin
     std::vector<Vec2> uvs = {};        ///< v runs down, as in glTF
     std::vector<Vec3> normals = {};    ///< unit or zero; corners never refer to zero ones
     std::vector<Corner> corners = {};  ///< every index is in range
@@ -70,7 +70,7 @@ struct Model {
     std::vector<std::string> shape_names = {};
     std::vector<Material> materials = {};  ///< in order of first use by a face
     bool has_smoothing_groups = false;     ///< the file has `s` lines
-    /// What the output has in place of some normal maps, by Texture::path.
+    /// Replacements of normal maps in the output, by Texture::path.
     std::map<std::string, Bytes> flipped_maps = {};
     std::uint64_t input_bytes = 0;              ///< the OBJ and its MTL files
     std::vector<std::string> input_files = {};  ///< the same

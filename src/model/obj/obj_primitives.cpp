@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Grouping faces into primitives, making missing normals, and finding the vertices.
+// Groups faces into primitives, computes missing normals, and finds the distinct vertices.
 #include "model/obj/obj_primitives.h"
 
 #include <algorithm>
@@ -23,7 +23,7 @@ bool hasNormals(const Model& model, const Face& face) {
     return std::all_of(corner, corner + face.corner_count, [](const Corner& c) { return c.normal != kNone; });
 }
 
-/// The faces without normals as a mesh of their own: positions only.
+/// The faces without normals as a mesh with positions only.
 struct BareMesh {
     std::vector<std::uint32_t> faces = {};  // into Model::faces
     std::vector<std::uint32_t> indices = {};
@@ -55,7 +55,7 @@ NormalOptions normalOptions(const Model& model, const BareMesh& mesh, const Gene
     return result;
 }
 
-/// Normals for those of the faces that have none.
+/// Computes normals for the faces without any.
 Result<NormalReport> completeFaces(Model& model, std::span<const std::uint32_t> faces, const GenerateOptions& options) {
     const BareMesh bare = collectBareFaces(model, faces);
     if (bare.faces.empty()) return NormalReport{};
@@ -150,7 +150,7 @@ ObjGeometry buildGeometry(const Model& model, const ObjPrimitive& primitive) {
         has_normals = has_normals && hasNormals(model, model.faces[index]);
         all_triangles = all_triangles && model.faces[index].corner_count == 3;
     }
-    // Normals count by value: generated ones have an index per corner.
+    // Normals are compared by value: computed ones have an index per corner.
     UniqueIndex<std::array<std::uint32_t, 5>> vertices(primitive.faces.size());
     for (const std::uint32_t index : primitive.faces) {
         const Face& face = model.faces[index];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// From the faces of an OBJ file to indexed primitives.
+// Indexed primitives from the faces of an OBJ file.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace tspace::obj {
 
-/// One glTF primitive to be: the faces of one shape and material, all with UVs or all without.
+/// A future glTF primitive: the faces of one shape and material, all with UVs or all without.
 struct ObjPrimitive {
     std::uint32_t shape = 0;
     std::uint32_t material = 0;
@@ -27,8 +27,8 @@ bool hasSomeNormals(const Model& model, const ObjPrimitive& primitive);
 std::vector<ObjPrimitive> collectPrimitives(const Model& model);
 
 /// Gives every corner a normal: faces that lack one on any corner get new ones. Smoothing goes across shapes
-/// and materials, as smoothing groups do, but not with normals_per_primitive. Adds to model.normals, marks the primitives, and returns what was
-/// met.
+/// and materials, as smoothing groups do, but not with normals_per_primitive. Adds to model.normals, marks the
+/// primitives, and returns what was repaired.
 Result<NormalReport> completeNormals(Model& model, std::vector<ObjPrimitive>& primitives,
                                      const GenerateOptions& options);
 

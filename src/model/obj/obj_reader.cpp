@@ -1,25 +1,87 @@
 // SPDX-License-Identifier: MIT
-// OBJ text to Model. The parser is that of tinyobjloader, through its callbacks: they keep faces of any size,
-// which its mesh interface cuts at 255 corners. It is not trusted: every index it gives is checked here.
+// Reads OBJ text into a Model by the callbacks of tinyobjloader, which keep faces of any size (its mesh interface cuts
+// them at 255 corners). The parser is not trusted: every index is checked here. Coordinates are read as doubles; how they
+// become floats is at takePositions().
 #include "model/obj/obj_reader.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
+#include <string>
 
-#include "model/io/disk_paths.h"
+#include "core/mesh/surface/float_loss.h"
 #include "model/io/file_error.h"
 #include "model/io/file_io.h"
-#include "model/obj/far_coordinates.h"
+#include "model/json/json.h"
 #include "model/obj/obj_lines.h"
 #include "model/obj/tiny_obj_loader.h"
 #include "tspace/mesh.h"
 
 namespace tspace::obj {
+
 namespace {
 
-/// Indices of corners that name nothing.
+/// The shortest digits that round-trip.
+std::string spelled(double value) {
+    const std::string text = Json(value).dump();
+    return text.ends_with(".0") ? text.substr(0, text.size() - 2) : text;
+}
+
+std::string spelled(const DVec3& v) { return "(" + spelled(v.x) + ", " + spelled(v.y) + ", " + spelled(v.z) + ")"; }
+
+bool isNone(const DVec3& offset) { return offset.x == 0 && offset.y == 0 && offset.z == 0; }
+
+/// "120 of 121 edges"
+std::string changedEdges(const FloatLoss& loss) {
+    return std::to_string(loss.changed_count) + " of " + std::to_string(loss.edge_count) + " edges of faces";
+}
+
+void warnOfOffset(const FloatLoss& loss, Model& model) {
+    model.warnings.push_back("the coordinates are so far from the origin that 32-bit floats would change " +
+                             changedEdges(loss) + "; " + spelled(model.offset) +
+                             " was taken out of them first, and is the translation of the nodes in glTF "
+                             "(generate --keep-coordinates leaves it in)");
+}
+
+void warnOfLoss(const FloatLoss& loss, bool could_be_mended, Model& model) {
+    model.warnings.push_back(
+        "the coordinates are too large for 32-bit floats, which glTF has: rounding changes " + changedEdges(loss) +
+        (could_be_mended ? "; without --keep-coordinates an offset would be taken out of them"
+                         : ", and no common offset mends that; split the model, and move each part to its own origin"));
+}
+
+}  // namespace
+
+/// Sets the positions of the model; faces and corners must be set. Where the coordinates are so far from the origin that
+/// floats would distort edges, Model::offset is subtracted from all of them first (one for the whole file, unless
+/// `keep_coordinates`), with a warning. A second warning says where floats distort edges all the same. Positions that are
+/// not finite become zero.
+void takePositions(std::vector<DVec3> positions, const FileOptions& options, Model& model) {
+    const VisitEdges edges = [&](const auto& visit) {
+        for (const Face& face : model.faces) {
+            const Corner* const corner = &model.corners[face.first_corner];
+            for (std::uint32_t i = 0; i < face.corner_count; ++i)
+                visit(positions[corner[i].position], positions[corner[(i + 1) % face.corner_count].position]);
+        }
+    };
+    const FloatLoss before = floatLoss(edges, {});
+    if (before.isNoticeable()) {
+        const DVec3 offset = offsetForFloats(edges);
+        if (!options.keep_coordinates) model.offset = offset;
+        if (!isNone(model.offset)) warnOfOffset(before, model);
+        const FloatLoss after = floatLoss(edges, model.offset);
+        if (after.isNoticeable()) warnOfLoss(after, isNone(model.offset) && !isNone(offset), model);
+    }
+    model.positions.reserve(positions.size());
+    for (const DVec3& position : positions) {
+        const Vec3 rounded = toFloat(position - model.offset);
+        model.positions.push_back(isFinite(rounded) ? rounded : Vec3{});
+    }
+}
+namespace {
+
+/// Counts of corner indices that name nothing.
 struct DeadIndices {
     std::uint64_t count = 0;
     std::uint32_t first_line = kNone;
@@ -30,11 +92,11 @@ struct DeadIndices {
     }
 };
 
-/// What the callbacks write to.
+/// State of the parser's callbacks.
 struct Build {
     Model* model = nullptr;
     const LineNotes* notes = nullptr;
-    std::vector<DVec3> positions = {};  // not finite where floats would not be
+    std::vector<DVec3> positions = {};  // not finite where a float would overflow
     std::size_t face_line = 0;          // the next of notes->faces
     std::string object = {}, group = {};
     std::map<std::pair<std::string, std::string>, std::uint32_t> shapes = {};
@@ -77,8 +139,7 @@ void addUv(void* user, double u, double v, double) {
     build.model->uvs.push_back(uv);
 }
 
-/// OBJ does not ask for unit normals, glTF does. Those that are unit by the validator's tolerance keep their
-/// bits.
+/// glTF requires unit normals, OBJ does not. Normals within the tolerance of the glTF validator keep their bits.
 void addNormal(void* user, double x, double y, double z) {
     Build& build = buildOf(user);
     const Vec3 given = toFloat({x, y, z});
@@ -95,8 +156,8 @@ void addNormal(void* user, double x, double y, double z) {
     build.model->normals.push_back(normal);
 }
 
-/// From the file's index to ours: 1 is the first, -1 the latest so far. Positive ones may still point ahead;
-/// kNone for those that count back too far.
+/// Converts a file's index to one from 0: 1 is the first, -1 the latest so far. Positive ones may still point ahead; kNone
+/// for negative ones that reach before the first.
 std::uint32_t resolveIndex(int index, std::size_t count_so_far) {
     if (index > 0) return static_cast<std::uint32_t>(index - 1);
     const auto back = static_cast<std::size_t>(-static_cast<std::int64_t>(index));
@@ -115,8 +176,7 @@ std::uint32_t resolvePosition(const Build& build, int index) {
     return position;
 }
 
-/// Of a UV or normal. 0 is how some exporters write that there is none; others name some that the file does
-/// not have.
+/// The index of a UV or normal. Some exporters write 0 for "none", or indices that the file does not have.
 std::uint32_t resolveOptional(int index, std::size_t count_so_far, std::uint32_t line, DeadIndices& dead) {
     if (index == 0) return kNone;
     const std::uint32_t resolved = resolveIndex(index, count_so_far);
@@ -193,7 +253,7 @@ void setGroup(void* user, const char** names, int count) {
     Build& build = buildOf(user);
     build.group.clear();
     for (int i = 0; i < count; ++i) build.group.append(i == 0 ? "" : " ").append(names[i]);
-    // What exporters write to say "no group".
+    // Exporters write these names for "no group".
     if (build.group == "default" || build.group == "off") build.group.clear();
     build.shape = kNone;
 }
@@ -224,8 +284,8 @@ void parse(std::string& text, Build& build) {
     if (!parseObj(text, callbacks, &build)) failFile(ErrorCode::invalidFile, "not an OBJ file that can be read");
 }
 
-/// Positive indices could point ahead, so ranges are known only at the end. Without a position there is no
-/// surface; of UVs and normals that do not exist corners let go, as of normals that are zero.
+/// Checks positive indices at the end of the file, since they may point ahead. A missing position is an error; corners
+/// drop UVs and normals that do not exist, and normals that are zero.
 void checkIndices(Build& build) {
     Model& model = *build.model;
     for (const Face& face : model.faces) {
@@ -275,7 +335,7 @@ void addWarnings(const Build& build, Model& model) {
     if (notes.has_free_form) warn("free-form curves and surfaces are not carried over");
 }
 
-/// Puts what the MTL files say into the materials that faces use.
+/// Fills the materials that faces use from the MTL files.
 void fillMaterials(Model& model, std::vector<Material> library) {
     std::map<std::string, std::size_t> by_name;
     for (std::size_t i = 0; i < library.size(); ++i) by_name.emplace(library[i].name, i);
@@ -291,7 +351,7 @@ void fillMaterials(Model& model, std::vector<Material> library) {
 
 }  // namespace
 
-/// What faces cost once they are looked at. Cutting polygons takes more than triangles do.
+/// Memory that later steps take for faces. Polygons take more than triangles, because they are cut.
 void requireFaces(const Model& model) {
     constexpr std::uint64_t kTriangleCornerBytes = 128, kPolygonCornerBytes = 200;
     std::uint64_t bytes = 0;

@@ -14,7 +14,6 @@
 #include "core/mesh/pools/unit_lattice.h"
 #include "images/codecs.h"
 #include "images/image.h"
-#include "model/io/disk_paths.h"
 #include "model/io/file_error.h"
 #include "model/io/uri.h"
 
@@ -43,7 +42,7 @@ class BufferBuilder {
         return accessors_.size() - 1;
     }
 
-    /// Normals or tangents; elements start at multiples of 4 bytes.
+    /// Adds normals or tangents; elements start at multiples of 4 bytes.
     template <class T>
     std::size_t addUnits(const std::vector<T>& values, const char* type, VectorFormat format) {
         if (format == VectorFormat::float32) return addVertices(values, type);
@@ -74,7 +73,7 @@ class BufferBuilder {
         return accessor;
     }
 
-    /// 16 bits where they do. 65535 itself is kept free: it means "restart" to some.
+    /// 16-bit indices where they suffice. 65535 is not used: some APIs read it as primitive restart.
     std::size_t addIndices(const std::vector<std::uint32_t>& indices, std::size_t vertex_count) {
         const bool is_short = vertex_count <= 65535;
         std::size_t view = 0;
@@ -91,7 +90,7 @@ class BufferBuilder {
         return accessors_.size() - 1;
     }
 
-    /// Of numbers of this machine. `target` 0: none.
+    /// Adds a view of numbers, which are turned to little-endian. `target` 0: none.
     std::size_t addView(const void* data, std::size_t byte_count, std::size_t number_bytes, int target) {
         bytes_.resize((bytes_.size() + 3) / 4 * 4, 0);
         Json view = {{"buffer", 0}, {"byteOffset", bytes_.size()}, {"byteLength", byte_count}};
@@ -144,7 +143,7 @@ class ImageBuilder {
           files_(files),
           warnings_(warnings) {}
 
-    /// Sets material[key] to a reference to the texture; nothing where it cannot be had.
+    /// Sets material[key] to a reference to the texture; does nothing where the image cannot be read.
     void addReference(const Texture& texture, Json& material, const char* key) {
         if (!texture.used()) return;
         const std::string name = texture.path();
@@ -155,7 +154,7 @@ class ImageBuilder {
         if (entry->second >= 0) material[key] = {{"index", entry->second}};
     }
 
-    /// The same for an image that was made.
+    /// reference() for an image in memory.
     void addMade(const Texture& like, const Bytes& bytes, Json& material, const char* key) {
         images_.push_back(imageJson(fs::path(Path(like.file)), bytes, mimeType(imageFormat(bytes)), false));
         material[key] = {{"index", images_.size() - 1}};
@@ -164,20 +163,20 @@ class ImageBuilder {
     [[nodiscard]] const Json& images() const { return images_; }
 
   private:
-    /// `flipped`: goes into the output in place of the file; may be null.
+    /// `flipped`: replaces the file in the output; may be null.
     int addTexture(const Texture& texture, const Bytes* flipped) {
         bool is_added = false;
         const std::optional<Error> failure = tryFile([&] {
             const Path path = named_.resolve(texture.folder, percentEncode(texture.file), "material");
             const Bytes bytes = named_.read(path);
             files_.addSource(path);
-            // By content, because names lie. Core glTF has no other formats.
+            // Told by content, because names can be wrong. Core glTF allows no other formats.
             const ImageFormat format = imageFormat(bytes);
             if (format != ImageFormat::png && format != ImageFormat::jpeg) {
                 warnings_.push_back("the texture '" + texture.file + "' was left out: it is neither PNG nor JPEG");
                 return;
             }
-            // The rest of a broken image may be shown by some; without a size it is none.
+            // Viewers may show a damaged image, but not one without a valid size.
             const ImageClaim claim = format == ImageFormat::png ? claimOfPng(bytes) : claimOfJpeg(bytes);
             if (claim.size.pixels() == 0) {
                 warnings_.push_back("the texture '" + texture.file + "' was left out: its head is broken");
@@ -243,11 +242,11 @@ Json materialJson(const Material& material, ImageBuilder* images) {
     return json;
 }
 
-/// Materials of the file; those of the faces before any `usemtl` stay the default and are not written. Primitives without
-/// UVs get theirs without textures, because glTF has no texture without UVs.
+/// Writes the materials of the file. Faces before any `usemtl` have the default material, which is not written. Primitives
+/// without UVs get a copy without textures, because textures of glTF need UVs.
 class MaterialNumbers {
   public:
-    /// In the order of the file; second ones, without textures, follow.
+    /// Materials in the order of the file; copies without textures follow.
     MaterialNumbers(const Model& model, const std::vector<FinishedPrimitive>& primitives, ImageBuilder& images,
                     std::vector<std::string>& warnings)
         : numbers_(model.materials.size(), -1), bare_numbers_(numbers_) {
@@ -272,7 +271,7 @@ class MaterialNumbers {
         }
     }
 
-    /// -1: the default.
+    /// Index of a primitive's material; -1: the default.
     [[nodiscard]] int of(const FinishedPrimitive& primitive) const {
         return (primitive.uvs.empty() ? bare_numbers_ : numbers_)[primitive.material];
     }
@@ -306,7 +305,7 @@ Json primitiveJson(const FinishedPrimitive& primitive, int material, BufferBuild
     return json;
 }
 
-/// A mesh and a node per shape that has faces, in the order of the file.
+/// Writes a mesh and a node per shape with faces, in the order of the file.
 void addMeshes(const Model& model, const std::vector<FinishedPrimitive>& primitives, const MaterialNumbers& materials,
                BufferBuilder& buffer, Json& root) {
     Json meshes = Json::array();

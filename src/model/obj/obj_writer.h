@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A glTF scene made from nothing: meshes, materials, images, and the buffer that holds them.
+// Writes a new glTF scene: meshes, materials, images, and the buffer that holds them.
 #pragma once
 
 #include <string>

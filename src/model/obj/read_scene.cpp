@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// An OBJ file as a Scene: the primitives that a glTF made from it would have, before any normal is made.
+// An OBJ file as a Scene: the primitives that a glTF made from it would have, before missing normals are computed.
 #include "model/obj/read_scene.h"
 
 #include <map>
@@ -33,7 +33,7 @@ class ImageFiles {
 
   private:
     void readBytes(const Texture& texture, SceneImage& image) const {
-        // Where it cannot be had, the geometry is none the worse for it.
+        // An image that cannot be read does not affect geometry.
         tryFile([&] {
             const Bytes bytes = files_.read(files_.resolve(texture.folder, percentEncode(texture.file), "material"));
             memory_.allow(bytes.size());
@@ -83,7 +83,7 @@ ScenePrimitive loadPrimitive(const Model& model, const ObjPrimitive& primitive, 
 
 namespace {
 
-/// Without images, which are in `files`.
+/// The scene without images; their names go to `files`.
 Scene loadScene(const Model& model, std::span<const ObjPrimitive> primitives, ImageFiles& files) {
     Scene scene;
     scene.format = "obj";

@@ -14,8 +14,8 @@ namespace tspace::obj {
 /// FileError.
 Scene sceneOf(const Model& model, std::span<const ObjPrimitive> primitives, bool with_images);
 
-/// The same with looks, and `with_images` base colours too. Both sides are drawn, since nothing in an OBJ file says that
-/// one is not.
+/// readScene with materials for rendering, and `with_images` base colours too. Faces are double-sided, since OBJ has no
+/// culling.
 DrawnScene drawnSceneOf(const Model& model, std::span<const ObjPrimitive> primitives, bool with_images);
 
 }  // namespace tspace::obj

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The one place where the parser is compiled, so that the sanitizers see into it, and where streams are: bindings have
-// smaller ones.
+// Compiles the parser from its header, so that sanitizers instrument it. The WebAssembly build has a file without
+// std::iostream in place of this (bindings/js/wasm).
 #define TINYOBJLOADER_IMPLEMENTATION
 #include "model/obj/tiny_obj_loader.h"
 
@@ -26,7 +26,7 @@ bool parseObj(std::string& text, const tinyobj::callback_t& callbacks, void* use
     MemoryStream stream(text);
     std::string warning;
     std::string error;
-    // Without a material reader it opens no file.
+    // Null: without a material reader the parser opens no files.
     return tinyobj::LoadObjWithCallback(stream, callbacks, user, nullptr, &warning, &error);
 }
 

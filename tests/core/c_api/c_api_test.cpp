@@ -191,7 +191,7 @@ TEST(CApi, ZeroDegreesCanBeSaid) {
 
 TEST(CApi, GivesTheNormalsOfTheCppApi) {
     const RandomMesh mesh(3, 60);
-    std::vector<std::uint32_t> groups(mesh.sizes.size());
+    std::vector<std::uint32_t> groups(mesh.face_sizes.size());
     for (std::size_t f = 0; f < groups.size(); ++f) groups[f] = 1u << (f % 3);
     constexpr std::uint32_t kDefault = TSPACE_NORMAL_WEIGHTING_BEST + 1;
     for (std::uint32_t weighting = TSPACE_NORMAL_WEIGHTING_FLAT; weighting <= kDefault; ++weighting) {

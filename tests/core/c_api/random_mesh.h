@@ -4,9 +4,8 @@
 
 #include <cstdint>
 #include <random>
-#include <vector>
 
-#include "tspace/mesh.h"
+#include "support/simple_mesh.h"
 #include "tspace/tspace.h"
 
 namespace tspace::test {
@@ -19,11 +18,7 @@ inline tspace_TangentOptions tangentOptions() {
     return options;
 }
 
-struct RandomMesh {
-    std::vector<Vec3> positions, normals;
-    std::vector<Vec2> uvs;
-    std::vector<std::uint32_t> indices, sizes;
-
+struct RandomMesh : SimpleMesh {
     RandomMesh(unsigned seed, std::uint32_t face_count) {
         std::mt19937 random(seed);
         std::uniform_real_distribution<float> value(-1.0f, 1.0f);
@@ -34,23 +29,11 @@ struct RandomMesh {
             uvs.push_back({value(random), value(random)});
         }
         for (std::uint32_t f = 0; f < face_count; ++f) {
-            sizes.push_back(3 + f % 3);
+            face_sizes.push_back(3 + f % 3);
             // Neighbours in the vertex list, so that faces have different corners and share vertices.
             const std::uint32_t first = static_cast<std::uint32_t>(random()) % (vertex_count - 4);
-            for (std::uint32_t k = 0; k < sizes.back(); ++k) indices.push_back(first + k);
+            for (std::uint32_t k = 0; k < face_sizes.back(); ++k) indices.push_back(first + k);
         }
-    }
-
-    [[nodiscard]] std::size_t cornerCount() const { return indices.size(); }
-
-    [[nodiscard]] MeshView view() const {
-        MeshView mesh;
-        mesh.positions = positions;
-        mesh.normals = normals;
-        mesh.uvs = uvs;
-        mesh.indices = std::span<const std::uint32_t>(indices);
-        mesh.face_sizes = sizes;
-        return mesh;
     }
 
     [[nodiscard]] tspace_Mesh c() const {
@@ -60,8 +43,8 @@ struct RandomMesh {
         mesh.normals = {&normals[0].x, normals.size(), 0};
         mesh.uvs = {&uvs[0].x, uvs.size(), 0};
         mesh.indices = {indices.data(), indices.size(), TSPACE_INDEX_U32};
-        mesh.face_sizes = sizes.data();
-        mesh.face_count = sizes.size();
+        mesh.face_sizes = face_sizes.data();
+        mesh.face_count = face_sizes.size();
         return mesh;
     }
 };

@@ -94,7 +94,7 @@ TEST(IndexedFrames, MakeNormalsWhereThereAreNoneOrTheyAreAskedFor) {
     ASSERT_TRUE(made) << made.error().message;
     expectSources(without, *made);
     EXPECT_TRUE(made->report.normals_made);
-    EXPECT_EQ(made->report.normals.face_count, lists.sizes.size());
+    EXPECT_EQ(made->report.normals.face_count, lists.face_sizes.size());
     EXPECT_TRUE(sameBits(atCorners(*made, made->normals), normals));
     MeshView with_them = without;
     with_them.normals = normals;
@@ -136,7 +136,7 @@ TEST(IndexedFrames, AMeshWithoutIndicesGetsThem) {
     soup.positions = positions;
     soup.normals = normals;
     soup.uvs = uvs;
-    soup.face_sizes = lists.sizes;
+    soup.face_sizes = lists.face_sizes;
     const auto frames = makeIndexedFrames(soup, gltfOptions());
     ASSERT_TRUE(frames) << frames.error().message;
     expectSources(soup, *frames);

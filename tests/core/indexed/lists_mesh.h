@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-#include "tspace/mesh.h"
+#include "support/simple_mesh.h"
 
 namespace tspace::test {
 
@@ -19,10 +19,8 @@ bool sameBits(const std::vector<T>& a, const std::vector<T>& b) {
     return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
 }
 
-struct ListsMesh {
-    std::vector<Vec3> positions, normals;
-    std::vector<Vec2> uvs;
-    std::vector<std::uint32_t> indices, uv_indices, sizes;
+struct ListsMesh : SimpleMesh {
+    std::vector<std::uint32_t> uv_indices;
     std::vector<std::uint16_t> normal_indices;
 
     /// Triangles, quads and pentagons; few vertices, so that they meet.
@@ -36,10 +34,10 @@ struct ListsMesh {
         for (int n = 0; n < 7; ++n) normals.push_back({value(random), value(random), 1.5f});
         for (std::uint32_t u = 0; u < uv_count; ++u) uvs.push_back({value(random), value(random)});
         for (std::uint32_t f = 0; f < face_count; ++f) {
-            sizes.push_back(3 + f % 3);
+            face_sizes.push_back(3 + f % 3);
             const auto first = static_cast<std::uint32_t>(random() % (vertex_count - 4));
             const bool is_seam = random() % 3 == 0;
-            for (std::uint32_t k = 0; k < sizes.back(); ++k) {
+            for (std::uint32_t k = 0; k < face_sizes.back(); ++k) {
                 indices.push_back(first + k);
                 normal_indices.push_back(static_cast<std::uint16_t>((first + k) % 6 + (random() % 5 == 0 ? 1 : 0)));
                 uv_indices.push_back(first + k + (is_seam ? 4 : 0));
@@ -47,15 +45,8 @@ struct ListsMesh {
         }
     }
 
-    [[nodiscard]] std::size_t cornerCount() const { return indices.size(); }
-
     [[nodiscard]] MeshView view() const {
-        MeshView mesh;
-        mesh.positions = positions;
-        mesh.normals = normals;
-        mesh.uvs = uvs;
-        mesh.indices = std::span<const std::uint32_t>(indices);
-        mesh.face_sizes = sizes;
+        MeshView mesh = SimpleMesh::view();
         mesh.normal_indices = std::span<const std::uint16_t>(normal_indices);
         mesh.uv_indices = std::span<const std::uint32_t>(uv_indices);
         return mesh;
@@ -63,36 +54,22 @@ struct ListsMesh {
 };
 
 /// One vertex for each combination of indices.
-struct UnrolledMesh {
-    std::vector<Vec3> positions, normals;
-    std::vector<Vec2> uvs;
-    std::vector<std::uint32_t> indices, sizes;
+struct UnrolledMesh : SimpleMesh {
     std::vector<std::uint32_t> source_positions, source_normals;
 
-    explicit UnrolledMesh(const ListsMesh& mesh) : sizes(mesh.sizes) {
+    explicit UnrolledMesh(const ListsMesh& mesh) {
+        face_sizes = mesh.face_sizes;
         std::map<std::array<std::uint32_t, 3>, std::uint32_t> vertices;
         for (std::size_t c = 0; c < mesh.cornerCount(); ++c) {
             const std::array<std::uint32_t, 3> key{mesh.indices[c], mesh.normal_indices[c], mesh.uv_indices[c]};
             const auto [found, is_new] = vertices.emplace(key, static_cast<std::uint32_t>(positions.size()));
             if (is_new) {
-                positions.push_back(mesh.positions[key[0]]);
-                normals.push_back(mesh.normals[key[1]]);
-                uvs.push_back(mesh.uvs[key[2]]);
+                addVertex(mesh.positions[key[0]], mesh.normals[key[1]], mesh.uvs[key[2]]);
                 source_positions.push_back(key[0]);
                 source_normals.push_back(key[1]);
             }
             indices.push_back(found->second);
         }
-    }
-
-    [[nodiscard]] MeshView view() const {
-        MeshView mesh;
-        mesh.positions = positions;
-        mesh.normals = normals;
-        mesh.uvs = uvs;
-        mesh.indices = std::span<const std::uint32_t>(indices);
-        mesh.face_sizes = sizes;
-        return mesh;
     }
 };
 

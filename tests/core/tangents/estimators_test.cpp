@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::array kEstimated{Method::fast, Method::best};
 
-Outputs generate(const Shape& shape, Method method, std::uint32_t refine = 1) {
+Outputs generate(const SimpleMesh& shape, Method method, std::uint32_t refine = 1) {
     Outputs outputs(shape.cornerCount());
     const auto report = generateTangents(
         shape.view(), {.method = method, .convention = conventions::opengl, .refine = refine}, outputs.view());
@@ -49,7 +49,7 @@ double meanError(const SmoothPatch& patch, Method method, std::uint32_t refine =
 
 TEST(Estimators, AreTheFormulasOfTheirPages) {
     for (const std::uint32_t seed : {1u, 2u, 3u, 4u, 5u, 6u}) {
-        const Shape shape = bumpyRing(5 + seed % 3, seed);
+        const SimpleMesh shape = bumpyRing(5 + seed % 3, seed);
         for (const Method method : kEstimated) {
             const Outputs got = generate(shape, method, 0);
             const ExpectedFrame want = method == Method::fast ? twoWeightsAtFirst(shape) : recoveryAtFirst(shape);
@@ -62,7 +62,7 @@ TEST(Estimators, AreTheFormulasOfTheirPages) {
 }
 
 TEST(Estimators, AreExactWhereUvsAreLinearOnAPlane) {
-    Shape shape = grid(6);
+    SimpleMesh shape = grid(6);
     const float a = 0.7f, b = 0.3f, c = -0.2f, d = 0.5f;  // dP/du = (a, b), dP/dv = (c, d)
     for (std::size_t v = 0; v < shape.positions.size(); ++v) {
         const Vec2 uv{shape.uvs[v].x + 0.05f * static_cast<float>(v % 3), shape.uvs[v].y};
@@ -83,11 +83,11 @@ TEST(Estimators, AreExactWhereUvsAreLinearOnAPlane) {
 }
 
 TEST(Estimators, OneTriangleHasItsOwnDerivatives) {
-    Shape shape;
-    shape.vertex({0, 0, 0}, kUp, {0, 0});
-    shape.vertex({2, 1, 0}, kUp, {1, 0});
-    shape.vertex({-1, 3, 0}, kUp, {0, 1});
-    shape.triangle(0, 1, 2);
+    SimpleMesh shape;
+    shape.addVertex({0, 0, 0}, kUp, {0, 0});
+    shape.addVertex({2, 1, 0}, kUp, {1, 0});
+    shape.addVertex({-1, 3, 0}, kUp, {0, 1});
+    shape.addTriangle(0, 1, 2);
     for (const Method method : kEstimated) {
         const Outputs got = generate(shape, method);
         for (std::size_t c = 0; c < 3; ++c) {
@@ -125,7 +125,7 @@ TEST(Estimators, TheErrorOfBestFallsFasterThanTheEdges) {
 }
 
 TEST(Estimators, AThinShearedBevelDoesNotTurnTheFlatFace) {
-    const Shape shape = shearedBevel(0.02f);
+    const SimpleMesh shape = shearedBevel(0.02f);
     const auto worst = [&](Method method) {
         const Outputs got = generate(shape, method);
         double error = 0;
@@ -137,11 +137,11 @@ TEST(Estimators, AThinShearedBevelDoesNotTurnTheFlatFace) {
 }
 
 TEST(Estimators, PowersOfFourInLengthsAndUvsDoNotMatterToABit) {
-    const Shape shape = bumpyRing(6, 9);
+    const SimpleMesh shape = bumpyRing(6, 9);
     for (const Method method : kEstimated) {
         const Outputs want = generate(shape, method);
         for (const int exponent : {-40, -12, 4, 40}) {
-            Shape scaled = shape;
+            SimpleMesh scaled = shape;
             for (Vec3& p : scaled.positions)
                 p = {std::ldexp(p.x, exponent), std::ldexp(p.y, exponent), std::ldexp(p.z, exponent)};
             const Outputs by_length = generate(scaled, method);
@@ -158,10 +158,10 @@ TEST(Estimators, PowersOfFourInLengthsAndUvsDoNotMatterToABit) {
 }
 
 TEST(Estimators, VerticesThatNoTriangleNamesDoNotMatterToABit) {
-    const Shape shape = bumpyRing(6, 9);
-    Shape crowded = shape;
+    const SimpleMesh shape = bumpyRing(6, 9);
+    SimpleMesh crowded = shape;
     for (std::size_t i = 0; i < 3 * shape.positions.size(); ++i)
-        crowded.vertex({std::ldexp(1.0f, 60), 0, 1}, kUp, {std::ldexp(1.0f, 60), 1});
+        crowded.addVertex({std::ldexp(1.0f, 60), 0, 1}, kUp, {std::ldexp(1.0f, 60), 1});
     for (const Method method : kEstimated) {
         const Outputs want = generate(shape, method), got = generate(crowded, method);
         for (std::size_t c = 0; c < want.tangents.size(); ++c)
@@ -170,7 +170,7 @@ TEST(Estimators, VerticesThatNoTriangleNamesDoNotMatterToABit) {
 }
 
 TEST(Estimators, AMirroredHalfMirrorsTheFrame) {
-    Shape shape = grid(8);
+    SimpleMesh shape = grid(8);
     for (Vec2& uv : shape.uvs) uv.x = std::fabs(uv.x - 0.5f);
     for (const Method method : kEstimated) {
         const Outputs got = generate(shape, method);
@@ -186,12 +186,12 @@ TEST(Estimators, AMirroredHalfMirrorsTheFrame) {
 }
 
 /// Shapes in which values are broken, huge, tiny or degenerate.
-std::vector<Shape> hostileShapes() {
-    std::vector<Shape> list{fan(50),           unrolledFan(50), cone(50),
-                            collapsed(40),     book(40, true),  someDegenerate(800),
-                            checkerboard(800), notFinite(800),  someWithoutUvArea(800)};
+std::vector<SimpleMesh> hostileShapes() {
+    std::vector<SimpleMesh> list{fan(50),           unrolledFan(50), cone(50),
+                                 collapsed(40),     book(40, true),  someDegenerate(800),
+                                 checkerboard(800), notFinite(800),  someWithoutUvArea(800)};
     for (const float factor : {1e-38f, 1e-20f, 1e19f, 3e38f}) {
-        Shape shape = grid(5);
+        SimpleMesh shape = grid(5);
         for (std::size_t v = 0; v < shape.positions.size(); ++v) {
             if (v % 2 == 0) shape.positions[v] = {factor * shape.positions[v].x, 1, factor};
             if (v % 3 == 0) shape.uvs[v].y = factor;
@@ -215,7 +215,7 @@ void expectFinite(const Outputs& got) {
 }
 
 TEST(Estimators, GiveUnitTangentsWhateverTheInput) {
-    for (const Shape& shape : hostileShapes()) {
+    for (const SimpleMesh& shape : hostileShapes()) {
         for (const Method method : kEstimated) expectFinite(generate(shape, method));
     }
 }

@@ -22,7 +22,7 @@ struct GoldenResult {
 };
 
 struct GoldenMesh {
-    Shape shape;
+    SimpleMesh shape;
     float angular_threshold_deg = 180;
     std::vector<GoldenResult> results;
 };
@@ -36,7 +36,7 @@ inline bool readGolden(const std::filesystem::path& path, GoldenMesh& golden) {
     for (std::size_t c = 0; c < file.inputs.size() / GoldenFile::kInputWords; ++c) {
         const auto word = [&](std::size_t k) { return std::bit_cast<float>(file.input(c)[k]); };
         golden.shape.indices.push_back(
-            golden.shape.vertex({word(0), word(1), word(2)}, {word(3), word(4), word(5)}, {word(6), word(7)}));
+            golden.shape.addVertex({word(0), word(1), word(2)}, {word(3), word(4), word(5)}, {word(6), word(7)}));
         GoldenResult& result = golden.results.emplace_back();
         static_assert(sizeof(GoldenResult) == 4 * GoldenFile::kResultWords);
         std::memcpy(static_cast<void*>(&result), file.result(c).data(), sizeof(result));
@@ -45,7 +45,7 @@ inline bool readGolden(const std::filesystem::path& path, GoldenMesh& golden) {
 }
 
 /// Whether `mikktspace` promises the reference's bits for a mesh.
-inline bool hasPromisedBits(const Shape& shape) {
+inline bool hasPromisedBits(const SimpleMesh& shape) {
     const auto allFit = [&](const Vec3& v) {
         return hasPromisedBits(v.x) && hasPromisedBits(v.y) && hasPromisedBits(v.z);
     };

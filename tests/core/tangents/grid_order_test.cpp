@@ -15,7 +15,7 @@
 namespace tspace::mikk {
 namespace {
 
-using test::Shape;
+using test::SimpleMesh;
 
 constexpr int kCells = 2048;
 
@@ -89,15 +89,15 @@ class Replay {
 
 /// Random triangles over `count` places, their vertices in any order; and one vertex `far` away, so that all
 /// others are in few cells.
-Shape soup(std::uint32_t count, float far, std::uint32_t seed) {
+SimpleMesh soup(std::uint32_t count, float far, std::uint32_t seed) {
     std::mt19937 random(seed);
     const auto value = [&] { return static_cast<float>(random() % 4096) / 64; };
-    Shape shape;
-    for (std::uint32_t v = 0; v < count; ++v) shape.vertex({value(), value(), value()}, {0, 0, 1}, {0, 0});
-    shape.vertex({far, 0, 0}, {0, 0, 1}, {0, 0});
+    SimpleMesh shape;
+    for (std::uint32_t v = 0; v < count; ++v) shape.addVertex({value(), value(), value()}, {0, 0, 1}, {0, 0});
+    shape.addVertex({far, 0, 0}, {0, 0, 1}, {0, 0});
     for (std::uint32_t t = 0; t < 2 * count; ++t) {
         const auto any = [&] { return static_cast<std::uint32_t>(random() % count); };
-        shape.triangle(any(), any(), t == count ? count : any());
+        shape.addTriangle(any(), any(), t == count ? count : any());
     }
     return shape;
 }
@@ -127,7 +127,7 @@ Found representatives(const MeshView& mesh, std::size_t asked, unsigned threads)
 TEST(GridOrder, IsTheReferencesInCellsOfManyCorners) {
     for (const float far : {64.0f, 100000.0f, 30000000.0f}) {  // from all cells to one
         for (const std::uint32_t seed : {1u, 2u, 3u}) {
-            const Shape shape = soup(3000, far, seed);
+            const SimpleMesh shape = soup(3000, far, seed);
             const Found found = representatives(shape.view(), 20, 1 + seed % 2);
             EXPECT_EQ(found.all, found.wanted);
             for (std::size_t n = 0; n < 20; ++n) EXPECT_EQ(found.some[n], found.wanted[n]) << far;
@@ -136,15 +136,15 @@ TEST(GridOrder, IsTheReferencesInCellsOfManyCorners) {
 }
 
 TEST(GridOrder, IsTheReferencesForNodesInManyCells) {
-    const Shape shape = soup(5000, 64.0f, 4);
+    const SimpleMesh shape = soup(5000, 64.0f, 4);
     const Found found = representatives(shape.view(), 1000, 2);
     for (std::size_t n = 0; n < 1000; ++n) EXPECT_EQ(found.some[n], found.wanted[n]);
 }
 
 TEST(GridOrder, IsTheReferencesForAFewNodesOfALongCell) {
     for (const std::uint32_t seed : {6u, 7u, 8u}) {
-        Shape shape = soup(10000, 30000000.0f, seed);   // 60,000 corners, nearly all in one cell
-        shape.vertex({0, -500, 0}, {0, 0, 1}, {0, 0});  // no triangle's: not in any box
+        SimpleMesh shape = soup(10000, 30000000.0f, seed);  // 60,000 corners, nearly all in one cell
+        shape.addVertex({0, -500, 0}, {0, 0, 1}, {0, 0});   // no triangle's: not in any box
         for (const unsigned threads : {1u, 3u}) {
             const Found found = representatives(shape.view(), 20, threads);
             for (std::size_t n = 0; n < 20; ++n) EXPECT_EQ(found.some[n], found.wanted[n]);
@@ -154,21 +154,21 @@ TEST(GridOrder, IsTheReferencesForAFewNodesOfALongCell) {
 
 TEST(GridOrder, IsTheReferencesWhereManyCutsTakeLittleOff) {
     std::mt19937 random(9);
-    Shape shape;
+    SimpleMesh shape;
     const auto power = [&] { return std::ldexp(1.0f, -static_cast<int>(random() % 120)); };
-    for (int v = 0; v < 12000; ++v) shape.vertex({power(), power(), power()}, {0, 0, 1}, {0, 0});
-    shape.vertex({3000, 0, 0}, {0, 0, 1}, {0, 0});
+    for (int v = 0; v < 12000; ++v) shape.addVertex({power(), power(), power()}, {0, 0, 1}, {0, 0});
+    shape.addVertex({3000, 0, 0}, {0, 0, 1}, {0, 0});
     for (std::uint32_t t = 0; t < 12000; ++t)
-        shape.triangle(t, static_cast<std::uint32_t>(random() % 12000), t == 0 ? 12000u : (t * 7) % 12000);
+        shape.addTriangle(t, static_cast<std::uint32_t>(random() % 12000), t == 0 ? 12000u : (t * 7) % 12000);
     const Found found = representatives(shape.view(), 200, 2);
     for (std::size_t n = 0; n < 200; ++n) EXPECT_EQ(found.some[n], found.wanted[n]);
 }
 
 TEST(GridOrder, PassesOverVerticesThatNoTriangleUses) {
     for (const bool along : {false, true}) {  // on the longest axis, or on another
-        Shape shape = soup(3000, 1000.0f, 5);
+        SimpleMesh shape = soup(3000, 1000.0f, 5);
         const auto nobodys = static_cast<std::uint32_t>(shape.positions.size());
-        shape.vertex(along ? Vec3{-5000, 0, 0} : Vec3{0, 900, 0}, {0, 0, 1}, {0, 0});
+        shape.addVertex(along ? Vec3{-5000, 0, 0} : Vec3{0, 900, 0}, {0, 0, 1}, {0, 0});
         ASSERT_EQ(std::count(shape.indices.begin(), shape.indices.end(), nobodys), 0);
         const Found found = representatives(shape.view(), 20, 1);
         EXPECT_EQ(found.all, found.wanted);

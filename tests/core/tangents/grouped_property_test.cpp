@@ -15,18 +15,18 @@ namespace {
 
 /// Triangles and quads over few vertices, so that edges are shared by many faces, with UV seams, mirrored and
 /// collapsed UVs and double vertices.
-Shape randomShape() {
-    Shape shape;
+SimpleMesh randomShape() {
+    SimpleMesh shape;
     const int vertices = *rc::gen::inRange(3, 40);
     const bool mixed_zeros = *rc::gen::inRange(0, 4) == 0;
     for (int v = 0; v < vertices; ++v) {
         const auto number = [](int low, int high) { return static_cast<float>(*rc::gen::inRange(low, high)) * 0.25f; };
         if (v > 3 && *rc::gen::inRange(0, 6) == 0) {
             const auto other = *rc::gen::inRange<std::size_t>(0, shape.positions.size());
-            shape.vertex(shape.positions[other], shape.normals[other], shape.uvs[other]);
+            shape.addVertex(shape.positions[other], shape.normals[other], shape.uvs[other]);
         } else {
-            shape.vertex({number(-8, 8), number(-8, 8), number(-8, 8)}, {number(-2, 3), number(-2, 3), 1},
-                         {number(0, 9), number(0, 9)});
+            shape.addVertex({number(-8, 8), number(-8, 8), number(-8, 8)}, {number(-2, 3), number(-2, 3), 1},
+                            {number(0, 9), number(0, 9)});
         }
         if (mixed_zeros && shape.positions.back().x == 0) shape.positions.back().x = v % 2 == 0 ? 0.0f : -0.0f;
     }
@@ -34,7 +34,7 @@ Shape randomShape() {
     for (int f = 0; f < faces; ++f) {
         std::vector<std::uint32_t> face(static_cast<std::size_t>(*rc::gen::element(3, 3, 3, 4, 4, 2)));
         for (auto& corner : face) corner = static_cast<std::uint32_t>(*rc::gen::inRange(0, vertices));
-        shape.face(face);
+        shape.addFace(face);
     }
     return shape;
 }
@@ -58,7 +58,7 @@ Outputs generate(const MeshView& mesh, const TangentOptions& options, const Exec
 }
 
 RC_GTEST_PROP(GroupedProperty, IndexWidthDoesNotMatter, ()) {
-    const Shape shape = randomShape();
+    const SimpleMesh shape = randomShape();
     const TangentOptions options = randomOptions();
     const Outputs want = generate(shape.view(), options);
     const std::vector<std::uint8_t> narrow(shape.indices.begin(), shape.indices.end());
@@ -71,10 +71,10 @@ RC_GTEST_PROP(GroupedProperty, IndexWidthDoesNotMatter, ()) {
 }
 
 RC_GTEST_PROP(GroupedProperty, AVertexPerCornerGivesTheSame, ()) {
-    const Shape shape = randomShape();
+    const SimpleMesh shape = randomShape();
     const TangentOptions options = randomOptions();
-    Shape loose;
-    for (const std::uint32_t v : shape.indices) loose.vertex(shape.positions[v], shape.normals[v], shape.uvs[v]);
+    SimpleMesh loose;
+    for (const std::uint32_t v : shape.indices) loose.addVertex(shape.positions[v], shape.normals[v], shape.uvs[v]);
     MeshView mesh = loose.view();
     mesh.indices = {};
     mesh.face_sizes = shape.face_sizes;
@@ -82,12 +82,12 @@ RC_GTEST_PROP(GroupedProperty, AVertexPerCornerGivesTheSame, ()) {
 }
 
 RC_GTEST_PROP(GroupedProperty, OrderOfVerticesDoesNotMatter, ()) {
-    const Shape shape = randomShape();
+    const SimpleMesh shape = randomShape();
     const TangentOptions options = randomOptions();
     std::vector<std::uint32_t> place(shape.positions.size());
     std::iota(place.begin(), place.end(), 0u);
     for (std::size_t i = place.size(); i-- > 1;) std::swap(place[i], place[*rc::gen::inRange<std::size_t>(0, i + 1)]);
-    Shape moved = shape;
+    SimpleMesh moved = shape;
     for (std::size_t v = 0; v < place.size(); ++v) {
         moved.positions[place[v]] = shape.positions[v];
         moved.normals[place[v]] = shape.normals[v];
@@ -98,7 +98,7 @@ RC_GTEST_PROP(GroupedProperty, OrderOfVerticesDoesNotMatter, ()) {
 }
 
 RC_GTEST_PROP(GroupedProperty, StridesDoNotMatter, ()) {
-    const Shape shape = randomShape();
+    const SimpleMesh shape = randomShape();
     const TangentOptions options = randomOptions();
     struct Interleaved {
         Vec2 uv;
@@ -135,7 +135,7 @@ RC_GTEST_PROP(GroupedProperty, StridesDoNotMatter, ()) {
 }
 
 RC_GTEST_PROP(GroupedProperty, PlanAndEvaluateEqualTheOneCall, ()) {
-    const Shape shape = randomShape();
+    const SimpleMesh shape = randomShape();
     const TangentOptions options = randomOptions();
     const MeshView mesh = shape.view();
     const auto plan = planTangents(mesh, options);
@@ -150,7 +150,7 @@ RC_GTEST_PROP(GroupedProperty, PlanAndEvaluateEqualTheOneCall, ()) {
 }
 
 RC_GTEST_PROP(GroupedProperty, TheConventionChangesOnlySignAndBitangent, ()) {
-    const Shape shape = randomShape();
+    const SimpleMesh shape = randomShape();
     TangentOptions options = randomOptions();
     options.convention = conventions::gltf;
     Outputs flipped = generate(shape.view(), options);
@@ -166,9 +166,9 @@ RC_GTEST_PROP(GroupedProperty, TheConventionChangesOnlySignAndBitangent, ()) {
 
 /// Large enough for every phase to be cut into several tasks.
 TEST(GroupedThreads, GiveTheSameBits) {
-    std::vector<Shape> shapes{gridOf(40000),       fan(20000),       someDegenerate(40000),
-                              checkerboard(40000), notFinite(40000), someWithoutUvArea(40000),
-                              book(20000, true)};
+    std::vector<SimpleMesh> shapes{gridOf(40000),       fan(20000),       someDegenerate(40000),
+                                   checkerboard(40000), notFinite(40000), someWithoutUvArea(40000),
+                                   book(20000, true)};
     shapes.push_back(gridOf(40000));
     shuffleTriangles(shapes.back(), 7);
     shapes.push_back(gridOf(40000));
@@ -179,7 +179,7 @@ TEST(GroupedThreads, GiveTheSameBits) {
                                    {.method = Method::fast, .convention = convention},
                                    {.method = Method::best, .convention = convention},
                                    {.method = Method::best, .convention = convention, .refine = 2}};
-    for (const Shape& shape : shapes) {
+    for (const SimpleMesh& shape : shapes) {
         for (const TangentOptions& options : ways) {
             const Outputs want = generate(shape.view(), options);
             for (const unsigned threads : {2u, 3u, 8u}) {

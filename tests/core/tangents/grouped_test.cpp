@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::array kGrouping{Method::mikktspace, Method::uniform, Method::angle, Method::area};
 
-TangentReport generate(const Shape& shape, const TangentOptions& options, Outputs& outputs,
+TangentReport generate(const SimpleMesh& shape, const TangentOptions& options, Outputs& outputs,
                        const Execution& execution = {}) {
     const Result<TangentReport> result = generateTangents(shape.view(), options, outputs.view(), execution);
     EXPECT_TRUE(result) << (result ? "" : result.error().message);
@@ -22,7 +22,7 @@ TangentReport generate(const Shape& shape, const TangentOptions& options, Output
     return outputs.report;
 }
 
-Outputs generate(const Shape& shape, const TangentOptions& options = {.convention = conventions::opengl},
+Outputs generate(const SimpleMesh& shape, const TangentOptions& options = {.convention = conventions::opengl},
                  const Execution& execution = {}) {
     Outputs outputs(shape.cornerCount());
     generate(shape, options, outputs, execution);
@@ -30,10 +30,10 @@ Outputs generate(const Shape& shape, const TangentOptions& options = {.conventio
 }
 
 /// A unit square in the plane of x and y whose UVs are its positions.
-Shape square() {
-    Shape shape;
-    for (const Vec2 uv : {Vec2{0, 0}, Vec2{1, 0}, Vec2{1, 1}, Vec2{0, 1}}) shape.vertex({uv.x, uv.y, 0}, kUp, uv);
-    shape.face({0, 1, 2, 3});
+SimpleMesh square() {
+    SimpleMesh shape;
+    for (const Vec2 uv : {Vec2{0, 0}, Vec2{1, 0}, Vec2{1, 1}, Vec2{0, 1}}) shape.addVertex({uv.x, uv.y, 0}, kUp, uv);
+    shape.addFace({0, 1, 2, 3});
     return shape;
 }
 
@@ -63,7 +63,7 @@ TEST(Grouped, TheConventionTurnsSignAndBitangent) {
 }
 
 TEST(Grouped, MirroredUvsGiveTheOtherSign) {
-    Shape shape = square();
+    SimpleMesh shape = square();
     for (Vec2& uv : shape.uvs) uv.x = 1 - uv.x;
     const Outputs got = generate(shape);
     for (std::size_t c = 0; c < 4; ++c) EXPECT_EQ(got.tangents[c], (Vec4{-1, 0, 0, -1}));
@@ -71,10 +71,10 @@ TEST(Grouped, MirroredUvsGiveTheOtherSign) {
 }
 
 TEST(Grouped, FacesThatAreNotUsedGiveZeros) {
-    Shape shape = square();
-    shape.face({0, 1});
-    shape.face({});
-    shape.face({3});
+    SimpleMesh shape = square();
+    shape.addFace({0, 1});
+    shape.addFace({});
+    shape.addFace({3});
     const Outputs got = generate(shape);
     for (std::size_t c = 4; c < 7; ++c) {
         EXPECT_EQ(got.tangents[c], Vec4{});
@@ -86,14 +86,14 @@ TEST(Grouped, FacesThatAreNotUsedGiveZeros) {
 }
 
 TEST(Grouped, NgonsAreCutOrSkipped) {
-    Shape shape;
+    SimpleMesh shape;
     std::vector<std::uint32_t> corners;
     for (int i = 0; i < 6; ++i) {
         const double a = 1.0471975511965976 * i;
         const auto x = static_cast<float>(std::cos(a)), y = static_cast<float>(std::sin(a));
-        corners.push_back(shape.vertex({x, y, 0}, kUp, {x, y}));
+        corners.push_back(shape.addVertex({x, y, 0}, kUp, {x, y}));
     }
-    shape.face(corners);
+    shape.addFace(corners);
     for (const Method method : kGrouping) {
         const Outputs cut = generate(shape, {.method = method, .convention = conventions::opengl});
         const Outputs skipped =
@@ -109,9 +109,9 @@ TEST(Grouped, NgonsAreCutOrSkipped) {
 }
 
 TEST(Grouped, ATriangleWithoutUvAreaTakesItsNeighboursFrame) {
-    Shape shape = square();
-    const std::uint32_t far = shape.vertex({2, 2, 0}, kUp, {1, 1});
-    shape.face({1, far, 2});
+    SimpleMesh shape = square();
+    const std::uint32_t far = shape.addVertex({2, 2, 0}, kUp, {1, 1});
+    shape.addFace({1, far, 2});
     shape.uvs[far] = shape.uvs[2];
     shape.positions[far] = {2, 0.5f, 0};
     const Outputs got = generate(shape);
@@ -122,21 +122,21 @@ TEST(Grouped, ATriangleWithoutUvAreaTakesItsNeighboursFrame) {
 }
 
 TEST(Grouped, ACornerOfADegenerateTriangleCopiesItsNodesFrame) {
-    Shape shape = square();
-    shape.face({1, 1, 2});
+    SimpleMesh shape = square();
+    shape.addFace({1, 1, 2});
     const Outputs got = generate(shape);
     EXPECT_EQ(got.report.degenerate_triangle_count, 1u);
     for (std::size_t c = 4; c < 7; ++c) EXPECT_EQ(got.tangents[c], (Vec4{1, 0, 0, 1}));
 }
 
 TEST(Grouped, NotFiniteTangentsAreCounted) {
-    Shape shape = square();
+    SimpleMesh shape = square();
     shape.normals.assign(4, Vec3{std::numeric_limits<float>::quiet_NaN(), 0, 1});
     EXPECT_EQ(generate(shape).report.not_finite_count, 4u);
 }
 
 TEST(Grouped, WeightingsAreTheirFormulas) {
-    Shape shape = fan(7);
+    SimpleMesh shape = fan(7);
     for (std::size_t i = 1; i < shape.positions.size(); ++i) {
         shape.positions[i].x *= 1.0f + 0.2f * static_cast<float>(i);
         shape.positions[i].z = 0.1f * static_cast<float>(i * i % 5);
@@ -170,8 +170,8 @@ TEST(Grouped, WeightingsAreTheirFormulas) {
 }
 
 TEST(Grouped, ASmallThresholdSplitsAGroup) {
-    const Shape shape = fan(64);
-    Shape bent = shape;
+    const SimpleMesh shape = fan(64);
+    SimpleMesh bent = shape;
     for (std::size_t i = 33; i < bent.uvs.size(); ++i) bent.uvs[i].x = 0.5f + (bent.uvs[i].x - 0.5f) * 0.1f;
     const auto tangentsAtApex = [&](float threshold) {
         const Outputs got = generate(bent, {.convention = conventions::opengl, .angular_threshold_deg = threshold});
@@ -188,7 +188,8 @@ TEST(Grouped, ASmallThresholdSplitsAGroup) {
 
 TEST(TangentPlan, GivesTheBitsOfTheOneCallOnItsOwnPose) {
     for (const Method method : kGrouping) {
-        for (const Shape& shape : {someDegenerate(800), checkerboard(800), someWithoutUvArea(800), notFinite(800)}) {
+        for (const SimpleMesh& shape :
+             {someDegenerate(800), checkerboard(800), someWithoutUvArea(800), notFinite(800)}) {
             const TangentOptions options{
                 .method = method, .convention = conventions::opengl, .angular_threshold_deg = 60};
             const Outputs direct = generate(shape, options);
@@ -205,7 +206,7 @@ TEST(TangentPlan, GivesTheBitsOfTheOneCallOnItsOwnPose) {
 
 /// A square of two triangles that do not share vertices, but have equal ones along the diagonal.
 TEST(TangentPlan, FollowsEqualVerticesThatComeApart) {
-    Shape square;
+    SimpleMesh square;
     for (const Vec2& uv : {Vec2{0, 0}, Vec2{1, 0}, Vec2{1, 1}, Vec2{0, 0}, Vec2{1, 1}, Vec2{0, 1}}) {
         square.indices.push_back(static_cast<std::uint32_t>(square.positions.size()));
         square.positions.push_back({uv.x, uv.y, 0});
@@ -216,7 +217,7 @@ TEST(TangentPlan, FollowsEqualVerticesThatComeApart) {
         const Result<TangentPlan> plan =
             planTangents(square.view(), {.method = method, .convention = conventions::opengl});
         ASSERT_TRUE(plan);
-        Shape apart = square;
+        SimpleMesh apart = square;
         for (std::size_t v = 3; v < 6; ++v) apart.positions[v].x += 5;
         Outputs got(6);
         ASSERT_TRUE(evaluateTangents(*plan, {apart.positions, apart.normals}, got.view()));
@@ -225,11 +226,11 @@ TEST(TangentPlan, FollowsEqualVerticesThatComeApart) {
 }
 
 TEST(TangentPlan, KeepsItsGroupsOnAnotherPose) {
-    const Shape shape = checkerboard(800);
+    const SimpleMesh shape = checkerboard(800);
     const Result<TangentPlan> plan = planTangents(shape.view(), {.convention = conventions::opengl});
     ASSERT_TRUE(plan);
     const Outputs at_rest = generate(shape);
-    Shape moved = shape;
+    SimpleMesh moved = shape;
     for (Vec3& p : moved.positions) p = {p.x + 0.3f * p.y, p.y, p.z + 0.05f * p.x * p.x};
     Outputs got(shape.cornerCount());
     ASSERT_TRUE(evaluateTangents(*plan, {moved.positions, moved.normals}, got.view()));
@@ -246,7 +247,7 @@ TEST(TangentPlan, KeepsItsGroupsOnAnotherPose) {
 }
 
 TEST(TangentPlan, RefusesAPoseOfAnotherMesh) {
-    const Shape shape = grid(4);
+    const SimpleMesh shape = grid(4);
     const Result<TangentPlan> plan = planTangents(shape.view(), {.convention = conventions::opengl});
     ASSERT_TRUE(plan);
     Outputs outputs(shape.cornerCount());
@@ -263,7 +264,7 @@ TEST(TangentPlan, RefusesAPoseOfAnotherMesh) {
 }
 
 TEST(TangentBorder, NamesWhatIsWrong) {
-    const Shape shape = grid(2);
+    const SimpleMesh shape = grid(2);
     Outputs outputs(shape.cornerCount());
     const auto code = [&](const MeshView& mesh, const TangentOptions& options, const TangentOutput& out) {
         const Result<TangentReport> result = generateTangents(mesh, options, out);
@@ -298,7 +299,7 @@ TEST(TangentBorder, AnEmptyMeshIsFine) {
 }
 
 TEST(TangentBorder, OutputsThatAreNotWantedMayBeMissing) {
-    const Shape shape = someDegenerate(200);
+    const SimpleMesh shape = someDegenerate(200);
     const Outputs all = generate(shape);
     Outputs some(shape.cornerCount());
     ASSERT_TRUE(generateTangents(shape.view(), {.convention = conventions::opengl}, {.tangents = some.tangents}));
@@ -324,7 +325,7 @@ struct CountingAllocator {
 };
 
 /// Returns how many allocations a call makes.
-std::size_t letEachAllocationFail(const Shape& shape, float threshold, Method method = Method::mikktspace) {
+std::size_t letEachAllocationFail(const SimpleMesh& shape, float threshold, Method method = Method::mikktspace) {
     CountingAllocator counting;
     const Execution execution{.allocator = &counting.allocator};
     const TangentOptions options{
@@ -347,8 +348,9 @@ std::size_t letEachAllocationFail(const Shape& shape, float threshold, Method me
 }
 
 TEST(TangentMemory, EachAllocationMayFail) {
-    Shape shape = someDegenerate(2000);
-    for (const auto& more : {std::array{0u, 1u, 2u}, std::array{0u, 1u, 3u}}) shape.triangle(more[0], more[1], more[2]);
+    SimpleMesh shape = someDegenerate(2000);
+    for (const auto& more : {std::array{0u, 1u, 2u}, std::array{0u, 1u, 3u}})
+        shape.addTriangle(more[0], more[1], more[2]);
     shape.normals[0].x = -0.0f;
     shape.uvs[3] = shape.uvs[2];
     for (const float threshold : {20.0f, 180.0f}) EXPECT_GT(letEachAllocationFail(shape, threshold), 10u);
@@ -356,10 +358,10 @@ TEST(TangentMemory, EachAllocationMayFail) {
 }
 
 TEST(TangentMemory, UnindexedCornersTakeAtMost32BytesPerTriangle) {
-    Shape shape = grid(200);
+    SimpleMesh shape = grid(200);
     for (std::uint32_t corner = 0; corner < 300; ++corner) shape.uvs[shape.indices[corner]] = {};  // for a second look
-    Shape corners;
-    for (const std::uint32_t v : shape.indices) corners.vertex(shape.positions[v], shape.normals[v], shape.uvs[v]);
+    SimpleMesh corners;
+    for (const std::uint32_t v : shape.indices) corners.addVertex(shape.positions[v], shape.normals[v], shape.uvs[v]);
     MeshView mesh = corners.view();
     mesh.indices = {};
     for (const unsigned threads : {1u, 2u}) {
@@ -373,12 +375,12 @@ TEST(TangentMemory, UnindexedCornersTakeAtMost32BytesPerTriangle) {
 
 /// Nodes that the vertex path takes need memory, and one pass settles those of a grid in this order too.
 TEST(TangentMemory, SecondTrianglesOfQuadsMayFollowAllFirstOnes) {
-    const Shape natural = gridOf(20000);
-    Shape sweeps = natural;
+    const SimpleMesh natural = gridOf(20000);
+    SimpleMesh sweeps = natural;
     sweeps.indices.clear();
     for (const std::size_t first : {0u, 1u}) {
         for (std::size_t t = first; t < natural.indices.size() / 3; t += 2)
-            sweeps.triangle(natural.indices[3 * t], natural.indices[3 * t + 1], natural.indices[3 * t + 2]);
+            sweeps.addTriangle(natural.indices[3 * t], natural.indices[3 * t + 1], natural.indices[3 * t + 2]);
     }
     CountingAllocator counting;
     std::vector<Vec4> tangents(sweeps.cornerCount());

@@ -19,7 +19,7 @@
 namespace tspace::mikk {
 namespace {
 
-using test::Shape;
+using test::SimpleMesh;
 using Links = std::map<std::uint32_t, std::uint32_t>;  // of half-edges; kNone: without a neighbour
 
 struct Welded {
@@ -150,9 +150,9 @@ std::vector<Vec4> tangents(const MeshView& mesh, Pairing pairing) {
 }
 
 /// Sheets, soups of random triangles and quads, books and fans; in natural order and shuffled.
-Shape someShape(std::uint32_t seed) {
+SimpleMesh someShape(std::uint32_t seed) {
     std::mt19937 random(seed);
-    Shape shape;
+    SimpleMesh shape;
     switch (seed % 4) {
         case 0:
             shape = test::grid(1 + random() % 12);
@@ -167,11 +167,11 @@ Shape someShape(std::uint32_t seed) {
             const std::uint32_t vertices = 3 + random() % 12;
             const auto value = [&] { return static_cast<float>(random() % 5); };
             for (std::uint32_t v = 0; v < vertices; ++v)
-                shape.vertex({value(), value(), value()}, test::kUp, {value(), value()});
+                shape.addVertex({value(), value(), value()}, test::kUp, {value(), value()});
             for (std::uint32_t f = 1 + random() % 60; f-- > 0;) {
                 std::vector<std::uint32_t> face(random() % 8 == 0 ? 2 + 2 * (random() % 2) : 3);
                 for (std::uint32_t& corner : face) corner = random() % vertices;
-                shape.face(face);
+                shape.addFace(face);
             }
         }
     }
@@ -183,7 +183,7 @@ Shape someShape(std::uint32_t seed) {
 TEST(LastBucket, ChangesTheLinksThatAListOfAllEdgesChanges) {
     int changed = 0;
     for (std::uint32_t seed = 0; seed < 8000; ++seed) {
-        const Shape shape = someShape(seed);
+        const SimpleMesh shape = someShape(seed);
         Welded welded(shape.view());
         const Links wanted = AllEdges(welded).changes();
         ASSERT_EQ(welded.changes(), wanted) << seed;
@@ -193,11 +193,11 @@ TEST(LastBucket, ChangesTheLinksThatAListOfAllEdgesChanges) {
 }
 
 /// `tail` after a sheet of so many triangles that only the end of the mesh is looked at.
-Shape afterSheet(const Shape& tail) {
-    Shape shape = test::grid(30);
+SimpleMesh afterSheet(const SimpleMesh& tail) {
+    SimpleMesh shape = test::grid(30);
     const auto first = static_cast<std::uint32_t>(shape.positions.size());
     for (std::size_t v = 0; v < tail.positions.size(); ++v)
-        shape.vertex(tail.positions[v], tail.normals[v], tail.uvs[v]);
+        shape.addVertex(tail.positions[v], tail.normals[v], tail.uvs[v]);
     if (!tail.face_sizes.empty()) {
         shape.face_sizes.assign(shape.indices.size() / 3, 3);
         shape.face_sizes.insert(shape.face_sizes.end(), tail.face_sizes.begin(), tail.face_sizes.end());
@@ -209,7 +209,7 @@ Shape afterSheet(const Shape& tail) {
 TEST(LastBucket, ChangesTheSameLinksAtTheEndOfALargerMesh) {
     int changed = 0;
     for (std::uint32_t seed = 0; seed < 1600; ++seed) {
-        const Shape shape = afterSheet(someShape(seed));
+        const SimpleMesh shape = afterSheet(someShape(seed));
         Welded welded(shape.view());
         const Links wanted = AllEdges(welded).changes();
         ASSERT_EQ(welded.changes(), wanted) << seed;
@@ -221,7 +221,7 @@ TEST(LastBucket, ChangesTheSameLinksAtTheEndOfALargerMesh) {
 TEST(LastBucket, WithoutAChangeBothPairingsGiveTheSameBits) {
     int different = 0;
     for (std::uint32_t seed = 0; seed < 2000; ++seed) {
-        const Shape shape = someShape(seed);
+        const SimpleMesh shape = someShape(seed);
         const std::vector<Vec4> reference = tangents(shape.view(), Pairing::reference),
                                 corrected = tangents(shape.view(), Pairing::corrected);
         const bool same = std::memcmp(reference.data(), corrected.data(), reference.size() * sizeof(Vec4)) == 0;
@@ -237,7 +237,7 @@ TEST(LastBucket, RarelyChangesAnything) {
     int changed = 0;
     constexpr int kGrids = 1000;
     for (std::uint32_t seed = 0; seed < kGrids; ++seed) {
-        Shape shape = test::grid(3 + seed % 20);
+        SimpleMesh shape = test::grid(3 + seed % 20);
         test::shuffleTriangles(shape, seed);
         changed += Welded(shape.view()).changes().empty() ? 0 : 1;
     }
@@ -248,7 +248,7 @@ TEST(LastBucket, RarelyChangesAnything) {
 /// Meshes so large that threads share the work.
 TEST(LastBucket, IsTheSameForLargeMeshesAndAllThreads) {
     for (std::uint32_t seed = 0; seed < 6; ++seed) {
-        Shape shape = seed < 5 ? test::grid(300) : test::fan(100000);
+        SimpleMesh shape = seed < 5 ? test::grid(300) : test::fan(100000);
         if (seed > 0) test::shuffleTriangles(shape, seed);
         Welded welded(shape.view());
         const Links wanted = AllEdges(welded).changes();
@@ -259,11 +259,11 @@ TEST(LastBucket, IsTheSameForLargeMeshesAndAllThreads) {
 /// The last triangles' nodes all have their first corners, and with them their representatives, at the
 /// beginning.
 TEST(LastBucket, IsFoundWhereTheLastTrianglesOnlyUseOldNodes) {
-    Shape shape = test::grid(80);
-    for (int repeat = 0; repeat < 6000; ++repeat) shape.triangle(0, 1, 82);
+    SimpleMesh shape = test::grid(80);
+    for (int repeat = 0; repeat < 6000; ++repeat) shape.addTriangle(0, 1, 82);
     Welded welded(shape.view());
     EXPECT_EQ(welded.changes(), AllEdges(welded).changes());
-    Shape twice = test::grid(80);
+    SimpleMesh twice = test::grid(80);
     const std::vector<std::uint32_t> once = twice.indices;
     twice.indices.insert(twice.indices.end(), once.begin(), once.end());
     Welded doubled(twice.view());
@@ -271,7 +271,7 @@ TEST(LastBucket, IsFoundWhereTheLastTrianglesOnlyUseOldNodes) {
 }
 
 TEST(LastBucket, IsEmptyWithoutAnEdge) {
-    const Shape shape = test::collapsed(10000);
+    const SimpleMesh shape = test::collapsed(10000);
     EXPECT_TRUE(Welded(shape.view()).changes().empty());
     EXPECT_TRUE(Welded(MeshView{}).changes().empty());
 }
@@ -280,7 +280,7 @@ TEST(LastBucket, ChangesTheLinksOfToriThatAListOfAllEdgesChanges) {
     int changed = 0;
     for (std::uint32_t columns = 4; columns <= 60; ++columns) {
         for (std::uint32_t rows = 4 + columns % 3; rows <= 60; rows += 3) {
-            const Shape shape = test::torus(columns, rows, rows % 2 != 0);
+            const SimpleMesh shape = test::torus(columns, rows, rows % 2 != 0);
             Welded welded(shape.view());
             const Links wanted = AllEdges(welded).changes();
             ASSERT_EQ(welded.changes(), wanted) << columns << " " << rows;
@@ -296,7 +296,7 @@ TEST(LastBucket, ToriKeepTheirBits) {
     int different = 0;
     for (std::uint32_t columns = 4; columns <= 60; ++columns) {
         for (std::uint32_t rows = 4; rows <= 60; ++rows) {
-            const Shape shape = test::torus(columns, rows, (columns + rows) % 2 != 0);
+            const SimpleMesh shape = test::torus(columns, rows, (columns + rows) % 2 != 0);
             const std::vector<Vec4> got = tangents(shape.view(), Pairing::reference);
             for (const Vec4& t : got) {
                 for (const float f : {t.x, t.y, t.z, t.w})

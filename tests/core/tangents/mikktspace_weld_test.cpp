@@ -18,7 +18,7 @@
 namespace tspace::mikk {
 namespace {
 
-using test::Shape;
+using test::SimpleMesh;
 
 constexpr std::size_t kMany = 100000;  // vertices: enough that all threads have work
 
@@ -68,16 +68,16 @@ void expectTheSameWithTransientMemory(const MeshView& mesh) {
 }
 
 /// Random vertices, each with probability 1/`rarity` a copy of an earlier one; triangles use all of them.
-Shape randomVertices(std::size_t count, unsigned rarity) {
+SimpleMesh randomVertices(std::size_t count, unsigned rarity) {
     std::mt19937 random(7);
-    Shape shape;
+    SimpleMesh shape;
     const auto value = [&] { return static_cast<float>(random() % 64) - 32.0f; };
     for (std::size_t v = 0; v < count; ++v) {
         const std::size_t other = v == 0 ? 0 : random() % v;
         if (v > 0 && random() % rarity == 0) {
-            shape.vertex(shape.positions[other], shape.normals[other], shape.uvs[other]);
+            shape.addVertex(shape.positions[other], shape.normals[other], shape.uvs[other]);
         } else {
-            shape.vertex({value(), value(), value()}, {value(), value(), value()}, {value(), value()});
+            shape.addVertex({value(), value(), value()}, {value(), value(), value()}, {value(), value()});
         }
         shape.indices.push_back(static_cast<std::uint32_t>(v));
     }
@@ -87,7 +87,7 @@ Shape randomVertices(std::size_t count, unsigned rarity) {
 TEST(Weld, FindsTheFewEqualVerticesOfAnIndexedMesh) { expectWanted(randomVertices(kMany, 100).view()); }
 
 TEST(Weld, FindsEqualVerticesWhereMostAreEqual) {
-    Shape shape = randomVertices(kMany, 100);
+    SimpleMesh shape = randomVertices(kMany, 100);
     for (std::size_t v = kMany; v-- > 0;) {  // each vertex is one of a few
         const std::size_t other = v * 7919 % 1000;
         shape.positions[v] = shape.positions[other];
@@ -102,29 +102,29 @@ TEST(Weld, FindsEqualVerticesWhereMostAreEqual) {
 }
 
 TEST(Weld, PutsNothingThatRemainsIntoTransientMemory) {
-    const Shape few = randomVertices(kMany, 100);
+    const SimpleMesh few = randomVertices(kMany, 100);
     expectTheSameWithTransientMemory(few.view());
-    const Shape many = randomVertices(kMany - kMany % 3, 2);
+    const SimpleMesh many = randomVertices(kMany - kMany % 3, 2);
     MeshView unindexed = many.view();
     unindexed.indices = {};
     expectTheSameWithTransientMemory(unindexed);
-    Shape zeros = few;
+    SimpleMesh zeros = few;
     zeros.positions[1] = {0, 0, 0};
     zeros.positions[2] = {0, -0.0f, 0};
     zeros.normals[2] = zeros.normals[1];
     zeros.uvs[2] = zeros.uvs[1];
     ASSERT_TRUE(weldWith(zeros.view(), 1).mixed);
     expectTheSameWithTransientMemory(zeros.view());
-    Shape wild = few;
+    SimpleMesh wild = few;
     wild.normals[5].x = std::numeric_limits<float>::quiet_NaN();
     ASSERT_FALSE(weldWith(wild.view(), 1).all_finite);
     expectTheSameWithTransientMemory(wild.view());
 }
 
 TEST(Weld, MakesOneNodeOfOneVertexRepeated) {
-    Shape shape;
+    SimpleMesh shape;
     for (std::size_t v = 0; v < kMany; ++v) {
-        shape.vertex({1, 2, 3}, {0, 0, 1}, {0.5f, 0.5f});
+        shape.addVertex({1, 2, 3}, {0, 0, 1}, {0.5f, 0.5f});
         shape.indices.push_back(static_cast<std::uint32_t>(v));
     }
     expectWanted(shape.view());
@@ -132,11 +132,11 @@ TEST(Weld, MakesOneNodeOfOneVertexRepeated) {
 
 TEST(Weld, KeepsVerticesThatDifferInOneValue) {
     for (int changed = 0; changed < 8; ++changed) {
-        Shape shape;
+        SimpleMesh shape;
         for (std::size_t v = 0; v < 3000; ++v) {
             std::array<float, 8> x = {1, 2, 3, 4, 5, 6, 7, 8};
             x[static_cast<std::size_t>(changed)] = static_cast<float>(v);
-            shape.vertex({x[0], x[1], x[2]}, {x[3], x[4], x[5]}, {x[6], x[7]});
+            shape.addVertex({x[0], x[1], x[2]}, {x[3], x[4], x[5]}, {x[6], x[7]});
             shape.indices.push_back(static_cast<std::uint32_t>(v));
         }
         EXPECT_EQ(weldWith(shape.view(), 1).count, 3000u);
@@ -144,7 +144,7 @@ TEST(Weld, KeepsVerticesThatDifferInOneValue) {
 }
 
 TEST(Weld, LeavesNothingBehindWhereNoVerticesAreEqual) {
-    const Shape shape = test::grid(100);
+    const SimpleMesh shape = test::grid(100);
     const Nodes nodes = weldWith(shape.view(), 1);
     EXPECT_EQ(nodes.count, shape.positions.size());
     EXPECT_TRUE(nodes.of_vertex.empty() && nodes.vertices.empty());
@@ -157,7 +157,7 @@ TEST(Weld, ReadsStridesAndIndicesOfOtherWidths) {
         Vec2 uv;
         Vec3 position;
     };
-    const Shape shape = randomVertices(60000, 20);
+    const SimpleMesh shape = randomVertices(60000, 20);
     std::vector<Packed> packed;
     for (std::size_t v = 0; v < shape.positions.size(); ++v)
         packed.push_back({1, shape.normals[v], shape.uvs[v], shape.positions[v]});
@@ -172,12 +172,12 @@ TEST(Weld, ReadsStridesAndIndicesOfOtherWidths) {
 }
 
 TEST(Weld, TakesZerosOfBothSignsForOne) {
-    Shape shape;
-    for (const float zero : {0.0f, -0.0f, 0.0f}) shape.vertex({zero, 0, 0}, {0, 0, 1}, {0, -zero});
-    shape.vertex({1, 0, 0}, {0, 0, 1}, {1, 0});
-    shape.vertex({0, 1, 0}, {0, 0, 1}, {0, 1});
-    shape.triangle(1, 3,
-                   4);  // the only one at this node: the vertex that is used stands for it, not the first
+    SimpleMesh shape;
+    for (const float zero : {0.0f, -0.0f, 0.0f}) shape.addVertex({zero, 0, 0}, {0, 0, 1}, {0, -zero});
+    shape.addVertex({1, 0, 0}, {0, 0, 1}, {1, 0});
+    shape.addVertex({0, 1, 0}, {0, 0, 1}, {0, 1});
+    shape.addTriangle(1, 3,
+                      4);  // the only one at this node: the vertex that is used stands for it, not the first
     const Nodes nodes = weldWith(shape.view(), 1);
     EXPECT_EQ(nodes.count, 3u);
     EXPECT_TRUE(nodes.mixed);
@@ -185,21 +185,21 @@ TEST(Weld, TakesZerosOfBothSignsForOne) {
 }
 
 TEST(Weld, DoesNotMindWildVerticesThatNoTriangleUses) {
-    Shape shape = test::grid(10);
+    SimpleMesh shape = test::grid(10);
     const std::size_t count = shape.positions.size();
     const float nan = std::numeric_limits<float>::quiet_NaN();
-    for (int i = 0; i < 3; ++i) shape.vertex({nan, 0, 0}, {0, 0, 1}, {0, 0});
-    shape.vertex({3e38f, 0, 0}, {0, 0, 1}, {0, std::numeric_limits<float>::infinity()});
+    for (int i = 0; i < 3; ++i) shape.addVertex({nan, 0, 0}, {0, 0, 1}, {0, 0});
+    shape.addVertex({3e38f, 0, 0}, {0, 0, 1}, {0, std::numeric_limits<float>::infinity()});
     const Nodes nodes = weldWith(shape.view(), 1);
     EXPECT_TRUE(nodes.all_finite);
     EXPECT_EQ(nodes.count, count + 2);
 }
 
 TEST(Weld, GivesVerticesWithTheSameNaNOneNode) {
-    Shape shape = test::grid(10);
+    SimpleMesh shape = test::grid(10);
     const std::size_t count = shape.positions.size();
     for (int i = 0; i < 2; ++i) {
-        shape.vertex(shape.positions[60], shape.normals[60], {std::numeric_limits<float>::quiet_NaN(), 0});
+        shape.addVertex(shape.positions[60], shape.normals[60], {std::numeric_limits<float>::quiet_NaN(), 0});
         shape.indices[static_cast<std::size_t>(i)] = static_cast<std::uint32_t>(count) + static_cast<std::uint32_t>(i);
     }
     const Nodes nodes = weldWith(shape.view(), 1);

@@ -4,11 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <numeric>
 #include <random>
 
 #include "core/base/vec_math.h"
+#include "support/simple_mesh.h"
 #include "tspace/tangents.h"
 
 namespace tspace {
@@ -17,40 +17,31 @@ namespace {
 constexpr unsigned kCells = 2;  // small, so that the last edge is near everything
 
 /// A grid with slanted UVs that differ from cell to cell, so that a lost neighbour shows.
-struct Grid {
-    std::vector<Vec3> positions;
-    std::vector<Vec3> normals;
-    std::vector<Vec2> uvs;
-    std::vector<std::array<std::uint32_t, 3>> faces;
-
+struct Grid : test::SimpleMesh {
     explicit Grid(std::mt19937& random) {
         const auto noise = [&] { return static_cast<float>(random() % 1000) / 2500.0f; };
         for (unsigned y = 0; y <= kCells; ++y) {
             for (unsigned x = 0; x <= kCells; ++x) {
-                positions.push_back({static_cast<float>(x), static_cast<float>(y), 0});
-                normals.push_back({0, 0, 1});
-                uvs.push_back({static_cast<float>(x) + noise(), static_cast<float>(y) + noise()});
+                const Vec2 uv{static_cast<float>(x) + noise(), static_cast<float>(y) + noise()};
+                addVertex({static_cast<float>(x), static_cast<float>(y), 0}, {0, 0, 1}, uv);
             }
         }
         for (unsigned y = 0; y < kCells; ++y) {
             for (unsigned x = 0; x < kCells; ++x) {
                 const unsigned a = y * (kCells + 1) + x, b = a + 1, c = a + kCells + 1, d = c + 1;
-                faces.push_back({a, b, d});
-                faces.push_back({a, d, c});
+                addTriangle(a, b, d);
+                addTriangle(a, d, c);
             }
         }
     }
 
     /// Tangents per (face, corner) as stored here, computed with the faces in the given order.
     [[nodiscard]] std::vector<Vec4> tangents(const std::vector<std::size_t>& order, Pairing pairing) const {
-        std::vector<std::uint32_t> indices;
-        for (const std::size_t f : order) indices.insert(indices.end(), faces[f].begin(), faces[f].end());
-        MeshView mesh;
-        mesh.positions = positions;
-        mesh.normals = normals;
-        mesh.uvs = uvs;
-        mesh.indices = IndexView(std::span<const std::uint32_t>(indices));
-        std::vector<Vec4> moved(indices.size()), result(indices.size());
+        std::vector<std::uint32_t> ordered;
+        for (const std::size_t f : order) ordered.insert(ordered.end(), &indices[3 * f], &indices[3 * f] + 3);
+        MeshView mesh = view();
+        mesh.indices = IndexView(std::span<const std::uint32_t>(ordered));
+        std::vector<Vec4> moved(ordered.size()), result(ordered.size());
         EXPECT_TRUE(
             generateTangents(mesh, {.convention = conventions::opengl, .pairing = pairing}, {.tangents = moved}));
         for (std::size_t i = 0; i < order.size(); ++i) std::copy_n(&moved[3 * i], 3, &result[3 * order[i]]);
@@ -64,7 +55,7 @@ float largestChange(Pairing pairing) {
     for (unsigned seed = 0; seed < 500; ++seed) {
         std::mt19937 random(seed);
         const Grid grid(random);
-        std::vector<std::size_t> order(grid.faces.size());
+        std::vector<std::size_t> order(grid.indices.size() / 3);
         std::iota(order.begin(), order.end(), std::size_t{0});
         const std::vector<Vec4> before = grid.tangents(order, pairing);
         std::shuffle(order.begin(), order.end(), random);

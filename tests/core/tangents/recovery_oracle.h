@@ -26,7 +26,7 @@ struct RingTriangle {
     DVec3 normal1, normal2;
     double area, squares;
 
-    RingTriangle(const Shape& shape, std::size_t t) {
+    RingTriangle(const SimpleMesh& shape, std::size_t t) {
         const std::uint32_t* i = shape.indices.data() + 3 * t;
         const DVec3 p0 = toDouble(shape.positions[i[0]]), p1 = toDouble(shape.positions[i[1]]),
                     p2 = toDouble(shape.positions[i[2]]);
@@ -48,7 +48,7 @@ struct RingTriangle {
     [[nodiscard]] double robustWeight() const { return 4 * area * area / std::pow(squares, 0.75); }
 };
 
-inline ExpectedFrame twoWeightsAtFirst(const Shape& shape) {
+inline ExpectedFrame twoWeightsAtFirst(const SimpleMesh& shape) {
     const DVec3 n = unitOf(toDouble(shape.normals[0]));
     DVec3 a[2], b[2];
     double lengths[2] = {0, 0}, weight = 0;
@@ -126,7 +126,7 @@ inline double unexplained(const std::vector<EdgeEquation>& equations, const std:
     return sum;
 }
 
-inline ExpectedFrame recoveryAtFirst(const Shape& shape) {
+inline ExpectedFrame recoveryAtFirst(const SimpleMesh& shape) {
     const DVec3 n = unitOf(toDouble(shape.normals[0]));
     std::vector<EdgeEquation> equations;
     DVec3 robust[2];

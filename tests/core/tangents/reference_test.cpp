@@ -56,7 +56,7 @@ class Dice {
 using Faces = std::vector<std::vector<std::uint32_t>>;
 
 /// A sheet of up to 5 x 5 cells, quads or triangles, whose UVs go back and forth and now and then collapse.
-Faces addSheet(Dice& dice, Shape& shape, int normal_kind) {
+Faces addSheet(Dice& dice, SimpleMesh& shape, int normal_kind) {
     const std::uint32_t width = 1 + dice.below(5), height = 1 + dice.below(5);
     const bool flat = dice.below(2) != 0;
     const float fold = static_cast<float>(1 + dice.below(3));
@@ -66,7 +66,7 @@ Faces addSheet(Dice& dice, Shape& shape, int normal_kind) {
             const Vec3 position{column + 0.3f * dice.fraction(), row + 0.3f * dice.fraction(),
                                 flat ? 0 : dice.fraction()};
             const float u = dice.below(12) == 0 ? 0 : std::fabs(std::fmod(column, 2 * fold) - fold);
-            shape.vertex(position, flat ? kUp : dice.normal(normal_kind), {u, row * 0.5f + 0.1f * dice.fraction()});
+            shape.addVertex(position, flat ? kUp : dice.normal(normal_kind), {u, row * 0.5f + 0.1f * dice.fraction()});
         }
     }
     Faces faces;
@@ -83,7 +83,7 @@ Faces addSheet(Dice& dice, Shape& shape, int normal_kind) {
 }
 
 /// Triangles and quads over a few positions, normals and UVs.
-Faces addSoup(Dice& dice, Shape& shape, int position_kind, int normal_kind, int uv_kind) {
+Faces addSoup(Dice& dice, SimpleMesh& shape, int position_kind, int normal_kind, int uv_kind) {
     std::vector<Vec3> positions(2 + dice.below(9)), normals(1 + dice.below(4));
     std::vector<Vec2> uvs(2 + dice.below(7));
     for (Vec3& p : positions) {
@@ -93,7 +93,7 @@ Faces addSoup(Dice& dice, Shape& shape, int position_kind, int normal_kind, int 
     for (Vec2& uv : uvs) uv = {dice.number(uv_kind), dice.number(uv_kind)};
     const auto any = [&dice](const auto& list) { return list[dice.below(static_cast<int>(list.size()))]; };
     const int vertices = 3 + dice.below(20);
-    for (int v = 0; v < vertices; ++v) shape.vertex(any(positions), any(normals), any(uvs));
+    for (int v = 0; v < vertices; ++v) shape.addVertex(any(positions), any(normals), any(uvs));
     Faces faces(1 + dice.below(24));
     const int quads = dice.below(3);  // none, half, all
     for (auto& face : faces) {
@@ -104,8 +104,8 @@ Faces addSoup(Dice& dice, Shape& shape, int position_kind, int normal_kind, int 
 }
 
 /// Faces come in random order and begin at any corner. Every fifth mesh has NaN, infinities and 3e38.
-Shape randomShape(Dice& dice, bool strange) {
-    Shape shape;
+SimpleMesh randomShape(Dice& dice, bool strange) {
+    SimpleMesh shape;
     const int position_kind = strange ? 4 : dice.below(4);
     const int normal_kind = strange ? 2 + 2 * dice.below(2) : dice.below(4);
     const int uv_kind = strange ? 1 + 3 * dice.below(2) : dice.below(4);
@@ -114,7 +114,7 @@ Shape randomShape(Dice& dice, bool strange) {
     for (std::size_t i = faces.size(); i > 1; --i) std::swap(faces[i - 1], faces[dice.below(static_cast<int>(i))]);
     for (auto& face : faces) {
         std::rotate(face.begin(), face.begin() + dice.below(static_cast<int>(face.size())), face.end());
-        shape.face(face);
+        shape.addFace(face);
     }
     return shape;
 }
@@ -126,11 +126,11 @@ float randomThreshold(Dice& dice) {
 
 /// What the callbacks of the reference see.
 struct Call {
-    const Shape& shape;
+    const SimpleMesh& shape;
     Outputs& outputs;
     std::vector<std::uint32_t> first_corners;
 
-    Call(const Shape& s, Outputs& o) : shape(s), outputs(o) {
+    Call(const SimpleMesh& s, Outputs& o) : shape(s), outputs(o) {
         for (std::uint32_t corner = 0; const std::uint32_t size : s.face_sizes) {
             first_corners.push_back(corner);
             corner += size;
@@ -141,7 +141,7 @@ struct Call {
     [[nodiscard]] std::uint32_t vertex(int face, int k) const { return shape.indices[corner(face, k)]; }
 };
 
-void runReference(const Shape& shape, float threshold, Outputs& outputs) {
+void runReference(const SimpleMesh& shape, float threshold, Outputs& outputs) {
     using Context = const SMikkTSpaceContext*;
     SMikkTSpaceInterface callbacks{};
     callbacks.m_getNumFaces = [](Context c) { return static_cast<int>(Call::of(c).first_corners.size()); };
@@ -182,7 +182,7 @@ long countDifferent(long first, long count, Pairing pairing) {
     long different = 0;
     for (long mesh = first; mesh < first + count; ++mesh) {
         Dice dice(0x9E3779B97F4A7C15u * static_cast<std::uint64_t>(mesh + 1));
-        const Shape shape = randomShape(dice, mesh % 5 == 4);
+        const SimpleMesh shape = randomShape(dice, mesh % 5 == 4);
         const float threshold = randomThreshold(dice);
         Outputs want(shape.cornerCount()), got(shape.cornerCount());
         runReference(shape, threshold, want);
@@ -204,7 +204,7 @@ TEST(MikktspaceReference, HasTheSameBitsOnRandomMeshes) {
 TEST(MikktspaceReference, HasTheSameBitsOnTori) {
     for (std::uint32_t columns = 4; columns <= 60; ++columns) {
         for (std::uint32_t rows = 4; rows <= 60; ++rows) {
-            Shape shape = torus(columns, rows, (columns + rows) % 2 != 0);
+            SimpleMesh shape = torus(columns, rows, (columns + rows) % 2 != 0);
             shape.face_sizes.assign(shape.indices.size() / 3, 3);
             Outputs want(shape.cornerCount()), got(shape.cornerCount());
             runReference(shape, 180, want);

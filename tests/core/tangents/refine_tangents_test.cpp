@@ -17,10 +17,10 @@ namespace {
 
 using test::Outputs;
 using test::sameBits;
-using test::Shape;
+using test::SimpleMesh;
 using test::SmoothPatch;
 
-Outputs generate(const Shape& shape, std::uint32_t refine, Method method = Method::best) {
+Outputs generate(const SimpleMesh& shape, std::uint32_t refine, Method method = Method::best) {
     Outputs outputs(shape.cornerCount());
     const auto report = generateTangents(
         shape.view(), {.method = method, .convention = conventions::opengl, .refine = refine}, outputs.view());
@@ -45,7 +45,7 @@ SmoothPatch patchOf(std::uint32_t seed, double wave = 0.2) {
 /// The step of the group at vertex v, from the frames of each vertex before it; all in double precision, in space.
 class Step {
   public:
-    Step(const Shape& shape, const Outputs& before) : shape_(shape), u_(shape.positions.size()), v_(u_.size()) {
+    Step(const SimpleMesh& shape, const Outputs& before) : shape_(shape), u_(shape.positions.size()), v_(u_.size()) {
         for (std::size_t c = 0; c < shape.cornerCount(); ++c) {
             const std::uint32_t v = shape.indices[c];
             u_[v] = double{before.magnitudes_s[c]} * unit(toDouble(xyz(before.tangents[c])));
@@ -91,7 +91,7 @@ class Step {
         return 2.0 * arc - laid - flat(normal(at), du * u_[at] + dv * v_[at]);
     }
 
-    const Shape& shape_;
+    const SimpleMesh& shape_;
     std::vector<DVec3> u_, v_;
 };
 
@@ -157,13 +157,13 @@ RC_GTEST_PROP(RefinedTangents, TurnByFourteenDegreesAtMost, ()) {
 /// A plan made for two steps gives what generate gives, also after the mesh has moved: then what it gives for the pose.
 TEST(RefinedTangents, OfAPlanFollowThePose) {
     const SmoothPatch patch = patchOf(6);
-    Shape moved = patch.shape;
+    SimpleMesh moved = patch.shape;
     for (Vec3& p : moved.positions) p = {2 * p.x, 2 * p.y, 2 * p.z};
     for (const std::uint32_t refine : {0u, 1u, 2u}) {
         const auto plan = planTangents(patch.shape.view(),
                                        {.method = Method::best, .convention = conventions::opengl, .refine = refine});
         ASSERT_TRUE(plan.ok());
-        for (const Shape& shape : {patch.shape, moved}) {
+        for (const SimpleMesh& shape : {patch.shape, moved}) {
             Outputs evaluated(shape.cornerCount());
             ASSERT_TRUE(evaluateTangents(*plan, {shape.positions, shape.normals}, evaluated.view()).ok());
             const Outputs generated = generate(shape, refine);

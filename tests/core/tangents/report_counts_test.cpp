@@ -16,13 +16,13 @@ float smallNumber() { return 0.5f * static_cast<float>(*rc::gen::inRange(-2, 3))
 
 /// Faces of 1 to 9 corners over few vertices: corners fall together, UVs are mirrored or have no area, and
 /// now and then a position or a UV is no number.
-Shape polygons() {
-    Shape shape;
+SimpleMesh polygons() {
+    SimpleMesh shape;
     const int vertices = *rc::gen::inRange(3, 24);
     const auto rarely = [](float value) { return *rc::gen::inRange(0, 40) == 0 ? std::nanf("") : value; };
     for (int v = 0; v < vertices; ++v) {
-        shape.vertex({rarely(smallNumber()), smallNumber(), smallNumber()}, {smallNumber(), smallNumber(), 1},
-                     {rarely(smallNumber()), smallNumber()});
+        shape.addVertex({rarely(smallNumber()), smallNumber(), smallNumber()}, {smallNumber(), smallNumber(), 1},
+                        {rarely(smallNumber()), smallNumber()});
     }
     const bool triangles_only = *rc::gen::inRange(0, 4) == 0;
     for (int left = *rc::gen::inRange(1, 60); left > 0; --left) {
@@ -30,7 +30,7 @@ Shape polygons() {
             static_cast<std::size_t>(triangles_only ? 3 : *rc::gen::element(1, 2, 3, 4, 4, 5, 5, 6, 9)));
         for (auto& corner : face) corner = static_cast<std::uint32_t>(*rc::gen::inRange(0, vertices));
         if (*rc::gen::inRange(0, 4) == 0) face.back() = face.front();
-        shape.face(face);
+        shape.addFace(face);
     }
     return shape;
 }
@@ -48,7 +48,7 @@ void expectEqualCounts(const TangentReport& a, const TangentReport& b) {
 }
 
 RC_GTEST_PROP(ReportCounts, AreTheSameInOneCallAndByPlanAndEvaluation, ()) {
-    const Shape shape = polygons();
+    const SimpleMesh shape = polygons();
     const MeshView mesh = shape.view();
     for (const Method method : {Method::mikktspace, Method::uniform, Method::angle, Method::area, Method::fast,
                                 Method::best, Method::lengyel, Method::flat, Method::basis}) {

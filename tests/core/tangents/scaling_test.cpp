@@ -15,7 +15,7 @@ namespace {
 
 struct Case {
     const char* name;
-    Shape (*make)(std::size_t triangles);
+    SimpleMesh (*make)(std::size_t triangles);
 };
 
 constexpr Case kCases[] = {
@@ -34,7 +34,7 @@ constexpr Case kCases[] = {
 };
 
 /// Processor seconds of one call, the best of several.
-double seconds(const Shape& shape, Method method, int tries) {
+double seconds(const SimpleMesh& shape, Method method, int tries) {
     double best = 1e9;
     for (int i = 0; i < tries; ++i) {
         Outputs outputs(shape.cornerCount());
@@ -50,7 +50,7 @@ double seconds(const Shape& shape, Method method, int tries) {
 struct Scaling : testing::TestWithParam<Case> {};
 
 TEST_P(Scaling, TimePerTriangleStaysBounded) {
-    const Shape few = GetParam().make(20000), many = GetParam().make(200000);
+    const SimpleMesh few = GetParam().make(20000), many = GetParam().make(200000);
     for (const Method method : {Method::mikktspace, Method::fast, Method::best}) {
         const double small = seconds(few, method, 5), large = seconds(many, method, 2);
         RecordProperty("ratio_per_triangle_" + std::to_string(static_cast<int>(method)),
@@ -65,13 +65,13 @@ TEST_P(Scaling, AStackOf64KilobytesIsEnough) {
 #else
     constexpr std::size_t kStack = 64 << 10;
 #endif
-    const Shape shape = GetParam().make(20000);
+    const SimpleMesh shape = GetParam().make(20000);
     pthread_attr_t attributes;
     ASSERT_EQ(pthread_attr_init(&attributes), 0);
     ASSERT_EQ(pthread_attr_setstacksize(&attributes, kStack), 0);
     pthread_t thread;
     const auto run = [](void* data) -> void* {
-        const Shape& mesh = *static_cast<const Shape*>(data);
+        const SimpleMesh& mesh = *static_cast<const SimpleMesh*>(data);
         Outputs outputs(mesh.cornerCount());
         for (const Method method : {Method::mikktspace, Method::fast, Method::best}) {
             const TangentOptions options{.method = method, .convention = conventions::opengl};
@@ -79,7 +79,7 @@ TEST_P(Scaling, AStackOf64KilobytesIsEnough) {
         }
         return nullptr;
     };
-    ASSERT_EQ(pthread_create(&thread, &attributes, run, const_cast<Shape*>(&shape)), 0);
+    ASSERT_EQ(pthread_create(&thread, &attributes, run, const_cast<SimpleMesh*>(&shape)), 0);
     pthread_join(thread, nullptr);
     pthread_attr_destroy(&attributes);
 }
@@ -88,7 +88,7 @@ INSTANTIATE_TEST_SUITE_P(Shapes, Scaling, testing::ValuesIn(kCases),
                          [](const auto& scaling) { return std::string(scaling.param.name); });
 
 TEST(SortBudget, AnOrderMadeAgainstTheReferencesSortFallsBackToCorrectedPairing) {
-    const Shape shape = sortKiller(20000);
+    const SimpleMesh shape = sortKiller(20000);
     Outputs reference(shape.cornerCount()), corrected(shape.cornerCount());
     const auto report = generateTangents(shape.view(), {.convention = conventions::opengl}, reference.view());
     ASSERT_TRUE(report);

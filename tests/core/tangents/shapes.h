@@ -10,65 +10,37 @@
 #include <random>
 #include <vector>
 
+#include "support/simple_mesh.h"
 #include "tspace/tangents.h"
 
 namespace tspace::test {
 
-struct Shape {
-    std::vector<Vec3> positions, normals;
-    std::vector<Vec2> uvs;
-    std::vector<std::uint32_t> indices;
-    std::vector<std::uint32_t> face_sizes;  ///< empty: triangles
-
-    std::uint32_t vertex(const Vec3& p, const Vec3& n, const Vec2& uv) {
-        positions.push_back(p);
-        normals.push_back(n);
-        uvs.push_back(uv);
-        return static_cast<std::uint32_t>(positions.size() - 1);
-    }
-    void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) { indices.insert(indices.end(), {a, b, c}); }
-    void face(const std::vector<std::uint32_t>& corners) {
-        indices.insert(indices.end(), corners.begin(), corners.end());
-        face_sizes.push_back(static_cast<std::uint32_t>(corners.size()));
-    }
-    [[nodiscard]] std::size_t cornerCount() const { return indices.size(); }
-    [[nodiscard]] MeshView view() const {
-        MeshView mesh;
-        mesh.positions = positions;
-        mesh.normals = normals;
-        mesh.uvs = uvs;
-        mesh.indices = IndexView(std::span<const std::uint32_t>(indices));
-        mesh.face_sizes = face_sizes;
-        return mesh;
-    }
-};
-
 inline constexpr Vec3 kUp{0, 0, 1};
 
 /// A wavy sheet of 2 * side * side triangles.
-inline Shape grid(std::uint32_t side) {
-    Shape shape;
+inline SimpleMesh grid(std::uint32_t side) {
+    SimpleMesh shape;
     for (std::uint32_t y = 0; y <= side; ++y) {
         for (std::uint32_t x = 0; x <= side; ++x) {
             const auto fx = static_cast<float>(x), fy = static_cast<float>(y), n = static_cast<float>(side);
-            shape.vertex({fx, fy, std::sin(fx * 0.3f) * std::cos(fy * 0.2f)}, kUp, {fx / n, fy / n});
+            shape.addVertex({fx, fy, std::sin(fx * 0.3f) * std::cos(fy * 0.2f)}, kUp, {fx / n, fy / n});
         }
     }
     for (std::uint32_t y = 0; y < side; ++y) {
         for (std::uint32_t x = 0; x < side; ++x) {
             const std::uint32_t a = y * (side + 1) + x, b = a + 1, c = b + side + 1, d = a + side + 1;
-            shape.triangle(a, b, c);
-            shape.triangle(a, c, d);
+            shape.addTriangle(a, b, c);
+            shape.addTriangle(a, c, d);
         }
     }
     return shape;
 }
 
-inline Shape gridOf(std::size_t triangles) {
+inline SimpleMesh gridOf(std::size_t triangles) {
     return grid(static_cast<std::uint32_t>(std::sqrt(static_cast<double>(triangles) / 2)));
 }
 
-inline void shuffleTriangles(Shape& shape, std::uint32_t seed) {
+inline void shuffleTriangles(SimpleMesh& shape, std::uint32_t seed) {
     std::mt19937 random(seed);
     for (std::size_t i = shape.indices.size() / 3; i-- > 1;) {
         const std::size_t j = random() % (i + 1);
@@ -77,24 +49,24 @@ inline void shuffleTriangles(Shape& shape, std::uint32_t seed) {
 }
 
 /// All triangles share one vertex; the UVs are the positions seen from above.
-inline Shape fan(std::size_t triangles) {
-    Shape shape;
-    const std::uint32_t apex = shape.vertex({0, 0, 0.5f}, kUp, {0.5f, 0.5f});
+inline SimpleMesh fan(std::size_t triangles) {
+    SimpleMesh shape;
+    const std::uint32_t apex = shape.addVertex({0, 0, 0.5f}, kUp, {0.5f, 0.5f});
     for (std::size_t i = 0; i < triangles; ++i) {
         const double a = 2 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(triangles);
         const auto x = static_cast<float>(std::cos(a)), y = static_cast<float>(std::sin(a));
-        shape.vertex({x, y, 0}, kUp, {0.5f + 0.5f * x, 0.5f + 0.5f * y});
+        shape.addVertex({x, y, 0}, kUp, {0.5f + 0.5f * x, 0.5f + 0.5f * y});
     }
     for (std::size_t i = 0; i < triangles; ++i) {
         const auto n = static_cast<std::uint32_t>(triangles);
-        shape.triangle(apex, 1 + static_cast<std::uint32_t>(i), 1 + (static_cast<std::uint32_t>(i) + 1) % n);
+        shape.addTriangle(apex, 1 + static_cast<std::uint32_t>(i), 1 + (static_cast<std::uint32_t>(i) + 1) % n);
     }
     return shape;
 }
 
 /// A fan whose UVs unroll the rim: tangents at the apex point in all directions.
-inline Shape unrolledFan(std::size_t triangles) {
-    Shape shape = fan(triangles);
+inline SimpleMesh unrolledFan(std::size_t triangles) {
+    SimpleMesh shape = fan(triangles);
     for (std::size_t i = 0; i < triangles; ++i) {
         shape.uvs[i + 1] = {static_cast<float>(i) / static_cast<float>(triangles), 0};
     }
@@ -104,69 +76,70 @@ inline Shape unrolledFan(std::size_t triangles) {
 }
 
 /// A cone with a UV of its own for each face at the apex: as many nodes at one position.
-inline Shape cone(std::size_t triangles) {
-    Shape shape = fan(triangles);
+inline SimpleMesh cone(std::size_t triangles) {
+    SimpleMesh shape = fan(triangles);
     for (std::size_t i = 0; i < triangles; ++i) {
         shape.indices[3 * i] =
-            shape.vertex({0, 0, 0.5f}, kUp, {static_cast<float>(i) / static_cast<float>(triangles), 1});
+            shape.addVertex({0, 0, 0.5f}, kUp, {static_cast<float>(i) / static_cast<float>(triangles), 1});
     }
     return shape;
 }
 
 /// Every triangle is a point at the same place, with UVs of its own.
-inline Shape collapsed(std::size_t triangles) {
-    Shape shape;
+inline SimpleMesh collapsed(std::size_t triangles) {
+    SimpleMesh shape;
     for (std::size_t i = 0; i < triangles; ++i) {
         const float u = static_cast<float>(i);
-        const std::uint32_t a = shape.vertex({1, 2, 3}, kUp, {u, 0});
-        shape.vertex({1, 2, 3}, kUp, {u, 1});
-        shape.vertex({1, 2, 3}, kUp, {u + 1, 0});
-        shape.triangle(a, a + 1, a + 2);
+        const std::uint32_t a = shape.addVertex({1, 2, 3}, kUp, {u, 0});
+        shape.addVertex({1, 2, 3}, kUp, {u, 1});
+        shape.addVertex({1, 2, 3}, kUp, {u + 1, 0});
+        shape.addTriangle(a, a + 1, a + 2);
     }
     return shape;
 }
 
 /// All triangles share one edge; every other one runs along it the other way when `mixed`.
-inline Shape book(std::size_t pages, bool mixed) {
-    Shape shape;
-    const std::uint32_t a = shape.vertex({0, 0, 0}, {0, 1, 0}, {0, 0}), b = shape.vertex({0, 0, 1}, {0, 1, 0}, {0, 1});
+inline SimpleMesh book(std::size_t pages, bool mixed) {
+    SimpleMesh shape;
+    const std::uint32_t a = shape.addVertex({0, 0, 0}, {0, 1, 0}, {0, 0}),
+                        b = shape.addVertex({0, 0, 1}, {0, 1, 0}, {0, 1});
     for (std::size_t i = 0; i < pages; ++i) {
         const double angle = 1.5 * static_cast<double>(i) / static_cast<double>(pages);
         const auto x = static_cast<float>(std::cos(angle)), y = static_cast<float>(std::sin(angle));
-        const std::uint32_t c = shape.vertex({x, y, 0.5f}, {0, 1, 0}, {1, 0.5f});
+        const std::uint32_t c = shape.addVertex({x, y, 0.5f}, {0, 1, 0}, {1, 0.5f});
         if (mixed && i % 2 == 1) {
-            shape.triangle(b, a, c);
+            shape.addTriangle(b, a, c);
         } else {
-            shape.triangle(a, b, c);
+            shape.addTriangle(a, b, c);
         }
     }
     return shape;
 }
 
 /// A sheet in which every triangle has its own vertices, at the same positions but with other normals.
-inline Shape duplicatesWithOtherNormals(std::size_t triangles) {
-    Shape shape;
+inline SimpleMesh duplicatesWithOtherNormals(std::size_t triangles) {
+    SimpleMesh shape;
     for (std::size_t i = 0; i < triangles; ++i) {
         const double tilt = static_cast<double>(i) * 1e-5;
         const Vec3 n{static_cast<float>(std::sin(tilt)), 0, static_cast<float>(std::cos(tilt))};
-        const std::uint32_t a = shape.vertex({0, 0, 0}, n, {0, 0});
-        shape.vertex({1, 0, 0}, n, {1, 0});
-        shape.vertex({0, 1, 0}, n, {0, 1});
-        shape.triangle(a, a + 1, a + 2);
+        const std::uint32_t a = shape.addVertex({0, 0, 0}, n, {0, 0});
+        shape.addVertex({1, 0, 0}, n, {1, 0});
+        shape.addVertex({0, 1, 0}, n, {0, 1});
+        shape.addTriangle(a, a + 1, a + 2);
     }
     return shape;
 }
 
 /// Every hundredth triangle has two corners at one place.
-inline Shape someDegenerate(std::size_t triangles) {
-    Shape shape = gridOf(triangles);
+inline SimpleMesh someDegenerate(std::size_t triangles) {
+    SimpleMesh shape = gridOf(triangles);
     for (std::size_t t = 50; t < shape.indices.size() / 3; t += 100) shape.indices[3 * t + 1] = shape.indices[3 * t];
     return shape;
 }
 
 /// Neighbouring squares have UVs of opposite orientation.
-inline Shape checkerboard(std::size_t triangles) {
-    Shape shape = gridOf(triangles);
+inline SimpleMesh checkerboard(std::size_t triangles) {
+    SimpleMesh shape = gridOf(triangles);
     const auto side = static_cast<std::uint32_t>(std::sqrt(static_cast<double>(shape.positions.size())));
     for (std::uint32_t y = 0; y < side; ++y) {
         for (std::uint32_t x = 0; x < side; ++x) {
@@ -177,8 +150,8 @@ inline Shape checkerboard(std::size_t triangles) {
 }
 
 /// A sheet with NaN and infinity strewn in.
-inline Shape notFinite(std::size_t triangles) {
-    Shape shape = gridOf(triangles);
+inline SimpleMesh notFinite(std::size_t triangles) {
+    SimpleMesh shape = gridOf(triangles);
     for (std::size_t v = 7; v < shape.positions.size(); v += 97) {
         shape.positions[v].y = std::numeric_limits<float>::quiet_NaN();
         if (v + 3 < shape.positions.size()) shape.uvs[v + 3].x = std::numeric_limits<float>::infinity();
@@ -187,8 +160,8 @@ inline Shape notFinite(std::size_t triangles) {
 }
 
 /// Triangles with all UVs equal beside sound ones.
-inline Shape someWithoutUvArea(std::size_t triangles) {
-    Shape shape = gridOf(triangles);
+inline SimpleMesh someWithoutUvArea(std::size_t triangles) {
+    SimpleMesh shape = gridOf(triangles);
     for (std::size_t v = 0; v < shape.uvs.size(); ++v) {
         if (v / 16 % 2 == 0) shape.uvs[v] = {0.5f, 0.5f};
     }
@@ -199,13 +172,13 @@ inline Shape someWithoutUvArea(std::size_t triangles) {
 /// pivot again and again. The first 2048 faces are points that give vertex i the number 3i; the keys of the
 /// others' edges are the smaller number of their ends. The sort is played with keys that are only chosen when
 /// a pivot falls on them.
-inline Shape sortKiller(std::size_t triangles) {
+inline SimpleMesh sortKiller(std::size_t triangles) {
     constexpr std::uint32_t kVertices = 2048, kHigh = 2000, kRounds = 100;
-    Shape shape;
+    SimpleMesh shape;
     for (std::uint32_t i = 0; i < kVertices; ++i) {
         const auto x = static_cast<float>(i);
-        shape.vertex({x, 0, 0}, kUp, {x, static_cast<float>(i * i % 97)});
-        shape.triangle(i, i, i);
+        shape.addVertex({x, 0, 0}, kUp, {x, static_cast<float>(i * i % 97)});
+        shape.addTriangle(i, i, i);
     }
     std::mt19937 random(1);
     std::vector<std::uint32_t> corners(3 * triangles);
@@ -236,7 +209,8 @@ inline Shape sortKiller(std::size_t triangles) {
         } while (i <= j);
         begin = static_cast<std::size_t>(i);
     }
-    for (std::size_t t = 0; t < triangles; ++t) shape.triangle(corners[3 * t], corners[3 * t + 1], corners[3 * t + 2]);
+    for (std::size_t t = 0; t < triangles; ++t)
+        shape.addTriangle(corners[3 * t], corners[3 * t + 1], corners[3 * t + 2]);
     return shape;
 }
 
@@ -256,7 +230,7 @@ struct Outputs {
 
 /// A torus of `columns` times `rows` cells; its positions come without the C library, so that they are the same
 /// everywhere. With seams of the UV map, or closed.
-inline Shape torus(std::uint32_t columns, std::uint32_t rows, bool closed) {
+inline SimpleMesh torus(std::uint32_t columns, std::uint32_t rows, bool closed) {
     const auto circle = [](std::uint32_t i, std::uint32_t count, float& x, float& y) {
         // Four quarters, each by t -> ((1 - t t), 2 t) / (1 + t t).
         const std::uint32_t step = 4 * (i % count), quarter = step / count;
@@ -265,7 +239,7 @@ inline Shape torus(std::uint32_t columns, std::uint32_t rows, bool closed) {
         x = quarter == 0 ? a : quarter == 1 ? -b : quarter == 2 ? -a : b;
         y = quarter == 0 ? b : quarter == 1 ? a : quarter == 2 ? -b : -a;
     };
-    Shape shape;
+    SimpleMesh shape;
     const std::uint32_t more = closed ? 0 : 1;
     for (std::uint32_t i = 0; i < columns + more; ++i) {
         for (std::uint32_t j = 0; j < rows + more; ++j) {
@@ -274,16 +248,16 @@ inline Shape torus(std::uint32_t columns, std::uint32_t rows, bool closed) {
             circle(j, rows, reach, height);
             const float ripple = static_cast<float>((7 * i + 3 * j) % 11) / 64;
             const float u = static_cast<float>(i) + ripple, v = static_cast<float>(j) - ripple;
-            shape.vertex({(2 + 0.75f * reach) * x, (2 + 0.75f * reach) * y, 0.75f * height + ripple},
-                         {reach * x, reach * y, height}, {closed ? u * u : u, v});
+            shape.addVertex({(2 + 0.75f * reach) * x, (2 + 0.75f * reach) * y, 0.75f * height + ripple},
+                            {reach * x, reach * y, height}, {closed ? u * u : u, v});
         }
     }
     for (std::uint32_t i = 0; i < columns; ++i) {
         for (std::uint32_t j = 0; j < rows; ++j) {
             const std::uint32_t row = rows + more, i2 = (i + 1) % (columns + more), j2 = (j + 1) % (rows + more);
             const std::uint32_t a = i * row + j, b = i2 * row + j, c = i2 * row + j2, d = i * row + j2;
-            shape.triangle(a, b, c);
-            shape.triangle(a, c, d);
+            shape.addTriangle(a, b, c);
+            shape.addTriangle(a, c, d);
         }
     }
     return shape;

@@ -28,8 +28,8 @@ constexpr Method kMethods[] = {Method::mikktspace, Method::uniform, Method::angl
 
 /// A sheet rolled up: duplicated vertices along its seam, mirrored UVs on one half, some triangles without UV
 /// area and some without area, normals that are not quite of unit length.
-Shape rolledSheet(std::uint32_t side) {
-    Shape shape = grid(side);
+SimpleMesh rolledSheet(std::uint32_t side) {
+    SimpleMesh shape = grid(side);
     for (std::size_t v = 0; v < shape.positions.size(); ++v) {
         const float x = shape.positions[v].x,
                     turn = 6.2831853f * std::fmod(x, static_cast<float>(side)) / static_cast<float>(side);
@@ -43,33 +43,33 @@ Shape rolledSheet(std::uint32_t side) {
 }
 
 /// The same faces, every third pair of triangles as a quad.
-Shape withQuads(const Shape& from) {
-    Shape shape = from;
+SimpleMesh withQuads(const SimpleMesh& from) {
+    SimpleMesh shape = from;
     shape.indices.clear();
     for (std::size_t i = 0; i < from.indices.size(); i += 6) {
         const auto* v = from.indices.data() + i;
         if (i % 18 == 0) {
-            shape.face({v[0], v[1], v[2], v[5]});
+            shape.addFace({v[0], v[1], v[2], v[5]});
         } else {
-            shape.face({v[0], v[1], v[2]});
-            shape.face({v[3], v[4], v[5]});
+            shape.addFace({v[0], v[1], v[2]});
+            shape.addFace({v[3], v[4], v[5]});
         }
     }
     return shape;
 }
 
-Shape unindexed(const Shape& from) {
-    Shape shape;
+SimpleMesh unindexed(const SimpleMesh& from) {
+    SimpleMesh shape;
     for (const std::uint32_t v : from.indices)
-        shape.indices.push_back(shape.vertex(from.positions[v], from.normals[v], from.uvs[v]));
+        shape.indices.push_back(shape.addVertex(from.positions[v], from.normals[v], from.uvs[v]));
     return shape;
 }
 
 /// A wavy sheet with all that keeps a node from being one plain fan: UVs mirrored every few columns, between
 /// some of them columns without UV area, patches without any, triangles turned over or there twice, and
 /// others without area.
-Shape foldedSheet(std::uint32_t side, std::uint32_t fold) {
-    Shape shape = grid(side);
+SimpleMesh foldedSheet(std::uint32_t side, std::uint32_t fold) {
+    SimpleMesh shape = grid(side);
     const std::uint32_t columns = side + 1;
     for (std::uint32_t v = 0; v < shape.uvs.size(); ++v) {
         const std::uint32_t x = v % columns, y = v / columns, step = x % (2 * fold);
@@ -86,25 +86,25 @@ Shape foldedSheet(std::uint32_t side, std::uint32_t fold) {
 }
 
 /// The same faces, rows of four triangles as hexagons; some go through one vertex twice.
-Shape withHexagons(const Shape& from) {
-    Shape shape = from;
+SimpleMesh withHexagons(const SimpleMesh& from) {
+    SimpleMesh shape = from;
     shape.indices.clear();
     for (std::size_t i = 0; i + 12 <= from.indices.size(); i += 12) {
         const auto* v = from.indices.data() + i;
-        shape.face({v[0], v[1], v[2], v[5], i % 84 == 0 ? v[1] : v[8], i % 60 == 0 ? v[5] : v[11]});
+        shape.addFace({v[0], v[1], v[2], v[5], i % 84 == 0 ? v[1] : v[8], i % 60 == 0 ? v[5] : v[11]});
     }
     return shape;
 }
 
-Shape withBrokenValues(Shape shape) {
+SimpleMesh withBrokenValues(SimpleMesh shape) {
     for (std::size_t v = 0; v < shape.positions.size(); v += 301)
         shape.positions[v].x = std::numeric_limits<float>::quiet_NaN();
     for (std::size_t v = 7; v < shape.uvs.size(); v += 401) shape.uvs[v].x = std::numeric_limits<float>::infinity();
     return shape;
 }
 
-std::vector<Shape> shapes() {
-    std::vector<Shape> list{
+std::vector<SimpleMesh> shapes() {
+    std::vector<SimpleMesh> list{
         grid(9),    rolledSheet(60),    withQuads(rolledSheet(40)),       unindexed(rolledSheet(30)),
         cone(3000), checkerboard(3000), withBrokenValues(rolledSheet(40))};
     list.push_back(rolledSheet(150));
@@ -115,7 +115,7 @@ std::vector<Shape> shapes() {
     return list;
 }
 
-Outputs generate(const Shape& shape, const TangentOptions& options, const Execution& execution = {}) {
+Outputs generate(const SimpleMesh& shape, const TangentOptions& options, const Execution& execution = {}) {
     Outputs outputs(shape.cornerCount());
     const auto report = generateTangents(shape.view(), options, outputs.view(), execution);
     EXPECT_TRUE(report.ok());
@@ -124,7 +124,7 @@ Outputs generate(const Shape& shape, const TangentOptions& options, const Execut
 }
 
 TEST(Simd, EveryTargetGivesTheBitsOfPlainCode) {
-    for (const Shape& shape : shapes()) {
+    for (const SimpleMesh& shape : shapes()) {
         for (const Method method : kMethods) {
             TangentOptions options{.convention = conventions::opengl};
             options.method = method;
@@ -153,7 +153,7 @@ TEST(Simd, AWishForAnotherKindOfCpuGetsOneThatIsThere) {
         EXPECT_EQ(simd::resolve(wish) != SimdTarget::scalar, is_x86);
 }
 
-void planAndEvaluate(const Shape& shape, const TangentOptions& options, Outputs& outputs) {
+void planAndEvaluate(const SimpleMesh& shape, const TangentOptions& options, Outputs& outputs) {
     const auto plan = planTangents(shape.view(), options);
     ASSERT_TRUE(plan.ok());
     const auto report = evaluateTangents(*plan, {shape.positions, shape.normals}, outputs.view());
@@ -162,7 +162,7 @@ void planAndEvaluate(const Shape& shape, const TangentOptions& options, Outputs&
 }
 
 TEST(OnePass, GivesTheBitsOfPlanAndEvaluationForAnyNumberOfThreads) {
-    for (const Shape& shape : shapes()) {
+    for (const SimpleMesh& shape : shapes()) {
         for (const Method method : kMethods) {
             TangentOptions options{.convention = conventions::opengl};
             options.method = method;
@@ -177,43 +177,44 @@ TEST(OnePass, GivesTheBitsOfPlanAndEvaluationForAnyNumberOfThreads) {
 }
 
 /// Soups of few vertices, as in grouped_property_test.cpp, but many more of them.
-Shape soup(std::uint32_t seed) {
+SimpleMesh soup(std::uint32_t seed) {
     std::mt19937 random(seed);
     const auto number = [&](std::uint32_t most) { return 0.25f * static_cast<float>(random() % most); };
-    Shape shape;
+    SimpleMesh shape;
     const std::uint32_t vertices = 3 + random() % 12;
     for (std::uint32_t v = 0; v < vertices; ++v)
-        shape.vertex({number(9), number(9), number(9)}, {number(5) - 0.5f, number(5) - 0.5f, 1},
-                     {number(5), number(5)});
+        shape.addVertex({number(9), number(9), number(9)}, {number(5) - 0.5f, number(5) - 0.5f, 1},
+                        {number(5), number(5)});
     const std::uint32_t sizes = 1 + random() % 3, faces = 1 + random() % 40;
     for (std::uint32_t f = 0; f < faces; ++f) {
         std::vector<std::uint32_t> face(3 + random() % sizes);
         for (std::uint32_t& corner : face) corner = random() % vertices;
-        shape.face(face);
+        shape.addFace(face);
     }
     return shape;
 }
 
 /// A flat ring of rows, the last of which meets the first: there neighbours have numbers that lie far apart.
-Shape ring(std::uint32_t rows, std::uint32_t columns) {
-    Shape shape;
+SimpleMesh ring(std::uint32_t rows, std::uint32_t columns) {
+    SimpleMesh shape;
     for (std::uint32_t v = 0; v < rows * columns; ++v) {
         const auto row = static_cast<float>(v / columns), column = static_cast<float>(v % columns);
         const float turn = 6.2831853f * row / static_cast<float>(rows), radius = static_cast<float>(columns) + column;
         const Vec2 at{radius * std::cos(turn), radius * std::sin(turn)};
-        shape.vertex({at.x, at.y, 0.3f * std::sin(column)}, kUp, at);
+        shape.addVertex({at.x, at.y, 0.3f * std::sin(column)}, kUp, at);
     }
     for (std::uint32_t a = 0; a < rows * columns; ++a) {
         if ((a + 1) % columns == 0) continue;
         const std::uint32_t d = (a + columns) % (rows * columns);
-        shape.triangle(a, a + 1, d + 1);
-        shape.triangle(a, d + 1, d);
+        shape.addTriangle(a, a + 1, d + 1);
+        shape.addTriangle(a, d + 1, d);
     }
     return shape;
 }
 
 /// The outputs of one pass. `range_shift`: ranges of so many nodes.
-Outputs onePass(const Shape& shape, const Call<TangentOptions>& options, bool tangents_only, unsigned range_shift = 0) {
+Outputs onePass(const SimpleMesh& shape, const Call<TangentOptions>& options, bool tangents_only,
+                unsigned range_shift = 0) {
     const MeshView mesh = shape.view();
     Parallel parallel(options.execution);
     const mikk::TriangleList triangles = mikk::cutFaces(mesh, options.ngons, nullptr);
@@ -229,10 +230,10 @@ Outputs onePass(const Shape& shape, const Call<TangentOptions>& options, bool ta
 }
 
 TEST(OnePass, AndAPlanGiveTheSameBits) {
-    std::vector<Shape> list = shapes();
+    std::vector<SimpleMesh> list = shapes();
     for (std::uint32_t seed = 0; seed < 3000; ++seed) list.push_back(soup(seed));
     std::size_t compared = 0;
-    for (const Shape& shape : list) {
+    for (const SimpleMesh& shape : list) {
         for (const Method method : {Method::mikktspace, Method::angle}) {
             TangentOptions options{.convention = conventions::opengl};
             options.method = method;
@@ -254,7 +255,7 @@ TEST(OnePass, AndAPlanGiveTheSameBits) {
 }
 
 TEST(OnePass, InRangesOfNodesGivesTheSameBits) {
-    std::vector<Shape> list = shapes();
+    std::vector<SimpleMesh> list = shapes();
     list.push_back(foldedSheet(200, 7));
     list.push_back(ring(500, 70));  // farther apart than lists of fans can say
     shuffleTriangles(list.back(), 8);
@@ -264,7 +265,7 @@ TEST(OnePass, InRangesOfNodesGivesTheSameBits) {
         shuffleTriangles(list.back(), seed);
     }
     std::size_t compared = 0;
-    for (const Shape& shape : list) {
+    for (const SimpleMesh& shape : list) {
         for (const Method method : {Method::mikktspace, Method::angle, Method::fast}) {
             TangentOptions options{.convention = conventions::opengl};
             options.method = method;
@@ -291,7 +292,7 @@ TEST(OnePass, InRangesOfNodesGivesTheSameBits) {
 }
 
 TEST(OnePass, GivesTheSameTangentsWithoutTheOtherOutputs) {
-    for (const Shape& shape : shapes()) {
+    for (const SimpleMesh& shape : shapes()) {
         const Outputs want = generate(shape, {.convention = conventions::opengl});
         std::vector<Vec4> tangents(shape.cornerCount());
         const auto report = generateTangents(shape.view(), {.convention = conventions::opengl}, {tangents});
@@ -305,7 +306,7 @@ TEST(OnePass, GivesTheSameTangentsWithoutTheOtherOutputs) {
 }
 
 TEST(OnePass, WritesLargeOutputsAsItWritesOthers) {
-    const Shape shape = gridOf(720000);  // 34 MB of tangents (core/caches.h)
+    const SimpleMesh shape = gridOf(720000);  // 34 MB of tangents (core/caches.h)
     struct Padded {
         Vec4 tangent;
         float other = 7;
@@ -328,7 +329,7 @@ TEST(OnePass, WritesLargeOutputsAsItWritesOthers) {
 }
 
 TEST(OnePass, ReadsInterleavedVerticesUpToTheLastByteOnly) {
-    const Shape shape = rolledSheet(20);
+    const SimpleMesh shape = rolledSheet(20);
     const std::size_t count = shape.positions.size();
     std::vector<float> data(8 * count);  // position, UV, normal: the last normal ends where the memory ends
     for (std::size_t v = 0; v < count; ++v) {

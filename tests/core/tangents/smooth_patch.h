@@ -13,7 +13,7 @@ struct PatchPoint {
 };
 
 struct SmoothPatch {
-    Shape shape;
+    SimpleMesh shape;
     std::vector<Vec3> tangents;  ///< one per vertex: the direction of dP/du
     std::vector<bool> inside;    ///< one per vertex: not at the border
 };
@@ -41,7 +41,7 @@ inline SmoothPatch smoothPatch(const std::function<PatchPoint(double, double)>& 
             const auto vec = [](const PatchPoint& q, double length) {
                 return Vec3{float(q.x / length), float(q.y / length), float(q.z / length)};
             };
-            patch.shape.vertex(vec(p, 1), vec(n, n_length), uv);
+            patch.shape.addVertex(vec(p, 1), vec(n, n_length), uv);
             patch.tangents.push_back(vec(s, s_length));
             patch.inside.push_back(inside);
         }
@@ -50,8 +50,8 @@ inline SmoothPatch smoothPatch(const std::function<PatchPoint(double, double)>& 
         for (std::uint32_t x = 0; x < side; ++x) {
             const std::uint32_t a = y * (side + 1) + x, b = a + 1, c = b + side, d = c + 1;
             const bool other = random() % 2 != 0;
-            patch.shape.triangle(a, b, other ? c : d);
-            patch.shape.triangle(other ? b : a, d, c);
+            patch.shape.addTriangle(a, b, other ? c : d);
+            patch.shape.addTriangle(other ? b : a, d, c);
         }
     }
     return patch;
@@ -59,7 +59,7 @@ inline SmoothPatch smoothPatch(const std::function<PatchPoint(double, double)>& 
 
 /// Triangles around vertex 0, which is the first corner of all: a bent surface, with normals and UVs that are
 /// not in line with it.
-inline Shape bumpyRing(std::uint32_t count, std::uint32_t seed) {
+inline SimpleMesh bumpyRing(std::uint32_t count, std::uint32_t seed) {
     std::mt19937 random(seed);
     const auto noise = [&] { return static_cast<float>(random() % 1000) / 999 - 0.5f; };
     const auto normal = [&] {
@@ -67,22 +67,22 @@ inline Shape bumpyRing(std::uint32_t count, std::uint32_t seed) {
         const float length = std::hypot(n.x, n.y, n.z);
         return Vec3{n.x / length, n.y / length, n.z / length};
     };
-    Shape shape;
-    shape.vertex({0.1f, 0.2f, 0.3f}, normal(), {0.4f, 0.3f});
+    SimpleMesh shape;
+    shape.addVertex({0.1f, 0.2f, 0.3f}, normal(), {0.4f, 0.3f});
     for (std::uint32_t i = 0; i < count; ++i) {
         const float angle = 6.2831853f * (static_cast<float>(i) + 0.5f * noise()) / static_cast<float>(count);
         const float r = 1 + 0.6f * noise(), x = r * std::cos(angle), y = r * std::sin(angle);
-        shape.vertex({x + 0.1f, y + 0.2f, 0.3f + 0.2f * noise()}, normal(),
-                     {0.4f + 0.2f * x + 0.05f * y + 0.03f * noise(), 0.3f + 0.25f * y + 0.03f * noise()});
+        shape.addVertex({x + 0.1f, y + 0.2f, 0.3f + 0.2f * noise()}, normal(),
+                        {0.4f + 0.2f * x + 0.05f * y + 0.03f * noise(), 0.3f + 0.25f * y + 0.03f * noise()});
     }
-    for (std::uint32_t i = 0; i < count; ++i) shape.triangle(0, 1 + i, 1 + (i + 1) % count);
+    for (std::uint32_t i = 0; i < count; ++i) shape.addTriangle(0, 1 + i, 1 + (i + 1) % count);
     return shape;
 }
 
 /// A flat square (the first two triangles) with a rounded border of this radius on two sides, in which the
 /// UVs are sheared.
-inline Shape shearedBevel(float radius) {
-    Shape shape;
+inline SimpleMesh shearedBevel(float radius) {
+    SimpleMesh shape;
     const float edges[3] = {-1, 1, 1 + radius};
     for (int y = 0; y < 3; ++y) {
         for (int x = 0; x < 3; ++x) {
@@ -92,12 +92,12 @@ inline Shape shearedBevel(float radius) {
             const Vec3 n = right || top ? Vec3{right ? tilt : 0.0f, top ? tilt : 0.0f, 0} : kUp;
             const Vec2 uv{edges[x] + (top && !right ? 3 * radius : 0.0f),
                           edges[y] + (right && !top ? 3 * radius : 0.0f)};
-            shape.vertex({edges[x], edges[y], low}, n, uv);
+            shape.addVertex({edges[x], edges[y], low}, n, uv);
         }
     }
     for (const std::uint32_t a : {0u, 1u, 3u}) {
-        shape.triangle(a, a + 1, a + 4);
-        shape.triangle(a, a + 4, a + 3);
+        shape.addTriangle(a, a + 1, a + 4);
+        shape.addTriangle(a, a + 4, a + 3);
     }
     return shape;
 }

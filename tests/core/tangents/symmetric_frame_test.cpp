@@ -15,8 +15,8 @@ constexpr std::array kMethods{Method::lengyel, Method::uniform, Method::angle, M
                               Method::flat,    Method::fast,    Method::best};
 
 /// A plane on which dP/du is the x axis and dP/dv leans over by `shear_deg`.
-Shape leaningPlane(double shear_deg, bool mirrored) {
-    Shape shape = grid(4);
+SimpleMesh leaningPlane(double shear_deg, bool mirrored) {
+    SimpleMesh shape = grid(4);
     const double lean = std::tan(shear_deg * std::numbers::pi / 180);
     for (std::size_t v = 0; v < shape.positions.size(); ++v) {
         const Vec2 uv = shape.uvs[v];
@@ -29,7 +29,7 @@ Shape leaningPlane(double shear_deg, bool mirrored) {
     return shape;
 }
 
-Outputs generate(const Shape& shape, const TangentOptions& options) {
+Outputs generate(const SimpleMesh& shape, const TangentOptions& options) {
     Outputs outputs(shape.cornerCount());
     const auto report = generateTangents(shape.view(), options, outputs.view());
     EXPECT_TRUE(report) << (report ? "" : report.error().message);
@@ -39,7 +39,7 @@ Outputs generate(const Shape& shape, const TangentOptions& options) {
 TEST(SymmetricFrame, TurnsTheTangentByHalfOfTheShear) {
     for (const bool mirrored : {false, true}) {
         for (const double shear : {-60.0, 20.0, 45.0}) {
-            const Shape shape = leaningPlane(shear, mirrored);
+            const SimpleMesh shape = leaningPlane(shear, mirrored);
             const double half = -shear / 2 * std::numbers::pi / 180, side = mirrored ? -1 : 1;
             for (const Method method : kMethods) {
                 const Outputs got = generate(
@@ -55,7 +55,7 @@ TEST(SymmetricFrame, TurnsTheTangentByHalfOfTheShear) {
 }
 
 TEST(SymmetricFrame, LeavesUvsAtARightAngleAlone) {
-    const Shape shape = leaningPlane(0, false);
+    const SimpleMesh shape = leaningPlane(0, false);
     for (const Method method : kMethods) {
         const Outputs got =
             generate(shape, {.method = method, .convention = conventions::opengl, .frame = FrameShape::symmetric});
@@ -64,7 +64,7 @@ TEST(SymmetricFrame, LeavesUvsAtARightAngleAlone) {
 }
 
 TEST(SymmetricFrame, KeepsSignsAndTheOtherOutputs) {
-    Shape shape = grid(12);
+    SimpleMesh shape = grid(12);
     for (std::size_t v = 0; v < shape.uvs.size(); ++v)
         shape.uvs[v].x = std::fabs(shape.uvs[v].x + 0.3f * shape.uvs[v].y - 0.5f);
     for (const Method method : kMethods) {
@@ -78,7 +78,7 @@ TEST(SymmetricFrame, KeepsSignsAndTheOtherOutputs) {
 }
 
 TEST(SymmetricFrame, PlanAndEvaluateEqualTheOneCallAndBitangentsNeedNotBeAskedFor) {
-    const Shape shape = leaningPlane(50, false);
+    const SimpleMesh shape = leaningPlane(50, false);
     for (const Method method : kMethods) {
         const TangentOptions options{
             .method = method, .convention = conventions::opengl, .frame = FrameShape::symmetric};
@@ -92,7 +92,7 @@ TEST(SymmetricFrame, PlanAndEvaluateEqualTheOneCallAndBitangentsNeedNotBeAskedFo
 }
 
 TEST(SymmetricFrame, HasAnEntryPerVertexToo) {
-    const Shape shape = leaningPlane(50, false);
+    const SimpleMesh shape = leaningPlane(50, false);
     const TangentOptions per_corner{
         .method = Method::lengyel, .convention = conventions::opengl, .frame = FrameShape::symmetric};
     TangentOptions per_vertex = per_corner;
@@ -111,7 +111,7 @@ TEST(SymmetricFrame, HasAnEntryPerVertexToo) {
 }
 
 TEST(SymmetricFrame, KeepsTangentsThatHaveNoBitangentOrNormal) {
-    Shape shape = leaningPlane(30, false);
+    SimpleMesh shape = leaningPlane(30, false);
     const auto tangentsWith = [&](const Vec3& normal, FrameShape frame) {
         for (Vec3& n : shape.normals) n = normal;
         return generate(shape, {.method = Method::angle, .convention = conventions::opengl, .frame = frame}).tangents;
@@ -125,7 +125,7 @@ TEST(SymmetricFrame, KeepsTangentsThatHaveNoBitangentOrNormal) {
 }
 
 TEST(SymmetricFrame, IsRefusedWhereItMeansNothing) {
-    const Shape shape = grid(2);
+    const SimpleMesh shape = grid(2);
     std::vector<Vec4> tangents(shape.cornerCount());
     const auto codeOf = [&](const TangentOptions& options) {
         const auto result = generateTangents(shape.view(), options, {.tangents = tangents});

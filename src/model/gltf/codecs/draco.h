@@ -15,7 +15,7 @@ namespace tspace::gltf {
 
 /// The lattice that the values of an attribute lie on.
 struct DracoRounding {
-    int bits = 0;  ///< for each component; 0: values are stored exactly
+    int bits = 0;  ///< per component; 0: values are stored exactly
     bool is_octahedral = false;
     std::vector<float> origin =
         {};  ///< smallest value of each component, then the extent of all; empty: to be measured
@@ -41,8 +41,8 @@ struct DracoMesh {
     std::vector<DracoAttribute> attributes = {};
 };
 
-/// What a mesh may be at most. More is refused before memory is asked for. What a file claims may be more than a size
-/// holds.
+/// Upper bounds of a mesh, checked before memory is allocated. 64 bits wide, because a file may claim more than a
+/// size_t of 32 bits holds.
 struct DracoLimits {
     std::uint64_t corner_count = 0, point_count = 0, bytes = 0;
 };

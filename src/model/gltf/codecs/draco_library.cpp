@@ -75,7 +75,7 @@ class Limited : public Decoder {
 
 template <class Decoder>
 std::string runDecoder(draco::DecoderBuffer& buffer, const DracoLimits& limits, draco::Mesh& mesh) {
-    // Quantised values come as whole numbers with their lattice, so that it is known when they are encoded again.
+    // Quantised values are kept as whole numbers with their lattice, so that encoding again reproduces the lattice.
     draco::DecoderOptions options;
     for (int kind = 0; kind < draco::GeometryAttribute::NAMED_ATTRIBUTES_COUNT; ++kind) {
         options.SetAttributeBool(static_cast<draco::GeometryAttribute::Type>(kind), "skip_attribute_transform", true);
@@ -93,7 +93,7 @@ std::string decodeMesh(std::span<const std::uint8_t> data, const DracoLimits& li
     return runDecoder<draco::MeshSequentialDecoder>(buffer, limits, mesh);
 }
 
-/// Values as floats, where the file holds whole numbers of a lattice; fills the rounding. Null: as they are.
+/// Turns whole numbers on a lattice into floats and fills the rounding. Null: the attribute holds plain values.
 std::unique_ptr<draco::PointAttribute> originalValues(const draco::PointAttribute& stored, DracoRounding& rounding,
                                                       bool& is_sound) {
     const draco::AttributeTransformData* transform = stored.GetAttributeTransformData();
@@ -209,8 +209,8 @@ void addAttribute(draco::Mesh& mesh, DracoAttribute& from) {
     from.id = mesh.attribute(number)->unique_id();
 }
 
-/// A float as the library reads it back with the same bits; what it writes itself has six digits behind the point. A whole
-/// number and a power of two, in hexadecimal: it reads by the C library, which looks for the point of the locale.
+/// Spells a float so that the library reads back the same bits (its own writer keeps six decimals). The spelling is
+/// hexadecimal, a whole number and a power of two: the library parses by strtod, whose decimal point depends on the locale.
 std::string exactText(float value) {
     int exponent = 0;
     const auto whole = static_cast<int>(std::ldexp(std::frexp(value, &exponent), 24));
@@ -245,7 +245,7 @@ bool encodeWith(DracoMesh& from, bool packs_triangles, Bytes& data) {
     }
     for (DracoAttribute& attribute : from.attributes) addAttribute(mesh, attribute);
     draco::ExpertEncoder encoder(mesh);
-    // The other method puts points and triangles in another order, and frames depend on that in their last bits.
+    // Edgebreaker reorders points and triangles, and the last bits of frames depend on that order.
     encoder.SetEncodingMethod(draco::MESH_SEQUENTIAL_ENCODING);
     encoder.options().SetGlobalBool("compress_connectivity", packs_triangles);
     for (std::size_t i = 0; i < from.attributes.size(); ++i)
@@ -281,8 +281,8 @@ std::string decodeDraco(std::span<const std::uint8_t> data, const DracoLimits& l
 }
 
 bool encodeDracoAsItIs(DracoMesh& from, Bytes& data) {
-    // Decoders refuse data of this method with fewer than three bytes a triangle behind the header, however well the
-    // triangles are packed. Unpacked ones have three at least.
+    // Draco's decoders refuse sequential data with fewer than three bytes per triangle behind the header, however well
+    // the triangles compress. Uncompressed triangles take at least three bytes.
     constexpr std::size_t kHeaderBytes = 64;
     if (!encodeWith(from, true, data)) return false;
     return data.size() >= from.corners.size() + kHeaderBytes || encodeWith(from, false, data);

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
-// What of the codec is the library's, beside dracoMissing and decodeDraco: bindings have others in its place.
+// The functions of the codec that call the library, beside dracoMissing and decodeDraco. WebAssembly modules
+// have others in their place (bindings/js/wasm).
 #pragma once
 
 #include "model/gltf/codecs/draco.h"
 
 namespace tspace::gltf {
 
-/// What is wrong with the head of Draco data; empty when nothing is.
+/// The fault of a Draco header as a sentence; empty when it is valid.
 std::string dracoHeaderFault(std::span<const std::uint8_t> data);
-/// The method of data whose head is right: this one, or the sequential one.
+/// Whether data with a valid header uses the Edgebreaker method; else it is sequential.
 bool isEdgebreaker(std::span<const std::uint8_t> data);
 
 /// Encodes points and triangles in their order, attributes by their rounding, and fills the ids. False when the library

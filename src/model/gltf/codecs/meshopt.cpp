@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Checks of everything that the library takes for granted, and encoding that loses nothing.
+// Checks of the preconditions that the library does not check itself, and lossless encoding.
 #include "model/gltf/codecs/meshopt.h"
 
 #include <algorithm>
@@ -61,7 +61,7 @@ bool encodeMeshopt(MeshoptCoding& coding, std::span<const std::uint8_t> rows, By
     if (data.empty() || coding.mode == MeshoptMode::attributes) return !data.empty();
     if (coding.mode == MeshoptMode::triangles) {
         if (comesBack(coding, rows, data)) return true;
-        // The triangle codec may begin a triangle at another of its corners, and sums over corners would change.
+        // The triangle codec may rotate a triangle's corners, which changes the order of sums over corners and so their bits.
         coding.mode = MeshoptMode::indices;
         data = encodeAsItIs(coding, rows);
     }

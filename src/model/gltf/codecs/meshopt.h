@@ -14,7 +14,7 @@ namespace tspace::gltf {
 /// What the elements are: rows of vertex data, three indices per triangle, or any row of indices.
 enum class MeshoptMode { attributes, triangles, indices };
 
-/// What is done to vertex data after decoding: it makes vectors of fewer bits whole.
+/// A transform after decoding: expands vectors that are stored with fewer bits.
 enum class MeshoptFilter { none, octahedral, quaternion, exponential, color };
 
 struct MeshoptCoding {
@@ -32,15 +32,15 @@ std::string meshoptMissing(bool is_khr);
 /// The most bytes that one byte of compressed data can stand for.
 std::uint64_t meshoptRatio(bool is_khr);
 
-/// What is wrong with the numbers of a coding whose data has `byte_count` bytes; empty when nothing is. Afterwards
+/// The fault of a coding whose data has `byte_count` bytes, as a sentence; empty when it is valid. For a valid coding
 /// byteCount() cannot overflow and is at most meshoptRatio times `byte_count`.
 std::string meshoptFault(const MeshoptCoding& coding, std::size_t byte_count);
 
 /// Decodes to coding.byteCount() bytes, and applies the filter. False when the data is broken.
 bool decodeMeshopt(const MeshoptCoding& coding, std::span<const std::uint8_t> data, std::span<std::uint8_t> to);
 
-/// Encodes rows to which the filter is still to be applied. Decoding gives the same bytes again; where three indices
-/// per triangle would come back turned, `coding.mode` becomes `indices`. False when the library cannot do it.
+/// Encodes rows as they are before the filter. Decoding gives the same bytes: where the triangle codec would rotate
+/// corners, `coding.mode` becomes `indices`. False when the library cannot encode them.
 bool encodeMeshopt(MeshoptCoding& coding, std::span<const std::uint8_t> rows, Bytes& data);
 
 }  // namespace tspace::gltf

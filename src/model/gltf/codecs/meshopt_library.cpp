@@ -76,7 +76,8 @@ Bytes encodeIndices(const MeshoptCoding& coding, const std::vector<unsigned>& in
     const std::size_t vertex_count =
         indices.empty() ? 0 : std::size_t{*std::max_element(indices.begin(), indices.end())} + 1;
     const bool triangles = coding.mode == MeshoptMode::triangles;
-    // The extensions ask for version 1, which is not the default everywhere. The library keeps it in a global variable.
+    // The extensions require index version 1, which is not the default of all versions. The library keeps the version in
+    // a global variable.
     static const bool version_is_set = (meshopt_encodeIndexVersion(1), true);
     static_cast<void>(version_is_set);
     Bytes data(triangles ? meshopt_encodeIndexBufferBound(indices.size(), vertex_count)
@@ -89,8 +90,7 @@ Bytes encodeIndices(const MeshoptCoding& coding, const std::vector<unsigned>& in
 }  // namespace
 
 bool decodeMeshopt(const MeshoptCoding& coding, std::span<const std::uint8_t> data, std::span<std::uint8_t> to) {
-    // The data itself may be hostile: the library checks every byte that it reads. Its counts are checked by
-    // meshoptFault.
+    // Hostile data is safe here: the library checks every byte that it reads, and meshoptFault has checked the counts.
     int failure = 0;
     switch (coding.mode) {
         case MeshoptMode::attributes:

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What of the codec is the library's, beside meshoptMissing and decodeMeshopt: bindings have others in its place.
+// The functions of the codec that call the library, beside meshoptMissing and decodeMeshopt. WebAssembly modules have
+// others in their place (bindings/js/wasm).
 #pragma once
 
 #include "model/gltf/codecs/meshopt.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// From plain accessors to Draco data.
+// Encodes plain accessors as Draco data.
 #include "model/gltf/compression/pack_draco.h"
 
 #include <algorithm>
@@ -9,7 +9,6 @@
 
 #include "core/base/sort.h"
 #include "model/gltf/draco_primitives.h"
-#include "model/gltf/extension_lists.h"
 #include "model/gltf/gather_elements.h"
 #include "model/gltf/primitive_reader.h"
 #include "model/gltf/vertex_numbers.h"
@@ -18,7 +17,7 @@ namespace tspace::gltf {
 
 namespace {
 
-/// What exporters commonly use.
+/// The bits that exporters commonly use.
 constexpr int kPositionBits = 14, kNormalBits = 10, kUvBits = 12;
 
 bool isFinite(const Bytes& floats) {
@@ -95,8 +94,8 @@ class Packer {
                            [&](const auto& use) { return editor_.accessorUses(use.first) == use.second; });
     }
 
-    /// Those that the corners use; the corners then go by the new numbers. Decoders refuse more points than corners,
-    /// and later splits could make so many where some are without a corner.
+    /// Keeps the vertices that corners use, and renumbers the corners. Decoders refuse more points than corners, and
+    /// unused vertices together with later splits could exceed that.
     static std::vector<std::uint32_t> chooseVertices(std::vector<std::uint32_t>& corners) {
         std::vector<std::uint32_t> chosen = corners;
         sortList(chosen.begin(), chosen.end());
@@ -194,7 +193,7 @@ class Packer {
         for (std::size_t t = 0; t < group[0]->targets.size(); ++t) {
             for (const auto& [name, old] : group[0]->targets[t]) {
                 if (stored.count(old) == 0) {
-                    // Vertices that nobody draws are gone, and so may be the extremes that were stated.
+                    // Undrawn vertices were dropped, and with them perhaps the stated extremes.
                     ElementData data = gatherElements(document_, readAccessor(document_, old), chosen);
                     renewBounds(data);
                     const bool alone = editor_.accessorUses(old) == uses[old];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// From any compression to a given one, by way of plain views.
+// Changes the compression of a file, by way of plain views.
 #include "model/gltf/compression/recompress.h"
 
 #include <algorithm>
@@ -9,10 +9,9 @@
 #include "model/gltf/compression/pack_draco.h"
 #include "model/gltf/draco_primitives.h"
 #include "model/gltf/editor.h"
-#include "model/gltf/extension_lists.h"
 #include "model/gltf/gather_elements.h"
 #include "model/gltf/primitive_reader.h"
-#include "model/gltf/unreferenced_buffers.h"
+#include "model/gltf/references.h"
 #include "model/io/file_error.h"
 
 namespace tspace::gltf {
@@ -58,7 +57,7 @@ void unpackDraco(Document& document, Editor& editor) {
         std::iota(all.begin(), all.end(), 0u);
         ElementData data = gatherElements(document, accessor, all);
         data.like.reset();
-        renewBounds(data);  // Draco data rarely keep those that are stated
+        renewBounds(data);  // decoded Draco values rarely have exactly the stated extremes
         if (indices.count(index) != 0) data.target = kIndexTarget;
         document.elements.erase(index);
         editor.store(std::move(data), index);
@@ -67,7 +66,7 @@ void unpackDraco(Document& document, Editor& editor) {
     dropExtension(document, kDraco);
 }
 
-/// What reads a buffer view, as far as geometry does.
+/// The geometry that reads a buffer view.
 struct ViewUse {
     std::set<std::size_t> accessors = {};
     bool by_indices = false, by_vertices = false;
@@ -91,7 +90,7 @@ class ViewUses {
 
     [[nodiscard]] const ViewUse& operator[](std::size_t view) const { return uses_[view]; }
 
-    /// Whether the codec can hold the view: rows of one size, read by vertices or by indices and by nobody else.
+    /// Whether the codec can hold the view: rows of one size, read either as vertices or as indices and not otherwise.
     [[nodiscard]] bool canPack(std::size_t view) const {
         const ViewUse& use = uses_[view];
         if (use.accessors.empty() || use.accessors.size() != all_[view] || use.by_indices == use.by_vertices)

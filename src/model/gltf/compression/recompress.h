@@ -10,14 +10,14 @@
 
 namespace tspace::gltf {
 
-/// Unpacks what is compressed otherwise than asked for. Draco is packed here as well: it rounds, and frames belong to the
-/// values that are written. `new_file_name` as for Editor. Returns false when nothing had to change. Fails with
-/// unsupportedFile when this build has not the library.
+/// Unpacks geometry whose compression differs from the requested one. Draco is encoded here, before frames are
+/// computed: it rounds, and frames must fit the rounded values. `new_file_name` as for Editor. Returns false when nothing
+/// had to change. Fails with unsupportedFile when this build lacks the library.
 bool unpackGeometry(Document& document, Compression compression, const std::string& new_file_name,
                     std::vector<std::string>& warnings);
 
-/// Packs what is not compressed yet, where the compression keeps every value: meshopt. Returns false when nothing had to
-/// change.
+/// Encodes plain geometry by meshopt, which is lossless and so can run after frames are computed. Returns false when
+/// nothing had to change.
 bool packGeometry(Document& document, Compression compression, const std::string& new_file_name);
 
 }  // namespace tspace::gltf

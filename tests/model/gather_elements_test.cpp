@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Elements that are copied when they are written, or when somebody looks at them.
-#include "model/gltf/gathered_bytes.h"
+#include "model/gltf/gather_elements.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
