@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "file_hash.h"
+#include "tspace/execution.h"
 
 namespace tspace::tool {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "arguments.h"
+#include "batch.h"
 #include "command_table.h"
 #include "commands/shared/file_options.h"
 

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "commands/shared/report.h"
 #include "console.h"
-#include "report.h"
 #include "standard_input.h"
 #include "system.h"
 
@@ -50,21 +50,20 @@ auto callOnImage(const std::string& input, const std::string& output, std::uint6
     return callWithOutput(output, std::move(options), call);
 }
 
-/// Prints the error, or the result as text or JSON: on stderr where the image is on stdout.
-template <class Arguments, class Report>
-ExitCode printOutcome(const Arguments& arguments, const Result<Report>& result,
-                      std::string (*jsonOf)(const report::Outcome<Report>&, ExitCode),
-                      std::string (*textOf)(const Arguments&, const Report&)) {
+/// Prints the error, or the result as text, textOf(outcome), or JSON, jsonOf(outcome, exit code): on stderr where the image is
+/// on stdout.
+template <class Arguments, class Report, class JsonOf, class TextOf>
+ExitCode printOutcome(const Arguments& arguments, const Result<Report>& result, JsonOf jsonOf, TextOf textOf) {
     const ExitCode exit_code = result ? ExitCode::done : printError(arguments.input, result.error());
+    const report::Outcome<Report> outcome{.input = arguments.input,
+                                          .output = arguments.output,
+                                          .result = result,
+                                          .is_dry_run = arguments.options.dry_run};
     std::string text;
     if (arguments.json) {
-        text = jsonOf({.input = arguments.input,
-                       .output = arguments.output,
-                       .result = result,
-                       .is_dry_run = arguments.options.dry_run},
-                      exit_code);
+        text = jsonOf(outcome, exit_code);
     } else if (!arguments.quiet && result) {
-        text = textOf(arguments, *result);
+        text = textOf(outcome);
     }
     return printResult(text, arguments.output == "-" ? stderr : stdout) ? exit_code : ExitCode::cannotReadOrWrite;
 }

@@ -5,9 +5,22 @@
 #include <string>
 #include <vector>
 
-#include "arguments.h"
+#include "tspace/result.h"
 
 namespace tspace::tool {
+
+/// The file format of outputs whose name does not say it.
+enum class Container { sameAsInput, glb, gltf };
+
+/// What is worked on and where results go, as the command line says.
+struct JobRequest {
+    std::vector<std::string> inputs = {};
+    std::string output = {};
+    bool in_place = false;
+    Container container = Container::sameAsInput;
+    bool is_dry_run = false;
+    bool has_manifest = false;
+};
 
 /// One model file to work on.
 struct Job {
@@ -29,9 +42,9 @@ bool isModelFile(const std::string& path);
 /// that match a pattern (glob.h) that is not itself a file.
 std::vector<Job> inputJobs(const std::vector<std::string>& inputs);
 
-/// The same with outputs. Makes no folder: that happens when there is something to write. An Error of code
+/// As inputJobs(), with outputs. Makes no folder: that happens when there is something to write. An Error of code
 /// invalidOption says what is wrong with the command line.
-Result<std::vector<Job>> generateJobs(const GenerateArguments& arguments);
+Result<std::vector<Job>> generateJobs(const JobRequest& request);
 
 /// The folders that the jobs write into, without those that lie in another one of them.
 std::vector<std::string> outputFolders(const std::vector<Job>& jobs);

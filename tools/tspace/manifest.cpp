@@ -9,9 +9,9 @@
 #include <filesystem>
 #include <fstream>
 
+#include "commands/shared/report.h"
 #include "model/io/system_files.h"
 #include "model/io/uri.h"
-#include "report.h"
 #include "system.h"
 
 namespace tspace::tool {

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "batch.h"
+#include "commands/shared/report.h"
 #include "console.h"
-#include "report.h"
 
 namespace tspace::tool {
 

@@ -4,10 +4,10 @@
 
 #include <map>
 
-#include "console.h"
-#include "report.h"
+#include "commands/check/check_report.h"
+#include "commands/shared/text.h"
 
-namespace tspace::tool {
+namespace tspace::report {
 namespace {
 
 /// Places listed of one kind of finding; the JSON has all of them.
@@ -161,4 +161,4 @@ std::string checkSummary(const std::vector<CheckOutcome>& outcomes, bool in_colo
     return text;
 }
 
-}  // namespace tspace::tool
+}  // namespace tspace::report

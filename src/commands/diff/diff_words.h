@@ -13,7 +13,7 @@ namespace tspace::report {
 using TextTable = std::vector<std::vector<std::string>>;
 
 /// Names from files stand in it as they are there.
-struct DiffText {
+struct DiffWords {
     std::string summary = {};               ///< "A against B: ..."
     std::vector<std::string> remarks = {};  ///< further sentences
     TextTable angles = {};                  ///< of the whole file
@@ -22,7 +22,7 @@ struct DiffText {
 };
 
 /// `a`, `b`: what the files are called.
-DiffText diffText(const std::string& a, const std::string& b, const FrameDiff& diff);
+DiffWords diffWords(const std::string& a, const std::string& b, const FrameDiff& diff);
 
 /// "up to 0.1": what a bin of kAngleBins holds.
 std::string binText(std::size_t bin);
