@@ -17,17 +17,17 @@ struct Shard {
     unsigned count = 1;
 };
 
-/// How many files are worked through.
+/// How many files are worked on, and which.
 struct BatchArguments {
     unsigned jobs = 1;  ///< files at one time; 0: as many as there are cores
     Shard shard = {};
     std::string manifest = {};  ///< empty: none
-    bool resume = false;        ///< leave out what the manifest says is done and unchanged
+    bool resume = false;        ///< leave out files that are done and unchanged by the manifest
     bool verbose = false;       ///< the details of every file, also where there are several
 };
 
-/// Keeps the jobs of the shard. A file belongs to the same shard whatever other files there are: the hash of
-/// the name that it has below its input decides.
+/// Keeps the jobs of the shard. The hash of a file's name below its input decides, so its shard does not depend on other
+/// files.
 void takeShard(std::vector<Job>& jobs, const Shard& shard);
 
 /// How many files are worked on at one time.

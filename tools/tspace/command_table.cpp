@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// All commands, and help, which is about the others.
+// The list of all commands, and the command help.
 #include "command_table.h"
 
 #include <algorithm>

@@ -25,7 +25,7 @@ struct Command {
     std::string description = {};            ///< a paragraph
     std::vector<std::string> examples = {};  ///< whole command lines
     OptionList options = {};
-    /// Called when everything is taken. Returns what makes no sense together, or nothing.
+    /// Called when all options are taken. Returns what makes no sense together, or nothing.
     std::function<std::string(const Given& given)> finish = {};
     /// Does what the options ask for, prints, and says how it went.
     std::function<report::ExitCode()> run = {};
@@ -36,7 +36,7 @@ struct Command {
     void add(OptionList more) { std::move(more.begin(), more.end(), std::back_inserter(options)); }
 };
 
-/// What stands in `tspace --help` in place of a description.
+/// The description in `tspace --help`.
 inline constexpr const char* kToolSummary = "exact tangent frames for the normal maps of 3D models";
 
 /// The whole tool.

@@ -11,7 +11,7 @@
 
 namespace tspace::tool {
 
-/// Headings in help. What stands under these decides how a command runs, not what it finds or writes.
+/// Headings in help. Options under these decide how a command runs, not what it finds or writes.
 inline constexpr const char* kManyFiles = "Many files";
 inline constexpr const char* kReporting = "Reporting";
 

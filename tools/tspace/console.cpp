@@ -12,7 +12,7 @@
 namespace tspace::tool {
 namespace {
 
-/// In one piece, as several threads may print.
+/// Writes the line in one piece, as several threads may print.
 void printLine(const std::string& line) { printPlain(line + "\n"); }
 
 }  // namespace

@@ -24,19 +24,19 @@ using report::worse;
 /// When severities are coloured. automatic: on a terminal, unless the user said no by NO_COLOR.
 enum class Color { automatic, always, never };
 
-/// Sends the text to stderr as it is. All that the tool prints there goes through here. Throws nothing: where stderr takes
-/// nothing, there is nobody to tell.
+/// Writes the text to stderr as it is. All output of the tool to stderr goes through here. Throws nothing, since an error of
+/// stderr could not be reported.
 void printPlain(std::string_view text) noexcept;
 
 /// Prints "tspace: FILE: message (at PLACE)" on stderr as exactly one line, and returns the exit code it
 /// stands for.
 ExitCode printError(const std::string& file, const Error& error);
-/// The same for a call on several files: the error's element says which of them it is about, or the first.
+/// As printError, for a call on several files: the error's element is the number of the file, or the first file is named.
 ExitCode printErrorOfFiles(const std::vector<std::string>& files, const Error& error);
-/// The same for a wrong command line: "tspace: message".
+/// Prints "tspace: message" for a wrong command line, and returns the exit code for that.
 ExitCode printUsageError(const std::string& message);
 
-/// The same for what is no error.
+/// Prints "tspace: message" that is no error.
 void printRemark(const std::string& message);
 
 /// Writes text to stdout, or to stderr where a model goes to stdout. false when stdout cannot take it (closed pipe, full

@@ -56,7 +56,7 @@ void addOutputOptions(Command& command, GenerateArguments& arguments) {
                               "input; glb for OBJ."));
 }
 
-/// What options mean together. Returns what makes no sense.
+/// Applies what options mean together. Returns what makes no sense, or nothing.
 std::string finish(const Given& given, GenerateArguments& arguments) {
     arguments.option_text = resultOptions(given);
     const std::string wrong = options::finish(given, arguments.options);
@@ -69,7 +69,7 @@ using Clock = std::chrono::steady_clock;
 
 double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-/// What was read and written, with fingerprints. A file that was written over is an output alone.
+/// The files that were read and written, with fingerprints. A file that was written over is only an output.
 ManifestEntry manifestEntry(const Job& job, const report::GenerateOutcome& outcome, const std::string& options) {
     ManifestEntry entry{.version = TSPACE_VERSION, .options = options, .job = job, .seconds = outcome.seconds};
     if (!outcome.result) {
@@ -138,7 +138,7 @@ class GenerateRun {
     }
 
   private:
-    /// What killed runs left beside the outputs.
+    /// Removes the temporary files that killed runs left beside the outputs.
     void removeLeftovers() const {
         std::set<std::string> folders;
         for (const Job& job : jobs_) {
@@ -194,7 +194,7 @@ class GenerateRun {
         writer_.reset();
     }
 
-    /// Files in their order, one at a time.
+    /// Reports a file. Called in the order of the files, one at a time.
     void finish(std::size_t number) {
         const report::GenerateOutcome& outcome = *outcomes_[number];
         progress_.clear();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the commands have in common that write one image: stdin and stdout as files, and what is printed at the end. Their
-// arguments have `input`, `output`, `json`, `quiet` and `options.dry_run`.
+// The common parts of commands that write one image: stdin and stdout as files, and the report at the end. Their arguments
+// have `input`, `output`, `json`, `quiet` and `options.dry_run`.
 #pragma once
 
 #include <cstdio>
@@ -34,13 +34,13 @@ auto callWithOutput(const std::string& output, Options options, const Call& call
     return report;
 }
 
-/// The same with an image from stdin where `input` is "-".
+/// As callWithOutput, with an image from stdin where `input` is "-".
 template <class Options, class Call>
 auto callOnImage(const std::string& input, const std::string& output, std::uint64_t memory_limit_bytes, Options options,
                  const Call& call) -> decltype(call(options)) {
     std::vector<std::uint8_t> bytes;
     if (input == "-") {
-        // Of any format: what it is, the library says better.
+        // Any bytes are taken here; the library tells the format.
         const auto is_anything = [](std::string_view) { return true; };
         Result<std::vector<std::uint8_t>> read = readStandardInput("an image", memory_limit_bytes, is_anything, "");
         if (!read) return std::move(read).error();

@@ -32,8 +32,8 @@ struct Found {
     fs::path relative;  // where it lies below its folder; for files that were named: the file name
 };
 
-/// Model files in `folder` and below, but for those in `skipped_folder` (where outputs go). A folder that cannot be read
-/// costs what is in it alone.
+/// Lists model files in `folder` and below, but for those in `skipped_folder` (where outputs go). Only the files of a folder
+/// that cannot be read are missing.
 void listModels(const fs::path& folder, const std::string& skipped_folder, std::vector<fs::path>& models,
                 std::vector<Found>& failures) {
     std::error_code failed;
@@ -136,7 +136,7 @@ Result<std::vector<Job>> jobWithNamedOutput(const JobRequest& request) {
     const std::string extension = lowerExtension(job.output);
     const bool is_glb = isGlbOutput(job.output);
     if (is_glb && !isGlbName(job.output)) {
-        // A stream is taken as it is called.
+        // A stream keeps its name: it gets no extension.
         if (request.container == Container::gltf) return usage("only a GLB is one stream of bytes: " + job.output);
         return std::vector<Job>{std::move(job)};
     }
@@ -220,7 +220,7 @@ std::vector<std::string> outputFolders(const std::vector<Job>& jobs) {
     for (const Job& job : jobs) {
         if (!job.output.empty()) sorted.insert(Path(fs::path(folderOf(canonicalName(job.output))) / "").string());
     }
-    // What lies in a folder comes right behind it.
+    // Folders inside of a folder follow it at once.
     std::vector<std::string> folders;
     for (const std::string& folder : sorted) {
         if (folders.empty() || !folder.starts_with(folders.back())) folders.push_back(folder);

@@ -12,7 +12,7 @@ namespace tspace::tool {
 /// The file format of outputs whose name does not say it.
 enum class Container { sameAsInput, glb, gltf };
 
-/// What is worked on and where results go, as the command line says.
+/// The inputs and where results go, as the command line says.
 struct JobRequest {
     std::vector<std::string> inputs = {};
     std::string output = {};
@@ -27,11 +27,11 @@ struct Job {
     std::string input = {};
     std::string output = {};                ///< empty for commands that write nothing
     std::string name = {};                  ///< path below the input folder; for files that were named: as named
-    std::string remark = {};                ///< what the user may not expect of the output; may be empty
+    std::string remark = {};                ///< a remark on the output that the user may not expect; may be empty
     Error error = {.code = ErrorCode::ok};  ///< why it cannot even be tried
 };
 
-/// The program that reads other formats: beside this one. Empty: it is not there.
+/// Path of tspace-import, which lies beside this program. Empty: it is not there.
 std::string importerPath();
 
 /// true for names that end in .glb, .vrm, .gltf or .obj, in any case; also .fbx, .ply, .stl, .dae and .3ds where the importer

@@ -32,8 +32,8 @@ void keepFreedMemory() {
 #endif
 }
 
-/// The other commands keep what they found between large blocks that they let go of. Left in one heap, those would not
-/// fit into each other's places, and files with many primitives would take a multiple of what they need.
+/// All other commands keep small results between large blocks that they free. In one heap the freed blocks would not fit each
+/// other's places, and files with many primitives would take a multiple of the memory that they need.
 void giveMemoryBack() {
 #ifdef __GLIBC__
     mallopt(M_MMAP_THRESHOLD, 256 << 10);
@@ -42,7 +42,7 @@ void giveMemoryBack() {
 
 ExitCode print(const std::string& page) { return printResult(page) ? ExitCode::done : ExitCode::cannotReadOrWrite; }
 
-/// What stands in the place of a command and is none.
+/// Handles a first word that is no command.
 ExitCode runWithoutCommand(const ToolTable& tool, const std::string& word) {
     if (word == "-h" || word == "--help") return print(helpPage(tool));
     if (word == "-V" || word == "--version") return print("tspace " TSPACE_VERSION "\n" + leftOut());
@@ -80,7 +80,7 @@ int main(int argc, char** argv) {
         std::vector<char*> words = commandLine(argc, argv);
         return static_cast<int>(run(static_cast<int>(words.size()), words.data()));
     } catch (const std::bad_alloc&) {
-        // What is printed takes memory too.
+        // Formatting a message would allocate.
         printPlain("tspace: out of memory\n");
     } catch (const std::exception& defect) {
         printPlain("tspace: internal error: ");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Lines of JSON, and what they say is done.
+// Reads and writes the lines of a manifest.
 #include "manifest.h"
 
 #include <cerrno>

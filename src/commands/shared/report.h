@@ -13,7 +13,7 @@
 
 namespace tspace::report {
 
-/// What became of one file: a value, or an error.
+/// The outcome of a call on one file: a value, or an error.
 template <class Value>
 struct Outcome {
     std::string input = {};
@@ -21,23 +21,23 @@ struct Outcome {
     Result<Value> result = Error{};
     double seconds = 0;
     bool is_dry_run = false;       ///< nothing was written
-    bool was_done_before = false;  ///< by the manifest; nothing changed, nothing was done, the value is empty
+    bool was_done_before = false;  ///< the manifest says so, and no file has changed since; the value is empty
 };
 
 /// null, or the error as docs/json.md describes it.
 Json errorJson(const Error* error);
 /// null where there is no mesh.
 Json mapMeshJson(const MapMeshReport& mesh);
-/// How every document begins.
+/// The members with which every document begins.
 Json documentJson(const char* schema, bool is_ok, ExitCode exit_code);
-/// How what is said of a file begins: its name, and the error if there is one.
+/// The members with which the report of a file begins: its name, and the error if there is one.
 template <class Value>
 Json fileJson(const Outcome<Value>& outcome) {
     return {{"input", outcome.input},
             {"ok", outcome.result.ok()},
             {"error", errorJson(outcome.result ? nullptr : &outcome.result.error())}};
 }
-/// An array of what `toJson` makes of each value.
+/// An array of toJson(value) for each value.
 template <class List, class ToJson>
 Json listJson(const List& values, ToJson toJson) {
     Json list = Json::array();

@@ -19,7 +19,7 @@ std::size_t columnCount(std::string_view text) {
     return columns;
 }
 
-/// The character that these bytes begin with, where it changes what stands around it and shows nothing itself: marks and
+/// The character that these bytes begin with, where it is invisible and changes the text around it: marks and
 /// overrides of the direction of text, ends of lines, spaces without width. 0: it is none of them.
 unsigned invisibleCharacter(unsigned first, unsigned second, unsigned third) {
     if (first == 0xD8 && second == 0x9C) return 0x061C;
@@ -40,7 +40,7 @@ std::string printable(std::string_view text) {
         if (byte(0) < 0x20 || byte(0) == 0x7F) {
             clean += ' ';
         } else if (byte(0) == 0xC2 && byte(1) >= 0x80 && byte(1) < 0xA0) {
-            // U+0080 to U+009F. U+009B alone starts what ESC [ starts.
+            // U+0080 to U+009F. U+009B is ESC [ in one character.
             clean += ' ';
             length = 2;
         } else if (const unsigned code = invisibleCharacter(byte(0), byte(1), byte(2)); code != 0) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the texts of reports are made of.
+// The parts of reports as text.
 #pragma once
 
 #include <cstdint>
