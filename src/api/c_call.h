@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What every function of the C API of files does: options from JSON, errors to codes, bytes to the caller.
+// Steps of every function of the C API of files: options from JSON, errors to codes, bytes to the caller.
 #pragma once
 
 #include <cstdint>
@@ -56,7 +56,7 @@ tspace_ErrorCode atCallBorder(tspace_Error* out, std::initializer_list<tspace_By
     return result ? finishCall(Error{ErrorCode::ok}, out) : finishCall(result.error(), out);
 }
 
-/// A text that must be there. Fails with nullData.
+/// A text that may not be null. Fails with nullData.
 std::string neededText(const char* text, const char* name);
 
 /// Reads options; null is none. Fails with invalidOption.
@@ -68,7 +68,7 @@ tspace_ErrorCode generateBytes(const tspace_Model* model, const char* options, c
 tspace_ErrorCode checkBytes(const tspace_Model* model, const char* options, const Progress& progress,
                             tspace_Bytes* report, tspace_Error* error) noexcept;
 
-/// What a model is called.
+/// The name of a model.
 std::string nameOf(const tspace_Model& model);
 /// Makes `options` open the model. Fails with nullData and invalidOption.
 void openModel(const tspace_Model* model, FileOptions& options);

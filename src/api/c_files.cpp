@@ -3,7 +3,13 @@
 #include <chrono>
 
 #include "api/c_call.h"
-#include "commands/shared/report.h"
+#include "commands/check/check_report.h"
+#include "commands/diff/diff_report.h"
+#include "commands/flip_green/flip_green_report.h"
+#include "commands/generate/generate_report.h"
+#include "commands/height_to_normal/height_to_normal_report.h"
+#include "commands/identify/identify_report.h"
+#include "commands/inspect/inspect_report.h"
 #include "commands/shared/request.h"
 
 using namespace tspace;           // NOLINT: this file only forwards

@@ -4,7 +4,8 @@
 
 #include <cmath>
 
-#include "commands/shared/report.h"
+#include "commands/check/check_report.h"
+#include "commands/inspect/inspect_report.h"
 #include "commands/shared/request.h"
 #include "maps/position_box.h"
 #include "model/gltf/draco_primitives.h"

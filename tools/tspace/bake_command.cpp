@@ -1,55 +1,27 @@
 // SPDX-License-Identifier: MIT
 // tspace bake: one low poly, one high poly.
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <chrono>
+#include <memory>
 
-#include "commands.h"
+#include "command_table.h"
+#include "commands/bake/bake_report.h"
+#include "commands/shared/request.h"
+#include "common_options.h"
 #include "console.h"
 #include "interrupt.h"
-#include "model/io/file_io.h"
+#include "jobs.h"
 #include "output_files.h"
-#include "report.h"
 
 namespace tspace::tool {
 namespace {
 
-std::string degreesText(double degrees) { return fmt::format("{:.4f}", degrees); }
-
-void addFile(const BakedFile& file, Table& table) {
-    const BakedMap& map = file.map;
-    table.addRow({"map", fmt::format("{}, {} x {}, {} bits", printable(file.path), map.width, map.height, map.bits)});
-    table.addRow({"texels", fmt::format("{} baked, {} around them", map.hit_count, map.padding_count)});
-    table.addRow({"error", fmt::format("mean {} degrees, 99 % below {}, largest {}; at seams {} in the mean",
-                                       degreesText(map.error.mean_deg), degreesText(map.error.p99_deg),
-                                       degreesText(map.error.max_deg), degreesText(map.error.seam_mean_deg))});
-    table.addRow({"reach", fmt::format("{:.4g}", map.error.reach)});
-    if (map.missed_count > 0)
-        table.addRow(
-            {"warning", fmt::format("{} met no high poly and {} filled from around; --reach looks further, "
-                                    "--misses shows where",
-                                    counted(map.missed_count, "texel"), map.missed_count == 1 ? "is" : "are")});
-    if (map.overlap_count > 0)
-        table.addRow({map.conflict_count > 0 ? "warning" : "note",
-                      fmt::format("{} shown by several triangles{}", counted(map.overlap_count, "texel"),
-                                  map.conflict_count > 0
-                                      ? fmt::format(", which want different normals in {} of them", map.conflict_count)
-                                      : std::string())});
-    if (map.degenerate_uv_count > 0)
-        table.addRow({"note", fmt::format("{} without UV area", counted(map.degenerate_uv_count, "triangle"))});
-}
-
-std::string textOf(const BakeArguments& arguments, const BakeFileReport& done) {
-    Table table;
-    for (const BakedFile& file : done.files) addFile(file, table);
-    if (!arguments.options.out_mesh.empty())
-        table.addRow({"model", fmt::format("{}, with its frames and maps", printable(arguments.options.out_mesh))});
-    if (done.frames_made) table.addRow({"note", "the low poly lacks frames; they were made as generate makes them"});
-    if (done.matched_by_name) table.addRow({"note", "meshes were matched by their names"});
-    for (const std::string& warning : done.warnings) table.addRow({"warning", printable(warning)});
-    return fmt::format("{} -> {}\n{}", printable(arguments.low), printable(arguments.output), table.text("  "));
-}
+struct BakeArguments {
+    std::string low = {}, high = {}, output = {};
+    std::string report = {};  ///< a file for the JSON; empty: none
+    BakeFileOptions options = {};
+    bool json = false;
+    bool quiet = false;
+};
 
 Result<BakeFileReport> bake(const BakeArguments& arguments, InputFiles& read) {
     BakeFileOptions options = arguments.options;
@@ -62,8 +34,6 @@ Result<BakeFileReport> bake(const BakeArguments& arguments, InputFiles& read) {
     const KeptFiles kept({arguments.report});
     return bakeFile(arguments.low, arguments.high, arguments.output, options);
 }
-
-}  // namespace
 
 ExitCode runBake(const BakeArguments& arguments) {
     const BakeFileOptions& options = arguments.options;
@@ -91,9 +61,47 @@ ExitCode runBake(const BakeArguments& arguments) {
     if (arguments.json) {
         text = report::bakeJson(outcome, arguments.high, exit_code);
     } else if (!arguments.quiet && result) {
-        text = textOf(arguments, *result);
+        text = report::bakeText(outcome, options.out_mesh);
     }
     return printResult(text) ? exit_code : ExitCode::cannotReadOrWrite;
+}
+
+}  // namespace
+
+Command bakeCommand() {
+    const auto owned = std::make_shared<BakeArguments>();
+    BakeArguments& arguments = *owned;
+    arguments.options.execution.thread_count = kAllThreads;
+    Command command{
+        .name = "bake",
+        .summary = "bake the normal map of a low poly from a high poly",
+        .operands = "LOW --high HIGH -o OUT.png",
+        .description =
+            "Makes a normal map that lets a low poly look like a high poly: right for the frames that the low poly has "
+            "in its file, filtered as renderers filter, and measured in degrees when it is done. Models of several "
+            "meshes are matched by name (Body_low with Body_high); several materials give a file each.",
+        .examples = {"tspace bake low.glb --high high.glb -o normal.png --size 2048",
+                     "tspace bake low.glb --high scan.ply -o normal.png --size 1024 --bits 8 --convention unreal",
+                     "tspace bake low.glb --high high.obj -o normal.png --misses misses.png --heat heat.png --report "
+                     "bake.json"},
+    };
+    const char* group = kInputAndOutput;
+    command.add(group, operand("LOW", arguments.low, "The model that the map is for. It needs UVs."));
+    Option& high = command.add(group, text("--high", "HIGH", arguments.high,
+                                           "The model with the detail, in the same place. It needs no UVs."));
+    high.is_file = high.is_required = true;
+    Option& output =
+        command.add(group, text("-o, --output", "OUT", arguments.output, "Where to write: a file that ends in .png."));
+    output.is_file = output.is_required = true;
+    command.add(bakeOptions(arguments.options));
+    command.add(kReporting, text("--report", "JSON", arguments.report, "Also write the result as JSON to this file."))
+        .is_file = true;
+    addReporting(command, arguments.json, arguments.quiet);
+    command.run = [owned] {
+        owned->options.file.importer = importerPath();
+        return runBake(*owned);
+    };
+    return command;
 }
 
 }  // namespace tspace::tool

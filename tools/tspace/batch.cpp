@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "file_hash.h"
+#include "tspace/execution.h"
 
 namespace tspace::tool {
 
@@ -29,8 +30,8 @@ unsigned threadsPerFile(unsigned asked, unsigned workers) {
 
 namespace {
 
-/// Runs `work` on up to `count` further threads and on this one. Where the system gives no more threads, those that there
-/// are do all. What `work` throws first comes out when all have ended.
+/// Runs `work` on up to `count` further threads and on this one; on fewer where the system gives no more. The first exception
+/// of `work` is thrown when all threads have ended.
 void workOnThreads(unsigned count, const std::function<void()>& work) {
     std::mutex mutex;
     std::exception_ptr failure;
@@ -75,7 +76,7 @@ void runBatch(std::size_t count, unsigned workers, const std::function<void(std:
         }
     };
     workOnThreads(workers - 1, take);
-    // After stop() a job may be missing in between; those behind it are done all the same.
+    // After stop() jobs may be missing; those behind a missing one were worked on all the same.
     for (; reported < count; ++reported) {
         if (is_done[reported] != 0) finished(reported);
     }

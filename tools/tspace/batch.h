@@ -4,14 +4,30 @@
 
 #include <cstddef>
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "jobs.h"
 
 namespace tspace::tool {
 
-/// Keeps the jobs of the shard. A file belongs to the same shard whatever other files there are: the hash of
-/// the name that it has below its input decides.
+/// Share `index` (from 1) of `count`.
+struct Shard {
+    unsigned index = 1;
+    unsigned count = 1;
+};
+
+/// How many files are worked on, and which.
+struct BatchArguments {
+    unsigned jobs = 1;  ///< files at one time; 0: as many as there are cores
+    Shard shard = {};
+    std::string manifest = {};  ///< empty: none
+    bool resume = false;        ///< leave out files that are done and unchanged by the manifest
+    bool verbose = false;       ///< the details of every file, also where there are several
+};
+
+/// Keeps the jobs of the shard. The hash of a file's name below its input decides, so its shard does not depend on other
+/// files.
 void takeShard(std::vector<Job>& jobs, const Shard& shard);
 
 /// How many files are worked on at one time.
@@ -20,9 +36,9 @@ unsigned workerCount(const BatchArguments& batch, std::size_t job_count);
 /// Threads for each file when the user did not say: the cores, shared by those files.
 unsigned threadsPerFile(unsigned asked, unsigned workers);
 
-/// Calls work(i) for every i below `count` on `workers` threads, or as many of them as the system gives, and finished(i) for each in ascending order, one at a
-/// time, as soon as it and all before it are done. No work begins after stop() is true; finished() is then called
-/// for those alone that were worked on.
+/// Calls work(i) for every i below `count` on `workers` threads, or as many of them as the system gives, and finished(i) for
+/// each in ascending order, one at a time, as soon as it and all before it are done. No work begins after stop() is true;
+/// finished() is then called only for those that were worked on.
 void runBatch(std::size_t count, unsigned workers, const std::function<void(std::size_t)>& work,
               const std::function<void(std::size_t)>& finished, const std::function<bool()>& stop);
 

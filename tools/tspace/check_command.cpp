@@ -1,13 +1,51 @@
 // SPDX-License-Identifier: MIT
-// tspace check
-#include "commands.h"
+// tspace check: what is wrong in models, as text, JSON, SARIF and a page.
+#include <memory>
+
+#include "command_table.h"
+#include "commands/check/check_report.h"
 #include "commands/shared/page/check_page.h"
+#include "commands/shared/request.h"
+#include "common_options.h"
+#include "console.h"
 #include "output_files.h"
 #include "read_files.h"
 #include "standard_input.h"
 
 namespace tspace::tool {
 namespace {
+
+struct CheckArguments {
+    std::vector<std::string> inputs = {};
+    options::CheckRequest request = {};
+    std::string sarif = {};  ///< a file for the findings in SARIF; empty: none
+    std::string html = {};   ///< a file for the findings as a page; empty: none
+    Color color = Color::automatic;
+    BatchArguments batch = {};
+    bool json = false;
+    bool quiet = false;
+};
+
+constexpr Named<Color> kColors[] = {
+    {"auto", Color::automatic},
+    {"always", Color::always},
+    {"never", Color::never},
+};
+
+void addCheckReporting(Command& command, CheckArguments& arguments) {
+    Option& sarif = command.add(kReporting, text("--sarif", "FILE", arguments.sarif,
+                                                 "Write the findings to this file as SARIF 2.1.0, which CI systems "
+                                                 "show beside the code; '-': to stdout, in place of the text."));
+    sarif.is_file = true;
+    command
+        .add(kReporting, text("--html", "FILE", arguments.html,
+                              "Write the findings to this file as a page for people, with pictures of their places, "
+                              "before and after. It needs no other file."))
+        .is_file = true;
+    command.add(kReporting, choice("--color", "WHEN", kColors, arguments.color,
+                                   "Colour severities: always, never, or auto: on a terminal, unless the environment "
+                                   "variable NO_COLOR is set."));
+}
 
 Result<CheckReport> check(const std::string& input, CheckOptions options, const CheckArguments& arguments) {
     StandardInput standard_input;
@@ -16,8 +54,6 @@ Result<CheckReport> check(const std::string& input, CheckOptions options, const 
     if (report) options::leaveOut(arguments.request, *report);
     return report;
 }
-
-}  // namespace
 
 ExitCode runCheck(const CheckArguments& arguments) {
     const bool sarif_to_stdout = arguments.sarif == "-";
@@ -37,10 +73,10 @@ ExitCode runCheck(const CheckArguments& arguments) {
     const auto files = readFiles<CheckReport>(
         jobs, arguments.batch, {.progress = !arguments.quiet, .text = wants_text},
         [&](const std::string& input) { return check(input, options, arguments); },
-        [&](const CheckOutcome& outcome) { return checkText(outcome, in_color); });
+        [&](const report::CheckOutcome& outcome) { return report::checkText(outcome, in_color); });
     if (files.output_is_closed) return ExitCode::cannotReadOrWrite;
     ExitCode exit_code = files.exit_code;
-    for (const CheckOutcome& outcome : files.outcomes) {
+    for (const report::CheckOutcome& outcome : files.outcomes) {
         if (outcome.result && options::failsBy(arguments.request, *outcome.result))
             exit_code = worse(exit_code, ExitCode::findings);
     }
@@ -49,18 +85,55 @@ ExitCode runCheck(const CheckArguments& arguments) {
         if (!written) exit_code = worse(exit_code, printError(arguments.html, written.error()));
     }
     if (!arguments.sarif.empty() && !sarif_to_stdout) {
-        const Result<Done> written = writeTextFile(arguments.sarif, checkSarif(files.outcomes, exit_code), &read);
+        const Result<Done> written =
+            writeTextFile(arguments.sarif, report::checkSarif(files.outcomes, exit_code, TSPACE_DOCS_URL), &read);
         if (!written) exit_code = worse(exit_code, printError(arguments.sarif, written.error()));
     }
     std::string last;
     if (sarif_to_stdout) {
-        last = checkSarif(files.outcomes, exit_code);
+        last = report::checkSarif(files.outcomes, exit_code, TSPACE_DOCS_URL);
     } else if (arguments.json) {
         last = report::checkJson(files.outcomes, exit_code, arguments.request.fail_on);
     } else if (wants_text && files.outcomes.size() > 1) {
-        last = checkSummary(files.outcomes, in_color);
+        last = report::checkSummary(files.outcomes, in_color);
     }
     return printResult(last) ? exit_code : ExitCode::cannotReadOrWrite;
+}
+
+}  // namespace
+
+Command checkCommand() {
+    const auto owned = std::make_shared<CheckArguments>();
+    CheckArguments& arguments = *owned;
+    arguments.request.options.execution.thread_count = kAllThreads;
+    Command command{
+        .name = "check",
+        .summary = "find what is wrong with normals, tangents and UVs",
+        .operands = "IN...",
+        .description =
+            "Compares tangents with the UVs that the material's textures are read with: signs, directions, seams, UV "
+            "sets, texture transforms; also values that are not finite or not unit, normals, morph targets, and normal "
+            "maps whose green points down. Every finding says how to mend it. An error surely renders wrong; a warning "
+            "renders wrong in some renderers, in a small part, or only perhaps; a note is worth knowing. Changes "
+            "nothing.",
+        .examples = {"tspace check helmet.glb", "tspace check --fail-on warning --jobs 0 models/",
+                     "tspace check --json models/ > findings.json",
+                     "tspace check --quiet --sarif findings.sarif models/",
+                     "tspace check --html report.html helmet.glb"},
+        .finish = [&arguments](const Given&) -> std::string {
+            return arguments.json && arguments.sarif == "-" ? "--json and --sarif - both want stdout" : "";
+        },
+    };
+    addInputs(command, arguments.inputs);
+    command.add(checkOptions(arguments.request));
+    addBatch(command, arguments.batch, false);
+    addCheckReporting(command, arguments);
+    addReporting(command, arguments.json, arguments.quiet);
+    command.run = [owned] {
+        owned->request.options.file.importer = importerPath();
+        return runCheck(*owned);
+    };
+    return command;
 }
 
 }  // namespace tspace::tool

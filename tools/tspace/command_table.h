@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The table of commands, from which the command line is read (read_command_line.h), and --help (help.h), man pages and
-// completions (pages/) are made. What decides about results is described in the library (src/commands/shared/); the rest is added
-// here.
+// completions (pages/) are made. Options that decide about results are described in the library (src/commands/NAME/), all others
+// in NAME_command.cpp here.
 #pragma once
 
 #include <functional>
@@ -10,12 +10,14 @@
 #include <utility>
 #include <vector>
 
+#include "commands/shared/exit_code.h"
 #include "commands/shared/option_table.h"
 
 namespace tspace::tool {
 
 using namespace tspace::options;  // NOLINT: the words of the table
 
+/// A command owns its arguments, and its copies share them: options write them, and `run` reads them.
 struct Command {
     std::string name = {};
     std::string summary = {};                ///< "add the tangents that normal maps need"
@@ -23,15 +25,18 @@ struct Command {
     std::string description = {};            ///< a paragraph
     std::vector<std::string> examples = {};  ///< whole command lines
     OptionList options = {};
-    /// Called when everything is taken. Returns what makes no sense together, or nothing.
+    /// Called when all options are taken. Returns what makes no sense together, or nothing.
     std::function<std::string(const Given& given)> finish = {};
+    /// Does what the options ask for, prints, and says how it went.
+    std::function<report::ExitCode()> run = {};
+    bool keeps_freed_memory = false;  ///< memory that one primitive gave back serves the next one (main.cpp)
 
     Option& add(const char* group, Option option) { return options::add(options, group, std::move(option)); }
     /// Options that calls of the library have too.
     void add(OptionList more) { std::move(more.begin(), more.end(), std::back_inserter(options)); }
 };
 
-/// What stands in `tspace --help` in place of a description.
+/// The description in `tspace --help`.
 inline constexpr const char* kToolSummary = "exact tangent frames for the normal maps of 3D models";
 
 /// The whole tool.
@@ -39,6 +44,26 @@ struct ToolTable {
     std::vector<Command> commands = {};
     std::vector<Option> options = {};  ///< those in the place of a command: --help, --version
 };
+
+// Each is in NAME_command.cpp.
+Command generateCommand();
+Command diffCommand();
+Command identifyCommand();
+Command inspectCommand();
+Command checkCommand();
+Command flipGreenCommand();
+Command renderCommand();
+Command convertMapCommand();
+Command heightToNormalCommand();
+Command viewCommand();
+Command bakeCommand();
+Command mapErrorCommand();
+
+/// All commands, in the order in which help lists them.
+ToolTable toolTable();
+
+/// Null: there is none of this name.
+const Command* findCommand(const ToolTable& tool, const std::string& name);
 
 /// A file, or several where `target` is a list.
 Option operand(const char* value_name, std::string& target, HelpText help);

@@ -5,13 +5,13 @@
 #include <string>
 #include <vector>
 
-#include "arguments.h"
+#include "batch.h"
 #include "command_table.h"
 #include "commands/shared/file_options.h"
 
 namespace tspace::tool {
 
-/// Headings in help. What stands under these decides how a command runs, not what it finds or writes.
+/// Headings in help. Options under these decide how a command runs, not what it finds or writes.
 inline constexpr const char* kManyFiles = "Many files";
 inline constexpr const char* kReporting = "Reporting";
 

@@ -10,25 +10,33 @@
 #include <string_view>
 #include <vector>
 
-#include "arguments.h"
-#include "commands/shared/counted.h"
-#include "tspace/asset.h"
+#include "commands/shared/exit_code.h"
+#include "commands/shared/text.h"
+#include "tspace/result.h"
 
 namespace tspace::tool {
 
-/// Sends the text to stderr as it is. All that the tool prints there goes through here. Throws nothing: where stderr takes
-/// nothing, there is nobody to tell.
+using report::byteText;
+using report::ExitCode;
+using report::printable;
+using report::worse;
+
+/// When severities are coloured. automatic: on a terminal, unless the user said no by NO_COLOR.
+enum class Color { automatic, always, never };
+
+/// Writes the text to stderr as it is. All output of the tool to stderr goes through here. Throws nothing, since an error of
+/// stderr could not be reported.
 void printPlain(std::string_view text) noexcept;
 
 /// Prints "tspace: FILE: message (at PLACE)" on stderr as exactly one line, and returns the exit code it
 /// stands for.
 ExitCode printError(const std::string& file, const Error& error);
-/// The same for a call on several files: the error's element says which of them it is about, or the first.
+/// As printError, for a call on several files: the error's element is the number of the file, or the first file is named.
 ExitCode printErrorOfFiles(const std::vector<std::string>& files, const Error& error);
-/// The same for a wrong command line: "tspace: message".
+/// Prints "tspace: message" for a wrong command line, and returns the exit code for that.
 ExitCode printUsageError(const std::string& message);
 
-/// The same for what is no error.
+/// Prints "tspace: message" that is no error.
 void printRemark(const std::string& message);
 
 /// Writes text to stdout, or to stderr where a model goes to stdout. false when stdout cannot take it (closed pipe, full
@@ -37,24 +45,6 @@ bool printResult(std::string_view text, std::FILE* to = stdout);
 
 /// Whether stdout gets colours. automatic: it is a terminal that shows them, and the user did not say no by NO_COLOR.
 bool wantsColor(Color color);
-
-/// The text with control characters replaced, and characters escaped that turn the direction of text, so that a name from
-/// a file can break neither lines nor the terminal, nor look like another one.
-std::string printable(std::string_view text);
-
-using report::counted;
-/// "318 B", "6.8 MB".
-std::string byteText(std::uint64_t bytes);
-
-/// Rows of cells, printed with aligned columns two spaces apart. Cells of numbers are aligned right.
-class Table {
-  public:
-    void addRow(std::vector<std::string> cells) { rows_.push_back(std::move(cells)); }
-    [[nodiscard]] std::string text(const std::string& margin) const;
-
-  private:
-    std::vector<std::vector<std::string>> rows_ = {};
-};
 
 /// A status line on stderr for the whole run: how many files are done, and what happens to one of those in work. Stays
 /// silent when stderr is no terminal, when not wanted, and during the first half second. Any thread may call.

@@ -1,44 +1,25 @@
 // SPDX-License-Identifier: MIT
 // tspace convert-map: one normal map, for other frames.
-#include <fmt/format.h>
+#include <memory>
 
-#include "commands.h"
-#include "console.h"
+#include "command_table.h"
+#include "commands/convert_map/convert_map_report.h"
+#include "commands/shared/request.h"
+#include "common_options.h"
 #include "image_command.h"
-#include "model/io/file_io.h"
+#include "jobs.h"
 #include "output_files.h"
-#include "report.h"
 
 namespace tspace::tool {
 namespace {
 
-std::string meshText(const std::string& file, const MapMeshReport& mesh) {
-    return fmt::format("{}: {} triangles in {} primitives{}{}", printable(file), mesh.triangle_count,
-                       mesh.primitive_count, mesh.tangents_made ? ", tangents made" : "",
-                       mesh.scale == 1 ? "" : fmt::format(", map scaled by {:.4g}", mesh.scale));
-}
-
-std::string textOf(const ConvertMapArguments& arguments, const ConvertMapFileReport& done) {
-    const ConvertMapFileOptions& options = arguments.options;
-    const ConvertMapReport& texels = done.texels;
-    Table table;
-    table.addRow({"image", fmt::format("{} x {}, {} bits a channel, from {}", done.width, done.height, done.bits,
-                                       done.bits_before)});
-    if (done.from.triangle_count > 0) table.addRow({"from", meshText(options.mesh, done.from)});
-    if (done.to.triangle_count > 0) {
-        table.addRow({"to", meshText(options.to_mesh.empty() ? options.mesh : options.to_mesh, done.to)});
-    }
-    table.addRow({"texels", fmt::format("{} changed, {} of those shown stay, {} are background", texels.changed,
-                                        texels.converted - texels.changed + texels.without_frame + texels.unmatched,
-                                        texels.background)});
-    table.addRow({"change", fmt::format("{:.3g} degrees in the mean, {:.3g} at most", texels.mean_change_deg,
-                                        texels.max_change_deg)});
-    for (const std::string& warning : done.warnings) table.addRow({"warning", printable(warning)});
-    return fmt::format("{} -> {}{}\n{}", printable(arguments.input), printable(arguments.output),
-                       options.dry_run ? " (not written)" : "", table.text("  "));
-}
-
-}  // namespace
+struct ConvertMapArguments {
+    std::string input = {};
+    std::string output = {};
+    ConvertMapFileOptions options = {};
+    bool json = false;
+    bool quiet = false;
+};
 
 ExitCode runConvertMap(const ConvertMapArguments& arguments) {
     const Result<Done> fit =
@@ -51,7 +32,42 @@ ExitCode runConvertMap(const ConvertMapArguments& arguments) {
                     [&](const ConvertMapFileOptions& options) {
                         return convertMapFile(arguments.input, arguments.output, options);
                     });
-    return printOutcome(arguments, result, report::convertMapJson, textOf);
+    return printOutcome(arguments, result, report::convertMapJson,
+                        [&](const auto& outcome) { return report::convertMapText(outcome, arguments.options); });
+}
+
+}  // namespace
+
+Command convertMapCommand() {
+    const auto owned = std::make_shared<ConvertMapArguments>();
+    ConvertMapArguments& arguments = *owned;
+    arguments.options.execution.thread_count = kAllThreads;
+    Command command{
+        .name = "convert-map",
+        .summary = "carry a normal map from one set of tangent frames to another",
+        .operands = "IN -o OUT",
+        .description =
+            "A normal map is right only for the tangent frames that it was made with. This writes it anew for those of "
+            "another model of the same surface and UVs, for object space, or for the program that is to show it, such "
+            "that the picture stays as it was. Texels that no triangle shows stay as they are.",
+        .examples = {"tspace convert-map normal.png --mesh baked.glb --to-mesh best.glb -o normal-best.png",
+                     "tspace convert-map normal.png --mesh helmet.glb --to object -o normal-object.png",
+                     "tspace convert-map normal.png --flip-green --bits 8 -o normal-dx.png"},
+        .finish = [&arguments](const Given& given) { return finish(given, arguments.options); },
+    };
+    const char* group = kInputAndOutput;
+    command.add(group, operand("IN", arguments.input, "An image: PNG, JPEG, WebP or EXR; - for stdin."));
+    Option output = text("-o, --output", "OUT", arguments.output,
+                         "Where to write: a file that ends in .png or .exr; - for stdout, a PNG.");
+    output.is_file = output.is_required = true;
+    command.add(group, output);
+    command.add(convertMapOptions(arguments.options));
+    addReporting(command, arguments.json, arguments.quiet);
+    command.run = [owned] {
+        owned->options.file.importer = importerPath();
+        return runConvertMap(*owned);
+    };
+    return command;
 }
 
 }  // namespace tspace::tool

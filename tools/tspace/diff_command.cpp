@@ -1,12 +1,27 @@
 // SPDX-License-Identifier: MIT
 // tspace diff: two models, corner by corner.
-#include "commands.h"
+#include <memory>
+
+#include "command_table.h"
+#include "commands/diff/diff_report.h"
 #include "commands/shared/page/diff_page.h"
+#include "commands/shared/request.h"
+#include "common_options.h"
 #include "console.h"
+#include "jobs.h"
 #include "output_files.h"
-#include "report.h"
 
 namespace tspace::tool {
+namespace {
+
+struct DiffArguments {
+    std::string a = {};
+    std::string b = {};
+    options::DiffRequest request = {};
+    std::string html = {};  ///< a file for the comparison as a page; empty: none
+    bool json = false;
+    bool quiet = false;
+};
 
 ExitCode runDiff(const DiffArguments& arguments) {
     if (const Result<Done> fit = prepareOutputs({arguments.html}, {arguments.a, arguments.b}); !fit)
@@ -31,9 +46,43 @@ ExitCode runDiff(const DiffArguments& arguments) {
     if (arguments.json) {
         text = report::diffJson(arguments.a, arguments.b, arguments.request.tolerance_deg, diff, exit_code);
     } else if (!arguments.quiet) {
-        text = diffText(arguments, *diff);
+        text = report::diffText(arguments.a, arguments.b, *diff);
     }
     return printResult(text) ? exit_code : ExitCode::cannotReadOrWrite;
+}
+
+}  // namespace
+
+Command diffCommand() {
+    const auto owned = std::make_shared<DiffArguments>();
+    DiffArguments& arguments = *owned;
+    Command command{
+        .name = "diff",
+        .summary = "compare the frames of two models",
+        .operands = "A B",
+        .description =
+            "Pairs the primitives and triangles of two models that show the same surface, also when vertices are "
+            "split, merged or in another order, and prints the angles between their tangents (T), normals (N) and "
+            "rebuilt bitangents (B), signs that differ, and the worst places. Changes nothing.",
+        .examples = {"tspace diff before.glb after.glb",
+                     "tspace diff mine.glb theirs.gltf --tolerance 0.5 --json > diff.json",
+                     "tspace diff --html report.html before.glb after.glb"},
+    };
+    command.add(kInputAndOutput, operand("A", arguments.a, "A model file."));
+    command.add(kInputAndOutput, operand("B", arguments.b, "Another one."));
+    command.add(diffOptions(arguments.request));
+    command
+        .add(kReporting,
+             text("--html", "FILE", arguments.html,
+                  "Write the comparison to this file as a page for people, with a heat map of the angles and "
+                  "pictures of the worst places. It needs no other file."))
+        .is_file = true;
+    addReporting(command, arguments.json, arguments.quiet);
+    command.run = [owned] {
+        owned->request.options.file.importer = importerPath();
+        return runDiff(*owned);
+    };
+    return command;
 }
 
 }  // namespace tspace::tool

@@ -2,32 +2,75 @@
 // tspace generate: many files, several at one time; one bad file does not stop the others.
 #include <algorithm>
 #include <atomic>
-#include <cerrno>
 #include <chrono>
 #include <cstdio>
-#include <cstring>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <set>
 
 #include "batch.h"
-#include "commands.h"
+#include "command_table.h"
+#include "commands/generate/generate_report.h"
+#include "commands/shared/request.h"
+#include "common_options.h"
 #include "console.h"
 #include "interrupt.h"
 #include "manifest.h"
 #include "output_files.h"
-#include "report.h"
 #include "standard_input.h"
 
 namespace tspace::tool {
 namespace {
 
+struct GenerateArguments {
+    JobRequest jobs = {};
+    GenerateOptions options = {};
+    std::string option_text = {};  ///< the options given that decide about results, in one spelling
+    BatchArguments batch = {};
+    bool json = false;
+    bool quiet = false;
+};
+
+constexpr Named<Container> kContainers[] = {
+    {"glb", Container::glb},
+    {"gltf", Container::gltf},
+};
+
+void addOutputOptions(Command& command, GenerateArguments& arguments) {
+    const char* group = kInputAndOutput;
+    addInputs(command, arguments.jobs.inputs);
+    command
+        .add(group,
+             text("-o, --output", "OUT", arguments.jobs.output,
+                  "Where to write: a file that ends in .glb, .vrm or .gltf, or a folder. With several inputs, or a "
+                  "folder as input, it is a folder: it is made if it is not there, and files keep their paths "
+                  "relative to the input folder. Where a.glb and a.obj would both become a.glb, the later one "
+                  "becomes a.obj.glb. '-': the model, a GLB, goes to stdout, and the report to stderr."))
+        .is_file = true;
+    command.add(group, flag("--in-place", arguments.jobs.in_place,
+                            "Write over the input files. Each is replaced only when its result is complete. Without "
+                            "this, an output that is an input is refused."));
+    command.add(group, choice("--container", "FORMAT", kContainers, arguments.jobs.container,
+                              "File format of outputs whose name does not say it: glb or gltf. Default: that of the "
+                              "input; glb for OBJ."));
+}
+
+/// Applies what options mean together. Returns what makes no sense, or nothing.
+std::string finish(const Given& given, GenerateArguments& arguments) {
+    arguments.option_text = resultOptions(given);
+    const std::string wrong = options::finish(given, arguments.options);
+    arguments.jobs.is_dry_run = arguments.options.dry_run;
+    arguments.jobs.has_manifest = !arguments.batch.manifest.empty();
+    return wrong;
+}
+
 using Clock = std::chrono::steady_clock;
 
 double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-/// What was read and written, with fingerprints. A file that was written over is an output alone.
-ManifestEntry manifestEntry(const Job& job, const GenerateOutcome& outcome, const std::string& options) {
+/// The files that were read and written, with fingerprints. A file that was written over is only an output.
+ManifestEntry manifestEntry(const Job& job, const report::GenerateOutcome& outcome, const std::string& options) {
     ManifestEntry entry{.version = TSPACE_VERSION, .options = options, .job = job, .seconds = outcome.seconds};
     if (!outcome.result) {
         entry.job.error = outcome.result.error();
@@ -54,7 +97,7 @@ class GenerateRun {
           jobs_(std::move(jobs)),
           outcomes_(jobs_.size()),
           workers_(workerCount(arguments.batch, jobs_.size())),
-          report_to_(arguments.output == "-" ? stderr : stdout),
+          report_to_(arguments.jobs.output == "-" ? stderr : stdout),
           wants_text_(!arguments.json && !arguments.quiet),
           progress_(jobs_.size(), !arguments.quiet) {}
 
@@ -83,19 +126,19 @@ class GenerateRun {
         progress_.clear();
         if (wasInterrupted()) endByInterrupt();
         if (output_is_closed_) return ExitCode::cannotReadOrWrite;
-        std::vector<GenerateOutcome> outcomes;
-        for (std::optional<GenerateOutcome>& outcome : outcomes_) outcomes.push_back(std::move(*outcome));
+        std::vector<report::GenerateOutcome> outcomes;
+        for (std::optional<report::GenerateOutcome>& outcome : outcomes_) outcomes.push_back(std::move(*outcome));
         std::string last;
         if (arguments_.json) {
             last = report::generateJson(outcomes, exit_code_, secondsSince(start_));
         } else if (wants_text_ && outcomes.size() > 1) {
-            last = generateSummary(outcomes, secondsSince(start_));
+            last = report::generateSummary(outcomes, secondsSince(start_));
         }
         return printResult(last, report_to_) ? exit_code_ : ExitCode::cannotReadOrWrite;
     }
 
   private:
-    /// What killed runs left beside the outputs.
+    /// Removes the temporary files that killed runs left beside the outputs.
     void removeLeftovers() const {
         std::set<std::string> folders;
         for (const Job& job : jobs_) {
@@ -126,7 +169,8 @@ class GenerateRun {
     void work(std::size_t number) {
         const Clock::time_point start = Clock::now();
         const Job& job = jobs_[number];
-        GenerateOutcome outcome{.input = job.input, .output = job.output, .is_dry_run = arguments_.options.dry_run};
+        report::GenerateOutcome outcome{
+            .input = job.input, .output = job.output, .is_dry_run = arguments_.options.dry_run};
         if (job.error.code == ErrorCode::ok && record_ && record_->isDone(job, arguments_.option_text)) {
             outcome.was_done_before = true;
             outcome.result = GenerateReport{};
@@ -140,7 +184,7 @@ class GenerateRun {
         outcomes_[number] = std::move(outcome);
     }
 
-    void record(const Job& job, const GenerateOutcome& outcome) {
+    void record(const Job& job, const report::GenerateOutcome& outcome) {
         const ManifestEntry entry = manifestEntry(job, outcome, arguments_.option_text);
         const std::lock_guard lock(mutex_);
         if (!writer_) return;
@@ -150,9 +194,9 @@ class GenerateRun {
         writer_.reset();
     }
 
-    /// Files in their order, one at a time.
+    /// Reports a file. Called in the order of the files, one at a time.
     void finish(std::size_t number) {
-        const GenerateOutcome& outcome = *outcomes_[number];
+        const report::GenerateOutcome& outcome = *outcomes_[number];
         progress_.clear();
         if (wasInterrupted()) {
             const char* state = outcome.result ? "done, then interrupted" : "interrupted; nothing was written";
@@ -163,14 +207,15 @@ class GenerateRun {
             exit_code_ = worse(exit_code_, code);
         } else if (wants_text_ && !output_is_closed_) {
             const bool wants_details = jobs_.size() == 1 || arguments_.batch.verbose;
-            output_is_closed_ = !printResult(wants_details ? generateText(outcome) : generateLine(outcome), report_to_);
+            output_is_closed_ =
+                !printResult(wants_details ? report::generateText(outcome) : report::generateLine(outcome), report_to_);
         }
     }
 
     const GenerateArguments& arguments_;
     const Clock::time_point start_ = Clock::now();
     std::vector<Job> jobs_;
-    std::vector<std::optional<GenerateOutcome>> outcomes_;
+    std::vector<std::optional<report::GenerateOutcome>> outcomes_;
     unsigned workers_;
     std::FILE* report_to_;
     bool wants_text_;
@@ -184,10 +229,8 @@ class GenerateRun {
     std::atomic<bool> output_is_closed_ = false;
 };
 
-}  // namespace
-
 ExitCode runGenerate(const GenerateArguments& arguments) {
-    Result<std::vector<Job>> jobs = generateJobs(arguments);
+    Result<std::vector<Job>> jobs = generateJobs(arguments.jobs);
     if (!jobs) return printUsageError(jobs.error().message);
     if (!arguments.quiet && !jobs->empty() && !jobs->front().remark.empty()) printRemark(jobs->front().remark);
     std::vector<std::string> files;
@@ -201,6 +244,41 @@ ExitCode runGenerate(const GenerateArguments& arguments) {
         return printError(arguments.batch.manifest, opened.error());
     }
     return run.run();
+}
+
+}  // namespace
+
+Command generateCommand() {
+    const auto owned = std::make_shared<GenerateArguments>();
+    GenerateArguments& arguments = *owned;
+    arguments.options.execution.thread_count = kAllThreads;
+    Command command{
+        .name = "generate",
+        .summary = "add the tangents that normal maps need",
+        .operands = "IN... -o OUT",
+        .description =
+            "Reads model files, adds tangents where a material needs them (a normal map, clearcoat normal map or "
+            "anisotropy) and none are there, makes missing normals first, and writes glTF. Vertices are split where "
+            "their corners disagree, and all their attributes, skin weights and morph targets go along. Morph targets "
+            "that move the surface get tangent deltas. Everything else in a file stays as it is. A failed run leaves "
+            "the old output untouched.",
+        .examples = {"tspace generate helmet.glb -o out/helmet.glb",
+                     "tspace generate --all --overwrite models/ -o out/",
+                     "tspace generate scan.obj -o scan.glb --all --normals angle --crease 60",
+                     "tspace generate --json *.glb -o out/ > report.json", "cat a.glb | tspace generate - -o - > b.glb",
+                     "tspace generate models/ -o out/ --jobs 8 --manifest done.jsonl --resume"},
+        .finish = [&arguments](const Given& given) { return finish(given, arguments); },
+    };
+    addOutputOptions(command, arguments);
+    command.add(generateOptions(arguments.options));
+    addBatch(command, arguments.batch, true);
+    addReporting(command, arguments.json, arguments.quiet);
+    command.keeps_freed_memory = true;
+    command.run = [owned] {
+        owned->options.file.importer = importerPath();
+        return runGenerate(*owned);
+    };
+    return command;
 }
 
 }  // namespace tspace::tool

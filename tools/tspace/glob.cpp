@@ -31,7 +31,7 @@ std::vector<fs::directory_entry> entriesOf(const fs::path& folder) {
     return entries;
 }
 
-/// Adds what matches the names from `first` on below `folder`. As deep as the folders are.
+/// Adds the files below `folder` that match the names from `first` on. Recursion is as deep as the folders are.
 void match(const fs::path& folder, const Names& names, std::size_t first, std::set<fs::path>& found) {
     const bool is_last = first + 1 == names.size();
     const bool is_any_depth = names[first] == "**" && !is_last;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Patterns for file names: for shells that leave them as they are, and for lists too long for a command line.
+// Patterns for file names, where the shell does not expand them, or where the list would be too long for a command line.
 #pragma once
 
 #include <filesystem>

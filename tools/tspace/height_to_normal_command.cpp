@@ -1,39 +1,25 @@
 // SPDX-License-Identifier: MIT
 // tspace height-to-normal: one height map as a normal map.
-#include <fmt/format.h>
+#include <memory>
 
-#include "commands.h"
-#include "console.h"
+#include "command_table.h"
+#include "commands/height_to_normal/height_to_normal_report.h"
+#include "commands/shared/request.h"
+#include "common_options.h"
 #include "image_command.h"
-#include "model/io/file_io.h"
+#include "jobs.h"
 #include "output_files.h"
-#include "report.h"
 
 namespace tspace::tool {
 namespace {
 
-std::string textOf(const HeightToNormalArguments& arguments, const HeightToNormalFileReport& done) {
-    const HeightToNormalFileOptions& options = arguments.options;
-    Table table;
-    table.addRow({"image", fmt::format("{} x {}, {} bits a channel, from {}", done.width, done.height, done.bits,
-                                       done.bits_before)});
-    if (options.mesh.empty()) {
-        table.addRow({"strength", fmt::format("white stands {:.4g} texels high", options.strength)});
-    } else {
-        table.addRow({"strength", fmt::format("white stands {:.4g} units high; a texel is {:.3g} units wide",
-                                              options.strength, done.texels.texel_size)});
-        table.addRow({"mesh", fmt::format("{}: {} triangles in {} primitives{}, on {} texels", printable(options.mesh),
-                                          done.mesh.triangle_count, done.mesh.primitive_count,
-                                          done.mesh.tangents_made ? ", tangents made" : "", done.texels.on_mesh)});
-    }
-    table.addRow({"slopes", fmt::format("{:.3g} degrees in the mean, {:.3g} at most", done.texels.mean_lean_deg,
-                                        done.texels.max_lean_deg)});
-    for (const std::string& warning : done.warnings) table.addRow({"warning", printable(warning)});
-    return fmt::format("{} -> {}{}\n{}", printable(arguments.input), printable(arguments.output),
-                       options.dry_run ? " (not written)" : "", table.text("  "));
-}
-
-}  // namespace
+struct HeightToNormalArguments {
+    std::string input = {};
+    std::string output = {};
+    HeightToNormalFileOptions options = {};
+    bool json = false;
+    bool quiet = false;
+};
 
 ExitCode runHeightToNormal(const HeightToNormalArguments& arguments) {
     const Result<Done> fit =
@@ -45,7 +31,43 @@ ExitCode runHeightToNormal(const HeightToNormalArguments& arguments) {
                     [&](const HeightToNormalFileOptions& options) {
                         return heightToNormalFile(arguments.input, arguments.output, options);
                     });
-    return printOutcome(arguments, result, report::heightToNormalJson, textOf);
+    return printOutcome(arguments, result, report::heightToNormalJson,
+                        [&](const auto& outcome) { return report::heightToNormalText(outcome, arguments.options); });
+}
+
+}  // namespace
+
+Command heightToNormalCommand() {
+    const auto owned = std::make_shared<HeightToNormalArguments>();
+    HeightToNormalArguments& arguments = *owned;
+    arguments.options.execution.thread_count = kAllThreads;
+    Command command{
+        .name = "height-to-normal",
+        .summary = "make a normal map of a height map",
+        .operands = "IN -o OUT",
+        .description =
+            "Makes a normal map of a grey image in which white is high and black is low (a bump map): the slopes of "
+            "the heights, times a strength that you know. With the model that shows the map, the strength is in its "
+            "units, and slopes are those on its surface.",
+        .examples = {"tspace height-to-normal height.png -o normal.png --strength 4",
+                     "tspace height-to-normal height.png -o normal.png --mesh wall.glb --strength 0.02",
+                     "tspace height-to-normal height.png -o normal-dx.png --convention directx --bits 8"},
+    };
+    const char* group = kInputAndOutput;
+    command.add(group, operand("IN", arguments.input,
+                               "A height map: PNG (8 or 16 bits), JPEG, WebP or EXR; - for stdin. Of colors the mean "
+                               "counts."));
+    Option output =
+        text("-o, --output", "OUT", arguments.output, "Where to write: a file that ends in .png; - for stdout.");
+    output.is_file = output.is_required = true;
+    command.add(group, output);
+    command.add(heightToNormalOptions(arguments.options));
+    addReporting(command, arguments.json, arguments.quiet);
+    command.run = [owned] {
+        owned->options.file.importer = importerPath();
+        return runHeightToNormal(*owned);
+    };
+    return command;
 }
 
 }  // namespace tspace::tool

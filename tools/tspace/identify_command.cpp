@@ -1,10 +1,25 @@
 // SPDX-License-Identifier: MIT
-// tspace identify
-#include "commands.h"
+// tspace identify: which method made the tangents of models.
+#include <memory>
+
+#include "command_table.h"
+#include "commands/identify/identify_report.h"
+#include "commands/shared/request.h"
+#include "common_options.h"
+#include "console.h"
 #include "read_files.h"
 #include "standard_input.h"
 
 namespace tspace::tool {
+namespace {
+
+struct IdentifyArguments {
+    std::vector<std::string> inputs = {};
+    IdentifyOptions options = {};
+    BatchArguments batch = {};
+    bool json = false;
+    bool quiet = false;
+};
 
 ExitCode runIdentify(const IdentifyArguments& arguments) {
     std::vector<Job> jobs = inputJobs(arguments.inputs);
@@ -20,11 +35,38 @@ ExitCode runIdentify(const IdentifyArguments& arguments) {
             if (const Result<Done> opened = standard_input.open(input, own.file); !opened) return opened.error();
             return identifyFile(input, own);
         },
-        identifyText);
+        report::identifyText);
     if (files.output_is_closed) return ExitCode::cannotReadOrWrite;
     if (!arguments.json) return files.exit_code;
     return printResult(report::identifyJson(files.outcomes, files.exit_code)) ? files.exit_code
                                                                               : ExitCode::cannotReadOrWrite;
+}
+
+}  // namespace
+
+Command identifyCommand() {
+    const auto owned = std::make_shared<IdentifyArguments>();
+    IdentifyArguments& arguments = *owned;
+    arguments.options.execution.thread_count = kAllThreads;
+    Command command{
+        .name = "identify",
+        .summary = "say which method made the tangents of a model",
+        .operands = "IN...",
+        .description =
+            "Runs every method on the model's own positions, normals and UVs, along every UV set, and says how many of "
+            "the stored tangents each one explains, and whether the signs are those that glTF wants or all inverted. "
+            "Changes nothing.",
+        .examples = {"tspace identify helmet.glb", "tspace identify --json models/ > methods.json"},
+    };
+    addInputs(command, arguments.inputs);
+    command.add(identifyOptions(arguments.options));
+    addBatch(command, arguments.batch, false);
+    addReporting(command, arguments.json, arguments.quiet);
+    command.run = [owned] {
+        owned->options.file.importer = importerPath();
+        return runIdentify(*owned);
+    };
+    return command;
 }
 
 }  // namespace tspace::tool

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the commands have in common that write one image: stdin and stdout as files, and what is printed at the end. Their
-// arguments have `input`, `output`, `json`, `quiet` and `options.dry_run`.
+// The common parts of commands that write one image: stdin and stdout as files, and the report at the end. Their arguments
+// have `input`, `output`, `json`, `quiet` and `options.dry_run`.
 #pragma once
 
 #include <cstdio>
@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "commands/shared/report.h"
 #include "console.h"
-#include "report.h"
 #include "standard_input.h"
 #include "system.h"
 
@@ -34,13 +34,13 @@ auto callWithOutput(const std::string& output, Options options, const Call& call
     return report;
 }
 
-/// The same with an image from stdin where `input` is "-".
+/// As callWithOutput, with an image from stdin where `input` is "-".
 template <class Options, class Call>
 auto callOnImage(const std::string& input, const std::string& output, std::uint64_t memory_limit_bytes, Options options,
                  const Call& call) -> decltype(call(options)) {
     std::vector<std::uint8_t> bytes;
     if (input == "-") {
-        // Of any format: what it is, the library says better.
+        // Any bytes are taken here; the library tells the format.
         const auto is_anything = [](std::string_view) { return true; };
         Result<std::vector<std::uint8_t>> read = readStandardInput("an image", memory_limit_bytes, is_anything, "");
         if (!read) return std::move(read).error();
@@ -50,21 +50,20 @@ auto callOnImage(const std::string& input, const std::string& output, std::uint6
     return callWithOutput(output, std::move(options), call);
 }
 
-/// Prints the error, or the result as text or JSON: on stderr where the image is on stdout.
-template <class Arguments, class Report>
-ExitCode printOutcome(const Arguments& arguments, const Result<Report>& result,
-                      std::string (*jsonOf)(const report::Outcome<Report>&, ExitCode),
-                      std::string (*textOf)(const Arguments&, const Report&)) {
+/// Prints the error, or the result as text, textOf(outcome), or JSON, jsonOf(outcome, exit code): on stderr where the image is
+/// on stdout.
+template <class Arguments, class Report, class JsonOf, class TextOf>
+ExitCode printOutcome(const Arguments& arguments, const Result<Report>& result, JsonOf jsonOf, TextOf textOf) {
     const ExitCode exit_code = result ? ExitCode::done : printError(arguments.input, result.error());
+    const report::Outcome<Report> outcome{.input = arguments.input,
+                                          .output = arguments.output,
+                                          .result = result,
+                                          .is_dry_run = arguments.options.dry_run};
     std::string text;
     if (arguments.json) {
-        text = jsonOf({.input = arguments.input,
-                       .output = arguments.output,
-                       .result = result,
-                       .is_dry_run = arguments.options.dry_run},
-                      exit_code);
+        text = jsonOf(outcome, exit_code);
     } else if (!arguments.quiet && result) {
-        text = textOf(arguments, *result);
+        text = textOf(outcome);
     }
     return printResult(text, arguments.output == "-" ? stderr : stdout) ? exit_code : ExitCode::cannotReadOrWrite;
 }

@@ -1,10 +1,25 @@
 // SPDX-License-Identifier: MIT
-// tspace inspect
-#include "commands.h"
+// tspace inspect: what is in models.
+#include <memory>
+
+#include "command_table.h"
+#include "commands/inspect/inspect_report.h"
+#include "commands/shared/request.h"
+#include "common_options.h"
+#include "console.h"
 #include "read_files.h"
 #include "standard_input.h"
 
 namespace tspace::tool {
+namespace {
+
+struct InspectArguments {
+    std::vector<std::string> inputs = {};
+    FileOptions file = {};
+    BatchArguments batch = {};
+    bool json = false;
+    bool quiet = false;
+};
 
 ExitCode runInspect(const InspectArguments& arguments) {
     std::vector<Job> jobs = inputJobs(arguments.inputs);
@@ -17,11 +32,36 @@ ExitCode runInspect(const InspectArguments& arguments) {
             if (const Result<Done> opened = standard_input.open(input, own); !opened) return opened.error();
             return inspectFile(input, own);
         },
-        inspectText);
+        report::inspectText);
     if (files.output_is_closed) return ExitCode::cannotReadOrWrite;
     if (!arguments.json) return files.exit_code;
     return printResult(report::inspectJson(files.outcomes, files.exit_code)) ? files.exit_code
                                                                              : ExitCode::cannotReadOrWrite;
+}
+
+}  // namespace
+
+Command inspectCommand() {
+    const auto owned = std::make_shared<InspectArguments>();
+    InspectArguments& arguments = *owned;
+    Command command{
+        .name = "inspect",
+        .summary = "say what is in model files",
+        .operands = "IN...",
+        .description =
+            "Per primitive: triangles, vertices, attributes, UV sets, material, whether it needs tangents and why, "
+            "triangles without UV area, and islands of the UV map that are mirrored. Changes nothing.",
+        .examples = {"tspace inspect helmet.glb", "tspace inspect --json models/ > models.json"},
+    };
+    addInputs(command, arguments.inputs);
+    command.add(inspectOptions(arguments.file));
+    addBatch(command, arguments.batch, false);
+    addReporting(command, arguments.json, arguments.quiet);
+    command.run = [owned] {
+        owned->file.importer = importerPath();
+        return runInspect(*owned);
+    };
+    return command;
 }
 
 }  // namespace tspace::tool

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Ctrl-C to a mark that the work looks at now and then, or to the end. The system itself sets the default again when it
-// comes, and calls us on a thread of its own.
+// Ctrl-C sets a flag that the work polls, or ends the program. Windows restores the default handler when it calls ours, which
+// it does on a thread of its own.
 #include <atomic>
 #include <csignal>
 #include <cstdlib>

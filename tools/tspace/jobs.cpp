@@ -31,8 +31,8 @@ struct Found {
     fs::path relative;  // where it lies below its folder; for files that were named: the file name
 };
 
-/// Model files in `folder` and below, but for those in `skipped_folder` (where outputs go). A folder that cannot be read
-/// costs what is in it alone.
+/// Lists model files in `folder` and below, but for those in `skipped_folder` (where outputs go). Only the files of a folder
+/// that cannot be read are missing.
 void listModels(const fs::path& folder, const std::string& skipped_folder, std::vector<fs::path>& models,
                 std::vector<Found>& failures) {
     std::error_code failed;
@@ -113,8 +113,8 @@ const char* extensionFor(Container container, const Path& input) {
 
 Error usage(std::string message) { return {ErrorCode::invalidOption, std::move(message)}; }
 
-Result<std::vector<Job>> jobsInPlace(const GenerateArguments& arguments) {
-    std::vector<Job> jobs = inputJobs(arguments.inputs);
+Result<std::vector<Job>> jobsInPlace(const JobRequest& request) {
+    std::vector<Job> jobs = inputJobs(request.inputs);
     // A model that is named twice is changed once.
     std::set<std::string> named;
     std::erase_if(jobs, [&](const Job& job) {
@@ -130,22 +130,22 @@ Result<std::vector<Job>> jobsInPlace(const GenerateArguments& arguments) {
     return jobs;
 }
 
-Result<std::vector<Job>> jobWithNamedOutput(const GenerateArguments& arguments) {
-    Job job{.input = arguments.inputs.front(), .output = arguments.output, .name = arguments.inputs.front()};
+Result<std::vector<Job>> jobWithNamedOutput(const JobRequest& request) {
+    Job job{.input = request.inputs.front(), .output = request.output, .name = request.inputs.front()};
     const std::string extension = lowerExtension(job.output);
     const bool is_glb = isGlbOutput(job.output);
     if (is_glb && !isGlbName(job.output)) {
-        // A stream is taken as it is called.
-        if (arguments.container == Container::gltf) return usage("only a GLB is one stream of bytes: " + job.output);
+        // A stream keeps its name: it gets no extension.
+        if (request.container == Container::gltf) return usage("only a GLB is one stream of bytes: " + job.output);
         return std::vector<Job>{std::move(job)};
     }
     if (extension.empty()) {
-        job.output += extensionFor(arguments.container, job.input);
+        job.output += extensionFor(request.container, job.input);
         job.remark = "the output has no extension, so it is the file " + job.output + "; a folder would be " +
-                     arguments.output + "/";
+                     request.output + "/";
     } else if (!isGltfName(job.output)) {
         return usage("the output must end in .glb, .vrm or .gltf: " + job.output);
-    } else if (arguments.container != Container::sameAsInput && is_glb != (arguments.container == Container::glb)) {
+    } else if (request.container != Container::sameAsInput && is_glb != (request.container == Container::glb)) {
         return usage("--container says otherwise than the name of the output: " + job.output);
     }
     if (identityOf(job.output) == identityOf(job.input))
@@ -154,28 +154,28 @@ Result<std::vector<Job>> jobWithNamedOutput(const GenerateArguments& arguments) 
 }
 
 /// The one model goes to stdout.
-Result<std::vector<Job>> jobToStandardOutput(const GenerateArguments& arguments, bool has_several) {
+Result<std::vector<Job>> jobToStandardOutput(const JobRequest& request, bool has_several) {
     if (has_several) return usage("only one model can go to stdout");
-    if (arguments.container == Container::gltf) return usage("only a GLB can go to stdout, not --container gltf");
-    if (!arguments.batch.manifest.empty()) return usage("a manifest is about files, not about stdout");
-    if (!arguments.options.dry_run && isTerminal(stdout))
+    if (request.container == Container::gltf) return usage("only a GLB can go to stdout, not --container gltf");
+    if (request.has_manifest) return usage("a manifest is about files, not about stdout");
+    if (!request.is_dry_run && isTerminal(stdout))
         return usage("a model is no text for a terminal; send stdout to a file or a pipe");
-    const std::string& input = arguments.inputs.front();
+    const std::string& input = request.inputs.front();
     return std::vector<Job>{{.input = input, .output = "-", .name = input}};
 }
 
-Result<std::vector<Job>> jobsIntoFolder(const GenerateArguments& arguments) {
-    const fs::path folder = Path(arguments.output);
+Result<std::vector<Job>> jobsIntoFolder(const JobRequest& request) {
+    const fs::path folder = Path(request.output);
     std::map<std::string, std::string> writers;  // canonical output -> input
     std::set<std::string> inputs;                // identities
-    std::vector<Found> found = findInputs(arguments.inputs, canonicalName(folder));
+    std::vector<Found> found = findInputs(request.inputs, canonicalName(folder));
     for (const Found& item : found) inputs.insert(identityOf(item.job.input));
     std::vector<Job> jobs;
     for (Found& item : found) {
         Job& job = item.job;
         if (job.input == "-") return usage("name a file with -o for the model on standard input");
         if (job.error.code == ErrorCode::ok) {
-            const char* extension = extensionFor(arguments.container, job.input);
+            const char* extension = extensionFor(request.container, job.input);
             fs::path relative = item.relative;
             job.output = Path(folder / relative.replace_extension(extension)).string();
             // a.glb and a.obj side by side: the second becomes a.obj.glb.
@@ -219,7 +219,7 @@ std::vector<std::string> outputFolders(const std::vector<Job>& jobs) {
     for (const Job& job : jobs) {
         if (!job.output.empty()) sorted.insert(Path(fs::path(folderOf(canonicalName(job.output))) / "").string());
     }
-    // What lies in a folder comes right behind it.
+    // Folders inside of a folder follow it at once.
     std::vector<std::string> folders;
     for (const std::string& folder : sorted) {
         if (folders.empty() || !folder.starts_with(folders.back())) folders.push_back(folder);
@@ -233,21 +233,21 @@ std::vector<Job> inputJobs(const std::vector<std::string>& inputs) {
     return jobs;
 }
 
-Result<std::vector<Job>> generateJobs(const GenerateArguments& arguments) {
-    const std::string& output = arguments.output;
-    if (arguments.in_place && !output.empty()) return usage("--in-place and -o exclude each other");
-    if (arguments.in_place) return jobsInPlace(arguments);
+Result<std::vector<Job>> generateJobs(const JobRequest& request) {
+    const std::string& output = request.output;
+    if (request.in_place && !output.empty()) return usage("--in-place and -o exclude each other");
+    if (request.in_place) return jobsInPlace(request);
     if (output.empty()) return usage("say where to write: -o OUT, or --in-place to change the inputs themselves");
 
-    const std::string& first = arguments.inputs.front();
-    const bool several = arguments.inputs.size() > 1 || isFolder(first) || isPatternInput(first);
-    if (output == "-") return jobToStandardOutput(arguments, several);
+    const std::string& first = request.inputs.front();
+    const bool several = request.inputs.size() > 1 || isFolder(first) || isPatternInput(first);
+    if (output == "-") return jobToStandardOutput(request, several);
     const bool is_file = isThere(output) && !isFolder(output);
     if (several && (is_file || (isGltfName(output) && !isFolder(output)))) {
         return usage("several inputs need a folder as output, not " + output);
     }
-    if (several || isFolder(output) || fs::path(Path(output)).filename().empty()) return jobsIntoFolder(arguments);
-    return jobWithNamedOutput(arguments);
+    if (several || isFolder(output) || fs::path(Path(output)).filename().empty()) return jobsIntoFolder(request);
+    return jobWithNamedOutput(request);
 }
 
 }  // namespace tspace::tool

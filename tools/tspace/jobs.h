@@ -5,20 +5,33 @@
 #include <string>
 #include <vector>
 
-#include "arguments.h"
+#include "tspace/result.h"
 
 namespace tspace::tool {
+
+/// The file format of outputs whose name does not say it.
+enum class Container { sameAsInput, glb, gltf };
+
+/// The inputs and where results go, as the command line says.
+struct JobRequest {
+    std::vector<std::string> inputs = {};
+    std::string output = {};
+    bool in_place = false;
+    Container container = Container::sameAsInput;
+    bool is_dry_run = false;
+    bool has_manifest = false;
+};
 
 /// One model file to work on.
 struct Job {
     std::string input = {};
     std::string output = {};                ///< empty for commands that write nothing
     std::string name = {};                  ///< path below the input folder; for files that were named: as named
-    std::string remark = {};                ///< what the user may not expect of the output; may be empty
+    std::string remark = {};                ///< a remark on the output that the user may not expect; may be empty
     Error error = {.code = ErrorCode::ok};  ///< why it cannot even be tried
 };
 
-/// The program that reads other formats: beside this one. Empty: it is not there.
+/// Path of tspace-import, which lies beside this program. Empty: it is not there.
 std::string importerPath();
 
 /// true for names that end in .glb, .vrm, .gltf or .obj, in any case; also .fbx, .ply, .stl, .dae and .3ds where the importer
@@ -29,9 +42,9 @@ bool isModelFile(const std::string& path);
 /// that match a pattern (glob.h) that is not itself a file.
 std::vector<Job> inputJobs(const std::vector<std::string>& inputs);
 
-/// The same with outputs. Makes no folder: that happens when there is something to write. An Error of code
+/// As inputJobs(), with outputs. Makes no folder: that happens when there is something to write. An Error of code
 /// invalidOption says what is wrong with the command line.
-Result<std::vector<Job>> generateJobs(const GenerateArguments& arguments);
+Result<std::vector<Job>> generateJobs(const JobRequest& request);
 
 /// The folders that the jobs write into, without those that lie in another one of them.
 std::vector<std::string> outputFolders(const std::vector<Job>& jobs);

@@ -2,15 +2,20 @@
 // Starts the command that the command line asks for.
 #include <exception>
 #include <new>
+#include <span>
+#include <string>
+#include <vector>
 
 #ifdef __GLIBC__
 #include <malloc.h>
 #endif
 
-#include "arguments.h"
-#include "commands.h"
+#include "command_table.h"
+#include "commands/shared/nearest_name.h"
 #include "console.h"
+#include "help.h"
 #include "interrupt.h"
+#include "read_command_line.h"
 #include "system.h"
 
 namespace {
@@ -27,33 +32,43 @@ void keepFreedMemory() {
 #endif
 }
 
-/// The other commands keep what they found between large blocks that they let go of. Left in one heap, those would not
-/// fit into each other's places, and files with many primitives would take a multiple of what they need.
+/// All other commands keep small results between large blocks that they free. In one heap the freed blocks would not fit each
+/// other's places, and files with many primitives would take a multiple of the memory that they need.
 void giveMemoryBack() {
 #ifdef __GLIBC__
     mallopt(M_MMAP_THRESHOLD, 256 << 10);
 #endif
 }
 
-ExitCode run(int argc, char** argv) {
-    const Arguments arguments = parseArguments(argc, argv);
-    if (const auto* generate = std::get_if<GenerateArguments>(&arguments)) {
-        keepFreedMemory();
-        return runGenerate(*generate);
+ExitCode print(const std::string& page) { return printResult(page) ? ExitCode::done : ExitCode::cannotReadOrWrite; }
+
+/// Handles a first word that is no command.
+ExitCode runWithoutCommand(const ToolTable& tool, const std::string& word) {
+    if (word == "-h" || word == "--help") return print(helpPage(tool));
+    if (word == "-V" || word == "--version") return print("tspace " TSPACE_VERSION "\n" + leftOut());
+    const char* see = " (see tspace --help)";
+    std::vector<std::string> names;
+    if (!word.starts_with('-')) {
+        for (const Command& command : tool.commands) names.push_back(command.name);
+        return printUsageError("there is no command '" + word + "'" + didYouMean(word, names) + see);
     }
-    giveMemoryBack();
-    if (const auto* diff = std::get_if<DiffArguments>(&arguments)) return runDiff(*diff);
-    if (const auto* identify = std::get_if<IdentifyArguments>(&arguments)) return runIdentify(*identify);
-    if (const auto* inspect = std::get_if<InspectArguments>(&arguments)) return runInspect(*inspect);
-    if (const auto* check = std::get_if<CheckArguments>(&arguments)) return runCheck(*check);
-    if (const auto* flip = std::get_if<FlipGreenArguments>(&arguments)) return runFlipGreen(*flip);
-    if (const auto* render = std::get_if<RenderArguments>(&arguments)) return runRender(*render);
-    if (const auto* convert = std::get_if<ConvertMapArguments>(&arguments)) return runConvertMap(*convert);
-    if (const auto* heights = std::get_if<HeightToNormalArguments>(&arguments)) return runHeightToNormal(*heights);
-    if (const auto* view = std::get_if<ViewArguments>(&arguments)) return runView(*view);
-    if (const auto* bake = std::get_if<BakeArguments>(&arguments)) return runBake(*bake);
-    if (const auto* measure = std::get_if<MapErrorArguments>(&arguments)) return runMapError(*measure);
-    return std::get<ExitCode>(arguments);
+    for (const Option& option : tool.options) names.insert(names.end(), option.names.begin(), option.names.end());
+    const std::string nearest = didYouMean(word, names);
+    return printUsageError("a command comes first, not '" + word + "'" + nearest + see);
+}
+
+ExitCode run(int argc, char** argv) {
+    const ToolTable tool = toolTable();
+    if (argc < 2) return printUsageError("a command is missing (see tspace --help)");
+    const Command* command = findCommand(tool, argv[1]);
+    if (command == nullptr) return runWithoutCommand(tool, argv[1]);
+    Given given;
+    const std::span<const char* const> arguments(argv + 2, static_cast<std::size_t>(argc - 2));
+    const std::string wrong = readCommandLine(*command, arguments, given);
+    if (!wrong.empty()) return printUsageError(wrong + " (see tspace " + command->name + " --help)");
+    if (given.has("--help")) return print(helpPage(*command));
+    command->keeps_freed_memory ? keepFreedMemory() : giveMemoryBack();
+    return command->run();
 }
 
 }  // namespace
@@ -65,7 +80,7 @@ int main(int argc, char** argv) {
         std::vector<char*> words = commandLine(argc, argv);
         return static_cast<int>(run(static_cast<int>(words.size()), words.data()));
     } catch (const std::bad_alloc&) {
-        // What is printed takes memory too.
+        // Formatting a message would allocate.
         printPlain("tspace: out of memory\n");
     } catch (const std::exception& defect) {
         printPlain("tspace: internal error: ");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Lines of JSON, and what they say is done.
+// Reads and writes the lines of a manifest.
 #include "manifest.h"
 
 #include <cerrno>
@@ -9,9 +9,9 @@
 #include <filesystem>
 #include <fstream>
 
+#include "commands/shared/report.h"
 #include "model/io/system_files.h"
 #include "model/io/uri.h"
-#include "report.h"
 #include "system.h"
 
 namespace tspace::tool {

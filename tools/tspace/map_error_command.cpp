@@ -1,46 +1,25 @@
 // SPDX-License-Identifier: MIT
 // tspace map-error: one normal map.
-#include <fmt/format.h>
+#include <memory>
 
-#include <algorithm>
-
-#include "commands.h"
+#include "command_table.h"
+#include "commands/map_error/map_error_report.h"
+#include "commands/shared/request.h"
+#include "common_options.h"
 #include "console.h"
 #include "interrupt.h"
+#include "jobs.h"
 #include "output_files.h"
-#include "report.h"
 
 namespace tspace::tool {
 namespace {
 
-std::string readingText(const ExplainedReading& reading) {
-    if (reading.frames == "object") return "object space";
-    const std::string frames = reading.frames == "file"    ? "tangents of the file"
-                               : reading.frames == "quads" ? "mikktspace on quads"
-                                                           : reading.frames;
-    return fmt::format("{}, green {}{}{}", frames, reading.reading.green == Green::up ? "up" : "down",
-                       reading.reading.bitangent == BitangentPlace::perVertex ? ", bitangent per vertex" : "",
-                       reading.reading.two_channels ? ", two channels" : "");
-}
-
-std::string textOf(const MapErrorArguments& arguments, const MapErrorFileReport& done) {
-    constexpr std::size_t kShown = 4;
-    Table table;
-    const MapError& error = done.error;
-    table.addRow(
-        {"error", fmt::format("mean {:.4f} degrees, 99 % below {:.4f}, largest {:.4f}; at seams {:.4f} in the mean",
-                              error.mean_deg, error.p99_deg, error.max_deg, error.seam_mean_deg)});
-    for (std::size_t i = 0; i < std::min(kShown, done.readings.size()); ++i)
-        table.addRow({i == 0 ? "readings" : "", fmt::format("{:.4f} degrees: {}", done.readings[i].error.mean_deg,
-                                                            readingText(done.readings[i]))});
-    if (error.missed_count > 0)
-        table.addRow({"note", fmt::format("{} of {} points met no high poly within {:.4g}", error.missed_count,
-                                          error.missed_count + error.point_count, error.reach)});
-    for (const std::string& warning : done.warnings) table.addRow({"warning", printable(warning)});
-    return fmt::format("{}: {}\n{}", printable(arguments.map), done.verdict, table.text("  "));
-}
-
-}  // namespace
+struct MapErrorArguments {
+    std::string map = {}, low = {}, high = {};
+    MapErrorFileOptions options = {};
+    bool json = false;
+    bool quiet = false;
+};
 
 ExitCode runMapError(const MapErrorArguments& arguments) {
     const Result<Done> fit = prepareOutputs({arguments.options.heat},
@@ -60,14 +39,46 @@ ExitCode runMapError(const MapErrorArguments& arguments) {
         result
             ? ExitCode::done
             : printErrorOfFiles({arguments.low, arguments.high, arguments.options.cage, arguments.map}, result.error());
+    const report::Outcome<MapErrorFileReport> outcome{.input = arguments.map, .result = result};
     std::string text;
     if (arguments.json) {
-        text =
-            report::mapErrorJson({.input = arguments.map, .result = result}, arguments.low, arguments.high, exit_code);
+        text = report::mapErrorJson(outcome, arguments.low, arguments.high, exit_code);
     } else if (!arguments.quiet && result) {
-        text = textOf(arguments, *result);
+        text = report::mapErrorText(outcome);
     }
     return printResult(text) ? exit_code : ExitCode::cannotReadOrWrite;
+}
+
+}  // namespace
+
+Command mapErrorCommand() {
+    const auto owned = std::make_shared<MapErrorArguments>();
+    MapErrorArguments& arguments = *owned;
+    arguments.options.execution.thread_count = kAllThreads;
+    Command command{
+        .name = "map-error",
+        .summary = "say how far a normal map is from its high poly, and why",
+        .operands = "MAP LOW --high HIGH",
+        .description =
+            "Measures anybody's normal map: the angle between what a renderer shades with it and the high poly, in "
+            "degrees. Then reads it in other ways (green down, tangents of other methods, quads, a bitangent per "
+            "vertex, object space) and says in one sentence which fits best. Changes nothing.",
+        .examples = {"tspace map-error normal.png low.glb --high high.glb",
+                     "tspace map-error normal.png low.fbx --high scan.ply --convention unreal --heat heat.png --json"},
+    };
+    const char* group = kInputAndOutput;
+    command.add(group, operand("MAP", arguments.map, "A normal map: PNG, JPEG or WebP."));
+    command.add(group, operand("LOW", arguments.low, "The model that the map is for."));
+    Option& high =
+        command.add(group, text("--high", "HIGH", arguments.high, "The model with the detail, in the same place."));
+    high.is_file = high.is_required = true;
+    command.add(mapErrorOptions(arguments.options));
+    addReporting(command, arguments.json, arguments.quiet);
+    command.run = [owned] {
+        owned->options.file.importer = importerPath();
+        return runMapError(*owned);
+    };
+    return command;
 }
 
 }  // namespace tspace::tool

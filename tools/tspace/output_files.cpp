@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Before and after the work.
+// Checks before the work, and writing after it.
 #include "output_files.h"
 
 #include <map>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The files that a run writes: what all commands ask of them, and reports that go to files of their own.
+// The files that a run writes: the rules for all commands, and reports that go to files of their own.
 #pragma once
 
 #include <string>

@@ -60,7 +60,7 @@ class Reader {
         return {};
     }
 
-    /// The name of another option is a value that was forgotten.
+    /// Where the name of another option follows, the value was forgotten.
     std::string takeNext(const Option& option) {
         const std::string_view next = next_ < arguments_.size() ? arguments_[next_] : "--";
         if (next == "--" || find(std::string(next.substr(0, next.find('=')))) != nullptr)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the commands that only read files do with many of them: several at one time, told in the order of the files; one
-// bad file does not stop the others.
+// Many files for commands that only read: several at one time, reported in the order of the files; one bad file does not stop
+// the others.
 #pragma once
 
 #include <atomic>
@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "batch.h"
+#include "commands/shared/report.h"
 #include "console.h"
-#include "report.h"
 
 namespace tspace::tool {
 
@@ -17,10 +17,10 @@ template <class Value>
 struct ReadFiles {
     std::vector<report::Outcome<Value>> outcomes = {};
     ExitCode exit_code = ExitCode::done;  ///< the worst of the files that could not be read
-    bool output_is_closed = false;        ///< nobody reads stdout any more; files may have been left out
+    bool output_is_closed = false;        ///< stdout was closed; files may have been left out
 };
 
-/// What is said on the way.
+/// The output while files are read.
 struct Telling {
     bool progress = false;  ///< on a terminal, when it takes long
     bool text = false;      ///< about each file

@@ -1,36 +1,26 @@
 // SPDX-License-Identifier: MIT
 // tspace render: one model, one picture.
-#include <fmt/format.h>
+#include <memory>
 
-#include "commands.h"
-#include "console.h"
+#include "command_table.h"
+#include "commands/render/render_report.h"
+#include "commands/shared/request.h"
+#include "common_options.h"
 #include "image_command.h"
+#include "jobs.h"
 #include "model/io/file_io.h"
 #include "output_files.h"
-#include "report.h"
-#include "standard_input.h"
 
 namespace tspace::tool {
 namespace {
 
-std::string textOf(const RenderArguments& arguments, const RenderReport& done) {
-    Table table;
-    table.addRow({"picture", fmt::format("{}, {} x {}, {}", renderShowName(done.show), done.width, done.height,
-                                         counted(done.triangle_count, "triangle"))});
-    if (done.computed_count > 0 && done.show != RenderShow::error) {
-        table.addRow({"tangents", fmt::format("computed for {} by {}", counted(done.computed_count, "primitive"),
-                                              methodName(arguments.options.method))});
-    }
-    if (done.without_tangents_count > 0)
-        table.addRow({"grey", counted(done.without_tangents_count, "primitive") + " without tangents"});
-    if (done.error_sample_count > 0) {
-        table.addRow({"error", fmt::format("mean {:.4g}, at most {:.4g} degrees from {}", done.mean_error_deg,
-                                           done.max_error_deg, methodName(arguments.options.method))});
-    }
-    for (const std::string& warning : done.warnings) table.addRow({"warning", printable(warning)});
-    return fmt::format("{} -> {}{}\n{}", printable(arguments.input), printable(arguments.output),
-                       arguments.options.dry_run ? " (not written)" : "", table.text("  "));
-}
+struct RenderArguments {
+    std::string input = {};
+    std::string output = {};
+    RenderOptions options = {};
+    bool json = false;
+    bool quiet = false;
+};
 
 Result<RenderReport> render(const RenderArguments& arguments) {
     RenderOptions options = arguments.options;
@@ -41,8 +31,6 @@ Result<RenderReport> render(const RenderArguments& arguments) {
     });
 }
 
-}  // namespace
-
 ExitCode runRender(const RenderArguments& arguments) {
     const bool to_stdout = arguments.output == "-";
     if (goesToTerminal(arguments))
@@ -52,7 +40,44 @@ ExitCode runRender(const RenderArguments& arguments) {
     const Result<Done> fit = prepareOutputs({arguments.output}, {arguments.input}, arguments.options.dry_run);
     if (!fit) return printUsageError(fit.error().message);
     const Result<RenderReport> result = render(arguments);
-    return printOutcome(arguments, result, report::renderJson, textOf);
+    return printOutcome(arguments, result, report::renderJson,
+                        [&](const auto& outcome) { return report::renderText(outcome, arguments.options.method); });
+}
+
+}  // namespace
+
+Command renderCommand() {
+    const auto owned = std::make_shared<RenderArguments>();
+    RenderArguments& arguments = *owned;
+    arguments.options.execution.thread_count = kAllThreads;
+    Command command{
+        .name = "render",
+        .summary = "draw a model, or its frames, as a picture",
+        .operands = "IN -o OUT",
+        .description =
+            "Draws a PNG: the model in the light of one lamp, as its normal maps and tangents say, or these "
+            "themselves: normals, tangents, signs, how far the tangents are from those of a method, the UV map. "
+            "Without a display and the same bytes everywhere. It is the shading reference made visible, no renderer: "
+            "no shadows, no reflections.",
+        .examples = {"tspace render helmet.glb -o helmet.png", "tspace render helmet.glb -o signs.png --show sign",
+                     "tspace render helmet.glb -o error.png --show error --view front --size 512",
+                     "tspace render helmet.glb -o right.png --frames computed"},
+        .finish = [&arguments](const Given&) -> std::string {
+            return arguments.options.samples == 0 ? "--samples must be 1 to 4" : "";
+        },
+    };
+    const char* group = kInputAndOutput;
+    command.add(group, operand("IN", arguments.input, "A model file; '-': a GLB on stdin."));
+    Option& output = command.add(group, text("-o, --output", "OUT", arguments.output,
+                                             "Where to write: a file that ends in .png, or - for stdout."));
+    output.is_file = output.is_required = true;
+    command.add(renderOptions(arguments.options));
+    addReporting(command, arguments.json, arguments.quiet);
+    command.run = [owned] {
+        owned->options.file.importer = importerPath();
+        return runRender(*owned);
+    };
+    return command;
 }
 
 }  // namespace tspace::tool

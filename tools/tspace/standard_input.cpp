@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// All of stdin, as long as it looks like a model.
+// Reads all of stdin, as long as it looks like a model.
 #include "standard_input.h"
 
 #include <algorithm>

@@ -36,9 +36,9 @@ class StandardInput {
 /// "-" as an output.
 class StandardOutput {
   public:
-    /// False where it cannot be written; errno of the library's message may be another one's by then.
+    /// False where it cannot be written. close() gives the reason, since errno may have changed by the time of the message.
     bool write(std::span<const std::uint8_t> bytes);
-    /// Call at the end, whatever came before: says why not all was written.
+    /// Call it at the end, also after errors: fails with the reason why not all was written.
     Result<Done> close();
 
   private:

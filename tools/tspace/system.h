@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the tool asks an operating system for (system_posix.cpp, system_windows.cpp); files are in asset/system_files.h.
+// Calls of the operating system (system_posix.cpp, system_windows.cpp); those on files are in model/io/system_files.h.
 #pragma once
 
 #include <cstdio>

@@ -12,7 +12,7 @@
 namespace tspace::tool {
 
 void openStandardStreams() {
-    // Opened in the wrong direction: whoever reads or writes it is told. The lowest number that is free is taken.
+    // Opened in the wrong direction, so that reading or writing it fails. The system takes the lowest free number.
     for (int number = STDIN_FILENO; number <= STDERR_FILENO; ++number) {
         if (fcntl(number, F_GETFD) != -1 || errno != EBADF) continue;
         if (open("/dev/null", number == STDIN_FILENO ? O_WRONLY : O_RDONLY) < 0) open("/", O_RDONLY);

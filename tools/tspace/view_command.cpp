@@ -1,19 +1,27 @@
 // SPDX-License-Identifier: MIT
 // tspace view: a page with the model in it.
-#include <fmt/core.h>
-
 #include <filesystem>
+#include <memory>
 
-#include "commands.h"
+#include "command_table.h"
+#include "commands/shared/request.h"
 #include "commands/view/view_report.h"
+#include "common_options.h"
 #include "console.h"
 #include "model/io/file_io.h"
 #include "model/io/system_files.h"
 #include "output_files.h"
-#include "report.h"
 
 namespace tspace::tool {
 namespace {
+
+struct ViewArguments {
+    std::string input = {};
+    std::string output = {};
+    FileOptions file = {};
+    bool json = false;
+    bool quiet = false;
+};
 
 namespace fs = std::filesystem;
 
@@ -35,8 +43,6 @@ Result<ViewReport> view(const ViewArguments& arguments) {
     return writeViewPage(arguments.input, arguments.output, page, arguments.file);
 }
 
-}  // namespace
-
 ExitCode runView(const ViewArguments& arguments) {
     if (const Result<Done> fit = prepareOutputs({arguments.output}, {arguments.input}); !fit)
         return printUsageError(fit.error().message);
@@ -47,10 +53,38 @@ ExitCode runView(const ViewArguments& arguments) {
     if (arguments.json) {
         text = report::viewJson(outcome, exit_code);
     } else if (!arguments.quiet && outcome.result) {
-        text = fmt::format("{} -> {}: {}, {}\n", printable(arguments.input), printable(arguments.output),
-                           counted(outcome.result->files.size(), "file"), byteText(outcome.result->output_bytes));
+        text = report::viewText(outcome);
     }
     return printResult(text) ? exit_code : ExitCode::cannotReadOrWrite;
+}
+
+}  // namespace
+
+Command viewCommand() {
+    const auto owned = std::make_shared<ViewArguments>();
+    ViewArguments& arguments = *owned;
+    Command command{
+        .name = "view",
+        .summary = "write a page that shows a model, its frames and what is wrong",
+        .operands = "IN -o OUT.html",
+        .description =
+            "Makes one HTML file of the model, with everything it needs inside: it opens from disk in any browser, "
+            "asks no network, shows what tspace check finds, lights the model with the frames of the file and with "
+            "right ones, and mends it. The page itself is built by scripts/web and installed with the tool.",
+        .examples = {"tspace view helmet.glb -o helmet.html"},
+        .finish =
+            [&arguments](const Given&) {
+                return arguments.output.empty() ? std::string("say where to write: -o OUT.html") : std::string();
+            },
+    };
+    const char* group = kInputAndOutput;
+    command.add(group,
+                operand("IN", arguments.input, "A model: .glb, .vrm, .gltf or .obj; what it names goes in too."));
+    command.add(group, text("-o, --output", "OUT", arguments.output, "Where to write the page.")).is_file = true;
+    command.add(inspectOptions(arguments.file));
+    addReporting(command, arguments.json, arguments.quiet);
+    command.run = [owned] { return runView(*owned); };
+    return command;
 }
 
 }  // namespace tspace::tool

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// By what Linux offers without rights of root: Landlock for paths, from 5.13 on, and a filter of system calls.
+// Means of Linux that need no rights of root: Landlock for paths, from 5.13 on, and a filter of system calls.
 #include "confine.h"
 
 #ifdef __linux__
@@ -40,7 +40,7 @@ std::uint64_t rightsOf(long version) {
 
 void allowReading(int rules, const std::string& path) {
     const int place = open(path.c_str(), O_PATH | O_CLOEXEC);
-    if (place < 0) return;  // whoever reads it says why
+    if (place < 0) return;  // reading it reports the reason
     struct stat status = {};
     landlock_path_beneath_attr rule = {};
     rule.allowed_access = LANDLOCK_ACCESS_FS_READ_FILE;
@@ -79,8 +79,8 @@ constexpr std::uint32_t kMachine = AUDIT_ARCH_X86_64;
 constexpr std::uint32_t kMachine = AUDIT_ARCH_AARCH64;
 #endif
 
-/// What a parser needs: memory, files that are read, descriptors that are open, clocks, and an end. Numbers of 32-bit
-/// programs (x32) are others, and so refused.
+/// The calls that a parser needs: memory, reading files, open descriptors, clocks, and exit. Numbers of x32 programs differ,
+/// so they are refused.
 constexpr std::uint32_t kCalls[] = {
     // Memory and locks.
     SYS_brk,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a process may do that reads a file which nobody trusts.
+// Takes the rights away from a process that reads an untrusted file.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace tspace::import {
 
-/// What holds from now on. Neither, where the kernel has neither: limits of resources are all that is left then.
+/// The restrictions that hold from now on. A kernel without both leaves only the limits of resources.
 struct Confinement {
     bool of_files = false;  ///< Landlock: no file is read but those allowed, none is written, made, renamed or run
     bool of_calls =

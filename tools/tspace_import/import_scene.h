@@ -16,7 +16,7 @@ struct Imported {
     double offset[3] = {0, 0, 0};  ///< taken out of the coordinates, and the translation of the root
 };
 
-/// What decides about reading.
+/// The options of reading.
 struct ImportRules {
     bool anywhere =
         false;  ///< files that it names are read wherever they are; else where the URIs of glTF may lead (src/model/io/folder_rule.h)

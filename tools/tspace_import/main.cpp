@@ -63,7 +63,7 @@ bool endWithParent([[maybe_unused]] pid_t parent) {
     return getppid() == parent;
 }
 
-/// Files that whoever started tspace had open are no business of a parser.
+/// Closes files that the parent had open: a parser must not reach them.
 void closeOtherFiles() {
     constexpr unsigned kFirst = 3;
 #if defined(__linux__) && defined(SYS_close_range)
@@ -80,7 +80,7 @@ void openStandardStreams() {
     }
 }
 
-/// Stdout for the result alone: what a library prints goes nowhere.
+/// Keeps stdout for the result: output of libraries is dropped.
 int takeStdout() {
     const int result = dup(STDOUT_FILENO);
     const int nowhere = open("/dev/null", O_WRONLY);
@@ -102,7 +102,7 @@ int run(const char* input, const tspace::import::ImportRules& rules, std::FILE* 
         std::fprintf(stderr, "cannot write the result\n");
         return kCannotWrite;
     }
-    // importDocument takes these lines from others that a library may print.
+    // importDocument tells these lines from others that a library may print.
     if (imported.has_no_tangents) std::fprintf(stderr, "tangents: none\n");
     const double* const offset = imported.offset;
     if (offset[0] != 0 || offset[1] != 0 || offset[2] != 0)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The same rules as for OBJ (src/model/obj): what cannot be, is replaced and counted.
+// The rules for OBJ (src/model/obj) hold here too: invalid numbers are replaced and counted.
 #include "mend.h"
 
 #include <algorithm>
@@ -107,7 +107,7 @@ std::size_t mendNormals(std::vector<float>& normals, const std::vector<float>& p
 void countCoarseEdges(const std::vector<float>& positions, const std::vector<std::uint32_t>& triangles,
                       Mended& mended) {
     constexpr double kLeastSteps = 500;
-    // Whole numbers and the like have zeros there; what was rounded seldom has.
+    // Whole numbers and short fractions have zeros there; rounded ones seldom do.
     constexpr std::uint32_t kLastBits = 63;
     const auto isRound = [](float value) { return (std::bit_cast<std::uint32_t>(value) & kLastBits) == 0; };
     const auto stepAt = [](float value) {

@@ -10,7 +10,7 @@
 
 namespace tspace::import {
 
-/// Opens the model, and what lies in its folder or below, by the rule for the URIs of glTF (asset/folder_rule.h): no ".."
+/// Opens the model, and what lies in its folder or below, by the rule for the URIs of glTF (src/model/io/folder_rule.h): no ".."
 /// in a name, and no link that leads out. Others are not there.
 class ModelFiles : public Assimp::DefaultIOSystem {
   public:

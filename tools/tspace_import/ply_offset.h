@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// PLY files far from the origin. Assimp reads every number as a float, so what is more must be taken out before.
+// PLY files far from the origin. Assimp reads every number as a float, so the offset that floats cannot hold is taken out
+// before.
 #pragma once
 
 #include <optional>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Whether a file has tangents of its own, which Assimp alone does not tell.
+// Whether a file has tangents of its own; Assimp does not say so.
 #pragma once
 
 #include <string>

@@ -28,13 +28,15 @@ const notHere = new Set([
   "core/base/parallel.cpp", "core/base/arena.cpp", "model/io/atomic_output_disk.cpp", "model/io/file_io.cpp",
   "model/io/temporary_files.cpp", "model/obj/tiny_obj_loader.cpp", "model/gltf/codecs/draco_library.cpp", "model/gltf/codecs/meshopt_library.cpp",
   "images/exr.cpp", "images/float_image.cpp", "images/jpeg.cpp", "images/png.cpp", "images/webp.cpp", "maps/rays.cpp",
-  "commands/generate/convert_maps.cpp", "commands/generate/mend_maps.cpp", "commands/diff/diff_text.cpp",
-  "commands/shared/map_image_file.cpp", "commands/shared/map_mesh.cpp", "commands/shared/html_text.cpp",
+  "commands/generate/convert_maps.cpp", "commands/generate/mend_maps.cpp", "commands/diff/diff_words.cpp",
+  "commands/shared/map_image_file.cpp", "commands/shared/map_mesh.cpp",
   ...["bake/bake_file", "bake/map_pictures", "bake/model_maps", "bake/model_surfaces", "convert_map/convert_map_file",
     "height_to_normal/height_to_normal_file", "render/draw_model", "render/model_picture", "render/picture_file", "render/render_file"]
     .map((name) => `commands/${name}.cpp`),
   ...["posix", "windows"].map((system) => `model/io/system_files_${system}.cpp`),
 ]);
+/// Reports as text, SARIF and pages, which the tool alone prints.
+const isForPeople = (file) => /^commands\/(.*_(text|sarif)|shared\/text)\.cpp$/.test(file);
 /// Functions that are called once stay functions: inlined, they make large ones with hundreds of locals, which take more
 /// bytes and compress worse. What is smaller than its call is inlined. Loops are compiled without that limit, and the hottest
 /// ones for speed: the linker inlines next to nothing, so that theirs are inlined before.
@@ -94,7 +96,7 @@ function kernelSources(room, isFast) {
 /// core, the file layer, and the C API over it.
 function inBatches(name, rooms, isFast, more = []) {
   const all = rooms.flatMap((room) => readdirSync(join(root, "src", room)).sort().map((file) => `${room}/${file}`))
-    .filter((file) => file.endsWith(".cpp") && !notHere.has(file)).concat(more);
+    .filter((file) => file.endsWith(".cpp") && !notHere.has(file) && !isForPeople(file)).concat(more);
   const isAlone = (file) => hot.test(file) || loops.test(file);
   const files = all.filter((file) => !isAlone(file));
   const batches = all.filter(isAlone).map((file) => ({ path: join(root, "src", file), flags: isFast && hot.test(file) ? fastFlags : [] }));

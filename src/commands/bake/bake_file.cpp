@@ -25,7 +25,7 @@ std::vector<std::uint8_t> pngOf(std::uint32_t width, std::uint32_t height, std::
     return *std::move(png);
 }
 
-/// A name of a material, fit to be a part of a file's name.
+/// The name of a material with all letters replaced that a file name should not have.
 std::string fileWord(const std::string& name) {
     std::string word;
     for (const char letter : name) {
@@ -50,7 +50,7 @@ class FileBaking {
     FileBaking(const std::string& output, const BakeFileOptions& options) : output_(output), options_(options) {
         inputs_.watch(options_.file);
         options_.map.reading.two_channels = options_.map.reading.two_channels || options_.unit;
-        // An image is as large as it was asked for: what a file may take by its own size says nothing here.
+        // The size of the image is an option, so the limit by the size of the input file does not fit here.
         constexpr std::uint64_t kUsualLimit = std::uint64_t{16} << 30;
         std::uint64_t& limit = options_.map.memory_limit_bytes;
         if (limit == 0) limit = options_.file.memory_limit_bytes;

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Baked maps and their errors, as JSON.
-#include "commands/shared/report.h"
+// Baked maps, as JSON.
+#include "commands/bake/bake_report.h"
 
 namespace tspace::report {
-namespace {
 
 Json errorOfMapJson(const MapError& error) {
     return {{"points", error.point_count},
@@ -15,6 +14,8 @@ Json errorOfMapJson(const MapError& error) {
             {"seamMeanDeg", error.seam_mean_deg},
             {"insideMeanDeg", error.inside_mean_deg}};
 }
+
+namespace {
 
 Json bakedFileJson(const BakedFile& file) {
     const BakedMap& map = file.map;
@@ -54,37 +55,6 @@ std::string bakeJson(const Outcome<BakeFileReport>& outcome, const std::string& 
     json["matchedByName"] = result->matched_by_name;
     json["files"] = listJson(result->files, bakedFileJson);
     json["outputFiles"] = result->output_files;
-    json["warnings"] = result->warnings;
-    return jsonText(json);
-}
-
-std::string mapErrorJson(const Outcome<MapErrorFileReport>& outcome, const std::string& low, const std::string& high,
-                         ExitCode exit_code) {
-    const Result<MapErrorFileReport>& result = outcome.result;
-    Json json = documentJson("tspace.map-error/1", result.ok(), exit_code);
-    json["map"] = outcome.input;
-    json["low"] = low;
-    json["high"] = high;
-    json["error"] = errorJson(result ? nullptr : &result.error());
-    if (!result) return jsonText(json);
-    json["width"] = result->width;
-    json["height"] = result->height;
-    json["bits"] = result->bits;
-    json["fits"] = result->fits;
-    json["verdict"] = result->verdict;
-    json["reach"] = result->error.reach;
-    json["angles"] = errorOfMapJson(result->error);
-    json["readings"] = listJson(result->readings, [](const ExplainedReading& reading) -> Json {
-        return {{"frames", reading.frames},
-                {"green", reading.reading.green == Green::up ? "up" : "down"},
-                {"bitangent", reading.reading.bitangent == BitangentPlace::perPixel ? "pixel" : "vertex"},
-                {"unitVectors", reading.reading.unit_vectors},
-                {"twoChannels", reading.reading.two_channels},
-                {"angles", errorOfMapJson(reading.error)}};
-    });
-    json["framesMade"] = result->frames_made;
-    json["matchedByName"] = result->matched_by_name;
-    json["heatTopDeg"] = result->heat_top_deg;
     json["warnings"] = result->warnings;
     return jsonText(json);
 }

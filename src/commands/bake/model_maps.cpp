@@ -58,7 +58,7 @@ class MapPlacing {
         const std::optional<std::string> name = nameBeside(map.path);
         const std::size_t image = placeImage(map, name, old);
         const std::size_t texture = old ? *old : append("textures", Json{{"source", image}});
-        // The sampler of an old one is the one that was baked for.
+        // The map was baked for the sampler of the old texture.
         if (!old) setWrap(document_.json["textures"][texture], map);
         for (std::size_t i = 0; i < materials.size(); ++i) showMap(materials[i], map.primitives[i], texture);
         editor_.touch();
@@ -88,7 +88,7 @@ class MapPlacing {
         texture["sampler"] = samplers.size() - 1;
     }
 
-    /// A material for each primitive of the map. Where others have it too, which the map is not for, that is a copy.
+    /// A material for each primitive of the map: a copy where primitives share it that the map is not for.
     std::vector<std::size_t> giveMaterials(const ModelMap& map) {
         std::vector<std::optional<std::size_t>> before;
         std::map<std::size_t, std::size_t> users;
@@ -114,7 +114,7 @@ class MapPlacing {
         return append("materials", std::move(copy));
     }
 
-    /// The texture that these materials have for their normals, where nothing else shows it or its image.
+    /// The normal texture of these materials, where nothing else shows it or its image.
     [[nodiscard]] std::optional<std::size_t> oldTexture(const std::vector<std::size_t>& materials) const {
         const Json& json = document_.json;
         std::optional<std::size_t> texture;
@@ -161,7 +161,7 @@ class MapPlacing {
         return at;
     }
 
-    /// The name that a .gltf has for the file.
+    /// The name by which a .gltf refers to the file; nothing where it cannot.
     [[nodiscard]] std::optional<std::string> nameBeside(const std::string& path) const {
         if (target_.container == gltf::Container::glb) return {};
         std::string name = pathBelow(folderOf(target_.path), path);

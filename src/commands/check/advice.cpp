@@ -36,12 +36,12 @@ constexpr const char* kDrawnTangents =
 
 constexpr std::string_view kRepairOption = "--repair", kOverwriteOption = "--overwrite";
 
-/// What is mended by computing tangents anew.
+/// Findings that computing the tangents anew mends.
 bool isOfTangents(FindingCode code) {
     return (code >= FindingCode::tangentsNotFinite && code <= FindingCode::morphTangentsWrong);
 }
 
-/// What the format forbids. It is mended without a look at UVs, and however few vertices have it.
+/// Findings of values that the format forbids. They are mended without a look at UVs, however few vertices have them.
 bool isOfValues(FindingCode code) {
     return code == FindingCode::tangentsNotFinite || code == FindingCode::tangentsNotUnit ||
            code == FindingCode::signsNotOne;

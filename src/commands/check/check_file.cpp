@@ -34,7 +34,7 @@ bool canStrip(const ScenePrimitive& primitive) {
     });
 }
 
-/// One note for all tangents of the file that nobody needs, in place of one per primitive.
+/// One note for all unused tangents of the file, in place of one per primitive.
 void joinUnused(const Scene& scene, std::span<PrimitiveJudgement> judgements, std::vector<Finding>& findings) {
     std::vector<Finding> unused;
     std::uint64_t total = 0;
@@ -57,7 +57,7 @@ void joinUnused(const Scene& scene, std::span<PrimitiveJudgement> judgements, st
                                        " need none: no material of theirs reads a texture in tangent space"));
 }
 
-/// What reading the file had to say. It is about the file, so no primitive is named.
+/// The warnings of reading. They are about the file, so no primitive is named.
 Finding fileRemark(const std::string& warning) {
     const Tally one{.count = 1, .total = 1};
     return makeFinding(FindingCode::fileRemark, Severity::note, one, "files", warning);

@@ -72,7 +72,7 @@ std::vector<NormalMap> collectNormalMaps(const Scene& scene) {
     return maps;
 }
 
-/// Where a primitive has no triangles or no UVs it shows nothing. False: the steps ran out.
+/// A primitive without triangles or UVs shows nothing. False: the steps ran out.
 bool cover(const MapPart& part, TexelMask& mask, std::uint64_t& steps) {
     const ScenePrimitive& primitive = *part.primitive;
     const std::size_t set = part.use->uv_set;
@@ -92,9 +92,9 @@ std::uint64_t workBytes(const Scene& scene, const NormalMap& map) {
            GreenBlocks::bytesOf(size.width, size.height) + sizeof(Vec2) * vertices;
 }
 
-/// `mask`: as many texels as the image has; what it holds does not matter.
+/// `mask`: scratch of as many texels as the image has.
 void lookAtParts(const GreenBlocks& blocks, TexelMask&& mask, NormalMap& map) {
-    // Files with more, or with hostile UVs, get no answer for the rest of their parts but that of the whole map.
+    // In files with more, or with hostile UVs, the remaining parts get the answer of the whole map.
     constexpr std::size_t kMostParts = 4096;
     std::uint64_t steps = kCoverSteps;
     bool is_exact = map.parts.size() > 1;
@@ -137,7 +137,7 @@ void showPoints(const MapPart& part, const RgbImage& image, std::vector<TexelOnS
     if (set >= primitive.uv_sets.size() || primitive.uv_sets[set].empty() || primitive.normals.empty()) return;
     const std::vector<Vec2> uvs = textureUvs(primitive.uv_sets[set].span(), part.use->transform);
     const std::size_t triangles = primitive.corners.size() / 3, step = triangles / kMostOfAPart + 1;
-    // Of few triangles many points, since relief hides what single ones say.
+    // Few triangles give many points each, since relief hides what single points say.
     std::uint32_t rows = 1;
     while (rows < kMostRows && triangles / step * rows * rows < kMostOfAPart) ++rows;
     for (std::size_t t = step / 2; t < triangles; t += step) {
@@ -180,7 +180,7 @@ std::vector<TexelOnSurface> placedInWorld(const NormalMap& map, std::span<const 
     return in_world;
 }
 
-/// Alpha is decoded only where x may be in it.
+/// Decodes alpha only where x may be in it.
 std::vector<std::uint8_t> alphaOf(const Scene& scene, const SceneImage& image, std::span<const TexelBytes> texels) {
     if (!mayHaveXInAlpha(texels)) return {};
     const std::uint64_t bytes = imageWorkBytes(image.bytes) + 5 * claimedSize(image.bytes).pixels();
@@ -305,7 +305,7 @@ Finding mixed(const std::string& name, const GreenTest& test) {
                            " of 16 x 16 pixels with relief, " + shareText(blocks.share()));
 }
 
-/// What a command line calls the image.
+/// The image as a command line names it.
 std::string commandName(const Scene& scene, std::size_t image) {
     const std::string& uri = scene.images[image].uri;
     const bool is_word = uri.find_first_of(" '\"%\\$`&;|<>()*?[]{}~#!") == std::string::npos;
@@ -333,7 +333,7 @@ bool mayBeHeights(const NormalMap& map) {
                        [](const MapPart& part) { return part.use->may_be_heights; });
 }
 
-/// Of what the channels hold, and of green.
+/// Findings on what the channels hold, and on green.
 std::vector<Finding> describe(const Scene& scene, const NormalMap& map) {
     const std::string name = imageName(scene, map.image);
     std::vector<Finding> findings;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Findings as JSON.
-#include "commands/shared/report.h"
+#include "commands/check/check_report.h"
 
 namespace tspace::report {
 namespace {

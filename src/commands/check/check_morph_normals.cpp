@@ -79,7 +79,7 @@ void checkMorphNormals(PrimitiveFacts& facts) {
     // A file may name the same arrays any number of times.
     std::set<std::array<const Vec3*, 2>> seen;
     for (std::size_t i = 0; i < targets.size(); ++i) {
-        if (targets[i].positions.empty()) continue;  // what moves normals alone is somebody's choice
+        if (targets[i].positions.empty()) continue;  // targets that move normals alone are authored
         if (seen.insert({targets[i].positions.data(), targets[i].normals.data()}).second) checker.check(i, targets[i]);
     }
     checker.report();

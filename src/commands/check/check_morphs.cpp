@@ -63,8 +63,8 @@ double turnDegrees(const Vec4& from, const Vec4& to) {
     return normalize(a) && normalize(b) ? angleBetween(a, b) * 180 / kPi : 0;
 }
 
-/// Vertices whose frame on the base is known and good. What is wrong without a target is found without it;
-/// and where no triangle says where the tangent points, it is made up, and no target can be held against it.
+/// Vertices whose frame on the base is known and good. A frame that is wrong on the base is found there already. Where no
+/// triangle determines the tangent, its direction is arbitrary, and no target can be compared with it.
 std::vector<bool> goodVertices(const PrimitiveFacts& facts) {
     const double limit = facts.options.direction_deg;
     const std::vector<float> distances = directionDistances(facts.mesh, facts.surface, limit);
@@ -74,7 +74,7 @@ std::vector<bool> goodVertices(const PrimitiveFacts& facts) {
     return good;
 }
 
-/// Whether the triangle is next to nothing: its area is that of rounding, beside its longest edge.
+/// Whether the triangle is degenerate: its area, beside its longest edge, is that of rounding.
 bool isThin(const TangentView& mesh, std::size_t face, float area) {
     constexpr double kThin = 1e-6;
     const auto square = [&](std::size_t k) {
@@ -85,10 +85,9 @@ bool isThin(const TangentView& mesh, std::size_t face, float area) {
     return area <= kThin * std::max({square(0), square(1), square(2)});
 }
 
-/// Takes out the vertices of triangles that are next to nothing before or after, and vertices equal to them:
-/// with groups that are those of the base, a triangle that collapses still counts, and one that opens does
-/// not, and what direction a collapsed one has is chance. Triangles that are nothing before and after are in
-/// nobody's way.
+/// Takes out the vertices of triangles that are degenerate either before or after, and vertices equal to them. The groups
+/// are those of the base, so a triangle that collapses still counts in them, with an arbitrary direction, and one that
+/// opens does not. Triangles that are degenerate before and after change nothing.
 void forgetCollapsed(const TangentView& mesh, const Surface& base, const TangentView& morphed_mesh,
                      const Surface& morphed, const EqualVertices& equal, std::vector<bool>& good) {
     constexpr float kCollapsed = 1e-4f;  // of the area: a hundredth of each side

@@ -15,13 +15,13 @@ namespace {
 
 /// Beyond 96 degrees a normal points to the back, with some room for coarse smooth shading.
 constexpr double kLeastFacing = -0.1;
-/// From this share of the surface on it is the whole mesh that is inside out.
+/// From this share of the surface on the whole mesh is said to be inside out.
 constexpr double kMostOfSurface = 0.5;
 constexpr double kNearlyAll = 0.95;
 constexpr double kSomeNormals = 0.01;
 /// Degrees between a normal and the nearest of its triangles: a normal that is the mean over an edge of a box is 45 from both.
 constexpr double kFarDeg = 40;
-/// From this share of the surface on it is said.
+/// Share of the surface from which normals off their triangles are reported.
 constexpr double kSomeFar = 0.5;
 
 std::vector<bool> usedVertices(const TangentView& mesh) {
@@ -54,7 +54,7 @@ void checkNormalValues(PrimitiveFacts& facts) {
                   "the normals of " + countText(not_finite, "vertices") + " are NaN or infinite");
     }
     if (not_unit.count > 0) {
-        // Shaders get NaN from a single one without length.
+        // One normal without length gives NaN in shaders.
         facts.add(FindingCode::normalsNotUnit, zero_count != 0 ? Severity::error : Severity::warning, not_unit,
                   "vertices",
                   "the normals of " + countText(not_unit, "vertices") + " do not have length 1" +
@@ -93,7 +93,8 @@ void checkWinding(PrimitiveFacts& facts) {
                   shareText(against.surface_share) + " of the surface)");
 }
 
-/// Normals over hard edges, of a whole tree on its leaves, or of another shape. Some are meant, so it is a note.
+/// Normals smoothed over hard edges, those of a whole tree on its leaves, or those of another shape. Some are meant, so the
+/// finding is a note.
 void checkFarNormals(PrimitiveFacts& facts) {
     const TangentView& mesh = facts.mesh;
     const EqualVertices equal = findEqualVertices(mesh, false);
@@ -110,7 +111,7 @@ void checkFarNormals(PrimitiveFacts& facts) {
     for (std::uint32_t v = 0; v < used.size(); ++v) {
         if (!used[v] || !isDirection(mesh.normals[v]) || facts.surface.vertex_areas[v] == 0) continue;
         ++far.total;
-        // What points to the back is another finding.
+        // Normals that point to the back are another finding.
         const double angle = least[equal.class_of[v]];
         if (angle > kFarDeg && angle <= 90) far.add(v, facts.surface.vertex_areas[v], angle);
     }

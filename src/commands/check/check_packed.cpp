@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Packed frames against what they were packed from. That is mended when it is packed, so what is compared with is the
-// frame that the finest format makes of it: packing anew then always mends what is found.
+// Packed frames against the normals and tangents that they were packed from. Packing mends frames first, so packed ones are
+// compared with the frame that the finest format makes of normal and tangent: packing anew then mends every finding.
 #include "commands/check/check_packed.h"
 
 #include <algorithm>
@@ -23,7 +23,7 @@ namespace {
 constexpr FrameFormat kFinest = FrameFormat::frame64;
 /// Frames that are compared at a time.
 constexpr std::size_t kChunk = 256;
-/// From here on a difference can be seen; 8 bits in each number take 0.4 degrees.
+/// Differences from here on can be seen; 8 bits in each number take 0.4 degrees.
 constexpr double kVisible_deg = 1;
 
 struct PackedErrors {
@@ -135,7 +135,7 @@ struct PackedEntry {
     [[nodiscard]] std::string place() const { return primitive->place + "/attributes/" + packed->attribute; }
 };
 
-/// All of a scene. The first with each number of a comparison is to be compared.
+/// All packed frames of a scene. Of those with one comparison number the first is compared.
 std::vector<PackedEntry> packedEntries(const Scene& scene) {
     std::vector<PackedEntry> entries;
     std::map<std::tuple<const void*, const void*, const void*, FrameFormat>, std::size_t> known;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One primitive: what it should follow, then family by family.
+// One primitive: the UVs that its tangents should follow, then the checks, family by family.
 #include "commands/check/primitive_checks.h"
 
 #include "commands/check/findings.h"
@@ -14,7 +14,7 @@ void PrimitiveFacts::add(FindingCode code, Severity severity, const Tally& tally
 
 namespace {
 
-/// Of the surface, where UVs say where tangents point, and positions are not too coarse for it.
+/// Share of the surface where UVs determine tangents, and positions are not too coarse for that.
 double comparedShare(const PrimitiveFacts& facts) {
     const double most = sineCosine(facts.options.direction_deg * kPi / 180).sine;
     double area = 0;
@@ -27,7 +27,7 @@ double comparedShare(const PrimitiveFacts& facts) {
 /// Positions so coarse that triangles say neither where tangents point nor, reliably, where they face.
 void checkRounding(PrimitiveFacts& facts) {
     PositionRounding rounding = facts.surface.rounding;
-    // What was rounded on purpose matters only to tangents.
+    // Positions that were rounded on purpose matter only to tangents.
     const bool has_readers = !facts.primitive.uses.empty() || !facts.primitive.tangents.empty();
     if (rounding.was_before && !has_readers) {
         const std::span<const std::uint32_t> corners = facts.mesh.corners;

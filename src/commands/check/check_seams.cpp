@@ -23,15 +23,15 @@ namespace {
 constexpr double kToDegrees = 180 / kPi;
 /// Normals that differ by less make no seam that is seen.
 constexpr double kLeastSeamDeg = 2;
-/// Normals of the own triangles are that, whatever the weights were, but for rounding to 8 bits.
+/// Normals count as the mean of the own triangles, under any weighting, within rounding to 8 bits.
 constexpr double kOwnDeg = 1;
 /// A border may bend by so much more than what nearly all smooth edges of the two sides do.
 constexpr double kMoreBend = 1.25, kSmoothPart = 0.9;
-/// Of the places where normals differ, the part that must look like that; and how many they must be.
+/// The part of the places where normals differ that must look like a seam, and how many places there must be.
 constexpr double kMostPlaces = 0.8;
 constexpr std::size_t kLeastPlaces = 3;
 
-/// What comparing the primitives of a mesh takes for a while, about.
+/// Memory of comparing the primitives of a mesh, roughly; it is freed afterwards.
 constexpr std::uint64_t kBytesPerVertex = 200, kBytesPerCorner = 100;
 
 /// A triangle's normal, and how it counts at its corners by three weightings: 1, its area, its angle.
@@ -41,7 +41,7 @@ struct Face {
     std::array<double, 3> angles = {};
 };
 
-/// What one primitive smooths: the means of the triangles around each vertex, over vertices with its position and normal.
+/// The smoothing of one primitive: the means of the triangles around each vertex, over vertices with its position and normal.
 class SmoothPiece {
   public:
     SmoothPiece(const ScenePrimitive& primitive, const JoinedPieces& joined, std::uint32_t piece)
@@ -82,7 +82,7 @@ class SmoothPiece {
         }
     }
 
-    /// The angles at edges inside, of those that are smooth and those that are hard.
+    /// Angles at inner edges, smooth and hard ones apart.
     void bends(const JoinedPieces& joined, std::uint32_t piece) {
         struct Edge {
             std::array<std::uint32_t, 2> points, classes;

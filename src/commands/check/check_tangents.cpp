@@ -30,7 +30,7 @@ void addExplanation(PrimitiveFacts& facts, const FrameHealth& health, const Othe
     }
     if (other.use) message += "; " + facts.primitive.uses[*other.use].needed_by + " is read as they are";
     facts.add(code, severity, wrong, "vertices", message);
-    // Where the two agree the tangents are no better for it.
+    // Readings that agree do not make the tangents better.
     for (const std::uint32_t vertex : facts.mesh.corners) facts.faults[vertex] |= faultBit(code);
 }
 
@@ -67,7 +67,7 @@ void checkTangentsMissing(PrimitiveFacts& facts) {
                   : user + " needs tangents, and they " + state + "; tspace generate writes a glTF file that has them");
 }
 
-/// Goes on with the quads on which the tangents were made, where they were.
+/// Replaces the triangles by the quads on which the tangents were made, if they were made on quads.
 Result<Done> readOnQuads(PrimitiveFacts& facts, FrameHealth& health) {
     Result<std::optional<QuadReading>> quads = findQuads(facts.mesh, health, facts.options);
     if (!quads) return std::move(quads).error();
@@ -91,7 +91,7 @@ Result<Done> checkTangents(PrimitiveFacts& facts) {
     }
     Tally all{.count = facts.mesh.positions.size(), .total = facts.mesh.positions.size()};
     if (facts.primitive.uses.empty() && !facts.primitive.hasFreeTangents()) {
-        // Whatever they are, nobody sees it.
+        // No material reads these tangents, so their faults are not seen.
         facts.add(FindingCode::tangentsUnused, Severity::note, all, "vertices",
                   "it has tangents, but its material needs none");
         return Done{};
@@ -121,7 +121,7 @@ Result<Done> checkTangents(PrimitiveFacts& facts) {
     }
     const std::string axes = *other ? std::string() : findOtherAxes(facts, *health);
     if (!axes.empty()) {
-        // For one reason all of them are wrong, also those that come near to what is right.
+        // All of them are wrong for one reason, also those that happen to be near the right ones.
         for (const std::uint32_t vertex : facts.mesh.corners) facts.fault(vertex, FindingCode::directionsWrong);
     }
     for (Finding& finding : tangentFindings(*health, facts.options)) {
@@ -130,7 +130,7 @@ Result<Done> checkTangents(PrimitiveFacts& facts) {
                 "; as (" + axes +
                 ") of what is stored they fit, so the mesh was turned to other axes, and its tangents were not";
         }
-        // Without a texture the side on which v grows is seldom looked at.
+        // Without a texture the side on which v grows is seldom seen.
         if (finding.code == FindingCode::signsMixed && facts.primitive.hasFreeTangents())
             finding.severity = Severity::warning;
         facts.findings.push_back(std::move(finding));

@@ -61,7 +61,7 @@ void checkDegenerate(PrimitiveFacts& facts) {
 
 void checkUvs(PrimitiveFacts& facts) {
     checkUvsMissing(facts);
-    // Where nothing follows them, they do not matter.
+    // UVs that no tangents follow do not matter.
     if (facts.mesh.uvs.empty() || (facts.primitive.uses.empty() && facts.mesh.tangents.empty())) return;
     checkFinite(facts);
     checkDegenerate(facts);

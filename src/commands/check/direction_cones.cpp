@@ -19,7 +19,7 @@ constexpr double kDegrees = 180 / kPi;
 
 /// A tangent that lies within 6 degrees of N has no direction to speak of in the plane.
 constexpr double kLeastInPlane = 0.1;
-/// Methods weight the directions of triangles without a look at this, so nearly all of them count. Less is
+/// Methods weight the directions of triangles regardless of this length, so nearly all of them count. Shorter ones are
 /// rounding.
 constexpr double kLeastOfTriangle = 1e-6;
 /// An edge along N has no direction in the plane.
@@ -48,7 +48,7 @@ double angleInPlane(const Vec3& normal, const Vec3& v, double least, bool& found
 
 double withinTurn(double angle) { return angle > kPi ? angle - kTurn : angle < -kPi ? angle + kTurn : angle; }
 
-/// Radians by which rounding of the positions can have turned a triangle's direction in the plane of n; pi: anywhere.
+/// Radians by which rounding of the positions may turn a triangle's direction in the plane of n; pi: to any direction.
 double errorInPlane(const DVec3& n, const SurfaceFrame& face) {
     if (face.tangent_error == 0) return 0;
     const double part = length(cross(n, toDouble(face.tangent)));
@@ -57,7 +57,7 @@ double errorInPlane(const DVec3& n, const SurfaceFrame& face) {
 }
 
 /// Whether the corner spans an angle, seen along N, that is more than the rounding of floats. A method that
-/// weights by this angle, as MikkTSpace does, gives other corners no weight, or one by chance.
+/// weights by this angle, as MikkTSpace does, gives other corners no weight, or an arbitrary one.
 bool spansAngle(const TangentView& mesh, std::size_t corner) {
     constexpr double kLeastAngle = 1e-3;  // the arc cosine of a float that is one step below 1 is 3.5e-4
     const std::size_t face = corner / 3 * 3, place = corner - face;
@@ -95,7 +95,7 @@ class NearestDirections {
         DVec3 d = toDouble(face.tangent);
         if (!normalize(n) || !projectUnit(n, t, kLeastInPlane)) return;
         if (!projectUnit(n, d, kLeastOfTriangle)) {
-            // What rounding leaves of a direction along N points anywhere, and counts as much as the others.
+            // The rounding error of a direction along N points anywhere, and counts as much as the others.
             if (face.tangent != Vec3{}) addAngle(vertex, 0);
             return;
         }
@@ -215,7 +215,7 @@ std::vector<DirectionCone> conesOfClasses(const TangentView& mesh, const Surface
         const auto add = [&](double at) {
             entries.push_back({class_of_vertex[vertex], at});
             if (off == 0) return;
-            // Where it can point anywhere, from there on round the circle.
+            // A direction that can point anywhere opens the whole circle.
             for (const double part : {-1.0, -0.5, 0.5, 1.0})
                 entries.push_back({class_of_vertex[vertex], withinTurn(at + part * off)});
         };

@@ -27,8 +27,8 @@ struct DirectionCone {
 /// turn.
 DirectionCone coneAround(std::span<double> angles);
 
-/// No triangle around the vertex says anything, or its N or tangent cannot be used; or the tangent is far
-/// from what triangles say that are all so thin there, seen along N, that MikkTSpace gives them no weight.
+/// No triangle around the vertex has a direction, or its N or tangent cannot be used; or the tangent is far
+/// from the directions of triangles that are all so thin there, seen along N, that MikkTSpace gives them no weight.
 inline constexpr float kUnknownDirection = -1;
 
 /// Per vertex the distance in degrees between its tangent and the cone of the triangles that use it; where that is more

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Making findings: numbers into sentences.
+// Makes findings: numbers become sentences.
 #pragma once
 
 #include <string>

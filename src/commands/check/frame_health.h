@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Whether the tangents of one mesh are good, and why not. Knows no file: `check` makes findings of it, and repair asks
-// it what to keep.
+// Whether the tangents of one mesh are good, and why not. No file is known here: `check` makes findings of the result, and
+// repair decides by it which tangents to keep.
 #pragma once
 
 #include <cstdint>
@@ -19,18 +19,18 @@ namespace tspace {
 /// The bit of a finding in FrameHealth::faults. Only codes below greenFlipped are about vertices.
 inline constexpr std::uint32_t faultBit(FindingCode code) { return 1u << static_cast<std::uint32_t>(code); }
 
-/// Another bit: the sign goes with the inverted ones around.
+/// A further bit: the sign is undecided, in a patch of inverted ones.
 inline constexpr std::uint32_t kUndecidedSign = 1u << 31;
 
-/// Another: the tangent is nearly parallel to N.
+/// A further bit: the tangent is nearly parallel to N.
 inline constexpr std::uint32_t kParallelTangent = 1u << 30;
 
 struct FrameHealth {
-    /// Per vertex the bits of what it is counted for below; empty: nothing at all. Wrong signs have the bit of
+    /// Per vertex the bits of the findings that count it below; empty: there are none. Wrong signs have the bit of
     /// signsWrong, however many there are; where that is nearly all, others of the same patches have kUndecidedSign.
     /// Where nearly all directions are wrong, others of the same patches have the bit of directionsWrong too.
     std::vector<std::uint32_t> faults = {};
-    /// Vertices with the tangents that `generate` would give them, which nothing below holds against them; may be empty.
+    /// Vertices with the tangents that `generate` would give them, which no finding below counts; may be empty.
     std::vector<bool> settled = {};
     float settled_sign = 1;  ///< -1: but for the sign, which is the opposite
 
@@ -51,7 +51,7 @@ struct FrameHealth {
     bool has_zero = false;        ///< some have no length at all
     Tally not_orthogonal;         ///< finite, not zero, with a usable N
     Tally parallel;               ///< not among these: within 5 degrees of N or its opposite, so that there is no frame
-    /// They cover so little that the others that lean are another matter, and a warning: only they have the bit of
+    /// Their surface is so small that other leaning tangents are a warning of their own: only these have the bit of
     /// tangentsNotOrthogonal.
     bool has_no_frame = false;  ///< some are within 1 degree of N or its opposite
     bool parallel_apart = false;
@@ -75,14 +75,14 @@ struct FrameHealth {
 /// Expected near-linear time. Fails where generateTangents does, which is for lack of memory.
 Result<FrameHealth> examineTangents(const TangentView& mesh, const CheckOptions& options);
 
-/// The same from what is known already of the mesh's surface.
+/// As above, with the surface of the mesh that the caller has measured already.
 Result<FrameHealth> examineTangents(const TangentView& mesh, const Surface& surface, const CheckOptions& options);
 
-/// What there is to say about it: findings without a place.
+/// The findings of an examination, without a place.
 std::vector<Finding> tangentFindings(const FrameHealth& health, const CheckOptions& options);
 
-/// Why these tangents surely render wrong, where something reads them: the message of the first finding that is an error. Empty: they are good
-/// enough to be kept.
+/// Why these tangents surely render wrong, where a material reads them: the message of the first finding that is an error.
+/// Empty: they are good enough to be kept.
 std::string whyTangentsAreWrong(const FrameHealth& health, const CheckOptions& options);
 
 // The steps of examineTangents, one per file.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// By what `check` says of green and of signs.
+// Decides by the findings of `check` on green and on signs.
 #include "commands/check/judge_maps.h"
 
 #include <algorithm>
@@ -54,7 +54,7 @@ std::string whyItStays(GreenSide side, bool is_cancelled, bool is_declared, cons
     return "which way green points cannot be told";
 }
 
-/// Inverts the map. `why`: where that is not possible.
+/// Inverts the map. `why`: the reason where that is not possible.
 Bytes flipSceneImage(const Scene& scene, std::size_t image, std::string& why) {
     const std::vector<std::uint8_t>& bytes = scene.images[image].bytes;
     if (bytes.empty()) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which normal maps get their green channel inverted, and what they are then.
+// Which normal maps get their green channel inverted, and their files afterwards.
 #pragma once
 
 #include <span>

@@ -9,7 +9,7 @@
 namespace tspace {
 
 double bestAgreement(const Moments& moments) {
-    // Of the symmetric matrix S = M^T M the eigenvalues, by the roots of its characteristic polynomial (Smith 1961).
+    // The eigenvalues of the symmetric matrix S = M^T M, by the roots of its characteristic polynomial (Smith 1961).
     std::array<std::array<double, 3>, 3> s{};
     for (std::size_t i = 0; i < 3; ++i) {
         for (std::size_t k = 0; k < 3; ++k) {

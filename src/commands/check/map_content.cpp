@@ -77,7 +77,8 @@ class LayoutReader {
     std::array<double, 256> values_ = {};
 };
 
-/// How well texels are unit vectors, and where those that are point: what was never painted or baked says nothing.
+/// How well texels are unit vectors, and where those that are unit point. Texels that were never painted or baked have no
+/// say.
 struct Fit {
     double unit_share = 0;
     DVec3 mean = {};
@@ -143,7 +144,7 @@ auto colorsOf(std::span<const TexelBytes> texels) {
 
 bool isGreyTexels(std::span<const TexelBytes> texels) { return isGrey(texels.size(), colorsOf(texels)); }
 
-/// All but black and white ones: what nobody painted, or baked, says nothing.
+/// All but black and white texels, which are those that were never painted or baked.
 std::vector<TexelBytes> paintedOf(std::span<const TexelBytes> texels) {
     constexpr int kBlack = 8, kWhite = 247;
     std::vector<TexelBytes> painted;
@@ -225,7 +226,7 @@ class Looker {
             off += (texel[2] - blue.mean) * (texel[2] - blue.mean);
             wanted += (127.5 * (z + 1) - blue.mean) * (127.5 * (z + 1) - blue.mean);
         }
-        // Far from z, and going with it in no way: what varies is compression.
+        // Blue is far from z and does not correlate with it: it varies by compression alone.
         const auto total = static_cast<double>(texels_.size());
         const bool goes_with_z =
             blue.deviation > kConstant && std::fabs(product) > kMostCorrelation * total * blue.deviation * up.deviation;
@@ -239,7 +240,7 @@ class Looker {
         return made(MapContent::twoChannels, layout, 1);
     }
 
-    /// Where blue is one number relief may lean to one side.
+    /// In maps whose blue is constant, relief may lean to one side.
     [[nodiscard]] std::optional<MapLook> leaningTwoChannels() const {
         constexpr double kLeaning = 0.6;
         for (std::size_t i = 0; i < 3; ++i) {
@@ -294,7 +295,7 @@ class Looker {
         return made(MapContent::exchanged, layout, up->is_inverted ? below : 1 - below);
     }
 
-    /// Over texels that lean, blue grows with z as z does, not half as fast, and is much nearer to it than to (z + 1) / 2.
+    /// Over leaning texels blue has a slope of 1 against z, not of 1/2, and is much nearer to z than to (z + 1) / 2.
     [[nodiscard]] std::optional<MapLook> unsignedZ() const {
         constexpr std::uint64_t kLeastCount = 64;
         constexpr double kMostLong = 0.05;  // JPEG puts much into red and green where blue changes as much as they do
@@ -340,7 +341,7 @@ class Looker {
     /// Whether blue can be z, as it is or as a constant beside x and y.
     [[nodiscard]] bool mayPointUp(std::span<const TexelBytes> texels, const DVec3& mean) const {
         constexpr double kLeastUp = 0.7, kMostBelow = 0.1;
-        constexpr std::uint8_t kZero = 127 - 16;  // what compressing takes off
+        constexpr std::uint8_t kZero = 127 - 16;  // lost in compression
         const double below = shareOf(texels, [](const TexelBytes& texel) { return texel[2] < kZero; });
         return (mean.z > kLeastUp && below < kMostBelow) ||
                (channels_[2].deviation <= kConstant && canBeXy(texels, 0, 1));
@@ -455,8 +456,8 @@ bool isOfMesh(std::span<const TexelOnSurface> surface, const MapLayout& layout, 
            following.bent_slope > kLeastSlope;
 }
 
-/// The same under relief that hides the mesh from single vectors, and makes slopes smaller. What goes with the mesh by chance
-/// does not in every quarter of it.
+/// As above, under relief that hides the mesh from single vectors and makes slopes smaller. A correlation by chance does not
+/// show in every quarter of the mesh.
 bool isOfMeshUnderRelief(std::span<const TexelOnSurface> surface, const MapLayout& layout, bool may_be_tangent) {
     constexpr std::size_t kQuarters = 4, kManyPoints = 1024;
     constexpr double kFlat = 0.002, kLeastSlope = 0.4, kLeastOfQuarter = 0.25, kLeastBent = 0.25;
@@ -485,7 +486,7 @@ Looker::Followed Looker::followed(std::span<const TexelOnSurface> surface, const
     const double constant = std::fabs(up ? mean[up->axis] : plain_.mean.z);
     const bool is_plain = plain >= kLeastAgreement && plain > axes.agreement - 0.05;
     const double agreement = is_plain ? plain : axes.agreement;
-    // Where any other rotation fits better, it is that of another program, which nobody knows here.
+    // A rotation that fits better comes from the axes of another program, which are not known here.
     const bool is_clear = agreement >= kLeastAgreement && agreement >= kOfTheBest * bestAgreement(moments) &&
                           1 - agreement < kOfTheRest * (1 - constant);
     const bool is_wall = !is_up && up && is_plain && plain >= kSureAgreement;

@@ -42,9 +42,9 @@ struct MapLook {
     /// How a reader gets vectors in tangent space (or object space) out of it.
     MapLayout layout = {};
     std::uint64_t count = 0, total = 0;  ///< texels that say so, of those that were looked at
-    /// Of objectSpace: the mesh's normals show it. Else the directions only point all around.
+    /// With objectSpace: the normals of the mesh show it. Otherwise the directions only point all around.
     bool follows_mesh = false;
-    /// Of those: as a node of the scene turns them.
+    /// With objectSpace: the normals are as a node of the scene turns them.
     bool is_in_world = false;
 };
 
@@ -54,11 +54,11 @@ std::vector<TexelBytes> sampleTexels(const RgbImage& image, std::span<const std:
 
 /// Decides by the texels that triangles show. Three tests: the lengths of the vectors, where they point in the mean, and
 /// whether a channel is constant or all are equal. `surface`: tells object space from exchanged channels; may be empty.
-/// `in_world`: the same with the normals that the scene shows; empty where they are no others.
+/// `in_world`: these points with the normals that the scene shows; empty where no node turns them.
 MapLook lookAtTexels(std::span<const TexelBytes> texels, bool has_alpha, std::span<const TexelOnSurface> surface,
                      std::span<const TexelOnSurface> in_world = {});
 
-/// Whether red says nothing, so that alpha has to be looked at.
+/// Whether red has no information, so that alpha has to be looked at.
 bool mayHaveXInAlpha(std::span<const TexelBytes> texels);
 
 /// Whether there are vectors in tangent space, somewhere in the image.

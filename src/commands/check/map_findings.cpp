@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A look at texels, in words, and with the command that makes a normal map of them.
+// The contents of an image in words, with the command that makes a normal map of it.
 #include "commands/check/map_findings.h"
 
 #include "commands/check/findings.h"
@@ -97,7 +97,7 @@ std::string messageOf(const std::string& name, const MapLook& look) {
 
 std::string remedyOf(const std::string& file, const MapLook& look, bool green_is_down) {
     const std::string flip = green_is_down ? " --flip-green" : "";
-    // No full stop behind a command: who copies it would take it along.
+    // No full stop behind a command, since it would be copied along.
     const std::string in_model = "In the model: tspace generate --mend-maps" + flip + " does it. The image alone: ";
     const std::string convert = "tspace convert-map " + file + " -o OUT.png";
     if (look.content == MapContent::picture) return findingRemedy(FindingCode::normalMapIsPicture);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is said of images that are no normal maps as glTF reads them.
+// Findings on images that are no normal maps as glTF reads them.
 #pragma once
 
 #include <optional>
@@ -13,8 +13,8 @@ namespace tspace {
 /// `--channels`, `--encoding` and all else that makes convert-map read a layout; empty for the default.
 std::string layoutOptions(const MapLayout& layout);
 
-/// `name`: of the image, with quotes. `file`: what a command line calls it. `green_is_down`: what is in the place of y is
-/// inverted besides. Nothing for normals.
+/// `name`: of the image, with quotes. `file`: its name in a command line. `green_is_down`: the channel that holds y is also
+/// inverted. Nothing for normals.
 std::optional<Finding> contentFinding(const std::string& name, const std::string& file, const MapLook& look,
                                       bool green_is_down);
 

@@ -11,8 +11,8 @@
 
 namespace tspace {
 
-/// What a target adds by a formula, or was taken from a finer mesh, is off here and there beside coarse triangles. So a target
-/// counts from this part on of the surface that turns.
+/// Offsets that come from a formula or a finer mesh are off in places beside coarse triangles. So a target counts only from
+/// this part on of the surface that turns.
 inline constexpr double kOffShare = 0.25;
 
 struct MorphFault {
@@ -31,7 +31,7 @@ struct MorphFault {
         if (whole_area > 0) far_share = std::max(far_share, far_area / whole_area);
     }
 
-    /// Nothing where no target has it. `what`: the sentence, but for the angle of these vectors ("normals", "tangents").
+    /// Nothing where no target has the fault. `what`: the sentence without the angle of these vectors ("normals", "tangents").
     void report(PrimitiveFacts& facts, FindingCode code, Severity severity, const std::string& what,
                 const char* vectors) const {
         if (targets.count == 0) return;

@@ -25,7 +25,7 @@ bool slopes(const std::uint8_t* texel, float& p, float& q) {
     return true;
 }
 
-/// The mean over a square of texels; false where one of them says nothing.
+/// The mean over a square of texels; false where one of them has no slope.
 bool slopesOfSquare(const RgbImage& image, const TexelMask& inside, std::uint32_t left, std::uint32_t top,
                     std::uint32_t side, float& p, float& q) {
     p = q = 0;
@@ -85,10 +85,10 @@ struct Votes {
 };
 
 constexpr std::uint64_t kLeastBlocks = 16;
-/// Of a whole map, or of what one primitive shows.
+/// Thresholds for a whole map, or for the texels that one primitive shows.
 constexpr double kLeastCorrelation = 0.1, kLeastAgreement = 0.65;
-/// Of a part of a map that is to stand against another part, and of means where single texels do not say it: chance and
-/// odd relief must not make one.
+/// Thresholds for a part that contradicts another part of its map, and for means where single texels give no verdict. They
+/// are strict, since chance and unusual relief must not make such a part.
 constexpr double kPartCorrelation = 0.3, kPartAgreement = 0.8;
 /// A part has this many blocks, and this share of all that vote.
 constexpr std::uint64_t kLeastPartBlocks = 16;
@@ -144,7 +144,7 @@ TexelRect GreenBlocks::rectOf(std::size_t block) const {
     return {left, top, std::min(left + kBlock, width_), std::min(top + kBlock, height_)};
 }
 
-/// Which way a block and those around it lean; 0 where they disagree, or say nothing.
+/// Which way a block and its neighbours lean; 0 where they disagree, or have no vote.
 int GreenBlocks::leaningOf(std::size_t block) const {
     constexpr std::uint64_t kLeastAround = 3;
     const auto column = static_cast<std::uint32_t>(block % columns_),
@@ -159,7 +159,7 @@ int GreenBlocks::leaningOf(std::size_t block) const {
     return votes.count < kLeastAround ? 0 : votes.side(kPartCorrelation, 0.5);
 }
 
-/// Blocks that lie together and lean to one side are a part, where they are many and agree.
+/// Adjacent blocks that lean to one side are a part, where they are many and agree.
 void GreenBlocks::findParts() {
     const auto voting = static_cast<double>(
         std::count_if(blocks_.begin(), blocks_.end(), [](const Block& block) { return block.votes; }));
@@ -237,8 +237,8 @@ GreenTest GreenBlocks::judge(const IsChosen& isChosen) const {
     return test;
 }
 
-/// Compression and noise blur what single texels say more than what their means do. These decide where both lean to one
-/// side: +1 down, -1 up, 0: neither. The test then has their votes.
+/// Compression and noise blur single texels more than means of texels. Where both lean to one side the means decide: +1 down,
+/// -1 up, 0: neither. The test then has the votes of the means.
 template <class IsChosen>
 int GreenBlocks::sideOfMeans(const IsChosen& isChosen, GreenTest& test) const {
     Votes votes;

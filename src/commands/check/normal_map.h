@@ -18,13 +18,13 @@ struct GreenTest {
     double correlation = 0;
     std::uint64_t block_count = 0;       ///< blocks that have enough relief to say something
     std::uint64_t down_block_count = 0;  ///< those that say "down"
-    /// Of a mixed map: the blocks of the largest part where green points down, and where that part lies.
+    /// In a mixed map: the blocks of the largest part where green points down, and where that part lies.
     std::uint64_t down_part_blocks = 0;
     TexelRect down_part = {};
     std::uint64_t up_part_blocks = 0;  ///< the same of the largest part where it points up
     TexelRect up_part = {};
 
-    /// Of the verdict: how much of the blocks agree beyond an even split, 0 to 1.
+    /// Confidence of the verdict: how many of the blocks agree beyond an even split, 0 to 1.
     [[nodiscard]] double confidence() const;
 };
 
@@ -48,7 +48,7 @@ class GreenBlocks {
     /// one way throughout, they are taken to be so too.
     [[nodiscard]] GreenTest within(const TexelMask& part) const;
 
-    /// What it takes of memory.
+    /// Its memory.
     static std::uint64_t bytesOf(std::uint64_t width, std::uint64_t height) {
         return 2 * (width / kBlock + 1) * (height / kBlock + 1) * sizeof(Block);
     }

@@ -14,7 +14,7 @@ namespace {
 
 /// Share of the surface with tangents that lean out of it, from which other axes are looked for.
 constexpr double kClearlyLeaning = 0.2;
-/// What may be left of it, and of wrong directions, in the right ones.
+/// Share of leaning tangents, and of wrong directions, that may remain in the right axes.
 constexpr double kMostWrong = 0.02;
 
 /// Component i of the result is `sign[i]` times component `from[i]`.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Tangents that are wrong because a mesh was turned, as from Z up to Y up, and they were not.
+// Tangents that are wrong because they were not turned along with their mesh, as from Z up to Y up.
 #pragma once
 
 #include <string>

@@ -7,10 +7,10 @@ namespace {
 
 /// All shares are of the surface with UV area.
 constexpr double kClearlyWrong = 0.2;
-/// Signs alone are explained by nothing but the own transform, which mirrors or does not.
+/// Wrong signs without wrong directions can be explained only by the own transform, which mirrors or does not.
 constexpr double kSomeSigns = 0.1;
 constexpr double kExplained = 0.02;
-/// Of the own UVs' surface, that on which the others must have area too.
+/// Share of the surface with own UV area on which the other UVs must have area too.
 constexpr double kCovered = 0.95;
 
 struct Faults {

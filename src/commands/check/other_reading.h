@@ -22,7 +22,7 @@ struct OtherReading {
 /// along facts.reading. Fails as examineTangents does.
 Result<std::optional<OtherReading>> findOtherReading(const PrimitiveFacts& facts, const FrameHealth& health);
 
-/// Whether directions, not signs, are what another reading has to explain.
+/// Whether another reading has to explain directions, and not only signs.
 bool areDirectionsWrong(const FrameHealth& health, const Surface& surface);
 
 }  // namespace tspace

@@ -35,16 +35,16 @@ struct PrimitiveFacts {
     void add(FindingCode code, Severity severity, const Tally& tally, const char* unit, std::string message);
 };
 
-/// What is said about a primitive, and which of its vertices have what was found.
+/// The findings of a primitive, and which of its vertices have them.
 struct PrimitiveVerdict {
     std::vector<Finding> findings = {};
     std::vector<std::uint32_t> faults = {};  ///< as PrimitiveFacts::faults; empty: none
     double wrong_sign_share = 0;
-    /// Of the surface, where tangents were compared with what UVs say; 0 where their values alone were looked at.
+    /// Share of the surface where tangents were compared with UVs; 0 where their values alone were looked at.
     double compared_share = 0;
 };
 
-/// Everything there is to say about a primitive, but for its images. Fails for lack of memory only.
+/// All findings of a primitive, but for those of its images. Fails for lack of memory only.
 Result<PrimitiveVerdict> judgePrimitive(const ScenePrimitive& primitive, const CheckOptions& options, bool is_gltf);
 /// The findings alone.
 Result<std::vector<Finding>> checkPrimitive(const ScenePrimitive& primitive, const CheckOptions& options, bool is_gltf);

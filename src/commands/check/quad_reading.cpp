@@ -10,7 +10,7 @@ namespace tspace {
 
 namespace {
 
-/// Whether anything is held against the tangents that another cut of quads could explain.
+/// Whether there are findings that another cut of quads could explain.
 bool hasFaults(const FrameHealth& health) {
     for (const Tally* tally : {&health.signs_mixed, &health.signs_wrong, &health.mirrored_seams, &health.uv_seams,
                                &health.directions_wrong, &health.frames_differ}) {
@@ -25,7 +25,7 @@ double uvArea(const TangentView& mesh, std::size_t triangle) {
     return std::fabs((double{b.x} - a.x) * (double{c.y} - a.y) - (double{b.y} - a.y) * (double{c.x} - a.x));
 }
 
-/// As the reference does: where a quad is folded in the UV map, its larger half decides on which side v lies.
+/// The orientation of a quad, as in the reference: where it is folded in the UV map, its larger half decides.
 void giveFacesOneOrientation(const TangentView& mesh, std::span<const std::uint32_t> faces, Surface& surface) {
     for (std::size_t t = 0; t + 1 < faces.size(); ++t) {
         SurfaceFrame &first = surface.faces[t], &second = surface.faces[t + 1];

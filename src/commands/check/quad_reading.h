@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Tangents that were made on quads, held against the triangles that MikkTSpace cuts these into.
+// Tangents that were made on quads, compared with the triangles that MikkTSpace cuts these into.
 #pragma once
 
 #include <optional>

@@ -142,7 +142,7 @@ Finding placed(Finding finding, const ScenePrimitive& primitive, const ScenePrim
     return finding;
 }
 
-/// What the normal maps of a primitive make of inverted signs.
+/// Whether the normal maps of a primitive cancel inverted signs.
 enum class MapsSay { nothing, open, cancel };
 
 class Maps {
@@ -162,7 +162,7 @@ class Maps {
             const GreenSide green =
                 is_first ? at(images_.primitive_green, number) : at(images_.image_green, *use.image);
             if (green == other_way_) return MapsSay::cancel;
-            // A map that says nothing goes with the others of its file. Who names a convention other than the format's
+            // A map without a verdict counts as the others of its file do. Who names a convention other than the format's
             // says which signs are right, also for maps that nobody can read.
             const bool is_open = (green == GreenSide::unread && !is_asked_for_) || green == GreenSide::mixed ||
                                  (green == GreenSide::unknown && any_cancels_);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The one verdict on the tangents of a scene. `check` reports it, and repair acts on it: on errors, and on nothing that a
-// normal map cancels.
+// The one verdict on the tangents of a scene. `check` reports it. Repair acts on its errors, but on none that a normal map
+// cancels.
 #pragma once
 
 #include <memory>
@@ -18,7 +18,7 @@ struct VertexFaults {
     std::uint32_t bits = 0;  ///< as FrameHealth::faults
 };
 
-/// What the normal maps of a primitive make of its wrong signs.
+/// Whether the normal maps of a primitive cancel its wrong signs.
 enum class SignVerdict {
     plain,      ///< nothing: they are wrong, if there are any
     cancelled,  ///< green points the other way too
@@ -31,7 +31,7 @@ struct PrimitiveJudgement {
     /// The vertices that findings above count, ascending; null: none, or not asked for.
     std::shared_ptr<const std::vector<VertexFaults>> faults = {};
     double wrong_sign_share = 0;  ///< of the surface whose signs were judged
-    double compared_share = 0;    ///< of the surface, where tangents were compared with what UVs say
+    double compared_share = 0;    ///< share of the surface where tangents were compared with UVs
     SignVerdict signs = SignVerdict::plain;
     /// Most signs are inverted and stay so: a normal map whose green points the other way makes that right, or may.
     bool signs_stay = false;
@@ -49,7 +49,7 @@ std::vector<PrimitiveJudgement> judgePrimitives(const Scene& scene, const CheckO
 /// Whether the verdict on signs waits for what the normal maps say.
 bool waitForImages(std::span<const PrimitiveJudgement> judgements);
 
-/// Makes less of wrong signs that a normal map cancels, or may cancel because it could not be looked at; and of maps
+/// Lowers the severity of wrong signs that a normal map cancels, or may cancel because it could not be looked at; and of maps
 /// whose green points down where the signs of all that use them are inverted.
 void weighImages(const Scene& scene, const CheckOptions& options, ImageFindings& images,
                  std::span<PrimitiveJudgement> judgements);
@@ -57,7 +57,7 @@ void weighImages(const Scene& scene, const CheckOptions& options, ImageFindings&
 /// Whether `generate` can compute tangents that a material of the primitive needs.
 bool canCompute(const ScenePrimitive& primitive);
 
-/// What to do about each finding, here: names a command only where that command mends it.
+/// Fills in the remedy of each finding for this file: it names a command only where that command mends the finding.
 void adviseOn(const Scene& scene, const CheckOptions& options, std::span<PrimitiveJudgement> judgements);
 
 }  // namespace tspace

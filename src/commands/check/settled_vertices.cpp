@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Which vertices have the tangents that `generate` would give them. Methods of their own have rules for what follows,
-// but what the reference gives is what bakers and renderers expect, so nothing is held against it.
+// Which vertices have the tangents that `generate` would give them. The checks have rules of their own, but bakers and
+// renderers expect the tangents of the reference, so these vertices are in no finding.
 #include "commands/check/frame_health.h"
 #include "core/base/angle.h"
 #include "tspace/sanitize.h"
@@ -10,7 +10,7 @@ namespace tspace {
 
 namespace {
 
-/// What storing in 8 bits takes, and the welding of equal tangents.
+/// Degrees that storing in 8 bits and welding of equal tangents may take.
 constexpr double kSettledDeg = 1;
 
 /// One per corner, mended as `generate` does.
@@ -60,7 +60,7 @@ Result<bool> settleVertices(const TangentView& mesh, const Surface& surface, con
     health.settled.assign(mesh.positions.size(), false);
     TangentOptions how{.convention = options.convention};
     if (Result<Done> done = settleBy(how, mesh, surface, health); !done) return done.error();
-    // Fits can point a little beyond all triangles around.
+    // Tangents of fitting methods may lie a little outside of all triangles around.
     how.method = Method::best;
     for (how.refine = 0; how.refine <= 2 && health.directions_wrong.count != 0; ++how.refine) {
         if (Result<Done> done = settleBy(how, mesh, surface, health); !done) return done.error();

@@ -34,7 +34,7 @@ bool doAnyDiffer(const TangentView& mesh, const EqualVertices& equal, double tol
     return false;
 }
 
-/// Opposite triangles can cancel out. What a tool makes of that depends on more than the vertex.
+/// Opposite triangles can cancel out. The tangent that a tool then gives depends on more than the vertex.
 bool isSound(const Vec4& tangent) {
     const float size = length(xyz(tangent));
     return size > 0.9f && size < 1.1f;

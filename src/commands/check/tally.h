@@ -26,7 +26,7 @@ struct Tally {
         worst_deg = std::max(worst_deg, deg);
         if (vertices.size() < kMostVertices) vertices.push_back(vertex);
     }
-    /// What was met of another kind, of as many.
+    /// Adds a tally of the same total.
     void include(const Tally& other) {
         count += other.count;
         area += other.area;

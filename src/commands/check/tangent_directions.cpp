@@ -13,13 +13,13 @@ namespace tspace {
 
 namespace {
 
-/// A mean lies inside the cone of what it is the mean of, but for rounding and quantised storage.
+/// A mean lies inside the cone of its terms, but for rounding and quantised storage.
 constexpr double kInsideDeg = 2;
 /// Tangents that somebody computed once and gave to several vertices.
 constexpr double kSameDeg = 1;
-/// Vertices at one point that a vertex is compared with. More happens at poles, and one is enough.
+/// Most vertices at one point that a vertex is compared with. Poles have more, and one is enough.
 constexpr std::size_t kMostCompared = 64;
-/// Share of the surface from which wrong directions leave nothing that is right.
+/// Share of the surface from which all directions count as wrong.
 constexpr double kNothingRight = 0.95;
 constexpr double kMostly = 0.5;
 
@@ -79,9 +79,9 @@ class SeamFinder {
     std::vector<DirectionCone> cones_ = {};
 };
 
-/// Where nearly all directions are wrong the others around them are too: cones are wide where triangles fold, and nearly
-/// anything lies inside. To mend the ones without the others would leave seams. In a patch where most are right they
-/// are right.
+/// Where nearly all directions of a patch are wrong, the remaining ones count as wrong too: cones are wide where triangles
+/// fold, and nearly any direction lies inside. Mending some without the others would leave seams. In a patch where most are
+/// right, the remaining ones count as right.
 void findUndecided(const TangentView& mesh, const Surface& surface, std::span<const float> directions,
                    std::span<const std::uint32_t> far, FrameHealth& health) {
     const std::size_t count = mesh.positions.size();
@@ -101,7 +101,7 @@ void findUndecided(const TangentView& mesh, const Surface& surface, std::span<co
     for (std::uint32_t v = 0; v < count; ++v) {
         if (directions[v] == kUnknownDirection || health.isSettled(v)) continue;
         const std::uint32_t patch = patches.of(v);
-        // Where most are wrong, those outside of their cones are too, if by less than would be said of them alone.
+        // Where most are wrong, tangents outside of their cones by less than the tolerance count as wrong too.
         const double least = directions[v] > kInsideDeg ? kMostly : share;
         if (wrong[patch] > 0 && wrong[patch] >= least * judged[patch])
             health.fault(v, FindingCode::directionsWrong, count);
@@ -124,7 +124,7 @@ void examineDirections(const TangentView& mesh, const Surface& surface, const Ch
     for (const std::uint32_t v : far) {
         const double area = surface.known_areas[v];
         if (directions[v] > options.error_deg) health.far_directions += area;
-        // Those that triangles of both orientations use were counted with the signs.
+        // Vertices that triangles of both orientations use were counted with the signs.
         if (seams.isShared(v)) continue;
         const Cause cause = seams.causeOf(v);
         Tally& tally = cause == Cause::mirroredSeam ? health.mirrored_seams

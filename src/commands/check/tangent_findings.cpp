@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What there is to say about the tangents of one mesh.
+// The findings on the tangents of one mesh.
 #include "commands/check/findings.h"
 #include "commands/check/frame_health.h"
 
@@ -22,7 +22,7 @@ class FindingList {
             makeFinding(code, onShare(severity, tally.surface_share, options_), tally, unit, std::move(message)));
     }
 
-    /// Of vertices, on however little of the surface.
+    /// A finding that counts vertices, on however little of the surface.
     void addWhole(FindingCode code, Severity severity, const Tally& tally, std::string message) {
         if (tally.count != 0) findings.push_back(makeFinding(code, severity, tally, kVertices, std::move(message)));
     }

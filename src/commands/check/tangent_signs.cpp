@@ -31,11 +31,11 @@ SignAreas sumAreas(const TangentView& mesh, const Surface& surface, const Conven
     return areas;
 }
 
-/// Where nearly all signs are inverted, others in the same patch are too, whatever their triangles say: a quad that
-/// folds, say, has triangles of both orientations, and one sign. So are those of patches about which nothing is known.
-/// In a patch where most signs are right they are right.
+/// Where nearly all signs are inverted, the undecided ones of a patch count as inverted too, whatever their triangles ask for:
+/// a folded quad, for one, has triangles of both orientations and one sign. So do those of patches without a decided sign.
+/// In a patch where most signs are right, they count as right.
 void findUndecided(const TangentView& mesh, const SignAreas& areas, FrameHealth& health) {
-    // Of triangles with one and the same sign at all corners.
+    // Only triangles with one sign at all corners count.
     VertexPatches patches(mesh.positions.size(), mesh.corners, [&](const std::uint32_t* v) {
         const bool positive = mesh.tangents[v[0]].w > 0;
         return (mesh.tangents[v[1]].w > 0) == positive && (mesh.tangents[v[2]].w > 0) == positive;
@@ -73,7 +73,7 @@ void examineSigns(const TangentView& mesh, const Surface& surface, const CheckOp
             health.fault(v, FindingCode::mirroredSeamAveraged, count);
             continue;
         }
-        // What points elsewhere follows other UVs, whose orientation nobody knows.
+        // Tangents that point elsewhere follow other UVs, whose orientation is unknown.
         if (!std::isfinite(sign) || sign == 0 || directions[v] > options.error_deg) continue;
         ++health.signs_wrong.total;
         judged += plus + minus;

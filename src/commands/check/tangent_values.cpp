@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What tangents must be whatever the UVs are: finite, unit, in the plane of the surface, with a sign of +1 or -1 that
+// Requirements that do not depend on UVs. Tangents are finite, unit, in the plane of the surface, with a sign of +1 or -1 that
 // all corners of a triangle share.
 #include <cmath>
 
@@ -11,11 +11,11 @@ namespace tspace {
 
 namespace {
 
-/// Lengths from which nobody's normalisation hides the fault.
+/// Lengths so far off that the normalisation of renderers does not hide the fault.
 constexpr double kFarFromUnit = 0.1;
 
 constexpr double kParallel = 90 - kParallelDeg;
-/// From here on one vertex is too many.
+/// Beyond this lean a single vertex is a finding.
 constexpr double kNoFrame = 89;
 
 void examineMixedSigns(const TangentView& mesh, const Surface& surface, FrameHealth& health) {

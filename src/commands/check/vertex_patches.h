@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which vertices hang together.
+// Which vertices are connected.
 #pragma once
 
 #include <cstdint>

@@ -34,7 +34,7 @@ Meshes readMeshes(const std::string& input, const ConvertMapFileOptions& options
     const std::string& to_mesh = options.to_mesh.empty() ? options.mesh : options.to_mesh;
     Meshes meshes;
     if (!from_tangent && !to_tangent) {
-        // Either model knows how object and world space lie to each other.
+        // Either model has the transform between object and world space.
         if (options.from != options.to) meshes.from = read(options.mesh.empty() ? to_mesh : options.mesh);
         return meshes;
     }
@@ -138,7 +138,7 @@ std::vector<Vec3> applyLayout(const MapLayout& layout, FloatImage& image) {
     return before;
 }
 
-/// What the layout changed counts too. `is_alone`: no mesh turns vectors, so that angles can be told.
+/// Changes by the layout count too. `is_alone`: no mesh turns vectors, so that angles are known.
 void countLayout(std::span<const Vec3> before, std::span<const Vec3> after, bool is_alone, ConvertMapReport& texels) {
     texels.changed = 0;
     double sum = 0, most = 0;

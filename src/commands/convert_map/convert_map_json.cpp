@@ -1,17 +1,8 @@
 // SPDX-License-Identifier: MIT
 // A normal map that was converted, as JSON.
-#include "commands/shared/report.h"
+#include "commands/convert_map/convert_map_report.h"
 
 namespace tspace::report {
-
-Json mapMeshJson(const MapMeshReport& mesh) {
-    if (mesh.triangle_count == 0) return nullptr;
-    return {{"primitives", mesh.primitive_count},
-            {"triangles", mesh.triangle_count},
-            {"materials", mesh.materials},
-            {"tangentsMade", mesh.tangents_made},
-            {"scale", mesh.scale}};
-}
 
 std::string convertMapJson(const Outcome<ConvertMapFileReport>& outcome, ExitCode exit_code) {
     const Result<ConvertMapFileReport>& result = outcome.result;

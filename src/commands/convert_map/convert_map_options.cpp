@@ -19,7 +19,7 @@ constexpr Named<BitangentPlace> kBitangents[] = {
 };
 constexpr Named<unsigned> kBitCounts[] = {{"8", 8}, {"16", 16}, {"32", 32}};
 
-/// "bgr": z, y and x. A capital letter is an inverted channel. Of two letters z is made.
+/// "bgr": z, y and x. A capital letter is an inverted channel. With two letters z is computed.
 std::string takeChannels(const std::string& letters, MapLayout& layout) {
     constexpr const char* kWrong =
         "must be two or three of r, g, b and a, such as rg, ag or bgr; a capital letter stands for an inverted channel";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Many angles, and what is said about them.
+// Many angles, and their statistics.
 #pragma once
 
 #include <vector>

@@ -25,7 +25,7 @@ struct FrameSamples {
     }
 };
 
-/// 1, -1, 0, or 2 for a NaN: what is no sign differs from every sign, but not from itself.
+/// 1, -1, 0, or 2 for a NaN: a value that is no sign differs from every sign, but not from itself.
 int signOf(float w) {
     if (std::isnan(w)) return 2;
     return (w > 0) - (w < 0);
@@ -56,7 +56,7 @@ class WorstPlaces {
     [[nodiscard]] const std::vector<FrameDifference>& places() const { return places_; }
 
   private:
-    /// A sign that differs turns B round, and so counts as what it does to B.
+    /// A differing sign turns B round, so it counts by the angle of B.
     static double worstOf(const FrameDifference& d) { return std::max({d.tangent_deg, d.normal_deg, d.bitangent_deg}); }
     static bool isWorse(const FrameDifference& a, const FrameDifference& b) { return worstOf(a) > worstOf(b); }
 

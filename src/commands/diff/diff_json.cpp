@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Differences as JSON.
-#include "commands/shared/report.h"
+#include "commands/diff/diff_report.h"
 
 namespace tspace::report {
 namespace {

@@ -10,7 +10,7 @@ namespace tspace {
 
 namespace {
 
-/// What both partners have in common; empty: this primitive takes no part.
+/// The key that both partners have in common; empty: this primitive takes no part.
 using KeyOf = std::function<std::string(const ScenePrimitive&)>;
 
 class Pairer {

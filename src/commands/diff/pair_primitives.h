@@ -19,7 +19,7 @@ struct PrimitivePair {
     std::vector<TrianglePair> triangles = {};
 };
 
-/// Those of A in file order, then those of B without a partner. Primitives without triangles are left out.
+/// The primitives of A in file order, then those of B without a partner. Primitives without triangles are left out.
 std::vector<PrimitivePair> pairPrimitives(const Scene& a, const Scene& b);
 
 }  // namespace tspace

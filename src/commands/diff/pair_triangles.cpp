@@ -59,7 +59,7 @@ class CornerHashes {
     std::vector<std::uint64_t> vertices_;
 };
 
-/// Pairs what is not yet paired. `paired_b` is one mark per triangle.
+/// Pairs triangles that are not yet paired. `paired_b` is one mark per triangle.
 void pairEqualKeys(const ScenePrimitive& a, const ScenePrimitive& b, bool with_uvs, std::vector<char>& paired_a,
                    std::vector<char>& paired_b, std::vector<TrianglePair>& pairs) {
     const CornerHashes hashes_a(a, with_uvs), hashes_b(b, with_uvs);
@@ -143,7 +143,7 @@ class TriangleGrid {
     }
 
   private:
-    /// Cells are twice as wide as the tolerance, so what is near lies in the own cell or in those on the nearer side:
+    /// Cells are twice as wide as the tolerance, so centres that are near lie in the own cell or in those on the nearer side:
     /// bit k of `corner` steps along axis k. Number 0 is the own cell.
     static std::uint64_t cellHash(const DVec3& p, unsigned corner) {
         const auto cell = [&](double x, unsigned axis) {

@@ -12,8 +12,8 @@ namespace tspace {
 
 namespace {
 
-/// Rows of a PNG take next to no memory but time, and a few bytes may claim any number of them: what they unpack to may be
-/// so many times what may be taken of memory. 1 GB, about 5 seconds, for any file: a map of one colour and 16384 x 16384
+/// Rows of a PNG take next to no memory but time, and a few bytes may claim any number of them: their unpacked bytes may be
+/// this multiple of the memory limit. 1 GB, about 5 seconds, for any file: a map of one colour and 16384 x 16384
 /// texels has 800 MB in a file of 800 KB.
 void checkWork(ByteSpan bytes, std::uint64_t memory_limit_bytes) {
     constexpr std::uint64_t kTimesMemory = 16, kMost = std::uint64_t{1} << 56;
@@ -37,7 +37,7 @@ FlippedImage flip(ByteSpan bytes, const FlipGreenOptions& options) {
     return valueOrThrow(flipImage(bytes, options));
 }
 
-/// By the extension of the output's name.
+/// The format that the extension of the output's name says.
 ImageFileFormat namedFormat(const std::string& output) {
     const std::string extension = lowerExtension(output);
     if (extension == ".png") return ImageFileFormat::png;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // An image whose green was inverted, as JSON.
-#include "commands/shared/report.h"
+#include "commands/flip_green/flip_green_report.h"
 
 namespace tspace::report {
 

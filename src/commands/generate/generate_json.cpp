@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What was generated, as JSON.
+#include "commands/generate/generate_report.h"
 #include "commands/generate/generate_totals.h"
-#include "commands/shared/report.h"
 
 namespace tspace::report {
 namespace {

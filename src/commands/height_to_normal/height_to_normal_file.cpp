@@ -11,7 +11,7 @@ namespace tspace {
 
 namespace {
 
-/// Leans beyond say that the strength is told in other units than the mesh.
+/// Leans beyond these mean that the strength is in other units than the mesh.
 constexpr double kSteepDeg = 60, kFlatDeg = 0.1;
 
 void addHeightWarnings(const HeightToNormalFileOptions& options, HeightToNormalFileReport& report) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A height map that became a normal map, as JSON.
-#include "commands/shared/report.h"
+#include "commands/height_to_normal/height_to_normal_report.h"
 
 namespace tspace::report {
 

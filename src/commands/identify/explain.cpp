@@ -55,7 +55,7 @@ bool areQuantized(std::span<const Vec4> tangents) {
 /// `computed` has the raw sign, one per corner.
 void compare(const ScenePrimitive& primitive, std::span<const std::uint8_t> votes, std::span<const Vec4> computed,
              double tolerance_deg, Explanation& explanation) {
-    // What a method's floats are off by is nothing beside a step of whole numbers.
+    // The float error of a method is negligible beside a step of whole numbers.
     constexpr double kRoundingDeg = 1e-4;
     const double nothing_deg = areQuantized(primitive.tangents.span()) ? kRoundingDeg : 0;
     std::vector<char> is_near_at(primitive.positions.size(), 0);
@@ -90,7 +90,7 @@ void compare(const ScenePrimitive& primitive, std::span<const std::uint8_t> vote
         explanation.near_any_count += static_cast<unsigned char>(is_near_at[vertex]);
 }
 
-/// Along one reading of the UVs.
+/// Explanations along one reading of the UVs.
 class Explainer {
   public:
     Explainer(const ScenePrimitive& primitive, const UvReading& reading, const IdentifyOptions& options)
@@ -103,7 +103,7 @@ class Explainer {
                  .indices = primitive.corners.span()}),
           votes_(uvVotes(mesh_)) {}
 
-    /// Whether the UVs say something anywhere.
+    /// Whether any triangle has UV area.
     [[nodiscard]] bool hasVotes() const { return std::find(votes_.begin(), votes_.end(), 1) != votes_.end(); }
 
     Result<Done> tryMethods(std::vector<Explanation>& explanations) const {

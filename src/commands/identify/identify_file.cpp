@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Every primitive against every method, and what that says about the file.
+// Every primitive against every method, and the sums over the file.
 #include <algorithm>
 
 #include "commands/identify/explain.h"
@@ -42,7 +42,8 @@ bool hasTwoReadings(const PrimitiveIdentity& primitive) {
            (turned->near_count != plain->near_count || turned->gltf_sign_count != plain->gltf_sign_count);
 }
 
-/// Of a method, along the texture's set in the reading that explains more. On quads where they are asked for and win.
+/// The explanation by a method, along the texture's set in the reading that explains more; on quads where they are asked for
+/// and win.
 const Explanation* partOf(const PrimitiveIdentity& primitive, Method method, Faces faces) {
     const Explanation* part = nullptr;
     for (const Explanation& entry : primitive.explanations) {

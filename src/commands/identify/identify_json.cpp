@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Methods as JSON.
-#include "commands/shared/report.h"
+#include "commands/identify/identify_report.h"
 
 namespace tspace::report {
 namespace {

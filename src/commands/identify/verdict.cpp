@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Who made the tangents, with which signs, along which UVs.
+// Which method made the tangents, with which signs, along which UVs.
 #include "commands/identify/verdict.h"
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace {
 
 /// A method that explains this share of the corners made them.
 constexpr double kSureShare = 0.95;
-/// From this share on it is the likely one.
+/// A method that explains this share is the likely one.
 constexpr double kLikelyShare = 0.5;
 /// By this much another UV set, or another method in a part of the file, must explain more to be named.
 constexpr double kClearlyMore = 0.25;
@@ -37,7 +37,7 @@ const Explanation* bestOf(const PrimitiveIdentity& primitive) {
     return primitive.explanations.empty() ? nullptr : &primitive.explanations.front();
 }
 
-/// How many things have a name, in the order in which they were first seen.
+/// Counts by name, in the order in which names were first seen.
 class NameCounts {
   public:
     void add(const std::string& name) {
@@ -65,8 +65,8 @@ class NameCounts {
     std::vector<std::pair<std::string, std::size_t>> counts_ = {};
 };
 
-/// The makers of single primitives where one method does not explain the file, but another one each primitive does.
-/// Empty: it is not so.
+/// The methods of single primitives, where no method explains the file but each primitive has one that explains it. Empty
+/// otherwise.
 std::string differentMakers(const Identification& result) {
     if (result.explanations.front().nearShare() >= kSureShare) return "";
     NameCounts makers;
@@ -141,7 +141,7 @@ std::string exceptionsSentence(const Identification& result) {
 
 std::string signSentence(const Identification& result) {
     const Explanation& best = result.explanations.front();
-    // What signs mean depends on how the tangents were made.
+    // The meaning of signs depends on how the tangents were made.
     if (best.nearShare() < kLikelyShare && !keptOnePerVertex(best) && differentMakers(result).empty()) return "";
     switch (best.signs()) {
         case SignReading::gltf:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the explanations of a file say, in sentences for a person.
+// The verdict on the explanations of a file, in sentences for a person.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@ namespace tspace {
 /// PrimitiveIdentity::skipped where an importer cannot give all that a file has.
 inline constexpr const char* kNotRead = "its tangents were not read";
 
-/// Everything else in `result` is there.
+/// All other members of `result` must be filled.
 std::string verdictOf(const Identification& result);
 
 }  // namespace tspace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What is in files, as JSON.
-#include "commands/shared/report.h"
+#include "commands/inspect/inspect_report.h"
 
 namespace tspace::report {
 namespace {

@@ -25,7 +25,7 @@ void describeUvMap(std::span<const std::uint32_t> corners, std::span<const Vec3>
     for (std::size_t i = 0; i < triangle_count; ++i) {
         const double area =
             signedUvArea(uvs[corners[3 * i]], uvs[corners[3 * i + 1]], uvs[corners[3 * i + 2]], v_runs_down);
-        // Also NaN and infinity count as "no area": no direction can be had from them.
+        // NaN and infinity count as "no area" too, since they give no direction.
         if (!(area < 0 || area > 0) || area - area != 0) {
             ++info.degenerate_uv_count;
             continue;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a person wants to know about the UV map of a triangle mesh before computing tangents.
+// Statistics of the UV map of a triangle mesh that matter before tangents are computed.
 #pragma once
 
 #include <cstdint>

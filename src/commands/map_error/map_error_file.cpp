@@ -14,7 +14,8 @@ namespace tspace {
 
 namespace {
 
-/// So much better must another reading be, that it is not chance: the map then fits that one.
+/// A map fits another reading where its error is below this part of the asked one, and lower by at least this angle; less is
+/// chance.
 constexpr double kMuchBetter = 0.7, kLeastGainDeg = 0.02;
 /// Above this no reading explains a map.
 constexpr double kUnexplainedDeg = 5;
@@ -24,7 +25,7 @@ struct TriedFrames {
     std::vector<Vec4> tangents = {};  ///< empty: those of the low poly
 };
 
-/// All images of a model, or what of them the options ask for, as one.
+/// All images of a model, or the part that the options ask for, as one.
 LowModel::Image shownPart(const LowModel& model, const MapErrorFileOptions& options) {
     LowModel::Image shown;
     for (const LowModel::Image& image : model.images) {
@@ -109,7 +110,7 @@ class FileMeasuring {
         return *std::move(image);
     }
 
-    /// TriedFrames that the map may have been made for.
+    /// The frames that the map may have been made for.
     void listFrames(const std::string& low, const LowModel& known) {
         frames_.push_back({"file"});
         struct Tried {
@@ -165,7 +166,7 @@ class FileMeasuring {
 
     /// `asked` is a copy: the list is sorted.
     void judge(const ExplainedReading asked) {
-        // Of readings that nobody could tell apart, the one that is most like what was asked for.
+        // Among readings with indistinguishable errors, the one nearest to the asked one.
         constexpr double kTie = 1.02;
         const auto differences = [&](const ExplainedReading& reading) {
             return (reading.frames != asked.frames ? 1 : 0) + (reading.reading.green != asked.reading.green ? 1 : 0) +

@@ -49,7 +49,7 @@ class ModelTextures {
 
         auto operator<=>(const Wanted&) const = default;
     };
-    /// Null where it cannot be shown, and a warning says why.
+    /// Null where it cannot be shown; a warning then says why.
     const PictureTexture* read(const Wanted& wanted);
 
     std::vector<std::string> warnings = {};
@@ -62,7 +62,7 @@ class ModelTextures {
     std::map<Wanted, std::optional<PictureTexture>> images_ = {};
 };
 
-/// One primitive, and what was made for it.
+/// One primitive, and its computed frames and textures.
 struct ModelSurface {
     std::vector<Vec3> flat_normals = {};  ///< one per corner, where the file has none
     std::vector<Vec4> computed = {};      ///< one per corner

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A picture that was drawn, as JSON.
-#include "commands/shared/report.h"
+#include "commands/render/render_report.h"
 
 namespace tspace::report {
 

@@ -11,7 +11,7 @@
 namespace tspace {
 
 /// Puts normal maps that are made of heights into `drawn`. A map of which none can be made is left out, and a warning says so.
-/// `method`: of the tangents that they are read with. Throws FileError.
+/// `method`: whose tangents they are read with. Throws FileError.
 std::vector<std::string> showHeights(Method method, const Execution& execution, DrawnScene& drawn);
 
 }  // namespace tspace

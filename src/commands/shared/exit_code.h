@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the tool's exit codes mean, which stand in its JSON too, and which error leads to which.
+// The exit codes of the tool, which its JSON has too, and the exit code of each error.
 #pragma once
 
 #include <algorithm>

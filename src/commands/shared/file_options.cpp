@@ -7,7 +7,7 @@ namespace {
 
 constexpr unsigned kMostThreads = 1024;
 
-/// "500M", "8G" or "none"; K, M, G and T count by 1024. At least what any file gets.
+/// "500M", "8G" or "none"; K, M, G and T count by 1024. At least the limit that every file has.
 bool parseMemory(const std::string& text, std::uint64_t& bytes) {
     constexpr std::uint64_t kLeast = std::uint64_t{64} << 20, kMost = std::uint64_t{1} << 56;
     if (text == "none") {

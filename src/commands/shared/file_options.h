@@ -36,10 +36,10 @@ Option readingOption(const char* names, MapReading& target, HelpText help);
 void addAllowExternal(OptionList& list, FileOptions& file);
 void addKeepCoordinates(OptionList& list, FileOptions& file);
 void addThreads(OptionList& list, Execution& execution, HelpText help);
-/// Only the first of the limits: for what needs no importer.
+/// Only the first of the limits, for commands that need no importer.
 void addMemoryLimit(OptionList& list, std::uint64_t& memory_limit_bytes);
 void addLimits(OptionList& list, FileOptions& file);
-/// For calls that write: FileOptions::sync.
+/// FileOptions::sync, for calls that write.
 void addSync(OptionList& list, bool& sync);
 /// Which primitives of a model show a map.
 void addMaterialOfMap(OptionList& list, std::string& material);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Image files as what calls on maps take, and the model that shows one. Functions throw FileError.
+// Image files as the input of calls on maps, and the model that shows one. Functions throw FileError.
 #pragma once
 
 #include <string>

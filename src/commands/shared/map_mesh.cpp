@@ -16,7 +16,7 @@ namespace tspace {
 
 namespace {
 
-/// A name of an image as a person knows it: without folders and ending.
+/// The name of an image without folders and extension.
 std::string stemOf(const std::string& name) {
     const std::size_t folder = name.find_last_of("/\\");
     const std::string file = folder == std::string::npos ? name : name.substr(folder + 1);
@@ -90,7 +90,7 @@ void addFrames(const ScenePrimitive& primitive, std::span<const Vec2> uvs, const
     mesh.report.tangents_made = true;
 }
 
-/// What all of them multiply x and y of the map by.
+/// The scale of x and y of the map that all of them have.
 double scaleOf(std::span<const ChosenPrimitive> chosen) {
     const auto scale_of = [](const ChosenPrimitive& one) { return one.use == nullptr ? 1.0 : one.use->scale; };
     const ChosenPrimitive& first = chosen.front();
@@ -117,7 +117,7 @@ bool turnsAlike(const Affine& a, const Affine& b) {
     return std::max({apart(a.x, b.x), apart(a.y, b.y), apart(a.z, b.z)}) <= kSame * size(a) * size(b);
 }
 
-/// How the scene turns a primitive. Nothing where the scene does not show it.
+/// The transform by which the scene shows a primitive. Nothing where the scene does not show it.
 std::optional<Affine> placeOf(const DrawnScene& drawn, const ChosenPrimitive& chosen) {
     std::optional<Affine> place;
     for (const ScenePlacement& placement : drawn.placements) {
@@ -145,7 +145,7 @@ void placeCorners(const Affine& place, std::size_t first, MapMesh& mesh) {
     mesh.axes.resize(mesh.normals.size() / 3, {toFloat(axes[0]), toFloat(axes[1]), toFloat(axes[2])});
 }
 
-/// Of the triangles from corner `first` on, leaves those of the tile.
+/// Removes the triangles from corner `first` on that are not in the tile.
 void keepTile(std::uint32_t tile, std::size_t first, MapMesh& mesh) {
     std::size_t kept = first;
     for (std::size_t i = first; i < mesh.uvs.size(); i += 3) {

@@ -21,7 +21,7 @@ struct MapMesh {
     MapMeshReport report = {};
 };
 
-/// Whether what it is about is a normal map.
+/// Whether the image is a normal map.
 bool showsNormals(const TangentUse& use);
 
 /// Appends the corners of a primitive as a map is read there; `use`: what reads it, null for the first UVs as they are. Missing

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Options of the common kinds.
+// The common kinds of options.
 #include "commands/shared/option_table.h"
 
 #include <algorithm>

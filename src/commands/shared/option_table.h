@@ -14,7 +14,7 @@ namespace tspace::options {
 using Take = std::function<std::string(const std::string& value)>;
 
 #ifdef TSPACE_SMALL
-/// Bindings show no help, and leave its texts out.
+/// The bindings show no help, so its texts are left out there.
 struct HelpText {
     constexpr HelpText() = default;
     constexpr HelpText(const char*) {}
@@ -44,7 +44,7 @@ struct Option {
     [[nodiscard]] const std::string& name() const { return names.empty() ? value : names.back(); }
 };
 
-/// What was given: options in its order, with their values (empty for flags).
+/// The options that were given, in their order, with their values (empty for flags).
 struct Given {
     struct Item {
         const Option* option = nullptr;
@@ -70,7 +70,7 @@ std::string checkTogether(const OptionList& list, const Given& given);
 
 /// The option of this long name; null: there is none.
 const Option* findOption(const OptionList& list, const std::string& name);
-/// What to say of a name that no option has.
+/// The message about a name that no option has.
 std::string unknownOption(const OptionList& list, const std::string& name);
 
 /// A name of a choice and what it stands for.
@@ -134,7 +134,7 @@ Option choice(const char* names, const char* value_name, const Named<Value> (&ta
 
 /// The whole text as a whole number. false: it is none, or too large.
 bool parseNumber(const std::string& text, std::uint64_t& number);
-/// The same of any finite number.
+/// As parseNumber, for any finite number.
 bool parseReal(const std::string& text, double& number);
 
 }  // namespace tspace::options

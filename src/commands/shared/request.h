@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is asked of a call on files, and the options that say it. A list of options fills the request that it is made for as
+// The requests of calls on files, and their options. A list of options fills the request that it is made for as
 // values are given (giveValue, readJsonOptions); the request must outlive the list.
 #pragma once
 
@@ -43,11 +43,11 @@ OptionList mapErrorOptions(MapErrorFileOptions& options);
 OptionList convertMapOptions(ConvertMapFileOptions& options);
 OptionList heightToNormalOptions(HeightToNormalFileOptions& options);
 
-/// What options of generate mean together, once all are given. Returns what makes no sense, or nothing.
+/// Applies what options mean together, once all are given. Returns what makes no sense, or nothing.
 std::string finish(const Given& given, GenerateOptions& options);
 std::string finish(const Given& given, ConvertMapFileOptions& options);
 
-/// Takes away the findings that nobody wants to hear of, and counts anew.
+/// Removes the findings that the request leaves out, and counts anew.
 void leaveOut(const CheckRequest& request, CheckReport& report);
 /// Whether there is a finding that makes the check fail.
 bool failsBy(const CheckRequest& request, const CheckReport& report);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The files of a model as blocks of data in the page. A script whose type is no language is never run.
+// The files of a model as blocks of data in the page. Browsers do not run a script whose type is no language.
 #include "commands/view/view_page.h"
 
 #include <filesystem>
@@ -28,7 +28,7 @@ struct EmbeddedFile {
     Bytes bytes;
 };
 
-/// The model, then each file that it names. A GLB made of it asks for all of them.
+/// The model, then each file that it names. Making a GLB of the model opens all of them.
 std::vector<EmbeddedFile> filesOf(const Path& input, const FileOptions& options, InputFiles& inputs) {
     if (!isGltfName(input) && lowerExtension(input) != ".obj") {
         failFile(ErrorCode::unsupportedFile,

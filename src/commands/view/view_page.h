@@ -13,7 +13,7 @@
 namespace tspace {
 
 struct ViewReport {
-    std::vector<std::string> files = {};  ///< what went into the page: the model, then what it names, as it names it
+    std::vector<std::string> files = {};  ///< the files in the page: the model, then those that it names
     std::uint64_t output_bytes = 0;
 };
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// What tspace view reports.
 #pragma once
 
 #include <string>
@@ -9,5 +10,6 @@
 namespace tspace::report {
 
 std::string viewJson(const Outcome<ViewReport>& outcome, ExitCode exit_code);
+std::string viewText(const Outcome<ViewReport>& outcome);
 
 }  // namespace tspace::report

@@ -27,7 +27,7 @@ std::vector<std::string> commandNames(const ToolTable& tool) {
     return names;
 }
 
-/// What stands between single quotes in bash and zsh.
+/// The text between single quotes in bash and zsh.
 std::string shellQuoted(const std::string& text) { return fmt::format("'{}'", replaced(text, "'", "'\\''")); }
 
 std::string bashValues(const Option& option) {
@@ -37,7 +37,7 @@ std::string bashValues(const Option& option) {
     return option.is_file ? "_tspace_files" : ":";
 }
 
-/// A line of the case over "COMMAND OPTION": what may stand behind the option.
+/// A line of the case over "COMMAND OPTION": the values that may follow the option.
 std::string bashCases(const Command& command) {
     std::string cases, operand = "_tspace_files";
     for (const Option& option : command.options) {

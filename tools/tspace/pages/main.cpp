@@ -5,7 +5,7 @@
 #include <fstream>
 #include <iostream>
 
-#include "options.h"
+#include "command_table.h"
 #include "pages/pages.h"
 
 namespace {
@@ -27,8 +27,7 @@ int main(int argc, char** argv) {
     }
     const std::filesystem::path folder = argv[1];
     const std::string date = argv[2];
-    AllArguments unused;
-    const ToolTable tool = toolTable(unused);
+    const ToolTable tool = toolTable();
     bool written = true;
     for (const Command& command : tool.commands) {
         const std::string name = "tspace-" + command.name + ".1";

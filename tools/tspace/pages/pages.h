@@ -17,7 +17,7 @@ std::string bashCompletion(const ToolTable& tool);
 std::string zshCompletion(const ToolTable& tool);
 std::string fishCompletion(const ToolTable& tool);
 
-/// What completions say about an option: its help up to the end of the first sentence, or its first colon.
+/// The description of an option in completions: its help up to the end of the first sentence, or its first colon.
 std::string firstSentence(const std::string& help);
 /// `text` with each `mark` replaced.
 std::string replaced(std::string text, const std::string& mark, const std::string& by);

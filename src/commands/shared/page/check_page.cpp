@@ -58,7 +58,7 @@ class PictureSource {
             if (!pictures_) pictures_ = std::make_unique<FindingPictures>(input_, file_);
             figures = figuresOf(pictures_->draw(finding));
         } catch (const FileError&) {
-            // What is wrong with the file has been said.
+            // The error of the file has been reported before.
             is_over_ = true;
         }
         if (figures.empty()) return {};

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "commands/shared/report.h"
+#include "commands/check/check_report.h"
 
 namespace tspace {
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "commands/diff/diff_text.h"
+#include "commands/diff/diff_words.h"
 #include "commands/shared/html_text.h"
 #include "commands/shared/page/diff_pictures.h"
 #include "commands/shared/page/page_parts.h"
@@ -87,7 +87,7 @@ std::string placesHtml(const FrameDiff& diff, DiffPictures& pictures, Room& room
 }  // namespace
 
 std::string diffPage(const std::string& a, const std::string& b, const FrameDiff& diff, const DiffOptions& options) {
-    const report::DiffText words = report::diffText(a, b, diff);
+    const report::DiffWords words = report::diffWords(a, b, diff);
     std::string heat, places;
     try {
         DiffPictures pictures(a, b, options);

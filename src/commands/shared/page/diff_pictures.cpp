@@ -10,11 +10,11 @@ namespace tspace {
 
 namespace {
 
-/// What both have of the frames of a pair, at the corners of A.
+/// The parts of the frames that both primitives of a pair have, at the corners of A.
 OtherFrames framesAtCorners(const ScenePrimitive& a, const ScenePrimitive& b, const PrimitivePair& pair) {
     OtherFrames frames;
     const bool has_normals = !a.normals.empty() && !b.normals.empty();
-    // Tangents of one alone are as good as those that differ: nothing is there to compare.
+    // Tangents that only one of them has cannot be compared.
     if (has_normals) frames.normals.resize(a.corners.size());
     if (!a.tangents.empty() || !b.tangents.empty()) frames.tangents.resize(a.corners.size());
     for (const TrianglePair& two : pair.triangles) {

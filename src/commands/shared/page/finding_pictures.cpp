@@ -11,7 +11,7 @@
 namespace tspace {
 
 struct FindingPictures::Model {
-    /// The same model after a command.
+    /// The model after a command.
     struct MendedModel {
         MendedModel(const std::string& input, const FileOptions& options, const Scene& before,
                     const GenerateOptions& command)
@@ -58,7 +58,7 @@ FindingPicture FindingPictures::draw(const Finding& finding) {
     FindingPicture result;
     const std::size_t primitive = findPrimitive(model_->before.scene(), finding.mesh, finding.primitive);
     if (finding.place.empty() || primitive == kNoPrimitive) return result;
-    // Where a renderer would make tangents of its own, what the file lacks would not be seen.
+    // A picture with computed tangents would hide that the file has none.
     const bool lacks = finding.code == FindingCode::tangentsMissing || finding.code == FindingCode::tangentsIgnored;
     const RenderFrames frames = lacks ? RenderFrames::stored : RenderFrames::automatic;
     const std::vector<std::size_t> triangles =

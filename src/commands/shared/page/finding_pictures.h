@@ -14,7 +14,7 @@ namespace tspace {
 struct FindingPicture {
     std::vector<std::uint8_t> before =
         {};  ///< a PNG of the place as the file is; empty: there is none, and nothing else
-    std::vector<std::uint8_t> after = {};  ///< the same place of what the remedy's command makes of the file
+    std::vector<std::uint8_t> after = {};  ///< a PNG of that place after the remedy's command
     std::string command = {};              ///< that command; empty: the remedy names none
     std::string why_no_after = {};         ///< where there is a command: a sentence
 };

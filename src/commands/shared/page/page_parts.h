@@ -15,14 +15,14 @@ inline constexpr std::size_t kMostModelBytes = 1500000, kMostPageBytes = 1200000
 /// Of a place, in pixels.
 inline constexpr std::uint32_t kPlaceWidth = 320, kPlaceHeight = 240;
 
-/// From the first line up to what stands inside of <main>. `title`: no text of files.
+/// The page up to the contents of <main>. `title`: not escaped, so no text from files.
 std::string pageHead(std::string_view title);
 std::string pageEnd();
 
-/// A picture with words below it, which are also for those who do not see it. `caption`: text. Nothing where `png` is empty.
+/// A picture with a caption, which is its alternative text too. `caption`: text. Nothing where `png` is empty.
 std::string figureHtml(const std::vector<std::uint8_t>& png, std::uint32_t width, std::uint32_t height,
                        std::string_view caption);
-/// What stands where there is no picture. `sentence`: text.
+/// The replacement of a missing picture. `sentence`: text.
 std::string noFigureHtml(std::string_view sentence);
 /// Figures side by side; nothing for none.
 std::string figuresHtml(const std::string& figures);

@@ -52,7 +52,7 @@ struct PlacePoints {
     DVec3 normal = {};
 };
 
-/// Holds the points, and around them as much again as `around` says.
+/// A camera that holds the points, scaled by `around` about their centre.
 Camera cameraOver(const PlacePoints& place, const ViewAngles& angles, double around, std::uint32_t width,
                   std::uint32_t height) {
     DVec3 centre;
@@ -64,14 +64,14 @@ Camera cameraOver(const PlacePoints& place, const ViewAngles& angles, double aro
         angles, 30, width, height);
 }
 
-/// How a place is looked at.
+/// The view of a place.
 struct PlaceView {
     ViewAngles angles = {35, 20};
     double around = 1;
     bool is_alone = false;  ///< without other meshes, which hide it from every side
 };
 
-/// Over the triangles, a little aside, so that relief is seen; farther aside where something stands in front.
+/// A camera over the triangles, a little aside, so that relief is seen; farther aside where other triangles hide them.
 PlaceView viewOver(std::span<const DrawnMesh> meshes, std::size_t mesh, std::span<const std::size_t> triangles,
                    const PlacePoints& place) {
     constexpr ViewAngles kTurns[] = {{12, 8}, {-30, 8}, {40, 8}, {12, 40}, {12, -40}, {-65, 8}, {70, 8}};

@@ -23,7 +23,7 @@ struct SeenPoint {
 
 class Camera {
   public:
-    /// Calls its argument with each point that the picture shall hold.
+    /// Calls its argument with each point that has to be in the picture.
     using VisitPoints = std::function<void(const std::function<void(const DVec3&)>& visit)>;
 
     /// Holds all points, those that are not finite left out, with a narrow margin. `field_of_view_deg`: of the shorter side,
@@ -42,7 +42,7 @@ class Camera {
 
     [[nodiscard]] const DVec3& right() const { return right_; }
     [[nodiscard]] const DVec3& up() const { return up_; }
-    /// From what is seen to the eye.
+    /// The direction from the scene to the eye.
     [[nodiscard]] const DVec3& back() const { return back_; }
 
   private:

@@ -15,8 +15,8 @@ double fifthRoot(double a) {
     return root;
 }
 
-/// From light to bytes: where the light of one byte ends and that of the next begins, and, so that few of these are looked
-/// at, the byte of the darkest light of each of many steps.
+/// From light to bytes: the limits between the light of one byte and the next, and, so that few limits are compared, the byte
+/// of the darkest light of each of many steps.
 struct ByteBorders {
     static constexpr std::size_t kSteps = 4096;
     std::array<float, 256> borders;

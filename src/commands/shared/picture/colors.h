@@ -10,16 +10,16 @@
 
 namespace tspace {
 
-/// What a stored value of sRGB, 0 to 1, is as light, 0 to 1.
+/// The light, 0 to 1, of a stored value of sRGB, 0 to 1.
 double srgbToLight(double stored);
-/// The same of the integers 0 to 2^bits - 1 (8 or 16 bits).
+/// The light of the integers 0 to 2^bits - 1 (8 or 16 bits).
 std::vector<float> srgbTable(unsigned bits);
 /// The 8 bits of sRGB nearest to this light; beyond 0 and 1 the nearest of them, and 0 for NaN.
 std::uint8_t lightToSrgb(float light);
 /// Eight bits of a value from 0 to 1, as they are.
 std::uint8_t storedByte(float value);
 
-/// Where nothing is.
+/// The background.
 inline constexpr Vec3 kBackground{0.925f, 0.933f, 0.945f};
 
 /// A vector with components from -1 to 1 as a colour: 0.5 v + 0.5.
@@ -37,7 +37,7 @@ inline constexpr std::array<HeatStop, 7> kHeatStops = {{{0, {0.16f, 0.19f, 0.35f
                                                         {45, {0.96f, 0.55f, 0.12f}},
                                                         {90, {0.84f, 0.15f, 0.16f}},
                                                         {180, {0.95f, 0.35f, 0.90f}}}};
-/// Of an angle in degrees, 0 to 180.
+/// The colour of an angle in degrees, 0 to 180.
 Vec3 heatColor(float degrees);
 
 }  // namespace tspace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is written into pictures.
+// Numbers, lines and scales in pictures.
 #pragma once
 
 #include <string_view>

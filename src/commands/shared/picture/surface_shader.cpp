@@ -83,7 +83,7 @@ ShadingFrame frameAt(const ShownSurface& surface, const CornerValues<Vec3>& norm
     return shadingFrame(frames, point.weights, surface.reading);
 }
 
-/// A little darker where the surface turns away, so that its shape is seen.
+/// Darkens where the surface turns away, so that its shape is seen.
 Vec3 shaped(const Vec3& color, const DVec3& normal, const Lighting& lighting) {
     const auto facing = static_cast<float>(std::fabs(dot(normal, lighting.to_eye)));
     const float factor = 0.7f + 0.3f * std::min(facing, 1.0f);
@@ -128,7 +128,7 @@ Vec3 islandColor(const ShownSurface& surface, const SurfacePoint& point) {
                                                {0.84f, 0.84f, 0.50f}}};
     if (surface.islands.empty()) return kNothingKnown;
     const Vec3& color = kIslands[surface.islands[point.triangle] % kIslands.size()];
-    // Neighbours differ a little, so that triangles are seen.
+    // Adjacent triangles differ a little, so that they are seen.
     const float shade = (point.triangle % 2 != 0 ? 0.93f : 1.0f) *
                         (uvSideOf(surface, point) == UvSide::mirrored && isInStripe(point) ? 0.45f : 1.0f);
     return {shade * color.x, shade * color.y, shade * color.z};

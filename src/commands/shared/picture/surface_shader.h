@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The colour of a point of a surface: what docs/render.md calls a view.
+// The colour of a point of a surface, by the views of docs/render.md.
 #pragma once
 
 #include <array>
@@ -37,7 +37,7 @@ struct PlacedTexture {
 /// Whether a triangle shows its texture mirrored.
 enum class UvSide : std::uint8_t { unknown, plain, mirrored };
 
-/// Of one primitive, all that views show.
+/// The data of one primitive that views show.
 struct ShownSurface {
     std::span<const std::uint32_t> corners = {};
     CornerValues<Vec3> normals = {};

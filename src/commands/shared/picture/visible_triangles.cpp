@@ -13,7 +13,7 @@ namespace {
 
 /// Parts of a sample that corners are rounded to.
 constexpr std::int64_t kSampleParts = 256;
-/// Triangles are cut where they lead further than this beside the picture: products of what is left fit 64 bits.
+/// Triangles are clipped this far beside the picture: products of the remaining coordinates fit 64 bits.
 constexpr double kMostSamples = 1048576;
 
 using Polygon = std::vector<SeenPoint>;
@@ -22,7 +22,7 @@ double nearnessOf(const SeenPoint& p) { return p.nearness_w / p.w; }
 
 DVec3 homogeneous(const SeenPoint& p) { return {p.x, p.y, p.w}; }
 
-/// Cuts away what lies where `inside` (linear in the point) is negative.
+/// Clips away the part where `inside` (linear in the point) is negative.
 template <class Inside>
 void cutAway(Polygon& polygon, const Inside& inside) {
     Polygon kept;
@@ -98,7 +98,7 @@ class FixedTriangle {
 };
 
 FixedCorner fixedCorner(const SeenPoint& p) {
-    // NaN, which the cutting of enormous triangles may make, becomes a border.
+    // NaN, which clipping of enormous triangles may give, becomes a border.
     const auto fixed = [&](double x) {
         const double inside = std::fmin(std::fmax(x / p.w, -kMostSamples), kMostSamples);
         return static_cast<std::int64_t>(std::floor(inside * kSampleParts + 0.5));

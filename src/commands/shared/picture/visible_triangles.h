@@ -44,7 +44,7 @@ class SeenTriangle {
     [[nodiscard]] bool isFront() const { return determinant_ < 0; }
     /// False for triangles seen edge on, and for those that are not finite.
     [[nodiscard]] bool isSeen() const { return determinant_ != 0 && std::isfinite(determinant_); }
-    /// What each corner counts at a sample, in space: their sum is 1, and none is negative.
+    /// The barycentric weights of the corners at a sample, in space: their sum is 1, and none is negative.
     [[nodiscard]] std::array<double, 3> weightsAt(double x, double y) const;
     /// Coefficients of the nearness: a x + b y + c.
     [[nodiscard]] DVec3 nearness() const;
@@ -55,7 +55,7 @@ class SeenTriangle {
     double determinant_ = 0;
 };
 
-/// What samples see: numbers of triangles, counted through all meshes.
+/// The triangle that each sample sees, numbered through all meshes.
 class VisibleTriangles {
   public:
     static constexpr std::uint32_t kNone = 0xffffffffu;

@@ -2,10 +2,10 @@
 // Results of tspace inspect as text.
 #include <fmt/format.h>
 
-#include "console.h"
-#include "report.h"
+#include "commands/inspect/inspect_report.h"
+#include "commands/shared/text.h"
 
-namespace tspace::tool {
+namespace tspace::report {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
@@ -134,4 +134,4 @@ std::string inspectText(const InspectOutcome& outcome) {
     return text;
 }
 
-}  // namespace tspace::tool
+}  // namespace tspace::report

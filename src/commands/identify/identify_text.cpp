@@ -2,10 +2,10 @@
 // Results of tspace identify as text.
 #include <fmt/format.h>
 
-#include "console.h"
-#include "report.h"
+#include "commands/identify/identify_report.h"
+#include "commands/shared/text.h"
 
-namespace tspace::tool {
+namespace tspace::report {
 namespace {
 
 std::string percent(std::uint64_t count, std::uint64_t total) {
@@ -81,4 +81,4 @@ std::string identifyText(const IdentifyOutcome& outcome) {
     return text;
 }
 
-}  // namespace tspace::tool
+}  // namespace tspace::report

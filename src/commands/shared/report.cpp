@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the JSON of all calls has in common.
+// What the JSON of all commands has in common.
 #include "commands/shared/report.h"
 #include "tspace/version.h"
 
@@ -20,6 +20,15 @@ Json documentJson(const char* schema, bool is_ok, ExitCode exit_code) {
                          {"version", TSPACE_VERSION_STRING},
                          {"ok", is_ok},
                          {"exitCode", static_cast<int>(exit_code)}});
+}
+
+Json mapMeshJson(const MapMeshReport& mesh) {
+    if (mesh.triangle_count == 0) return nullptr;
+    return {{"primitives", mesh.primitive_count},
+            {"triangles", mesh.triangle_count},
+            {"materials", mesh.materials},
+            {"tangentsMade", mesh.tangents_made},
+            {"scale", mesh.scale}};
 }
 
 std::string jsonText(const Json& document) { return document.dump(2, ' ', BadUtf8::replace) + "\n"; }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Signals to a mark that the work looks at now and then, or to the end.
+// Signals set a flag that the work polls, or end the program.
 #include "interrupt.h"
 
 #include <signal.h>

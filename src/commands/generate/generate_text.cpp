@@ -4,19 +4,12 @@
 
 #include <map>
 
+#include "commands/generate/generate_report.h"
 #include "commands/generate/generate_totals.h"
-#include "console.h"
-#include "report.h"
+#include "commands/shared/text.h"
 
-namespace tspace::tool {
+namespace tspace::report {
 namespace {
-
-using report::kActions;
-using report::kCauses;
-using report::NamedCount;
-using report::Totals;
-using report::totalsOf;
-using report::wasComputed;
 
 const char* actionWords(PrimitiveAction action) {
     switch (action) {
@@ -39,6 +32,7 @@ const char* actionWords(PrimitiveAction action) {
     }
     return "unknown";
 }
+
 std::string actionsText(const Totals& totals) {
     std::string text;
     for (const PrimitiveAction action : kActions) {
@@ -272,4 +266,4 @@ std::string generateSummary(const std::vector<GenerateOutcome>& outcomes, double
                        counted(triangles, "triangle"), counted(mended, "corner"), seconds, actionsText(all));
 }
 
-}  // namespace tspace::tool
+}  // namespace tspace::report

@@ -3,10 +3,11 @@
 // what stands where.
 #include <filesystem>
 
+#include "commands/check/check_report.h"
 #include "model/io/path.h"
-#include "report.h"
+#include "tspace/version.h"
 
-namespace tspace::tool {
+namespace tspace::report {
 namespace {
 
 /// Bytes that may not stand in a path of a URI (RFC 3986) as "%xx". A colon too: before the first slash it would end a
@@ -40,7 +41,7 @@ Json physicalLocation(const std::string& input) {
     return {{"artifactLocation", artifactLocation(input)}, {"region", {{"startLine", 1}}}};
 }
 
-Json rulesJson() {
+Json rulesJson(const std::string& docs_url) {
     Json rules = Json::array();
     for (std::uint32_t number = 0; number < kFindingCodeCount; ++number) {
         const auto code = static_cast<FindingCode>(number);
@@ -48,7 +49,7 @@ Json rulesJson() {
             {"id", findingName(code)},
             {"shortDescription", {{"text", findingSummary(code)}}},
             {"help", {{"text", findingRemedy(code)}}},
-            {"helpUri", TSPACE_DOCS_URL "/check.md#all-codes"},
+            {"helpUri", docs_url + "/check.md#all-codes"},
         });
     }
     return rules;
@@ -93,7 +94,7 @@ Json notificationJson(const CheckOutcome& outcome) {
 
 }  // namespace
 
-std::string checkSarif(const std::vector<CheckOutcome>& outcomes, ExitCode exit_code) {
+std::string checkSarif(const std::vector<CheckOutcome>& outcomes, ExitCode exit_code, const std::string& docs_url) {
     Json results = Json::array();
     Json notifications = Json::array();
     for (const CheckOutcome& outcome : outcomes) {
@@ -104,7 +105,7 @@ std::string checkSarif(const std::vector<CheckOutcome>& outcomes, ExitCode exit_
         for (const Finding& finding : outcome.result->findings) results.push_back(resultJson(outcome.input, finding));
     }
     const bool all_read = notifications.empty();
-    const Json driver = {{"name", "tspace"}, {"version", TSPACE_VERSION}, {"rules", rulesJson()}};
+    const Json driver = {{"name", "tspace"}, {"version", TSPACE_VERSION_STRING}, {"rules", rulesJson(docs_url)}};
     const Json invocation = {{"executionSuccessful", all_read},
                              {"exitCode", static_cast<int>(exit_code)},
                              {"toolExecutionNotifications", std::move(notifications)}};
@@ -113,7 +114,7 @@ std::string checkSarif(const std::vector<CheckOutcome>& outcomes, ExitCode exit_
     const Json document = {{"$schema", "https://json.schemastore.org/sarif-2.1.0.json"},
                            {"version", "2.1.0"},
                            {"runs", Json::array({run})}};
-    return report::jsonText(document);
+    return jsonText(document);
 }
 
-}  // namespace tspace::tool
+}  // namespace tspace::report

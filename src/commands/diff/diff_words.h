@@ -9,11 +9,11 @@
 
 namespace tspace::report {
 
-/// Rows of cells, the first one of them heads; empty: there is nothing to show.
+/// Rows of cells, of which the first is the head; empty: there is nothing to show.
 using TextTable = std::vector<std::vector<std::string>>;
 
-/// Names from files stand in it as they are there.
-struct DiffText {
+/// Names from files are not escaped.
+struct DiffWords {
     std::string summary = {};               ///< "A against B: ..."
     std::vector<std::string> remarks = {};  ///< further sentences
     TextTable angles = {};                  ///< of the whole file
@@ -21,10 +21,10 @@ struct DiffText {
     TextTable worst = {};
 };
 
-/// `a`, `b`: what the files are called.
-DiffText diffText(const std::string& a, const std::string& b, const FrameDiff& diff);
+/// `a`, `b`: the names of the files.
+DiffWords diffWords(const std::string& a, const std::string& b, const FrameDiff& diff);
 
-/// "up to 0.1": what a bin of kAngleBins holds.
+/// "up to 0.1": the angles in a bin of kAngleBins.
 std::string binText(std::size_t bin);
 
 }  // namespace tspace::report

@@ -4,10 +4,10 @@
 
 #include <map>
 
-#include "console.h"
-#include "report.h"
+#include "commands/check/check_report.h"
+#include "commands/shared/text.h"
 
-namespace tspace::tool {
+namespace tspace::report {
 namespace {
 
 /// Places listed of one kind of finding; the JSON has all of them.
@@ -17,7 +17,7 @@ std::string countsText(std::uint64_t errors, std::uint64_t warnings, std::uint64
     return fmt::format("{}, {}, {}", counted(errors, "error"), counted(warnings, "warning"), counted(notes, "note"));
 }
 
-/// What was looked at of normal maps. Flat ones have no relief that says which way green points.
+/// Which tests the normal maps went through. Flat maps have no relief that shows which way green points.
 std::string lookedText(const CheckReport& report) {
     if (report.image_count == 0) return {};
     std::string text = fmt::format("; looked at {}: what the channels hold", counted(report.image_count, "normal map"));
@@ -36,7 +36,7 @@ std::string summaryLine(const CheckOutcome& outcome) {
     return text + lookedText(report) + "\n";
 }
 
-/// What packed frames of one format are worth, over all primitives that could be compared.
+/// The error of packed frames of one format, over all primitives that could be compared.
 std::string packedText(std::span<const PackedFramesInfo> all, FrameFormat format) {
     PackedFramesInfo worst;
     std::uint64_t primitives = 0, compared = 0;
@@ -161,4 +161,4 @@ std::string checkSummary(const std::vector<CheckOutcome>& outcomes, bool in_colo
     return text;
 }
 
-}  // namespace tspace::tool
+}  // namespace tspace::report

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+// What tspace bake reports.
+#pragma once
+
+#include <string>
+
+#include "commands/shared/report.h"
+#include "tspace/bake_file.h"
+
+namespace tspace::report {
+
+std::string bakeJson(const Outcome<BakeFileReport>& outcome, const std::string& high, ExitCode exit_code);
+/// Of a bake that was done. `out_mesh`: as BakeFileOptions::out_mesh.
+std::string bakeText(const Outcome<BakeFileReport>& outcome, const std::string& out_mesh);
+
+/// The angles between what a map shows and the high poly.
+Json errorOfMapJson(const MapError& error);
+
+}  // namespace tspace::report

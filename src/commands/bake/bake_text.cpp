@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+// A baked map as text.
+#include <fmt/format.h>
+
+#include "commands/bake/bake_report.h"
+#include "commands/shared/text.h"
+
+namespace tspace::report {
+namespace {
+
+std::string degreesText(double degrees) { return fmt::format("{:.4f}", degrees); }
+
+void addFile(const BakedFile& file, Table& table) {
+    const BakedMap& map = file.map;
+    table.addRow({"map", fmt::format("{}, {} x {}, {} bits", printable(file.path), map.width, map.height, map.bits)});
+    table.addRow({"texels", fmt::format("{} baked, {} around them", map.hit_count, map.padding_count)});
+    table.addRow({"error", fmt::format("mean {} degrees, 99 % below {}, largest {}; at seams {} in the mean",
+                                       degreesText(map.error.mean_deg), degreesText(map.error.p99_deg),
+                                       degreesText(map.error.max_deg), degreesText(map.error.seam_mean_deg))});
+    table.addRow({"reach", fmt::format("{:.4g}", map.error.reach)});
+    if (map.missed_count > 0)
+        table.addRow(
+            {"warning", fmt::format("{} met no high poly and {} filled from around; --reach looks further, "
+                                    "--misses shows where",
+                                    counted(map.missed_count, "texel"), map.missed_count == 1 ? "is" : "are")});
+    if (map.overlap_count > 0)
+        table.addRow({map.conflict_count > 0 ? "warning" : "note",
+                      fmt::format("{} shown by several triangles{}", counted(map.overlap_count, "texel"),
+                                  map.conflict_count > 0
+                                      ? fmt::format(", which want different normals in {} of them", map.conflict_count)
+                                      : std::string())});
+    if (map.degenerate_uv_count > 0)
+        table.addRow({"note", fmt::format("{} without UV area", counted(map.degenerate_uv_count, "triangle"))});
+}
+
+}  // namespace
+
+std::string bakeText(const Outcome<BakeFileReport>& outcome, const std::string& out_mesh) {
+    const BakeFileReport& done = *outcome.result;
+    Table table;
+    for (const BakedFile& file : done.files) addFile(file, table);
+    if (!out_mesh.empty()) table.addRow({"model", fmt::format("{}, with its frames and maps", printable(out_mesh))});
+    if (done.frames_made) table.addRow({"note", "the low poly lacks frames; they were made as generate makes them"});
+    if (done.matched_by_name) table.addRow({"note", "meshes were matched by their names"});
+    for (const std::string& warning : done.warnings) table.addRow({"warning", printable(warning)});
+    return fmt::format("{} -> {}\n{}", printable(outcome.input), printable(outcome.output), table.text("  "));
+}
+
+}  // namespace tspace::report

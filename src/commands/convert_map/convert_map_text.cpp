@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+// A normal map that was converted, as text.
+#include <fmt/format.h>
+
+#include "commands/convert_map/convert_map_report.h"
+#include "commands/shared/text.h"
+
+namespace tspace::report {
+namespace {
+
+std::string meshText(const std::string& file, const MapMeshReport& mesh) {
+    return fmt::format("{}: {} triangles in {} primitives{}{}", printable(file), mesh.triangle_count,
+                       mesh.primitive_count, mesh.tangents_made ? ", tangents made" : "",
+                       mesh.scale == 1 ? "" : fmt::format(", map scaled by {:.4g}", mesh.scale));
+}
+
+}  // namespace
+
+std::string convertMapText(const Outcome<ConvertMapFileReport>& outcome, const ConvertMapFileOptions& options) {
+    const ConvertMapFileReport& done = *outcome.result;
+    const ConvertMapReport& texels = done.texels;
+    Table table;
+    table.addRow({"image", fmt::format("{} x {}, {} bits a channel, from {}", done.width, done.height, done.bits,
+                                       done.bits_before)});
+    if (done.from.triangle_count > 0) table.addRow({"from", meshText(options.mesh, done.from)});
+    if (done.to.triangle_count > 0) {
+        table.addRow({"to", meshText(options.to_mesh.empty() ? options.mesh : options.to_mesh, done.to)});
+    }
+    table.addRow({"texels", fmt::format("{} changed, {} of those shown stay, {} are background", texels.changed,
+                                        texels.converted - texels.changed + texels.without_frame + texels.unmatched,
+                                        texels.background)});
+    table.addRow({"change", fmt::format("{:.3g} degrees in the mean, {:.3g} at most", texels.mean_change_deg,
+                                        texels.max_change_deg)});
+    for (const std::string& warning : done.warnings) table.addRow({"warning", printable(warning)});
+    return fmt::format("{} -> {}{}\n{}", printable(outcome.input), printable(outcome.output),
+                       outcome.is_dry_run ? " (not written)" : "", table.text("  "));
+}
+
+}  // namespace tspace::report

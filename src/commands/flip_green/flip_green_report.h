@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+// What tspace flip-green reports.
+#pragma once
+
+#include <string>
+
+#include "commands/shared/report.h"
+#include "tspace/flip_green.h"
+
+namespace tspace::report {
+
+std::string flipGreenJson(const Outcome<FlipGreenReport>& outcome, ExitCode exit_code);
+std::string flipGreenText(const Outcome<FlipGreenReport>& outcome);
+
+/// "PNG", "JPEG" or "WebP".
+const char* imageFormatName(ImageFileFormat format);
+
+}  // namespace tspace::report

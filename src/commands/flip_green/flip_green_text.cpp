@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+// An image whose green was inverted, as text.
+#include <fmt/format.h>
+
+#include "commands/flip_green/flip_green_report.h"
+#include "commands/shared/text.h"
+
+namespace tspace::report {
+
+std::string flipGreenText(const Outcome<FlipGreenReport>& outcome) {
+    const FlipGreenReport& done = *outcome.result;
+    Table table;
+    table.addRow({"image", fmt::format("{}, {} x {}, {} bits a channel", imageFormatName(done.format), done.width,
+                                       done.height, done.bits)});
+    table.addRow({"green", done.is_exact ? "inverted exactly" : "inverted, and compressed once more"});
+    for (const std::string& warning : done.warnings) table.addRow({"warning", printable(warning)});
+    return fmt::format("{} -> {}{}\n{}", printable(outcome.input), printable(outcome.output),
+                       outcome.is_dry_run ? " (not written)" : "", table.text("  "));
+}
+
+}  // namespace tspace::report

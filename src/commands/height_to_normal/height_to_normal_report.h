@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+// What tspace height-to-normal reports.
+#pragma once
+
+#include <string>
+
+#include "commands/shared/report.h"
+#include "tspace/map_height_file.h"
+
+namespace tspace::report {
+
+std::string heightToNormalJson(const Outcome<HeightToNormalFileReport>& outcome, ExitCode exit_code);
+/// `options`: those of the call; the text names the strength and the model.
+std::string heightToNormalText(const Outcome<HeightToNormalFileReport>& outcome,
+                               const HeightToNormalFileOptions& options);
+
+}  // namespace tspace::report

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// A height map that became a normal map, as text.
+#include <fmt/format.h>
+
+#include "commands/height_to_normal/height_to_normal_report.h"
+#include "commands/shared/text.h"
+
+namespace tspace::report {
+
+std::string heightToNormalText(const Outcome<HeightToNormalFileReport>& outcome,
+                               const HeightToNormalFileOptions& options) {
+    const HeightToNormalFileReport& done = *outcome.result;
+    Table table;
+    table.addRow({"image", fmt::format("{} x {}, {} bits a channel, from {}", done.width, done.height, done.bits,
+                                       done.bits_before)});
+    if (options.mesh.empty()) {
+        table.addRow({"strength", fmt::format("white stands {:.4g} texels high", options.strength)});
+    } else {
+        table.addRow({"strength", fmt::format("white stands {:.4g} units high; a texel is {:.3g} units wide",
+                                              options.strength, done.texels.texel_size)});
+        table.addRow({"mesh", fmt::format("{}: {} triangles in {} primitives{}, on {} texels", printable(options.mesh),
+                                          done.mesh.triangle_count, done.mesh.primitive_count,
+                                          done.mesh.tangents_made ? ", tangents made" : "", done.texels.on_mesh)});
+    }
+    table.addRow({"slopes", fmt::format("{:.3g} degrees in the mean, {:.3g} at most", done.texels.mean_lean_deg,
+                                        done.texels.max_lean_deg)});
+    for (const std::string& warning : done.warnings) table.addRow({"warning", printable(warning)});
+    return fmt::format("{} -> {}{}\n{}", printable(outcome.input), printable(outcome.output),
+                       outcome.is_dry_run ? " (not written)" : "", table.text("  "));
+}
+
+}  // namespace tspace::report

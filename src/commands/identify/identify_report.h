@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+// What tspace identify reports.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "commands/shared/report.h"
+#include "tspace/identify.h"
+
+namespace tspace::report {
+
+using IdentifyOutcome = Outcome<Identification>;
+
+std::string identifyJson(const std::vector<IdentifyOutcome>& outcomes, ExitCode exit_code);
+std::string identifyText(const IdentifyOutcome& outcome);
+
+}  // namespace tspace::report

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+// What a normal map is off, and what it fits, as text.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "commands/map_error/map_error_report.h"
+#include "commands/shared/text.h"
+
+namespace tspace::report {
+namespace {
+
+std::string readingText(const ExplainedReading& reading) {
+    if (reading.frames == "object") return "object space";
+    const std::string frames = reading.frames == "file"    ? "tangents of the file"
+                               : reading.frames == "quads" ? "mikktspace on quads"
+                                                           : reading.frames;
+    return fmt::format("{}, green {}{}{}", frames, reading.reading.green == Green::up ? "up" : "down",
+                       reading.reading.bitangent == BitangentPlace::perVertex ? ", bitangent per vertex" : "",
+                       reading.reading.two_channels ? ", two channels" : "");
+}
+
+}  // namespace
+
+std::string mapErrorText(const Outcome<MapErrorFileReport>& outcome) {
+    const MapErrorFileReport& done = *outcome.result;
+    constexpr std::size_t kShown = 4;
+    Table table;
+    const MapError& error = done.error;
+    table.addRow(
+        {"error", fmt::format("mean {:.4f} degrees, 99 % below {:.4f}, largest {:.4f}; at seams {:.4f} in the mean",
+                              error.mean_deg, error.p99_deg, error.max_deg, error.seam_mean_deg)});
+    for (std::size_t i = 0; i < std::min(kShown, done.readings.size()); ++i)
+        table.addRow({i == 0 ? "readings" : "", fmt::format("{:.4f} degrees: {}", done.readings[i].error.mean_deg,
+                                                            readingText(done.readings[i]))});
+    if (error.missed_count > 0)
+        table.addRow({"note", fmt::format("{} of {} points met no high poly within {:.4g}", error.missed_count,
+                                          error.missed_count + error.point_count, error.reach)});
+    for (const std::string& warning : done.warnings) table.addRow({"warning", printable(warning)});
+    return fmt::format("{}: {}\n{}", printable(outcome.input), done.verdict, table.text("  "));
+}
+
+}  // namespace tspace::report

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+// A page with a model in it, as text.
+#include <fmt/format.h>
+
+#include "commands/shared/text.h"
+#include "commands/view/view_report.h"
+
+namespace tspace::report {
+
+std::string viewText(const Outcome<ViewReport>& outcome) {
+    return fmt::format("{} -> {}: {}, {}\n", printable(outcome.input), printable(outcome.output),
+                       counted(outcome.result->files.size(), "file"), byteText(outcome.result->output_bytes));
+}
+
+}  // namespace tspace::report
