@@ -297,8 +297,7 @@ TEST(FilesThatAModelNames, AreInputsAlsoWhereTheyAreNotRead) {
     for (const char* command :
          {"convert-map bump.png --mesh a.gltf --to object -o named.png",
           "convert-map bump.png --mesh b.glb --to-mesh a.gltf -o named.png",
-          "height-to-normal height.png --mesh a.gltf -o named.png", "bake a.gltf --high b.glb --size 4 -o named.png",
-          "bake b.glb --high a.gltf --size 4 -o named.png",
+          "height-to-normal height.png --mesh a.gltf -o named.png",
           "bake b.glb --high a.gltf --size 4 -o n.png --heat named.png",
           "bake a.gltf --high b.glb --size 4 -o n.png --misses named.png", "render a.gltf -o named.png",
           "diff a.gltf b.glb --html named.png", "diff b.glb a.gltf --html a.bin", "check a.gltf --html named.png",
@@ -312,6 +311,40 @@ TEST(FilesThatAModelNames, AreInputsAlsoWhereTheyAreNotRead) {
     // What is not there yet can be made: a model may name the map that is to be baked for it.
     folder.write("c.gltf", triangle("a.bin", "new.png"));
     EXPECT_EQ(runTool(folder, "bake c.gltf --high b.glb -q --size 4 -o new.png").exit_code, 0);
+}
+
+TEST(FilesThatAModelNames, AreBakedAnewWhereTheyAreNotRead) {
+    const TempFolder folder;
+    writeBumpMap(folder);
+    folder.write("named.png", folder.read("bump.png"));
+    folder.write("a.bin", triangleBytes());
+    folder.write("a.gltf", triangle("a.bin", "named.png"));
+    ASSERT_EQ(runTool(folder, "generate a.gltf -q -o b.glb").exit_code, 0);
+    ASSERT_EQ(runTool(folder, "bake b.glb --high b.glb -q --size 4 -o fresh.png").exit_code, 0);
+    fs::create_symlink("named.png", folder.path("link.png"));
+    for (const char* command :
+         {"bake a.gltf --high b.glb -o named.png", "bake a.gltf --high b.glb -o ./link.png",
+          "bake b.glb --high a.gltf -o named.png", "bake b.glb --high b.glb --cage a.gltf -o named.png",
+          "bake a.gltf --high b.glb -o named.png --out-mesh new/new.gltf"}) {
+        folder.write("named.png", folder.read("bump.png"));
+        const ToolRun run = runTool(folder, command + std::string(" -q --size 4"));
+        EXPECT_EQ(run.exit_code, 0) << command << run.err;
+        EXPECT_EQ(folder.read("named.png"), folder.read("fresh.png")) << command;
+    }
+    // Again over the map that was baked.
+    EXPECT_EQ(runTool(folder, "bake a.gltf --high b.glb -q --size 4 -o named.png").exit_code, 0);
+    EXPECT_EQ(folder.read("named.png"), folder.read("fresh.png"));
+    // All other outputs stay away from it, also beside a map that may take its place.
+    for (const char* command : {"bake a.gltf --high b.glb -o n.png --report named.png",
+                                "bake a.gltf --high b.glb -o n.png --heat named.png --misses named.png",
+                                "bake a.gltf --high b.glb -o named.png --heat link.png",
+                                "bake a.gltf --high b.glb -o named.png --misses named.png",
+                                "bake a.gltf --high b.glb -o named.png --report named.png"}) {
+        folder.write("named.png", folder.read("bump.png"));
+        const ToolRun run = runTool(folder, command + std::string(" -q --size 4"));
+        EXPECT_NE(run.exit_code, 0) << command;
+        EXPECT_EQ(folder.read("named.png"), folder.read("bump.png")) << command;
+    }
 }
 
 /// Writes the file that a run on `target` would have left when it was killed.

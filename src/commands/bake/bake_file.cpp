@@ -170,6 +170,8 @@ class FileBaking {
                        })};
         BakedMap& map = file.map;
         std::vector<std::uint8_t> png = pngOf(map.width, map.height, std::exchange(map.texels, {}), map.bits);
+        // Baking again writes over the map that the low poly shows.
+        inputs_.letOff(file.path);
         if (options_.out_mesh.empty()) {
             files_.add(file.path, png);
         } else {

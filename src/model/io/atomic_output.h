@@ -16,24 +16,31 @@
 
 namespace tspace {
 
-/// The input files of one call, which its outputs must not replace.
+/// The input files of one call, which its outputs must not replace: those that it reads, and images that its models name.
 class InputFiles {
   public:
     InputFiles();
     /// Fails with cannotRead (FileError) where another call of the same OneRun wrote this file.
-    void add(const Path& path);
+    void add(const Path& path) { addTo(identities_, path); }
     /// Makes `options` report every file that is opened to this, and then to the callback that they had. Must outlive
     /// `options`.
     void watch(FileOptions& options);
+    /// Calls FileOptions::opened for an image that a model names and that is not read (yet). An `opened` that watch() made
+    /// keeps these images apart from files that are read.
+    static void tellNamed(const std::function<void(const std::string&)>& opened, const std::string& path);
+    /// From now on an output may replace this file where a model names it as an image and nothing reads it.
+    void letOff(const Path& path);
     /// Whether `path` is one of the inputs, under any name (links, relative paths).
     [[nodiscard]] bool has(const Path& path) const;
     /// Unique in this process.
     [[nodiscard]] std::uint64_t call() const { return call_; }
 
   private:
+    void addTo(std::set<std::string>& identities, const Path& path);
+
     std::uint64_t call_;
     mutable std::mutex mutex_ = {};
-    std::set<std::string> identities_ = {};
+    std::set<std::string> identities_ = {}, named_ = {}, let_off_ = {};
 };
 
 /// While it lives, no output of this process replaces these files (reports and manifests, which are written in other

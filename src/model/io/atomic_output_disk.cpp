@@ -127,7 +127,7 @@ InputFiles::InputFiles() {
     call_ = ++last;
 }
 
-void InputFiles::add(const Path& path) {
+void InputFiles::addTo(std::set<std::string>& identities, const Path& path) {
     inRun(path, [&](RunFile& file) {
         if (file.is_written && file.owner != call_)
             failFile(ErrorCode::cannotRead,
@@ -136,20 +136,44 @@ void InputFiles::add(const Path& path) {
     });
     std::string identity = identityOf(path);
     const std::lock_guard lock(mutex_);
-    identities_.insert(std::move(identity));
+    identities.insert(std::move(identity));
 }
 
+namespace {
+
+/// What InputFiles::watch() puts into FileOptions::opened.
+struct Watcher {
+    std::function<void(const std::string&)> opened = {}, named = {};
+    void operator()(const std::string& path) const { opened(path); }
+};
+
+}  // namespace
+
 void InputFiles::watch(FileOptions& options) {
-    options.opened = [this, told = options.opened](const std::string& path) {
-        add(path);
-        if (told) told(path);
+    const auto adder = [this, told = options.opened](std::set<std::string>& identities) {
+        return [this, told, &identities](const std::string& path) {
+            addTo(identities, path);
+            if (told) told(path);
+        };
     };
+    options.opened = Watcher{.opened = adder(identities_), .named = adder(named_)};
+}
+
+void InputFiles::tellNamed(const std::function<void(const std::string&)>& opened, const std::string& path) {
+    const auto* watcher = opened.target<Watcher>();
+    (watcher != nullptr ? watcher->named : opened)(path);
+}
+
+void InputFiles::letOff(const Path& path) {
+    std::string identity = identityOf(path);
+    const std::lock_guard lock(mutex_);
+    let_off_.insert(std::move(identity));
 }
 
 bool InputFiles::has(const Path& path) const {
     const std::string identity = identityOf(path);
     const std::lock_guard lock(mutex_);
-    return identities_.contains(identity);
+    return identities_.contains(identity) || (named_.contains(identity) && !let_off_.contains(identity));
 }
 
 void AtomicOutput::removeTemporaryFiles() noexcept {

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "model/io/atomic_output.h"
 #include "model/io/file_error.h"
 #include "model/io/uri.h"
 
@@ -46,7 +47,7 @@ NamedFiles::Kind NamedFiles::kindOf(const Path& file) const {
 }
 
 void NamedFiles::note(const Path& file) const {
-    if (opened_ && !is_in_memory_ && kindOf(file) == Kind::file) opened_(file.string());
+    if (opened_ && !is_in_memory_ && kindOf(file) == Kind::file) InputFiles::tellNamed(opened_, file.string());
 }
 
 Bytes NamedFiles::read(const Path& file, const std::string& place) const {
