@@ -322,10 +322,8 @@ TEST(FilesThatAModelNames, AreBakedAnewWhereTheyAreNotRead) {
     ASSERT_EQ(runTool(folder, "generate a.gltf -q -o b.glb").exit_code, 0);
     ASSERT_EQ(runTool(folder, "bake b.glb --high b.glb -q --size 4 -o fresh.png").exit_code, 0);
     fs::create_symlink("named.png", folder.path("link.png"));
-    for (const char* command :
-         {"bake a.gltf --high b.glb -o named.png", "bake a.gltf --high b.glb -o ./link.png",
-          "bake b.glb --high a.gltf -o named.png", "bake b.glb --high b.glb --cage a.gltf -o named.png",
-          "bake a.gltf --high b.glb -o named.png --out-mesh new/new.gltf"}) {
+    for (const char* command : {"bake a.gltf --high b.glb -o named.png", "bake a.gltf --high b.glb -o ./link.png",
+                                "bake b.glb --high a.gltf -o named.png"}) {
         folder.write("named.png", folder.read("bump.png"));
         const ToolRun run = runTool(folder, command + std::string(" -q --size 4"));
         EXPECT_EQ(run.exit_code, 0) << command << run.err;
@@ -339,7 +337,9 @@ TEST(FilesThatAModelNames, AreBakedAnewWhereTheyAreNotRead) {
                                 "bake a.gltf --high b.glb -o n.png --heat named.png --misses named.png",
                                 "bake a.gltf --high b.glb -o named.png --heat link.png",
                                 "bake a.gltf --high b.glb -o named.png --misses named.png",
-                                "bake a.gltf --high b.glb -o named.png --report named.png"}) {
+                                "bake a.gltf --high b.glb -o named.png --report named.png",
+                                // The model that is written takes its images over.
+                                "bake a.gltf --high b.glb -o named.png --out-mesh new/new.gltf"}) {
         folder.write("named.png", folder.read("bump.png"));
         const ToolRun run = runTool(folder, command + std::string(" -q --size 4"));
         EXPECT_NE(run.exit_code, 0) << command;
