@@ -6,11 +6,7 @@ namespace tspace::report {
 
 std::string convertMapJson(const Outcome<ConvertMapFileReport>& outcome, ExitCode exit_code) {
     const Result<ConvertMapFileReport>& result = outcome.result;
-    Json json = documentJson("tspace.convert-map/1", result.ok(), exit_code);
-    json["input"] = outcome.input;
-    json["output"] = outcome.output;
-    json["dryRun"] = outcome.is_dry_run;
-    json["error"] = errorJson(result ? nullptr : &result.error());
+    Json json = madeFileJson("tspace.convert-map/1", outcome, exit_code);
     if (!result) return jsonText(json);
     json["width"] = result->width;
     json["height"] = result->height;

@@ -20,11 +20,7 @@ const char* imageFormatName(ImageFileFormat format) {
 
 std::string flipGreenJson(const Outcome<FlipGreenReport>& outcome, ExitCode exit_code) {
     const Result<FlipGreenReport>& result = outcome.result;
-    Json json = documentJson("tspace.flip-green/1", result.ok(), exit_code);
-    json["input"] = outcome.input;
-    json["output"] = outcome.output;
-    json["dryRun"] = outcome.is_dry_run;
-    json["error"] = errorJson(result ? nullptr : &result.error());
+    Json json = madeFileJson("tspace.flip-green/1", outcome, exit_code);
     if (!result) return jsonText(json);
     json["format"] = imageFormatName(result->format);
     json["width"] = result->width;

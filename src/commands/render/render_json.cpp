@@ -6,11 +6,7 @@ namespace tspace::report {
 
 std::string renderJson(const Outcome<RenderReport>& outcome, ExitCode exit_code) {
     const Result<RenderReport>& result = outcome.result;
-    Json json = documentJson("tspace.render/1", result.ok(), exit_code);
-    json["input"] = outcome.input;
-    json["output"] = outcome.output;
-    json["dryRun"] = outcome.is_dry_run;
-    json["error"] = errorJson(result ? nullptr : &result.error());
+    Json json = madeFileJson("tspace.render/1", outcome, exit_code);
     if (!result) return jsonText(json);
     json["show"] = renderShowName(result->show);
     json["width"] = result->width;

@@ -37,6 +37,16 @@ Json fileJson(const Outcome<Value>& outcome) {
             {"ok", outcome.result.ok()},
             {"error", errorJson(outcome.result ? nullptr : &outcome.result.error())}};
 }
+/// The members with which the document of a command begins that makes one file of one file.
+template <class Value>
+Json madeFileJson(const char* schema, const Outcome<Value>& outcome, ExitCode exit_code) {
+    Json json = documentJson(schema, outcome.result.ok(), exit_code);
+    json["input"] = outcome.input;
+    json["output"] = outcome.output;
+    json["dryRun"] = outcome.is_dry_run;
+    json["error"] = errorJson(outcome.result ? nullptr : &outcome.result.error());
+    return json;
+}
 /// An array of toJson(value) for each value.
 template <class List, class ToJson>
 Json listJson(const List& values, ToJson toJson) {
