@@ -73,7 +73,8 @@ GroupSums sumGroups(const EvaluationPlan& plan, const CornerSource& source, Corn
     const std::size_t tasks =
         std::clamp<std::size_t>(groups / kGroupsPerTask, 1, std::max<std::size_t>(1, parallel.width()));
     const std::size_t size = std::bit_ceil((groups + tasks - 1) / tasks);
-    const RangeLists lists = plan.terms.empty()
+    // One range needs no lists; where there are no threads the compiler then leaves listing out.
+    const RangeLists lists = plan.terms.empty() && tasks > 1
                                  ? RangeLists(triangles, kTermTriangles, groups, size, allocator, parallel)
                                  : RangeLists(kTermTriangles, groups, size);
     parallel.forTasks(lists.count(), [&](std::size_t task) {
