@@ -102,13 +102,7 @@ OptionList convertMapOptions(ConvertMapFileOptions& options) {
             "--padding", options.padding, 65536,
             "Texels around the triangles that are converted as well. 0: those that filtering reads. All further ones "
             "are background and stay as they are."));
-    add(list, group,
-        choice("--method", "NAME", kMethods, options.tangents.method,
-               "How tangents are made for a model that has none."));
-    addThreads(list, options.execution,
-               "Threads; 0: as many as there are cores. The output is the same for any number.");
-    addLimits(list, options.file);
-    addSync(list, options.file.sync);
+    addMakingAnImage(list, group, options.tangents.method, options.execution, options.file);
     return list;
 }
 

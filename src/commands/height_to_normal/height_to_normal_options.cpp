@@ -44,13 +44,7 @@ OptionList heightToNormalOptions(HeightToNormalFileOptions& options) {
     convention.default_text = "gltf";
     add(list, "Map", convention);
     add(list, "Map", choice("--bits", "BITS", kPngBits, options.bits, "Of a channel of the output."));
-    add(list, "Map",
-        choice("--method", "NAME", kMethods, options.tangents.method,
-               "How tangents are made for a model that has none."));
-    addThreads(list, options.execution,
-               "Threads; 0: as many as there are cores. The output is the same for any number.");
-    addLimits(list, options.file);
-    addSync(list, options.file.sync);
+    addMakingAnImage(list, "Map", options.tangents.method, options.execution, options.file);
     return list;
 }
 

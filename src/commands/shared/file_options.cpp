@@ -89,6 +89,13 @@ void addMaterialOfMap(OptionList& list, std::string& material) {
              "the map's name; where there are none, all that have UVs."));
 }
 
+void addMakingAnImage(OptionList& list, const char* group, Method& method, Execution& execution, FileOptions& file) {
+    add(list, group, choice("--method", "NAME", kMethods, method, "How tangents are made for a model that has none."));
+    addThreads(list, execution, "Threads; 0: as many as there are cores. The output is the same for any number.");
+    addLimits(list, file);
+    addSync(list, file.sync);
+}
+
 void addSync(OptionList& list, bool& sync) {
     add(list, kRunning,
         setting(

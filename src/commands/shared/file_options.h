@@ -43,5 +43,8 @@ void addLimits(OptionList& list, FileOptions& file);
 void addSync(OptionList& list, bool& sync);
 /// Which primitives of a model show a map.
 void addMaterialOfMap(OptionList& list, std::string& material);
+/// The last options of calls that make an image by a model: how tangents are made where it has none (in `group`), and how
+/// the call runs.
+void addMakingAnImage(OptionList& list, const char* group, Method& method, Execution& execution, FileOptions& file);
 
 }  // namespace tspace::options
