@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: MIT
 """Model files, on disk and in memory: results, reports as objects, and what is refused."""
 
+import errno
 import gc
+import os
 import tempfile
 import unittest
 from pathlib import Path
@@ -111,6 +113,43 @@ class Generate(Files):
             tspace.height_to_normal_file(image, self.folder / "normal.png", strong=2)
         with self.assertRaises(tspace.ReadWriteError):
             tspace.height_to_normal_file(self.folder / "none.png", self.folder / "normal.png")
+
+
+class Failures(Files):
+    def test_what_is_not_there_is_a_file_not_found_error_with_its_name(self):
+        missing = str(self.folder / "none.glb")
+        output = str(self.folder / "out.glb")
+        calls = (
+            lambda: tspace.generate_file(missing, output),
+            lambda: tspace.check(missing),
+            lambda: tspace.inspect(missing),
+            lambda: tspace.identify(missing),
+            lambda: tspace.diff(missing, missing),
+            lambda: tspace.flip_green_file(missing, self.folder / "out.png"),
+            lambda: tspace.height_to_normal_file(missing, self.folder / "out.png"),
+        )
+        for call in calls:
+            with self.assertRaises(FileNotFoundError) as caught:
+                call()
+            error = caught.exception
+            self.assertIsInstance(error, tspace.ReadWriteError)
+            self.assertEqual((error.errno, error.filename), (errno.ENOENT, missing))
+            self.assertIn("none.glb", str(error))
+
+    def test_a_folder_and_what_may_not_be_read_say_so(self):
+        with self.assertRaises(tspace.ReadWriteError) as caught:
+            tspace.check(str(self.folder))
+        self.assertEqual((caught.exception.errno, caught.exception.filename), (errno.EISDIR, str(self.folder)))
+        if os.geteuid() != 0:  # whom nothing is forbidden
+            secret = self.folder / "secret.glb"
+            secret.write_bytes(self.framed)
+            secret.chmod(0)
+            with self.assertRaises(PermissionError):
+                tspace.check(secret)
+
+    def test_reports_show_themselves_in_a_line(self):
+        text = repr(tspace.check(self.framed))
+        self.assertTrue(text.startswith("CheckReport(input=") and "\n" not in text and len(text) < 600, text)
 
 
 class Look(Files):

@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: MIT
 """Exceptions, and turning the errors of the C API into them."""
 
+import errno
+import os
 import re
-from typing import Any, Optional, Type
+from typing import Any, Optional, Sequence, Type
 
 from . import _abi
 
@@ -44,7 +46,48 @@ class FileError(Error):
 
 
 class ReadWriteError(FileError, OSError):
-    """A file that cannot be read or written."""
+    """A file that cannot be read or written. `errno` and `filename` say why and which, where that is known."""
+
+    def __str__(self) -> str:
+        return str(self.args[0])  # not as OSError has it, which would leave the message out
+
+
+class MissingFileError(ReadWriteError, FileNotFoundError):
+    """A file, or the folder of an output, that is not there."""
+
+
+class ForbiddenFileError(ReadWriteError, PermissionError):
+    """A file that may not be read or written."""
+
+
+_OF_ERRNO = {errno.ENOENT: MissingFileError, errno.ENOTDIR: MissingFileError, errno.EACCES: ForbiddenFileError}
+_OF_ERRNO[errno.EPERM] = ForbiddenFileError
+
+
+def _failure_of(path: bytes, is_output: bool) -> Optional[OSError]:
+    """Why the system would refuse a path. Nothing is changed to find out."""
+    try:
+        if not is_output:
+            if os.path.isdir(path):
+                return IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR))
+            os.close(os.open(path, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0)))
+        elif not os.access(os.path.dirname(path) or b".", os.W_OK):
+            os.stat(os.path.dirname(path) or b".")
+            return PermissionError(errno.EACCES, os.strerror(errno.EACCES))
+    except OSError as error:
+        return error
+    return None
+
+
+def read_write_error(message: str, code: str, paths: Sequence[bytes], outputs: Sequence[bytes]) -> ReadWriteError:
+    """The error of a call with these paths: of the first one that the system refuses."""
+    for path, is_output in [*((path, False) for path in paths), *((path, True) for path in outputs)]:
+        failure = _failure_of(path, is_output)
+        if failure is not None and failure.errno is not None:
+            error = _OF_ERRNO.get(failure.errno, ReadWriteError)(message, code)
+            error.errno, error.strerror, error.filename = failure.errno, failure.strerror, os.fsdecode(path)
+            return error
+    return ReadWriteError(message, code)
 
 
 def shown(value: Any) -> str:
@@ -67,8 +110,8 @@ _IN_PYTHON = (
 )
 
 
-def raise_error(error: _abi.Error) -> None:
-    """Raises what the C API said."""
+def raise_error(error: _abi.Error, paths: Sequence[bytes] = (), outputs: Sequence[bytes] = ()) -> None:
+    """Raises what the C API said. paths, outputs: the files that the call was to read and to write."""
     message = error.message.decode("utf-8", "replace")
     for pattern, words in _IN_PYTHON:
         message = re.sub(pattern, words, message)
@@ -78,7 +121,9 @@ def raise_error(error: _abi.Error) -> None:
     element = None if error.element == _abi.NO_ELEMENT else error.element
     kind: Type[Error]
     if error.code >= _FIRST_FILE_CODE:
-        kind = ReadWriteError if error.code in _READ_WRITE_CODES else FileError
+        if error.code in _READ_WRITE_CODES:
+            raise read_write_error(message, code, paths, outputs)
+        kind = FileError
     elif code == "indexOutOfRange":
         kind = IndexRangeError
     elif code in ("internal", "cancelled"):

@@ -76,6 +76,8 @@ class _Call:
         self.library = _files_abi.library()
         self.keep: List[Any] = []
         self.raised: Optional[BaseException] = None
+        self.paths: List[bytes] = []
+        self.outputs: List[bytes] = []
 
     def path(self, name: str, value: Any) -> bytes:
         try:
@@ -84,6 +86,7 @@ class _Call:
             raise TypeError(f"{name} must be a path, not {type(value).__name__}") from None
         if b"\0" in path:
             raise InputError(f"{name} has a 0 in it")
+        (self.outputs if name == "output" else self.paths).append(path)
         return path
 
     def buffer(self, name: str, value: Any) -> numpy.ndarray:
@@ -142,7 +145,7 @@ class _Call:
             if self.raised is not None:
                 raise self.raised
             if failed:
-                raise_error(error)
+                raise_error(error, self.paths, self.outputs)
             values = [ctypes.string_at(back.data, back.size) if back.size else b"" for back in backs]
         finally:
             for back in backs:

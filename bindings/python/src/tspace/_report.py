@@ -31,7 +31,18 @@ class Report:
         return isinstance(other, Report) and self.json == other.json
 
     def __repr__(self) -> str:
-        return f"Report({self.json!r})"
+        """One line: what is long, lists and objects, by how much there is of it."""
+        shown = ", ".join(f"{_snake_case(name)}={_brief(value)}" for name, value in self.json.items())
+        return f"{type(self).__name__}({shown})"
+
+
+def _brief(value: Any) -> str:
+    if isinstance(value, list) and value:
+        return f"[{len(value)} entries]"
+    if isinstance(value, dict) and value:
+        return f"{{{len(value)} members}}"
+    text = repr(value)
+    return text if len(text) <= 60 else f"{text[:57]}..."
 
 
 def _snake_case(member: str) -> str:
