@@ -7,6 +7,7 @@ import type { Work } from "../worker/client.js";
 import { arraysOf, uvsOf } from "./arrays.js";
 import { giveDecoders } from "./compressed.js";
 import type { Model, Part } from "./part.js";
+import { leaveOutBasis, missingImages, normalImagesOf } from "./textures.js";
 
 /** More is not drawn, since a browser's memory ends there; findings are complete all the same. */
 const kMostCorners = 12_000_000;
@@ -49,7 +50,7 @@ function matrixOf(texture: Texture | null): Matrix3 | null {
 
 const usable = (texture: Texture | null | undefined): Texture | null => (texture?.image ? texture : null);
 
-function partOf(mesh: Mesh, where: Origin): Part | null {
+function partOf(mesh: Mesh, where: Origin, materialIndex: number, normalImages: number[]): Part | null {
   const material = (Array.isArray(mesh.material) ? mesh.material[0] : mesh.material) as Material & Partial<MeshStandardMaterial>;
   const normalMap = usable(material.normalMap), colorMap = usable(material.map);
   const leading = material.normalMap ?? material.map ?? null;
@@ -64,10 +65,12 @@ function partOf(mesh: Mesh, where: Origin): Part | null {
     primitive: where.primitives,
     name: mesh.name,
     materialName: material.name,
+    material: materialIndex,
     arrays,
     normalMap,
     // That of y is negated by the loader where there are no tangents.
     normalScale: material.normalScale?.x ?? 1,
+    normalImage: normalImages[materialIndex] ?? -1,
     color: new Vector3(color.r, color.g, color.b),
     colorMap,
     colorUvs: isSame ? null : uvsOf(mesh.geometry, colorChannel, colorMatrix),
@@ -87,6 +90,9 @@ function originOf(mesh: Mesh, gltf: GLTF): Origin | null {
   const meshes = gltf.parser.json.nodes?.[own?.nodes ?? above ?? -1]?.mesh as number | undefined;
   return meshes === undefined ? null : { meshes, primitives: above === undefined ? 0 : mesh.parent!.children.indexOf(mesh) };
 }
+
+/** The material of a primitive, by its place in the file. */
+const materialOf = ({ meshes, primitives }: Origin, gltf: GLTF): number => (gltf.parser.json.meshes?.[meshes]?.primitives?.[primitives]?.material as number | undefined) ?? -1;
 
 /** Where a mesh is drawn: of many instances the first ones. */
 function placesOf(mesh: Mesh): Matrix4[] {
@@ -122,11 +128,12 @@ export async function loadModel(model: ModelFiles, work: Work): Promise<Model> {
   const remarks: string[] = [];
   const loader = new GLTFLoader(managerFor(model, urls));
   giveDecoders(loader, work);
+  leaveOutBasis(loader);
   try {
     const buffer = model.bytes.buffer.slice(model.bytes.byteOffset, model.bytes.byteOffset + model.bytes.byteLength);
     const isText = /\.gltf$/i.test(model.name);
     const gltf = await loader.parseAsync(isText ? new TextDecoder().decode(buffer) : buffer, "");
-    const parts = new Map<string, Part>();
+    const parts = new Map<string, Part>(), normalImages = normalImagesOf(gltf);
     let corners = 0, left = 0, isSkinned = false;
     for (const root of await sceneOf(gltf, remarks)) {
       root.updateMatrixWorld(true);
@@ -134,7 +141,7 @@ export async function loadModel(model: ModelFiles, work: Work): Promise<Model> {
         const where = object instanceof Mesh ? originOf(object, gltf) : null;
         if (!(object instanceof Mesh) || !where) return;
         const key = `${where.meshes}/${where.primitives}/${(object.material as Material).uuid}`;
-        const known = parts.get(key) ?? partOf(object, where);
+        const known = parts.get(key) ?? partOf(object, where, materialOf(where, gltf), normalImages);
         if (!known) return;
         corners += known.arrays.indices?.length ?? known.arrays.positions.length / 3;
         if (corners > kMostCorners) return void (left += 1);
@@ -146,7 +153,8 @@ export async function loadModel(model: ModelFiles, work: Work): Promise<Model> {
     moveToOrigin(parts.values());
     if (left > 0) remarks.push(`${left} of its parts are not drawn: the picture ends at ${kMostCorners / 3 / 1e6} million triangles.`);
     if (isSkinned) remarks.push("Skinned meshes are shown as they lie in the file, without their bones.");
-    return { parts: [...parts.values()], remarks };
+    remarks.push(...(await missingImages(gltf)));
+    return { parts: [...parts.values()], normalImages, remarks };
   } finally {
     for (const url of urls) URL.revokeObjectURL(url);
   }

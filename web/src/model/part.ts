@@ -8,10 +8,14 @@ export interface Part {
   primitive: number;
   name: string;
   materialName: string;
+  /** Index of the material in the file, or -1. */
+  material: number;
   arrays: Arrays;
   /** Set and transform of the normal map, already in `arrays.uvs`. */
   normalMap: Texture | null;
   normalScale: number;
+  /** Index of that image in the file, or -1. */
+  normalImage: number;
   color: Vector3;
   colorMap: Texture | null;
   /** Two numbers per vertex, where the colour has other UVs than the normal map. */
@@ -24,6 +28,8 @@ export interface Part {
 
 export interface Model {
   parts: Part[];
+  /** For each material of the file the index of its normal map's image, or -1. */
+  normalImages: number[];
   /** Sentences about what the picture leaves out. */
   remarks: string[];
 }

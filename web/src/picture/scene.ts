@@ -13,6 +13,8 @@ export interface Drawn {
   frames: Frames | null;
   /** The normal map right of the slider. */
   rightMap: Texture | null;
+  /** Whether green of that map is read the other way round, since `check` says that it points down. */
+  turnsGreen: boolean;
   geometry: BufferGeometry;
   material: RawShaderMaterial;
   meshes: Mesh[];
@@ -54,7 +56,7 @@ function draw(number: number, part: Part, corners: Corners): Drawn {
     empty,
     identity,
   );
-  return { number, part, corners, frames: null, rightMap: corners.uvs && part.normalMap, geometry, material, meshes: [], firstTriangles: [] };
+  return { number, part, corners, frames: null, rightMap: corners.uvs && part.normalMap, turnsGreen: false, geometry, material, meshes: [], firstTriangles: [] };
 }
 
 /** What is shown, and where in it a triangle lies. */
@@ -95,6 +97,12 @@ export class Scene {
     drawn.geometry.setAttribute("error", new BufferAttribute(frames?.errors ?? new Float32Array(2 * corners).fill(-1), 2));
     uniforms.uHasRight.value = frames !== null;
     uniforms.uRightMap.value = drawn.rightMap ?? empty;
+  }
+
+  /** Right of the slider green is read the other way round. */
+  turnGreen(drawn: Drawn, isTurned: boolean): void {
+    drawn.turnsGreen = isTurned && drawn.rightMap !== null;
+    drawn.material.uniforms.uRightGreen.value = drawn.turnsGreen;
   }
 
   find(mesh: number, primitive: number): Drawn | undefined {

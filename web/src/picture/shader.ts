@@ -46,7 +46,7 @@ const fragmentShader = `
 precision highp float;
 precision highp int;
 uniform int uLook, uMap;
-uniform bool uHasTangents, uHasRight, uHasNormalMap, uHasColorMap, uWire, uIsPick, uIsMap, uUseColors;
+uniform bool uHasTangents, uHasRight, uRightGreen, uHasNormalMap, uHasColorMap, uWire, uIsPick, uIsMap, uUseColors;
 uniform float uSplit, uScale, uErrorEnd, uAlphaTest;
 uniform vec3 uColor, uLight, uEye;
 uniform sampler2D uNormalMap, uRightMap, uColorMap;
@@ -83,7 +83,7 @@ vec3 shadingNormal(bool isRight) {
   if (!uHasNormalMap || uMap == 0) return normalize(n);
   vec3 texel = (isRight ? texture(uRightMap, vUv) : texture(uNormalMap, vUv)).xyz * 2.0 - 1.0;
   texel.xy *= uScale;
-  if (uMap == 2) texel.y = -texel.y;
+  if (uMap == 2 || (isRight && uRightGreen)) texel.y = -texel.y;
   vec3 t, b;
   if (isRight && uHasRight) { t = vRightTangent; b = vRightBitangent; }
   else if (!isRight && uHasTangents) { t = vTangent; b = vBitangent; }
@@ -180,7 +180,7 @@ export function makeMaterial(options: { normalMap: Texture | null; colorMap: Tex
     side: options.side,
     uniforms: {
       uNormalMatrix: value(identity.clone()), uIsMap: value(false), uMapArea: value([1, 1, 0, 0]), uFirst: value(0),
-      uLook: value(0), uMap: value(1), uHasTangents: value(options.hasTangents), uHasRight: value(false),
+      uLook: value(0), uMap: value(1), uHasTangents: value(options.hasTangents), uHasRight: value(false), uRightGreen: value(false),
       uHasNormalMap: value(options.normalMap !== null), uHasColorMap: value(options.colorMap !== null),
       uWire: value(false), uIsPick: value(false), uUseColors: value(true), uSplit: value(0), uScale: value(options.scale),
       uErrorEnd: value(10), uAlphaTest: value(options.alphaTest),

@@ -17,10 +17,21 @@ export interface Settings {
 
 const kStep = Math.PI / 24;
 
+function rendererFor(canvas: HTMLCanvasElement): WebGLRenderer | null {
+  const context = canvas.getContext("webgl2", { antialias: true, alpha: true, depth: true, stencil: false, preserveDrawingBuffer: false });
+  if (!context) return null;
+  const renderer = new WebGLRenderer({ canvas, context, antialias: true, alpha: true });
+  renderer.setClearColor(0, 0);
+  renderer.autoClear = false;
+  renderer.setPixelRatio(Math.min(2, devicePixelRatio));
+  return renderer;
+}
+
 export class Viewport {
   readonly canvas: HTMLCanvasElement;
   readonly settings: Settings = { look: "lit", map: 1, isWire: false, usesColors: true, split: 0.5, errorEnd: 10 };
-  readonly renderer: WebGLRenderer;
+  /** Null where the browser has no WebGL: then nothing is drawn, and all else works. */
+  readonly renderer: WebGLRenderer | null;
   readonly camera = new PerspectiveCamera(35, 1, 0.01, 100);
   readonly overlay = new ThreeScene();
   scene = new Scene();
@@ -36,10 +47,7 @@ export class Viewport {
 
   constructor(canvas: HTMLCanvasElement) {
     this.canvas = canvas;
-    this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true, preserveDrawingBuffer: false });
-    this.renderer.setClearColor(0, 0);
-    this.renderer.autoClear = false;
-    this.renderer.setPixelRatio(Math.min(2, devicePixelRatio));
+    this.renderer = rendererFor(canvas);
     this.#controls = new OrbitControls(this.camera, canvas);
     this.#controls.enableDamping = false;
     this.#controls.addEventListener("change", () => this.ask());
@@ -52,6 +60,10 @@ export class Viewport {
     new ResizeObserver(() => this.#resize()).observe(canvas.parentElement!);
     this.camera.position.set(0, 0, 4);
     this.#resize();
+  }
+
+  get hasPicture(): boolean {
+    return this.renderer !== null;
   }
 
   show(scene: Scene): void {
@@ -107,25 +119,29 @@ export class Viewport {
 
   /** The number of the triangle at a place of the canvas, in CSS pixels, or -1. */
   async pick(x: number, y: number): Promise<number> {
-    const ratio = this.renderer.getPixelRatio(), size = this.renderer.getSize(new Vector2());
+    const { renderer } = this;
+    if (!renderer) return -1;
+    const ratio = renderer.getPixelRatio(), size = renderer.getSize(new Vector2());
     this.#setUniforms((u) => ((u.uIsPick.value = true), (u.uAlphaTest.value = 0)));
     this.camera.setViewOffset(size.x * ratio, size.y * ratio, Math.floor(x * ratio), Math.floor(y * ratio), 1, 1);
-    this.renderer.setRenderTarget(this.#pickTarget);
-    this.renderer.clear();
-    this.renderer.render(this.#world, this.camera);
-    this.renderer.setRenderTarget(null);
+    renderer.setRenderTarget(this.#pickTarget);
+    renderer.clear();
+    renderer.render(this.#world, this.camera);
+    renderer.setRenderTarget(null);
     this.camera.clearViewOffset();
     this.#setUniforms((u) => (u.uIsPick.value = false));
     const p = new Uint8Array(4);
-    await this.renderer.readRenderTargetPixelsAsync(this.#pickTarget, 0, 0, 1, 1, p);
+    await renderer.readRenderTargetPixelsAsync(this.#pickTarget, 0, 0, 1, 1, p);
     return (p[0] | (p[1] << 8) | (p[2] << 16) | (p[3] << 24)) - 1;
   }
 
-  /** The UV map of a part as pixels, from the top row down; `area` is scale and offset of UVs. */
-  async drawMap(partIndex: number, look: Look, size: number, area: [number, number, number, number]): Promise<Uint8ClampedArray<ArrayBuffer>> {
+  /** The UV map of a part as pixels, from the top row down, or null without WebGL; `area` is scale and offset of UVs. */
+  async drawMap(partIndex: number, look: Look, size: number, area: [number, number, number, number]): Promise<Uint8ClampedArray<ArrayBuffer> | null> {
+    const { renderer } = this;
+    if (!renderer) return null;
     const target = new WebGLRenderTarget(size, size);
     const { drawn } = this.scene;
-    const clear = this.renderer.getClearColor(new Color()), alpha = this.renderer.getClearAlpha();
+    const clear = renderer.getClearColor(new Color()), alpha = renderer.getClearAlpha();
     drawn.forEach(({ meshes }, i) => meshes.forEach((mesh, k) => (mesh.visible = i === partIndex && k === 0)));
     const { material } = drawn[partIndex];
     const { side } = material;
@@ -136,18 +152,18 @@ export class Viewport {
     material.uniforms.uIsMap.value = true;
     material.uniforms.uMapArea.value = area;
     material.uniforms.uSplit.value = 1e9;
-    this.renderer.setRenderTarget(target);
-    this.renderer.setClearColor(0, 0);
-    this.renderer.clear();
-    this.renderer.render(this.#world, this.camera);
-    this.renderer.setRenderTarget(null);
-    this.renderer.setClearColor(clear, alpha);
+    renderer.setRenderTarget(target);
+    renderer.setClearColor(0, 0);
+    renderer.clear();
+    renderer.render(this.#world, this.camera);
+    renderer.setRenderTarget(null);
+    renderer.setClearColor(clear, alpha);
     material.uniforms.uIsMap.value = false;
     material.depthTest = true;
     material.side = side;
     for (const { meshes } of drawn) for (const mesh of meshes) mesh.visible = true;
     const upsideDown = new Uint8ClampedArray(4 * size * size), rows = new Uint8ClampedArray(4 * size * size);
-    await this.renderer.readRenderTargetPixelsAsync(target, 0, 0, size, size, upsideDown);
+    await renderer.readRenderTargetPixelsAsync(target, 0, 0, size, size, upsideDown);
     target.dispose();
     for (let row = 0; row < size; ++row) rows.set(upsideDown.subarray(4 * size * (size - 1 - row), 4 * size * (size - row)), 4 * size * row);
     return rows;
@@ -155,8 +171,7 @@ export class Viewport {
 
   #values(): PictureValues {
     const light = this.light.clone().transformDirection(this.camera.matrixWorld);
-    const width = this.renderer.domElement.width;
-    return { ...this.settings, split: this.settings.split * width, light, eye: this.camera.position };
+    return { ...this.settings, split: this.settings.split * this.canvas.width, light, eye: this.camera.position };
   }
 
   #setUniforms(change: (uniforms: Record<string, { value: unknown }>) => void): void {
@@ -168,12 +183,14 @@ export class Viewport {
   }
 
   #draw(): void {
+    const { renderer } = this;
+    if (!renderer) return;
     this.camera.updateMatrixWorld();
     const values = this.#values();
     for (const { material } of this.scene.drawn) setValues(material, values);
-    this.renderer.clear();
-    this.renderer.render(this.#world, this.camera);
-    this.renderer.render(this.overlay, this.camera);
+    renderer.clear();
+    renderer.render(this.#world, this.camera);
+    renderer.render(this.overlay, this.camera);
     if (this.scene.drawn.length > 0 && !this.#hasDrawn) performance.mark("first picture");
     this.#hasDrawn ||= this.scene.drawn.length > 0;
   }
@@ -221,7 +238,7 @@ export class Viewport {
   #resize(): void {
     const { clientWidth: width, clientHeight: height } = this.canvas.parentElement!;
     if (width === 0 || height === 0) return;
-    this.renderer.setSize(width, height, false);
+    this.renderer?.setSize(width, height, false);
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
     this.ask();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What is wrong, by severity, and who made the tangents.
 import { count, el, plural, replaceChildren } from "../dom.js";
+import { remedyOptions } from "./advice.js";
 import type { CheckReport, Finding, Severity } from "tspace/gltf";
 
 const titles: Record<Severity, string> = { error: "Errors", warning: "Warnings", note: "Notes" };
@@ -12,7 +13,7 @@ export class FindingsView {
   #list = el("div", { class: "list" });
   #chosen: HTMLButtonElement | null = null;
 
-  constructor(private choose: (finding: Finding) => void) {
+  constructor(private choose: (finding: Finding) => void, private mend: (finding: Finding) => void) {
     this.element.append(el("h2", {}, "What is wrong"), this.#list, el("h2", {}, "Who made the tangents"), this.#verdict);
     this.wait("Open a model to see its findings.");
   }
@@ -67,6 +68,7 @@ export class FindingsView {
     const where = placeOf(finding);
     const details = el("div", { class: "details", hidden: true },
       el("p", { class: "mend" }, el("strong", {}, "Mend: "), finding.remedy),
+      remedyOptions(finding) && el("button", { class: "plain mend-this", type: "button", onclick: () => this.mend(finding) }, "Set Mend to this"),
       finding.vertices.length > 0 && el("p", { class: "quiet" }, `First at vertices ${finding.vertices.join(", ")}.`));
     const button = el("button", { class: `finding ${finding.severity}`, type: "button", "aria-expanded": "false", "data-code": finding.code },
       el("span", { class: "code" }, finding.code),

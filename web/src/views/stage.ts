@@ -17,6 +17,10 @@ const lookNames: readonly (readonly [Look, string])[] = [
 
 const hasSplit = (look: Look): boolean => look === "lit" || look === "normals" || look === "signs";
 
+/** Of the normal maps right of the slider: how many have their green turned. */
+export type TurnedGreen = "none" | "some" | "all";
+const greenText: Record<TurnedGreen, string> = { none: "", some: ", green turned where it points down", all: ", green turned" };
+
 export class Stage {
   readonly element: HTMLElement;
   readonly viewport: Viewport;
@@ -34,6 +38,7 @@ export class Stage {
   #remark = el("p", { class: "remark", role: "status", hidden: true });
   #looks;
   #right: Right = "mikktspace";
+  #green: TurnedGreen = "none";
 
   constructor() {
     const frame = el("div", { class: "frame" }, this.canvas, this.#line, this.#leftLabel, this.#rightLabel, this.#legend.element, this.#light, this.#remark);
@@ -67,6 +72,11 @@ export class Stage {
     this.#refresh();
   }
 
+  setGreen(green: TurnedGreen): void {
+    this.#green = green;
+    this.#refresh();
+  }
+
   setErrorEnd(degrees: number): void {
     this.viewport.settings.errorEnd = degrees;
     this.#refresh();
@@ -85,7 +95,7 @@ export class Stage {
     const { look, errorEnd } = this.viewport.settings;
     const isSplit = hasSplit(look);
     for (const element of [this.#split, this.#line, this.#leftLabel, this.#rightLabel]) element.hidden = !isSplit;
-    this.#rightLabel.textContent = this.#right === "mended" ? "mended" : `right frames (${this.#right})`;
+    this.#rightLabel.textContent = this.#right === "mended" ? "mended" : `right frames (${this.#right})${greenText[this.#green]}`;
     this.#legend.show(look, errorEnd, nameOf(this.#right));
     this.viewport.ask();
   }
