@@ -121,6 +121,22 @@ export class Scene {
     return null;
   }
 
+  /** Places of vertices, three numbers each: all of a small model, and evenly chosen ones of a large one. */
+  points(): Float32Array {
+    const kMost = 60_000;
+    const all = this.drawn.reduce((sum, { corners, part }) => sum + (corners.positions.length / 3) * part.places.length, 0);
+    const step = Math.max(1, Math.ceil(all / kMost)), found: number[] = [], p = new Vector3();
+    for (const { corners, part } of this.drawn) {
+      for (const place of part.places) {
+        for (let i = 0; i < corners.positions.length; i += 3 * step) {
+          p.fromArray(corners.positions, i).applyMatrix4(place);
+          if (Number.isFinite(p.x + p.y + p.z)) found.push(p.x, p.y, p.z);
+        }
+      }
+    }
+    return Float32Array.from(found);
+  }
+
   /** A sphere around all that is finite. */
   sphere(): Sphere {
     const points: Vector3[] = [];

@@ -12,10 +12,11 @@ export interface Settings {
   usesColors: boolean;
   /** 0 to 1 from the left: where frames of the file end and right ones begin. */
   split: number;
-  errorEnd: number;
 }
 
 const kStep = Math.PI / 24;
+/** How much of the picture a model fills, along its width or its height. */
+const kFilled = 0.85;
 
 function rendererFor(canvas: HTMLCanvasElement): WebGLRenderer | null {
   const context = canvas.getContext("webgl2", { antialias: true, alpha: true, depth: true, stencil: false, preserveDrawingBuffer: false });
@@ -29,7 +30,7 @@ function rendererFor(canvas: HTMLCanvasElement): WebGLRenderer | null {
 
 export class Viewport {
   readonly canvas: HTMLCanvasElement;
-  readonly settings: Settings = { look: "lit", map: 1, isWire: false, usesColors: true, split: 0.5, errorEnd: 10 };
+  readonly settings: Settings = { look: "lit", map: 1, isWire: false, usesColors: true, split: 0.5 };
   /** Null where the browser has no WebGL: then nothing is drawn, and all else works. */
   readonly renderer: WebGLRenderer | null;
   readonly camera = new PerspectiveCamera(35, 1, 0.01, 100);
@@ -57,7 +58,7 @@ export class Viewport {
     canvas.addEventListener("contextmenu", (event) => event.preventDefault());
     canvas.addEventListener("pointermove", (event) => this.#dragLight(event));
     canvas.addEventListener("webglcontextrestored", () => this.ask());
-    new ResizeObserver(() => this.#resize()).observe(canvas.parentElement!);
+    new ResizeObserver(() => this.#resize()).observe(canvas);
     this.camera.position.set(0, 0, 4);
     this.#resize();
   }
@@ -100,6 +101,10 @@ export class Viewport {
     if (direction.lengthSq() === 0 || !Number.isFinite(direction.x)) direction.set(0.5, 0.4, 1).normalize();
     // Straight from above, "up" would have no direction.
     if (Math.abs(direction.y) > 0.985) direction.set(0.12, Math.sign(direction.y), 0.12).normalize();
+    this.#flyTo(center, distance, direction, isInstant);
+  }
+
+  #flyTo(center: Vector3, distance: number, direction: Vector3, isInstant: boolean): void {
     const to = center.clone().addScaledVector(direction, distance);
     const isCalm = isInstant || matchMedia("(prefers-reduced-motion: reduce)").matches;
     this.#flight = { from: this.camera.position.clone(), to, fromTarget: this.#controls.target.clone(), toTarget: center.clone(), start: isCalm ? -Infinity : performance.now() };
@@ -113,8 +118,32 @@ export class Viewport {
   }
 
   reset(isInstant = false): void {
-    const { center, radius } = this.scene.sphere();
-    this.fly(center, radius, new Vector3(0.55, 0.42, 1), isInstant);
+    const { center, radius } = this.scene.sphere(), toward = new Vector3(0.55, 0.42, 1).normalize();
+    const { middle, distance } = this.#frameFor(this.scene.points(), center, radius, toward);
+    this.#flyTo(middle, distance, toward, isInstant);
+  }
+
+  /** Where to look and from how far, so that points fill kFilled of the picture, along its width or its height. */
+  #frameFor(points: Float32Array, center: Vector3, radius: number, toward: Vector3): { middle: Vector3; distance: number } {
+    const across = Math.tan((this.camera.fov * Math.PI) / 360), sides = [across * this.camera.aspect, across];
+    const right = new Vector3(0, 1, 0).cross(toward).normalize(), up = toward.clone().cross(right);
+    const middle = center.clone();
+    let distance = (radius / across) * 1.5;
+    // What is near looks larger, so the middle and the distance depend on each other.
+    for (let round = 0; round < 6 && points.length > 0; ++round) {
+      const low = [Infinity, Infinity], high = [-Infinity, -Infinity], p = new Vector3();
+      for (let i = 0; i < points.length; i += 3) {
+        p.fromArray(points, i).sub(middle);
+        const depth = Math.max(distance - p.dot(toward), 0.05 * distance);
+        for (const [k, axis] of [right, up].entries()) {
+          const at = p.dot(axis) / (depth * sides[k]);
+          low[k] = Math.min(low[k], at), high[k] = Math.max(high[k], at);
+        }
+      }
+      middle.addScaledVector(right, ((low[0] + high[0]) / 2) * sides[0] * distance).addScaledVector(up, ((low[1] + high[1]) / 2) * sides[1] * distance);
+      distance = Math.max((distance * Math.max(high[0] - low[0], high[1] - low[1])) / (2 * kFilled), 1.02 * radius * 0.1);
+    }
+    return { middle, distance };
   }
 
   /** The number of the triangle at a place of the canvas, in CSS pixels, or -1. */
@@ -236,7 +265,7 @@ export class Viewport {
   }
 
   #resize(): void {
-    const { clientWidth: width, clientHeight: height } = this.canvas.parentElement!;
+    const { clientWidth: width, clientHeight: height } = this.canvas;
     if (width === 0 || height === 0) return;
     this.renderer?.setSize(width, height, false);
     this.camera.aspect = width / height;
