@@ -20,11 +20,11 @@ import { Work } from "./worker/client.js";
 const work = new Work();
 await work.started;
 const stage = new Stage();
-const place = new PlaceView(stage.viewport);
-const findings = new FindingsView((finding) => {
-  const outlined = place.show(finding);
-  stage.canvas.dataset.outlined = String(outlined);
-}, (finding) => mend.prepare(finding));
+const place = new PlaceView(stage.viewport, (look) => stage.setLook(look));
+const findings = new FindingsView({
+  choose: (chosen, isOne) => (stage.canvas.dataset.outlined = String(place.show(chosen, isOne))),
+  mend: (finding) => mend.prepare(finding),
+});
 const progress = new Progress(() => app.stop());
 const look = new LookView(stage, (right) => void app.setRight(right));
 const uvMap = new UvMapView(stage.viewport);

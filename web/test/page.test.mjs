@@ -30,7 +30,8 @@ test("the broken crate is shown at once: wrong signs are found, and its triangle
     await drawn(tab);
     assert.equal(await tab.locator(".finding").getAttribute("aria-expanded"), "true");
     assert.ok(Number(await tab.locator(".frame canvas").getAttribute("data-outlined")) > 0);
-    assert.match(await tab.locator(".details").textContent(), /Mend:.*tspace generate/);
+    assert.match(await tab.locator(".details").textContent(), /What it does: one half of a mirrored model is wrong.*Mend:.*tspace generate/);
+    assert.equal(await tab.evaluate(() => window.tspaceView.views.stage.viewport.settings.look), "signs", "the look that shows it");
     const outlined = await shares(tab, { outline: [255, 45, 111] });
     assert.ok(outlined.outline > 0.0001, JSON.stringify(outlined));
     await shoot(tab, "finding");
@@ -137,7 +138,7 @@ test("everything works by keyboard, and the light follows mouse and keys", { ski
       }));
     }
     for (const name of ["Open model…", "Crate, broken", "Look", "Light", "Normal map", "Lines of"]) assert.ok([...reached].some((text) => text.startsWith(name)), `${name} among ${[...reached].join(" | ")}`);
-    assert.ok([...reached].some((text) => text.startsWith("signsWrong")), "findings");
+    assert.ok([...reached].some((text) => text.startsWith("the sign (w)")), "findings");
   });
 });
 

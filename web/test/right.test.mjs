@@ -107,6 +107,33 @@ test("inverted signs and green that cancel out are mended both or not at all", {
   }, { allowMessages: true });
 });
 
+test("findings of a kind are one entry, shown together and one after another", { skip: noShared }, async () => {
+  await withPage(async (tab) => {
+    await openFile(tab, cat());
+    const codes = await tab.locator(".finding").evaluateAll((items) => items.map((item) => `${item.className} ${item.dataset.code}`));
+    assert.equal(new Set(codes).size, codes.length, codes.join());
+    const signs = tab.locator(".finding[data-code=signsInverted]"), details = signs.locator("xpath=following-sibling::*[1]");
+    assert.match(await signs.textContent(), /44 places/);
+    const eye = () => tab.evaluate(() => window.tspaceView.views.stage.viewport.camera.position.toArray());
+    const before = await eye();
+    await signs.click();
+    await drawn(tab);
+    assert.deepEqual(await eye(), before, "what is everywhere is seen from where the eye is");
+    const triangles = await tab.evaluate(() => window.tspaceView.views.stage.viewport.scene.drawn.reduce((sum, { corners }) => sum + corners.positions.length / 9, 0));
+    assert.ok(Number(await tab.locator(".frame canvas").getAttribute("data-outlined")) > 0.9 * triangles, "all triangles are outlined, not those of the first eight vertices");
+    await shoot(tab, "cat-signs");
+    await details.getByRole("button", { name: "Next" }).click();
+    assert.match(await details.locator(".step").textContent(), /^1 of 44: mesh 0 “head_lambert2_0”/);
+    await details.getByRole("button", { name: "Previous" }).click();
+    assert.match(await details.locator(".step").textContent(), /^44 of 44: mesh 43/);
+    await drawn(tab);
+    assert.notDeepEqual(await eye(), before, "one of many parts is flown to");
+    await tab.locator(".filter").fill("pcube19");
+    const left = await tab.locator(".finding:visible").evaluateAll((items) => items.map((item) => item.dataset.code));
+    assert.ok(left.includes("signsMixed") && !left.includes("greenFlipped"), left.join());
+  }, { allowMessages: true });
+});
+
 test("a finding's own button sets Mend to what its remedy does", { skip: missing }, async () => {
   await withPage(async (tab) => {
     await tab.locator(".finding").click();
