@@ -2,7 +2,8 @@
 // The picture under the hands: its line, its frame, its pointer, and what its colours say.
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { choose, drawn, missing, settled, shares, shoot, withPage } from "./support.mjs";
+import { join } from "node:path";
+import { choose, drawn, missing, noShared, openFile, settled, shared, shares, shoot, withPage } from "./support.mjs";
 
 const aboveLegend = { left: 0, top: 0, right: 1, bottom: 0.88 };
 const settings = (tab) => tab.evaluate(() => ({ ...window.tspaceView.views.stage.viewport.settings }));
@@ -35,6 +36,21 @@ test("difference of lighting is nothing where frames are the same, and a half tu
     assert.ok(seen.none > 0.1 && seen.some + seen.more < 0.0005, JSON.stringify(seen));
   });
 });
+
+/** The share of the picture's pixels that are far from grey. */
+const colourful = async (tab) => {
+  await drawn(tab);
+  const png = (await tab.locator(".frame").screenshot({ style: ".frame > :not(canvas) { visibility: hidden; }" })).toString("base64");
+  return tab.evaluate(async (png) => {
+    const image = await createImageBitmap(new Blob([Uint8Array.from(atob(png), (c) => c.charCodeAt(0))]));
+    const context = new OffscreenCanvas(image.width, image.height).getContext("2d");
+    context.drawImage(image, 0, 0);
+    const { data } = context.getImageData(0, 0, image.width, image.height);
+    let count = 0;
+    for (let i = 0; i < data.length; i += 4) count += Math.max(data[i], data[i + 1], data[i + 2]) - Math.min(data[i], data[i + 1], data[i + 2]) > 60;
+    return (4 * count) / data.length;
+  }, png);
+};
 
 /** The box around all pixels that are not ground, as shares of the picture. */
 const filled = async (tab) => {
@@ -95,3 +111,27 @@ for (const [width, height] of [[390, 844], [820, 1180], [1280, 800]]) {
     }, { width, height });
   });
 }
+
+test("surfaces look as their materials say: colours of vertices, what mirrors, what is unlit, and bones", { skip: noShared }, async () => {
+  await withPage(async (tab) => {
+    const open = (name) => openFile(tab, join(shared, "models/khronos", name));
+    await open("BoxVertexColors.glb");
+    const share = await colourful(tab);
+    assert.ok(share > 0.2, `vertices have colours: ${share}`);
+    await open("CesiumMan.glb");
+    const sizes = await tab.evaluate(() => {
+      const [drawn] = window.tspaceView.views.stage.viewport.scene.drawn, p = drawn.corners.positions, rest = drawn.part.arrays;
+      const extent = (data, at) => [0, 1, 2].map((k) => {
+        let low = Infinity, high = -Infinity;
+        for (let i = 0; i < at.length; ++i) low = Math.min(low, data[3 * at[i] + k]), high = Math.max(high, data[3 * at[i] + k]);
+        return high - low;
+      });
+      return { posed: extent(p, Array.from({ length: p.length / 3 }, (_, i) => i)), rest: extent(rest.positions, [...rest.indices]) };
+    });
+    // He stands upright (y), where the file's positions lie along z.
+    assert.ok(sizes.posed[1] > 1.4 && sizes.posed[2] < 1.3 && sizes.rest[2] > 1.4, JSON.stringify(sizes));
+    await shoot(tab, "surface-skin");
+    await open("ClearCoatTest.glb");
+    await shoot(tab, "surface-clearcoat");
+  }, { allowMessages: true });
+});

@@ -115,6 +115,7 @@ test("findings of a kind are one entry, shown together and one after another", {
     const signs = tab.locator(".finding[data-code=signsInverted]"), details = signs.locator("xpath=following-sibling::*[1]");
     assert.match(await signs.textContent(), /44 places/);
     const eye = () => tab.evaluate(() => window.tspaceView.views.stage.viewport.camera.position.toArray());
+    await drawn(tab);
     const before = await eye();
     await signs.click();
     await drawn(tab);

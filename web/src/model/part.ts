@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A primitive of a model, as the page shows it.
-import type { Matrix4, Texture, Vector3 } from "three";
+import type { BufferAttribute, InterleavedBufferAttribute, Material, Matrix4, Texture, Vector3 } from "three";
+import type { Pose } from "./pose.js";
 import type { Arrays } from "../worker/protocol.js";
 
 export interface Part {
@@ -22,6 +23,11 @@ export interface Part {
   colorUvs: Float32Array<ArrayBuffer> | null;
   alphaTest: number;
   isDoubleSided: boolean;
+  /** The material of the loader, and the attributes that it reads beside our own, per vertex. */
+  surface: Material;
+  attributes: Record<string, BufferAttribute | InterleavedBufferAttribute>;
+  /** Where bones and morph weights put it, or null. */
+  pose: Pose | null;
   /** Where it is drawn. */
   places: Matrix4[];
 }

@@ -14,8 +14,8 @@ uniform bool uIsMap;
 uniform vec4 uMapArea;
 uniform int uFirst;
 in vec3 position, normal;
-in vec2 uv, colorUv, island, error;
-in vec4 tangent, right;
+in vec2 mapUv, colorUv, island, error;
+in vec4 fileTangent, right;
 out vec3 vPlace, vNormal, vTangent, vBitangent, vRightTangent, vRightBitangent, vEdge;
 out vec2 vUv, vColorUv, vError;
 flat out vec2 vIsland;
@@ -26,19 +26,19 @@ void main() {
   vPlace = place.xyz;
   vNormal = uNormalMatrix * normal;
   mat3 turn = mat3(modelMatrix);
-  vTangent = turn * tangent.xyz;
-  vBitangent = turn * (cross(normal, tangent.xyz) * tangent.w);
+  vTangent = turn * fileTangent.xyz;
+  vBitangent = turn * (cross(normal, fileTangent.xyz) * fileTangent.w);
   vRightTangent = turn * right.xyz;
   vRightBitangent = turn * (cross(normal, right.xyz) * right.w);
-  vUv = uv;
+  vUv = mapUv;
   vColorUv = colorUv;
   vIsland = island;
-  vSigns = vec3(tangent.w, right.w, error.y);
+  vSigns = vec3(fileTangent.w, right.w, error.y);
   vError = error;
   vTriangle = uFirst + gl_VertexID / 3;
   int corner = gl_VertexID % 3;
   vEdge = vec3(corner == 0, corner == 1, corner == 2);
-  gl_Position = uIsMap ? vec4((uv * uMapArea.xy + uMapArea.zw) * vec2(2.0, -2.0) + vec2(-1.0, 1.0), 0.0, 1.0)
+  gl_Position = uIsMap ? vec4((mapUv * uMapArea.xy + uMapArea.zw) * vec2(2.0, -2.0) + vec2(-1.0, 1.0), 0.0, 1.0)
                        : projectionMatrix * viewMatrix * place;
 }`;
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The picture: camera, controls, light, and drawing when something has changed and not otherwise.
-import { Color, Matrix4, NoBlending, PerspectiveCamera, Scene as ThreeScene, Vector2, Vector3, WebGLRenderer, WebGLRenderTarget, type Object3D } from "three";
+import { Color, DirectionalLight, Matrix4, NeutralToneMapping, NoBlending, PerspectiveCamera, Scene as ThreeScene, Vector2, Vector3, WebGLRenderer, WebGLRenderTarget, type Object3D } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { Scene } from "./scene.js";
+import { environmentFor } from "./environment.js";
 import { setValues, type Look, type PictureValues } from "./shader.js";
 
 export interface Settings {
@@ -24,6 +25,7 @@ function rendererFor(canvas: HTMLCanvasElement): WebGLRenderer | null {
   const renderer = new WebGLRenderer({ canvas, context, antialias: true, alpha: true });
   renderer.setClearColor(0, 0);
   renderer.autoClear = false;
+  renderer.toneMapping = NeutralToneMapping;
   renderer.setPixelRatio(Math.min(2, devicePixelRatio));
   return renderer;
 }
@@ -41,6 +43,7 @@ export class Viewport {
   onDrawn: () => void = () => {};
   #controls: OrbitControls;
   #world = new ThreeScene();
+  #lamp = new DirectionalLight(0xffffff, 2);
   #isAsked = false;
   #hasDrawn = false;
   #flight: { from: Vector3; to: Vector3; fromTarget: Vector3; toTarget: Vector3; start: number } | null = null;
@@ -60,6 +63,7 @@ export class Viewport {
     canvas.addEventListener("webglcontextrestored", () => this.ask());
     new ResizeObserver(() => this.#resize()).observe(canvas);
     this.camera.position.set(0, 0, 4);
+    this.#world.add(this.#lamp, this.#lamp.target);
     this.#resize();
   }
 
@@ -217,8 +221,15 @@ export class Viewport {
     this.camera.updateMatrixWorld();
     const values = this.#values();
     for (const { material } of this.scene.drawn) setValues(material, values);
+    this.#lamp.position.copy(values.light);
+    // The first picture does not wait for the environment, which is blurred for each roughness.
+    const wantsSurface = values.look === "lit" && values.usesColors && !values.isWire, isSurface = wantsSurface && this.#hasDrawn;
+    if (isSurface) this.#world.environment ??= environmentFor(renderer);
+    else if (wantsSurface && this.scene.drawn.length > 0) this.ask();
+    this.scene.show(isSurface);
     renderer.clear();
     renderer.render(this.#world, this.camera);
+    this.scene.show(false);
     renderer.render(this.overlay, this.camera);
     if (this.scene.drawn.length > 0 && !this.#hasDrawn) performance.mark("first picture");
     this.#hasDrawn ||= this.scene.drawn.length > 0;
