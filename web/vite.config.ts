@@ -31,6 +31,27 @@ function packedWasm(): Plugin {
   };
 }
 
+/** What `check` finds, in the words of docs/check.md, which scripts/web lays beside this file: what each code means, and why it matters. */
+function meanings(): Plugin {
+  const plain = (text: string) => text.replace(/\[([^\]]*)\]\([^)]*\)/g, "$1").replaceAll("`", "");
+  const rows = () => {
+    const found: Record<string, { what: string; why: string }> = {};
+    for (const line of readFileSync(resolve(import.meta.dirname, "check.md"), "utf8").split("\n")) {
+      const [, codes, severity, what, why] = line.split("|").map((cell) => cell.trim());
+      if (!/^`\w+`(, `\w+`)*$/.test(codes ?? "") || !/error|warning|note/.test(severity)) continue;
+      for (const code of codes.replaceAll("`", "").split(", ")) found[code] = { what: plain(what), why: plain(why) };
+    }
+    if (Object.keys(found).length < 40) throw new Error("docs/check.md has no table of codes any more");
+    return found;
+  };
+  return {
+    name: "meanings",
+    enforce: "pre",
+    resolveId: (id) => (id === "virtual:meanings" ? "\0meanings" : null),
+    load: (id) => (id === "\0meanings" ? `export default ${JSON.stringify(rows())}` : null),
+  };
+}
+
 /** The package's modules that lie in JavaScript, packed in the same way. */
 const insideOf = (name: string) => resolve(import.meta.dirname, `node_modules/tspace/src/${name}-inside.js`);
 
@@ -74,5 +95,5 @@ export default defineConfig({
   build: { target: "es2022", assetsInlineLimit: 1 << 30, cssCodeSplit: false, modulePreload: false, chunkSizeWarningLimit: 8000 },
   resolve: { alias: { "#core": insideOf("core"), "#gltf": insideOf("gltf") } },
   worker: { format: "iife", plugins: () => [packedWasm(), nodeModules] },
-  plugins: [packedWasm(), oneFile()],
+  plugins: [packedWasm(), meanings(), oneFile()],
 });

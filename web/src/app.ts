@@ -23,8 +23,9 @@ export interface Views {
   uvMap: UvMapView;
   place: PlaceView;
   progress: Progress;
-  /** The model, its reports, or null before there is one. */
-  opened: (model: ModelFiles | null) => void;
+  /** The model, or null before there is one, and the one that it was mended from. */
+  opened: (model: ModelFiles | null, before: ModelFiles | null) => void;
+  checked: (report: CheckReport) => void;
   inspected: (report: InspectReport) => void;
 }
 
@@ -35,6 +36,15 @@ export interface Reports {
 }
 
 const sentenceOf = (error: unknown): string => (error instanceof Error ? error.message : String(error));
+/** What the loader of three.js says, for people. */
+function plainly(error: unknown): string {
+  const text = sentenceOf(error).replace(/^THREE\.\w+: /, "");
+  if (/Unsupported asset|Legacy binary/.test(text)) return "its version of glTF is older than 2.0.";
+  if (/^Failed to load buffer/.test(text)) return "a file with its geometry is missing.";
+  if (/Invalid typed array length|out of (the )?bounds|offset|RangeError|length of/i.test(text)) return "an array of the file ends before it should.";
+  if (/Cannot read propert|is not iterable|is undefined|is not a function/.test(text)) return "the file names something that is not in it.";
+  return text;
+}
 const copyOf = (arrays: Arrays): Arrays => structuredClone(arrays);
 
 export class App {
@@ -42,6 +52,11 @@ export class App {
   reports: Reports = {};
   /** Parts of the file that Mend has made. */
   #mended: Part[] = [];
+  /** What the model was mended from. */
+  #before: ModelFiles | null = null;
+  /** Images of normal maps by material, and those of them whose green points down, as `check` says. */
+  #normalImages: number[] = [];
+  #greenDown = new Set<number>();
   #generation = 0;
 
   constructor(readonly work: Work, private views: Views) {}
@@ -58,7 +73,7 @@ export class App {
     this.#clear();
     this.views.findings.fail(message);
     this.views.progress.done("");
-    this.views.opened(null);
+    this.views.opened(null, null);
     this.#state("failed");
   }
 
@@ -70,6 +85,9 @@ export class App {
     const { stage, look, uvMap, place } = this.views;
     place.clear();
     this.#mended = [];
+    this.#normalImages = [];
+    this.#greenDown.clear();
+    stage.setGreen("none");
     look.offerMended(false);
     stage.viewport.show(new Scene());
     look.showLines();
@@ -77,7 +95,19 @@ export class App {
     uvMap.reset();
   }
 
-  async open(choose: () => Promise<ModelFiles>): Promise<void> {
+  /** The mended file as the model, and the way back from it. */
+  openMended(mended: ModelFiles): Promise<void> {
+    return this.open(async () => mended, this.model);
+  }
+
+  /** To what the model was mended from; false where there is nothing to go back to. */
+  back(): boolean {
+    const before = this.#before;
+    if (before) void this.open(async () => before);
+    return before !== null;
+  }
+
+  async open(choose: () => Promise<ModelFiles>, before: ModelFiles | null = null): Promise<void> {
     const generation = ++this.#generation;
     const isCurrent = () => generation === this.#generation;
     const { findings, progress, opened } = this.views;
@@ -93,8 +123,9 @@ export class App {
       const isObj = /\.obj$/i.test(chosen.name);
       const model = isObj ? glbOfObj(chosen) : chosen;
       this.model = model;
+      this.#before = before;
       this.#clear();
-      opened(model);
+      opened(model, before);
       this.reports.inspect = await this.work.run("report", { verb: "inspect", model });
       if (!isCurrent()) return;
       this.views.inspected(this.reports.inspect as InspectReport);
@@ -119,9 +150,10 @@ export class App {
     progress.at("Drawing", 0.1);
     stage.say("");
     try {
-      const { parts, remarks: own } = await loadModel(model, this.work);
+      const { parts, normalImages, remarks: own } = await loadModel(model, this.work);
       const remarks = [...before, ...own];
       if (!isCurrent()) return;
+      this.#normalImages = normalImages;
       const scene = new Scene();
       for (const [i, part] of parts.entries()) {
         if (triangleCount(part.arrays) === 0) continue;
@@ -134,17 +166,18 @@ export class App {
         if (corners) scene.add(i, part, corners);
         progress.at("Drawing", 0.1 + (0.2 * (i + 1)) / parts.length);
       }
+      if (!stage.viewport.hasPicture) remarks.unshift("This browser has no WebGL, so there is no picture. Findings and mends are complete.");
       stage.viewport.show(scene);
       stage.viewport.reset(true);
       this.views.uvMap.reset();
       this.views.look.showLines();
       if (scene.drawn.length === 0) remarks.push("There is nothing to draw in this file.");
       stage.say(remarks.join(" "));
-      document.documentElement.dataset.picture = scene.drawn.length > 0 ? "drawn" : "empty";
+      document.documentElement.dataset.picture = !stage.viewport.hasPicture ? "none" : scene.drawn.length > 0 ? "drawn" : "empty";
     } catch (error) {
       if (!isCurrent() || (error instanceof WorkError && error.code === "stopped")) throw error;
       document.documentElement.dataset.picture = "failed";
-      stage.say(`The picture cannot be drawn: ${sentenceOf(error)}`);
+      stage.say(`The picture cannot be drawn: ${plainly(error)}`);
     }
   }
 
@@ -156,12 +189,45 @@ export class App {
     this.reports.check = await this.work.run("report", { verb: "check", model });
     if (!isCurrent()) return;
     findings.show(this.reports.check as CheckReport);
+    this.views.checked(this.reports.check as CheckReport);
+    this.#turnGreen(this.reports.check as CheckReport);
     progress.at("Asking who made the tangents", 0.8);
     this.reports.identify = await this.work.run("report", { verb: "identify", model });
     if (!isCurrent()) return;
     findings.showVerdict((this.reports.identify as IdentifyReport).verdict);
     progress.done("");
     this.#state("ready");
+  }
+
+  /** Right of the slider stands what is right: where green points down, it is read the other way round there. */
+  #turnGreen({ findings }: CheckReport): void {
+    for (const { code, place } of findings) {
+      const material = code === "greenFlipped" ? /^\/materials\/(\d+)\/normalTexture$/.exec(place)?.[1] : undefined;
+      if (material !== undefined) this.#greenDown.add(this.#normalImages[Number(material)] ?? -1);
+    }
+    this.#greenDown.delete(-1);
+    this.#showGreen();
+  }
+
+  #showGreen(): void {
+    const { stage, look } = this.views, { scene } = stage.viewport;
+    for (const drawn of scene.drawn) scene.turnGreen(drawn, look.right !== "mended" && this.#greenDown.has(drawn.part.normalImage));
+    const withMap = scene.drawn.filter(({ rightMap }) => rightMap !== null);
+    const turned = withMap.filter(({ turnsGreen }) => turnsGreen).length;
+    stage.setGreen(turned === 0 ? "none" : turned < withMap.length ? "some" : "all");
+  }
+
+  /** What `check` says of a file that Mend has made, or null where it says nothing. */
+  async checkMended(model: ModelFiles): Promise<CheckReport | null> {
+    const { progress } = this.views;
+    progress.at("Checking the mended file", 0.8);
+    try {
+      return (await this.work.run("report", { verb: "check", model })) as CheckReport;
+    } catch {
+      return null;
+    } finally {
+      progress.done("");
+    }
   }
 
   async generate(model: ModelFiles, options: Record<string, unknown>): Promise<{ report: unknown; bytes: Uint8Array<ArrayBuffer> }> {
@@ -206,6 +272,7 @@ export class App {
       scene.setRight(drawn, frames, (mended ?? drawn.part).normalMap);
       stage.viewport.ask();
     }
+    this.#showGreen();
     look.showFigures();
     look.showLines();
     void uvMap.draw();

@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: MIT
-// Colours that the picture and its legends share. They differ in brightness too, so that no two of them need the eye for hue.
+// Colours that the picture and its legends share.
 
 export type Rgb = readonly [number, number, number];
 
-/** From no error to the end of the scale: dark violet over red to pale yellow, brighter all the way. */
+/** The scale of errors, which is that of `tspace render`: degrees, and the colours there. Between two of them a colour is mixed. */
+export const heatDegrees: readonly number[] = [0, 1, 5, 15, 45, 90, 180];
 export const heat: readonly Rgb[] = [
-  [38, 24, 92],
-  [116, 32, 128],
-  [196, 56, 94],
-  [244, 126, 48],
-  [252, 230, 140],
+  [41, 48, 89],
+  [33, 120, 181],
+  [51, 181, 122],
+  [237, 224, 64],
+  [245, 140, 31],
+  [214, 38, 41],
+  [242, 89, 230],
 ];
 
 export const signPlus: Rgb = [66, 133, 210];

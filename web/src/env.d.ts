@@ -28,3 +28,8 @@ declare module "*.glb?inline" {
   const url: string;
   export default url;
 }
+
+declare module "virtual:meanings" {
+  const meanings: Record<string, { what: string; why: string } | undefined>;
+  export default meanings;
+}

@@ -20,36 +20,40 @@ import { Work } from "./worker/client.js";
 const work = new Work();
 await work.started;
 const stage = new Stage();
-const place = new PlaceView(stage.viewport);
-const findings = new FindingsView((finding) => {
-  const outlined = place.show(finding);
-  stage.canvas.dataset.outlined = String(outlined);
+const place = new PlaceView(stage.viewport, (look) => stage.setLook(look));
+const findings = new FindingsView({
+  choose: (chosen, isOne) => (stage.canvas.dataset.outlined = String(place.show(chosen, isOne))),
+  mend: (finding) => mend.prepare(finding),
 });
 const progress = new Progress(() => app.stop());
 const look = new LookView(stage, (right) => void app.setRight(right));
 const uvMap = new UvMapView(stage.viewport);
 const texel = new TexelView(stage.viewport, (spot) => uvMap.point(spot));
 const title = el("p", { class: "model-name" });
+const back = el("button", { type: "button", class: "back", hidden: true, title: "Key: Backspace", onclick: () => app.back() });
 const mend = new MendView(
   async (options): Promise<Mended> => {
     const { model } = app;
     if (!model) throw new Error("There is no model.");
     const { report, bytes } = await app.generate(model, options);
     const mended = { name: mendedName(model.name), bytes, others: model.others };
+    const checked = await app.checkMended(mended);
     void app.showMended(mended).catch((error: Error) => stage.say(`The mended file cannot be drawn: ${error.message}`));
-    return { report, ...mended };
+    return { report, checked, ...mended };
   },
-  ({ name, bytes, others }) => void app.open(async () => ({ name, bytes, others })),
+  ({ name, bytes, others }) => void app.openMended({ name, bytes, others }),
 );
 const app: App = new App(work, {
-  stage, findings, look, uvMap, place, progress, opened: showName,
+  stage, findings, look, uvMap, place, progress, opened: showName, checked: (report) => mend.advise(report),
   inspected: ({ primitives }) => mend.setCompressed(primitives.some(({ compression }) => compression !== "none")),
 });
 
-function showName(model: ModelFiles | null): void {
+function showName(model: ModelFiles | null, before: ModelFiles | null): void {
   mend.reset(model);
   texel.reset();
   replaceChildren(title, model ? model.name : "");
+  back.hidden = before === null;
+  back.textContent = before ? `Back to ${before.name}` : "";
   document.title = model ? `${model.name} – tspace view` : "tspace view";
   for (const button of sampleButtons) button.setAttribute("aria-pressed", String(model !== null && button.dataset.file === model.name));
 }
@@ -71,11 +75,16 @@ const header = el("header", { class: "bar" },
   el("h1", {}, "tspace ", el("span", {}, "view")),
   el("div", { class: "open" }, picker("Open model…", { accept: ".glb,.vrm,.gltf,.obj,.bin,.mtl,image/*", "aria-label": "Open model" }), picker("Folder…", { webkitdirectory: true, "aria-label": "Open folder" })),
   el("nav", { class: "samples", "aria-label": "Samples" }, el("span", { class: "quiet" }, "Samples"), ...sampleButtons),
-  title);
+  title, back);
 const inspector = el("aside", { class: "inspector", "aria-label": "Inspector" }, look.element, texel.element, uvMap.element, mend.element);
 const main = el("main", {}, findings.element, stage.element, inspector);
 const footer = el("footer", {}, progress.element, el("span", { class: "quiet" }, "Drop a .glb, a folder with a .gltf, or an .obj anywhere. Nothing leaves this computer."));
 document.body.append(header, main, footer);
+
+addEventListener("keydown", (event) => {
+  const isText = event.target instanceof HTMLInputElement && event.target.type === "text";
+  if (event.key === "Backspace" && !isText && app.back()) event.preventDefault();
+});
 
 for (const type of ["dragenter", "dragover"]) {
   addEventListener(type, (event) => {

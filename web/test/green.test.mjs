@@ -38,7 +38,7 @@ test("green that points down is found, shown and mended", { skip: missing }, asy
     await choose(tab, "on", ".look");
     await turned(tab);
     assert.match(await tab.locator(".command").textContent(), / --repair --flip-green$/);
-    assert.match(await tab.locator(".changes.maps").textContent(), /bricks-directxturned/);
+    assert.match(await tab.locator(".changes.maps").textContent(), /bricks-directxgreen turned/);
     await shoot(tab, "green-mended");
     await tab.getByRole("button", { name: "Look at it" }).click();
     await settled(tab);

@@ -21,12 +21,12 @@ export const isLong = process.env.TSPACE_LONG === "1";
 export const kPatience = 120_000;
 
 /** Runs `test(tab)` with the page open. Any request, error or message of the console fails it. */
-export async function withPage(test, { width = 1280, height = 800, scheme = "light", url = pathToFileURL(page).href, allowMessages = false, hasTouch = false } = {}) {
+export async function withPage(test, { width = 1280, height = 800, scheme = "light", url = pathToFileURL(page).href, allowMessages = false, hasTouch = false, hasWebGl = true } = {}) {
   const home = mkdtempSync(join(tmpdir(), "tspace-home-"));
   const browser = await playwright.chromium.launch({
     executablePath: chromium,
     timeout: kPatience,
-    args: ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"],
+    args: [...(hasWebGl ? [] : ["--disable-3d-apis"]), "--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"],
     env: { ...process.env, HOME: home, XDG_RUNTIME_DIR: home },
   });
   try {

@@ -5,8 +5,10 @@ import { GLTFLoader, type GLTF } from "three/examples/jsm/loaders/GLTFLoader.js"
 import type { ModelFiles } from "../files.js";
 import type { Work } from "../worker/client.js";
 import { arraysOf, uvsOf } from "./arrays.js";
+import { poseOf } from "./pose.js";
 import { giveDecoders } from "./compressed.js";
 import type { Model, Part } from "./part.js";
+import { leaveOutBasis, missingImages, normalImagesOf } from "./textures.js";
 
 /** More is not drawn, since a browser's memory ends there; findings are complete all the same. */
 const kMostCorners = 12_000_000;
@@ -49,7 +51,9 @@ function matrixOf(texture: Texture | null): Matrix3 | null {
 
 const usable = (texture: Texture | null | undefined): Texture | null => (texture?.image ? texture : null);
 
-function partOf(mesh: Mesh, where: Origin): Part | null {
+const kSurfaceAttributes = ["uv", "uv1", "uv2", "uv3", "color"];
+
+function partOf(mesh: Mesh, where: Origin, materialIndex: number, normalImages: number[]): Part | null {
   const material = (Array.isArray(mesh.material) ? mesh.material[0] : mesh.material) as Material & Partial<MeshStandardMaterial>;
   const normalMap = usable(material.normalMap), colorMap = usable(material.map);
   const leading = material.normalMap ?? material.map ?? null;
@@ -64,15 +68,20 @@ function partOf(mesh: Mesh, where: Origin): Part | null {
     primitive: where.primitives,
     name: mesh.name,
     materialName: material.name,
+    material: materialIndex,
     arrays,
     normalMap,
     // That of y is negated by the loader where there are no tangents.
     normalScale: material.normalScale?.x ?? 1,
+    normalImage: normalImages[materialIndex] ?? -1,
     color: new Vector3(color.r, color.g, color.b),
     colorMap,
     colorUvs: isSame ? null : uvsOf(mesh.geometry, colorChannel, colorMatrix),
     alphaTest: material.alphaTest ?? 0,
     isDoubleSided: material.side === 2,
+    surface: material,
+    attributes: Object.fromEntries(kSurfaceAttributes.flatMap((name) => (mesh.geometry.hasAttribute(name) ? [[name, mesh.geometry.getAttribute(name)]] : []))),
+    pose: poseOf(mesh),
     places: [],
   };
 }
@@ -88,8 +97,12 @@ function originOf(mesh: Mesh, gltf: GLTF): Origin | null {
   return meshes === undefined ? null : { meshes, primitives: above === undefined ? 0 : mesh.parent!.children.indexOf(mesh) };
 }
 
+/** The material of a primitive, by its place in the file. */
+const materialOf = ({ meshes, primitives }: Origin, gltf: GLTF): number => (gltf.parser.json.meshes?.[meshes]?.primitives?.[primitives]?.material as number | undefined) ?? -1;
+
 /** Where a mesh is drawn: of many instances the first ones. */
 function placesOf(mesh: Mesh): Matrix4[] {
+  if (mesh instanceof SkinnedMesh) return [new Matrix4()];
   if (!(mesh instanceof InstancedMesh)) return [mesh.matrixWorld.clone()];
   return Array.from({ length: Math.min(mesh.count, kMostInstances) }, (_, i) => {
     const place = new Matrix4();
@@ -122,31 +135,32 @@ export async function loadModel(model: ModelFiles, work: Work): Promise<Model> {
   const remarks: string[] = [];
   const loader = new GLTFLoader(managerFor(model, urls));
   giveDecoders(loader, work);
+  leaveOutBasis(loader);
   try {
     const buffer = model.bytes.buffer.slice(model.bytes.byteOffset, model.bytes.byteOffset + model.bytes.byteLength);
     const isText = /\.gltf$/i.test(model.name);
     const gltf = await loader.parseAsync(isText ? new TextDecoder().decode(buffer) : buffer, "");
-    const parts = new Map<string, Part>();
-    let corners = 0, left = 0, isSkinned = false;
+    const parts = new Map<string, Part>(), normalImages = normalImagesOf(gltf);
+    let corners = 0, left = 0;
     for (const root of await sceneOf(gltf, remarks)) {
       root.updateMatrixWorld(true);
       root.traverse((object) => {
         const where = object instanceof Mesh ? originOf(object, gltf) : null;
         if (!(object instanceof Mesh) || !where) return;
-        const key = `${where.meshes}/${where.primitives}/${(object.material as Material).uuid}`;
-        const known = parts.get(key) ?? partOf(object, where);
+        // Each skinned mesh has a pose of its own.
+        const key = `${where.meshes}/${where.primitives}/${(object.material as Material).uuid}/${object instanceof SkinnedMesh ? object.uuid : ""}`;
+        const known = parts.get(key) ?? partOf(object, where, materialOf(where, gltf), normalImages);
         if (!known) return;
         corners += known.arrays.indices?.length ?? known.arrays.positions.length / 3;
         if (corners > kMostCorners) return void (left += 1);
-        isSkinned ||= object instanceof SkinnedMesh;
         parts.set(key, known);
         known.places.push(...placesOf(object));
       });
     }
     moveToOrigin(parts.values());
     if (left > 0) remarks.push(`${left} of its parts are not drawn: the picture ends at ${kMostCorners / 3 / 1e6} million triangles.`);
-    if (isSkinned) remarks.push("Skinned meshes are shown as they lie in the file, without their bones.");
-    return { parts: [...parts.values()], remarks };
+    remarks.push(...(await missingImages(gltf)));
+    return { parts: [...parts.values()], normalImages, remarks };
   } finally {
     for (const url of urls) URL.revokeObjectURL(url);
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A primitive of a model, as the page shows it.
-import type { Matrix4, Texture, Vector3 } from "three";
+import type { BufferAttribute, InterleavedBufferAttribute, Material, Matrix4, Texture, Vector3 } from "three";
+import type { Pose } from "./pose.js";
 import type { Arrays } from "../worker/protocol.js";
 
 export interface Part {
@@ -8,22 +9,33 @@ export interface Part {
   primitive: number;
   name: string;
   materialName: string;
+  /** Index of the material in the file, or -1. */
+  material: number;
   arrays: Arrays;
   /** Set and transform of the normal map, already in `arrays.uvs`. */
   normalMap: Texture | null;
   normalScale: number;
+  /** Index of that image in the file, or -1. */
+  normalImage: number;
   color: Vector3;
   colorMap: Texture | null;
   /** Two numbers per vertex, where the colour has other UVs than the normal map. */
   colorUvs: Float32Array<ArrayBuffer> | null;
   alphaTest: number;
   isDoubleSided: boolean;
+  /** The material of the loader, and the attributes that it reads beside our own, per vertex. */
+  surface: Material;
+  attributes: Record<string, BufferAttribute | InterleavedBufferAttribute>;
+  /** Where bones and morph weights put it, or null. */
+  pose: Pose | null;
   /** Where it is drawn. */
   places: Matrix4[];
 }
 
 export interface Model {
   parts: Part[];
+  /** For each material of the file the index of its normal map's image, or -1. */
+  normalImages: number[];
   /** Sentences about what the picture leaves out. */
   remarks: string[];
 }

@@ -77,7 +77,11 @@ export function usualEdge(scene: Scene): number {
 }
 
 const outlineMaterial = new LineBasicMaterial({ color: 0xff2d6f, depthTest: false, transparent: true });
+const rimMaterial = new LineBasicMaterial({ color: 0xff2d6f });
 const fillMaterial = new MeshBasicMaterial({ color: 0xff2d6f, transparent: true, opacity: 0.28, depthTest: false, side: 2 });
+
+/** Of a region: only where it is seen, and the look shows through. */
+const regionMaterial = new MeshBasicMaterial({ color: 0xff2d6f, transparent: true, opacity: 0.1, side: 2, depthWrite: false, polygonOffset: true, polygonOffsetFactor: -1, polygonOffsetUnits: -1 });
 
 export interface Place {
   outline: Group;
@@ -85,6 +89,27 @@ export interface Place {
   radius: number;
   /** The way out of the surface. */
   normal: Vector3;
+}
+
+/** Of few triangles each edge is drawn, of many those at the rim of what they make together. */
+const kMostEdges = 60;
+
+/** Edges that one of the triangles has and no other, by the places of their ends: pairs of corners. */
+function rimOf(p: Float32Array, triangles: number[]): [number, number][] {
+  const numbers = new Map<string, number>(), edges = new Map<string, [number, number] | null>();
+  const number = (corner: number) => {
+    const key = `${p[3 * corner]} ${p[3 * corner + 1]} ${p[3 * corner + 2]}`;
+    if (!numbers.has(key)) numbers.set(key, numbers.size);
+    return numbers.get(key)!;
+  };
+  for (const triangle of triangles) {
+    const corners = [0, 1, 2].map((k) => 3 * triangle + k), own = corners.map(number);
+    for (let k = 0; k < 3; ++k) {
+      const a = own[k], b = own[(k + 1) % 3], key = a < b ? `${a} ${b}` : `${b} ${a}`;
+      edges.set(key, edges.has(key) ? null : [corners[k], corners[(k + 1) % 3]]);
+    }
+  }
+  return [...edges.values()].filter((edge) => edge !== null);
 }
 
 /** Outlines of some triangles of a part, at its first place. */
@@ -98,20 +123,24 @@ export function outlineTriangles(drawn: Drawn, triangles: number[]): Place {
     if (!corner.every((c) => Number.isFinite(c.x + c.y + c.z))) continue;
     corner.forEach((c, k) => {
       const next = corner[(k + 1) % 3];
-      edges.push(c.x, c.y, c.z, next.x, next.y, next.z);
+      if (triangles.length <= kMostEdges) edges.push(c.x, c.y, c.z, next.x, next.y, next.z);
       faces.push(c.x, c.y, c.z);
       if (Number.isFinite(own.fromArray(n, 9 * triangle + 3 * k).x)) normal.add(own.transformDirection(matrix));
     });
     points.push(...corner);
   }
+  if (triangles.length > kMostEdges) {
+    const end = new Vector3();
+    for (const rim of rimOf(p, triangles)) for (const corner of rim) edges.push(...end.fromArray(p, 3 * corner).applyMatrix4(matrix).toArray());
+  }
   const outline = new Group();
   const geometry = (data: number[]) => new BufferGeometry().setAttribute("position", new BufferAttribute(new Float32Array(data), 3));
-  for (const object of [new Mesh(geometry(faces), fillMaterial), new LineSegments(geometry(edges), outlineMaterial)]) {
+  for (const object of [new Mesh(geometry(faces), triangles.length <= kMostEdges ? fillMaterial : regionMaterial), new LineSegments(geometry(edges), triangles.length <= kMostEdges ? outlineMaterial : rimMaterial)]) {
     object.frustumCulled = false;
     outline.add(object);
   }
   const center = points.reduce((sum, point) => sum.add(point), new Vector3()).divideScalar(Math.max(1, points.length));
-  const radius = Math.max(...points.map((point) => point.distanceTo(center)), 0);
+  const radius = points.reduce((most, point) => Math.max(most, point.distanceTo(center)), 0);
   return { outline, center, radius, normal };
 }
 

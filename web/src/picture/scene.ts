@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 // The parts of a model as drawable objects. Each place of a part is an object of its own; all share one geometry.
-import { BufferAttribute, BufferGeometry, DataTexture, Group, Matrix3, Matrix4, Mesh, Sphere, Vector3, type RawShaderMaterial, type Texture } from "three";
+import { BufferAttribute, BufferGeometry, DataTexture, Group, Matrix3, Matrix4, Mesh, Sphere, Vector3, type Material, type RawShaderMaterial, type Texture } from "three";
+import { poseCorners, poseFrames } from "../model/pose.js";
 import type { Part } from "../model/part.js";
 import type { Corners, Frames } from "../worker/protocol.js";
 import { makeMaterial } from "./shader.js";
+import { surfaceFor } from "./surface.js";
 
 export interface Drawn {
   /** What the worker calls it. */
@@ -13,9 +15,14 @@ export interface Drawn {
   frames: Frames | null;
   /** The normal map right of the slider. */
   rightMap: Texture | null;
+  /** Whether green of that map is read the other way round, since `check` says that it points down. */
+  turnsGreen: boolean;
   geometry: BufferGeometry;
+  /** Of all looks but `lit` in colours, which the surface has. */
   material: RawShaderMaterial;
+  surface: Material;
   meshes: Mesh[];
+  surfaces: Mesh[];
   /** Number of its first triangle among all that are drawn, per place. */
   firstTriangles: number[];
 }
@@ -24,15 +31,14 @@ const empty = new DataTexture(new Uint8Array([128, 128, 255, 255]), 1, 1);
 empty.needsUpdate = true;
 const identity = new Matrix3();
 
-function colorUvs(part: Part, corners: Corners): Float32Array<ArrayBuffer> | null {
-  if (!part.colorUvs) return corners.uvs;
-  const count = corners.positions.length / 3, indices = part.arrays.indices;
-  const out = new Float32Array(2 * count);
+/** Numbers per vertex as numbers per corner. */
+function perCorner(size: number, count: number, indices: Uint32Array | null, at: (vertex: number, k: number) => number): BufferAttribute {
+  const out = new Float32Array(size * count);
   for (let corner = 0; corner < count; ++corner) {
     const vertex = indices ? indices[corner] : corner;
-    out.set(part.colorUvs.subarray(2 * vertex, 2 * vertex + 2), 2 * corner);
+    for (let k = 0; k < size; ++k) out[size * corner + k] = at(vertex, k);
   }
-  return out;
+  return new BufferAttribute(out, size);
 }
 
 function draw(number: number, part: Part, corners: Corners): Drawn {
@@ -42,19 +48,32 @@ function draw(number: number, part: Part, corners: Corners): Drawn {
     geometry.setAttribute(name, new BufferAttribute(data ?? new Float32Array(size * count), size));
   set("position", corners.positions, 3);
   set("normal", corners.normals, 3);
-  set("uv", corners.uvs, 2);
-  set("tangent", corners.tangents, 4);
+  set("mapUv", corners.uvs, 2);
+  set("fileTangent", corners.tangents, 4);
   set("island", corners.islands, 2);
   set("right", null, 4);
   set("error", new Float32Array(2 * count).fill(-1), 2);
-  const own = colorUvs(part, corners);
-  geometry.setAttribute("colorUv", part.colorUvs ? new BufferAttribute(own!, 2) : geometry.getAttribute("uv"));
+  const { colorUvs, arrays: { indices } } = part;
+  geometry.setAttribute("colorUv", colorUvs ? perCorner(2, count, indices, (vertex, k) => colorUvs[2 * vertex + k]) : geometry.getAttribute("mapUv"));
+  for (const [name, attribute] of Object.entries(part.attributes)) {
+    geometry.setAttribute(name, perCorner(attribute.itemSize, count, indices, (vertex, k) => attribute.getComponent(vertex, k)));
+  }
   const material = makeMaterial(
     { normalMap: corners.uvs && part.normalMap, colorMap: corners.uvs && part.colorMap, scale: part.normalScale, color: part.color, alphaTest: part.alphaTest, hasTangents: corners.tangents !== null, side: part.isDoubleSided ? 2 : 0 },
     empty,
     identity,
   );
-  return { number, part, corners, frames: null, rightMap: corners.uvs && part.normalMap, geometry, material, meshes: [], firstTriangles: [] };
+  const { uSplit, uMap, uHasTangents, uHasRight, uRightGreen, uRightMap } = material.uniforms;
+  const surface = surfaceFor(part.surface, { uSplit, uMap, uHasTangents, uHasRight, uRightGreen, uRightMap });
+  return { number, part, corners, frames: null, rightMap: corners.uvs && part.normalMap, turnsGreen: false, geometry, material, surface, meshes: [], surfaces: [], firstTriangles: [] };
+}
+
+function placed(mesh: Mesh, place: Matrix4): Mesh {
+  mesh.matrixAutoUpdate = false;
+  mesh.matrix.copy(place);
+  mesh.matrixWorldNeedsUpdate = true;
+  mesh.frustumCulled = false;
+  return mesh;
 }
 
 /** What is shown, and where in it a triangle lies. */
@@ -64,13 +83,11 @@ export class Scene {
   #triangles = 0;
 
   add(number: number, part: Part, corners: Corners): Drawn {
+    if (part.pose) poseCorners(part.pose, part.arrays, corners);
     const drawn = draw(number, part, corners);
     for (const place of part.places) {
-      const mesh = new Mesh(drawn.geometry, drawn.material);
-      mesh.matrixAutoUpdate = false;
-      mesh.matrix.copy(place);
-      mesh.matrixWorldNeedsUpdate = true;
-      mesh.frustumCulled = false;
+      const mesh = placed(new Mesh<BufferGeometry, Material>(drawn.geometry, drawn.material), place);
+      const surface = placed(new Mesh(drawn.geometry, drawn.surface), place);
       const first = this.#triangles;
       this.#triangles += corners.positions.length / 9;
       drawn.firstTriangles.push(first);
@@ -80,7 +97,9 @@ export class Scene {
         drawn.material.uniformsNeedUpdate = true;
       };
       drawn.meshes.push(mesh);
-      this.root.add(mesh);
+      surface.visible = false;
+      drawn.surfaces.push(surface);
+      this.root.add(mesh, surface);
     }
     this.drawn.push(drawn);
     return drawn;
@@ -89,12 +108,27 @@ export class Scene {
   /** What stands right of the slider. Without frames a renderer makes its own. */
   setRight(drawn: Drawn, frames: Frames | null, map: Texture | null): void {
     const corners = drawn.corners.positions.length / 3, { uniforms } = drawn.material;
+    if (frames && drawn.part.pose) poseFrames(drawn.part.pose, drawn.part.arrays, frames);
     drawn.frames = frames;
     drawn.rightMap = drawn.corners.uvs && map;
     drawn.geometry.setAttribute("right", new BufferAttribute(frames?.tangents ?? new Float32Array(4 * corners), 4));
     drawn.geometry.setAttribute("error", new BufferAttribute(frames?.errors ?? new Float32Array(2 * corners).fill(-1), 2));
     uniforms.uHasRight.value = frames !== null;
     uniforms.uRightMap.value = drawn.rightMap ?? empty;
+  }
+
+  /** Right of the slider green is read the other way round. */
+  turnGreen(drawn: Drawn, isTurned: boolean): void {
+    drawn.turnsGreen = isTurned && drawn.rightMap !== null;
+    drawn.material.uniforms.uRightGreen.value = drawn.turnsGreen;
+  }
+
+  /** Shows either the surfaces, as people know the model, or the materials of our own. */
+  show(isSurface: boolean): void {
+    for (const { meshes, surfaces } of this.drawn) {
+      for (const mesh of meshes) mesh.visible = !isSurface;
+      for (const mesh of surfaces) mesh.visible = isSurface;
+    }
   }
 
   find(mesh: number, primitive: number): Drawn | undefined {
@@ -111,6 +145,22 @@ export class Scene {
       }
     }
     return null;
+  }
+
+  /** Places of vertices, three numbers each: all of a small model, and evenly chosen ones of a large one. */
+  points(): Float32Array {
+    const kMost = 60_000;
+    const all = this.drawn.reduce((sum, { corners, part }) => sum + (corners.positions.length / 3) * part.places.length, 0);
+    const step = Math.max(1, Math.ceil(all / kMost)), found: number[] = [], p = new Vector3();
+    for (const { corners, part } of this.drawn) {
+      for (const place of part.places) {
+        for (let i = 0; i < corners.positions.length; i += 3 * step) {
+          p.fromArray(corners.positions, i).applyMatrix4(place);
+          if (Number.isFinite(p.x + p.y + p.z)) found.push(p.x, p.y, p.z);
+        }
+      }
+    }
+    return Float32Array.from(found);
   }
 
   /** A sphere around all that is finite. */
@@ -134,9 +184,11 @@ export class Scene {
   }
 
   dispose(): void {
-    for (const { geometry, material, part, rightMap } of this.drawn) {
+    for (const { geometry, material, surface, part, rightMap } of this.drawn) {
       geometry.dispose();
       material.dispose();
+      surface.dispose();
+      for (const texture of Object.values(part.surface)) if ((texture as Texture | null)?.isTexture) (texture as Texture).dispose();
       part.normalMap?.dispose();
       rightMap?.dispose();
       part.colorMap?.dispose();

@@ -2,9 +2,9 @@
 // The one shader of the picture. Frames are interpolated as they are and only the result is made unit, as bakers expect; left
 // of the split are the frames of the file, right of it those of the method.
 import { GLSL3, RawShaderMaterial, type Matrix3, type Texture, type Vector3 } from "three";
-import { glsl, heat, noData, signMinus, signPlus, wrong } from "../color.js";
+import { glsl, heat, heatDegrees, noData, signMinus, signPlus, wrong } from "../color.js";
 
-export const looks = ["lit", "normals", "signs", "mirrored", "error", "islands"] as const;
+export const looks = ["lit", "difference", "normals", "signs", "mirrored", "error", "islands"] as const;
 export type Look = (typeof looks)[number];
 
 const vertexShader = `
@@ -14,8 +14,8 @@ uniform bool uIsMap;
 uniform vec4 uMapArea;
 uniform int uFirst;
 in vec3 position, normal;
-in vec2 uv, colorUv, island, error;
-in vec4 tangent, right;
+in vec2 mapUv, colorUv, island, error;
+in vec4 fileTangent, right;
 out vec3 vPlace, vNormal, vTangent, vBitangent, vRightTangent, vRightBitangent, vEdge;
 out vec2 vUv, vColorUv, vError;
 flat out vec2 vIsland;
@@ -26,19 +26,19 @@ void main() {
   vPlace = place.xyz;
   vNormal = uNormalMatrix * normal;
   mat3 turn = mat3(modelMatrix);
-  vTangent = turn * tangent.xyz;
-  vBitangent = turn * (cross(normal, tangent.xyz) * tangent.w);
+  vTangent = turn * fileTangent.xyz;
+  vBitangent = turn * (cross(normal, fileTangent.xyz) * fileTangent.w);
   vRightTangent = turn * right.xyz;
   vRightBitangent = turn * (cross(normal, right.xyz) * right.w);
-  vUv = uv;
+  vUv = mapUv;
   vColorUv = colorUv;
   vIsland = island;
-  vSigns = vec3(tangent.w, right.w, error.y);
+  vSigns = vec3(fileTangent.w, right.w, error.y);
   vError = error;
   vTriangle = uFirst + gl_VertexID / 3;
   int corner = gl_VertexID % 3;
   vEdge = vec3(corner == 0, corner == 1, corner == 2);
-  gl_Position = uIsMap ? vec4((uv * uMapArea.xy + uMapArea.zw) * vec2(2.0, -2.0) + vec2(-1.0, 1.0), 0.0, 1.0)
+  gl_Position = uIsMap ? vec4((mapUv * uMapArea.xy + uMapArea.zw) * vec2(2.0, -2.0) + vec2(-1.0, 1.0), 0.0, 1.0)
                        : projectionMatrix * viewMatrix * place;
 }`;
 
@@ -46,8 +46,8 @@ const fragmentShader = `
 precision highp float;
 precision highp int;
 uniform int uLook, uMap;
-uniform bool uHasTangents, uHasRight, uHasNormalMap, uHasColorMap, uWire, uIsPick, uIsMap, uUseColors;
-uniform float uSplit, uScale, uErrorEnd, uAlphaTest;
+uniform bool uHasTangents, uHasRight, uRightGreen, uHasNormalMap, uHasColorMap, uWire, uIsPick, uIsMap, uUseColors;
+uniform float uSplit, uScale, uAlphaTest;
 uniform vec3 uColor, uLight, uEye;
 uniform sampler2D uNormalMap, uRightMap, uColorMap;
 in vec3 vPlace, vNormal, vTangent, vBitangent, vRightTangent, vRightBitangent, vEdge;
@@ -57,11 +57,13 @@ flat in vec3 vSigns;
 flat in int vTriangle;
 out vec4 outColor;
 
-vec3 scaleColor(float t) {
-  vec3 stops[${heat.length}] = vec3[](${heat.map(glsl).join(", ")});
-  float at = clamp(t, 0.0, 1.0) * ${(heat.length - 1).toFixed(1)};
-  int low = int(min(floor(at), ${(heat.length - 2).toFixed(1)}));
-  return mix(stops[low], stops[low + 1], at - float(low));
+// Straight between the stops of the scale.
+vec3 scaleColor(float degrees) {
+  const vec3 stops[${heat.length}] = vec3[](${heat.map(glsl).join(", ")});
+  const float ends[${heat.length}] = float[](${heatDegrees.map((x) => x.toFixed(1)).join(", ")});
+  int low = 0;
+  while (low < ${heat.length - 2} && degrees > ends[low + 1]) ++low;
+  return mix(stops[low], stops[low + 1], clamp((degrees - ends[low]) / (ends[low + 1] - ends[low]), 0.0, 1.0));
 }
 
 // T and B from the slopes of position and UV over pixels: what a renderer does where a file has no tangents.
@@ -83,13 +85,19 @@ vec3 shadingNormal(bool isRight) {
   if (!uHasNormalMap || uMap == 0) return normalize(n);
   vec3 texel = (isRight ? texture(uRightMap, vUv) : texture(uNormalMap, vUv)).xyz * 2.0 - 1.0;
   texel.xy *= uScale;
-  if (uMap == 2) texel.y = -texel.y;
+  if (uMap == 2 || (isRight && uRightGreen)) texel.y = -texel.y;
   vec3 t, b;
   if (isRight && uHasRight) { t = vRightTangent; b = vRightBitangent; }
   else if (!isRight && uHasTangents) { t = vTangent; b = vBitangent; }
   else slopeFrame(normalize(n), t, b);
   if (!gl_FrontFacing) { t = -t; b = -b; }
   return normalize(texel.x * t + texel.y * b + texel.z * n);
+}
+
+// Degrees between the directions that light falls on, by the file and by the right frames.
+float degreesApart() {
+  vec3 a = shadingNormal(false), b = shadingNormal(true);
+  return degrees(atan(length(cross(a, b)), dot(a, b)));
 }
 
 vec3 toScreen(vec3 c) {
@@ -134,16 +142,17 @@ void main() {
   bool isRight = gl_FragCoord.x >= uSplit;
   vec3 color;
   if (uLook == 0) color = toScreen(lit(base.rgb, shadingNormal(isRight)));
-  else if (uLook == 1) color = 0.5 + 0.5 * shadingNormal(isRight);
-  else if (uLook == 2) {
+  else if (uLook == 1) color = shaped(scaleColor(degreesApart()));
+  else if (uLook == 2) color = 0.5 + 0.5 * shadingNormal(isRight);
+  else if (uLook == 3) {
     bool has = isRight ? uHasRight : uHasTangents;
     float w = isRight ? vSigns.y : vSigns.x;
     color = !has ? ${glsl(noData)} : w > 0.0 ? ${glsl(signPlus)} : ${glsl(signMinus)};
     if (!isRight && uHasTangents && vSigns.z > 0.5 && stripes() > 0.5) color = ${glsl(wrong)};
     color = shaped(color);
-  } else if (uLook == 3) color = shaped(vIsland.y == 0.5 ? ${glsl(noData)} : vIsland.y > 0.5 ? ${glsl(signMinus)} : ${glsl(signPlus)});
-  else if (uLook == 4) {
-    color = vError.x < 0.0 ? ${glsl(noData)} : scaleColor(vError.x / uErrorEnd);
+  } else if (uLook == 4) color = shaped(vIsland.y == 0.5 ? ${glsl(noData)} : vIsland.y > 0.5 ? ${glsl(signMinus)} : ${glsl(signPlus)});
+  else if (uLook == 5) {
+    color = vError.x < 0.0 ? ${glsl(noData)} : scaleColor(vError.x);
     if (vSigns.z > 0.5 && stripes() > 0.5) color = ${glsl(wrong)};
     color = shaped(color);
   } else {
@@ -166,7 +175,6 @@ export interface PictureValues {
   usesColors: boolean;
   /** Pixels of the canvas from the left. */
   split: number;
-  errorEnd: number;
   light: Vector3;
   eye: Vector3;
 }
@@ -180,10 +188,10 @@ export function makeMaterial(options: { normalMap: Texture | null; colorMap: Tex
     side: options.side,
     uniforms: {
       uNormalMatrix: value(identity.clone()), uIsMap: value(false), uMapArea: value([1, 1, 0, 0]), uFirst: value(0),
-      uLook: value(0), uMap: value(1), uHasTangents: value(options.hasTangents), uHasRight: value(false),
+      uLook: value(0), uMap: value(1), uHasTangents: value(options.hasTangents), uHasRight: value(false), uRightGreen: value(false),
       uHasNormalMap: value(options.normalMap !== null), uHasColorMap: value(options.colorMap !== null),
       uWire: value(false), uIsPick: value(false), uUseColors: value(true), uSplit: value(0), uScale: value(options.scale),
-      uErrorEnd: value(10), uAlphaTest: value(options.alphaTest),
+      uAlphaTest: value(options.alphaTest),
       uColor: value(options.color), uLight: value(null), uEye: value(null),
       uNormalMap: value(options.normalMap ?? empty), uRightMap: value(options.normalMap ?? empty), uColorMap: value(options.colorMap ?? empty),
     },
@@ -197,7 +205,6 @@ export function setValues(material: RawShaderMaterial, values: PictureValues): v
   u.uWire.value = values.isWire;
   u.uUseColors.value = values.usesColors;
   u.uSplit.value = values.split;
-  u.uErrorEnd.value = values.errorEnd;
   u.uLight.value = values.light;
   u.uEye.value = values.eye;
 }

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The picture: camera, controls, light, and drawing when something has changed and not otherwise.
-import { Color, Matrix4, NoBlending, PerspectiveCamera, Scene as ThreeScene, Vector2, Vector3, WebGLRenderer, WebGLRenderTarget, type Object3D } from "three";
+import { Color, DirectionalLight, Matrix4, NeutralToneMapping, NoBlending, PerspectiveCamera, Scene as ThreeScene, Vector2, Vector3, WebGLRenderer, WebGLRenderTarget, type Object3D } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { Scene } from "./scene.js";
+import { environmentFor } from "./environment.js";
 import { setValues, type Look, type PictureValues } from "./shader.js";
 
 export interface Settings {
@@ -12,15 +13,28 @@ export interface Settings {
   usesColors: boolean;
   /** 0 to 1 from the left: where frames of the file end and right ones begin. */
   split: number;
-  errorEnd: number;
 }
 
 const kStep = Math.PI / 24;
+/** How much of the picture a model fills, along its width or its height. */
+const kFilled = 0.85;
+
+function rendererFor(canvas: HTMLCanvasElement): WebGLRenderer | null {
+  const context = canvas.getContext("webgl2", { antialias: true, alpha: true, depth: true, stencil: false, preserveDrawingBuffer: false });
+  if (!context) return null;
+  const renderer = new WebGLRenderer({ canvas, context, antialias: true, alpha: true });
+  renderer.setClearColor(0, 0);
+  renderer.autoClear = false;
+  renderer.toneMapping = NeutralToneMapping;
+  renderer.setPixelRatio(Math.min(2, devicePixelRatio));
+  return renderer;
+}
 
 export class Viewport {
   readonly canvas: HTMLCanvasElement;
-  readonly settings: Settings = { look: "lit", map: 1, isWire: false, usesColors: true, split: 0.5, errorEnd: 10 };
-  readonly renderer: WebGLRenderer;
+  readonly settings: Settings = { look: "lit", map: 1, isWire: false, usesColors: true, split: 0.5 };
+  /** Null where the browser has no WebGL: then nothing is drawn, and all else works. */
+  readonly renderer: WebGLRenderer | null;
   readonly camera = new PerspectiveCamera(35, 1, 0.01, 100);
   readonly overlay = new ThreeScene();
   scene = new Scene();
@@ -29,6 +43,7 @@ export class Viewport {
   onDrawn: () => void = () => {};
   #controls: OrbitControls;
   #world = new ThreeScene();
+  #lamp = new DirectionalLight(0xffffff, 2);
   #isAsked = false;
   #hasDrawn = false;
   #flight: { from: Vector3; to: Vector3; fromTarget: Vector3; toTarget: Vector3; start: number } | null = null;
@@ -36,10 +51,7 @@ export class Viewport {
 
   constructor(canvas: HTMLCanvasElement) {
     this.canvas = canvas;
-    this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true, preserveDrawingBuffer: false });
-    this.renderer.setClearColor(0, 0);
-    this.renderer.autoClear = false;
-    this.renderer.setPixelRatio(Math.min(2, devicePixelRatio));
+    this.renderer = rendererFor(canvas);
     this.#controls = new OrbitControls(this.camera, canvas);
     this.#controls.enableDamping = false;
     this.#controls.addEventListener("change", () => this.ask());
@@ -49,9 +61,14 @@ export class Viewport {
     canvas.addEventListener("contextmenu", (event) => event.preventDefault());
     canvas.addEventListener("pointermove", (event) => this.#dragLight(event));
     canvas.addEventListener("webglcontextrestored", () => this.ask());
-    new ResizeObserver(() => this.#resize()).observe(canvas.parentElement!);
+    new ResizeObserver(() => this.#resize()).observe(canvas);
     this.camera.position.set(0, 0, 4);
+    this.#world.add(this.#lamp, this.#lamp.target);
     this.#resize();
+  }
+
+  get hasPicture(): boolean {
+    return this.renderer !== null;
   }
 
   show(scene: Scene): void {
@@ -88,6 +105,10 @@ export class Viewport {
     if (direction.lengthSq() === 0 || !Number.isFinite(direction.x)) direction.set(0.5, 0.4, 1).normalize();
     // Straight from above, "up" would have no direction.
     if (Math.abs(direction.y) > 0.985) direction.set(0.12, Math.sign(direction.y), 0.12).normalize();
+    this.#flyTo(center, distance, direction, isInstant);
+  }
+
+  #flyTo(center: Vector3, distance: number, direction: Vector3, isInstant: boolean): void {
     const to = center.clone().addScaledVector(direction, distance);
     const isCalm = isInstant || matchMedia("(prefers-reduced-motion: reduce)").matches;
     this.#flight = { from: this.camera.position.clone(), to, fromTarget: this.#controls.target.clone(), toTarget: center.clone(), start: isCalm ? -Infinity : performance.now() };
@@ -101,31 +122,59 @@ export class Viewport {
   }
 
   reset(isInstant = false): void {
-    const { center, radius } = this.scene.sphere();
-    this.fly(center, radius, new Vector3(0.55, 0.42, 1), isInstant);
+    const { center, radius } = this.scene.sphere(), toward = new Vector3(0.55, 0.42, 1).normalize();
+    const { middle, distance } = this.#frameFor(this.scene.points(), center, radius, toward);
+    this.#flyTo(middle, distance, toward, isInstant);
+  }
+
+  /** Where to look and from how far, so that points fill kFilled of the picture, along its width or its height. */
+  #frameFor(points: Float32Array, center: Vector3, radius: number, toward: Vector3): { middle: Vector3; distance: number } {
+    const across = Math.tan((this.camera.fov * Math.PI) / 360), sides = [across * this.camera.aspect, across];
+    const right = new Vector3(0, 1, 0).cross(toward).normalize(), up = toward.clone().cross(right);
+    const middle = center.clone();
+    let distance = (radius / across) * 1.5;
+    // What is near looks larger, so the middle and the distance depend on each other.
+    for (let round = 0; round < 6 && points.length > 0; ++round) {
+      const low = [Infinity, Infinity], high = [-Infinity, -Infinity], p = new Vector3();
+      for (let i = 0; i < points.length; i += 3) {
+        p.fromArray(points, i).sub(middle);
+        const depth = Math.max(distance - p.dot(toward), 0.05 * distance);
+        for (const [k, axis] of [right, up].entries()) {
+          const at = p.dot(axis) / (depth * sides[k]);
+          low[k] = Math.min(low[k], at), high[k] = Math.max(high[k], at);
+        }
+      }
+      middle.addScaledVector(right, ((low[0] + high[0]) / 2) * sides[0] * distance).addScaledVector(up, ((low[1] + high[1]) / 2) * sides[1] * distance);
+      distance = Math.max((distance * Math.max(high[0] - low[0], high[1] - low[1])) / (2 * kFilled), 1.02 * radius * 0.1);
+    }
+    return { middle, distance };
   }
 
   /** The number of the triangle at a place of the canvas, in CSS pixels, or -1. */
   async pick(x: number, y: number): Promise<number> {
-    const ratio = this.renderer.getPixelRatio(), size = this.renderer.getSize(new Vector2());
+    const { renderer } = this;
+    if (!renderer) return -1;
+    const ratio = renderer.getPixelRatio(), size = renderer.getSize(new Vector2());
     this.#setUniforms((u) => ((u.uIsPick.value = true), (u.uAlphaTest.value = 0)));
     this.camera.setViewOffset(size.x * ratio, size.y * ratio, Math.floor(x * ratio), Math.floor(y * ratio), 1, 1);
-    this.renderer.setRenderTarget(this.#pickTarget);
-    this.renderer.clear();
-    this.renderer.render(this.#world, this.camera);
-    this.renderer.setRenderTarget(null);
+    renderer.setRenderTarget(this.#pickTarget);
+    renderer.clear();
+    renderer.render(this.#world, this.camera);
+    renderer.setRenderTarget(null);
     this.camera.clearViewOffset();
     this.#setUniforms((u) => (u.uIsPick.value = false));
     const p = new Uint8Array(4);
-    await this.renderer.readRenderTargetPixelsAsync(this.#pickTarget, 0, 0, 1, 1, p);
+    await renderer.readRenderTargetPixelsAsync(this.#pickTarget, 0, 0, 1, 1, p);
     return (p[0] | (p[1] << 8) | (p[2] << 16) | (p[3] << 24)) - 1;
   }
 
-  /** The UV map of a part as pixels, from the top row down; `area` is scale and offset of UVs. */
-  async drawMap(partIndex: number, look: Look, size: number, area: [number, number, number, number]): Promise<Uint8ClampedArray<ArrayBuffer>> {
+  /** The UV map of a part as pixels, from the top row down, or null without WebGL; `area` is scale and offset of UVs. */
+  async drawMap(partIndex: number, look: Look, size: number, area: [number, number, number, number]): Promise<Uint8ClampedArray<ArrayBuffer> | null> {
+    const { renderer } = this;
+    if (!renderer) return null;
     const target = new WebGLRenderTarget(size, size);
     const { drawn } = this.scene;
-    const clear = this.renderer.getClearColor(new Color()), alpha = this.renderer.getClearAlpha();
+    const clear = renderer.getClearColor(new Color()), alpha = renderer.getClearAlpha();
     drawn.forEach(({ meshes }, i) => meshes.forEach((mesh, k) => (mesh.visible = i === partIndex && k === 0)));
     const { material } = drawn[partIndex];
     const { side } = material;
@@ -136,18 +185,18 @@ export class Viewport {
     material.uniforms.uIsMap.value = true;
     material.uniforms.uMapArea.value = area;
     material.uniforms.uSplit.value = 1e9;
-    this.renderer.setRenderTarget(target);
-    this.renderer.setClearColor(0, 0);
-    this.renderer.clear();
-    this.renderer.render(this.#world, this.camera);
-    this.renderer.setRenderTarget(null);
-    this.renderer.setClearColor(clear, alpha);
+    renderer.setRenderTarget(target);
+    renderer.setClearColor(0, 0);
+    renderer.clear();
+    renderer.render(this.#world, this.camera);
+    renderer.setRenderTarget(null);
+    renderer.setClearColor(clear, alpha);
     material.uniforms.uIsMap.value = false;
     material.depthTest = true;
     material.side = side;
     for (const { meshes } of drawn) for (const mesh of meshes) mesh.visible = true;
     const upsideDown = new Uint8ClampedArray(4 * size * size), rows = new Uint8ClampedArray(4 * size * size);
-    await this.renderer.readRenderTargetPixelsAsync(target, 0, 0, size, size, upsideDown);
+    await renderer.readRenderTargetPixelsAsync(target, 0, 0, size, size, upsideDown);
     target.dispose();
     for (let row = 0; row < size; ++row) rows.set(upsideDown.subarray(4 * size * (size - 1 - row), 4 * size * (size - row)), 4 * size * row);
     return rows;
@@ -155,8 +204,7 @@ export class Viewport {
 
   #values(): PictureValues {
     const light = this.light.clone().transformDirection(this.camera.matrixWorld);
-    const width = this.renderer.domElement.width;
-    return { ...this.settings, split: this.settings.split * width, light, eye: this.camera.position };
+    return { ...this.settings, split: this.settings.split * this.canvas.width, light, eye: this.camera.position };
   }
 
   #setUniforms(change: (uniforms: Record<string, { value: unknown }>) => void): void {
@@ -168,12 +216,21 @@ export class Viewport {
   }
 
   #draw(): void {
+    const { renderer } = this;
+    if (!renderer) return;
     this.camera.updateMatrixWorld();
     const values = this.#values();
     for (const { material } of this.scene.drawn) setValues(material, values);
-    this.renderer.clear();
-    this.renderer.render(this.#world, this.camera);
-    this.renderer.render(this.overlay, this.camera);
+    this.#lamp.position.copy(values.light);
+    // The first picture does not wait for the environment, which is blurred for each roughness.
+    const wantsSurface = values.look === "lit" && values.usesColors && !values.isWire, isSurface = wantsSurface && this.#hasDrawn;
+    if (isSurface) this.#world.environment ??= environmentFor(renderer);
+    else if (wantsSurface && this.scene.drawn.length > 0) this.ask();
+    this.scene.show(isSurface);
+    renderer.clear();
+    renderer.render(this.#world, this.camera);
+    this.scene.show(false);
+    renderer.render(this.overlay, this.camera);
     if (this.scene.drawn.length > 0 && !this.#hasDrawn) performance.mark("first picture");
     this.#hasDrawn ||= this.scene.drawn.length > 0;
   }
@@ -219,9 +276,9 @@ export class Viewport {
   }
 
   #resize(): void {
-    const { clientWidth: width, clientHeight: height } = this.canvas.parentElement!;
+    const { clientWidth: width, clientHeight: height } = this.canvas;
     if (width === 0 || height === 0) return;
-    this.renderer.setSize(width, height, false);
+    this.renderer?.setSize(width, height, false);
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
     this.ask();

@@ -1,24 +1,30 @@
 // SPDX-License-Identifier: MIT
 // What the colours of the picture mean.
-import { css, heatGradient, noData, signMinus, signPlus, wrong, type Rgb } from "../color.js";
+import { css, heatDegrees, heatGradient, noData, signMinus, signPlus, wrong, type Rgb } from "../color.js";
 import { el, replaceChildren } from "../dom.js";
 import type { Look } from "../picture/shader.js";
 
 const swatch = (color: Rgb, text: string, isStriped = false): HTMLElement =>
   el("span", { class: "swatch" }, el("i", { style: isStriped ? `background: repeating-linear-gradient(135deg, ${css(color)} 0 4px, transparent 4px 8px)` : `background: ${css(color)}` }), text);
 
+/** The scale of errors, its degrees below it. */
+const scale = (label: string): HTMLElement =>
+  el("span", { class: "scale", role: "img", "aria-label": `${label}, ${heatDegrees[0]} to ${heatDegrees.at(-1)}` },
+    el("i", { style: `background: ${heatGradient}` }),
+    ...heatDegrees.map((degrees, i) => el("span", { style: `left: ${(100 * i) / (heatDegrees.length - 1)}%` }, `${degrees}°`)));
+
 export class Legend {
   readonly element = el("div", { class: "legend", "aria-live": "polite" });
 
-  show(look: Look, errorEnd: number, method: string): void {
+  show(look: Look, method: string): void {
     const sentences: Record<Look, () => (Node | string)[]> = {
       lit: () => [],
+      difference: () => [scale(`Degrees between what the file and ${method} shade`)],
       normals: () => ["Directions that light falls on, x y z as red, green, blue."],
       signs: () => [swatch(signPlus, "w = +1"), swatch(signMinus, "w = −1"), swatch(wrong, `not the sign of ${method}`, true), swatch(noData, "no tangents")],
       mirrored: () => [swatch(signPlus, "texture as painted"), swatch(signMinus, "texture mirrored"), swatch(noData, "no UV area")],
       error: () => [
-        el("span", { class: "scale", role: "img", "aria-label": `Degrees from the tangent of ${method}, 0 to ${errorEnd}` },
-          el("span", {}, "0°"), el("i", { style: `background: ${heatGradient}` }), el("span", {}, `${errorEnd}° and more`)),
+        scale(`Degrees from the tangent of ${method}`),
         swatch(wrong, "sign differs", true),
         swatch(noData, "nothing to compare"),
       ],

@@ -24,7 +24,6 @@ export class LookView {
     const names = [...methods, "mended"] as const;
     const frames = select("Right frames by", names.map((name) => [name, nameOf(name)] as const), this.right, (right) => this.#choose(right));
     this.#choice = frames.input;
-    const end = select("Error scale", [["1", "0 to 1°"], ["10", "0 to 10°"], ["45", "0 to 45°"], ["180", "0 to 180°"]] as const, "10", (value) => stage.setErrorEnd(Number(value)));
     const map = choice("Normal map", [["1", "on"], ["0", "off"], ["2", "green turned"]] as const, "1", (value) => {
       viewport.settings.map = Number(value) as 0 | 1 | 2;
       viewport.ask();
@@ -44,15 +43,16 @@ export class LookView {
       this.#isRight = value === "right";
       this.showLines();
     });
+    const ground = choice("Ground", [["grey", "grey"], ["light", "light"], ["dark", "dark"]] as const, "grey", (value) => stage.setGround(value));
     const length = el("input", { type: "range", min: "-10", max: "10", value: "0", "aria-label": "Length of the lines" });
     length.addEventListener("input", () => {
       this.#length = 2 ** (Number(length.value) / 4);
       this.showLines();
     });
     this.element.append(
-      el("div", { class: "rows" }, frames.element, end.element, this.#figures, map.element,
+      el("div", { class: "rows" }, frames.element, this.#figures, map.element,
         el("div", { class: "row" }, wire.element, colors.element),
-        el("div", { class: "row lines" }, ...axes, length), whose.element));
+        el("div", { class: "row lines" }, ...axes, length), whose.element, ground.element));
     this.offerMended(false);
   }
 

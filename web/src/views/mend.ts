@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: MIT
-// Mends the model as `tspace generate` does: what to do, the same as a command line, what changed, and the file.
+// Mends the model as `tspace generate` does: what to do, the same as a command line, what changed, and the file. Each model
+// begins with what its own findings ask for.
 import { checkbox, choice, count, el, replaceChildren, select } from "../dom.js";
 import type { ModelFiles } from "../files.js";
-import type { GeneratedPrimitive, GenerateReport, JudgedMap } from "tspace/gltf";
+import type { CheckReport, Finding, GeneratedPrimitive, GenerateReport, JudgedMap } from "tspace/gltf";
 import { methods, type Method } from "../worker/protocol.js";
-
-type Tangents = "repair" | "overwrite" | "missing";
+import { adviceFor, changeOfCounts, isWorse, noExtras, remedyOptions, type Extras, type Tangents } from "./advice.js";
 
 export interface Mended extends ModelFiles {
   report: unknown;
+  /** What `check` says of the file that was made; null where it could not be checked. */
+  checked: CheckReport | null;
 }
 
 const kMostRows = 200;
@@ -22,39 +24,70 @@ const actions: Record<string, string> = {
   impossible: "impossible",
   removed: "taken away",
 };
+/** Switches in the order of the panel. Those of the last three are seen where a finding asks for them. */
+const switches: readonly (readonly [keyof Extras, string])[] = [
+  ["flipGreen", "Turn green of maps where it points down"],
+  ["mendMaps", "Convert maps that hold something else"],
+  ["morphNormals", "Make normals of morph targets"],
+  ["overwriteNormals", "Make all normals anew"],
+];
 
 export class MendView {
   readonly element = el("details", { class: "panel mend" }, el("summary", {}, "Mend"));
   #tangents: Tangents = "repair";
   #method: Method = "mikktspace";
   #isTurned = false;
-  #turnsGreen = false;
+  #extras: Extras = noExtras;
+  /** Switches that a person has set: advice leaves them alone. */
+  #touched = new Set<keyof Extras>();
+  /** What a finding's own button asks for, beside the advice. */
+  #wanted: Partial<Extras> = {};
   #isCompressed = false;
   #model: ModelFiles | null = null;
+  #checked: CheckReport | null = null;
+  #reasons = el("div", { class: "reasons" });
   #unpacks = el("p", { class: "quiet" }, "It goes out unpacked, for this page has no encoders. The tool has.");
   #command = el("code", { class: "command" });
   #button = el("button", { type: "button", class: "main" }, "Mend");
   #result = el("div", { class: "result", "aria-live": "polite" });
-  #signs: HTMLFieldSetElement;
+  #tangentsChoice;
+  #methodChoice;
+  #signsChoice;
+  #boxes = new Map<keyof Extras, { element: HTMLElement; input: HTMLInputElement }>();
 
   constructor(private generate: (options: Record<string, unknown>) => Promise<Mended>, private open: (mended: Mended) => void) {
     const changed = <T>(set: (value: T) => void) => (value: T) => {
       set(value);
       this.#refresh();
     };
-    const tangents = choice("Tangents", [["repair", "repair"], ["overwrite", "all anew"], ["missing", "add missing"]] as const, "repair", changed((v: Tangents) => (this.#tangents = v)));
-    const method = select("Method", methods.map((name) => [name, name] as const), this.#method, changed((v: Method) => (this.#method = v)));
-    const signs = choice("Signs", [["gltf", "as glTF wants"], ["turned", "turned"]] as const, "gltf", changed((v: string) => (this.#isTurned = v === "turned")));
-    const green = checkbox("Turn green of maps where it points down", false, changed((v: boolean) => (this.#turnsGreen = v)));
-    this.#signs = signs.element;
+    this.#tangentsChoice = choice("Tangents", [["repair", "repair"], ["overwrite", "all anew"], ["missing", "add missing"]] as const, "repair", changed((v: Tangents) => (this.#tangents = v)));
+    this.#methodChoice = select("Method", methods.map((name) => [name, name] as const), this.#method, changed((v: Method) => (this.#method = v)));
+    this.#signsChoice = choice("Signs", [["gltf", "as glTF wants"], ["turned", "turned"]] as const, "gltf", changed((v: string) => (this.#isTurned = v === "turned")));
+    for (const [name, text] of switches) {
+      this.#boxes.set(name, checkbox(text, false, changed((on: boolean) => {
+        this.#touched.add(name);
+        this.#extras = { ...this.#extras, [name]: name === "morphNormals" ? (on ? "all" : null) : on };
+      })));
+    }
     this.#button.addEventListener("click", () => void this.#mend());
-    this.element.append(el("div", { class: "rows" }, tangents.element, method.element, signs.element, green.element, this.#unpacks, this.#command, this.#button, this.#result));
+    this.element.append(el("div", { class: "rows" }, this.#tangentsChoice.element, this.#methodChoice.element, this.#signsChoice.element,
+      ...[...this.#boxes.values()].map(({ element }) => element), this.#reasons, this.#unpacks, this.#command, this.#button, this.#result));
     this.#refresh();
   }
 
+  /** Another model: nothing of the one before is left. */
   reset(model: ModelFiles | null): void {
     this.#model = model;
+    this.#checked = null;
     this.#isCompressed = false;
+    this.#tangents = "repair";
+    this.#method = "mikktspace";
+    this.#isTurned = false;
+    this.#touched.clear();
+    this.#wanted = {};
+    this.#tangentsChoice.set("repair");
+    this.#methodChoice.input.value = "mikktspace";
+    this.#signsChoice.set("gltf");
     replaceChildren(this.#result);
     this.#refresh();
   }
@@ -65,21 +98,63 @@ export class MendView {
     this.#refresh();
   }
 
+  /** What is wrong with the model: the switches that mend it go on. */
+  advise(report: CheckReport): void {
+    this.#checked = report;
+    this.#refresh();
+  }
+
+  /** Sets the panel to what a finding's remedy does, and shows it. */
+  prepare(finding: Finding): void {
+    const options = remedyOptions(finding);
+    if (!options) return;
+    const { tangents, ...extras } = options;
+    if (tangents) {
+      this.#tangents = tangents;
+      this.#tangentsChoice.set(tangents);
+    }
+    this.#wanted = { ...this.#wanted, ...extras };
+    for (const name of Object.keys(extras)) this.#touched.delete(name as keyof Extras);
+    this.#refresh();
+    (this.element as HTMLDetailsElement).open = true;
+    this.element.scrollIntoView({ block: "nearest" });
+    this.#button.focus();
+  }
+
   /** Options of the package, which are those of the tool in camelCase. */
   #options(): Record<string, unknown> {
+    const { flipGreen, mendMaps, overwriteNormals, morphNormals } = this.#extras;
     return {
       ...(this.#tangents === "repair" && { repair: true }),
       ...(this.#tangents === "overwrite" && { overwrite: true }),
       ...(this.#method !== "mikktspace" && { method: this.#method }),
       ...(this.#tangents === "overwrite" && this.#isTurned && { convention: "opengl" }),
-      ...(this.#turnsGreen && { flipGreen: true }),
+      ...(flipGreen && { flipGreen: true }),
+      ...(mendMaps && { mendMaps: true }),
+      ...(morphNormals && { morphNormals }),
+      ...(overwriteNormals && { overwriteNormals: true }),
       ...(this.#isCompressed && { compress: "none" }),
     };
   }
 
+  /** Switches that nobody has set follow the findings. */
+  #takeAdvice(): void {
+    const { extras, reasons } = adviceFor(this.#checked, this.#tangents, this.#isTurned);
+    const advised: Extras = { ...extras, ...this.#wanted };
+    const set = <K extends keyof Extras>(name: K) => {
+      if (!this.#touched.has(name)) this.#extras = { ...this.#extras, [name]: advised[name] };
+      const { element, input } = this.#boxes.get(name)!;
+      input.checked = Boolean(this.#extras[name]);
+      element.hidden = name !== "flipGreen" && !advised[name] && !this.#extras[name];
+    };
+    for (const [name] of switches) set(name);
+    replaceChildren(this.#reasons, ...reasons.map((reason) => el("p", { class: "quiet" }, reason)));
+  }
+
   #refresh(): void {
+    this.#takeAdvice();
     // A repair would turn such signs back.
-    this.#signs.disabled = this.#tangents !== "overwrite";
+    this.#signsChoice.element.disabled = this.#tangents !== "overwrite";
     this.#unpacks.hidden = !this.#isCompressed;
     const words = Object.entries(this.#options()).map(([name, value]) => `--${name.replace(/[A-Z]/g, (letter) => `-${letter.toLowerCase()}`)}${value === true ? "" : ` ${String(value)}`}`);
     const name = this.#model?.name ?? "model.glb";
@@ -91,10 +166,12 @@ export class MendView {
   async #mend(): Promise<void> {
     this.#button.disabled = true;
     replaceChildren(this.#result, el("p", { class: "quiet" }, "Working…"));
+    const model = this.#model;
     try {
-      this.#show(await this.generate(this.#options()));
+      const mended = await this.generate(this.#options());
+      if (model === this.#model) this.#show(mended);
     } catch (error) {
-      replaceChildren(this.#result, el("p", { class: "failure", role: "alert" }, error instanceof Error ? error.message : String(error)));
+      if (model === this.#model) replaceChildren(this.#result, el("p", { class: "failure", role: "alert" }, error instanceof Error ? error.message : String(error)));
     } finally {
       this.#button.disabled = this.#model === null;
     }
@@ -104,13 +181,31 @@ export class MendView {
     const file = mended.report as GenerateReport;
     const url = URL.createObjectURL(new Blob([mended.bytes], { type: "model/gltf-binary" }));
     const look = el("button", { type: "button", onclick: () => this.open(mended) }, "Look at it");
+    const sentence = verdictOf(mended, this.#checked);
+    // Only a file that is better than the one before is offered as what to take.
+    const download = el("a", { class: sentence.isGood ? "button" : "button plain-link", href: url, download: mended.name }, `Download ${mended.name}`);
     replaceChildren(this.#result,
-      el("p", { class: file.changed ? "fine" : "quiet" }, file.changed ? `Done: ${count(file.inputBytes)} bytes in, ${count(file.outputBytes)} out.` : "Nothing had to change: the file is the same, byte for byte."),
+      el("p", { class: sentence.isGood ? "fine" : "quiet" }, sentence.what),
+      sentence.findings && el("p", { class: sentence.isWorse ? "failure" : "counts", role: sentence.isWorse ? "alert" : undefined }, sentence.findings),
       changeTable(file.primitives),
       file.normalMaps.length > 0 ? mapTable(file.normalMaps) : null,
       ...file.warnings.map((warning) => el("p", { class: "quiet" }, warning)),
-      el("div", { class: "row" }, el("a", { class: "button", href: url, download: mended.name }, `Download ${mended.name}`), look));
+      el("div", { class: "row" }, download, look));
   }
+}
+
+const changesTangents = ({ action, mendedVertices }: GeneratedPrimitive): boolean => mendedVertices > 0 || ["generated", "replaced", "removed"].includes(action);
+
+/** What the mend did, and what `check` says before and after it. */
+function verdictOf(mended: Mended, before: CheckReport | null): { what: string; findings: string | null; isGood: boolean; isWorse: boolean } {
+  const file = mended.report as GenerateReport, after = mended.checked;
+  const findings = before && after ? changeOfCounts(before.counts, after.counts) : null;
+  const worse = before !== null && after !== null && isWorse(before.counts, after.counts);
+  if (!file.changed) return { what: "Nothing had to change: the file is the same, byte for byte.", findings, isGood: false, isWorse: false };
+  const sizes = `${count(file.inputBytes)} bytes in, ${count(file.outputBytes)} out.`;
+  const hasOther = file.normalMaps.some(({ flipped, mended: isMended }) => flipped || isMended) || file.primitives.some(({ normalsGenerated, morphNormals }) => normalsGenerated || morphNormals > 0);
+  if (file.primitives.some(changesTangents)) return { what: `Done: ${sizes}`, findings, isGood: !worse, isWorse: worse };
+  return { what: `No tangent has changed${hasOther ? "; maps or normals have" : ""}: ${sizes}`, findings, isGood: hasOther && !worse, isWorse: worse };
 }
 
 /** Words of a command line that are not broken at their hyphens. */
@@ -139,4 +234,4 @@ const changeTable = (primitives: GeneratedPrimitive[]): HTMLElement =>
   }));
 
 const mapTable = (maps: JudgedMap[]): HTMLElement =>
-  table(["Normal map", "Green"], maps.map(({ image, name, flipped, reason }) => ({ cells: [`${image} ${name}`, flipped ? "turned" : `stays: ${reason}`] })), "maps");
+  table(["Normal map", "What was done"], maps.map(({ image, name, flipped, mended, reason }) => ({ cells: [`${image} ${name}`, flipped ? "green turned" : mended ? `converted: ${reason}` : `stays: ${reason}`] })), "maps");

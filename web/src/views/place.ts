@@ -1,44 +1,75 @@
 // SPDX-License-Identifier: MIT
-// Flies to the place of a finding and outlines it.
-import type { Object3D } from "three";
-import { outlinePart, outlineTriangles, trianglesAt } from "../picture/overlays.js";
+// Shows findings in the picture: the look in which they are seen, outlines of all that they are about, and a flight to what is
+// only somewhere.
+import { Group, Vector3, type Object3D } from "three";
+import { outlinePart, outlineTriangles, trianglesAt, type Place } from "../picture/overlays.js";
 import type { Drawn } from "../picture/scene.js";
+import type { Look } from "../picture/shader.js";
 import { replaceOverlay, type Viewport } from "../picture/viewport.js";
 import type { Finding } from "tspace/gltf";
+
+/** The look in which a kind of finding is seen, by how its name begins. */
+const looks: readonly (readonly [RegExp, Look])[] = [
+  [/^signs/, "signs"],
+  [/^(mirroredSeam|uvSeam|directions|uvSet|textureTransform|splitFrames|tangents(NotOrthogonal|NotUnit|NotFinite))/, "difference"],
+  [/^uvsDegenerate/, "mirrored"],
+];
+export const lookOf = ({ code }: Finding): Look => looks.find(([pattern]) => pattern.test(code))?.[1] ?? "lit";
+
+/** Tangents farther off than this are outlined where a finding is about directions. */
+const kFarDegrees = 5;
+/** Of a finding on more of the surface than this the picture stays where it is. */
+const kEverywhere = 0.5;
+
+/** The triangles that a finding is about, as the comparison with right frames has them; else those at the vertices it names. */
+function trianglesOf(drawn: Drawn, finding: Finding): number[] {
+  const errors = drawn.frames?.errors, found: number[] = [];
+  const isSign = /^signs(Inverted|Wrong)/.test(finding.code), isDirection = /^(directions|uvSet|mirroredSeam|uvSeam)/.test(finding.code);
+  if (errors && (isSign || isDirection)) {
+    const isFar = (corner: number) => (isSign ? errors[2 * corner + 1] > 0.5 : errors[2 * corner] > kFarDegrees);
+    for (let t = 0; t < errors.length / 6; ++t) if (isFar(3 * t) || isFar(3 * t + 1) || isFar(3 * t + 2)) found.push(t);
+  }
+  return found.length > 0 ? found : trianglesAt(drawn, finding.vertices);
+}
 
 export class PlaceView {
   #outline: Object3D | null = null;
 
-  constructor(private viewport: Viewport) {}
+  constructor(private viewport: Viewport, private setLook: (look: Look) => void) {}
 
   clear(): void {
     this.#outline = replaceOverlay(this.viewport, this.#outline, null);
   }
 
-  /** Returns how many triangles are outlined. */
-  show(finding: Finding): number {
+  /** Returns how many triangles are outlined. isOne: of several places this one. */
+  show(findings: Finding[], isOne: boolean): number {
     this.clear();
-    const drawn = this.viewport.scene.find(finding.mesh, finding.primitive);
-    if (!drawn || finding.place === "") {
-      this.viewport.reset();
-      return 0;
+    this.setLook(lookOf(findings[0]));
+    const { scene } = this.viewport, outline = new Group(), places: Omit<Place, "outline">[] = [];
+    let outlined = 0, seen = 0;
+    for (const finding of findings) {
+      const drawn = finding.place === "" ? undefined : scene.find(finding.mesh, finding.primitive);
+      if (!drawn) continue;
+      seen += 1;
+      const triangles = trianglesOf(drawn, finding);
+      // Without vertices the finding is about all of the primitive.
+      const place = triangles.length > 0 ? outlineTriangles(drawn, triangles) : { ...outlinePart(drawn), normal: new Vector3() };
+      outlined += triangles.length > 0 ? triangles.length : drawn.corners.positions.length / 9;
+      if (place.radius > 0) outline.add(place.outline);
+      places.push(place);
     }
-    const triangles = trianglesAt(drawn, finding.vertices);
-    // Without vertices the finding is about all of the primitive.
-    if (triangles.length === 0) return this.#showPart(drawn);
-    const { outline, center, radius, normal } = outlineTriangles(drawn, triangles);
-    if (radius === 0) outline.clear();
     this.#outline = replaceOverlay(this.viewport, null, outline);
-    const all = this.viewport.scene.sphere();
-    const near = Math.max(radius * 1.5, all.radius * 0.12);
-    if (radius > 0) this.viewport.fly(center, near, normal.lengthSq() > 0.01 ? normal.normalize() : null);
-    return triangles.length;
+    const share = isOne ? findings[0].surfaceShare : seen / Math.max(1, scene.drawn.length);
+    if (seen > 0 && (isOne ? scene.drawn.length > 1 || share < kEverywhere : share < kEverywhere)) this.#fly(places);
+    return outlined;
   }
 
-  #showPart(drawn: Drawn): number {
-    const { outline, center, radius } = outlinePart(drawn);
-    this.#outline = replaceOverlay(this.viewport, null, outline);
-    if (radius > 0) this.viewport.fly(center, radius, null);
-    return drawn.corners.positions.length / 9;
+  #fly(places: Omit<Place, "outline">[]): void {
+    const center = places.reduce((sum, place) => sum.add(place.center), new Vector3()).divideScalar(places.length);
+    const radius = Math.max(...places.map((place) => place.center.distanceTo(center) + place.radius));
+    const normal = places.reduce((sum, place) => sum.add(place.normal), new Vector3());
+    if (!(radius > 0)) return;
+    const near = Math.max(radius * 1.5, this.viewport.scene.sphere().radius * 0.12);
+    this.viewport.fly(center, near, normal.lengthSq() > 0.01 ? normal.normalize() : null);
   }
 }

@@ -8,6 +8,7 @@ import { Legend } from "./legend.js";
 
 const lookNames: readonly (readonly [Look, string])[] = [
   ["lit", "Lit"],
+  ["difference", "Difference"],
   ["normals", "Normals"],
   ["signs", "Signs"],
   ["mirrored", "Mirrored"],
@@ -15,7 +16,13 @@ const lookNames: readonly (readonly [Look, string])[] = [
   ["islands", "Islands"],
 ];
 
+const isTyping = ({ target, ctrlKey, metaKey, altKey }: KeyboardEvent): boolean => ctrlKey || metaKey || altKey || target instanceof HTMLSelectElement || (target instanceof HTMLInputElement && target.type === "text");
+
 const hasSplit = (look: Look): boolean => look === "lit" || look === "normals" || look === "signs";
+
+/** Of the normal maps right of the slider: how many have their green turned. */
+export type TurnedGreen = "none" | "some" | "all";
+const greenText: Record<TurnedGreen, string> = { none: "", some: ", green turned where it points down", all: ", green turned" };
 
 export class Stage {
   readonly element: HTMLElement;
@@ -32,16 +39,29 @@ export class Stage {
   #rightLabel = el("span", { class: "side right" }, "right frames");
   #light = el("div", { class: "light", tabindex: "0", role: "slider", "aria-label": "Light", "aria-valuemin": "-1", "aria-valuemax": "1" }, el("i"));
   #remark = el("p", { class: "remark", role: "status", hidden: true });
+  #frame: HTMLElement;
   #looks;
   #right: Right = "mikktspace";
+  #green: TurnedGreen = "none";
+  #share = 0.5;
+  #blinks = false;
 
   constructor() {
-    const frame = el("div", { class: "frame" }, this.canvas, this.#line, this.#leftLabel, this.#rightLabel, this.#legend.element, this.#light, this.#remark);
+    const frame = this.#frame = el("div", { class: "frame", "data-ground": "grey" }, this.canvas, this.#line, this.#leftLabel, this.#rightLabel, this.#legend.element, this.#light, this.#remark);
     this.#looks = choice("Look", lookNames, "lit", (look) => this.setLook(look));
     this.element = el("section", { class: "stage", "aria-label": "Picture" }, this.#looks.element, frame, this.#split);
     this.viewport = new Viewport(this.canvas);
     this.#split.addEventListener("input", () => this.setSplit(Number(this.#split.value) / 1000));
     this.canvas.addEventListener("light", () => this.#showLight());
+    // The line takes the left button; all else goes on to the picture below it.
+    this.#line.addEventListener("pointerdown", (event) => (event.button === 0 ? this.#line : this.canvas).setPointerCapture(event.pointerId));
+    this.#line.addEventListener("pointermove", (event) => event.buttons & 1 && this.#dragLine(event));
+    this.#line.addEventListener("contextmenu", (event) => event.preventDefault());
+    this.#line.addEventListener("wheel", (event) => (event.preventDefault(), this.canvas.dispatchEvent(new WheelEvent("wheel", event))));
+    // Held, the key shows all of the picture by the right frames; let go, what was there before.
+    addEventListener("keydown", (event) => event.key === "b" && !event.repeat && !isTyping(event) && this.#blink(true));
+    addEventListener("keyup", (event) => event.key === "b" && this.#blink(false));
+    addEventListener("blur", () => this.#blink(false));
     this.#light.addEventListener("pointerdown", (event) => this.#light.setPointerCapture(event.pointerId));
     this.#light.addEventListener("pointermove", (event) => event.buttons && this.#dragLight(event));
     this.#light.addEventListener("keydown", (event) => this.#turnLight(event));
@@ -56,6 +76,10 @@ export class Stage {
     this.#refresh();
   }
 
+  setGround(ground: "grey" | "light" | "dark"): void {
+    this.#frame.dataset.ground = ground;
+  }
+
   /** What the picture leaves out, or why there is none. */
   say(sentence: string): void {
     this.#remark.textContent = sentence;
@@ -67,12 +91,14 @@ export class Stage {
     this.#refresh();
   }
 
-  setErrorEnd(degrees: number): void {
-    this.viewport.settings.errorEnd = degrees;
+  setGreen(green: TurnedGreen): void {
+    this.#green = green;
     this.#refresh();
   }
 
   setSplit(share: number): void {
+    this.#share = share;
+    if (this.#blinks) return;
     this.viewport.settings.split = share;
     this.#split.value = String(Math.round(share * 1000));
     this.#line.style.left = `${share * 100}%`;
@@ -82,12 +108,26 @@ export class Stage {
   }
 
   #refresh(): void {
-    const { look, errorEnd } = this.viewport.settings;
+    const { look } = this.viewport.settings;
     const isSplit = hasSplit(look);
     for (const element of [this.#split, this.#line, this.#leftLabel, this.#rightLabel]) element.hidden = !isSplit;
-    this.#rightLabel.textContent = this.#right === "mended" ? "mended" : `right frames (${this.#right})`;
-    this.#legend.show(look, errorEnd, nameOf(this.#right));
+    this.#rightLabel.textContent = this.#right === "mended" ? "mended" : `right frames (${this.#right})${greenText[this.#green]}`;
+    this.#legend.show(look, nameOf(this.#right));
     this.viewport.ask();
+  }
+
+  #blink(isHeld: boolean): void {
+    if (this.#blinks === isHeld) return;
+    const share = this.#share;
+    this.#blinks = false;
+    this.setSplit(isHeld ? 0 : share);
+    this.#share = share;
+    this.#blinks = isHeld;
+  }
+
+  #dragLine(event: PointerEvent): void {
+    const box = this.canvas.getBoundingClientRect();
+    this.setSplit(Math.min(1, Math.max(0, (event.clientX - box.left) / box.width)));
   }
 
   #dragLight(event: PointerEvent): void {

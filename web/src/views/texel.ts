@@ -104,19 +104,20 @@ export class TexelView {
     const uv: [number, number] | null = corners.uvs && [mix(corners.uvs, 2, 0), mix(corners.uvs, 2, 1)];
     this.found({ drawn, partIndex: this.viewport.scene.drawn.indexOf(drawn), uv });
     const texelOf = (map: Texture | null) => (uv && map ? this.#reader.read(map, uv[0], uv[1]) : null);
-    const normalOf = (texel: ReturnType<typeof texelOf>) => {
+    const normalOf = (texel: ReturnType<typeof texelOf>, turn = 1) => {
       const [x, y, z] = texel ? texel.rgb.map((c) => (c / 255) * 2 - 1) : [0, 0, 1];
-      return new Vector3(x * part.normalScale, y * part.normalScale, z).normalize();
+      return new Vector3(x * part.normalScale, turn * y * part.normalScale, z).normalize();
     };
     const texel = texelOf(part.normalMap), decoded = normalOf(texel);
+    const rightNormal = drawn.rightMap === part.normalMap && !drawn.turnsGreen ? decoded : normalOf(texelOf(drawn.rightMap), drawn.turnsGreen ? -1 : 1);
     const rows: [string, string][] = [];
     const vertices = [0, 1, 2].map((k) => (part.arrays.indices ? part.arrays.indices[3 * triangle + k] : 3 * triangle + k));
     rows.push(["Triangle", `${triangle} (vertices ${vertices.join(", ")})`]);
     if (uv) rows.push(["UV", uv.map((x) => x.toFixed(4)).join("  ")]);
     if (texel) rows.push(["Texel", `${texel.column}, ${texel.row}: ${texel.rgb.join(" ")}`], ["Its normal", text(decoded)]);
+    if (drawn.turnsGreen) rows.push(["Green turned", text(rightNormal)]);
     rows.push(["N", text(n.clone().normalize())]);
     const results: Vector3[] = [];
-    const rightNormal = drawn.rightMap === part.normalMap ? decoded : normalOf(texelOf(drawn.rightMap));
     for (const [whose, tangents, lit] of [["file", corners.tangents, decoded], ["right", frames?.tangents ?? null, rightNormal]] as const) {
       if (!tangents) {
         rows.push([`T, ${whose}`, "none"]);

@@ -67,6 +67,7 @@ export class UvMapView {
     this.#area = areaOf(drawn.corners.uvs);
     const pixels = await this.viewport.drawMap(this.#shown, this.#look, kSize, this.#area);
     if (turn !== this.#turn) return;
+    if (!pixels) return replaceChildren(this.#caption, "The UV map is drawn by WebGL, which this browser has not.");
     this.#drawImage(context, drawn.part.normalMap?.image as CanvasImageSource | undefined);
     const own = new OffscreenCanvas(kSize, kSize);
     own.getContext("2d")!.putImageData(new ImageData(pixels, kSize, kSize), 0, 0);

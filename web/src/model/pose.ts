@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+// Where the bones and morph weights of a file put the vertices of a mesh: its rest pose.
+import { Matrix4, SkinnedMesh, Vector3, type BufferAttribute, type Mesh } from "three";
+import type { Corners, Frames } from "../worker/protocol.js";
+import type { Arrays } from "../worker/protocol.js";
+
+/** Per vertex: what morph targets add (of tangents the loader reads none), and the matrix of its bones, 16 numbers by columns. Null where there is none. */
+export interface Pose {
+  morphed: { position: Float32Array | null; normal: Float32Array | null };
+  matrices: Float32Array | null;
+}
+
+function morphedBy(mesh: Mesh, name: "position" | "normal"): Float32Array | null {
+  const targets = mesh.geometry.morphAttributes[name] as BufferAttribute[] | undefined, weights = mesh.morphTargetInfluences;
+  if (!targets || !weights?.some((weight) => weight !== 0)) return null;
+  const sums = new Float32Array(3 * mesh.geometry.getAttribute("position").count);
+  for (const [i, target] of targets.entries()) {
+    if (!weights[i]) continue;
+    for (let v = 0; v < sums.length / 3; ++v) for (let k = 0; k < 3; ++k) sums[3 * v + k] += weights[i] * target.getComponent(v, k);
+  }
+  return sums;
+}
+
+/** The matrices of bones, weighted, for each vertex. The place of a skinned mesh is nowhere in it: glTF leaves its node out. */
+function bonesOf(mesh: SkinnedMesh): Float32Array {
+  const { skinIndex, skinWeight } = mesh.geometry.attributes as Record<string, BufferAttribute>;
+  const { bones, boneInverses } = mesh.skeleton, matrices = bones.map((bone, i) => new Matrix4().multiplyMatrices(bone.matrixWorld, boneInverses[i]).elements);
+  const sums = new Float32Array(16 * skinIndex.count);
+  for (let v = 0; v < skinIndex.count; ++v) {
+    for (let k = 0; k < 4; ++k) {
+      const weight = skinWeight.getComponent(v, k), matrix = matrices[skinIndex.getComponent(v, k)];
+      if (weight !== 0 && matrix) for (let i = 0; i < 16; ++i) sums[16 * v + i] += weight * matrix[i];
+    }
+  }
+  return sums;
+}
+
+/** Null: as the arrays are. */
+export function poseOf(mesh: Mesh): Pose | null {
+  const morphed = { position: morphedBy(mesh, "position"), normal: morphedBy(mesh, "normal") };
+  const isSkinned = mesh instanceof SkinnedMesh && mesh.skeleton !== undefined && mesh.geometry.getAttribute("skinIndex") !== undefined && mesh.geometry.getAttribute("skinWeight") !== undefined;
+  if (!isSkinned && !morphed.position && !morphed.normal) return null;
+  return { morphed, matrices: isSkinned ? bonesOf(mesh) : null };
+}
+
+/** Changes vectors of `stride` numbers, one per corner. */
+function moved(data: Float32Array, stride: number, arrays: Arrays, added: Float32Array | null, change: ((vertex: number, v: Vector3) => void) | null): void {
+  const v = new Vector3();
+  for (let corner = 0; corner < data.length / stride; ++corner) {
+    const vertex = arrays.indices ? arrays.indices[corner] : corner;
+    v.fromArray(data, stride * corner);
+    if (added) v.set(v.x + added[3 * vertex], v.y + added[3 * vertex + 1], v.z + added[3 * vertex + 2]);
+    change?.(vertex, v);
+    v.toArray(data, stride * corner);
+  }
+}
+
+/** The corners of the picture as the pose has them. */
+export function poseCorners({ morphed, matrices }: Pose, arrays: Arrays, corners: Corners): void {
+  const matrix = new Matrix4(), normalMatrix = new Matrix4();
+  const placed = matrices && ((vertex: number, v: Vector3) => void v.applyMatrix4(matrix.fromArray(matrices, 16 * vertex)));
+  const turned = matrices && ((vertex: number, v: Vector3) => {
+    normalMatrix.fromArray(matrices, 16 * vertex).invert().transpose();
+    v.transformDirection(normalMatrix);
+  });
+  moved(corners.positions, 3, arrays, morphed.position, placed);
+  moved(corners.normals, 3, arrays, morphed.normal, turned);
+  if (corners.tangents) poseTangents(matrices, arrays, corners.tangents);
+}
+
+function poseTangents(matrices: Float32Array | null, arrays: Arrays, tangents: Float32Array): void {
+  const matrix = new Matrix4();
+  if (matrices) moved(tangents, 4, arrays, null, (vertex, v) => void v.transformDirection(matrix.fromArray(matrices, 16 * vertex)));
+}
+
+export const poseFrames = ({ matrices }: Pose, arrays: Arrays, frames: Frames): void => poseTangents(matrices, arrays, frames.tangents);

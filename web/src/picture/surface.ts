@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+// A material of three.js whose normal map is read through our frames: those of the file left of the split, the right ones right
+// of it. All else of it (metal, roughness, alpha, emission, clearcoat, transmission) is as three.js has it.
+import type { Material, Texture } from "three";
+
+export interface SurfaceUniforms {
+  uSplit: { value: number };
+  uMap: { value: number };
+  uHasTangents: { value: boolean };
+  uHasRight: { value: boolean };
+  uRightGreen: { value: boolean };
+  uRightMap: { value: Texture };
+}
+
+const vertexHead = `#include <common>
+in vec4 fileTangent, right;
+out vec3 vOwnNormal, vFileTangent, vFileBitangent, vRightTangent, vRightBitangent;`;
+
+// Directions as they are interpolated: only the result is made unit, as bakers expect.
+const vertexBody = `#include <normal_vertex>
+mat3 toEye = mat3(modelViewMatrix);
+vOwnNormal = normalMatrix * normal;
+vFileTangent = toEye * fileTangent.xyz;
+vFileBitangent = toEye * (cross(normal, fileTangent.xyz) * fileTangent.w);
+vRightTangent = toEye * right.xyz;
+vRightBitangent = toEye * (cross(normal, right.xyz) * right.w);`;
+
+const fragmentHead = `#include <common>
+uniform float uSplit;
+uniform int uMap;
+uniform bool uHasTangents, uHasRight, uRightGreen;
+uniform sampler2D uRightMap;
+in vec3 vOwnNormal, vFileTangent, vFileBitangent, vRightTangent, vRightBitangent;`;
+
+// Where there are no tangents three.js makes a frame whose B runs against v.
+const fragmentBody = `#ifdef USE_NORMALMAP_TANGENTSPACE
+if (uMap != 0) {
+  bool isRight = gl_FragCoord.x >= uSplit;
+  vec3 texel = (isRight ? texture2D(uRightMap, vNormalMapUv) : texture2D(normalMap, vNormalMapUv)).xyz * 2.0 - 1.0;
+  texel.xy *= normalScale.x;
+  if (uMap == 2 || (isRight && uRightGreen)) texel.y = -texel.y;
+  bool hasFrame = isRight ? uHasRight : uHasTangents;
+  vec3 t = isRight ? vRightTangent : vFileTangent, b = isRight ? vRightBitangent : vFileBitangent;
+  float side = 1.0;
+  #ifdef DOUBLE_SIDED
+    side = faceDirection;
+  #endif
+  normal = hasFrame ? normalize(side * (texel.x * t + texel.y * b + texel.z * vOwnNormal)) : normalize(tbn * vec3(texel.x, -texel.y, texel.z));
+}
+#elif defined(USE_BUMPMAP)
+#include <normal_fragment_maps>
+#endif`;
+
+function replaced(text: string, part: string, by: string): string {
+  if (!text.includes(part)) throw new Error(`three.js has no ${part} any more`);
+  return text.replace(part, by);
+}
+
+/** The material as the page draws it. Its textures are those of the source. */
+export function surfaceFor(source: Material, uniforms: SurfaceUniforms): Material {
+  const surface = source.clone();
+  // Flat normals are in the geometry.
+  if ("flatShading" in surface) surface.flatShading = false;
+  surface.onBeforeCompile = (shader) => {
+    Object.assign(shader.uniforms, uniforms);
+    if (!shader.fragmentShader.includes("#include <normal_fragment_maps>")) return; // unlit
+    shader.vertexShader = replaced(replaced(shader.vertexShader, "#include <common>", vertexHead), "#include <normal_vertex>", vertexBody);
+    shader.fragmentShader = replaced(replaced(shader.fragmentShader, "#include <common>", fragmentHead), "#include <normal_fragment_maps>", fragmentBody);
+  };
+  surface.customProgramCacheKey = () => "frames";
+  return surface;
+}

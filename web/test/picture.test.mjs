@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+// The picture under the hands: its line, its frame, its pointer, and what its colours say.
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { join } from "node:path";
+import { choose, drawn, missing, noShared, openFile, settled, shared, shares, shoot, withPage } from "./support.mjs";
+
+const aboveLegend = { left: 0, top: 0, right: 1, bottom: 0.88 };
+const settings = (tab) => tab.evaluate(() => ({ ...window.tspaceView.views.stage.viewport.settings }));
+
+test("the line between both sides is dragged, and a held key shows the right side alone", { skip: missing }, async () => {
+  await withPage(async (tab) => {
+    const box = await tab.locator(".frame").boundingBox();
+    await tab.mouse.move(box.x + box.width / 2, box.y + 40);
+    await tab.mouse.down();
+    await tab.mouse.move(box.x + box.width * 0.25, box.y + 60, { steps: 4 });
+    await tab.mouse.up();
+    assert.ok(Math.abs((await settings(tab)).split - 0.25) < 0.01, "the line is where the mouse left it");
+    assert.equal(Math.round(Number(await tab.locator(".split").inputValue()) / 10), 25);
+    await tab.keyboard.down("b");
+    assert.equal((await settings(tab)).split, 0);
+    await tab.keyboard.up("b");
+    assert.ok(Math.abs((await settings(tab)).split - 0.25) < 0.01);
+  });
+});
+
+test("difference of lighting is nothing where frames are the same, and a half turn where signs are lost", { skip: missing }, async () => {
+  await withPage(async (tab) => {
+    await choose(tab, "Difference");
+    let seen = await shares(tab, { none: [41, 48, 89], some: [33, 120, 181], more: [237, 224, 64] }, aboveLegend);
+    assert.ok(seen.none > 0.1 && seen.some + seen.more > 0.005, JSON.stringify(seen));
+    await shoot(tab, "difference");
+    await tab.getByRole("button", { name: "Crate", exact: true }).click();
+    await settled(tab);
+    seen = await shares(tab, { none: [41, 48, 89], some: [33, 120, 181], more: [237, 224, 64] }, aboveLegend);
+    assert.ok(seen.none > 0.1 && seen.some + seen.more < 0.0005, JSON.stringify(seen));
+  });
+});
+
+/** The share of the picture's pixels that are far from grey. */
+const colourful = async (tab) => {
+  await drawn(tab);
+  const png = (await tab.locator(".frame").screenshot({ style: ".frame > :not(canvas) { visibility: hidden; }" })).toString("base64");
+  return tab.evaluate(async (png) => {
+    const image = await createImageBitmap(new Blob([Uint8Array.from(atob(png), (c) => c.charCodeAt(0))]));
+    const context = new OffscreenCanvas(image.width, image.height).getContext("2d");
+    context.drawImage(image, 0, 0);
+    const { data } = context.getImageData(0, 0, image.width, image.height);
+    let count = 0;
+    for (let i = 0; i < data.length; i += 4) count += Math.max(data[i], data[i + 1], data[i + 2]) - Math.min(data[i], data[i + 1], data[i + 2]) > 60;
+    return (4 * count) / data.length;
+  }, png);
+};
+
+/** The box around all pixels that are not ground, as shares of the picture. */
+const filled = async (tab) => {
+  const png = (await tab.locator(".frame").screenshot({ style: ".frame > :not(canvas) { visibility: hidden; }" })).toString("base64");
+  return tab.evaluate(async (png) => {
+    const image = await createImageBitmap(new Blob([Uint8Array.from(atob(png), (c) => c.charCodeAt(0))]));
+    const context = new OffscreenCanvas(image.width, image.height).getContext("2d");
+    context.drawImage(image, 0, 0);
+    const { data } = context.getImageData(0, 0, image.width, image.height);
+    const ground = 4 * (4 * image.width + 4);
+    let left = image.width, right = 0, top = image.height, bottom = 0;
+    for (let i = 0; i < data.length; i += 4) {
+      const x = (i / 4) % image.width, y = Math.floor(i / 4 / image.width);
+      // Pixels at the rim may be mixed with what lies beside the picture.
+      if (Math.min(x, y, image.width - 1 - x, image.height - 1 - y) < 3 || Math.max(...[0, 1, 2].map((k) => Math.abs(data[i + k] - data[ground + k]))) < 12) continue;
+      left = Math.min(left, x), right = Math.max(right, x), top = Math.min(top, y), bottom = Math.max(bottom, y);
+    }
+    return { width: (right - left + 1) / image.width, height: (bottom - top + 1) / image.height };
+  }, png);
+};
+
+for (const [width, height] of [[390, 844], [820, 1180], [1280, 800]]) {
+  test(`at ${width} pixels a model fills 85 % of the picture, nothing is squashed, and the pointer hits what it points at`, { skip: missing }, async () => {
+    await withPage(async (tab) => {
+      for (const name of ["Crate, broken", "Ring"]) {
+        await tab.getByRole("button", { name, exact: true }).click();
+        await settled(tab);
+        await drawn(tab);
+        const { width: across, height: high } = await filled(tab);
+        const canvas = await tab.locator(".frame canvas").boundingBox(), frame = await tab.locator(".frame").boundingBox();
+        const most = Math.max(across * frame.width / canvas.width, high * frame.height / canvas.height);
+        assert.ok(most > 0.82 && most < 0.88, `${name}: ${across} x ${high}`);
+        const aspects = await tab.evaluate(() => {
+          const { canvas, camera } = window.tspaceView.views.stage.viewport, { width, height } = canvas.getBoundingClientRect();
+          return [canvas.width / canvas.height, camera.aspect, width / height];
+        });
+        assert.ok(aspects.every((one) => Math.abs(one / aspects[2] - 1) < 0.01), aspects.join());
+        // Triangles that face the eye, each at the middle of its own image.
+        const places = await tab.evaluate(() => {
+          const { scene, camera, canvas } = window.tspaceView.views.stage.viewport, [drawn] = scene.drawn, { left, top, width, height } = canvas.getBoundingClientRect();
+          const p = drawn.corners.positions, found = [], v = camera.position.clone();
+          for (let t = 0; t < p.length / 9 && found.length < 200; t += 7) {
+            const middle = v.clone().fromArray([0, 1, 2].map((k) => (p[9 * t + k] + p[9 * t + 3 + k] + p[9 * t + 6 + k]) / 3)).applyMatrix4(drawn.part.places[0]).project(camera);
+            found.push({ triangle: t, x: left + (middle.x + 1) * width / 2, y: top + (1 - middle.y) * height / 2 });
+          }
+          return found;
+        });
+        const hits = await tab.evaluate(async (places) => {
+          const { viewport } = window.tspaceView.views.stage, { left, top } = viewport.canvas.getBoundingClientRect();
+          const found = [];
+          for (const { x, y, triangle } of places) found.push([await viewport.pick(x - left, y - top), triangle]);
+          return found;
+        }, places);
+        const right = hits.filter(([hit, wanted]) => hit === wanted).length;
+        // Those on the far side are hidden by others.
+        assert.ok(right > 0.25 * hits.length, `${name}: ${right} of ${hits.length}`);
+      }
+    }, { width, height });
+  });
+}
+
+test("surfaces look as their materials say: colours of vertices, what mirrors, what is unlit, and bones", { skip: noShared }, async () => {
+  await withPage(async (tab) => {
+    const open = (name) => openFile(tab, join(shared, "models/khronos", name));
+    await open("BoxVertexColors.glb");
+    const share = await colourful(tab);
+    assert.ok(share > 0.2, `vertices have colours: ${share}`);
+    await open("CesiumMan.glb");
+    const sizes = await tab.evaluate(() => {
+      const [drawn] = window.tspaceView.views.stage.viewport.scene.drawn, p = drawn.corners.positions, rest = drawn.part.arrays;
+      const extent = (data, at) => [0, 1, 2].map((k) => {
+        let low = Infinity, high = -Infinity;
+        for (let i = 0; i < at.length; ++i) low = Math.min(low, data[3 * at[i] + k]), high = Math.max(high, data[3 * at[i] + k]);
+        return high - low;
+      });
+      return { posed: extent(p, Array.from({ length: p.length / 3 }, (_, i) => i)), rest: extent(rest.positions, [...rest.indices]) };
+    });
+    // He stands upright (y), where the file's positions lie along z.
+    assert.ok(sizes.posed[1] > 1.4 && sizes.posed[2] < 1.3 && sizes.rest[2] > 1.4, JSON.stringify(sizes));
+    await shoot(tab, "surface-skin");
+    await open("ClearCoatTest.glb");
+    await shoot(tab, "surface-clearcoat");
+  }, { allowMessages: true });
+});

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: MIT
+// What the page calls right is right, what it advises mends, and what it cannot show takes nothing else away.
+import assert from "node:assert/strict";
+import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { test } from "node:test";
+import { Glb } from "./glb.mjs";
+import { choose, drawn, mended, missing, noShared, openFile, settled, shared, shoot, withPage } from "./support.mjs";
+
+const sample = async (tab, name) => {
+  await tab.getByRole("button", { name, exact: true }).click();
+  return settled(tab);
+};
+const rightLabel = (tab) => tab.locator(".side.right").textContent();
+const cat = () => join(shared, "models/assets/Cat.glb");
+
+/** Share of pixels of the picture that differ by more than a step of rounding between two screenshots. */
+const differing = (tab, a, b) => tab.evaluate(async (files) => {
+  const [one, other] = await Promise.all(files.map(async (text) => {
+    const image = await createImageBitmap(new Blob([Uint8Array.from(atob(text), (c) => c.charCodeAt(0))]));
+    const context = new OffscreenCanvas(image.width, image.height).getContext("2d");
+    context.drawImage(image, 0, 0);
+    return context.getImageData(0, 0, image.width, image.height).data;
+  }));
+  let count = 0;
+  for (let i = 0; i < one.length; i += 4) count += Math.max(...[0, 1, 2].map((k) => Math.abs(one[i + k] - other[i + k]))) > 6;
+  return (4 * count) / one.length;
+}, [a, b].map((shot) => shot.toString("base64")));
+
+async function picture(tab, split) {
+  await tab.locator(".split").fill(split);
+  await drawn(tab);
+  // The model alone, without what lies over it.
+  return tab.locator(".frame").screenshot({ style: ".frame > :not(canvas) { visibility: hidden; }" });
+}
+
+test("where green points down, the right side is what the file with turned green looks like", { skip: missing }, async () => {
+  await withPage(async (tab) => {
+    await sample(tab, "Ring");
+    assert.equal(await rightLabel(tab), "right frames (mikktspace), green turned");
+    const left = await picture(tab, "1000"), right = await picture(tab, "0");
+    assert.ok((await differing(tab, left, right)) > 0.02, "as the file is, bumps are dents");
+    await tab.locator(".split").fill("500");
+    await shoot(tab, "ring-green-turned");
+    await tab.locator(".mend > summary").click();
+    assert.equal(await tab.getByLabel("Turn green of maps").isChecked(), true, "what the finding asks for is switched on");
+    assert.match(await tab.locator(".reasons").textContent(), /Green points down in 1 normal map/);
+    await mended(tab);
+    await tab.waitForFunction(() => window.tspaceView.views.stage.viewport.scene.drawn.every(({ rightMap, part }) => rightMap !== part.normalMap));
+    assert.equal(await rightLabel(tab), "mended");
+    assert.ok((await differing(tab, right, await picture(tab, "0"))) < 0.002, "and the mended file looks the same");
+    await sample(tab, "Crate");
+    assert.equal(await rightLabel(tab), "right frames (mikktspace)", "nothing of it is left on the next model");
+  });
+});
+
+test("a mend says what check says before and after it, and leads back by one key", { skip: missing }, async () => {
+  await withPage(async (tab) => {
+    await tab.locator(".mend > summary").click();
+    await mended(tab);
+    assert.equal(await tab.locator(".result .counts").textContent(), "1 error → 0 errors");
+    await tab.getByRole("button", { name: "Look at it" }).click();
+    await tab.waitForFunction(() => window.tspaceView.model?.name === "crate-signs-lost-mended.glb");
+    await settled(tab);
+    assert.equal(await tab.locator(".back").textContent(), "Back to crate-signs-lost.glb");
+    await shoot(tab, "way-back");
+    await tab.keyboard.press("Backspace");
+    await tab.waitForFunction(() => window.tspaceView.model?.name === "crate-signs-lost.glb");
+    await settled(tab);
+    assert.equal(await tab.locator(".back").isVisible(), false);
+  });
+});
+
+test("a mend that changes nothing says so and offers nothing to take", { skip: missing }, async () => {
+  await withPage(async (tab) => {
+    await sample(tab, "Crate");
+    await tab.locator(".mend > summary").click();
+    await mended(tab);
+    assert.match(await tab.locator(".result").textContent(), /Nothing had to change/);
+    assert.equal(await tab.locator(".result a").getAttribute("class"), "button plain-link");
+    await choose(tab, "all anew", ".mend");
+    await tab.locator(".mend select").selectOption("best");
+    await tab.getByLabel("Turn green of maps").check();
+    await sample(tab, "Crate, broken");
+    assert.match(await tab.locator(".command").textContent(), / --repair$/, "no choice is taken over to the next model");
+  });
+});
+
+test("inverted signs and green that cancel out are mended both or not at all", { skip: noShared }, async () => {
+  await withPage(async (tab) => {
+    await openFile(tab, cat());
+    await tab.locator(".mend > summary").click();
+    assert.match(await tab.locator(".reasons").textContent(), /cancel out, so this file renders right/);
+    assert.match(await tab.locator(".command").textContent(), / --repair$/);
+    await mended(tab);
+    assert.match(await tab.locator(".result .counts").textContent(), /^3 errors, .* → 0 errors, /);
+    await choose(tab, "all anew", ".mend");
+    assert.match(await tab.locator(".command").textContent(), / --overwrite --flip-green$/);
+    assert.match(await tab.locator(".reasons").textContent(), /it is switched on/);
+    await choose(tab, "turned", ".mend");
+    assert.match(await tab.locator(".command").textContent(), / --overwrite --convention opengl$/);
+    await tab.locator(".look select").first().selectOption("mikktspace");
+    await tab.locator(".figures", { hasText: "from mikktspace" }).waitFor();
+    const left = await picture(tab, "1000"), right = await picture(tab, "0");
+    assert.ok((await differing(tab, left, right)) < 0.03, "both sides are right, and look the same");
+  }, { allowMessages: true });
+});
+
+test("findings of a kind are one entry, shown together and one after another", { skip: noShared }, async () => {
+  await withPage(async (tab) => {
+    await openFile(tab, cat());
+    const codes = await tab.locator(".finding").evaluateAll((items) => items.map((item) => `${item.className} ${item.dataset.code}`));
+    assert.equal(new Set(codes).size, codes.length, codes.join());
+    const signs = tab.locator(".finding[data-code=signsInverted]"), details = signs.locator("xpath=following-sibling::*[1]");
+    assert.match(await signs.textContent(), /44 places/);
+    const eye = () => tab.evaluate(() => window.tspaceView.views.stage.viewport.camera.position.toArray());
+    await drawn(tab);
+    const before = await eye();
+    await signs.click();
+    await drawn(tab);
+    assert.deepEqual(await eye(), before, "what is everywhere is seen from where the eye is");
+    const triangles = await tab.evaluate(() => window.tspaceView.views.stage.viewport.scene.drawn.reduce((sum, { corners }) => sum + corners.positions.length / 9, 0));
+    assert.ok(Number(await tab.locator(".frame canvas").getAttribute("data-outlined")) > 0.9 * triangles, "all triangles are outlined, not those of the first eight vertices");
+    await shoot(tab, "cat-signs");
+    await details.getByRole("button", { name: "Next" }).click();
+    assert.match(await details.locator(".step").textContent(), /^1 of 44: mesh 0 “head_lambert2_0”/);
+    await details.getByRole("button", { name: "Previous" }).click();
+    assert.match(await details.locator(".step").textContent(), /^44 of 44: mesh 43/);
+    await drawn(tab);
+    assert.notDeepEqual(await eye(), before, "one of many parts is flown to");
+    await tab.locator(".filter").fill("pcube19");
+    const left = await tab.locator(".finding:visible").evaluateAll((items) => items.map((item) => item.dataset.code));
+    assert.ok(left.includes("signsMixed") && !left.includes("greenFlipped"), left.join());
+  }, { allowMessages: true });
+});
+
+test("a finding's own button sets Mend to what its remedy does", { skip: missing }, async () => {
+  await withPage(async (tab) => {
+    await tab.locator(".finding").click();
+    await tab.locator(".mend-this").click();
+    assert.equal(await tab.locator("details.mend").evaluate((panel) => panel.open), true);
+    assert.match(await tab.locator(".command").textContent(), / --repair$/);
+    assert.equal(await tab.evaluate(() => document.activeElement.textContent), "Mend");
+  });
+});
+
+test("without WebGL there are findings and mends, and a sentence where the picture was", { skip: missing }, async () => {
+  await withPage(async (tab) => {
+    assert.equal(await tab.evaluate(() => document.documentElement.dataset.picture), "none");
+    assert.match(await tab.locator(".remark").textContent(), /no WebGL, so there is no picture/);
+    assert.equal(await tab.locator(".finding").getAttribute("data-code"), "signsWrong");
+    assert.match(await tab.locator(".figures").textContent(), /1,728 of 5,184 corners have another sign/);
+    await shoot(tab, "no-webgl");
+    await tab.locator(".mend > summary").click();
+    await mended(tab);
+    assert.equal(await tab.locator(".result .counts").textContent(), "1 error → 0 errors");
+    await tab.locator(".uv > summary").click();
+    await tab.locator(".uv", { hasText: "drawn by WebGL, which this browser has not" }).waitFor();
+    await sample(tab, "Ring");
+    assert.ok((await tab.locator(".finding").count()) > 0);
+  }, { hasWebGl: false, allowMessages: true });
+});
+
+test("an image that cannot be drawn takes itself away, and not the model", { skip: missing }, async () => {
+  const folder = mkdtempSync(join(tmpdir(), "tspace-images-"));
+  try {
+    await withPage(async (tab) => {
+      const bytes = await tab.evaluate(() => [...window.tspaceView.model.bytes]);
+      const kinds = {
+        "as KTX2 that has no other image": (glb) => {
+          const [texture] = glb.json.textures;
+          glb.json.images[texture.source] = { bufferView: glb.addView(Buffer.from("no KTX2")), mimeType: "image/ktx2" };
+          texture.extensions = { KHR_texture_basisu: { source: texture.source } };
+          delete texture.source;
+          glb.json.extensionsUsed = glb.json.extensionsRequired = ["KHR_texture_basisu"];
+        },
+        "as a PNG that is none": (glb) => (glb.json.images[0] = { bufferView: glb.addView(Buffer.from("no PNG")), mimeType: "image/png" }),
+      };
+      for (const [kind, change] of Object.entries(kinds)) {
+        const glb = new Glb(Buffer.from(bytes)), path = join(folder, "crate.glb");
+        change(glb);
+        writeFileSync(path, glb.finish());
+        assert.equal(await openFile(tab, path), "ready", kind);
+        assert.equal(await tab.evaluate(() => document.documentElement.dataset.picture), "drawn", kind);
+        assert.match(await tab.locator(".remark").textContent(), /1 image cannot be drawn here/, kind);
+        assert.ok((await tab.locator(".finding").count()) > 0, kind);
+      }
+      await shoot(tab, "image-left-out");
+    }, { allowMessages: true });
+  } finally {
+    rmSync(folder, { recursive: true, force: true });
+  }
+});
