@@ -71,6 +71,11 @@ export class Viewport {
     return this.renderer !== null;
   }
 
+  /** What the camera looks at, and turns about. */
+  get target(): Vector3 {
+    return this.#controls.target;
+  }
+
   show(scene: Scene): void {
     this.#world.remove(this.scene.root);
     this.scene.dispose();
@@ -194,12 +199,22 @@ export class Viewport {
     material.uniforms.uIsMap.value = false;
     material.depthTest = true;
     material.side = side;
-    for (const { meshes } of drawn) for (const mesh of meshes) mesh.visible = true;
+    this.scene.show(false);
     const upsideDown = new Uint8ClampedArray(4 * size * size), rows = new Uint8ClampedArray(4 * size * size);
     await renderer.readRenderTargetPixelsAsync(target, 0, 0, size, size, upsideDown);
     target.dispose();
     for (let row = 0; row < size; ++row) rows.set(upsideDown.subarray(4 * size * (size - 1 - row), 4 * size * (size - row)), 4 * size * row);
     return rows;
+  }
+
+  /** The picture as it is now, in pixels of the canvas; null without WebGL. */
+  draw(): ImageBitmap | OffscreenCanvas | null {
+    if (!this.renderer) return null;
+    this.#draw();
+    // The canvas holds what was drawn until this task ends.
+    const copy = new OffscreenCanvas(this.canvas.width, this.canvas.height);
+    copy.getContext("2d")!.drawImage(this.canvas, 0, 0);
+    return copy;
   }
 
   #values(): PictureValues {
