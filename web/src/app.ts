@@ -28,6 +28,8 @@ export interface Views {
   /** The model, or null before there is one, and the one that it was mended from. */
   opened: (model: ModelFiles | null, before: ModelFiles | null) => void;
   checked: (report: CheckReport) => void;
+  /** All is there: picture, findings, who made the tangents. */
+  ready: () => void;
   inspected: (report: InspectReport) => void;
 }
 
@@ -211,6 +213,7 @@ export class App {
     findings.showVerdict((this.reports.identify as IdentifyReport).verdict);
     progress.done("");
     this.#state("ready");
+    this.views.ready();
   }
 
   /** Right of the slider stands what is right: where green points down, it is read the other way round there. */

@@ -108,6 +108,10 @@ async function unpacked({ path, file }: Named): Promise<Named[]> {
 export class Pile {
   #files: Named[] = [];
 
+  get isEmpty(): boolean {
+    return this.#files.length === 0;
+  }
+
   async add(dropped: Named[]): Promise<Named[]> {
     const found = (await Promise.all(dropped.map((one) => (/\.zip$/i.test(one.path) ? unpacked(one) : [one])))).flat();
     const isMore = modelsIn(found).length === 0 && modelsIn(this.#files).length > 0 && found.some(({ path }) => /\.(bin|mtl|png|jpe?g|webp|ktx2)$/i.test(path));

@@ -5,7 +5,8 @@ import { App } from "./app.js";
 import { el, replaceChildren } from "./dom.js";
 import { chooseModel, droppedFiles, modelsIn, pickedFiles, Pile, type ModelFiles, type Named } from "./files.js";
 import { embeddedModel } from "./embedded.js";
-import { samples } from "./samples.js";
+import { keepLink, linkedBy } from "./link.js";
+import { faults, samples } from "./samples.js";
 import { FindingsView } from "./views/findings.js";
 import { LookView } from "./views/look.js";
 import { MendView, mendedName, type Mended } from "./views/mend.js";
@@ -47,7 +48,7 @@ const mend = new MendView(
   ({ name, bytes, others }) => void app.openMended({ name, bytes, others }),
 );
 const app: App = new App(work, {
-  stage, findings, look, uvMap, place, parts, progress, opened: showName, checked: (report) => mend.advise(report),
+  stage, findings, look, uvMap, place, parts, progress, opened: showName, checked: (report) => mend.advise(report), ready: followLink,
   inspected: ({ primitives }) => mend.setCompressed(primitives.some(({ compression }) => compression !== "none")),
 });
 
@@ -59,6 +60,19 @@ const share = new ShareView({
   },
 });
 
+/** The first model is shown as the address says; from then on the address says what is shown. */
+let linked = linkedBy(location.hash);
+const keep = keepLink(stage, () => findings.chosen, () => (pile.isEmpty && app.model !== own ? (app.model?.name ?? null) : null));
+stage.viewport.onDrawn = () => document.documentElement.dataset.state === "ready" && keep();
+function followLink(): void {
+  const { look, finding, split, camera } = linked;
+  linked = {};
+  if (finding !== undefined) findings.openFinding(finding);
+  if (look) stage.setLook(look);
+  if (split !== undefined) stage.setSplit(split);
+  if (camera) stage.viewport.lookFrom(camera);
+}
+
 function showName(model: ModelFiles | null, before: ModelFiles | null): void {
   mend.reset(model);
   texel.reset();
@@ -69,6 +83,7 @@ function showName(model: ModelFiles | null, before: ModelFiles | null): void {
   for (const button of sampleButtons) button.setAttribute("aria-pressed", String(model !== null && button.dataset.file === model.name));
 }
 
+const own = embeddedModel();
 let pile = new Pile();
 /** Where several models came together: which of them. */
 const others = el("select", { class: "models", "aria-label": "Models that came together", hidden: true });
@@ -103,10 +118,18 @@ function openSample(name: string, bytes: Uint8Array<ArrayBuffer>): void {
 const sampleButtons = samples.map(({ name, file, bytes, hint }) =>
   el("button", { type: "button", class: "sample", "data-file": file, title: hint, "aria-pressed": "false", onclick: () => openSample(file, bytes()) }, name));
 
+const gallery = el("select", { class: "models", "aria-label": "Faults of real files" }, el("option", { value: "" }, "Faults…"),
+  ...faults.map(({ name, hint }, i) => el("option", { value: i, title: hint }, name)));
+gallery.addEventListener("change", () => {
+  if (gallery.value === "") return;
+  const { file, bytes } = faults[Number(gallery.value)];
+  openSample(file, bytes());
+});
+
 const header = el("header", { class: "bar" },
   el("h1", {}, "tspace ", el("span", {}, "view")),
   el("div", { class: "open" }, picker("Open model…", { accept: ".glb,.vrm,.gltf,.obj,.zip,.bin,.mtl,image/*", "aria-label": "Open model" }), picker("Folder…", { webkitdirectory: true, "aria-label": "Open folder" })),
-  el("nav", { class: "samples", "aria-label": "Samples" }, el("span", { class: "quiet" }, "Samples"), ...sampleButtons),
+  el("nav", { class: "samples", "aria-label": "Samples" }, el("span", { class: "quiet" }, "Samples"), ...sampleButtons, gallery),
   others, title, back);
 const inspector = el("aside", { class: "inspector", "aria-label": "Inspector" }, look.element, texel.element, uvMap.element, parts.element, mend.element, share.element);
 const main = el("main", {}, findings.element, stage.element, inspector);
@@ -135,9 +158,11 @@ addEventListener("drop", (event) => {
   }
 });
 
-const own = embeddedModel();
 if (own) void app.open(async () => own);
-else sampleButtons[0].click();
+else {
+  const first = [...samples, ...faults].find(({ file }) => file === linked.sample) ?? samples[0];
+  openSample(first.file, first.bytes());
+}
 
 /** For tests, and for those who look with the browser's console. */
 Object.assign(window, { tspaceView: app });

@@ -96,6 +96,20 @@ export class Viewport {
     });
   }
 
+  /** Puts the eye at a place, looking at another. */
+  lookFrom([x, y, z, tx, ty, tz]: number[]): void {
+    this.fly(new Vector3(tx, ty, tz), 1, null, true);
+    this.#flight = null;
+    this.camera.position.set(x, y, z);
+    this.#controls.target.set(tx, ty, tz);
+    const { center, radius } = this.scene.sphere(), far = this.camera.position.distanceTo(center) + radius;
+    this.camera.near = far / 5000;
+    this.camera.far = far * 3;
+    this.camera.updateProjectionMatrix();
+    this.#controls.update();
+    this.ask();
+  }
+
   setLight(x: number, y: number): void {
     const length = Math.hypot(x, y), k = length > 1 ? 1 / length : 1;
     this.light.set(x * k, y * k, Math.sqrt(Math.max(0.0025, 1 - Math.min(1, length) ** 2))).normalize();
