@@ -4,7 +4,8 @@
 import { loadModel } from "./model/load.js";
 import { glbOfObj } from "./model/obj.js";
 import { triangleCount, type Part } from "./model/part.js";
-import { Refusal, type ModelFiles } from "./files.js";
+import { missingFiles, Refusal, type ModelFiles } from "./files.js";
+import type { PartsView } from "./views/parts.js";
 import { Scene, type Drawn } from "./picture/scene.js";
 import type { CheckReport, IdentifyReport, InspectReport } from "tspace/gltf";
 import type { FindingsView } from "./views/findings.js";
@@ -22,10 +23,13 @@ export interface Views {
   look: LookView;
   uvMap: UvMapView;
   place: PlaceView;
+  parts: PartsView;
   progress: Progress;
   /** The model, or null before there is one, and the one that it was mended from. */
   opened: (model: ModelFiles | null, before: ModelFiles | null) => void;
   checked: (report: CheckReport) => void;
+  /** All is there: picture, findings, who made the tangents. */
+  ready: () => void;
   inspected: (report: InspectReport) => void;
 }
 
@@ -36,6 +40,9 @@ export interface Reports {
 }
 
 const sentenceOf = (error: unknown): string => (error instanceof Error ? error.message : String(error));
+/** Files that did not come with the model, and what to do. */
+const lacking = (missing: string[]): string => `It names files that are not here: ${missing.slice(0, 8).join(", ")}${missing.length > 8 ? ` and ${missing.length - 8} more` : ""}. Drop them, too.`;
+
 /** What the loader of three.js says, for people. */
 function plainly(error: unknown): string {
   const text = sentenceOf(error).replace(/^THREE\.\w+: /, "");
@@ -82,7 +89,7 @@ export class App {
   }
 
   #clear(): void {
-    const { stage, look, uvMap, place } = this.views;
+    const { stage, look, uvMap, place, parts } = this.views;
     place.clear();
     this.#mended = [];
     this.#normalImages = [];
@@ -93,6 +100,8 @@ export class App {
     look.showLines();
     look.showFigures();
     uvMap.reset();
+    parts.describe(null);
+    parts.reset();
   }
 
   /** The mended file as the model, and the way back from it. */
@@ -116,10 +125,12 @@ export class App {
     delete document.documentElement.dataset.picture;
     this.reports = {};
     findings.wait("Reading…");
+    let missing: string[] = [];
     progress.at("Reading the file", 0);
     try {
       const chosen = await choose();
       if (!isCurrent()) return;
+      missing = missingFiles(chosen);
       const isObj = /\.obj$/i.test(chosen.name);
       const model = isObj ? glbOfObj(chosen) : chosen;
       this.model = model;
@@ -129,12 +140,16 @@ export class App {
       this.reports.inspect = await this.work.run("report", { verb: "inspect", model });
       if (!isCurrent()) return;
       this.views.inspected(this.reports.inspect as InspectReport);
-      await this.#draw(model, isObj ? ["An OBJ is shown and judged as the GLB that it becomes."] : [], isCurrent);
+      this.views.parts.describe(this.reports.inspect as InspectReport);
+      const remarks = isObj ? ["An OBJ is shown and judged as the GLB that it becomes."] : [];
+      if (missing.length > 0) remarks.push(lacking(missing));
+      await this.#draw(model, remarks, isCurrent);
       await this.#judge(model, isCurrent);
     } catch (error) {
       if (!isCurrent()) return;
       if (error instanceof WorkError && error.code === "stopped") return this.#stopped();
-      this.fail(error instanceof WorkError || error instanceof Refusal ? sentenceOf(error) : `This file cannot be opened: ${sentenceOf(error)}`);
+      const sentence = error instanceof WorkError || error instanceof Refusal ? sentenceOf(error) : `This file cannot be opened: ${sentenceOf(error)}`;
+      this.fail(missing.length > 0 ? `${lacking(missing)} (${sentence})` : sentence);
     }
   }
 
@@ -170,6 +185,7 @@ export class App {
       stage.viewport.show(scene);
       stage.viewport.reset(true);
       this.views.uvMap.reset();
+      this.views.parts.reset();
       this.views.look.showLines();
       if (scene.drawn.length === 0) remarks.push("There is nothing to draw in this file.");
       stage.say(remarks.join(" "));
@@ -197,6 +213,7 @@ export class App {
     findings.showVerdict((this.reports.identify as IdentifyReport).verdict);
     progress.done("");
     this.#state("ready");
+    this.views.ready();
   }
 
   /** Right of the slider stands what is right: where green points down, it is read the other way round there. */

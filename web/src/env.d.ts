@@ -29,6 +29,9 @@ declare module "*.glb?inline" {
   export default url;
 }
 
+/** The version of the library in the page. */
+declare const __VERSION__: string;
+
 declare module "virtual:meanings" {
   const meanings: Record<string, { what: string; why: string } | undefined>;
   export default meanings;

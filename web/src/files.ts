@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Files that a person dropped or chose: which of them is the model, and how it finds the others.
+import { unzipSync } from "fflate";
 
 export interface ModelFiles {
   /** What reports call it. */
@@ -16,9 +17,15 @@ const kMostBytes = 1 << 30;
 const kMostFiles = 2000;
 const kModel = /\.(glb|vrm|gltf|obj)$/i;
 
-interface Named {
+/** What can be read of a file: one of the disk, or one out of an archive. */
+interface Readable {
+  size: number;
+  arrayBuffer(): Promise<ArrayBuffer>;
+}
+
+export interface Named {
   path: string;
-  file: File;
+  file: Readable;
 }
 
 /** What a folder holds, by one of the two interfaces that browsers have for it. */
@@ -74,11 +81,68 @@ export async function droppedFiles(data: DataTransfer): Promise<Named[]> {
 
 export const pickedFiles = (files: FileList): Named[] => [...files].map((file) => ({ path: file.webkitRelativePath || file.name, file }));
 
-/** The model among the files: the one nearest to the top, by name where several are. */
-export async function chooseModel(named: Named[]): Promise<ModelFiles> {
-  if (named.length > kMostFiles) throw new Refusal(`These are more than ${kMostFiles} files. Choose the folder of one model.`);
+/** What an archive holds, below a folder of its name. Sizes are held against the limits before anything is unpacked. */
+async function unpacked({ path, file }: Named): Promise<Named[]> {
+  const packed = new Uint8Array(await file.arrayBuffer());
+  let files = 0, bytes = 0, entries: Record<string, Uint8Array>;
+  try {
+    entries = unzipSync(packed, {
+      filter: ({ name, originalSize }) => {
+        files += 1;
+        bytes += originalSize;
+        return !name.endsWith("/") && files <= kMostFiles && bytes <= kMostBytes;
+      },
+    });
+  } catch (error) {
+    throw new Refusal(`${path} is no zip file that can be read: ${(error as Error).message}.`);
+  }
+  if (files > kMostFiles || bytes > kMostBytes) throw new Refusal(`${path} holds more than ${kMostFiles} files, or more than 1 GB.`);
+  const folder = path.replace(/\.zip$/i, "");
+  return Object.entries(entries).map(([name, content]) => ({
+    path: `${folder}/${name}`,
+    file: { size: content.length, arrayBuffer: async () => content.slice().buffer as ArrayBuffer },
+  }));
+}
+
+/** The files that are there: those of a later drop without a model belong to the model of an earlier one. */
+export class Pile {
+  #files: Named[] = [];
+
+  get isEmpty(): boolean {
+    return this.#files.length === 0;
+  }
+
+  async add(dropped: Named[]): Promise<Named[]> {
+    const found = (await Promise.all(dropped.map((one) => (/\.zip$/i.test(one.path) ? unpacked(one) : [one])))).flat();
+    const isMore = modelsIn(found).length === 0 && modelsIn(this.#files).length > 0 && found.some(({ path }) => /\.(bin|mtl|png|jpe?g|webp|ktx2)$/i.test(path));
+    const names = new Set(found.map(({ path }) => path));
+    this.#files = isMore ? [...this.#files.filter(({ path }) => !names.has(path)), ...found] : found;
+    return this.#files;
+  }
+}
+
+/** Models among files, those nearest to the top first. */
+export function modelsIn(named: Named[]): string[] {
   const depth = (path: string) => path.split("/").length;
-  const models = named.filter(({ path }) => kModel.test(path)).sort((a, b) => depth(a.path) - depth(b.path) || a.path.localeCompare(b.path, "en"));
+  return named.map(({ path }) => path).filter((path) => kModel.test(path)).sort((a, b) => depth(a) - depth(b) || a.localeCompare(b, "en"));
+}
+
+/** Files that a .gltf names and that did not come with it. */
+export function missingFiles({ name, bytes, others }: ModelFiles): string[] {
+  if (!/\.gltf$/i.test(name)) return [];
+  try {
+    const { buffers = [], images = [] } = JSON.parse(new TextDecoder().decode(bytes)) as { buffers?: { uri?: unknown }[]; images?: { uri?: unknown }[] };
+    const uris = [...buffers, ...images].map(({ uri }) => uri).filter((uri): uri is string => typeof uri === "string" && !/^[a-z][a-z0-9+.-]*:/i.test(uri));
+    return [...new Set(uris.map((uri) => decodeURIComponent(uri).replace(/^\.\//, "")))].filter((path) => !others.has(path));
+  } catch {
+    return []; // what is wrong with it is said by its readers
+  }
+}
+
+/** One of the models among the files, the first where none is named, with all files that it may name. */
+export async function chooseModel(named: Named[], chosen?: string): Promise<ModelFiles> {
+  if (named.length > kMostFiles) throw new Refusal(`These are more than ${kMostFiles} files. Choose the folder of one model.`);
+  const path = chosen ?? modelsIn(named)[0], models = named.filter((one) => one.path === path);
   if (models.length === 0) {
     throw new Refusal(named.length === 1 ? `${named[0].path} is no model that this page reads: it reads .glb, .vrm, .gltf and .obj.` : "There is no .glb, .vrm, .gltf or .obj among these files.");
   }
@@ -86,10 +150,16 @@ export async function chooseModel(named: Named[]): Promise<ModelFiles> {
   if (models[0].file.size > kMostBytes || total > 2 * kMostBytes) throw new Refusal(`${models[0].path} is too large for this page, which reads models of up to 1 GB. The tool has no such limit.`);
   const folder = models[0].path.slice(0, models[0].path.lastIndexOf("/") + 1);
   const others = new Map<string, Uint8Array<ArrayBuffer>>();
-  const read = async (file: File) => new Uint8Array(await file.arrayBuffer());
-  const isGlb = /\.(glb|vrm)$/i.test(models[0].path);
+  const read = async (file: Readable) => new Uint8Array(await file.arrayBuffer());
+  const isGlb = /\.(glb|vrm)$/i.test(path);
   for (const { path, file } of named) {
     if (path !== models[0].path && path.startsWith(folder) && !(isGlb && kModel.test(path))) others.set(path.slice(folder.length), await read(file));
   }
-  return { name: models[0].path.slice(folder.length), bytes: await read(models[0].file), others };
+  const model = { name: path.slice(folder.length), bytes: await read(models[0].file), others };
+  // What lies elsewhere than the model says is taken by its name, where that is the only one.
+  for (const wanted of missingFiles(model)) {
+    const own = named.filter(({ path }) => path.split("/").pop() === wanted.split("/").pop());
+    if (own.length === 1) others.set(wanted, await read(own[0].file));
+  }
+  return model;
 }

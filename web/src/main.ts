@@ -3,14 +3,17 @@
 import "./style.css";
 import { App } from "./app.js";
 import { el, replaceChildren } from "./dom.js";
-import { chooseModel, droppedFiles, pickedFiles, type ModelFiles } from "./files.js";
+import { chooseModel, droppedFiles, modelsIn, pickedFiles, Pile, type ModelFiles, type Named } from "./files.js";
 import { embeddedModel } from "./embedded.js";
-import { samples } from "./samples.js";
+import { keepLink, linkedBy } from "./link.js";
+import { faults, samples } from "./samples.js";
 import { FindingsView } from "./views/findings.js";
 import { LookView } from "./views/look.js";
 import { MendView, mendedName, type Mended } from "./views/mend.js";
+import { PartsView } from "./views/parts.js";
 import { PlaceView } from "./views/place.js";
 import { Progress } from "./views/progress.js";
+import { pictureFile, reportAs, ShareView } from "./views/share.js";
 import { Stage } from "./views/stage.js";
 import { TexelView } from "./views/texel.js";
 import { UvMapView } from "./views/uv_map.js";
@@ -28,6 +31,7 @@ const findings = new FindingsView({
 const progress = new Progress(() => app.stop());
 const look = new LookView(stage, (right) => void app.setRight(right));
 const uvMap = new UvMapView(stage.viewport);
+const parts = new PartsView(stage.viewport);
 const texel = new TexelView(stage.viewport, (spot) => uvMap.point(spot));
 const title = el("p", { class: "model-name" });
 const back = el("button", { type: "button", class: "back", hidden: true, title: "Key: Backspace", onclick: () => app.back() });
@@ -44,9 +48,30 @@ const mend = new MendView(
   ({ name, bytes, others }) => void app.openMended({ name, bytes, others }),
 );
 const app: App = new App(work, {
-  stage, findings, look, uvMap, place, progress, opened: showName, checked: (report) => mend.advise(report),
+  stage, findings, look, uvMap, place, parts, progress, opened: showName, checked: (report) => mend.advise(report), ready: followLink,
   inspected: ({ primitives }) => mend.setCompressed(primitives.some(({ compression }) => compression !== "none")),
 });
+
+const share = new ShareView({
+  report: (kind) => reportAs(kind, app.model?.name ?? "no model", app.reports),
+  picture: async () => {
+    const name = app.model?.name ?? "model", blob = await pictureFile(stage.viewport, name, stage.sides);
+    return blob && { blob, name: `${name.replace(/^.*\//, "").replace(/\.[^.]*$/, "")}-${stage.viewport.settings.look}.png` };
+  },
+});
+
+/** The first model is shown as the address says; from then on the address says what is shown. */
+let linked = linkedBy(location.hash);
+const keep = keepLink(stage, () => findings.chosen, () => (pile.isEmpty && app.model !== own ? (app.model?.name ?? null) : null));
+stage.viewport.onDrawn = () => document.documentElement.dataset.state === "ready" && keep();
+function followLink(): void {
+  const { look, finding, split, camera } = linked;
+  linked = {};
+  if (finding !== undefined) findings.openFinding(finding);
+  if (look) stage.setLook(look);
+  if (split !== undefined) stage.setSplit(split);
+  if (camera) stage.viewport.lookFrom(camera);
+}
 
 function showName(model: ModelFiles | null, before: ModelFiles | null): void {
   mend.reset(model);
@@ -58,27 +83,57 @@ function showName(model: ModelFiles | null, before: ModelFiles | null): void {
   for (const button of sampleButtons) button.setAttribute("aria-pressed", String(model !== null && button.dataset.file === model.name));
 }
 
+const own = embeddedModel();
+let pile = new Pile();
+/** Where several models came together: which of them. */
+const others = el("select", { class: "models", "aria-label": "Models that came together", hidden: true });
+
+/** Opens what was dropped or chosen; later files may belong to the model that is there. */
+function openFiles(dropped: Promise<Named[]> | Named[]): void {
+  void app.open(async () => {
+    const files = await pile.add(await dropped), models = modelsIn(files);
+    others.hidden = models.length < 2;
+    replaceChildren(others, ...models.map((path) => el("option", { value: path }, path)));
+    others.onchange = () => void app.open(() => chooseModel(files, others.value));
+    return chooseModel(files);
+  });
+}
+
 function picker(text: string, properties: Record<string, unknown>): HTMLElement {
   const input = el("input", { type: "file", multiple: true, tabindex: "-1", ...properties }) as HTMLInputElement;
   input.addEventListener("change", () => {
     const files = input.files ? pickedFiles(input.files) : [];
     input.value = "";
-    if (files.length > 0) void app.open(() => chooseModel(files));
+    if (files.length > 0) openFiles(files);
   });
   return el("span", { class: "picker" }, input, el("button", { type: "button", onclick: () => input.click() }, text));
 }
 
+function openSample(name: string, bytes: Uint8Array<ArrayBuffer>): void {
+  pile = new Pile();
+  others.hidden = true;
+  void app.open(async () => ({ name, bytes, others: new Map() }));
+}
+
 const sampleButtons = samples.map(({ name, file, bytes, hint }) =>
-  el("button", { type: "button", class: "sample", "data-file": file, title: hint, "aria-pressed": "false", onclick: () => void app.open(async () => ({ name: file, bytes: bytes(), others: new Map() })) }, name));
+  el("button", { type: "button", class: "sample", "data-file": file, title: hint, "aria-pressed": "false", onclick: () => openSample(file, bytes()) }, name));
+
+const gallery = el("select", { class: "models", "aria-label": "Faults of real files" }, el("option", { value: "" }, "Faults…"),
+  ...faults.map(({ name, hint }, i) => el("option", { value: i, title: hint }, name)));
+gallery.addEventListener("change", () => {
+  if (gallery.value === "") return;
+  const { file, bytes } = faults[Number(gallery.value)];
+  openSample(file, bytes());
+});
 
 const header = el("header", { class: "bar" },
   el("h1", {}, "tspace ", el("span", {}, "view")),
-  el("div", { class: "open" }, picker("Open model…", { accept: ".glb,.vrm,.gltf,.obj,.bin,.mtl,image/*", "aria-label": "Open model" }), picker("Folder…", { webkitdirectory: true, "aria-label": "Open folder" })),
-  el("nav", { class: "samples", "aria-label": "Samples" }, el("span", { class: "quiet" }, "Samples"), ...sampleButtons),
-  title, back);
-const inspector = el("aside", { class: "inspector", "aria-label": "Inspector" }, look.element, texel.element, uvMap.element, mend.element);
+  el("div", { class: "open" }, picker("Open model…", { accept: ".glb,.vrm,.gltf,.obj,.zip,.bin,.mtl,image/*", "aria-label": "Open model" }), picker("Folder…", { webkitdirectory: true, "aria-label": "Open folder" })),
+  el("nav", { class: "samples", "aria-label": "Samples" }, el("span", { class: "quiet" }, "Samples"), ...sampleButtons, gallery),
+  others, title, back);
+const inspector = el("aside", { class: "inspector", "aria-label": "Inspector" }, look.element, texel.element, uvMap.element, parts.element, mend.element, share.element);
 const main = el("main", {}, findings.element, stage.element, inspector);
-const footer = el("footer", {}, progress.element, el("span", { class: "quiet" }, "Drop a .glb, a folder with a .gltf, or an .obj anywhere. Nothing leaves this computer."));
+const footer = el("footer", {}, progress.element, el("span", { class: "quiet" }, "Drop a .glb, a .zip, a folder with a .gltf, or an .obj anywhere. Nothing leaves this computer."));
 document.body.append(header, main, footer);
 
 addEventListener("keydown", (event) => {
@@ -99,14 +154,15 @@ addEventListener("drop", (event) => {
   const { dataTransfer } = event;
   // Entries of a drop can be asked for only now, so the first await comes after that.
   if (dataTransfer) {
-    const files = droppedFiles(dataTransfer);
-    void app.open(async () => chooseModel(await files));
+    openFiles(droppedFiles(dataTransfer));
   }
 });
 
-const own = embeddedModel();
 if (own) void app.open(async () => own);
-else sampleButtons[0].click();
+else {
+  const first = [...samples, ...faults].find(({ file }) => file === linked.sample) ?? samples[0];
+  openSample(first.file, first.bytes());
+}
 
 /** For tests, and for those who look with the browser's console. */
 Object.assign(window, { tspaceView: app });

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The ways a model comes in: dropped files and folders, as the browser gives them, and chosen ones. Also fingers.
 import assert from "node:assert/strict";
-import { mkdirSync, mkdtempSync, rmSync, writeFileSync } from "node:fs";
+import { mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
@@ -78,6 +78,36 @@ test("what is no model, or lacks its files, gets a sentence", { skip: missing },
   }, { allowMessages: true });
 });
 
+test("a .gltf and its files may come one after the other, and what is missing is listed", { skip: missing }, async () => {
+  await withPage(async (tab) => {
+    assert.equal(await drop(tab, at("box", "crate.gltf")), "failed");
+    assert.match(await tab.locator(".failure").textContent(), /crate\.bin, maps\/side 0\.png, maps\/side 1\.png\. Drop them, too/);
+    assert.equal(await drop(tab, at("box", "crate.bin")), "ready");
+    assert.match(await tab.locator(".remark").textContent(), /not here: maps\/side 0\.png, maps\/side 1\.png/);
+    assert.equal(await drop(tab, at("box", "maps", "side 0.png"), at("box", "maps", "side 1.png")), "ready");
+    assert.deepEqual(await shown(tab), { picture: "drawn", name: "crate.gltf", others: ["crate.bin", "maps/side 0.png", "maps/side 1.png", "side 0.png", "side 1.png"], codes: ["signsWrong"], maps: [true] });
+  }, { allowMessages: true });
+});
+
+test("a zip is a folder, and of several models one is chosen", { skip: missing }, async () => {
+  await withPage(async (tab) => {
+    const { zipSync } = await import("fflate");
+    const files = ["crate.gltf", "crate.bin", "maps/side 0.png", "maps/side 1.png"];
+    writeFileSync(at("box.zip"), zipSync(Object.fromEntries(files.map((name) => [`deep/${name}`, readFileSync(at("box", name))]))));
+    assert.equal(await drop(tab, at("box.zip")), "ready");
+    assert.deepEqual(await shown(tab), { picture: "drawn", name: "crate.gltf", others: files.slice(1), codes: ["signsWrong"], maps: [true] });
+    assert.equal(await tab.locator(".models").isVisible(), false);
+    assert.equal(await drop(tab, at("crate.glb"), at("quad.obj"), at("quad.mtl")), "ready");
+    assert.deepEqual(await tab.locator(".models option").allTextContents(), ["crate.glb", "quad.obj"]);
+    await tab.locator(".models").selectOption("quad.obj");
+    await tab.waitForFunction(() => window.tspaceView.model?.name === "quad.glb");
+    assert.equal(await settled(tab), "ready");
+    writeFileSync(at("broken.zip"), "PK no zip");
+    assert.equal(await drop(tab, at("broken.zip")), "failed");
+    assert.match(await tab.locator(".failure").textContent(), /broken\.zip is no zip file/);
+  });
+});
+
 test("files and folders can be chosen, too", { skip: missing }, async () => {
   await withPage(async (tab) => {
     await tab.locator(".picker input").first().setInputFiles([at("quad.obj"), at("quad.mtl")]);
@@ -92,8 +122,8 @@ test("files and folders can be chosen, too", { skip: missing }, async () => {
 
 /** Where the eye is, as direction and distance from what it looks at. */
 const eye = (tab) => tab.evaluate(() => {
-  const { camera, scene } = window.tspaceView.views.stage.viewport, { center } = scene.sphere();
-  const way = camera.position.clone().sub(center), distance = way.length();
+  const { camera, target } = window.tspaceView.views.stage.viewport;
+  const way = camera.position.clone().sub(target), distance = way.length();
   return { distance, direction: way.divideScalar(distance).toArray() };
 });
 const degrees = (a, b) => (Math.acos(Math.min(1, a.reduce((sum, x, i) => sum + x * b[i], 0))) * 180) / Math.PI;

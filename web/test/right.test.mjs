@@ -192,3 +192,42 @@ test("an image that cannot be drawn takes itself away, and not the model", { ski
     rmSync(folder, { recursive: true, force: true });
   }
 });
+
+test("each fault of the gallery is found, and mended by what is switched on", { skip: missing }, async () => {
+  await withPage(async (tab) => {
+    const wanted = { "every sign inverted": "signsInverted", "signs lost": "signsWrong", "averaged over seams": "SeamAveraged", "T along N": "tangentsNotOrthogonal", "other axes": "directionsWrong", "green points down": "greenFlipped" };
+    await tab.locator(".mend > summary").click();
+    for (const [name, code] of Object.entries(wanted)) {
+      await tab.getByLabel("Faults of real files").selectOption({ label: name });
+      await settled(tab);
+      const codes = await tab.locator(".finding").evaluateAll((items) => items.map((item) => item.dataset.code));
+      assert.ok(codes.some((one) => one.includes(code)), `${name}: ${codes.join()}`);
+      await shoot(tab, `fault-${name.replaceAll(" ", "-")}`);
+      await mended(tab);
+      assert.match(await tab.locator(".result .counts").textContent(), /→ 0 errors|→ 0 warnings/, name);
+    }
+  });
+});
+
+test("the address says what is seen, and shows it again", { skip: missing }, async () => {
+  let address;
+  await withPage(async (tab) => {
+    await tab.getByLabel("Faults of real files").selectOption({ label: "every sign inverted" });
+    await settled(tab);
+    await tab.locator(".finding").click();
+    await choose(tab, "Difference");
+    await tab.locator(".frame canvas").focus();
+    for (const key of ["ArrowLeft", "ArrowUp", "+"]) await tab.keyboard.press(key);
+    await tab.waitForFunction(() => /look=difference/.test(location.hash) && /finding=0/.test(location.hash));
+    await tab.waitForTimeout(600);
+    address = await tab.evaluate(() => location.href);
+  });
+  await withPage(async (tab) => {
+    assert.equal(await tab.locator(".model-name").textContent(), "crate-signs-inverted.glb");
+    assert.equal(await tab.locator(".finding").getAttribute("aria-expanded"), "true");
+    const now = await tab.evaluate(() => ({ look: window.tspaceView.views.stage.viewport.settings.look, eye: window.tspaceView.views.stage.viewport.camera.position.toArray() }));
+    assert.equal(now.look, "difference");
+    const eye = new URLSearchParams(new URL(address).hash.slice(1)).get("camera").split(",").map(Number);
+    assert.ok(now.eye.every((x, i) => Math.abs(x - eye[i]) < 1e-3), `${now.eye} and ${eye}`);
+  }, { url: address });
+});

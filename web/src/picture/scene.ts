@@ -23,6 +23,8 @@ export interface Drawn {
   surface: Material;
   meshes: Mesh[];
   surfaces: Mesh[];
+  /** A person has hidden it. */
+  isHidden: boolean;
   /** Number of its first triangle among all that are drawn, per place. */
   firstTriangles: number[];
 }
@@ -65,7 +67,7 @@ function draw(number: number, part: Part, corners: Corners): Drawn {
   );
   const { uSplit, uMap, uHasTangents, uHasRight, uRightGreen, uRightMap } = material.uniforms;
   const surface = surfaceFor(part.surface, { uSplit, uMap, uHasTangents, uHasRight, uRightGreen, uRightMap });
-  return { number, part, corners, frames: null, rightMap: corners.uvs && part.normalMap, turnsGreen: false, geometry, material, surface, meshes: [], surfaces: [], firstTriangles: [] };
+  return { number, part, corners, frames: null, rightMap: corners.uvs && part.normalMap, turnsGreen: false, geometry, material, surface, meshes: [], surfaces: [], isHidden: false, firstTriangles: [] };
 }
 
 function placed(mesh: Mesh, place: Matrix4): Mesh {
@@ -125,9 +127,9 @@ export class Scene {
 
   /** Shows either the surfaces, as people know the model, or the materials of our own. */
   show(isSurface: boolean): void {
-    for (const { meshes, surfaces } of this.drawn) {
-      for (const mesh of meshes) mesh.visible = !isSurface;
-      for (const mesh of surfaces) mesh.visible = isSurface;
+    for (const { meshes, surfaces, isHidden } of this.drawn) {
+      for (const mesh of meshes) mesh.visible = !isSurface && !isHidden;
+      for (const mesh of surfaces) mesh.visible = isSurface && !isHidden;
     }
   }
 

@@ -71,6 +71,11 @@ export class Viewport {
     return this.renderer !== null;
   }
 
+  /** What the camera looks at, and turns about. */
+  get target(): Vector3 {
+    return this.#controls.target;
+  }
+
   show(scene: Scene): void {
     this.#world.remove(this.scene.root);
     this.scene.dispose();
@@ -89,6 +94,20 @@ export class Viewport {
       this.#draw();
       this.onDrawn();
     });
+  }
+
+  /** Puts the eye at a place, looking at another. */
+  lookFrom([x, y, z, tx, ty, tz]: number[]): void {
+    this.fly(new Vector3(tx, ty, tz), 1, null, true);
+    this.#flight = null;
+    this.camera.position.set(x, y, z);
+    this.#controls.target.set(tx, ty, tz);
+    const { center, radius } = this.scene.sphere(), far = this.camera.position.distanceTo(center) + radius;
+    this.camera.near = far / 5000;
+    this.camera.far = far * 3;
+    this.camera.updateProjectionMatrix();
+    this.#controls.update();
+    this.ask();
   }
 
   setLight(x: number, y: number): void {
@@ -194,12 +213,22 @@ export class Viewport {
     material.uniforms.uIsMap.value = false;
     material.depthTest = true;
     material.side = side;
-    for (const { meshes } of drawn) for (const mesh of meshes) mesh.visible = true;
+    this.scene.show(false);
     const upsideDown = new Uint8ClampedArray(4 * size * size), rows = new Uint8ClampedArray(4 * size * size);
     await renderer.readRenderTargetPixelsAsync(target, 0, 0, size, size, upsideDown);
     target.dispose();
     for (let row = 0; row < size; ++row) rows.set(upsideDown.subarray(4 * size * (size - 1 - row), 4 * size * (size - row)), 4 * size * row);
     return rows;
+  }
+
+  /** The picture as it is now, in pixels of the canvas; null without WebGL. */
+  draw(): ImageBitmap | OffscreenCanvas | null {
+    if (!this.renderer) return null;
+    this.#draw();
+    // The canvas holds what was drawn until this task ends.
+    const copy = new OffscreenCanvas(this.canvas.width, this.canvas.height);
+    copy.getContext("2d")!.drawImage(this.canvas, 0, 0);
+    return copy;
   }
 
   #values(): PictureValues {

@@ -40,6 +40,7 @@ export class FindingsView {
   #list = el("div", { class: "list" });
   #open: { button: HTMLButtonElement; details: HTMLElement } | null = null;
   #filter = el("input", { type: "search", class: "filter", placeholder: "Filter by kind, part or material", "aria-label": "Filter the findings" });
+  #findings: Finding[] = [];
   #groups: { group: Group; element: HTMLElement }[] = [];
 
   constructor(private choices: Choices) {
@@ -63,7 +64,20 @@ export class FindingsView {
     replaceChildren(this.#verdict, text);
   }
 
+  /** Opens the entry of a finding, by its number in the report. */
+  openFinding(number: number): void {
+    const finding = this.#findings[number], found = this.#groups.find(({ group }) => group.findings.includes(finding));
+    found?.element.querySelector("button")?.click();
+  }
+
+  /** The number of the first finding of the entry that is open. */
+  get chosen(): number | null {
+    const open = this.#open, found = this.#groups.find(({ element }) => open !== null && element.contains(open.button));
+    return found ? this.#findings.indexOf(found.group.findings[0]) : null;
+  }
+
   show(file: CheckReport): void {
+    this.#findings = file.findings;
     this.#open = null;
     const groups = grouped(file.findings);
     const summary = el("p", { class: "summary" });

@@ -76,6 +76,12 @@ export class Stage {
     this.#refresh();
   }
 
+  /** What stands left and right, in words. */
+  get sides(): string {
+    const { look } = this.viewport.settings, right = this.#rightLabel.textContent ?? "";
+    return hasSplit(look) ? `left ${this.#leftLabel.textContent}, right ${right}` : `${lookNames.find(([name]) => name === look)?.[1]}, the file against ${right}`;
+  }
+
   setGround(ground: "grey" | "light" | "dark"): void {
     this.#frame.dataset.ground = ground;
   }

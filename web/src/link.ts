@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+// What is seen as the end of the page's address, so that a result can be linked to: look, finding, side, camera.
+import { looks, type Look } from "./picture/shader.js";
+import type { Stage } from "./views/stage.js";
+
+export interface Linked {
+  /** The file name of a sample. */
+  sample?: string;
+  look?: Look;
+  /** Number of the finding, from 0. */
+  finding?: number;
+  /** Where the line between both sides is, 0 to 1. */
+  split?: number;
+  /** Place of the eye, and what it looks at. */
+  camera?: number[];
+}
+
+export function linkedBy(hash: string): Linked {
+  const values = new URLSearchParams(hash.replace(/^#/, "")), linked: Linked = {};
+  const look = values.get("look") as Look | null, numbers = (values.get("camera") ?? "").split(",").map(Number);
+  const sample = values.get("sample");
+  if (sample) linked.sample = sample;
+  if (look && looks.includes(look)) linked.look = look;
+  const finding = Number(values.get("finding") ?? NaN), split = Number(values.get("split") ?? NaN);
+  if (Number.isInteger(finding) && finding >= 0) linked.finding = finding;
+  if (split >= 0 && split <= 1) linked.split = split;
+  if (numbers.length === 6 && numbers.every(Number.isFinite)) linked.camera = numbers;
+  return linked;
+}
+
+const short = (x: number): string => String(Number(x.toPrecision(5)));
+
+/** Keeps the address in step with what is seen. */
+export function keepLink(stage: Stage, finding: () => number | null, sample: () => string | null): () => void {
+  let timer = 0;
+  const { viewport } = stage;
+  const write = () => {
+    const { look, split } = viewport.settings, chosen = finding();
+    const name = sample();
+    const parts = [...(name ? [`sample=${encodeURIComponent(name)}`] : []), `look=${look}`, `split=${short(split)}`, `camera=${[...viewport.camera.position.toArray(), ...viewport.target.toArray()].map(short).join(",")}`];
+    if (chosen !== null) parts.push(`finding=${chosen}`);
+    history.replaceState(history.state, "", `#${parts.join("&")}`);
+  };
+  // Browsers allow few changes of the address in a second.
+  return () => {
+    clearTimeout(timer);
+    timer = window.setTimeout(write, 400);
+  };
+}

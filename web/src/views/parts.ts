@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+// What the file holds: numbers, its parts to show and hide, and its images with their channels.
+import { checkbox, choice, count, el, plural, replaceChildren, select } from "../dom.js";
+import type { Viewport } from "../picture/viewport.js";
+import type { InspectReport } from "tspace/gltf";
+import type { Texture } from "three";
+
+const kMostParts = 500;
+const kShown = 512;
+type Channel = "rgb" | "r" | "g" | "b" | "a";
+
+interface ShownImage {
+  name: string;
+  image: CanvasImageSource & { width: number; height: number };
+}
+
+export class PartsView {
+  readonly element = el("details", { class: "panel parts" }, el("summary", {}, "What is in it"));
+  #numbers = el("dl", {});
+  #list = el("div", { class: "part-list" });
+  #images = el("div", { class: "rows" });
+  #canvas = el("canvas", { width: kShown, height: kShown, role: "img", "aria-label": "The image" });
+  #channel: Channel = "rgb";
+  #chosen = 0;
+  #shown: ShownImage[] = [];
+
+  constructor(private viewport: Viewport) {
+    this.element.append(el("div", { class: "rows" }, this.#numbers, this.#list, this.#images));
+    this.element.addEventListener("toggle", () => this.#drawImage());
+  }
+
+  /** The numbers of the file. */
+  describe(report: InspectReport | null): void {
+    if (!report) return replaceChildren(this.#numbers);
+    const sum = (of: (one: InspectReport["primitives"][number]) => number) => report.primitives.reduce((total, one) => total + of(one), 0);
+    const sets = report.primitives.reduce((most, { uvSets }) => Math.max(most, Array.isArray(uvSets) ? uvSets.length : Number(uvSets)), 0);
+    const rows: [string, string][] = [
+      ["Triangles", count(sum(({ triangles }) => triangles))],
+      ["Vertices", count(sum(({ vertices }) => vertices))],
+      ["Parts", `${plural(report.primitives.length, "primitive")}, ${count(sum(({ hasTangents }) => Number(hasTangents)))} with tangents, ${count(sum(({ hasNormals }) => Number(hasNormals)))} with normals`],
+      ["UV sets", count(sets)],
+      ["Extensions", report.extensionsUsed.join(", ") || "none"],
+    ];
+    replaceChildren(this.#numbers, ...rows.flatMap(([name, value]) => [el("dt", {}, name), el("dd", {}, value)]));
+  }
+
+  /** Another model in the picture. */
+  reset(): void {
+    const { drawn } = this.viewport.scene;
+    const boxes = drawn.slice(0, kMostParts).map((one) => checkbox(`${one.part.mesh}/${one.part.primitive} ${one.part.name || one.part.materialName}`, true, (on) => {
+      one.isHidden = !on;
+      this.viewport.ask();
+    }).element);
+    const rest = drawn.length - boxes.length;
+    replaceChildren(this.#list, ...(drawn.length > 1 ? boxes : []), rest > 0 && el("p", { class: "quiet" }, `and ${count(rest)} more`));
+    this.#collect();
+    this.#chosen = 0;
+    const images = this.#shown.map(({ name, image }, i) => [String(i), `${name}, ${image.width} x ${image.height}`] as const);
+    const which = images.length > 0 && select("Image", images, "0", (value) => {
+      this.#chosen = Number(value);
+      this.#drawImage();
+    }).element;
+    const channels = choice("Channels", [["rgb", "RGB"], ["r", "R"], ["g", "G"], ["b", "B"], ["a", "A"]] as const, this.#channel, (value) => {
+      this.#channel = value;
+      this.#drawImage();
+    }).element;
+    replaceChildren(this.#images, ...(which ? [which, channels, el("div", { class: "map" }, this.#canvas)] : []));
+    this.#drawImage();
+  }
+
+  /** Each image once, by what the first material that shows it uses it for. */
+  #collect(): void {
+    const seen = new Set<unknown>();
+    this.#shown = [];
+    for (const { part } of this.viewport.scene.drawn) {
+      for (const [name, value] of Object.entries(part.surface)) {
+        const image = (value as Texture | null)?.isTexture ? ((value as Texture).image as ShownImage["image"] | null) : null;
+        if (!image?.width || seen.has(image)) continue;
+        seen.add(image);
+        this.#shown.push({ name: `${name}${part.materialName ? ` of ${part.materialName}` : ""}`, image });
+      }
+    }
+  }
+
+  #drawImage(): void {
+    const shown = this.#shown[this.#chosen], context = this.#canvas.getContext("2d", { willReadFrequently: true });
+    if (!this.element.hasAttribute("open") || !shown || !context) return;
+    context.clearRect(0, 0, kShown, kShown);
+    context.drawImage(shown.image, 0, 0, kShown, kShown);
+    const pixels = context.getImageData(0, 0, kShown, kShown), { data } = pixels, k = ["r", "g", "b", "a"].indexOf(this.#channel);
+    for (let i = 0; i < data.length; i += 4) {
+      if (k >= 0) data[i] = data[i + 1] = data[i + 2] = data[i + k];
+      data[i + 3] = 255;
+    }
+    context.putImageData(pixels, 0, 0);
+  }
+}
