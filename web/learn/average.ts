@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Figure 2: the mean at a vertex, and Gram-Schmidt.
+// Figure 3: the mean at a vertex, and Gram-Schmidt.
 
 import { generateTangents } from "tspace";
 import { Figure, Numbers, type Plane } from "./figure";
@@ -16,7 +16,8 @@ export function showAverage(host: HTMLElement, rows: HTMLElement) {
   const figure = new Figure(host, 600, 290, "Five triangles around a vertex, from above and from the side");
   const numbers = new Numbers(rows);
   const ring: Vec2[] = Array.from({ length: kRing }, (_, i) => [0.9 * Math.cos(0.3 + (i * 2 * Math.PI) / kRing), 0.9 * Math.sin(0.3 + (i * 2 * Math.PI) / kRing)]);
-  const uvs: Vec2[] = [[0, 0], ...ring];
+  // The texture is sheared a little differently on each triangle, so that they disagree.
+  const uvs: Vec2[] = [[0, 0], ...ring.map(([x, y], i): Vec2 => [x + 0.3 * Math.sin(2.1 * i), y + 0.3 * Math.cos(2.7 * i)])];
   let lean: Vec2 = [0.3, 0.95];  // where N ends, in the side view
 
   const place = (at: Vec2): Vec3 => [at[0], at[1], height(at)];
@@ -55,7 +56,7 @@ export function showAverage(host: HTMLElement, rows: HTMLElement) {
     figure.arrow(kSide, [0, 0], foot, "part", "N(N\u00b7t)");
     figure.line(kSide, side(mean), side(flat), "dashed");
     figure.arrow(kSide, [0, 0], side(flat), "tangent", "T");
-    figure.word(kSide, [0, -0.79], "from the side: Gram-Schmidt");
+    figure.word(kSide, [0, -0.79], "from the side");
 
     const expected = unit(flat);
     numbers.set("sum", `\u03a3 dP/du = ${tuple(sum)}, and t is its mean`);

@@ -76,7 +76,7 @@ export class Figure {
     this.add("line", { class: `arrow ${name}`, x1: a[0], y1: a[1], x2: b[0] - 6 * x, y2: b[1] - 6 * y });
     const head = [b, [b[0] - 10 * x - 4 * y, b[1] - 10 * y + 4 * x], [b[0] - 10 * x + 4 * y, b[1] - 10 * y - 4 * x]];
     this.add("polygon", { class: `head ${name}`, points: head.map((p) => p.join(",")).join(" ") });
-    if (word) this.add("text", { class: `word ${name}`, x: b[0] + 12 * x, y: b[1] + 12 * y + 4, "text-anchor": "middle" }, word);
+    if (word) this.add("text", { class: `word ${name}`, x: b[0] + 20 * x, y: b[1] + 20 * y + 5, "text-anchor": "middle" }, word);
   }
 
   word(plane: Plane, at: Vec2, words: string, name = "") {

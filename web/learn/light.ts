@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Figure 4: the light in tangent space, and its dot product with the texel.
+// Figure 5: the light in tangent space, and its dot product with the texel.
 
 import { generateTangents } from "tspace";
 import { Figure, Numbers, type Plane } from "./figure";

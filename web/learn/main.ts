@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-// The lesson: five figures, made when the library is there.
+// The lesson: six figures, made when the library is there.
 
 import { ready } from "tspace";
 import { showAverage } from "./average";
 import { showLight } from "./light";
 import { showMethods } from "./methods";
 import { showMirror } from "./mirror";
+import { showRelief } from "./relief";
 import { showTriangle } from "./triangle";
 
 function find<Type extends Element>(selector: string, type: new () => Type): Type {
@@ -19,6 +20,7 @@ const numbers = (name: string) => find(`#${name} .numbers`, HTMLElement);
 
 try {
   await ready;
+  showRelief(figure("relief"), numbers("relief"), find("#down", HTMLInputElement));
   showTriangle(figure("triangle"), numbers("triangle"));
   showAverage(figure("average"), numbers("average"));
   showMirror(figure("mirror"), numbers("mirror"), find("#dropped", HTMLInputElement));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Figure 5: where methods differ, against the true surface.
+// Figure 6: where methods differ, against the true surface.
 
 import { generateTangents, type TangentOptions } from "tspace";
 import { Figure, type Plane } from "./figure";
@@ -68,7 +68,7 @@ export function showMethods(host: HTMLElement, table: HTMLTableSectionElement, c
     }
     figure.word(kView, [0.35, -0.8], surface.words + (surface.enlarged > 1 ? `; errors are drawn ${surface.enlarged} times as large` : ""));
     figure.polygon(kPad, [[-1, -1], [1, -1], [1, 1], [-1, 1]], "face");
-    figure.word(kPad, [0, 1.2], { sheet: "middle vertex", bevel: "angle, width", mirrored: "curvature" }[name()]);
+    figure.word(kPad, [0, 1.2], { sheet: "middle", bevel: "angle, width", mirrored: "curvature" }[name()]);
   });
   const reach = (): number => (name() === "sheet" ? 0.25 : 1);
   figure.handle(kPad, "the shape of the surface", () => [at[name()][0] / reach(), at[name()][1] / reach()],

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Figure 3: a mirrored texture, and what the sign is for.
+// Figure 4: a mirrored texture, and what the sign is for.
 
 import { generateTangents } from "tspace";
 import { Figure, Numbers, type Plane } from "./figure";
@@ -59,7 +59,7 @@ export function showMirror(host: HTMLElement, rows: HTMLElement, dropped: HTMLIn
     figure.line(kModel, [0, bottom - 0.06], [0, top + 0.06], "dashed");
     figure.word(kModel, [0, top + 0.12], "light from the top");
     figure.line(kTexture, [-1, 0], [1, 0], "surface");
-    figure.word(kTexture, [0, 0.13], "u at the left end: drag it to the other side of the seam (0)");
+    figure.word(kTexture, [0, 0.13], "u at the left end: drag it over the seam (0)");
     numbers.set("which means", dropped.checked && left > 0
       ? "the sign was dropped: the left half takes its dents for bumps. Half of every symmetric character looks so"
       : left > 0 ? "T turns round on the mirrored half; the sign turns B back, and both bumps are lit from the top" : "the texture runs on over the seam: both signs are +1");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Figure 1: T, B and the determinant of one triangle.
+// Figure 2: T, B and the determinant of one triangle.
 
 import { generateTangents } from "tspace";
 import { Figure, Numbers, type Plane } from "./figure";
@@ -42,7 +42,7 @@ export function showTriangle(host: HTMLElement, rows: HTMLElement) {
     figure.polygon(kUv, uvs, `face ${side}`);
     figure.polygon(kSpace, points, `face ${side}`);
     drawGrid(d.tangent, d.bitangent);
-    figure.word(kUv, [0.5, -0.1], "texture: u to the right, v up");
+    figure.word(kUv, [0.5, -0.1], "texture, v up");
     figure.word(kSpace, [0.5, -0.1], "space: N points at you");
     uvs.forEach((uv, i) => figure.word(kUv, [uv[0], uv[1] + 0.07], names[i]!));
     points.forEach((point, i) => figure.word(kSpace, [point[0], point[1] + 0.07], names[i]!));
@@ -53,9 +53,9 @@ export function showTriangle(host: HTMLElement, rows: HTMLElement) {
     const [x, y, , sign] = [made[0]!, made[1]!, made[2]!, made[3]!];
     const middle: Vec2 = [(points[0]![0] + points[1]![0] + points[2]![0]) / 3, (points[0]![1] + points[1]![1] + points[2]![1]) / 3];
     if (d.determinant !== 0) {
-      figure.arrow(kSpace, middle, [0.35 * x, 0.35 * y], "tangent", "T");
+      figure.arrow(kSpace, middle, [0.28 * x, 0.28 * y], "tangent", "T");
       // sign * cross(N, T), with N = (0, 0, 1)
-      figure.arrow(kSpace, middle, [-0.35 * sign * y, 0.35 * sign * x], "bitangent", "B");
+      figure.arrow(kSpace, middle, [-0.28 * sign * y, 0.28 * sign * x], "bitangent", "B");
     }
 
     numbers.set("edges in the texture", `(s\u2081, t\u2081) = ${tuple([d.s1, d.t1])}   (s\u2082, t\u2082) = ${tuple([d.s2, d.t2])}`);

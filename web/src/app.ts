@@ -5,6 +5,7 @@ import { loadModel } from "./model/load.js";
 import { glbOfObj } from "./model/obj.js";
 import { triangleCount, type Part } from "./model/part.js";
 import { missingFiles, Refusal, type ModelFiles } from "./files.js";
+import type { MotionView } from "./views/motion.js";
 import type { PartsView } from "./views/parts.js";
 import { Scene, type Drawn } from "./picture/scene.js";
 import type { CheckReport, IdentifyReport, InspectReport } from "tspace/gltf";
@@ -24,6 +25,7 @@ export interface Views {
   uvMap: UvMapView;
   place: PlaceView;
   parts: PartsView;
+  motion: MotionView;
   progress: Progress;
   /** The model, or null before there is one, and the one that it was mended from. */
   opened: (model: ModelFiles | null, before: ModelFiles | null) => void;
@@ -89,7 +91,7 @@ export class App {
   }
 
   #clear(): void {
-    const { stage, look, uvMap, place, parts } = this.views;
+    const { stage, look, uvMap, place, parts, motion } = this.views;
     place.clear();
     this.#mended = [];
     this.#normalImages = [];
@@ -102,6 +104,7 @@ export class App {
     uvMap.reset();
     parts.describe(null);
     parts.reset();
+    motion.reset(null);
   }
 
   /** The mended file as the model, and the way back from it. */
@@ -165,7 +168,7 @@ export class App {
     progress.at("Drawing", 0.1);
     stage.say("");
     try {
-      const { parts, normalImages, remarks: own } = await loadModel(model, this.work);
+      const { parts, motion, normalImages, remarks: own } = await loadModel(model, this.work);
       const remarks = [...before, ...own];
       if (!isCurrent()) return;
       this.#normalImages = normalImages;
@@ -186,6 +189,7 @@ export class App {
       stage.viewport.reset(true);
       this.views.uvMap.reset();
       this.views.parts.reset();
+      this.views.motion.reset(motion);
       this.views.look.showLines();
       if (scene.drawn.length === 0) remarks.push("There is nothing to draw in this file.");
       stage.say(remarks.join(" "));

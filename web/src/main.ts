@@ -10,6 +10,7 @@ import { faults, samples } from "./samples.js";
 import { FindingsView } from "./views/findings.js";
 import { LookView } from "./views/look.js";
 import { MendView, mendedName, type Mended } from "./views/mend.js";
+import { MotionView } from "./views/motion.js";
 import { PartsView } from "./views/parts.js";
 import { PlaceView } from "./views/place.js";
 import { Progress } from "./views/progress.js";
@@ -31,7 +32,7 @@ const findings = new FindingsView({
 const progress = new Progress(() => app.stop());
 const look = new LookView(stage, (right) => void app.setRight(right));
 const uvMap = new UvMapView(stage.viewport);
-const parts = new PartsView(stage.viewport);
+const parts = new PartsView(stage.viewport), motion = new MotionView(stage.viewport);
 const texel = new TexelView(stage.viewport, (spot) => uvMap.point(spot));
 const title = el("p", { class: "model-name" });
 const back = el("button", { type: "button", class: "back", hidden: true, title: "Key: Backspace", onclick: () => app.back() });
@@ -48,7 +49,7 @@ const mend = new MendView(
   ({ name, bytes, others }) => void app.openMended({ name, bytes, others }),
 );
 const app: App = new App(work, {
-  stage, findings, look, uvMap, place, parts, progress, opened: showName, checked: (report) => mend.advise(report), ready: followLink,
+  stage, findings, look, uvMap, place, parts, motion, progress, opened: showName, checked: (report) => mend.advise(report), ready: followLink,
   inspected: ({ primitives }) => mend.setCompressed(primitives.some(({ compression }) => compression !== "none")),
 });
 
@@ -131,7 +132,7 @@ const header = el("header", { class: "bar" },
   el("div", { class: "open" }, picker("Open model…", { accept: ".glb,.vrm,.gltf,.obj,.zip,.bin,.mtl,image/*", "aria-label": "Open model" }), picker("Folder…", { webkitdirectory: true, "aria-label": "Open folder" })),
   el("nav", { class: "samples", "aria-label": "Samples" }, el("span", { class: "quiet" }, "Samples"), ...sampleButtons, gallery),
   others, title, back);
-const inspector = el("aside", { class: "inspector", "aria-label": "Inspector" }, look.element, texel.element, uvMap.element, parts.element, mend.element, share.element);
+const inspector = el("aside", { class: "inspector", "aria-label": "Inspector" }, look.element, texel.element, uvMap.element, motion.element, parts.element, mend.element, share.element);
 const main = el("main", {}, findings.element, stage.element, inspector);
 const footer = el("footer", {}, progress.element, el("span", { class: "quiet" }, "Drop a .glb, a .zip, a folder with a .gltf, or an .obj anywhere. Nothing leaves this computer."));
 document.body.append(header, main, footer);

@@ -45,6 +45,31 @@ const press = async (tab, label, key, times) => {
 const errors = (tab) =>
   tab.$$eval("#methods tbody tr", (rows) => Object.fromEntries(rows.map((row) => [row.cells[0].textContent, [...row.cells].slice(1).map((cell) => Number(cell.textContent))])));
 
+it("decodes texels, and tells what a wrong T and a green that points down do", { skip }, async () => {
+  const tab = await open();
+  const lit = () => tab.$eval("#relief image:nth-of-type(2)", (image) => image.getAttribute("href"));
+  const before = await lit();
+  assert.match(await number(tab, "relief", "what one sees"), /stand out/);
+  const [, r, g, b, x, y, z] = (await number(tab, "relief", "a texel")).replaceAll("\u2212", "-").match(/rgb\((\d+), (\d+), (\d+)\).* = \((-?[\d.]+), (-?[\d.]+), (-?[\d.]+)\)/).map(Number);
+  [[r, x], [g, y], [b, z]].forEach(([c, v]) => assert.ok(Math.abs((2 * c) / 255 - 1 - v) < 0.01));
+  await tab.check("#down");
+  assert.match(await number(tab, "relief", "what one sees"), /from below/);
+  assert.notEqual(await lit(), before);
+  await tab.uncheck("#down");
+  assert.equal(await lit(), before);
+  await press(tab, "where T points", "Shift+ArrowUp", 12);
+  await press(tab, "where T points", "Shift+ArrowLeft", 12);
+  assert.match(await number(tab, "relief", "what one sees"), /degrees beside/);
+  assert.notEqual(await lit(), before);
+  assert.deepEqual(tab.faults, []);
+});
+
+it("begins with triangles that disagree", { skip }, async () => {
+  const tab = await open();
+  const directions = await tab.$$eval("#average line.arrow.tangent.faint", (lines) => lines.map((l) => Math.atan2(l.y2.baseVal.value - l.y1.baseVal.value, l.x2.baseVal.value - l.x1.baseVal.value)));
+  assert.ok(Math.max(...directions) - Math.min(...directions) > 0.2, directions.join());
+});
+
 it("turns the sign when a triangle's UVs turn over", { skip }, async () => {
   const tab = await open();
   assert.match(await number(tab, "triangle", "the library"), /sign = \+1/);

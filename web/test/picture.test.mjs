@@ -135,3 +135,29 @@ test("surfaces look as their materials say: colours of vertices, what mirrors, w
     await shoot(tab, "surface-clearcoat");
   }, { allowMessages: true });
 });
+
+test("animations move what bones, nodes and weights move, and end where they began", { skip: noShared }, async () => {
+  await withPage(async (tab) => {
+    for (const [name, isSkin] of [["Fox.glb", true], ["AnimatedMorphCube.glb", false]]) {
+      await openFile(tab, join(shared, "models/khronos", name));
+      await tab.locator(".motion").evaluate((panel) => (panel.open = true));
+      const places = () => tab.evaluate(() => [...window.tspaceView.views.stage.viewport.scene.drawn[0].corners.positions.slice(0, 3000)]);
+      const tangentsAreUnit = () => tab.evaluate(() => window.tspaceView.views.stage.viewport.scene.drawn.every(({ frames }) => !frames || Array.from({ length: frames.tangents.length / 4 }, (_, i) => Math.hypot(...frames.tangents.subarray(4 * i, 4 * i + 3))).every((length) => Math.abs(length - 1) < 1e-3)));
+      const rest = await places();
+      await tab.locator(".motion select").first().selectOption("0");
+      await tab.locator(".motion input[aria-label='Time of the animation']").fill("0.4");
+      await drawn(tab);
+      const moved = await places();
+      const far = Math.max(...rest.map((x, i) => Math.abs(x - moved[i])));
+      assert.ok(far > 0.001, `${name}: ${far}`);
+      if (isSkin) assert.ok(await tangentsAreUnit());
+      await shoot(tab, `motion-${name}`);
+      await tab.locator(".motion select").first().selectOption("");
+      assert.deepEqual(await places(), rest, name);
+    }
+    await openFile(tab, join(shared, "models/khronos/SimpleMorph.gltf"), {});
+    await tab.getByRole("button", { name: "Crate", exact: true }).click();
+    await settled(tab);
+    assert.equal(await tab.locator(".motion").isVisible(), false, "a crate does not move");
+  }, { allowMessages: true });
+});

@@ -5,6 +5,7 @@ import { GLTFLoader, type GLTF } from "three/examples/jsm/loaders/GLTFLoader.js"
 import type { ModelFiles } from "../files.js";
 import type { Work } from "../worker/client.js";
 import { arraysOf, uvsOf } from "./arrays.js";
+import { Motion } from "./motion.js";
 import { poseOf } from "./pose.js";
 import { giveDecoders } from "./compressed.js";
 import type { Model, Part } from "./part.js";
@@ -82,7 +83,9 @@ function partOf(mesh: Mesh, where: Origin, materialIndex: number, normalImages: 
     surface: material,
     attributes: Object.fromEntries(kSurfaceAttributes.flatMap((name) => (mesh.geometry.hasAttribute(name) ? [[name, mesh.geometry.getAttribute(name)]] : []))),
     pose: poseOf(mesh),
+    isPosed: mesh instanceof SkinnedMesh || (mesh.morphTargetInfluences?.length ?? 0) > 0,
     places: [],
+    moved: new Matrix4(),
   };
 }
 
@@ -114,9 +117,10 @@ function placesOf(mesh: Mesh): Matrix4[] {
 /** Shaders work in floats, so what stands far from the origin is shown near it: the picture has no origin to be seen. */
 function moveToOrigin(parts: Iterable<Part>): void {
   const kFar = 1e4; // where a float's step is a thousandth
-  const places = [...parts].flatMap((part) => part.places);
+  const all = [...parts], places = all.flatMap((part) => part.places);
   const { x, y, z } = new Vector3().setFromMatrixPosition(places[0] ?? new Matrix4());
   if (Math.hypot(x, y, z) < kFar) return;
+  for (const part of all) part.moved.makeTranslation(-x, -y, -z);
   for (const place of places) place.premultiply(new Matrix4().makeTranslation(-x, -y, -z));
 }
 
@@ -142,7 +146,8 @@ export async function loadModel(model: ModelFiles, work: Work): Promise<Model> {
     const gltf = await loader.parseAsync(isText ? new TextDecoder().decode(buffer) : buffer, "");
     const parts = new Map<string, Part>(), normalImages = normalImagesOf(gltf);
     let corners = 0, left = 0;
-    for (const root of await sceneOf(gltf, remarks)) {
+    const roots = await sceneOf(gltf, remarks), objects: [Part, Mesh][] = [];
+    for (const root of roots) {
       root.updateMatrixWorld(true);
       root.traverse((object) => {
         const where = object instanceof Mesh ? originOf(object, gltf) : null;
@@ -153,6 +158,7 @@ export async function loadModel(model: ModelFiles, work: Work): Promise<Model> {
         if (!known) return;
         corners += known.arrays.indices?.length ?? known.arrays.positions.length / 3;
         if (corners > kMostCorners) return void (left += 1);
+        if (!parts.has(key)) objects.push([known, object]);
         parts.set(key, known);
         known.places.push(...placesOf(object));
       });
@@ -160,7 +166,9 @@ export async function loadModel(model: ModelFiles, work: Work): Promise<Model> {
     moveToOrigin(parts.values());
     if (left > 0) remarks.push(`${left} of its parts are not drawn: the picture ends at ${kMostCorners / 3 / 1e6} million triangles.`);
     remarks.push(...(await missingImages(gltf)));
-    return { parts: [...parts.values()], normalImages, remarks };
+    const isMoving = gltf.animations.length > 0 || gltf.cameras.length > 0 || objects.some(([, { morphTargetInfluences }]) => morphTargetInfluences);
+    const motion = isMoving && roots.length > 0 ? new Motion(roots, gltf.animations, gltf.cameras, objects) : null;
+    return { parts: [...parts.values()], motion, normalImages, remarks };
   } finally {
     for (const url of urls) URL.revokeObjectURL(url);
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A primitive of a model, as the page shows it.
 import type { BufferAttribute, InterleavedBufferAttribute, Material, Matrix4, Texture, Vector3 } from "three";
+import type { Motion } from "./motion.js";
 import type { Pose } from "./pose.js";
 import type { Arrays } from "../worker/protocol.js";
 
@@ -28,12 +29,17 @@ export interface Part {
   attributes: Record<string, BufferAttribute | InterleavedBufferAttribute>;
   /** Where bones and morph weights put it, or null. */
   pose: Pose | null;
+  /** It has bones or morph weights, whatever these are now. */
+  isPosed: boolean;
   /** Where it is drawn. */
   places: Matrix4[];
+  /** What took it from where the file has it to the origin of the picture. */
+  moved: Matrix4;
 }
 
 export interface Model {
   parts: Part[];
+  motion: Motion | null;
   /** For each material of the file the index of its normal map's image, or -1. */
   normalImages: number[];
   /** Sentences about what the picture leaves out. */

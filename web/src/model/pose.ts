@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Where the bones and morph weights of a file put the vertices of a mesh: its rest pose.
 import { Matrix4, SkinnedMesh, Vector3, type BufferAttribute, type Mesh } from "three";
-import type { Corners, Frames } from "../worker/protocol.js";
-import type { Arrays } from "../worker/protocol.js";
+import type { Arrays, Corners } from "../worker/protocol.js";
 
 /** Per vertex: what morph targets add (of tangents the loader reads none), and the matrix of its bones, 16 numbers by columns. Null where there is none. */
 export interface Pose {
@@ -68,9 +67,7 @@ export function poseCorners({ morphed, matrices }: Pose, arrays: Arrays, corners
   if (corners.tangents) poseTangents(matrices, arrays, corners.tangents);
 }
 
-function poseTangents(matrices: Float32Array | null, arrays: Arrays, tangents: Float32Array): void {
+export function poseTangents(matrices: Float32Array | null, arrays: Arrays, tangents: Float32Array): void {
   const matrix = new Matrix4();
   if (matrices) moved(tangents, 4, arrays, null, (vertex, v) => void v.transformDirection(matrix.fromArray(matrices, 16 * vertex)));
 }
-
-export const poseFrames = ({ matrices }: Pose, arrays: Arrays, frames: Frames): void => poseTangents(matrices, arrays, frames.tangents);

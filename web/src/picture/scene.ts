@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The parts of a model as drawable objects. Each place of a part is an object of its own; all share one geometry.
 import { BufferAttribute, BufferGeometry, DataTexture, Group, Matrix3, Matrix4, Mesh, Sphere, Vector3, type Material, type RawShaderMaterial, type Texture } from "three";
-import { poseCorners, poseFrames } from "../model/pose.js";
+import { poseCorners, poseTangents } from "../model/pose.js";
 import type { Part } from "../model/part.js";
 import type { Corners, Frames } from "../worker/protocol.js";
 import { makeMaterial } from "./shader.js";
@@ -13,6 +13,8 @@ export interface Drawn {
   part: Part;
   corners: Corners;
   frames: Frames | null;
+  /** Corners and right tangents before bones and morph weights moved them; null where nothing does. */
+  rest: { corners: Pick<Corners, "positions" | "normals" | "tangents">; right: Float32Array<ArrayBuffer> | null } | null;
   /** The normal map right of the slider. */
   rightMap: Texture | null;
   /** Whether green of that map is read the other way round, since `check` says that it points down. */
@@ -67,7 +69,7 @@ function draw(number: number, part: Part, corners: Corners): Drawn {
   );
   const { uSplit, uMap, uHasTangents, uHasRight, uRightGreen, uRightMap } = material.uniforms;
   const surface = surfaceFor(part.surface, { uSplit, uMap, uHasTangents, uHasRight, uRightGreen, uRightMap });
-  return { number, part, corners, frames: null, rightMap: corners.uvs && part.normalMap, turnsGreen: false, geometry, material, surface, meshes: [], surfaces: [], isHidden: false, firstTriangles: [] };
+  return { number, part, corners, frames: null, rest: null, rightMap: corners.uvs && part.normalMap, turnsGreen: false, geometry, material, surface, meshes: [], surfaces: [], isHidden: false, firstTriangles: [] };
 }
 
 function placed(mesh: Mesh, place: Matrix4): Mesh {
@@ -85,8 +87,12 @@ export class Scene {
   #triangles = 0;
 
   add(number: number, part: Part, corners: Corners): Drawn {
-    if (part.pose) poseCorners(part.pose, part.arrays, corners);
     const drawn = draw(number, part, corners);
+    if (part.isPosed) {
+      const { positions, normals, tangents } = corners;
+      drawn.rest = { corners: { positions: positions.slice(), normals: normals.slice(), tangents: tangents?.slice() ?? null }, right: null };
+      this.#pose(drawn);
+    }
     for (const place of part.places) {
       const mesh = placed(new Mesh<BufferGeometry, Material>(drawn.geometry, drawn.material), place);
       const surface = placed(new Mesh(drawn.geometry, drawn.surface), place);
@@ -110,13 +116,42 @@ export class Scene {
   /** What stands right of the slider. Without frames a renderer makes its own. */
   setRight(drawn: Drawn, frames: Frames | null, map: Texture | null): void {
     const corners = drawn.corners.positions.length / 3, { uniforms } = drawn.material;
-    if (frames && drawn.part.pose) poseFrames(drawn.part.pose, drawn.part.arrays, frames);
     drawn.frames = frames;
+    if (drawn.rest) {
+      drawn.rest.right = frames?.tangents.slice() ?? null;
+      this.#pose(drawn);
+    }
     drawn.rightMap = drawn.corners.uvs && map;
     drawn.geometry.setAttribute("right", new BufferAttribute(frames?.tangents ?? new Float32Array(4 * corners), 4));
     drawn.geometry.setAttribute("error", new BufferAttribute(frames?.errors ?? new Float32Array(2 * corners).fill(-1), 2));
     uniforms.uHasRight.value = frames !== null;
     uniforms.uRightMap.value = drawn.rightMap ?? empty;
+  }
+
+  /** The file's bones, weights or nodes have moved. */
+  repose(): void {
+    for (const drawn of this.drawn) {
+      if (drawn.rest) this.#pose(drawn);
+      for (const name of ["position", "normal", "fileTangent", "right"]) if (drawn.rest) drawn.geometry.getAttribute(name).needsUpdate = true;
+      for (const [i, place] of drawn.part.places.entries()) {
+        for (const mesh of [drawn.meshes[i], drawn.surfaces[i]]) {
+          mesh.matrix.copy(place);
+          mesh.matrixWorldNeedsUpdate = true;
+        }
+      }
+    }
+  }
+
+  /** Puts corners and right tangents where the pose has them, from where they are at rest. */
+  #pose({ rest, part, corners, frames }: Drawn): void {
+    if (!rest) return;
+    corners.positions.set(rest.corners.positions);
+    corners.normals.set(rest.corners.normals);
+    if (rest.corners.tangents) corners.tangents?.set(rest.corners.tangents);
+    if (rest.right) frames?.tangents.set(rest.right);
+    if (!part.pose) return;
+    poseCorners(part.pose, part.arrays, corners);
+    if (frames) poseTangents(part.pose.matrices, part.arrays, frames.tangents);
   }
 
   /** Right of the slider green is read the other way round. */
