@@ -46,15 +46,12 @@ std::vector<std::string> Mended::warnings() const {
     add(normals, "normals that are zero or not finite and were taken from a face");
     add(tangents, "tangents that are not finite and were set to 0");
     add(transforms, "matrices of nodes or joints that are not finite and were left out");
-    if (isCoarse()) {
-        list.push_back(
-            "positions are so far from the origin that 32-bit floats, which this format is read as, do not hold "
-            "the shape: " +
-            std::to_string(coarse_edges) + " of " + std::to_string(edges) +
-            " edges of triangles; move the model to the origin before it is exported, or export OBJ, whose "
-            "coordinates are read in double");
-    }
     return list;
+}
+
+std::string Mended::coarseness() const {
+    return "positions are so far from the origin that 32-bit floats do not hold the shape: " +
+           std::to_string(coarse_edges) + " of " + std::to_string(edges) + " edges of triangles";
 }
 
 double unitInterval(float value, double otherwise) {

@@ -18,7 +18,9 @@ struct Mended {
 
     /// Whether so many edges are coarse that it shows: one in twenty, as for OBJ.
     [[nodiscard]] bool isCoarse() const { return coarse_edges != 0 && 20 * coarse_edges >= edges; }
-    /// A sentence for each kind that occurred.
+    /// What isCoarse() says to people.
+    [[nodiscard]] std::string coarseness() const;
+    /// A sentence for each kind that occurred, but for coarse edges.
     [[nodiscard]] std::vector<std::string> warnings() const;
 };
 
