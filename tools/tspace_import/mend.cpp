@@ -103,7 +103,7 @@ std::size_t mendNormals(std::vector<float>& normals, const std::vector<float>& p
 
 void countCoarseEdges(const std::vector<float>& positions, const std::vector<std::uint32_t>& triangles,
                       Mended& mended) {
-    constexpr double kLeastSteps = 500;
+    constexpr double kLeastSteps = 500, kFar = 1 << 14;
     // Whole numbers and short fractions have zeros there; rounded ones seldom do.
     constexpr std::uint32_t kLastBits = 63;
     const auto isRound = [](float value) { return (std::bit_cast<std::uint32_t>(value) & kLastBits) == 0; };
@@ -111,10 +111,13 @@ void countCoarseEdges(const std::vector<float>& positions, const std::vector<std
         const float size = std::fabs(value);
         return double{std::nextafter(size, std::numeric_limits<float>::infinity())} - double{size};
     };
+    const std::size_t edges_before = mended.edges;
+    bool is_far = false;
     for (std::size_t c = 0; c < triangles.size(); ++c) {
         const float* const a = &positions[std::size_t{3} * triangles[c]];
         const float* const b = &positions[std::size_t{3} * triangles[c - c % 3 + (c + 1) % 3]];
         const double length = lengthOf({double{b[0]} - a[0], double{b[1]} - a[1], double{b[2]} - a[2]});
+        is_far = is_far || lengthOf({a[0], a[1], a[2]}) > kFar;
         if (!(length > 0)) continue;
         ++mended.edges;
         bool is_coarse = false;
@@ -124,6 +127,9 @@ void countCoarseEdges(const std::vector<float>& positions, const std::vector<std
         }
         mended.coarse_edges += is_coarse;
     }
+    if (mended.edges != edges_before || !is_far) return;
+    mended.edges += triangles.size();
+    mended.coarse_edges += triangles.size();
 }
 
 std::vector<float> columnsOf(const aiMatrix4x4& matrix, Mended& mended) {

@@ -38,7 +38,8 @@ std::size_t mendNormals(std::vector<float>& normals, const std::vector<float>& p
                         const std::vector<std::uint32_t>& triangles);
 
 /// Counts the edges of triangles, and among them those too far from the origin: rounding to floats, which Assimp reads all
-/// numbers as, may change them by a five-hundredth of their length along an axis.
+/// numbers as, may change them by a five-hundredth of their length along an axis. All of them where none has a length, and the mesh is so far
+/// away that they may have been rounded to it.
 void countCoarseEdges(const std::vector<float>& positions, const std::vector<std::uint32_t>& triangles, Mended& mended);
 
 /// Column by column, as glTF wants it; Assimp stores rows. The last row is exactly 0 0 0 1. The identity, counted,

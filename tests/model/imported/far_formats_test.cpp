@@ -1,14 +1,19 @@
 // SPDX-License-Identifier: MIT
 // STL, COLLADA and FBX in metres of a map projection: the shape that the file has in double, and not what floats leave of it.
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <assimp/Exporter.hpp>
+#include <assimp/Importer.hpp>
 #include <cmath>
 
 #include "far_files.h"
 #include "model/gltf/primitive_reader.h"
 #include "model/read/load_document.h"
 #include "model/read/read_scene.h"
+#include "support/shared_data.h"
 #include "support/temp_folder.h"
 #include "tspace/asset.h"
 
@@ -87,6 +92,15 @@ TEST_P(FarFormats, AScanHasTheNormalsThatItHasNearTheOrigin) {
         EXPECT_LT(worstAngle(far.normals(), near.normals()), kLeastDegrees);
         EXPECT_LT(length(far.at(0, 0) - near.at(0, 0) - place), 1e-4);
     }
+}
+
+TEST_P(FarFormats, AScanThatFloatsMakeAPointOfIsRead) {
+    Part small = sheet(3, {0, 0, 0});
+    for (DVec3& p : small.positions) p = 0.2 * p + DVec3{5200000.12, 5200000.12, 5200000.12};
+    const Made made = make(GetParam(), {small});
+    EXPECT_TRUE(made.hasOffset());
+    EXPECT_LT(length(made.at(0, 0) - small.positions[0]), 1e-4);
+    EXPECT_GT(length(made.at(0, 0) - made.at(0, 1)), 0.02);
 }
 
 TEST_P(FarFormats, GeometriesShareOneOffset) {
@@ -212,6 +226,26 @@ TEST(FarFbx, ArraysOfFloatsHaveNothingMoreToGive) {
     const Made made = make(FarFormat::fbxDeflated, {sheet(kSide, kFar)}, false, {.has_floats = true});
     EXPECT_FALSE(made.hasOffset());
     EXPECT_TRUE(made.warns("no more digits"));
+}
+
+TEST(FarFbx, MeshesWithSkinsAreSaidToBeRounded) {
+    const char* const file = "models/asset-generator/Animation_SkinType/Animation_SkinType_02.gltf";
+    TSPACE_NEEDS_SHARED(file);
+    const TempFolder folder;
+    Assimp::Importer importer;
+    const aiScene* const scene = importer.ReadFile(shared(file).string(), 0);
+    ASSERT_NE(scene, nullptr);
+    Assimp::Exporter exporter;
+    ASSERT_EQ(exporter.Export(scene, "fbxa", folder.path("skin.fbx").string()), AI_SUCCESS);
+    std::string text = folder.read("skin.fbx");
+    const std::size_t begin = text.find("a: ", text.find("Vertices: *")) + 3, end = text.find('}', begin);
+    std::string moved;
+    std::istringstream numbers(text.substr(begin, end - begin));
+    for (std::string number; std::getline(numbers, number, ',');)
+        moved += (moved.empty() ? "" : ",") + std::to_string(std::stod(number) * 0.1 + 5200000.123);
+    const Made made = make(".fbx", text.replace(begin, end - begin, moved));
+    EXPECT_FALSE(made.hasOffset());
+    EXPECT_TRUE(made.warns("skins")) << testing::PrintToString(made.report.warnings);
 }
 
 TEST(FarFormatsElsewhere, AreSaidToBeReadAsFloats) {
