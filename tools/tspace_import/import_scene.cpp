@@ -348,6 +348,7 @@ void mendCoarse(const Reading& reading, const aiScene& scene, const Mended& mend
     if (!isReadInDouble(reading.path)) {
         why = "; its format is read as such, OBJ, PLY, STL, COLLADA and FBX are read in double";
     } else if (reading.rules.keep_coordinates) {
+        imported.keeps_coordinates = true;
         why = "; without --keep-coordinates an offset is taken out of them where that helps";
     } else {
         try {

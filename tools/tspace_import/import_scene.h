@@ -13,7 +13,8 @@ struct Imported {
     std::string error = {};        ///< one sentence; empty: it was read
     bool has_no_tangents = false;  ///< the file has none, as far as its text says
     std::vector<std::string> warnings = {};
-    double offset[3] = {0, 0, 0};  ///< taken out of coordinates, and the translation of their nodes
+    bool keeps_coordinates = false;  ///< floats do not hold the shape, and ImportRules::keep_coordinates was given
+    double offset[3] = {0, 0, 0};    ///< taken out of coordinates, and the translation of their nodes
 };
 
 /// The options of reading.

@@ -137,7 +137,8 @@ TEST_P(FarFormats, KeptCoordinatesAreRoundedAndSaidToBe) {
     EXPECT_FALSE(made.hasOffset());
     EXPECT_EQ(length(made.at(0, 0) - kFar), 0);
     EXPECT_TRUE(made.warns("without --keep-coordinates"));
-    EXPECT_TRUE(make(GetParam(), {sheet(kSide, {0, 0, 0})}, true).report.warnings.empty());
+    EXPECT_FALSE(made.warns("no effect"));
+    EXPECT_TRUE(make(GetParam(), {sheet(kSide, {0, 0, 0})}, true).warns("--keep-coordinates has no effect"));
 }
 
 TEST_P(FarFormats, PartsThatNoOffsetBringsTogetherAreSaidToBeRounded) {
