@@ -56,10 +56,12 @@ struct FileOptions {
     /// Told the path of each file that is read, at once, and of each image on the disk that a glTF names, read or not. Perhaps
     /// called by several threads at one time.
     std::function<void(const std::string& path)> opened = {};
+    /// Told of the images that a glTF names, in the place of `opened`, where it is there: they need not be read.
+    std::function<void(const std::string& path)> named = {};
     /// A written file is on the disk, and not in its cache alone, before it takes its name: after a power cut the old file is
     /// there or the new one, and never half of one. false: for many small files, where that takes most of the time.
     bool sync = true;
-    /// OBJ and PLY: coordinates so far from the origin (metres of a map) that 32-bit floats would not hold the shape are
+    /// OBJ, PLY, STL, COLLADA and FBX: coordinates so far from the origin (metres of a map) that 32-bit floats would not hold the shape are
     /// read in double, and an offset is taken out of them before they become floats. In glTF it is the translation of the
     /// nodes. true: no offset; the shape then loses what floats lose, and a warning says so.
     bool keep_coordinates = false;
@@ -294,8 +296,8 @@ struct GenerateReport {
     std::vector<std::string> input_files = {};   ///< everything that was read, the model first
     std::vector<std::string> output_files = {};  ///< everything that was written, the model first
     std::vector<std::string> warnings = {};
-    /// What was taken out of the coordinates of an OBJ or PLY file far from the origin, in double, and is the translation
-    /// of the output's nodes (FileOptions::keep_coordinates).
+    /// What was taken out of the coordinates of a file far from the origin, in double (not of glTF), and is the translation of
+    /// the output's nodes (FileOptions::keep_coordinates).
     double coordinate_offset[3] = {0, 0, 0};
 };
 

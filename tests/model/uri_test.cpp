@@ -89,5 +89,19 @@ TEST(ResolveUri, IsAskedForBuffersAndImages) {
     EXPECT_EQ(load(R"("buffers":[{"byteLength":4,"uri":"."}])", false).code, ErrorCode::invalidFile);
 }
 
+TEST(ResolveUri, OfModelsInMemoryWithoutFilesIsNotFollowedAndYetAUri) {
+    const auto load = [](const std::string& uri) {
+        const std::string text = R"({"asset":{"version":"2.0"},"images":[{"uri":")" + uri + "\"}]}";
+        FileOptions options;
+        options.content = {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
+        return errorOf([&] { gltf::loadDocument("m.gltf", options); });
+    };
+    EXPECT_EQ(load(":").code, ErrorCode::invalidFile);
+    EXPECT_EQ(load(":").place, "/images/0/uri");
+    EXPECT_EQ(load("a%00b").code, ErrorCode::invalidFile);
+    for (const char* uri : {"a.png", "../a.png", "/a.png", "http://a/b.png", ""})
+        EXPECT_EQ(load(uri).code, ErrorCode::ok) << uri;
+}
+
 }  // namespace
 }  // namespace tspace

@@ -79,7 +79,8 @@ TEST(Generate, SaysWhichOptionsHaveNoEffect) {
     folder.write("bare.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nvn 0 0 1\nf 1/1/1 2/2/1 3/3/1\n");
     ASSERT_EQ(runTool(folder, "generate -q --all bare.obj -o has.glb").exit_code, 0);
     for (const char* option :
-         {"--no-sanitize", "--orthogonalize", "--format snorm8", "--refine 2", "--mend-maps", "--flip-green"}) {
+         {"--no-sanitize", "--orthogonalize", "--format snorm8", "--refine 2", "--mend-maps", "--flip-green",
+          "--convention directx", "--texture-transform ignore", "--compress none", "--keep-coordinates"}) {
         const std::string name = std::string(option).substr(0, std::string(option).find(' '));
         const ToolRun run = runTool(folder, "generate --all has.glb -o out.glb " + std::string(option));
         EXPECT_NE(run.out.find(name + " has no effect: "), std::string::npos) << option << run.out << run.err;
@@ -88,6 +89,18 @@ TEST(Generate, SaysWhichOptionsHaveNoEffect) {
               std::string::npos);
     EXPECT_NE(runTool(folder, "generate bare.obj -o out.glb --strip").out.find("--strip has no effect"),
               std::string::npos);
+    const ToolRun packed = runTool(folder, "generate --all has.glb -o packed.glb --compress meshopt");
+    if (packed.exit_code == 0) {
+        EXPECT_EQ(packed.out.find("no effect"), std::string::npos);
+        EXPECT_EQ(runTool(folder, "generate --all packed.glb -o out.glb --compress none").out.find("no effect"),
+                  std::string::npos);
+        EXPECT_NE(runTool(folder, "generate --all packed.glb -o out.glb --compress meshopt")
+                      .out.find("--compress has no effect"),
+                  std::string::npos);
+    }
+    EXPECT_EQ(
+        runTool(folder, "generate --all --overwrite has.glb -o out.glb --convention directx").out.find("no effect"),
+        std::string::npos);
     EXPECT_EQ(
         runTool(folder, "generate --all bare.obj -o out.glb --method best --refine 2 --format snorm8 --no-sanitize")
             .out.find("no effect"),

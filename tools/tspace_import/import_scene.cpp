@@ -6,11 +6,11 @@
 #include <assimp/scene.h>
 
 #include <algorithm>
+#include <array>
 #include <assimp/Importer.hpp>
-#include <cctype>
 #include <cmath>
-#include <cstdio>
 #include <map>
+#include <new>
 #include <optional>
 
 #include "glb_builder.h"
@@ -18,8 +18,9 @@
 #include "mend.h"
 #include "meshes.h"
 #include "model_files.h"
+#include "moved_meshes.h"
+#include "near_origin/near_origin.h"
 #include "number_text.h"
-#include "ply_offset.h"
 #include "stored_tangents.h"
 
 namespace tspace::import {
@@ -28,8 +29,8 @@ namespace {
 
 class SceneWriter {
   public:
-    SceneWriter(const aiScene& scene, bool takes_tangents, const DVec3& offset)
-        : scene_(scene), takes_tangents_(takes_tangents), offset_(offset) {}
+    SceneWriter(const aiScene& scene, bool takes_tangents, const ExactTranslations& translations, MovedMeshes moved)
+        : scene_(scene), takes_tangents_(takes_tangents), translations_(translations), moved_(std::move(moved)) {}
 
     std::vector<std::uint8_t> write() {
         aiString generator;
@@ -40,7 +41,7 @@ class SceneWriter {
         listNodes();
         addMaterials(builder_, scene_);
         for (std::size_t i = 0; i < nodes_.size(); ++i) builder_.append("nodes", nodeJson(i));
-        for (std::size_t i = 0; i < nodes_.size(); ++i) addMesh(i);
+        for (std::size_t i = 0; i < nodes_.size(); ++i) addMeshes(i);
         addAnimations();
         builder_.json()["scene"] = 0;
         builder_.json()["scenes"] = Json::array({Json{{"nodes", {0}}}});
@@ -71,20 +72,22 @@ class SceneWriter {
         aiMatrix4x4 place = node.mTransformation;
         if (i == 0) place = inMetres() * place;
         const std::vector<float> matrix = columnsOf(place, builder_.mended());
+        const DVec3* const exact = i == 0 ? nullptr : translations_.of(node);
         if (isAnimated(node) && isFinite(place[0], 16)) {
             // A matrix cannot be animated.
             aiVector3D scale, translation;
             aiQuaternion rotation;
             place.Decompose(scale, rotation, translation);
             json["translation"] = {translation.x, translation.y, translation.z};
+            if (exact != nullptr) json["translation"] = {exact->x, exact->y, exact->z};
             rotation = unitRotation(rotation);
             json["rotation"] = {rotation.x, rotation.y, rotation.z, rotation.w};
             json["scale"] = {scale.x, scale.y, scale.z};
         } else if (matrix != columnsOf(aiMatrix4x4(), builder_.mended())) {
             json["matrix"] = matrix;
+            for (std::size_t k = 0; exact != nullptr && k < 3; ++k)
+                json["matrix"][12 + k] = std::array{exact->x, exact->y, exact->z}[k];
         }
-        // Of PLY, whose root is where the file is.
-        if (i == 0 && length(offset_) > 0) json["translation"] = {offset_.x, offset_.y, offset_.z};
         return json;
     }
 
@@ -107,23 +110,49 @@ class SceneWriter {
         return false;
     }
 
-    /// One glTF mesh for all meshes of the node; nodes with the same list and skin share it.
-    void addMesh(std::size_t i) {
+    struct MeshNumbers {
+        std::optional<std::size_t> mesh = {}, skin = {};
+    };
+
+    /// One glTF mesh for all meshes of the node that are where the file has them, and one for those that were moved.
+    void addMeshes(std::size_t i) {
         const aiNode& node = *nodes_[i];
-        if (node.mNumMeshes == 0) return;
-        const std::vector<unsigned> list(node.mMeshes, node.mMeshes + node.mNumMeshes);
-        const auto known = mesh_of_.find(list);
-        if (known == mesh_of_.end()) mesh_of_[list] = makeMesh(list, node);
-        const MeshNumbers& numbers = mesh_of_[list];
-        if (!numbers.mesh) return;
-        Json& json = builder_.json()["nodes"][i];
+        std::vector<unsigned> list, moved;
+        for (unsigned k = 0; k < node.mNumMeshes; ++k)
+            (moved_.isMoved(node.mMeshes[k]) ? moved : list).push_back(node.mMeshes[k]);
+        const MeshNumbers numbers = meshOf(list, node), moved_numbers = meshOf(moved, node);
+        if (numbers.mesh) setMesh(i, numbers);
+        if (moved_numbers.mesh) setMesh(nodeAtOffset(i, !list.empty()), moved_numbers);
+    }
+
+    void setMesh(std::size_t node, const MeshNumbers& numbers) {
+        Json& json = builder_.json()["nodes"][node];
         json["mesh"] = *numbers.mesh;
         if (numbers.skin) json["skin"] = *numbers.skin;
     }
 
-    struct MeshNumbers {
-        std::optional<std::size_t> mesh = {}, skin = {};
-    };
+    /// Nodes with the same list and skin share a mesh.
+    MeshNumbers meshOf(const std::vector<unsigned>& list, const aiNode& node) {
+        if (list.empty()) return {};
+        const auto [known, is_new] = mesh_of_.try_emplace(list);
+        if (is_new) known->second = makeMesh(list, node);
+        return known->second;
+    }
+
+    /// The node itself, with the offset as its translation, where it has no place of its own and nothing else hangs at it;
+    /// else a child for it.
+    std::size_t nodeAtOffset(std::size_t i, bool has_other_mesh) {
+        const Json translation = {moved_.offset.x, moved_.offset.y, moved_.offset.z};
+        Json& json = builder_.json()["nodes"][i];
+        const bool has_place = json.contains("matrix") || json.contains("translation");
+        if (!has_other_mesh && !has_place && nodes_[i]->mNumChildren == 0) {
+            json["translation"] = translation;
+            return i;
+        }
+        const std::size_t child = builder_.append("nodes", Json{{"translation", translation}});
+        builder_.json()["nodes"][i]["children"].push_back(child);
+        return child;
+    }
 
     MeshNumbers makeMesh(const std::vector<unsigned>& list, const aiNode& node) {
         Skin skin = skinOf(list);
@@ -263,7 +292,8 @@ class SceneWriter {
 
     const aiScene& scene_;
     bool takes_tangents_;
-    DVec3 offset_;
+    const ExactTranslations& translations_;
+    MovedMeshes moved_;
     GlbBuilder builder_;
     std::vector<const aiNode*> nodes_ = {};
     std::vector<std::size_t> first_child_ = {};
@@ -272,21 +302,33 @@ class SceneWriter {
     std::map<std::string, std::size_t> reduced_materials_ = {};  ///< by their JSON
 };
 
-bool endsInPly(const std::string& path) {
-    std::string end = path.substr(path.size() - std::min<std::size_t>(path.size(), 4));
-    std::transform(end.begin(), end.end(), end.begin(), [](unsigned char c) { return std::tolower(c); });
-    return end == ".ply";
-}
+/// How a file is read.
+struct Reading {
+    const std::string& path;
+    const ImportRules& rules;
+    Assimp::Importer& importer;
+    bool takes_tangents;
+    const ExactTranslations& translations;
+};
 
-/// Reads a PLY file once more, near the origin, where that helps.
-void readNearOrigin(const std::string& path, Assimp::Importer& importer, Imported& imported) {
-    const std::optional<NearPly> moved = nearOrigin(path);
-    if (!moved) return;
-    const aiScene* scene = importer.ReadFileFromMemory(moved->bytes.data(), moved->bytes.size(), 0, "ply");
-    if (scene == nullptr || scene->mRootNode == nullptr) return;
-    SceneWriter writer(*scene, false, moved->offset);
+/// Reads the file once more, near the origin. Returns why that does not help; nothing where it does. `scene` is gone then.
+std::string readNearOrigin(const Reading& reading, const aiScene& scene, Imported& imported) {
+    const std::optional<NearFile> moved = nearOrigin(reading.path);
+    if (!moved) return "; the file has no more digits than those: move the model to the origin before it is exported";
+    const std::string no_common =
+        ", and no common offset mends that; split the model, and move each part to its own origin";
+    if (moved->bytes.empty()) return no_common;
+    const std::vector<aiVector3D> first_vertices = firstVertices(scene);
+    std::vector<std::string> refused;  // the same as before
+    reading.importer.SetIOHandler(new ModelFiles(reading.path, reading.rules.anywhere, refused, &moved->bytes));
+    const aiScene* const near = reading.importer.ReadFile(reading.path, 0);
+    if (near == nullptr || near->mRootNode == nullptr) return "; reading it near the origin failed";
+    const MovedMeshes meshes = movedMeshes(*near, first_vertices, moved->offset);
+    if (meshes.has_skin)
+        return "; no offset is taken out of meshes with skins: move the model to the origin before it is exported";
+    SceneWriter writer(*near, reading.takes_tangents, reading.translations, meshes);
     std::vector<std::uint8_t> glb = writer.write();
-    if (writer.mended().isCoarse()) return;
+    if (writer.mended().isCoarse()) return no_common;
     imported.glb = std::move(glb);
     imported.warnings = writer.mended().warnings();
     const double offset[3] = {moved->offset.x, moved->offset.y, moved->offset.z};
@@ -294,8 +336,28 @@ void readNearOrigin(const std::string& path, Assimp::Importer& importer, Importe
     imported.warnings.push_back(
         "the coordinates are so far from the origin that 32-bit floats would change the shape; (" +
         numberText(offset[0]) + ", " + numberText(offset[1]) + ", " + numberText(offset[2]) +
-        ") was taken out of them first, and is the translation of the root node in glTF (generate --keep-coordinates "
+        ") was taken out of them first, and is the translation of their nodes in glTF (generate --keep-coordinates "
         "leaves it in)");
+    return {};
+}
+
+/// Takes an offset out, or says why not, in a scene whose edges are coarse. `scene` may be gone then.
+void mendCoarse(const Reading& reading, const aiScene& scene, const Mended& mended, Imported& imported) {
+    const std::string coarse = mended.coarseness();
+    std::string why;
+    if (!isReadInDouble(reading.path)) {
+        why = "; its format is read as such, OBJ, PLY, STL, COLLADA and FBX are read in double";
+    } else if (reading.rules.keep_coordinates) {
+        imported.keeps_coordinates = true;
+        why = "; without --keep-coordinates an offset is taken out of them where that helps";
+    } else {
+        try {
+            why = readNearOrigin(reading, scene, imported);
+        } catch (const std::bad_alloc&) {
+            why = "; reading them in double takes more memory than is allowed (--memory-limit allows more)";
+        }
+    }
+    if (!why.empty()) imported.warnings.push_back(coarse + why);
 }
 
 }  // namespace
@@ -321,11 +383,13 @@ Imported importScene(const std::string& path, const ImportRules& rules) {
     for (unsigned i = 0; i < scene->mNumMeshes; ++i) has_faces = has_faces || scene->mMeshes[i]->HasFaces();
     if (!has_faces) return {.error = not_read.empty() ? "it has no faces" : "it has no faces; " + not_read[0]};
     const StoredTangents stored = storedTangents(path);
-    SceneWriter writer(*scene, stored == StoredTangents::withBitangents, {});
+    const bool takes_tangents = stored == StoredTangents::withBitangents;
+    const ExactTranslations translations(*scene, path);
+    SceneWriter writer(*scene, takes_tangents, translations, {});
     Imported imported{.glb = writer.write()};
     imported.warnings = writer.mended().warnings();
-    if (writer.mended().isCoarse() && endsInPly(path) && !rules.keep_coordinates)
-        readNearOrigin(path, importer, imported);
+    if (writer.mended().isCoarse())
+        mendCoarse({path, rules, importer, takes_tangents, translations}, *scene, writer.mended(), imported);
     imported.warnings.insert(imported.warnings.end(), not_read.begin(), not_read.end());
     imported.has_no_tangents = stored == StoredTangents::none;
     return imported;

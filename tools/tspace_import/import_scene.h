@@ -13,7 +13,8 @@ struct Imported {
     std::string error = {};        ///< one sentence; empty: it was read
     bool has_no_tangents = false;  ///< the file has none, as far as its text says
     std::vector<std::string> warnings = {};
-    double offset[3] = {0, 0, 0};  ///< taken out of the coordinates, and the translation of the root
+    bool keeps_coordinates = false;  ///< floats do not hold the shape, and ImportRules::keep_coordinates was given
+    double offset[3] = {0, 0, 0};    ///< taken out of coordinates, and the translation of their nodes
 };
 
 /// The options of reading.
@@ -21,7 +22,7 @@ struct ImportRules {
     bool anywhere =
         false;  ///< files that it names are read wherever they are; else where the URIs of glTF may lead (src/model/io/folder_rule.h)
     bool keep_coordinates =
-        false;  ///< else an offset is taken out of PLY with more than floats where floats do not hold the shape
+        false;  ///< else an offset is taken out where floats do not hold the shape, and the file has more than floats
 };
 
 /// Meshes are neither joined nor split: one primitive per mesh of the file, polygons cut by tspace's own rule, vertices

@@ -104,6 +104,7 @@ int run(const char* input, const tspace::import::ImportRules& rules, std::FILE* 
     }
     // importDocument tells these lines from others that a library may print.
     if (imported.has_no_tangents) std::fprintf(stderr, "tangents: none\n");
+    if (imported.keeps_coordinates) std::fprintf(stderr, "coordinates: kept\n");
     const double* const offset = imported.offset;
     if (offset[0] != 0 || offset[1] != 0 || offset[2] != 0)
         std::fprintf(stderr, "offset: %s %s %s\n", tspace::import::numberText(offset[0]).c_str(),

@@ -46,15 +46,12 @@ std::vector<std::string> Mended::warnings() const {
     add(normals, "normals that are zero or not finite and were taken from a face");
     add(tangents, "tangents that are not finite and were set to 0");
     add(transforms, "matrices of nodes or joints that are not finite and were left out");
-    if (isCoarse()) {
-        list.push_back(
-            "positions are so far from the origin that 32-bit floats, which this format is read as, do not hold "
-            "the shape: " +
-            std::to_string(coarse_edges) + " of " + std::to_string(edges) +
-            " edges of triangles; move the model to the origin before it is exported, or export OBJ, whose "
-            "coordinates are read in double");
-    }
     return list;
+}
+
+std::string Mended::coarseness() const {
+    return "positions are so far from the origin that 32-bit floats do not hold the shape: " +
+           std::to_string(coarse_edges) + " of " + std::to_string(edges) + " edges of triangles";
 }
 
 double unitInterval(float value, double otherwise) {
@@ -106,7 +103,7 @@ std::size_t mendNormals(std::vector<float>& normals, const std::vector<float>& p
 
 void countCoarseEdges(const std::vector<float>& positions, const std::vector<std::uint32_t>& triangles,
                       Mended& mended) {
-    constexpr double kLeastSteps = 500;
+    constexpr double kLeastSteps = 500, kFar = 1 << 14;
     // Whole numbers and short fractions have zeros there; rounded ones seldom do.
     constexpr std::uint32_t kLastBits = 63;
     const auto isRound = [](float value) { return (std::bit_cast<std::uint32_t>(value) & kLastBits) == 0; };
@@ -114,10 +111,13 @@ void countCoarseEdges(const std::vector<float>& positions, const std::vector<std
         const float size = std::fabs(value);
         return double{std::nextafter(size, std::numeric_limits<float>::infinity())} - double{size};
     };
+    const std::size_t edges_before = mended.edges;
+    bool is_far = false;
     for (std::size_t c = 0; c < triangles.size(); ++c) {
         const float* const a = &positions[std::size_t{3} * triangles[c]];
         const float* const b = &positions[std::size_t{3} * triangles[c - c % 3 + (c + 1) % 3]];
         const double length = lengthOf({double{b[0]} - a[0], double{b[1]} - a[1], double{b[2]} - a[2]});
+        is_far = is_far || lengthOf({a[0], a[1], a[2]}) > kFar;
         if (!(length > 0)) continue;
         ++mended.edges;
         bool is_coarse = false;
@@ -127,6 +127,9 @@ void countCoarseEdges(const std::vector<float>& positions, const std::vector<std
         }
         mended.coarse_edges += is_coarse;
     }
+    if (mended.edges != edges_before || !is_far) return;
+    mended.edges += triangles.size();
+    mended.coarse_edges += triangles.size();
 }
 
 std::vector<float> columnsOf(const aiMatrix4x4& matrix, Mended& mended) {

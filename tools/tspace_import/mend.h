@@ -18,7 +18,9 @@ struct Mended {
 
     /// Whether so many edges are coarse that it shows: one in twenty, as for OBJ.
     [[nodiscard]] bool isCoarse() const { return coarse_edges != 0 && 20 * coarse_edges >= edges; }
-    /// A sentence for each kind that occurred.
+    /// What isCoarse() says to people.
+    [[nodiscard]] std::string coarseness() const;
+    /// A sentence for each kind that occurred, but for coarse edges.
     [[nodiscard]] std::vector<std::string> warnings() const;
 };
 
@@ -36,7 +38,8 @@ std::size_t mendNormals(std::vector<float>& normals, const std::vector<float>& p
                         const std::vector<std::uint32_t>& triangles);
 
 /// Counts the edges of triangles, and among them those too far from the origin: rounding to floats, which Assimp reads all
-/// numbers as, may change them by a five-hundredth of their length along an axis.
+/// numbers as, may change them by a five-hundredth of their length along an axis. All of them where none has a length, and the mesh is so far
+/// away that they may have been rounded to it.
 void countCoarseEdges(const std::vector<float>& positions, const std::vector<std::uint32_t>& triangles, Mended& mended);
 
 /// Column by column, as glTF wants it; Assimp stores rows. The last row is exactly 0 0 0 1. The identity, counted,

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "model_files.h"
 
+#include <assimp/MemoryIOWrapper.h>
+
 #include <algorithm>
+#include <cstdint>
 #include <system_error>
 
 #include "model/io/folder_rule.h"
@@ -10,8 +13,9 @@ namespace tspace::import {
 
 namespace fs = std::filesystem;
 
-ModelFiles::ModelFiles(const std::string& model, bool anywhere, std::vector<std::string>& refused)
-    : model_(model), folder_(model_.parent_path()), anywhere_(anywhere), refused_(refused) {}
+ModelFiles::ModelFiles(const std::string& model, bool anywhere, std::vector<std::string>& refused,
+                       const std::vector<char>* instead)
+    : model_(model), folder_(model_.parent_path()), anywhere_(anywhere), refused_(refused), instead_(instead) {}
 
 /// The file on the disk, where the rule allows it; empty: it is not there. Assimp puts the folder before most names; the
 /// others are names in it too.
@@ -37,6 +41,8 @@ bool ModelFiles::Exists(const char* file) const { return !find(file).empty(); }
 
 Assimp::IOStream* ModelFiles::Open(const char* file, const char* mode) {
     const std::string found = find(file);
+    if (instead_ != nullptr && found == model_.string() && *mode == 'r')
+        return new Assimp::MemoryIOStream(reinterpret_cast<const std::uint8_t*>(instead_->data()), instead_->size());
     return found.empty() || *mode != 'r' ? nullptr : DefaultIOSystem::Open(found.c_str(), mode);
 }
 

@@ -14,8 +14,10 @@ namespace tspace::import {
 /// in a name, and no link that leads out. Others are not there.
 class ModelFiles : public Assimp::DefaultIOSystem {
   public:
-    /// `anywhere` lifts the rule. `refused` gets what is there and was not read, fit for a message.
-    ModelFiles(const std::string& model, bool anywhere, std::vector<std::string>& refused);
+    /// `anywhere` lifts the rule. `refused` gets what is there and was not read, fit for a message. `instead`: where not null,
+    /// what is read in place of the model.
+    ModelFiles(const std::string& model, bool anywhere, std::vector<std::string>& refused,
+               const std::vector<char>* instead = nullptr);
 
     bool Exists(const char* file) const override;
     Assimp::IOStream* Open(const char* file, const char* mode) override;
@@ -26,6 +28,7 @@ class ModelFiles : public Assimp::DefaultIOSystem {
     std::filesystem::path model_, folder_;
     bool anywhere_;
     std::vector<std::string>& refused_;
+    const std::vector<char>* instead_;
 };
 
 }  // namespace tspace::import

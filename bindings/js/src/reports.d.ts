@@ -24,7 +24,8 @@ export interface GenerateReport {
   outputFiles: string[];
   /** Sentences for a person. */
   warnings: string[];
-  /** What was taken out of the coordinates of an OBJ or PLY file, and is the translation of the nodes; zeros: nothing was. */
+  /** What was taken out of the coordinates of an OBJ, PLY, STL, COLLADA or FBX file, and is the translation of the nodes;
+   * zeros: nothing was. */
   coordinateOffset: [number, number, number];
   /** Sums over the primitives. */
   totals: GenerateTotals;
@@ -377,7 +378,8 @@ export interface InspectReport {
   variants: string[];
   /** Sentences for a person about the file as a whole: what was left out or mended as it was read. */
   warnings: string[];
-  /** What "generate" would take out of the coordinates of an OBJ or PLY file far from the origin; zeros: nothing. */
+  /** What "generate" would take out of the coordinates of an OBJ, PLY, STL, COLLADA or FBX file far from the origin; zeros:
+   * nothing. */
   coordinateOffset: [number, number, number];
   /** One entry per primitive, in file order. */
   primitives: InspectedPrimitive[];

@@ -30,7 +30,6 @@ std::string pathBelow(const Path&, const Path&) { return {}; }
 
 InputFiles::InputFiles() : call_(0) {}
 void InputFiles::addTo(std::set<std::string>&, const Path&) {}
-void InputFiles::tellNamed(const std::function<void(const std::string&)>& opened, const std::string& path) { opened(path); }
 void InputFiles::watch(FileOptions&) {}
 bool InputFiles::has(const Path&) const { return false; }
 AtomicOutput::File AtomicOutput::planFile(const Path& requested) { return {.target = requested}; }

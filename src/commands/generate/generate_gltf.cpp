@@ -166,8 +166,8 @@ void computeAndApply(Input& input, Decisions& decisions, Editor& editor, std::ve
     for (std::string& warning : numbers.warnings()) warnings.push_back(std::move(warning));
 }
 
-/// Carries the decisions out. Fills the report but for its files. Returns whether the document is another one now.
-bool edit(Input& input, const Storage& storage, Decisions&& decisions, GenerateReport& report) {
+/// Carries the decisions out. Fills the report but for its files.
+WorkedOn edit(Input& input, const Storage& storage, Decisions&& decisions, GenerateReport& report) {
     Document& document = input.model.document();
     const GenerateOptions& options = input.options;
     const std::span<const Primitive> primitives = input.model.primitives();
@@ -190,11 +190,14 @@ bool edit(Input& input, const Storage& storage, Decisions&& decisions, GenerateR
     editor.finish();
     const bool is_packed = packGeometry(document, options.compression, storage.new_file);
     report.primitives = std::move(reports);
-    return editor.changed() || input.is_converted || storage.is_unpacked || is_packed;
+    report.changed = editor.changed() || input.is_converted || storage.is_unpacked || is_packed;
+    return {.far_coordinates = document.keeps_far_coordinates,
+            .texture_transforms = decisions.plan.has_texture_transforms,
+            .compression = storage.is_unpacked || is_packed};
 }
 
 /// All but reading and writing.
-void generate(Input& input, bool with_images, GenerateReport& report) {
+WorkedOn generate(Input& input, bool with_images, GenerateReport& report) {
     Document& document = input.model.document();
     report.warnings = document.warnings;
     std::copy_n(document.coordinate_offset.begin(), 3, report.coordinate_offset);
@@ -208,7 +211,7 @@ void generate(Input& input, bool with_images, GenerateReport& report) {
     // Behind the decisions on maps, which find images by their names.
     if (with_images) takeImagesIn(document, input.target, report.warnings);
     tell(input.options, "reading", 1, 1);
-    report.changed = edit(input, storage, std::move(decisions), report);
+    return edit(input, storage, std::move(decisions), report);
 }
 
 /// Names the files in the report.
@@ -234,7 +237,7 @@ GenerateReport generateToFile(const std::string& path, const std::string& output
     Input input = toInput(Model(loadDocument(path, options.file, options.execution, options.progress)), output,
                           options.sink != nullptr, options);
     Document& document = input.model.document();
-    generate(input, true, report);
+    const WorkedOn worked_on = generate(input, true, report);
     AtomicOutput files({.sink = options.sink,
                         .is_dry_run = options.dry_run,
                         .sync = options.file.sync,
@@ -247,7 +250,7 @@ GenerateReport generateToFile(const std::string& path, const std::string& output
         writeUnchanged(document, input.target, files, report.warnings);
     }
     tellFiles(path, document, files, report);
-    addWarnings(requested, report);
+    addWarnings(requested, worked_on, report);
     tell(options, "writing", 1, 1);
     // Nothing that can fail comes after it.
     files.commit();

@@ -162,7 +162,7 @@ GenerateReport generate(const std::string& input, const std::string& output, con
     report.coordinate_offset[0] = model.offset.x;
     report.coordinate_offset[1] = model.offset.y;
     report.coordinate_offset[2] = model.offset.z;
-    addWarnings(options, report);
+    addWarnings(options, {.far_coordinates = model.keeps_offset}, report);
     AtomicOutput files(
         {.sink = options.sink, .is_dry_run = options.dry_run, .sync = options.file.sync, .inputs = &inputs});
     writeScene(model, finished, output, files, report.warnings);

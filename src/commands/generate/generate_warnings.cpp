@@ -120,6 +120,9 @@ void warnOfTangents(const GenerateOptions& options, GenerateReport& report) {
     if (tangents.angular_threshold_deg != plain.angular_threshold_deg) idle.emplace_back("--threshold");
     if (options.faces == Faces::quads) idle.emplace_back("--faces");
     if (has_refine) idle.emplace_back("--refine");
+    // A repair judges by the convention, too.
+    if (tangents.convention != GenerateOptions{}.tangents.convention && options.existing != ExistingTangents::repair)
+        idle.emplace_back("--convention");
     if (options.bitangents) idle.emplace_back("--bitangents");
     if (!options.sanitize) idle.emplace_back("--no-sanitize");
     if (options.sanitize_options.orthogonalize_all) idle.emplace_back("--orthogonalize");
@@ -128,13 +131,27 @@ void warnOfTangents(const GenerateOptions& options, GenerateReport& report) {
     warn(idle, any_kept ? "no tangents were computed; those that are there stay" : "no tangents were computed", report);
 }
 
+void warnOfFile(const GenerateOptions& options, const WorkedOn& worked_on, GenerateReport& report) {
+    if (options.texture_transform != GenerateOptions{}.texture_transform && !worked_on.texture_transforms)
+        warn({"--texture-transform"}, "no tangents that were computed follow a texture with KHR_texture_transform",
+             report);
+    if (options.compression != Compression::keep && !worked_on.compression)
+        warn({"--compress"},
+             options.compression == Compression::none ? "no geometry is compressed"
+                                                      : "geometry is compressed so already, or cannot be",
+             report);
+    if (options.file.keep_coordinates && !worked_on.far_coordinates)
+        warn({"--keep-coordinates"}, "no offset would have been taken out of the coordinates", report);
+}
+
 }  // namespace
 
-void addWarnings(const GenerateOptions& options, GenerateReport& report) {
+void addWarnings(const GenerateOptions& options, const WorkedOn& worked_on, GenerateReport& report) {
     warnOfWinding(report);
     if (report.primitives.empty()) return;
     warnOfNormals(options, report);
     warnOfTangents(options, report);
+    warnOfFile(options, worked_on, report);
     if (options.flip_green != FlipGreen::none && report.normal_maps.empty())
         warn({options.flip_green == FlipGreen::all ? "--flip-green-all" : "--flip-green"}, "there is no normal map",
              report);

@@ -47,6 +47,7 @@ std::vector<EmbeddedFile> filesOf(const Path& input, const FileOptions& options,
         if (file != path)
             named.insert(Path(fs::path(Path(file)).lexically_normal().lexically_relative(folder)).string());
     };
+    ask.file.named = {};  // opened is told
     ask.sink = [](std::span<const std::uint8_t>) { return true; };
     valueOrThrow(generateFile(path, "view.glb", ask));
     std::vector<EmbeddedFile> files;

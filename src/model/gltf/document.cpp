@@ -151,7 +151,6 @@ Buffer loadBuffer(Document& document, const Json& entry, std::size_t index, cons
 /// Images are not read here, but a URI that leads out is refused for every file that a model names, and each of them is part
 /// of the input.
 void checkImageUris(const Document& document) {
-    if (document.files.areNone()) return;  // no URI is followed
     const Json& images = rootArray(document, "images");
     for (std::size_t i = 0; i < images.size(); ++i) {
         const std::string place = join("/images", i);
@@ -159,6 +158,11 @@ void checkImageUris(const Document& document) {
         if (uri.empty() || uriKind(uri) == UriKind::data) continue;
         // With allow_external a web address is left as it is: it names no local file.
         if (uriKind(uri) == UriKind::otherScheme && document.options.allow_external) continue;
+        if (document.files.areNone()) {
+            // No URI is followed, wherever it leads; but it is one.
+            if (uriKind(uri) == UriKind::path) static_cast<void>(checkedPathOfUri(uri, true, join(place, "uri")));
+            continue;
+        }
         document.files.note(document.files.resolve(uri, join(place, "uri")));
     }
 }

@@ -72,6 +72,7 @@ struct Document {
     bool may_hide_tangents = false;             ///< the original may have tangents that the importer did not read
     std::string source_generator = {};          ///< the program that made the original; may be empty
     std::array<double, 3> coordinate_offset{};  ///< subtracted from its coordinates by the importer
+    bool keeps_far_coordinates = false;  ///< floats do not hold them, and FileOptions::keep_coordinates was given
     FileOptions options = {};
     /// Images that are written beside the output, by the path that their URIs stand for.
     std::map<std::string, Bytes> new_files = {};

@@ -232,7 +232,11 @@ GeneratePlan planGenerate(const Document& document, std::span<const Primitive> p
         }
 
         UvMatrix matrix;
-        if (computes && report.uv_set >= 0 && !uses.empty()) matrix = uvMatrixOf(uses[0], options.texture_transform);
+        if (computes && report.uv_set >= 0 && !uses.empty()) {
+            matrix = uvMatrixOf(uses[0], options.texture_transform);
+            plan.has_texture_transforms =
+                plan.has_texture_transforms || !uvMatrixOf(uses[0], TextureTransform::apply).isIdentity();
+        }
         const auto [pool_entry, is_new_pool] =
             pool_of.try_emplace(poolKey(primitive, report.uv_set, matrix, computes, normals.anew), plan.pools.size());
         const std::size_t pool_number = pool_entry->second;

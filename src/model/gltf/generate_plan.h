@@ -62,6 +62,8 @@ struct Pool {
 struct GeneratePlan {
     std::vector<Pool> pools = {};
     std::vector<PrimitiveReport> reports = {};  ///< one per primitive; final for those in no pool
+    bool has_texture_transforms =
+        false;  ///< of textures that tangents follow, or would but for TextureTransform::ignore
 };
 
 /// Whether a morph target that moves the surface leaves the tangents behind.

@@ -31,6 +31,8 @@ constexpr std::array kExtensions = {".3d",  ".3ds",     ".3mf", ".ac",   ".ase",
 
 /// The importer's mark that a result without tangents means a file without tangents.
 constexpr std::string_view kNoTangents = "tangents: none\n";
+/// Its mark that no offset was taken out because of FileOptions::keep_coordinates.
+constexpr std::string_view kCoordinatesKept = "coordinates: kept\n";
 
 /// Text of the importer for a message.
 std::string firstLine(const std::string& messages) {
@@ -138,6 +140,7 @@ gltf::Document importDocument(const Path& path, const FileOptions& options, cons
     document.imported = true;
     document.json["asset"]["generator"] = "tspace";
     document.may_hide_tangents = result.messages.find(kNoTangents) == std::string::npos;
+    document.keeps_far_coordinates = result.messages.find(kCoordinatesKept) != std::string::npos;
     document.coordinate_offset = offsetIn(result.messages);
     for (std::string& warning : warningsIn(result.messages)) document.warnings.push_back(std::move(warning));
     return document;

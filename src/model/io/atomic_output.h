@@ -22,12 +22,9 @@ class InputFiles {
     InputFiles();
     /// Fails with cannotRead (FileError) where another call of the same OneRun wrote this file.
     void add(const Path& path) { addTo(identities_, path); }
-    /// Makes `options` report every file that is opened to this, and then to the callback that they had. Must outlive
-    /// `options`.
+    /// Makes `options` report every file that is opened, and apart from them every image that is named, to this and then to the
+    /// callbacks that they had. Must outlive `options`.
     void watch(FileOptions& options);
-    /// Calls FileOptions::opened for an image that a model names and that is not read (yet). An `opened` that watch() made
-    /// keeps these images apart from files that are read.
-    static void tellNamed(const std::function<void(const std::string&)>& opened, const std::string& path);
     /// From now on an output may replace this file where a model names it as an image and nothing reads it.
     void letOff(const Path& path);
     /// Whether `path` is one of the inputs, under any name (links, relative paths).

@@ -139,29 +139,16 @@ void InputFiles::addTo(std::set<std::string>& identities, const Path& path) {
     identities.insert(std::move(identity));
 }
 
-namespace {
-
-/// What InputFiles::watch() puts into FileOptions::opened.
-struct Watcher {
-    std::function<void(const std::string&)> opened = {}, named = {};
-    void operator()(const std::string& path) const { opened(path); }
-};
-
-}  // namespace
-
 void InputFiles::watch(FileOptions& options) {
-    const auto adder = [this, told = options.opened](std::set<std::string>& identities) {
+    using Told = std::function<void(const std::string&)>;
+    const auto adder = [this](std::set<std::string>& identities, const Told& told) {
         return [this, told, &identities](const std::string& path) {
             addTo(identities, path);
             if (told) told(path);
         };
     };
-    options.opened = Watcher{.opened = adder(identities_), .named = adder(named_)};
-}
-
-void InputFiles::tellNamed(const std::function<void(const std::string&)>& opened, const std::string& path) {
-    const auto* watcher = opened.target<Watcher>();
-    (watcher != nullptr ? watcher->named : opened)(path);
+    options.named = adder(named_, options.named ? options.named : options.opened);
+    options.opened = adder(identities_, options.opened);
 }
 
 void InputFiles::letOff(const Path& path) {

@@ -4,7 +4,6 @@
 
 #include <filesystem>
 
-#include "model/io/atomic_output.h"
 #include "model/io/file_error.h"
 #include "model/io/uri.h"
 
@@ -15,6 +14,7 @@ namespace fs = std::filesystem;
 NamedFiles::NamedFiles(const Path& model, const FileOptions& options)
     : find_file_(options.find_file),
       opened_(options.opened),
+      named_(options.named ? options.named : options.opened),
       is_in_memory_(options.content.data() != nullptr),
       allow_external_(options.allow_external) {
     if (is_in_memory_) return;
@@ -47,7 +47,7 @@ NamedFiles::Kind NamedFiles::kindOf(const Path& file) const {
 }
 
 void NamedFiles::note(const Path& file) const {
-    if (opened_ && !is_in_memory_ && kindOf(file) == Kind::file) InputFiles::tellNamed(opened_, file.string());
+    if (named_ && !is_in_memory_ && kindOf(file) == Kind::file) named_(file.string());
 }
 
 Bytes NamedFiles::read(const Path& file, const std::string& place) const {

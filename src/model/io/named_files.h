@@ -45,7 +45,7 @@ class NamedFiles {
 
     Path folder_ = {};
     FindFile find_file_ = {};
-    std::function<void(const std::string&)> opened_ = {};
+    std::function<void(const std::string&)> opened_ = {}, named_ = {};
     bool is_in_memory_ = false;
     bool allow_external_ = false;
 };

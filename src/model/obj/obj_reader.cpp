@@ -68,6 +68,7 @@ void takePositions(std::vector<DVec3> positions, const FileOptions& options, Mod
     const FloatLoss before = floatLoss(edges, {});
     if (before.isNoticeable()) {
         const DVec3 offset = offsetForFloats(edges);
+        model.keeps_offset = options.keep_coordinates && !isNone(offset);
         if (!options.keep_coordinates) model.offset = offset;
         if (!isNone(model.offset)) warnOfOffset(before, model);
         const FloatLoss after = floatLoss(edges, model.offset);

@@ -149,7 +149,8 @@ TEST(FarCoordinates, KeptCoordinatesAreRoundedAndSaidToBe) {
     EXPECT_EQ(made.report.coordinate_offset[1], 0);
     EXPECT_EQ(made.vec3("POSITION")[0], toFloat(kFar));
     EXPECT_TRUE(made.warns("--keep-coordinates"));
-    EXPECT_TRUE(make(folder, "near", scan({0, 0, 0}), true).report.warnings.empty());
+    EXPECT_FALSE(made.warns("no effect"));
+    EXPECT_TRUE(make(folder, "near", scan({0, 0, 0}), true).warns("--keep-coordinates has no effect"));
 }
 
 TEST(FarCoordinates, AllObjectsOfAFileShareOneOffset) {

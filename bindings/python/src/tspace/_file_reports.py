@@ -32,8 +32,8 @@ class GenerateReport(Report):
     output_files: List[str]
     #: Sentences for a person.
     warnings: List[str]
-    #: What was taken out of the coordinates of an OBJ or PLY file, and is the translation of the nodes; zeros: nothing
-    #: was.
+    #: What was taken out of the coordinates of an OBJ, PLY, STL, COLLADA or FBX file, and is the translation of the
+    #: nodes; zeros: nothing was.
     coordinate_offset: List[float]
     #: Sums over the primitives.
     totals: GenerateTotals
@@ -387,7 +387,8 @@ class InspectReport(Report):
     variants: List[str]
     #: Sentences for a person about the file as a whole: what was left out or mended as it was read.
     warnings: List[str]
-    #: What "generate" would take out of the coordinates of an OBJ or PLY file far from the origin; zeros: nothing.
+    #: What "generate" would take out of the coordinates of an OBJ, PLY, STL, COLLADA or FBX file far from the origin;
+    #: zeros: nothing.
     coordinate_offset: List[float]
     #: One entry per primitive, in file order.
     primitives: List[InspectedPrimitive]

@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: MIT
+// STL, COLLADA and FBX in metres of a map projection: the shape that the file has in double, and not what floats leave of it.
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <assimp/Exporter.hpp>
+#include <assimp/Importer.hpp>
+#include <cmath>
+
+#include "far_files.h"
+#include "model/gltf/primitive_reader.h"
+#include "model/read/load_document.h"
+#include "model/read/read_scene.h"
+#include "support/shared_data.h"
+#include "support/temp_folder.h"
+#include "tspace/asset.h"
+
+namespace tspace::test {
+namespace {
+
+using gltf::Json;
+
+const FileOptions kWithImporter{.importer = TSPACE_IMPORTER};
+constexpr DVec3 kFar{500000, 5200000, 412}, kNegative{-500000.3, -5200000.7, -30};
+constexpr int kSide = 20;
+
+struct Made {
+    GenerateReport report = {};
+    DrawnScene drawn = {};
+    Json nodes = {};
+
+    [[nodiscard]] std::span<const Vec3> normals(std::size_t i = 0) const {
+        return drawn.scene.primitives[i].normals.span();
+    }
+    /// Of a vertex, in the world.
+    [[nodiscard]] DVec3 at(std::size_t placement, std::size_t vertex) const {
+        const ScenePlacement& place = drawn.placements[placement];
+        return place.to_world.point(toDouble(drawn.scene.primitives[place.primitive].positions[vertex]));
+    }
+    [[nodiscard]] bool warns(const std::string& text) const {
+        return std::any_of(report.warnings.begin(), report.warnings.end(),
+                           [&](const std::string& warning) { return warning.find(text) != std::string::npos; });
+    }
+    [[nodiscard]] bool hasOffset() const {
+        return std::any_of(std::begin(report.coordinate_offset), std::end(report.coordinate_offset),
+                           [](double axis) { return axis != 0; });
+    }
+};
+
+Made make(const std::string& extension, const std::string& bytes, bool keep = false) {
+    const TempFolder folder;
+    GenerateOptions options{.all = true};
+    options.overwrite_normals = true;
+    options.normals.weighting = NormalWeighting::angle;
+    options.file = kWithImporter;
+    options.file.keep_coordinates = keep;
+    const std::string output = folder.path("out.glb").string();
+    Result<GenerateReport> report = generateFile(folder.write("in" + extension, bytes), output, options);
+    EXPECT_TRUE(report) << (report ? "" : report.error().message);
+    if (!report) return {};
+    return {*report, readDrawnScene(output, {}, false), gltf::loadDocument(output, {}).json["nodes"]};
+}
+Made make(FarFormat format, const std::vector<Part>& parts, bool keep = false, const FileStyle& style = {}) {
+    return make(extensionOf(format), fileOf(format, parts, style), keep);
+}
+
+double worstAngle(std::span<const Vec3> a, std::span<const Vec3> b) {
+    if (a.size() != b.size() || a.empty()) return 180;
+    double worst = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        const DVec3 p = toDouble(a[i]), q = toDouble(b[i]);
+        worst = std::max(worst, std::atan2(length(cross(p, q)), dot(p, q)) * 180 / 3.14159265358979323846);
+    }
+    return worst;
+}
+
+constexpr double kLeastDegrees = 0.01;
+
+class FarFormats : public testing::TestWithParam<FarFormat> {};
+
+TEST_P(FarFormats, AScanHasTheNormalsThatItHasNearTheOrigin) {
+    const Made near = make(GetParam(), {sheet(kSide, {0, 0, 0})});
+    EXPECT_FALSE(near.hasOffset());
+    EXPECT_TRUE(near.report.warnings.empty());
+    for (const DVec3& place : {kFar, kNegative}) {
+        const Made far = make(GetParam(), {sheet(kSide, place)});
+        EXPECT_TRUE(far.hasOffset());
+        EXPECT_TRUE(far.warns("was taken out"));
+        EXPECT_EQ(far.report.warnings.size(), 1U);
+        EXPECT_LT(worstAngle(far.normals(), near.normals()), kLeastDegrees);
+        EXPECT_LT(length(far.at(0, 0) - near.at(0, 0) - place), 1e-4);
+    }
+}
+
+TEST_P(FarFormats, AScanThatFloatsMakeAPointOfIsRead) {
+    Part small = sheet(3, {0, 0, 0});
+    for (DVec3& p : small.positions) p = 0.2 * p + DVec3{5200000.12, 5200000.12, 5200000.12};
+    const Made made = make(GetParam(), {small});
+    EXPECT_TRUE(made.hasOffset());
+    EXPECT_LT(length(made.at(0, 0) - small.positions[0]), 1e-4);
+    EXPECT_GT(length(made.at(0, 0) - made.at(0, 1)), 0.02);
+}
+
+TEST_P(FarFormats, GeometriesShareOneOffset) {
+    const DVec3 between{300, -200, 5};
+    const auto parts = [&](const DVec3& place) {
+        return std::vector<Part>{sheet(kSide, place), sheet(kSide, place + between)};
+    };
+    const Made near = make(GetParam(), parts({0, 0, 0}));
+    for (const DVec3& place : {kFar, kNegative}) {
+        const Made far = make(GetParam(), parts(place));
+        ASSERT_EQ(far.drawn.placements.size(), 2U);
+        EXPECT_TRUE(far.hasOffset());
+        EXPECT_EQ(length(far.drawn.placements[0].to_world.origin - far.drawn.placements[1].to_world.origin), 0);
+        for (const std::size_t i : {0, 1}) {
+            EXPECT_LT(worstAngle(far.normals(i), near.normals(i)), kLeastDegrees);
+            EXPECT_LT(length(far.at(i, 0) - near.at(i, 0) - place), 1e-4);
+        }
+    }
+}
+
+TEST_P(FarFormats, AGeometryNearTheOriginStaysAsItIs) {
+    const std::vector<Part> parts = {sheet(kSide, kFar), sheet(kSide, {0, 0, 0})};
+    const Made made = make(GetParam(), parts), near = make(GetParam(), {parts[1]});
+    EXPECT_TRUE(made.hasOffset());
+    const std::span<const Vec3> positions = made.drawn.scene.primitives[1].positions.span(),
+                                expected = near.drawn.scene.primitives[0].positions.span();
+    EXPECT_TRUE(std::equal(positions.begin(), positions.end(), expected.begin(), expected.end()));
+    EXPECT_EQ(length(made.drawn.placements[1].to_world.origin), 0);
+    EXPECT_LT(worstAngle(made.normals(0), near.normals(0)), kLeastDegrees);
+}
+
+TEST_P(FarFormats, KeptCoordinatesAreRoundedAndSaidToBe) {
+    const Made made = make(GetParam(), {sheet(kSide, kFar)}, true);
+    EXPECT_FALSE(made.hasOffset());
+    EXPECT_EQ(length(made.at(0, 0) - kFar), 0);
+    EXPECT_TRUE(made.warns("without --keep-coordinates"));
+    EXPECT_FALSE(made.warns("no effect"));
+    EXPECT_TRUE(make(GetParam(), {sheet(kSide, {0, 0, 0})}, true).warns("--keep-coordinates has no effect"));
+}
+
+TEST_P(FarFormats, PartsThatNoOffsetBringsTogetherAreSaidToBeRounded) {
+    const Made made = make(GetParam(), {sheet(kSide, kFar), sheet(kSide, -1.0 * kFar)});
+    EXPECT_FALSE(made.hasOffset());
+    EXPECT_TRUE(made.warns("no common offset"));
+}
+
+TEST_P(FarFormats, SoAreVerticesOfOneGeometryThatAreFarFromEachOther) {
+    Part part = sheet(kSide, kFar);
+    const Part other = sheet(kSide, -1.0 * kFar);
+    const auto first = static_cast<int>(part.positions.size());
+    part.positions.insert(part.positions.end(), other.positions.begin(), other.positions.end());
+    for (const std::array<int, 3>& face : other.faces)
+        part.faces.push_back({face[0] + first, face[1] + first, face[2] + first});
+    const Made made = make(GetParam(), {part});
+    EXPECT_FALSE(made.hasOffset());
+    EXPECT_TRUE(made.warns("no common offset"));
+}
+
+TEST_P(FarFormats, WhatIsWrittenFromFloatsIsNotSaidToBeMended) {
+    Part part = sheet(kSide, kFar);
+    for (DVec3& p : part.positions) p = toDouble(toFloat(p));
+    for (const int decimals : {6, 9}) {
+        const Made made = make(GetParam(), {part}, false, {.decimals = decimals});
+        EXPECT_FALSE(made.hasOffset());
+        EXPECT_TRUE(made.warns("no more digits"));
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Import, FarFormats,
+                         testing::Values(FarFormat::stlText, FarFormat::collada, FarFormat::fbxText, FarFormat::fbxRaw,
+                                         FarFormat::fbxDeflated, FarFormat::fbxRaw7500, FarFormat::fbxDeflated7500));
+
+class FarNodes : public testing::TestWithParam<FarFormat> {};
+
+TEST_P(FarNodes, KeepTheirTranslationInDouble) {
+    // In floats they are at the same place.
+    constexpr DVec3 kFirst{500000.123, 5200000.456, 7.89}, kSecond{500000.124, 5200000.457, 7.89};
+    for (const bool has_matrices : {false, true}) {
+        std::vector<Part> parts = {sheet(3, {0, 0, 0}), sheet(3, {0, 0, 0})};
+        parts[0].translation = kFirst;
+        parts[1].translation = kSecond;
+        const Made made = make(GetParam(), parts, false, {.has_matrices = has_matrices});
+        EXPECT_FALSE(made.hasOffset());
+        EXPECT_TRUE(made.report.warnings.empty());
+        ASSERT_EQ(made.drawn.placements.size(), 2U);
+        EXPECT_EQ(length(made.drawn.placements[0].to_world.origin - kFirst), 0);
+        EXPECT_EQ(length(made.drawn.placements[1].to_world.origin - kSecond), 0);
+    }
+}
+
+TEST_P(FarNodes, GetAChildForTheOffsetOfTheirGeometry) {
+    std::vector<Part> parts = {sheet(kSide, kFar)};
+    parts[0].translation = DVec3{500000.125, 5200000.5, 7.75};
+    const Made made = make(GetParam(), parts);
+    EXPECT_TRUE(made.hasOffset());
+    ASSERT_EQ(made.drawn.placements.size(), 1U);
+    EXPECT_LT(length(made.at(0, 0) - *parts[0].translation - kFar), 1e-5);
+}
+
+INSTANTIATE_TEST_SUITE_P(Import, FarNodes,
+                         testing::Values(FarFormat::collada, FarFormat::fbxText, FarFormat::fbxRaw,
+                                         FarFormat::fbxDeflated7500));
+
+TEST(FarCollada, UnitAndUpAxisHoldForTheOffset) {
+    const Made made = make(FarFormat::collada, {sheet(kSide, kFar)}, false, {.up = "Z_UP", .unit = "0.01"});
+    EXPECT_TRUE(made.hasOffset());
+    EXPECT_LT(length(made.at(0, 0) - 0.01 * DVec3{kFar.x, kFar.z, -kFar.y}), 0.01) << "floats in Assimp's root matrix";
+}
+
+TEST(FarStl, FloatsOfBinaryFilesHaveTheSameNormalsNearTheOrigin) {
+    constexpr DVec3 kWhole{456123, 5261789, 0};
+    Part far = sheet(kSide, kWhole + DVec3{0.2, 0.2, 412}), near = far;
+    for (DVec3& p : far.positions) p = 8.0 * p;  // so that floats leave something of it
+    for (std::size_t i = 0; i < far.positions.size(); ++i)
+        near.positions[i] = toDouble(toFloat(far.positions[i])) - 8.0 * kWhole;
+    const Made made = make(".stl", binaryStl(far)), moved = make(".stl", binaryStl(near));
+    EXPECT_FALSE(made.hasOffset());
+    EXPECT_TRUE(made.warns("no more digits"));
+    const std::span<const Vec3> a = made.normals(), b = moved.normals();
+    EXPECT_TRUE(std::equal(a.begin(), a.end(), b.begin(), b.end())) << "differences of neighbours are exact in floats";
+}
+
+TEST(FarFbx, ArraysOfFloatsHaveNothingMoreToGive) {
+    const Made made = make(FarFormat::fbxDeflated, {sheet(kSide, kFar)}, false, {.has_floats = true});
+    EXPECT_FALSE(made.hasOffset());
+    EXPECT_TRUE(made.warns("no more digits"));
+}
+
+TEST(FarFbx, MeshesWithSkinsAreSaidToBeRounded) {
+    const char* const file = "models/asset-generator/Animation_SkinType/Animation_SkinType_02.gltf";
+    TSPACE_NEEDS_SHARED(file);
+    const TempFolder folder;
+    Assimp::Importer importer;
+    const aiScene* const scene = importer.ReadFile(shared(file).string(), 0);
+    ASSERT_NE(scene, nullptr);
+    Assimp::Exporter exporter;
+    ASSERT_EQ(exporter.Export(scene, "fbxa", folder.path("skin.fbx").string()), AI_SUCCESS);
+    std::string text = folder.read("skin.fbx");
+    const std::size_t begin = text.find("a: ", text.find("Vertices: *")) + 3, end = text.find('}', begin);
+    std::string moved;
+    std::istringstream numbers(text.substr(begin, end - begin));
+    for (std::string number; std::getline(numbers, number, ',');)
+        moved += (moved.empty() ? "" : ",") + std::to_string(std::stod(number) * 0.1 + 5200000.123);
+    const Made made = make(".fbx", text.replace(begin, end - begin, moved));
+    EXPECT_FALSE(made.hasOffset());
+    EXPECT_TRUE(made.warns("skins")) << testing::PrintToString(made.report.warnings);
+}
+
+TEST(FarFormatsElsewhere, AreSaidToBeReadAsFloats) {
+    std::string text = "OFF\n400 722 0\n";
+    const Part part = sheet(kSide, kFar);
+    for (const DVec3& p : part.positions)
+        text += std::to_string(p.x) + ' ' + std::to_string(p.y) + ' ' + std::to_string(p.z) + '\n';
+    for (const std::array<int, 3>& face : part.faces)
+        text += "3 " + std::to_string(face[0]) + ' ' + std::to_string(face[1]) + ' ' + std::to_string(face[2]) + '\n';
+    EXPECT_TRUE(make(".off", text).warns("its format is read as such"));
+}
+
+}  // namespace
+}  // namespace tspace::test
