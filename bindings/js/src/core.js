@@ -27,7 +27,7 @@ function normalArguments(options) {
     boolean(options.smoothingGroupsAreMasks ?? false, "smoothingGroupsAreMasks"),
     boolean(options.weldPositions ?? true, "weldPositions"),
     conventionBits(options.convention ?? "gltf"), // of which handedness and winding count here
-    count(options.refine ?? 1, "refine"),
+    count(options.refine ?? 2, "refine"),
   ];
   return (call) => [...before, call.put(groups, Uint32Array), groups?.length ?? 0, ...after];
 }

@@ -40,7 +40,7 @@ export interface NormalOptions {
   weldPositions?: boolean;
   /** Handedness and winding say which side is out; counter-clockwise from outside, right-handed, unless given. */
   convention?: ConventionName | Convention;
-  /** 0, 1 (the default) or 2 steps after the fit of `best`. */
+  /** 0, 1 or 2 (the default) steps after the fit of `best`. */
   refine?: 0 | 1 | 2;
   report?: Partial<NormalReport>;
 }

@@ -129,7 +129,7 @@ void addTangentOptions(OptionList& list, GenerateOptions& options) {
     add(list, group,
         number("--refine", tangents.refine, 2,
                "For --method best and --normals best: steps after the fit, each of which makes what is "
-               "interpolated along edges fit the edges better: 0, 1 or 2."));
+               "interpolated along edges fit the edges better: 0, 1 or 2. Without it normals take 2 steps."));
     add(list, group,
         flag("--bitangents", options.bitangents,
              "Also write the direction of dP/dv, which is not cross(N, T) where UVs are sheared, as the "
@@ -253,7 +253,7 @@ std::string finish(const Given& given, GenerateOptions& options) {
     } else if (given.has("--crease") || options.overwrite_normals) {
         options.normals.weighting = NormalWeighting::angle;
     }
-    options.normals.refine = options.tangents.refine;
+    if (given.has("--refine")) options.normals.refine = options.tangents.refine;
     return {};
 }
 
