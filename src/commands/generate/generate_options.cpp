@@ -213,6 +213,11 @@ void addOtherOptions(OptionList& list, GenerateOptions& options) {
                "What morph targets add to normals that stay. keep: what is there; missing: targets without it get it; "
                "all: it is computed for all. The normal turns as the surface around it turns."));
     add(list, "Repair",
+        flag("--mend-winding", options.mend_winding,
+             "Turn triangles that are wound against their neighbours, and parts that are inside out as a whole, before "
+             "anything else is done. Normals that stay say which side is out where they agree; else the volume, the "
+             "inside or the majority does."));
+    add(list, "Repair",
         setting("--no-sanitize", options.sanitize, false,
                 "Write what the method gives, even where it is not finite, zero, not unit, parallel to the "
                 "normal, or of mixed sign inside a face. By default such tangents are mended and counted."));

@@ -148,7 +148,9 @@ void measure(const WindingCall& call, const Buffer<std::uint32_t>& order, Compon
         component.volume += dot(vector, surface.position(surface.faces.first(face)) - origin);
         if (!has_normals) continue;
         const double side = dot(vector, normalSum(surface, face));
-        component.facing += side > 0 ? area : side < 0 ? -area : 0;
+        if (!(std::fabs(side) > 0)) continue;
+        component.facing += side > 0 ? area : -area;
+        component.faced += area;
     }
 }
 

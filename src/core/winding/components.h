@@ -21,7 +21,8 @@ struct Component {
     // Sums over its faces as they are wound now, before the component is decided:
     double area = 0;    ///< doubled, as all areas here
     double kept = 0;    ///< area of faces that are wound as in the input, minus that of others
-    double facing = 0;  ///< area of faces whose normals lie on their side, minus that of others
+    double facing = 0;  ///< area of faces whose normals lie on their side, minus that of those on the other
+    double faced = 0;   ///< area of both
     double volume = 0;  ///< six times
     std::uint32_t turned_count = 0;
 

@@ -47,8 +47,8 @@ class Mending {
         if (component.conflicts_after != 0 && component.conflicts_after >= component.conflicts_before)
             return leave(component, report_.one_sided_count);
         measure(call_, order_, component);
-        // Four fifths of the area agree.
-        if (std::fabs(component.facing) > 0.6 * component.area) {
+        // Half of the area has normals, and four fifths of that agree.
+        if (component.faced > 0.5 * component.area && std::fabs(component.facing) > 0.6 * component.faced) {
             finish(component, component.facing < 0, report_.by_normals_count);
         } else if (component.is_closed && hasVolume(component)) {
             // Which of them lie in others can be seen when all are known.
