@@ -28,8 +28,8 @@ constexpr std::array<CodeText, kFindingCodeCount> kCodes{{
     {"normalsNotFinite", "Export the normals again."},
     {"normalsNotUnit", "Normalise the normals and compute the tangents anew."},
     {"normalsAgainstWinding",
-     "Where triangles are wound the wrong way: tspace generate --mend-winding turns them. Where the normals are wrong: "
-     "tspace generate --overwrite-normals makes them anew, and the tangents with them."},
+     "Turn the normals round, or the triangles (recalculate outside), whichever is wrong; then compute the tangents "
+     "anew."},
     {"tangentsMissing",
      "Run tspace generate. Without it each renderer makes its own tangents, and they may differ from those of the "
      "bake."},
