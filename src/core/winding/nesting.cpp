@@ -90,14 +90,14 @@ void findNested(const WindingCall& call, const Buffer<std::uint32_t>& order, con
     const BoxTree tree(boxes, face_count, call.allocator());
     // In no plane that a modeller draws.
     constexpr DVec3 kDirections[] = {{0.8129, 0.3571, 0.4603}, {-0.2887, 0.9013, -0.3233}, {0.1733, -0.4441, 0.8791}};
-    constexpr std::uint32_t kPoints = 16;
+    constexpr std::uint32_t kRays = 16;  // in each direction
     constexpr double kClear = 0.7;
     call.parallel.forRanges(held_count, 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t h = begin; h < end; ++h) {
             const Component& own = closed[held[h]];
             int odd = 0, even = 0;
-            for (std::uint32_t p = 0; p < kPoints; ++p) {
-                const std::uint64_t place = (2 * std::uint64_t{p} + 1) * own.size() / (2 * kPoints);
+            for (std::uint32_t p = 0; p < kRays; ++p) {
+                const std::uint64_t place = (2 * std::uint64_t{p} + 1) * own.size() / (2 * kRays);
                 const std::uint32_t face = order[own.begin + static_cast<std::uint32_t>(place)];
                 // Not the middle, which edges of faces beyond often lie behind.
                 const std::uint32_t c = surface.faces.first(face);
