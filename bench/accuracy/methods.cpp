@@ -58,7 +58,7 @@ std::vector<NamedWeighting> weightings() {
         {"uniform", NormalWeighting::uniform}, {"area", NormalWeighting::area},
         {"angle", NormalWeighting::angle},     {"angle-area", NormalWeighting::angleArea},
         {"max", NormalWeighting::max},         {kFitAlone, NormalWeighting::best, 0},
-        {"best", NormalWeighting::best},       {kTwoSteps, NormalWeighting::best, 2},
+        {kOneStep, NormalWeighting::best, 1},  {"best", NormalWeighting::best},
     };
 }
 

@@ -19,8 +19,8 @@ struct Frames {
 
 /// The name of the exact frames at vertices: interpolation alone is what they err by.
 inline constexpr const char* kFloor = "floor";
-/// `best` without and with two steps.
-inline constexpr const char *kFitAlone = "best, 0 steps", *kTwoSteps = "best, 2 steps";
+/// `best` with other steps than by default: 1 for tangents, 2 for normals.
+inline constexpr const char *kFitAlone = "best, 0 steps", *kOneStep = "best, 1 step", *kTwoSteps = "best, 2 steps";
 
 struct NamedMethod {
     std::string name;
@@ -36,11 +36,12 @@ Frames exactFrames(const TestMesh& mesh);
 struct NamedWeighting {
     std::string name;
     NormalWeighting weighting;
-    std::uint32_t refine = 1;
+    std::uint32_t refine = NormalOptions{}.refine;
 };
 
 std::vector<NamedWeighting> weightings();
 /// Normals per corner. Vertices on a fold are one point.
-std::vector<Vec3> normalsBy(NormalWeighting weighting, const TestMesh& mesh, std::uint32_t refine = 1);
+std::vector<Vec3> normalsBy(NormalWeighting weighting, const TestMesh& mesh,
+                            std::uint32_t refine = NormalOptions{}.refine);
 
 }  // namespace tspace::accuracy

@@ -28,7 +28,9 @@ Line lineOf(const std::string& name, FigureAt figureAt) {
 std::vector<double> ticksOf(const std::vector<Line>& lines) { return lines.front().x; }
 
 /// `angle` would lie on `mikktspace`.
-bool isDrawn(const std::string& method) { return method != "angle" && method != kFitAlone && method != kTwoSteps; }
+bool isDrawn(const std::string& method) {
+    return method != "angle" && method != kFitAlone && method != kOneStep && method != kTwoSteps;
+}
 
 std::string tangentPlot(const Study& study, bool shading) {
     std::vector<Line> lines;

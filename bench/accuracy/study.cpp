@@ -135,7 +135,7 @@ class Runner {
                 TestMesh generated = mesh;
                 for (std::size_t c = 0; c < normals.size(); ++c) generated.normals[mesh.indices[c]] = normals[c];
                 record.flat_shading = shading->meanNormalError(generated.normals);
-                const Frames frames = framesBy(Method::best, generated, weighting.refine);
+                const Frames frames = framesBy(Method::best, generated);
                 record.bent_shading = shading->meanError(frames, generated.normals);
             }
             study_.normals.push_back(record);

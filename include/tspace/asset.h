@@ -18,6 +18,7 @@
 #include "tspace/result.h"
 #include "tspace/sanitize.h"
 #include "tspace/tangents.h"
+#include "tspace/winding.h"
 
 namespace tspace {
 
@@ -160,6 +161,11 @@ struct GenerateOptions {
     /// those with two channels or channels exchanged, with x in alpha, encoded as colours, and in object space, as
     /// checkFile finds them. Together with flip_green the new ones are inverted where they need it.
     bool mend_maps = false;
+    /// Triangles that are wound against their neighbours are turned, and parts that are inside out as a whole
+    /// (mendWinding), before anything else is done. Primitives of one mesh are one surface, and so is an OBJ file. Normals
+    /// that stay say which side is out where they agree among themselves. Only index lists change: attributes and morph
+    /// targets keep their places; strips and fans become lists.
+    bool mend_winding = false;
     /// Normal maps follow the tangents that are computed: with the new ones they show what they showed with the old. Missing
     /// tangents count as those that viewers make: mikktspace. New maps are PNGs with the bits of the old ones; a map or a
     /// material whose primitives need different ones is copied. glTF only, in its own convention, and neither with
@@ -252,11 +258,19 @@ struct PrimitiveReport {
     std::uint64_t turned_triangle_count = 0;
     /// Triangles of sheets with two sides: others with the same positions are wound the other way.
     std::uint64_t two_sided_triangle_count = 0;
+    std::uint64_t winding_mended_count = 0;  ///< faces that were turned (mend_winding)
     TangentReport tangents = {};
     SanitizeReport sanitize = {};
     PackReport packing = {};         ///< frames that were mended before they were packed
     Faces faces = Faces::triangles;  ///< what its tangents were computed on: triangles or quads
     std::uint64_t quad_count = 0;    ///< of those, the ones with four corners or more
+};
+
+/// What was done to the winding of one mesh (`mend_winding`); of OBJ, whose objects are one surface, of the file.
+struct MendedWindingReport {
+    std::uint32_t mesh = 0;
+    std::string mesh_name = {};  ///< may be empty
+    WindingReport winding = {};
 };
 
 /// What became of one image that is a normal map.
@@ -290,6 +304,7 @@ struct GenerateReport {
     std::vector<PrimitiveReport> primitives = {};         ///< in file order
     std::vector<NormalMapReport> normal_maps = {};        ///< with flip_green or mend_maps; from OBJ height maps too
     std::vector<ConvertedMapReport> converted_maps = {};  ///< of maps whose primitives got tangents (convert_maps)
+    std::vector<MendedWindingReport> windings = {};       ///< with mend_winding, of each mesh with triangles
     bool changed = false;                                 ///< false: the output is byte for byte the input
     std::uint64_t input_bytes = 0;                        ///< the model file and what it loads
     std::uint64_t output_bytes = 0;

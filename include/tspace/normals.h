@@ -50,8 +50,8 @@ struct NormalOptions {
 
     /// 0, 1 or 2 steps after the fit. A step moves each normal so that, interpolated along the edges around it, it is
     /// across them, as far as these agree. 1: a third less error at vertices and in what is shaded between them. 2:
-    /// another fifth less. 0: the fit alone.
-    std::uint32_t refine = 1;
+    /// another quarter less. 0: the fit alone.
+    std::uint32_t refine = 2;
 };
 
 /// Counts of faces and defects of the input. Broken input never makes the call fail.

@@ -561,6 +561,7 @@ inline void tspace_setDefaults(tspace_TangentOptions* options) noexcept { tspace
     _Generic((object),                                          \
         tspace_NormalOptions: tspace_setNormalDefaults,         \
         tspace_IndexedFramesOptions: tspace_setIndexedFramesDefaults, \
+        tspace_WindingOptions: tspace_setWindingDefaults,       \
         tspace_TangentOptions: tspace_setTangentDefaults,       \
         default: tspace_setNoDefaults)((void*)&(object))
 /* clang-format on */
@@ -573,5 +574,6 @@ inline void tspace_setDefaults(tspace_TangentOptions* options) noexcept { tspace
 #include "tspace/tspace_indexed_frames.h"
 #include "tspace/tspace_normals.h"
 #include "tspace/tspace_pack.h"
+#include "tspace/tspace_winding.h"
 
 #endif

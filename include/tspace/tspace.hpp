@@ -17,3 +17,4 @@
 #include "tspace/tangents.h"
 #include "tspace/triangulate.h"
 #include "tspace/vec.h"
+#include "tspace/winding.h"

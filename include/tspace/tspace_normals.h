@@ -52,7 +52,7 @@ typedef struct tspace_NormalOptions {
     uint32_t weld_positions;
     /* 0, 1 or 2 steps after the fit. A step moves each normal so that, interpolated along the edges around it, it is
      * across them, as far as these agree. 1: a third less error at vertices and in what is shaded between them. 2:
-     * another fifth less. 0: the fit alone. Default: 1. */
+     * another quarter less. 0: the fit alone. Default: 2. */
     uint32_t refine;
     uint32_t reserved;
 } tspace_NormalOptions;
@@ -93,7 +93,7 @@ static inline void tspace_setNormalDefaults(tspace_NormalOptions* options) {
     options->weighting = TSPACE_NORMAL_WEIGHTING_ANGLE;
     options->crease_angle_deg = 180.0f;
     options->weld_positions = 1;
-    options->refine = 1;
+    options->refine = 2;
 }
 
 #ifdef __cplusplus

@@ -15,6 +15,10 @@ const choices = { methods, ngons: ["triangulate", "skip"], options: tangentOptio
 const weightings = ["flat", "uniform", "area", "angle", "angleArea", "max", "best"];
 const normalOptions = ["weighting", "creaseAngle", "smoothingGroups", "smoothingGroupsAreMasks", "weldPositions", "refine"];
 const steps = ["makeNormals", "sanitize", "orthogonalizeAll"];
+const windingCounts = [
+  "faceCount", "turnedCount", "conflictCountBefore", "conflictCountAfter", "componentCount", "turnedComponentCount", "byNormalsCount",
+  "byVolumeCount", "byNestingCount", "byWindingNumberCount", "byMajorityCount", "smallCount", "oneSidedCount",
+];
 const normalCounts = ["faceCount", "degenerateFaceCount", "fallbackCornerCount"];
 
 export const { generateTangents, sanitizeTangents, splitVertices } = makeCalls(wasm, choices);
@@ -27,7 +31,7 @@ function normalArguments(options) {
     boolean(options.smoothingGroupsAreMasks ?? false, "smoothingGroupsAreMasks"),
     boolean(options.weldPositions ?? true, "weldPositions"),
     conventionBits(options.convention ?? "gltf"), // of which handedness and winding count here
-    count(options.refine ?? 1, "refine"),
+    count(options.refine ?? 2, "refine"),
   ];
   return (call) => [...before, call.put(groups, Uint32Array), groups?.length ?? 0, ...after];
 }
@@ -69,6 +73,38 @@ export function makeIndexedFrames(mesh, options = {}) {
       tangents: take(Float32Array, 4, 4),
       report,
     };
+  });
+}
+
+/** The same indices, with the corners of faces that are turned in reverse order behind the first. */
+function turnedIndices({ indices, faceSizes, cornerCount }, turned) {
+  const made = indices ? indices.slice() : Uint32Array.from({ length: cornerCount }, (_, corner) => corner);
+  for (let face = 0, first = 0; face < turned.length; ++face) {
+    const size = faceSizes ? faceSizes[face] : 3;
+    if (turned[face]) made.subarray(first + 1, first + size).reverse();
+    first += size;
+  }
+  return made;
+}
+
+export function mendWinding(mesh, options = {}) {
+  optionsOf(options, ["useNormals", "weldPositions", "convention"]);
+  const given = [
+    boolean(options.useNormals ?? true, "useNormals"),
+    boolean(options.weldPositions ?? true, "weldPositions"),
+    conventionBits(options.convention ?? "gltf"), // of which handedness and winding count here
+  ];
+  const { positions, normals, indices, faceSizes, normalIndices } = object(mesh, "mesh");
+  const checked = meshOf({ positions, normals, indices, faceSizes, normalIndices });
+  return wasm.run((call) => {
+    setMesh(call, checked);
+    const faceCount = checked.faceSizes ? checked.faceSizes.length : Math.floor(checked.cornerCount / 3);
+    const out = call.allocate(faceCount + 16);
+    call.check(call.wasm.mendWinding(...given, out));
+    const report = {};
+    call.report(windingCounts, report);
+    const turned = call.get(Uint8Array, out, faceCount);
+    return { indices: turnedIndices(checked, turned), turned, report };
   });
 }
 

@@ -142,6 +142,8 @@ export interface GenerateOptions extends ModelOptions, ImageOptions, WatchOption
   mendMaps?: boolean;
   /** The image as a file of this type, without loss but for a JPEG. */
   encodeImage?: (pixels: PixelsToEncode, type: ImageType) => Uint8Array;
+  /** Turns triangles that are wound against their neighbours, and parts that are inside out as a whole. */
+  mendWinding?: boolean;
   noSanitize?: boolean;
   orthogonalize?: boolean;
   /** For OBJ: no offset is taken out of coordinates far from the origin. */

@@ -37,7 +37,7 @@ const known = {
   generate: [
     "name", ...ofAll, ...watched, "all", "onlyMissing", "overwrite", "repair", "strip", "method", "pairing", "threshold", "frame", "refine",
     "textureTransform", "bitangents", "format", "pack", "packDrop", "normals", "crease", "normalsPerPrimitive",
-    "overwriteNormals", "morphNormals", "compress", "flipGreen", "flipGreenAll", "mendMaps", "encodeImage",
+    "overwriteNormals", "morphNormals", "compress", "flipGreen", "flipGreenAll", "mendMaps", "mendWinding", "encodeImage",
     "noSanitize", "orthogonalize", "keepCoordinates", "dryRun",
   ],
   check: ["name", ...ofAll, ...watched, "failOn", "severity", "ignore", "angle", "noImages"],

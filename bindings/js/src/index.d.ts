@@ -40,7 +40,7 @@ export interface NormalOptions {
   weldPositions?: boolean;
   /** Handedness and winding say which side is out; counter-clockwise from outside, right-handed, unless given. */
   convention?: ConventionName | Convention;
-  /** 0, 1 (the default) or 2 steps after the fit of `best`. */
+  /** 0, 1 or 2 (the default) steps after the fit of `best`. */
   refine?: 0 | 1 | 2;
   report?: Partial<NormalReport>;
 }
@@ -76,6 +76,46 @@ export interface IndexedFrames {
 
 /** The usual case in one call: normals where they are missing, tangents, mended and split into an indexed mesh. */
 export function makeIndexedFrames(mesh: Mesh, options: IndexedFramesOptions): IndexedFrames;
+
+export interface WindingOptions {
+  /** true (the default): normals of the mesh, where it has some, say which side is out, if they agree among themselves. */
+  useNormals?: boolean;
+  /** true (the default): vertices at one position are one point. false: only equal indices are. */
+  weldPositions?: boolean;
+  /** Handedness and winding say which order of corners is right; counter-clockwise from outside, right-handed, unless given. */
+  convention?: ConventionName | Convention;
+}
+
+/** A component is what hangs together over pairs of faces at edges; a conflict is a pair that runs through its edge the same way. */
+export interface WindingReport {
+  /** Faces with at least 3 corners. */
+  faceCount: number;
+  turnedCount: number;
+  conflictCountBefore: number;
+  conflictCountAfter: number;
+  componentCount: number;
+  /** Components of which more than half of the faces were turned. */
+  turnedComponentCount: number;
+  /** Components decided by normals of the mesh; so on, how the others were. */
+  byNormalsCount: number;
+  byVolumeCount: number;
+  byNestingCount: number;
+  byWindingNumberCount: number;
+  byMajorityCount: number;
+  /** Components of fewer than 4 faces, which are left alone. */
+  smallCount: number;
+  /** Components that have one side only, as a Moebius band, and are left alone. */
+  oneSidedCount: number;
+}
+
+/** Turns faces that are wound against their neighbours, and parts that are inside out as a whole. UVs are not looked at. */
+export function mendWinding(mesh: Mesh, options?: WindingOptions): {
+  /** The mesh's own, in another order within faces that were turned. */
+  indices: Uint32Array;
+  /** One per face: 1 where it was turned. */
+  turned: Uint8Array;
+  report: WindingReport;
+};
 
 /** What of a mesh stays while it deforms. It lies in the module's memory: destroy it, or leave that to the collector. */
 export class Plan {

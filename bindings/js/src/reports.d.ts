@@ -29,6 +29,8 @@ export interface GenerateReport {
   coordinateOffset: [number, number, number];
   /** Sums over the primitives. */
   totals: GenerateTotals;
+  /** With "--mend-winding", one entry per mesh with triangles; from OBJ one for the file. */
+  windings: MendedWinding[];
   /** With "--flip-green", "--flip-green-all" or "--mend-maps", one entry per image that is a normal map; from OBJ one for each
    * material whose height map became a normal map. */
   normalMaps: JudgedMap[];
@@ -57,6 +59,39 @@ export interface GenerateTotals {
   morphDeltas: number;
   /** Primitives whose frames are packed ("--pack"). */
   packed: number;
+}
+
+export interface MendedWinding {
+  /** Index of the mesh; for OBJ, whose objects are one surface, 0. */
+  mesh: number;
+  /** May be empty. */
+  meshName: string;
+  /** Faces with at least 3 corners; what several primitives draw counts once. */
+  faces: number;
+  /** Faces that were turned. */
+  turned: number;
+  /** Pairs of neighbours that run through their edge in the same direction. */
+  conflictsBefore: number;
+  /** The same afterwards. */
+  conflictsAfter: number;
+  /** Parts that hang together over edges. */
+  components: number;
+  /** Those of which more than half of the faces were turned. */
+  turnedComponents: number;
+  /** Components whose outside the normals of the file decided. */
+  byNormals: number;
+  /** Closed ones: their volume did. */
+  byVolume: number;
+  /** Closed ones that lie in another: as they mostly were, or, where that said nothing, a cavity. */
+  byNesting: number;
+  /** Open ones with an inside. */
+  byWindingNumber: number;
+  /** Open ones without: as most of the area was wound. */
+  byMajority: number;
+  /** Components of fewer than 4 faces, which stay. */
+  small: number;
+  /** Components with one side only, as a Moebius band, which stay. */
+  oneSided: number;
 }
 
 export interface JudgedMap {
@@ -139,6 +174,8 @@ export interface GeneratedPrimitive {
   turnedTriangles: number;
   /** Triangles of sheets with two sides: others with the same positions are wound the other way. */
   twoSidedTriangles: number;
+  /** Faces that were turned ("--mend-winding"). */
+  windingMended: number;
   /** "_BITANGENT" was computed ("--bitangents"). */
   bitangentsGenerated: boolean;
   /** "--pack": its frames are packed; where they are not, a note says why. */

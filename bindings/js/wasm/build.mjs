@@ -16,7 +16,7 @@ const root = resolve(here, "../../..");
 const out = resolve(process.argv[2] ?? join(root, "build/js/wasm"));
 
 /// Rooms of src/ and their files; loops over meshes that are worth more code than -Oz gives.
-const rooms = ["base", "frames", "normals", "tangents", "tangents/mikktspace", "tangents/estimators", "indexed"].map((room) => `core/${room}`);
+const rooms = ["base", "frames", "normals", "winding", "tangents", "tangents/mikktspace", "tangents/estimators", "indexed"].map((room) => `core/${room}`);
 const fileRooms = [
   ...["surface", "quads", "pools"].map((room) => `core/mesh/${room}`), "images", "maps",
   ...["io", "json", "gltf", "gltf/codecs", "gltf/compression", "obj", "read"].map((room) => `model/${room}`),

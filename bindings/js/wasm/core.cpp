@@ -3,6 +3,7 @@
 #include "common.h"
 #include "tspace/indexed_frames.h"
 #include "tspace/normals.h"
+#include "tspace/winding.h"
 
 using namespace tspace;
 using namespace tspace::js;
@@ -81,6 +82,23 @@ std::uint32_t normals(std::uint32_t weighting, float crease_angle_deg, const std
     auto result = generateNormals(mesh(), options, vec3Span(out, mesh().cornerCount()));
     if (!result) return codeOf(result);
     const std::uint64_t counts[] = {result->face_count, result->degenerate_face_count, result->fallback_corner_count};
+    keepCounts(counts);
+    return 0;
+}
+
+/// `turned`: one byte per face.
+TSPACE_JS_EXPORT(mendWinding)
+std::uint32_t mend(bool use_normals, bool weld_positions, std::uint32_t convention, std::uint8_t* turned) {
+    const WindingOptions options{
+        .convention = conventionOf(convention), .use_normals = use_normals, .weld_positions = weld_positions};
+    auto result = mendWinding(mesh(), options, {turned, mesh().faceCount(), 1});
+    if (!result) return codeOf(result);
+    const std::uint64_t counts[] = {
+        result->face_count,        result->turned_count,           result->conflict_count_before,
+        result->conflict_count_after, result->component_count,     result->turned_component_count,
+        result->by_normals_count,  result->by_volume_count,        result->by_nesting_count,
+        result->by_winding_number_count, result->by_majority_count, result->small_count,
+        result->one_sided_count};
     keepCounts(counts);
     return 0;
 }

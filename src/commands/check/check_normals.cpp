@@ -8,6 +8,7 @@
 #include "core/base/angle.h"
 #include "core/base/unit.h"
 #include "core/mesh/surface/equal_vertices.h"
+#include "tspace/winding.h"
 
 namespace tspace {
 
@@ -66,6 +67,27 @@ void checkNormalValues(PrimitiveFacts& facts) {
     }
 }
 
+/// Cosine between the normals of a face and its own.
+double facingOf(const PrimitiveFacts& facts, std::size_t face) {
+    DVec3 mean;
+    for (std::size_t k = 0; k < 3; ++k) {
+        DVec3 normal = toDouble(facts.mesh.normals[facts.mesh.corners[3 * face + k]]);
+        if (normalize(normal)) mean = mean + normal;
+    }
+    return normalize(mean) ? dot(mean, toDouble(facts.surface.faces[face].normal)) : 0;
+}
+
+/// Whether turning triangles as `generate --mend-winding` does would leave no normal on the back of its own.
+bool areTrianglesToBlame(const PrimitiveFacts& facts) {
+    std::vector<std::uint8_t> turned(facts.surface.faces.size());
+    if (!mendWinding(facts.mesh.triangles(), {}, turned, facts.options.execution)) return false;
+    for (std::size_t f = 0; f < turned.size(); ++f) {
+        const double facing = facts.surface.faces[f].area == 0 ? 0 : facingOf(facts, f);
+        if ((turned[f] != 0 ? -facing : facing) < kLeastFacing) return false;
+    }
+    return true;
+}
+
 void checkWinding(PrimitiveFacts& facts) {
     const TangentView& mesh = facts.mesh;
     Tally against;
@@ -73,13 +95,7 @@ void checkWinding(PrimitiveFacts& facts) {
         const SurfaceFrame& face = facts.surface.faces[f];
         if (face.area == 0) continue;
         ++against.total;
-        DVec3 mean;
-        for (std::size_t k = 0; k < 3; ++k) {
-            DVec3 normal = toDouble(mesh.normals[mesh.corners[3 * f + k]]);
-            if (normalize(normal)) mean = mean + normal;
-        }
-        if (normalize(mean) && dot(mean, toDouble(face.normal)) < kLeastFacing)
-            against.add(mesh.corners[3 * f], face.area);
+        if (facingOf(facts, f) < kLeastFacing) against.add(mesh.corners[3 * f], face.area);
     }
     against.finish(facts.surface.area);
     if (against.count == 0) return;
@@ -91,6 +107,9 @@ void checkWinding(PrimitiveFacts& facts) {
     facts.add(FindingCode::normalsAgainstWinding, severity, against, "triangles",
               "the normals of " + countText(against, "triangles") + " point to the back (" +
                   shareText(against.surface_share) + " of the surface)");
+    if (areTrianglesToBlame(facts))
+        facts.findings.back().remedy =
+            "Turn those triangles round: tspace generate --mend-winding. Tangents that are there stay.";
 }
 
 /// Normals smoothed over hard edges, those of a whole tree on its leaves, or those of another shape. Some are meant, so the

@@ -10,6 +10,7 @@
 #include "commands/generate/generate_model.h"
 #include "commands/generate/generate_warnings.h"
 #include "commands/generate/mend_values.h"
+#include "commands/generate/mend_winding.h"
 #include "commands/generate/repair_plan.h"
 #include "core/base/parallel.h"
 #include "model/gltf/apply_frames.h"
@@ -20,6 +21,7 @@
 #include "model/gltf/plan_surroundings.h"
 #include "model/gltf/read_packed.h"
 #include "model/gltf/strip_tangents.h"
+#include "model/gltf/turn_triangles.h"
 #include "model/gltf/vertex_numbers.h"
 #include "model/gltf/write_packed.h"
 #include "model/io/file_error.h"
@@ -196,22 +198,40 @@ WorkedOn edit(Input& input, const Storage& storage, Decisions&& decisions, Gener
             .compression = storage.is_unpacked || is_packed};
 }
 
+/// Turns triangles where that is asked for. Returns whether any were, and the container then is that of the output.
+bool turnWrong(Input& input, const Storage& storage, WindingPlan& plan, std::vector<std::string>& warnings) {
+    if (!input.options.mend_winding) return false;
+    plan = planWinding(input.model, input.options);
+    if (!plan.turnsAny()) return false;
+    Document& document = input.model.document();
+    if (input.options.compression == Compression::keep) convertContainer(document, input.target, true, warnings);
+    turnTriangles(document, storage.new_file, input.model.primitives(), plan.turned);
+    input.model.wasEdited();
+    return true;
+}
+
 /// All but reading and writing.
 WorkedOn generate(Input& input, bool with_images, GenerateReport& report) {
     Document& document = input.model.document();
     report.warnings = document.warnings;
     std::copy_n(document.coordinate_offset.begin(), 3, report.coordinate_offset);
     const Storage storage = prepareStorage(input, report.warnings);
+    WindingPlan winding;
+    const bool was_turned = turnWrong(input, storage, winding, report.warnings);
+    report.windings = std::move(winding.reports);
     Decisions decisions = decide(input.model, input.options, report.warnings);
     report.input_bytes = document.input_bytes;
-    if (input.options.compression == Compression::keep) {
+    if (input.options.compression == Compression::keep && !was_turned) {
         const bool will_edit = decisions.changeGeometryOrMaps() || input.options.pack.has_value();
         convertContainer(document, input.target, will_edit, report.warnings);
     }
     // Behind the decisions on maps, which find images by their names.
     if (with_images) takeImagesIn(document, input.target, report.warnings);
     tell(input.options, "reading", 1, 1);
-    return edit(input, storage, std::move(decisions), report);
+    const WorkedOn worked_on = edit(input, storage, std::move(decisions), report);
+    report.changed = report.changed || was_turned;
+    countTurned(winding, report.primitives);
+    return worked_on;
 }
 
 /// Names the files in the report.

@@ -37,6 +37,7 @@ Json generatedPrimitiveJson(const PrimitiveReport& primitive) {
         {"normalsBehind", primitive.normals_behind_count},
         {"turnedTriangles", primitive.turned_triangle_count},
         {"twoSidedTriangles", primitive.two_sided_triangle_count},
+        {"windingMended", primitive.winding_mended_count},
         {"bitangentsGenerated", primitive.bitangents_generated},
         {"packed", primitive.frames_packed},
         {"packedMended", primitive.packing.mendedCount()},
@@ -75,6 +76,25 @@ Json totalsJson(const GenerateReport& report) {
     json["morphDeltas"] = totals.morph_deltas_computed;
     json["packed"] = totals.frames_packed;
     return json;
+}
+
+Json mendedWindingJson(const MendedWindingReport& mended) {
+    const WindingReport& winding = mended.winding;
+    return Json::object({{"mesh", mended.mesh},
+                         {"meshName", mended.mesh_name},
+                         {"faces", winding.face_count},
+                         {"turned", winding.turned_count},
+                         {"conflictsBefore", winding.conflict_count_before},
+                         {"conflictsAfter", winding.conflict_count_after},
+                         {"components", winding.component_count},
+                         {"turnedComponents", winding.turned_component_count},
+                         {"byNormals", winding.by_normals_count},
+                         {"byVolume", winding.by_volume_count},
+                         {"byNesting", winding.by_nesting_count},
+                         {"byWindingNumber", winding.by_winding_number_count},
+                         {"byMajority", winding.by_majority_count},
+                         {"small", winding.small_count},
+                         {"oneSided", winding.one_sided_count}});
 }
 
 Json normalMapJson(const NormalMapReport& map) {
@@ -117,6 +137,7 @@ Json generatedJson(const GenerateOutcome& outcome) {
     json["warnings"] = report.warnings;
     json["coordinateOffset"] = report.coordinate_offset;
     json["totals"] = totalsJson(report);
+    json["windings"] = listJson(report.windings, mendedWindingJson);
     json["normalMaps"] = listJson(report.normal_maps, normalMapJson);
     json["convertedMaps"] = listJson(report.converted_maps, convertedMapJson);
     json["primitives"] = listJson(report.primitives, generatedPrimitiveJson);

@@ -4,6 +4,7 @@
 
 #include "commands/generate/generate_obj.h"
 #include "commands/generate/generate_warnings.h"
+#include "commands/generate/mend_winding.h"
 #include "commands/generate/obj_maps.h"
 #include "core/mesh/pools/local_mesh.h"
 #include "core/mesh/pools/surface_faults.h"
@@ -132,6 +133,9 @@ GenerateReport generate(const std::string& input, const std::string& output, con
     FileOptions file_options = options.file;
     inputs.watch(file_options);
     Model model = readModel(input, file_options);
+    GenerateReport report;
+    std::vector<std::uint8_t> turned;
+    if (options.mend_winding) turned = mendObjWinding(model, options, report);
     std::vector<ObjPrimitive> primitives = collectPrimitives(model);
     tell(options, "computing normals", 0, 0);
     std::vector<bool> had_normals;
@@ -141,7 +145,6 @@ GenerateReport generate(const std::string& input, const std::string& output, con
     }
     NormalReport normals = valueOrThrow(completeNormals(model, primitives, options));
 
-    GenerateReport report;
     report.normal_maps = prepareMaps(primitives, options, model);
     std::vector<FinishedPrimitive> finished;
     std::vector<std::uint32_t> next_in_mesh(model.shape_names.size(), 0);
@@ -150,6 +153,8 @@ GenerateReport generate(const std::string& input, const std::string& output, con
         PrimitiveReport& entry = report.primitives.emplace_back();
         const bool replaced = options.overwrite_normals && had_normals[finished.size()];
         finished.push_back(finish(model, primitive, replaced, options, entry));
+        for (const std::uint32_t face : primitive.faces)
+            entry.winding_mended_count += !turned.empty() && turned[face] != 0 ? 1U : 0U;
         entry.primitive = next_in_mesh[primitive.shape]++;
         // Normals are made for the whole file at once: the counts stand with the first primitive that got
         // some.

@@ -129,7 +129,7 @@ void addTangentOptions(OptionList& list, GenerateOptions& options) {
     add(list, group,
         number("--refine", tangents.refine, 2,
                "For --method best and --normals best: steps after the fit, each of which makes what is "
-               "interpolated along edges fit the edges better: 0, 1 or 2."));
+               "interpolated along edges fit the edges better: 0, 1 or 2. Without it normals take 2 steps."));
     add(list, group,
         flag("--bitangents", options.bitangents,
              "Also write the direction of dP/dv, which is not cross(N, T) where UVs are sheared, as the "
@@ -213,6 +213,11 @@ void addOtherOptions(OptionList& list, GenerateOptions& options) {
                "What morph targets add to normals that stay. keep: what is there; missing: targets without it get it; "
                "all: it is computed for all. The normal turns as the surface around it turns."));
     add(list, "Repair",
+        flag("--mend-winding", options.mend_winding,
+             "Turn triangles that are wound against their neighbours, and parts that are inside out as a whole, before "
+             "anything else is done. Normals that stay say which side is out where they agree; else the volume, the "
+             "inside or the majority does."));
+    add(list, "Repair",
         setting("--no-sanitize", options.sanitize, false,
                 "Write what the method gives, even where it is not finite, zero, not unit, parallel to the "
                 "normal, or of mixed sign inside a face. By default such tangents are mended and counted."));
@@ -253,7 +258,7 @@ std::string finish(const Given& given, GenerateOptions& options) {
     } else if (given.has("--crease") || options.overwrite_normals) {
         options.normals.weighting = NormalWeighting::angle;
     }
-    options.normals.refine = options.tangents.refine;
+    if (given.has("--refine")) options.normals.refine = options.tangents.refine;
     return {};
 }
 

@@ -112,6 +112,27 @@ std::string packedText(const Totals& totals) {
     return text;
 }
 
+std::string windingText(const std::vector<MendedWindingReport>& windings) {
+    WindingReport sum;
+    for (const MendedWindingReport& mended : windings) {
+        sum.face_count += mended.winding.face_count;
+        sum.turned_count += mended.winding.turned_count;
+        sum.turned_component_count += mended.winding.turned_component_count;
+        sum.conflict_count_before += mended.winding.conflict_count_before;
+        sum.conflict_count_after += mended.winding.conflict_count_after;
+        sum.small_count += mended.winding.small_count;
+        sum.one_sided_count += mended.winding.one_sided_count;
+    }
+    std::string text = fmt::format("{} of {} turned", sum.turned_count, counted(sum.face_count, "face"));
+    if (sum.turned_component_count != 0)
+        text += fmt::format(", {} as a whole", counted(sum.turned_component_count, "part"));
+    text += fmt::format("; edges in conflict: {} -> {}", sum.conflict_count_before, sum.conflict_count_after);
+    if (sum.one_sided_count != 0) text += fmt::format("; {} with one side only", counted(sum.one_sided_count, "part"));
+    if (sum.conflict_count_after != 0 && sum.small_count != 0)
+        text += fmt::format("; {} of fewer than 4 faces left", counted(sum.small_count, "part"));
+    return text;
+}
+
 std::string summaryRows(const GenerateOutcome& outcome, const Totals& totals) {
     const GenerateReport& report = *outcome.result;
     Table table;
@@ -132,6 +153,7 @@ std::string summaryRows(const GenerateOutcome& outcome, const Totals& totals) {
         if (!faults.empty()) table.addRow({"in the input", faults});
         table.addRow({"mended", mendedText(totals.sanitize)});
     }
+    if (!report.windings.empty()) table.addRow({"winding", windingText(report.windings)});
     if (totals.normals_generated != 0) {
         const std::string anew =
             totals.normals_replaced == 0 ? "" : fmt::format(", {} of them anew", totals.normals_replaced);

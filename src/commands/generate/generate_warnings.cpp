@@ -19,7 +19,7 @@ bool wasComputed(const PrimitiveReport& primitive) {
            primitive.action == PrimitiveAction::unchanged;
 }
 
-void warnOfWinding(GenerateReport& report) {
+void warnOfWinding(const GenerateOptions& options, GenerateReport& report) {
     std::uint64_t turned = 0, two_sided = 0, behind = 0, triangles = 0, before = 0, after = 0;
     for (const PrimitiveReport& primitive : report.primitives) {
         turned += primitive.turned_triangle_count;
@@ -32,8 +32,8 @@ void warnOfWinding(GenerateReport& report) {
     }
     if (turned != 0) {
         std::string text = std::to_string(turned) + " of " + counted(triangles, "triangle") +
-                           (turned == 1 ? " is" : " are") +
-                           " wound against the neighbours: no tool can tell which side is out";
+                           (turned == 1 ? " is" : " are") + " wound against the neighbours" +
+                           (options.mend_winding ? "" : ": --mend-winding turns them");
         if (after > before)
             text += ", and vertices are split between them (" + std::to_string(before) + " -> " +
                     std::to_string(after) + ")";
@@ -147,7 +147,7 @@ void warnOfFile(const GenerateOptions& options, const WorkedOn& worked_on, Gener
 }  // namespace
 
 void addWarnings(const GenerateOptions& options, const WorkedOn& worked_on, GenerateReport& report) {
-    warnOfWinding(report);
+    warnOfWinding(options, report);
     if (report.primitives.empty()) return;
     warnOfNormals(options, report);
     warnOfTangents(options, report);
@@ -156,6 +156,9 @@ void addWarnings(const GenerateOptions& options, const WorkedOn& worked_on, Gene
         warn({options.flip_green == FlipGreen::all ? "--flip-green-all" : "--flip-green"}, "there is no normal map",
              report);
     if (options.mend_maps && report.normal_maps.empty()) warn({"--mend-maps"}, "there is no normal map", report);
+    const bool any_turned = any(report, [](const auto& primitive) { return primitive.winding_mended_count != 0; });
+    if (options.mend_winding && !any_turned)
+        warn({"--mend-winding"}, "no triangle is wound the wrong way, as far as that can be known", report);
     const bool any_stripped =
         any(report, [](const auto& primitive) { return primitive.action == PrimitiveAction::removed; });
     if (options.strip && !any_stripped) warn({"--strip"}, "there are no tangents that no material needs", report);

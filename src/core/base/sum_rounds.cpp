@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kRangeBytes = std::size_t{512} << 10;  // of sums: half of a second cache
 constexpr std::size_t kTasksPerThread = 4;
-constexpr std::size_t kMostRows = 7;
+constexpr std::size_t kMostRows = 8;
 
 std::size_t wholeLanes(std::size_t groups) {
     return (groups + SumRound::kGroups - 1) / SumRound::kGroups * SumRound::kGroups;
@@ -49,7 +49,7 @@ class RangeOfRound {
             case 4:
                 return addRows<4>();
             default:
-                return round_.ends_in_maxima ? addRows<kMostRows, true>() : addRows<kMostRows>();
+                return round_.ends_in_maxima ? addRows<kMostRows, true>() : addRows<kMostRows - 1>();
         }
     }
 

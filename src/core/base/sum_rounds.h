@@ -17,7 +17,8 @@ class SumRound {
     static constexpr std::size_t kGroups = 16;     ///< the most lanes; kernels work on whole groups of so many
     static constexpr std::uint32_t kNoVertex = 0xffffffffu;
 
-    /// `rows`: of four floats, per group; 1, 2, 4 or 7. `has_maxima`: the last one has maxima in the place of sums.
+    /// `rows`: of four floats, per group; 1, 2, 4 or 7, or 8 with `has_maxima`: the last one has maxima in
+    /// the place of sums.
     explicit SumRound(std::size_t rows, bool has_maxima = false) : row_count(rows), ends_in_maxima(has_maxima) {}
     SumRound(const SumRound&) = delete;
     SumRound& operator=(const SumRound&) = delete;

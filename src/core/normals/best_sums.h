@@ -20,7 +20,7 @@ struct BestSource {
 
 inline constexpr std::size_t kBestTriangles = 32;  ///< of one block
 inline constexpr std::size_t kBestGroup = 16;      ///< lanes; vertices and points are read by whole groups
-inline constexpr std::size_t kFitRows = 7;         ///< of four floats; the last one has maxima in the place of sums
+inline constexpr std::size_t kFitRows = 8;         ///< of four floats; the last one has maxima in the place of sums
 inline constexpr std::size_t kStepRows = 2;        ///< of four floats
 
 /// One round, for one CPU.

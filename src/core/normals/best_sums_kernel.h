@@ -25,11 +25,15 @@ namespace {
 
 // The value of each doubt at which the blend is half and half, found by trying values on analytic surfaces with and
 // without noise and on bevels (docs/accuracy.md).
-constexpr double kNoise = 0.45;   // of the bend of the edges, what no normal explains
-constexpr double kKink = 1.5;     // misfit of the sharp normals, in that of the robust ones
-constexpr double kJump = 2.5;     // turn over the longest edge if all of it bent like the most bent one, in
-                                  // radians, times the sine between the two means
-constexpr double kTurn = 0.8;     // twice the sine of half the angle between the sharp normals at an edge's ends
+constexpr double kNoise = 0.45;  // of the bend of the edges, what no normal explains
+constexpr double kKink = 1.5;    // misfit of the sharp normals, in that of the robust ones: of the large faces
+constexpr double kFillet = 1.3;  // the same of the short edges. A flat cap that is a fan from one vertex of its rim has
+                                 // no edge that tells it from a dome; its neighbours, the edges of a fillet, do.
+constexpr double kBent = 1.25;   // turn as in kJump, in radians, from which on these two count wholly. Where a mesh is
+                                 // fine both misfits are small, and their ratio is chance.
+constexpr double kJump = 2.5;    // turn over the longest edge if all of it bent like the most bent one, in
+                                 // radians, times the sine between the two means
+constexpr double kTurn = 0.8;    // twice the sine of half the angle between the sharp normals at an edge's ends
 constexpr double kSpread = 0.42;  // sine between fit and robust mean
 
 // The ridge, relative to the quadratic part: enough for rings with too few edges, negligible elsewhere. It weighs
@@ -110,7 +114,7 @@ void finishSharp(float* rows, const float*, const float*, std::size_t count) {
 /// Terms of an edge that are equal at both its ends. The edge counts where both ends have a `max` normal.
 struct EdgeDoubt {
     Floats misfit;  ///< of the sharp normals, as seen along the edge
-    Floats bend, count, sharp_misfit, robust_misfit, square;
+    Floats bend, count, sharp_misfit, robust_misfit, sharp_bend, robust_bend, square;
     Mask counts;
 
     EdgeDoubt(Vectors e, Floats length_square, Floats inverse, Floats area_square, const Vectors (&sharp)[2],
@@ -121,8 +125,11 @@ struct EdgeDoubt {
                      robust_one = inverse * dot(e, robust[0] + robust[1]);
         bend = keep(counts, turned * turned);
         count = keep(counts, broadcast(1.0f));
-        sharp_misfit = area_square * (misfit * misfit);
-        robust_misfit = keep(counts, area_square * (robust_one * robust_one));
+        const Floats sharp_square = misfit * misfit, robust_square = keep(counts, robust_one * robust_one);
+        sharp_misfit = area_square * sharp_square;
+        robust_misfit = area_square * robust_square;
+        sharp_bend = (inverse * inverse) * sharp_square;
+        robust_bend = (inverse * inverse) * robust_square;
         square = keep(counts, length_square);
     }
 };
@@ -159,7 +166,8 @@ inline void storeSeen(float* at, const Seen& a, const Seen& b, const EdgeDoubt& 
                         a.y * a.misfit + b.y * b.misfit, a.misfit * a.misfit + b.misfit * b.misfit);
     storeRows<kFitStep>(at + 20, i.bend + o.bend, i.count + o.count, i.sharp_misfit + o.sharp_misfit,
                         i.robust_misfit + o.robust_misfit);
-    storeRows<kFitStep>(at + 24, larger(a.curvature, b.curvature), larger(i.square, o.square), zero(), zero());
+    storeRows<kFitStep>(at + 24, i.sharp_bend + o.sharp_bend, i.robust_bend + o.robust_bend, zero(), zero());
+    storeRows<kFitStep>(at + 28, larger(a.curvature, b.curvature), larger(i.square, o.square), zero(), zero());
 }
 
 inline void addFitOf(const BestSource& source, const std::uint32_t* vertices, const std::uint32_t* points,
@@ -204,7 +212,7 @@ struct PointSums {
     Floats xx, xy, yy, xs, ys;
     Floats xb[3], yb[3], bs[3];
     Floats bb[6];  ///< 00 01 02 11 12 22
-    Floats xm, ym, mm, bend, count, sharp_misfit, robust_misfit, curvature, square;
+    Floats xm, ym, mm, bend, count, sharp_misfit, robust_misfit, sharp_bend, robust_bend, curvature, square;
 
     explicit PointSums(const float* at) {
         constexpr std::size_t kStep = 4 * kFitRows;
@@ -215,7 +223,8 @@ struct PointSums {
         loadRows<kStep>(at + 12, bb[0], bb[1], bb[2], bb[4]);
         loadRows<kStep>(at + 16, bb[5], xm, ym, mm);
         loadRows<kStep>(at + 20, bend, count, sharp_misfit, robust_misfit);
-        loadRows<kStep>(at + 24, curvature, square, unused, unused);
+        loadRows<kStep>(at + 24, sharp_bend, robust_bend, unused, unused);
+        loadRows<kStep>(at + 28, curvature, square, unused, unused);
         xb[1] = yb[0] + yb[0];
         yb[1] = xb[2] + xb[2];
         bb[3] = broadcast(4.0f) * bb[2];
@@ -282,13 +291,16 @@ inline Floats doubtIn(const PointSums& s, const Slopes& slopes, Vectors robust, 
     const Flat turned = slopes.solve(s.xm, s.ym);
     const Floats unexplained = larger(s.mm - (turned.x * s.xm + turned.y * s.ym), zero());
     const Floats noise = per(kNoise) * (unexplained / s.bend);
-    const Floats kink = per(kKink) * (s.sharp_misfit / s.robust_misfit);
+    const Floats turn = squared(s.curvature) * s.square;
+    const Floats bent = smaller(per(kBent) * turn, broadcast(1.0f));
+    const Floats kink = per(kKink) * bent * (s.sharp_misfit / s.robust_misfit);
+    const Floats fillet = per(kFillet) * bent * (s.sharp_bend / s.robust_bend);
     const Vectors apart = cross(robust, sharp), lean = cross(robust, fit);
-    const Floats jump = per(kJump) * (squared(s.curvature) * s.square) * dot(apart, apart);
+    const Floats jump = per(kJump) * turn * dot(apart, apart);
     const Floats coarse = per(kTurn) * (s.bend / s.count);
     const Floats spread = per(kSpread) * dot(lean, lean);
-    const Floats sum = bounded(squared(noise)) + bounded(squared(squared(kink))) + bounded(squared(squared(jump))) +
-                       bounded(squared(squared(coarse))) + bounded(squared(spread));
+    const Floats sum = bounded(squared(noise)) + bounded(squared(squared(kink))) + bounded(squared(squared(fillet))) +
+                       bounded(squared(squared(jump))) + bounded(squared(squared(coarse))) + bounded(squared(spread));
     return select(dot(robust, fit) < zero(), broadcast(static_cast<float>(kNoTrust)), sum);
 }
 

@@ -77,6 +77,8 @@ std::map<std::size_t, CarriedElements> carriedAttributes(std::span<const Primiti
     return carried;
 }
 
+}  // namespace
+
 ElementData newIndices(const Document& document, const Primitive& first, std::vector<std::uint32_t>&& indices,
                        std::size_t vertex_count) {
     ComponentType narrowest = ComponentType::u16;
@@ -97,8 +99,6 @@ ElementData newIndices(const Document& document, const Primitive& first, std::ve
     data.max = std::move(high);
     return data;
 }
-
-}  // namespace
 
 ElementData indexElements(std::vector<std::uint32_t>&& indices, ComponentType narrowest, std::size_t vertex_count) {
     ElementData data;

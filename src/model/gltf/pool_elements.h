@@ -57,6 +57,9 @@ PoolElements packFrames(const Document& document, std::span<const Primitive> pri
                         PoolFrames&& frames, const PackingRule& rule);
 
 /// Numbers of vertices. u8 and u16 keep their width while every vertex fits below the primitive restart value.
+/// The same, as a primitive has its old list: no narrower, and with bounds if that has some.
+ElementData newIndices(const Document& document, const Primitive& primitive, std::vector<std::uint32_t>&& indices,
+                       std::size_t vertex_count);
 ElementData indexElements(std::vector<std::uint32_t>&& indices, ComponentType narrowest, std::size_t vertex_count);
 
 /// Offsets as elements, one for each vertex.

@@ -34,7 +34,7 @@ double vertexError(Method method, const TestMesh& mesh) {
     return tangentErrors(mesh, framesBy(method, mesh), Corners::inside).mean;
 }
 double normalError(NormalWeighting weighting, const TestMesh& mesh, Corners corners = Corners::all,
-                   std::uint32_t refine = 1) {
+                   std::uint32_t refine = NormalOptions{}.refine) {
     return normalErrors(mesh, normalsBy(weighting, mesh, refine), corners).mean;
 }
 

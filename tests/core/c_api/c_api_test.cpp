@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/c_api/random_mesh.h"
+#include "support/simple_mesh.h"
 #include "tspace/tspace.hpp"
 
 namespace tspace::test {
@@ -146,6 +147,37 @@ TEST(CApi, DefaultsOfTangentsAreThoseOfCpp) {
     TSPACE_INIT(frames);
     EXPECT_EQ(IndexedFramesOptions{}.sanitize ? 1u : 0u, frames.sanitize);
     EXPECT_EQ(IndexedFramesOptions{}.make_normals ? 1u : 0u, frames.make_normals);
+}
+
+TEST(CApi, WindingIsMendedAsInCpp) {
+    SimpleMesh cube = triangleCube(5);
+    std::swap(cube.indices[4], cube.indices[5]);
+    tspace_Mesh mesh;
+    TSPACE_INIT(mesh);
+    mesh.positions = {&cube.positions[0].x, cube.positions.size(), 0};
+    mesh.indices = {cube.indices.data(), cube.indices.size(), TSPACE_INDEX_U32};
+    std::vector<std::uint8_t> turned(12, 9);
+    tspace_WindingOptions options;
+    TSPACE_INIT(options);
+    EXPECT_EQ(1u, options.use_normals);
+    EXPECT_EQ(1u, options.weld_positions);
+    tspace_WindingReport report;
+    TSPACE_INIT(report);
+    for (const tspace_WindingOptions* given :
+         {&std::as_const(options), static_cast<const tspace_WindingOptions*>(nullptr)}) {
+        ASSERT_EQ(TSPACE_OK, tspace_mendWinding(&mesh, given, turned.data(), turned.size(), nullptr, &report, nullptr));
+        EXPECT_EQ((std::vector<std::uint8_t>{0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}), turned);
+        EXPECT_EQ(12u, report.face_count);
+        EXPECT_EQ(1u, report.turned_count);
+        EXPECT_EQ(3u, report.conflict_count_before);
+        EXPECT_EQ(0u, report.conflict_count_after);
+        EXPECT_EQ(1u, report.by_volume_count);
+    }
+    EXPECT_EQ(TSPACE_ERROR_COUNT_MISMATCH,
+              tspace_mendWinding(&mesh, nullptr, turned.data(), 11, nullptr, nullptr, nullptr));
+    options.use_normals = 2;
+    EXPECT_EQ(TSPACE_ERROR_INVALID_OPTION,
+              tspace_mendWinding(&mesh, &options, turned.data(), 12, nullptr, nullptr, nullptr));
 }
 
 TEST(CApi, TheConventionHasNoDefault) {

@@ -88,6 +88,78 @@ TEST(BestNormals, KeepTheFaceBesideANarrowBevelFlat) {
     }
 }
 
+/// A closed cylinder of radius 1 and height 2 with rounded rims. Each cap is a fan from one vertex of its rim, as CAD
+/// kernels write it; the triangles of the upper one come first.
+SimpleMesh roundedCylinder(std::uint32_t sides, std::uint32_t segments, double fillet) {
+    constexpr double kQuarter = 1.5707963267948966;
+    SimpleMesh mesh;
+    const std::uint32_t rings = 2 * (segments + 1), last = sides * (rings - 1);
+    for (std::uint32_t ring = 0; ring < rings; ++ring) {
+        const bool is_upper = ring <= segments;
+        const double turn = kQuarter * (is_upper ? ring : rings - 1 - ring) / segments;
+        const double radius = 1 - fillet + fillet * std::sin(turn), height = 1 - fillet + fillet * std::cos(turn);
+        for (std::uint32_t i = 0; i < sides; ++i) {
+            const double around = 4 * kQuarter * i / sides;
+            mesh.positions.push_back({static_cast<float>(radius * std::cos(around)),
+                                      static_cast<float>(radius * std::sin(around)),
+                                      static_cast<float>(is_upper ? height : -height)});
+        }
+    }
+    for (std::uint32_t i = 1; i + 1 < sides; ++i) mesh.indices.insert(mesh.indices.end(), {0, i, i + 1});
+    for (std::uint32_t i = 1; i + 1 < sides; ++i)
+        mesh.indices.insert(mesh.indices.end(), {last, last + i + 1, last + i});
+    for (std::uint32_t a = 0; a < last; a += sides) {
+        for (std::uint32_t i = 0; i < sides; ++i) {
+            const std::uint32_t next = (i + 1) % sides, below = a + sides;
+            mesh.indices.insert(mesh.indices.end(), {a + i, below + i, below + next, a + i, below + next, a + next});
+        }
+    }
+    return mesh;
+}
+
+/// Mean angle from +z of the normals that the first `count` triangles interpolate, over their area.
+double shadedErrorOfFlatTriangles(const SimpleMesh& mesh, std::size_t count, const std::vector<Vec3>& normals) {
+    constexpr int kCells = 6;
+    double sum = 0, areas = 0;
+    for (std::size_t t = 0; t < count; ++t) {
+        const Vec3 a = mesh.positions[mesh.indices[3 * t]], b = mesh.positions[mesh.indices[3 * t + 1]],
+                   c = mesh.positions[mesh.indices[3 * t + 2]];
+        const double area =
+            std::abs((double{b.x} - a.x) * (double{c.y} - a.y) - (double{b.y} - a.y) * (double{c.x} - a.x));
+        for (int i = 0; i < kCells; ++i) {
+            for (int j = 0; i + j < kCells; ++j) {
+                const auto v = static_cast<float>((i + 1 / 3.0) / kCells),
+                           w = static_cast<float>((j + 1 / 3.0) / kCells);
+                const Vec3 &l = normals[3 * t], &m = normals[3 * t + 1], &n = normals[3 * t + 2];
+                const float u = 1 - v - w;
+                sum += area *
+                       angleDeg({u * l.x + v * m.x + w * n.x, u * l.y + v * m.y + w * n.y, u * l.z + v * m.z + w * n.z},
+                                {0, 0, 1});
+                areas += area;
+            }
+        }
+    }
+    return sum / areas;
+}
+
+TEST(BestNormals, KeepAFlatCapThatIsAFanFromItsRimAsFlatAsAngleTimesAreaBesideAFillet) {
+    for (const double fillet : {0.05, 0.1, 0.16}) {
+        for (const std::uint32_t sides : {8u, 12u, 16u, 24u, 48u}) {
+            for (std::uint32_t segments = 2; segments <= 5; ++segments) {
+                const SimpleMesh mesh = roundedCylinder(sides, segments, fillet);
+                const auto errorOf = [&](NormalWeighting weighting, std::uint32_t refine) {
+                    return shadedErrorOfFlatTriangles(
+                        mesh, sides - 2, normalsOf(mesh.view(), {.weighting = weighting, .refine = refine}));
+                };
+                for (std::uint32_t refine = 0; refine <= 2; ++refine) {
+                    EXPECT_LT(errorOf(NormalWeighting::best, refine), 1.1 * errorOf(NormalWeighting::angleArea, 0))
+                        << fillet << ' ' << sides << ' ' << segments << ' ' << refine;
+                }
+            }
+        }
+    }
+}
+
 TEST(BestNormals, OfACubeArePracticallyTheDiagonalsHoweverTheFacesAreCut) {
     for (unsigned diagonals = 0; diagonals < 64; ++diagonals) {
         const SimpleMesh cube = test::triangleCube(diagonals);

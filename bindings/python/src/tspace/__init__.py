@@ -38,6 +38,7 @@ Functions
     tangents        one tangent per corner, by nine methods; "mikktspace" gives every bit of the reference
     normals         one normal per corner; crease angles, smoothing groups
     Plan            groups once, tangents for every pose
+    mend_winding    turns faces that are wound the wrong way
     sanitize        mends broken tangents, leaves every other bit alone
     split           from corners back to an indexed mesh
     triangulate     quads and n-gons into triangles
@@ -98,10 +99,11 @@ from ._indexed import IndexedFrames, IndexedFramesReport, make_indexed_frames
 from ._normals import NormalResult, normals
 from ._options import Convention
 from ._pack import PackResult, pack_frames, unpack_frames
-from ._reports import NormalReport, PackReport, SanitizeReport, TangentReport
+from ._reports import NormalReport, PackReport, SanitizeReport, TangentReport, WindingReport
 from ._sanitize import SanitizeResult, sanitize
 from ._split import Split, Triangles, split, triangulate
 from ._tangents import Plan, TangentResult, tangents
+from ._winding import WindingResult, mend_winding
 
 _number = _library.tspace_version()
 __version__ = f"{_number // 10000}.{_number // 100 % 100}.{_number % 100}"
@@ -137,6 +139,8 @@ __all__ = [
     "TangentResult",
     "Triangles",
     "UnknownOptionError",
+    "WindingReport",
+    "WindingResult",
     "check",
     "diff",
     "flip_green_bytes",
@@ -147,6 +151,7 @@ __all__ = [
     "identify",
     "inspect",
     "make_indexed_frames",
+    "mend_winding",
     "normals",
     "pack_frames",
     "sanitize",

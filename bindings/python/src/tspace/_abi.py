@@ -124,6 +124,35 @@ class NormalReport(Structure):
     ]
 
 
+class WindingOptions(Structure):
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("convention", Convention),
+        ("use_normals", c_uint32),
+        ("weld_positions", c_uint32),
+    ]
+
+
+class WindingReport(Structure):
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("reserved", c_uint32),
+        ("face_count", c_uint64),
+        ("turned_count", c_uint64),
+        ("conflict_count_before", c_uint64),
+        ("conflict_count_after", c_uint64),
+        ("component_count", c_uint64),
+        ("turned_component_count", c_uint64),
+        ("by_normals_count", c_uint64),
+        ("by_volume_count", c_uint64),
+        ("by_nesting_count", c_uint64),
+        ("by_winding_number_count", c_uint64),
+        ("by_majority_count", c_uint64),
+        ("small_count", c_uint64),
+        ("one_sided_count", c_uint64),
+    ]
+
+
 class TangentOptions(Structure):
     _fields_ = [
         ("struct_size", c_uint32),
@@ -294,6 +323,16 @@ declare(
             Span,
             POINTER(Execution),
             POINTER(NormalReport),
+            POINTER(Error),
+        ),
+        "tspace_mendWinding": (
+            c_uint32,
+            POINTER(Mesh),
+            POINTER(WindingOptions),
+            c_void_p,
+            c_size_t,
+            POINTER(Execution),
+            POINTER(WindingReport),
             POINTER(Error),
         ),
         "tspace_generateTangents": (

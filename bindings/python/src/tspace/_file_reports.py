@@ -37,6 +37,8 @@ class GenerateReport(Report):
     coordinate_offset: List[float]
     #: Sums over the primitives.
     totals: GenerateTotals
+    #: With "--mend-winding", one entry per mesh with triangles; from OBJ one for the file.
+    windings: List[MendedWinding]
     #: With "--flip-green", "--flip-green-all" or "--mend-maps", one entry per image that is a normal map; from OBJ one
     #: for each material whose height map became a normal map.
     normal_maps: List[JudgedMap]
@@ -65,6 +67,39 @@ class GenerateTotals(Report):
     morph_deltas: int
     #: Primitives whose frames are packed ("--pack").
     packed: int
+
+
+class MendedWinding(Report):
+    #: Index of the mesh; for OBJ, whose objects are one surface, 0.
+    mesh: int
+    #: May be empty.
+    mesh_name: str
+    #: Faces with at least 3 corners; what several primitives draw counts once.
+    faces: int
+    #: Faces that were turned.
+    turned: int
+    #: Pairs of neighbours that run through their edge in the same direction.
+    conflicts_before: int
+    #: The same afterwards.
+    conflicts_after: int
+    #: Parts that hang together over edges.
+    components: int
+    #: Those of which more than half of the faces were turned.
+    turned_components: int
+    #: Components whose outside the normals of the file decided.
+    by_normals: int
+    #: Closed ones: their volume did.
+    by_volume: int
+    #: Closed ones that lie in another: as they mostly were, or, where that said nothing, a cavity.
+    by_nesting: int
+    #: Open ones with an inside.
+    by_winding_number: int
+    #: Open ones without: as most of the area was wound.
+    by_majority: int
+    #: Components of fewer than 4 faces, which stay.
+    small: int
+    #: Components with one side only, as a Moebius band, which stay.
+    one_sided: int
 
 
 class JudgedMap(Report):
@@ -147,6 +182,8 @@ class GeneratedPrimitive(Report):
     turned_triangles: int
     #: Triangles of sheets with two sides: others with the same positions are wound the other way.
     two_sided_triangles: int
+    #: Faces that were turned ("--mend-winding").
+    winding_mended: int
     #: "_BITANGENT" was computed ("--bitangents").
     bitangents_generated: bool
     #: "--pack": its frames are packed; where they are not, a note says why.

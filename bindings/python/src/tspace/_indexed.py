@@ -53,7 +53,7 @@ def make_indexed_frames(
     pairing: str = "reference",
     ngons: str = "triangulate",
     frame: str = "gram_schmidt",
-    refine: int = 1,
+    refine: Optional[int] = None,
     make_normals: bool = False,
     weighting: str = "angle",
     crease: float = 180.0,
@@ -76,7 +76,8 @@ def make_indexed_frames(
     uvs:        (vertices, 2); None for method="basis"
     indices:    (corners,), or (faces, k) for faces of k corners; None: corner c is vertex c
     face_sizes, normal_indices, uv_indices, method, convention, threshold, pairing, ngons, frame: as for `tangents`
-    refine:     steps that "best" takes after its fit, for tangents and normals: 0, 1 or 2
+    refine:     steps that "best" takes after its fit, for tangents and normals: 0, 1 or 2;
+                None: 1 for tangents and 2 for normals
     make_normals: True: normals are made although there are some
     weighting, crease, smoothing_groups, smoothing_masks, weld_positions: how normals are made, as for `normals`
     sanitize:   False: broken tangents stay
@@ -88,9 +89,9 @@ def make_indexed_frames(
     the order of their corners, one for all corners with the same bits.
     """
     run = execution(threads)
-    tangents = tangent_options(method, convention, threshold, pairing, ngons, "corner", frame, refine)
+    tangents = tangent_options(method, convention, threshold, pairing, ngons, "corner", frame, 1 if refine is None else refine)
     groups = None if smoothing_groups is None else uint32_array("smoothing_groups", smoothing_groups)
-    made_by = normal_options(weighting, crease, groups, smoothing_masks, weld_positions, convention, refine)
+    made_by = normal_options(weighting, crease, groups, smoothing_masks, weld_positions, convention, 2 if refine is None else refine)
     mesh = Mesh(positions, normals, uvs, indices, face_sizes, normal_indices, uv_indices)
     rows, keep = corner_attributes("keep_apart", keep_apart, mesh.corner_count, 0.0)
     options = _abi.IndexedFramesOptions(

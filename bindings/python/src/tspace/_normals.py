@@ -95,7 +95,7 @@ def normals(
     smoothing_masks: bool = False,
     weld_positions: bool = True,
     convention: Optional[ConventionLike] = None,
-    refine: int = 1,
+    refine: int = 2,
     threads: Union[int, str] = 1,
     out: Optional[numpy.ndarray] = None,
     full: bool = False,

@@ -28,6 +28,24 @@ class NormalReport(NamedTuple):
     fallback_corner_count: int  #: corners whose mean vanished and that got a substitute
 
 
+class WindingReport(NamedTuple):
+    """What was found and done. A component is what hangs together over pairs of faces at edges."""
+
+    face_count: int  #: faces with at least 3 corners
+    turned_count: int  #: faces that were turned
+    conflict_count_before: int  #: pairs of faces that run through their edge in the same direction
+    conflict_count_after: int
+    component_count: int
+    turned_component_count: int  #: of which more than half of the faces were turned
+    by_normals_count: int  #: components decided by normals of the mesh
+    by_volume_count: int  #: closed: by the volume
+    by_nesting_count: int  #: closed, and lying in another one
+    by_winding_number_count: int  #: open, but with an inside
+    by_majority_count: int  #: as most of the area was wound
+    small_count: int  #: fewer than 4 faces: nothing was turned
+    one_sided_count: int  #: as a Moebius band: nothing was turned
+
+
 class SanitizeReport(NamedTuple):
     """Corners mended, by cause (the first that applies) and by cure."""
 

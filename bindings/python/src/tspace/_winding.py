@@ -1,0 +1,76 @@
+# SPDX-License-Identifier: MIT
+"""The winding of faces."""
+
+import ctypes
+from ctypes import byref
+from typing import Any, NamedTuple, Optional, Union
+
+import numpy
+
+from . import _abi
+from ._mesh import Mesh
+from ._options import ConventionLike, convention_struct, execution
+from ._reports import WindingReport, report
+
+
+class WindingResult(NamedTuple):
+    """Indices with the right winding, and what was done."""
+
+    indices: numpy.ndarray  #: as they were given, but for the order of corners in faces that were turned
+    report: WindingReport
+    turned: numpy.ndarray  #: (faces,) bool: the faces that were turned
+
+
+def _face_sizes(mesh: Mesh, face_sizes: Any) -> numpy.ndarray:
+    size = mesh.struct.face_size
+    if size == 0:
+        return numpy.asarray(face_sizes, numpy.int64)
+    return numpy.full(mesh.corner_count // size, size)
+
+
+def mend_winding(
+    positions: Any,
+    indices: Any = None,
+    *,
+    face_sizes: Any = None,
+    normals: Any = None,
+    weld_positions: bool = True,
+    convention: Optional[ConventionLike] = None,
+    threads: Union[int, str] = 1,
+) -> WindingResult:
+    """Turns faces that are wound against their neighbours, and whole parts that are inside out.
+
+    Which side of a part is out is decided by its volume where it is closed, by its inside where it is open, else by most of
+    its faces. Parts of fewer than 4 faces are left alone.
+
+    positions:      (vertices, 3)
+    indices:        (corners,), or (faces, k) for faces of k corners; None: corner c is vertex c
+    face_sizes:     None: triangles. A number: corners of every face. (faces,): corners of each face
+    normals:        (vertices, 3): they say which side is out, where they agree among themselves; None: nothing does
+    weld_positions: True: vertices at the same position are one point; False: only equal indices are
+    convention:     its handedness and winding say which order is right; None: right-handed, counter-clockwise
+    threads:        1, another number, or "all". The bits are the same for any
+    """
+    mesh = Mesh(positions, normals, None, indices, face_sizes)
+    run = execution(threads)
+    options = _abi.WindingOptions(
+        ctypes.sizeof(_abi.WindingOptions),
+        _abi.Convention() if convention is None else convention_struct(convention),
+        normals is not None,
+        bool(weld_positions),
+    )
+    sizes = _face_sizes(mesh, face_sizes)
+    turned = numpy.zeros(len(sizes), numpy.uint8)
+    counts = _abi.WindingReport(ctypes.sizeof(_abi.WindingReport))
+    error = _abi.Error()
+    if _abi.library.tspace_mendWinding(
+        byref(mesh.struct), byref(options), turned.ctypes.data, len(turned), byref(run), byref(counts), byref(error)
+    ):
+        mesh.fail(error)
+    given = numpy.arange(mesh.corner_count, dtype=numpy.uint32) if indices is None else numpy.asarray(indices)
+    made = given.flatten()
+    first = numpy.concatenate(([0], numpy.cumsum(sizes)))
+    for face in numpy.flatnonzero(turned):
+        corners = slice(first[face] + 1, first[face + 1])
+        made[corners] = made[corners][::-1].copy()
+    return WindingResult(made.reshape(given.shape), report(WindingReport, counts), turned.astype(bool))

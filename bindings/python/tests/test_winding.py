@@ -1,0 +1,64 @@
+# SPDX-License-Identifier: MIT
+"""mend_winding: indices of every shape, and what normals say."""
+
+import unittest
+
+import numpy
+import tspace
+from support import cube
+
+
+def damaged(indices, faces):
+    made = numpy.array(indices, numpy.uint32).reshape(-1, 3)
+    made[faces] = made[faces][:, [0, 2, 1]]
+    return made
+
+
+class MendWinding(unittest.TestCase):
+    def setUp(self):
+        self.positions, self.normals, _, indices = cube()
+        self.sound = numpy.array(indices, numpy.uint32).reshape(-1, 3)
+        # The faces of that cube may be wound either way: what the volume says is right.
+        self.sound = tspace.mend_winding(self.positions, self.sound).indices
+
+    def test_turns_what_was_turned(self):
+        result = tspace.mend_winding(self.positions, damaged(self.sound, [2, 7]))
+        self.assertTrue((result.indices == self.sound).all())
+        self.assertEqual(numpy.flatnonzero(result.turned).tolist(), [2, 7])
+        self.assertEqual(result.report.turned_count, 2)
+        self.assertEqual(result.report.conflict_count_after, 0)
+        self.assertEqual(result.report.by_volume_count, 1)
+
+    def test_keeps_the_shape_and_the_type_of_indices(self):
+        flat = damaged(self.sound, [3]).astype(numpy.uint8).ravel()
+        result = tspace.mend_winding(self.positions, flat)
+        self.assertEqual(result.indices.shape, flat.shape)
+        self.assertEqual(result.indices.dtype, numpy.uint8)
+        self.assertTrue((result.indices == self.sound.ravel()).all())
+        self.assertTrue((flat != self.sound.ravel()).any())  # the caller's array stays as it is
+
+    def test_makes_indices_where_there_are_none(self):
+        soup = self.positions[damaged(self.sound, [5]).ravel()]
+        result = tspace.mend_winding(soup)
+        self.assertEqual(result.indices.tolist()[15:18], [15, 17, 16])
+        self.assertEqual(result.report.turned_count, 1)
+
+    def test_turns_polygons(self):
+        quads = numpy.array([[0, 1, 2, 3], [0, 4, 5, 1], [1, 5, 6, 2], [2, 6, 7, 3], [3, 7, 4, 0], [4, 7, 6, 5]])
+        points = numpy.float32([[0, 0, 0], [0, 1, 0], [1, 1, 0], [1, 0, 0], [0, 0, 1], [0, 1, 1], [1, 1, 1], [1, 0, 1]])
+        sound = tspace.mend_winding(points, quads).indices
+        wrong = sound.copy()
+        wrong[1, 1:] = wrong[1, :0:-1]
+        self.assertTrue((tspace.mend_winding(points, wrong).indices == sound).all())
+        by_sizes = tspace.mend_winding(points, wrong.ravel(), face_sizes=[4] * 6)
+        self.assertTrue((by_sizes.indices == sound.ravel()).all())
+
+    def test_follows_normals(self):
+        normals = numpy.float32(self.positions) - numpy.float32(self.positions).mean(axis=0)
+        inside = tspace.mend_winding(self.positions, self.sound, normals=-normals)
+        self.assertEqual(inside.report.by_normals_count, 1)
+        self.assertEqual(inside.report.turned_count, len(self.sound))
+
+
+if __name__ == "__main__":
+    unittest.main()
