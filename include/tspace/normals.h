@@ -34,6 +34,11 @@ struct NormalOptions {
 
     // All but `flat`:
 
+    /// For `crease_angle_deg`.
+    static constexpr float crease_auto = -1.0f;
+    /// For `denoise`.
+    static constexpr float denoise_auto = -1.0f;
+
     /// Degrees, 0..180. Two faces that share an edge are smoothed over it only when their normals differ by no more
     /// than this (and 1e-6 rad for rounding). 180, the default, because no angle fits all models: never hard (except by
     /// smoothing groups); then all faces at a point are smoothed together, also those that share no edge.
@@ -52,6 +57,13 @@ struct NormalOptions {
     /// across them, as far as these agree. 1: a third less error at vertices and in what is shaded between them. 2:
     /// another fifth less. 0: the fit alone.
     std::uint32_t refine = 1;
+    /// For meshes whose positions are noisy: scans, marching cubes of a noisy field. Vertices stay; at each the normals of
+    /// quadratic surfaces through two and three rings around it are blended with that of `best`, by how far each is likely
+    /// to err. 0, the default: off. `denoise_auto`: by the noise that is measured. Where there is none, or what there is
+    /// looks like shape (CAD, bevels, decimated meshes), results have the bits of 0. Above 0, up to 4: so many times the
+    /// noise that is measured, whatever it looks like. 3 is for noise that is smooth from vertex to vertex, which no
+    /// measure tells from detail. Hard edges hold: no surface goes through points on both sides.
+    float denoise = 0;
 };
 
 /// Counts of faces and defects of the input. Broken input never makes the call fail.
@@ -59,6 +71,9 @@ struct NormalReport {
     std::uint64_t face_count = 0;             ///< faces with at least 3 corners
     std::uint64_t degenerate_face_count = 0;  ///< faces without a normal (zero area or not finite)
     std::uint64_t fallback_corner_count = 0;  ///< corners whose mean vanished: they got a substitute, see below
+    /// What `denoise` removed: the standard deviation of positions along the normal, in mean edge lengths. 0: it was not
+    /// asked, or found no noise, and changed no bit.
+    float noise = 0;
 };
 
 /// Computes one unit normal per corner of the mesh.
