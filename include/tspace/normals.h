@@ -34,14 +34,14 @@ struct NormalOptions {
 
     // All but `flat`:
 
-    /// For `crease_angle_deg`.
-    static constexpr float crease_auto = -1.0f;
-    /// For `denoise`.
-    static constexpr float denoise_auto = -1.0f;
+    static constexpr float crease_auto = -1.0f;   ///< for `crease_angle_deg`
+    static constexpr float denoise_auto = -1.0f;  ///< for `denoise`
 
     /// Degrees, 0..180. Two faces that share an edge are smoothed over it only when their normals differ by no more
     /// than this (and 1e-6 rad for rounding). 180, the default, because no angle fits all models: never hard (except by
     /// smoothing groups); then all faces at a point are smoothed together, also those that share no edge.
+    /// `crease_auto`: by the mesh. The angle is in the widest gap between those that most edges have and those that few
+    /// have, and noise of positions is filtered out before. NormalReport says which it is.
     float crease_angle_deg = 180.0f;
     /// One number per face, or empty. Faces smooth together only when their numbers are equal and not 0 (OBJ `s`),
     /// or, with `smoothing_groups_are_masks`, when they have a bit in common (3ds Max). Connections pass on: where A is
@@ -74,6 +74,9 @@ struct NormalReport {
     /// What `denoise` removed: the standard deviation of positions along the normal, in mean edge lengths. 0: it was not
     /// asked, or found no noise, and changed no bit.
     float noise = 0;
+    /// The angle that edges were held against: as given, or as found by the mesh. That holds, where positions are noisy,
+    /// for faces that were smoothed. `flat`: 0.
+    float crease_angle_deg = 0;
 };
 
 /// Computes one unit normal per corner of the mesh.

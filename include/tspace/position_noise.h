@@ -11,13 +11,13 @@ namespace tspace {
 /// Lengths are parts of `mean_edge`.
 struct PositionNoise {
     /// How far positions lie from a smooth surface through their neighbours: the standard deviation along the normal. Detail
-    /// as small as a triangle is in it too. 0: less than 32 vertices have enough neighbours to tell.
+    /// as small as a triangle is in it too. 0: less than 200 vertices have enough neighbours to tell.
     float sigma = 0;
     /// Of how normals differ along an edge, the part that no smooth surface has: the median, 0..1. Noise gives .3 to .8; CAD,
     /// bevels and what was decimated give less for their sigma.
     float kink_share = 0;
-    /// What of `sigma` is noise: NormalOptions::denoise_auto removes so much. 0: positions are not noisy. That is so, too, where
-    /// most edges are flatter than noise would leave them.
+    /// What of `sigma` is noise: so much NormalOptions::denoise removes where it goes by the mesh. 0: positions are not
+    /// noisy. That is so, too, where most edges are flatter than noise would leave them.
     float noise = 0;
     double mean_edge = 0;  ///< of a sample, in the unit of positions
 };

@@ -46,7 +46,8 @@ class CornerGroups {
 /// triangle at each corner, with the corners before and after it.
 class NormalGroups {
   public:
-    /// `length`: positions here are in units of it. Takes 56 bytes per group and 16 per corner, and 4 per group and thread for marks. Throws OutOfMemory.
+    /// `length`: positions here are in units of it. Takes 56 bytes per group and 16 per corner, and 4 per group
+    /// and thread for marks. Throws OutOfMemory.
     NormalGroups(const NormalsCall& call, const CornerGroups& corner_groups, double length);
 
     [[nodiscard]] std::size_t count() const { return count_; }

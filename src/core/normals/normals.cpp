@@ -5,6 +5,7 @@
 
 #include "core/base/border.h"
 #include "core/base/parallel.h"
+#include "core/normals/crease_auto.h"
 #include "core/normals/denoise.h"
 #include "core/normals/normals_call.h"
 #include "core/normals/pose_normals.h"
@@ -20,8 +21,9 @@ Error checkOptions(const MeshView& mesh, const NormalOptions& options) {
     if (static_cast<std::uint32_t>(options.weighting) > static_cast<std::uint32_t>(NormalWeighting::best)) {
         return {ErrorCode::invalidOption, "weighting is not one of NormalWeighting"};
     }
-    if (!(options.crease_angle_deg >= 0 && options.crease_angle_deg <= 180)) {
-        return {ErrorCode::invalidOption, "crease_angle_deg is not between 0 and 180"};
+    if (!((options.crease_angle_deg >= 0 && options.crease_angle_deg <= 180) ||
+          options.crease_angle_deg == NormalOptions::crease_auto)) {
+        return {ErrorCode::invalidOption, "crease_angle_deg is neither between 0 and 180 nor crease_auto"};
     }
     if (options.refine > 2) return {ErrorCode::invalidOption, "refine is not 0, 1 or 2"};
     if (!((options.denoise >= 0 && options.denoise <= 4) || options.denoise == NormalOptions::denoise_auto)) {
@@ -60,6 +62,15 @@ NormalReport flatNormals(const MeshView& mesh, const MeshView& posed, const Call
     return writeFaceNormals(call);
 }
 
+NormalReport smoothNormals(const MeshView& mesh, const MeshView& posed, const Call<NormalOptions>& options,
+                           StridedSpan<Vec3> out, Parallel& parallel, const Creases& creases) {
+    NormalsCall call(mesh, posed, options, out, parallel);
+    if (!creases.edges.empty()) call.edges = creases.edges.data();
+    NormalReport report = call.is_best && options.denoise != 0 ? denoisedNormals(call) : averageNormals(call);
+    report.crease_angle_deg = options.crease_angle_deg;
+    return report;
+}
+
 Result<NormalReport> checkAndGenerate(const MeshView& mesh, const MeshView& posed, const Call<NormalOptions>& options,
                                       StridedSpan<Vec3> out) {
     const bool is_slow = options.weighting == NormalWeighting::best || options.crease_angle_deg < 180;
@@ -69,8 +80,14 @@ Result<NormalReport> checkAndGenerate(const MeshView& mesh, const MeshView& pose
     if (Error e = checkOptions(mesh, options); e.code != ErrorCode::ok) return e;
     if (Error e = checkSpan(out, mesh.cornerCount(), "out"); e.code != ErrorCode::ok) return e;
     if (options.weighting == NormalWeighting::flat) return flatNormals(mesh, posed, options, out, parallel);
-    NormalsCall call(mesh, posed, options, out, parallel);
-    return call.is_best && options.denoise != 0 ? denoisedNormals(call) : averageNormals(call);
+    if (options.crease_angle_deg != NormalOptions::crease_auto)
+        return smoothNormals(mesh, posed, options, out, parallel, {});
+    Call<NormalOptions> found = options;
+    const Creases creases = findCreases(mesh, options, options.execution, parallel);
+    found.crease_angle_deg = creases.are_all_soft ? 180 : creases.angle_deg;
+    NormalReport report = smoothNormals(mesh, posed, found, out, parallel, creases);
+    report.crease_angle_deg = creases.angle_deg;
+    return report;
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "core/base/range_lists.h"
 #include "core/base/vec_math.h"
 #include "core/base/weld.h"
+#include "core/normals/crease_auto.h"
 #include "core/normals/face_terms.h"
 #include "tspace/mesh.h"
 #include "tspace/normals.h"
@@ -142,6 +143,7 @@ struct NormalsCall {
     bool by_area, by_angle;
     /// Where smoothFaces leaves, for `best`, the lowest corner of each corner's component. Null: not wanted.
     Buffer<std::uint32_t>* components = nullptr;
+    const EdgeKind* edges = nullptr;  ///< per corner; null: all by their angle
 };
 
 /// The common case by a shorter way: triangles, all weightings but max, and a point has one normal. Scratch

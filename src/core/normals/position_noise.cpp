@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t kEdgeSamples = 16384;
 constexpr std::size_t kMostVertexSamples = 4096, kLeastVertexSamples = 1024;  // a quarter of the vertices between these
-constexpr std::size_t kLeastFits = 32;
+constexpr std::size_t kLeastFits = 200;
 constexpr double kNoisyShare = 0.15;  ///< of kinks, where positions hardly differ from a smooth surface
 
 /// Of `count` samples of [0, all) the one with this number: one per stretch of equal length, at a place in it that repeats
@@ -119,6 +119,7 @@ PositionNoise sampleEdges(const NormalsCall& call) {
         if (!(size > 0) || !std::isfinite(size) || !call.faces.isUsed(call.faces.of(corner))) continue;
         ++edges;
         lengths += size;
+        if (call.out.count == 0) continue;
         const DVec3 m = toDouble(call.out[corner]), n = toDouble(call.out[next]);
         const double kink = dot(edge, m + n) / size, bend = dot(edge, n - m) / size;
         const double share = kink * kink / (kink * kink + bend * bend + kFlat);
@@ -132,7 +133,7 @@ PositionNoise sampleEdges(const NormalsCall& call) {
 
 /// Each vertex without itself: r = |z(0)| / sqrt(1 + (A^-1)_00) has the spread of the noise, on every surface that two rings
 /// show as a quadratic. By the median, so that edges and corners of the shape do not count.
-void measureNoise(const NormalGroups& groups, const Allocator* allocator, PositionNoise& noise) {
+double measureNoise(const NormalGroups& groups, const Allocator* allocator, PositionNoise& noise) {
     const std::size_t all = groups.count();
     const std::size_t samples = std::min(all, std::clamp(all / 4, kLeastVertexSamples, kMostVertexSamples));
     Buffer<float> distances(allocator, samples);
@@ -152,12 +153,19 @@ void measureNoise(const NormalGroups& groups, const Allocator* allocator, Positi
             distances[i] = static_cast<float>(std::fabs(height) / std::sqrt(1 + variance));
         });
     float* const end = std::remove_if(distances.begin(), distances.end(), [](float d) { return !(d >= 0); });
-    if (end - distances.begin() < static_cast<std::ptrdiff_t>(kLeastFits)) return;
+    if (end - distances.begin() < static_cast<std::ptrdiff_t>(kLeastFits)) return 0;
     constexpr double kMedianOfNormal = 0.6745;  // of |x| for a normal distribution
     const double sigma = medianOf(distances.begin(), end) / kMedianOfNormal;
     const double dihedral = medianDihedral(groups, allocator);
     noise.sigma = static_cast<float>(std::min(sigma, dihedral / kLeastTurnOfNoise));
     noise.noise = static_cast<float>(noisePart(sigma, noise.kink_share, dihedral));
+    return std::min(sigma, dihedral / kTurnOfNoise);
+}
+
+double roughnessOf(const NormalsCall& call) {
+    PositionNoise noise = sampleEdges(call);
+    if (!(noise.mean_edge > 0)) return 0;
+    return measureNoise(NormalGroups(call, CornerGroups(call, {}), noise.mean_edge), call.allocator, noise);
 }
 
 PositionNoise noiseOf(const MeshView& mesh, const Execution& execution, Parallel& parallel, bool wants_sigma) {

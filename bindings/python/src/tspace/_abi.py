@@ -111,6 +111,8 @@ class NormalOptions(Structure):
         ("weld_positions", c_uint32),
         ("refine", c_uint32),
         ("reserved", c_uint32),
+        ("denoise", c_float),
+        ("reserved_end", c_uint32),
     ]
 
 
@@ -121,6 +123,8 @@ class NormalReport(Structure):
         ("face_count", c_uint64),
         ("degenerate_face_count", c_uint64),
         ("fallback_corner_count", c_uint64),
+        ("noise", c_float),
+        ("crease_angle_deg", c_float),
     ]
 
 
