@@ -16,12 +16,13 @@ namespace tspace {
 
 namespace {
 
-constexpr std::uint32_t kNone = ~std::uint32_t{0};
+constexpr std::uint32_t kNoPair = ~std::uint32_t{0};
 
 /// Which corner's edge is the other side of a corner's edge, where an edge has two faces.
 class EdgePairs {
   public:
-    explicit EdgePairs(const NormalsCall& call) : call_(call), others_(call.allocator, call.mesh.cornerCount(), kNone) {
+    explicit EdgePairs(const NormalsCall& call)
+        : call_(call), others_(call.allocator, call.mesh.cornerCount(), kNoPair) {
         const std::size_t corners = call.mesh.cornerCount();
         Buffer<std::uint32_t> begins(call.allocator, call.mesh.vertexCount() + 2, 0u);
         for (std::uint32_t c = 0; c < corners; ++c) {
@@ -152,7 +153,7 @@ class CreaseFinder {
         double distances = 0;
         std::size_t edges = 0;
         for (std::uint32_t c = 0; c < call_.mesh.cornerCount(); ++c) {
-            if (pairs_.other(c) == kNone || pairs_.other(c) < c) continue;
+            if (pairs_.other(c) == kNoPair || pairs_.other(c) < c) continue;
             const Float4 apart = centre(call_.faces.of(c)) - centre(call_.faces.of(pairs_.other(c)));
             const double square = dotted(apart, apart);
             if (!std::isfinite(square)) continue;
@@ -171,7 +172,7 @@ class CreaseFinder {
         Buffer<Near> near(call_.allocator, call_.mesh.cornerCount());
         forCorners([&](std::uint32_t c) {
             const std::uint32_t f = call_.faces.of(c),
-                                g = pairs_.other(c) == kNone ? f : call_.faces.of(pairs_.other(c));
+                                g = pairs_.other(c) == kNoPair ? f : call_.faces.of(pairs_.other(c));
             const Float4 apart = centre(g) - centre(f);
             near[c] = {g, g == f ? 0 : normal(g)[3] * decay(per_place * dotted(apart, apart))};
         });
@@ -200,7 +201,7 @@ class CreaseFinder {
         angles_ = Buffer<float>(call_.allocator, call_.mesh.cornerCount(), -1.0f);
         forCorners([&](std::uint32_t c) {
             const std::uint32_t other = pairs_.other(c);
-            if (other == kNone) return;
+            if (other == kNoPair) return;
             const Float4 m = normal(call_.faces.of(std::min(c, other))), n = normal(call_.faces.of(std::max(c, other)));
             if (!(m[3] > 0) || !(n[3] > 0)) return;
             const DVec3 a{m[0], m[1], m[2]}, b{n[0], n[1], n[2]};

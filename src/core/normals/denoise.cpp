@@ -30,12 +30,12 @@ Float4 unitOr(Float4 v, Float4 other) {
 }
 
 /// A fit of some rings: its normal and the normal's variance.
-struct Fit {
+struct RingFit {
     Float4 normal = {};
     double variance = std::numeric_limits<double>::infinity();
 
-    Fit() = default;
-    Fit(const RingSums& sums, const RingFrame& frame, double noise) {
+    RingFit() = default;
+    RingFit(const RingSums& sums, const RingFrame& frame, double noise) {
         const RingSums::Rest rest = sums.slopes();
         if (!rest.is_sound) return;
         const auto& m = rest.matrix;
@@ -102,18 +102,18 @@ class Denoiser {
     }
 
     void fit(std::uint32_t group, std::uint32_t* marks, Float4 plane, Fits& fits) const {
-        Fit found[2];
+        RingFit found[2];
         if (dotted(plane, plane) > 0) {
             const RingFrame frame(plane);
             RingWalk walk(groups_, marks, group);
             RingSums sums;
             if (walk.grow()) {
                 std::size_t begin = 0;
-                for (Fit& fit : found) {
+                for (RingFit& fit : found) {
                     if (!walk.grow()) break;
                     sums.add(groups_, frame, walk, begin);
                     begin = walk.size();
-                    fit = Fit(sums, frame, noise_);
+                    fit = RingFit(sums, frame, noise_);
                 }
             }
         }

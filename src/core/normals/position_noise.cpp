@@ -39,7 +39,7 @@ double medianOf(float* begin, float* end) {
 }
 
 /// 3 u^2 - 2 u^3 of the place between two values.
-double step(double low, double high, double value) {
+double smoothStep(double low, double high, double value) {
     const double u = std::clamp((value - low) / (high - low), 0.0, 1.0);
     return u * u * (3 - 2 * u);
 }
@@ -93,8 +93,8 @@ double noisePart(double sigma, double kink_share, double dihedral) {
     // What a clean mesh shows of its shape as kinks, and as sigma, grow together.
     const double high = std::min(0.5, kNoisyShare + 5 * sigma);
     const double turn = dihedral / (kTurnOfNoise * sigma);
-    const double part =
-        std::min(sigma, dihedral / kLeastTurnOfNoise) * step(high / 2, high, kink_share) * step(0.25, 0.5, turn);
+    const double part = std::min(sigma, dihedral / kLeastTurnOfNoise) * smoothStep(high / 2, high, kink_share) *
+                        smoothStep(0.25, 0.5, turn);
     return part >= kLeast ? part : 0;
 }
 
