@@ -95,10 +95,10 @@ from ._files import (
     inspect,
 )
 from ._indexed import IndexedFrames, IndexedFramesReport, make_indexed_frames
-from ._normals import NormalResult, normals
+from ._normals import NormalResult, normals, position_noise
 from ._options import Convention
 from ._pack import PackResult, pack_frames, unpack_frames
-from ._reports import NormalReport, PackReport, SanitizeReport, TangentReport
+from ._reports import NormalReport, PackReport, PositionNoise, SanitizeReport, TangentReport
 from ._sanitize import SanitizeResult, sanitize
 from ._split import Split, Triangles, split, triangulate
 from ._tangents import Plan, TangentResult, tangents
@@ -128,6 +128,7 @@ __all__ = [
     "PackReport",
     "PackResult",
     "Plan",
+    "PositionNoise",
     "ReadWriteError",
     "Report",
     "SanitizeReport",
@@ -149,6 +150,7 @@ __all__ = [
     "make_indexed_frames",
     "normals",
     "pack_frames",
+    "position_noise",
     "sanitize",
     "split",
     "tangents",

@@ -5,7 +5,7 @@ ctypes lets go of the interpreter's lock for the time of each call.
 """
 
 import ctypes
-from ctypes import POINTER, Structure, c_char, c_char_p, c_float, c_size_t, c_uint32, c_uint64, c_void_p
+from ctypes import POINTER, Structure, c_char, c_char_p, c_double, c_float, c_size_t, c_uint32, c_uint64, c_void_p
 from pathlib import Path
 
 METHODS = {
@@ -125,6 +125,16 @@ class NormalReport(Structure):
         ("fallback_corner_count", c_uint64),
         ("noise", c_float),
         ("crease_angle_deg", c_float),
+    ]
+
+
+class PositionNoise(Structure):
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("sigma", c_float),
+        ("kink_share", c_float),
+        ("noise", c_float),
+        ("mean_edge", c_double),
     ]
 
 
@@ -298,6 +308,13 @@ declare(
             Span,
             POINTER(Execution),
             POINTER(NormalReport),
+            POINTER(Error),
+        ),
+        "tspace_measurePositionNoise": (
+            c_uint32,
+            POINTER(Mesh),
+            POINTER(Execution),
+            POINTER(PositionNoise),
             POINTER(Error),
         ),
         "tspace_generateTangents": (

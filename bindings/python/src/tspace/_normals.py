@@ -11,7 +11,7 @@ from . import _abi
 from ._arrays import check_apart, output_array, uint32_array, write_span
 from ._mesh import Mesh
 from ._options import ConventionLike, convention_struct, execution, named, real_or_auto, small_number
-from ._reports import NormalReport, report
+from ._reports import NormalReport, PositionNoise, report
 
 
 class NormalResult(NamedTuple):
@@ -144,3 +144,19 @@ def normals(
     ):
         mesh.fail(error)
     return NormalResult(result, report(NormalReport, counts)) if full else result
+
+
+def position_noise(
+    positions: Any, indices: Any = None, *, face_sizes: Any = None, threads: Union[int, str] = 1
+) -> PositionNoise:
+    """Measures the noise in the positions of a mesh: `noise` is what `normals(..., denoise="auto")` removes.
+
+    positions, indices, face_sizes, threads: as for `normals`
+    """
+    mesh = Mesh(positions, None, None, indices, face_sizes)
+    run = execution(threads)
+    found = _abi.PositionNoise(ctypes.sizeof(_abi.PositionNoise))
+    error = _abi.Error()
+    if _abi.library.tspace_measurePositionNoise(byref(mesh.struct), byref(run), byref(found), byref(error)):
+        mesh.fail(error)
+    return report(PositionNoise, found)
