@@ -25,7 +25,7 @@ TWINS = {
 # Only in C (regular expressions; a type stands for its fields) -> why.
 C_ALONE = {
     r"tspace_version": "C++ programs read version.h: they are linked with the library that they were compiled with",
-    r"\w+\.(struct_size|reserved)": "old programs with newer libraries",
+    r"\w+\.(struct_size|reserved(_end)?)": "old programs with newer libraries",
     r"tspace_Span": "a StridedSpan of what is not const",
     r"tspace_(Mesh\.face|NormalOptions\.smoothing_group|IndexedFramesOptions\.keep_apart)_count": "a span has its length",
     r"tspace_((SplitResult|IndexedFrames)\.corner|Triangulation\.triangle)_count": "a vector has its length",
@@ -46,6 +46,7 @@ CPP_ALONE = {
     r"Result|Done|Error::place": "C returns a code, and the place is part of the message",
     r"State|TangentPlan::state": "private",
     r"(action|faces|frameFormat|severity|signReading)Name|finding\w+": "reports of files have these names and texts in their JSON",
+    r"NormalOptions::(crease|denoise)_auto": "-1 in C",
     r"removeAbandonedFiles": "a matter of the tool",
     r"Cancelled": "C has no function that is told of progress",
 }
@@ -61,6 +62,7 @@ PHRASES = {
     r"`?conventions::(\w+)`?": r'"\1"',
     r"those of heightToNormal and of convertMapFile": "those of readers of models; CANNOT_READ, CANNOT_WRITE, "
     "UNSUPPORTED_FILE, INVALID_FILE (an image that cannot be read), INVALID_OPTION, TOO_LARGE, OUT_OF_MEMORY",
+    r"`?(crease|denoise)_auto`?": "-1",
     r"mesh\.vertexCount\(\)": "mesh->positions.count",
     r"Returns null for any other name\.": "INVALID_OPTION for any other name.",
 }

@@ -19,7 +19,10 @@ int main(int argc, char** argv) {
     CLI11_PARSE(app, argc, argv);
 
     const tspace::accuracy::Study study = tspace::accuracy::runStudy(options);
-    if (json != "-") printTables(study);
+    if (json != "-") {
+        printTables(study);
+        printScans(options);
+    }
     if (!json.empty() && !writeJson(study, json)) {
         std::fprintf(stderr, "accuracy: cannot write %s\n", json.c_str());
         return 4;

@@ -10,6 +10,8 @@ namespace tspace::accuracy {
 
 /// What is asked of `fast` and `best`, beside what was measured, and then every figure of every method.
 void printTables(const Study& study);
+/// A table of normals on scans.
+void printScans(const StudyOptions& options);
 /// All figures. `path`: a file, or "-" for stdout. False when it cannot be written.
 bool writeJson(const Study& study, const std::string& path);
 

@@ -365,6 +365,7 @@ struct PrimitiveInfo {
     std::int32_t uv_set = -1;                       ///< the UV set that tangents would follow, or -1
     std::uint64_t degenerate_uv_count = 0;          ///< triangles without UV area in that set
     std::uint64_t degenerate_triangle_count = 0;    ///< triangles with two corners at one position
+    double position_noise = 0;  ///< PositionNoise::noise of its triangles: 0 where positions are not noisy
     /// Triangles that show the texture mirrored (V direction and KHR_texture_transform considered).
     std::uint64_t mirrored_triangle_count = 0;
     std::uint32_t uv_island_count = 0;        ///< connected pieces of the UV map

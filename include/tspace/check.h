@@ -72,8 +72,9 @@ enum class FindingCode : std::uint32_t {
     normalMapIsHeight = 44,       ///< the image is grey
     normalMapScale = 45,          ///< normalTexture.scale is 0 or below
     normalMapIsPicture = 46,      ///< colors, which are no unit vectors
+    positionsNoisy = 47,          ///< positions that lie beside any smooth surface at random, as those of scans do
 };
-inline constexpr std::uint32_t kFindingCodeCount = 47;
+inline constexpr std::uint32_t kFindingCodeCount = 48;
 
 /// Stable lowerCamelCase name: the name of the enumerator.
 const char* findingName(FindingCode code);

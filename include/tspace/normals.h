@@ -34,9 +34,14 @@ struct NormalOptions {
 
     // All but `flat`:
 
+    static constexpr float crease_auto = -1.0f;   ///< for `crease_angle_deg`
+    static constexpr float denoise_auto = -1.0f;  ///< for `denoise`
+
     /// Degrees, 0..180. Two faces that share an edge are smoothed over it only when their normals differ by no more
     /// than this (and 1e-6 rad for rounding). 180, the default, because no angle fits all models: never hard (except by
     /// smoothing groups); then all faces at a point are smoothed together, also those that share no edge.
+    /// `crease_auto`: by the mesh. The angle is in the widest gap between those that most edges have and those that few
+    /// have, and noise of positions is filtered out before. NormalReport says which it is.
     float crease_angle_deg = 180.0f;
     /// One number per face, or empty. Faces smooth together only when their numbers are equal and not 0 (OBJ `s`),
     /// or, with `smoothing_groups_are_masks`, when they have a bit in common (3ds Max). Connections pass on: where A is
@@ -52,6 +57,13 @@ struct NormalOptions {
     /// across them, as far as these agree. 1: a third less error at vertices and in what is shaded between them. 2:
     /// another quarter less. 0: the fit alone.
     std::uint32_t refine = 2;
+    /// For meshes whose positions are noisy: scans, marching cubes of a noisy field. Vertices stay; at each the normals of
+    /// quadratic surfaces through two and three rings around it are blended with that of `best`, by how far each is likely
+    /// to err. 0, the default: off. `denoise_auto`: by the noise that is measured. Where there is none, or what there is
+    /// looks like shape (CAD, bevels, decimated meshes), results have the bits of 0. Above 0, up to 4: so many times the
+    /// noise that is measured, whatever it looks like. 3 is for noise that is smooth from vertex to vertex, which no
+    /// measure tells from detail. Hard edges hold: no surface goes through points on both sides.
+    float denoise = 0;
 };
 
 /// Counts of faces and defects of the input. Broken input never makes the call fail.
@@ -59,6 +71,12 @@ struct NormalReport {
     std::uint64_t face_count = 0;             ///< faces with at least 3 corners
     std::uint64_t degenerate_face_count = 0;  ///< faces without a normal (zero area or not finite)
     std::uint64_t fallback_corner_count = 0;  ///< corners whose mean vanished: they got a substitute, see below
+    /// What `denoise` removed: the standard deviation of positions along the normal, in mean edge lengths. 0: it was not
+    /// asked, or found no noise, and changed no bit.
+    float noise = 0;
+    /// The angle that edges were held against: as given, or as found by the mesh. That holds, where positions are noisy,
+    /// for faces that were smoothed. `flat`: 0.
+    float crease_angle_deg = 0;
 };
 
 /// Computes one unit normal per corner of the mesh.

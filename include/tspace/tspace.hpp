@@ -10,6 +10,7 @@
 #include "tspace/mesh.h"
 #include "tspace/normals.h"
 #include "tspace/pack.h"
+#include "tspace/position_noise.h"
 #include "tspace/result.h"
 #include "tspace/sanitize.h"
 #include "tspace/span.h"

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <cmath>
+
 #include "support/shared_data.h"
 #include "tool/run_tool.h"
 
@@ -338,6 +340,61 @@ TEST(Generate, ThreadsChangeNoByte) {
         ASSERT_EQ(runTool(folder, "generate in.obj --all -o t" + n + ".glb --threads " + n).exit_code, 0);
         EXPECT_EQ(folder.read("t" + n + ".glb"), folder.read("t1.glb"));
     }
+}
+
+/// A tube of 40 x 120 squares whose points lie beside it by up to a fifth of an edge.
+void writeNoisyTube(const TempFolder& folder, const std::string& name, bool is_noisy) {
+    constexpr int kSides = 40, kRows = 120;
+    std::string text;
+    std::uint32_t state = 1;
+    for (int row = 0; row <= kRows; ++row) {
+        for (int side = 0; side < kSides; ++side) {
+            state = state * 1664525u + 1013904223u;
+            const double away = is_noisy ? 0.03 * (2 * (state >> 8) / double{1 << 24} - 1) : 0;
+            const double angle = 2 * 3.14159265358979 * side / kSides, radius = 1 + away;
+            text += "v " + std::to_string(radius * std::cos(angle)) + " " + std::to_string(radius * std::sin(angle)) +
+                    " " + std::to_string(0.157 * row) + "\n";
+        }
+    }
+    for (int row = 0; row < kRows; ++row) {
+        for (int side = 0; side < kSides; ++side) {
+            const int a = 1 + row * kSides + side, b = 1 + row * kSides + (side + 1) % kSides;
+            const auto face = [&](int x, int y, int z) {
+                text += "f " + std::to_string(x) + " " + std::to_string(y) + " " + std::to_string(z) + "\n";
+            };
+            face(a, b, b + kSides);
+            face(a, b + kSides, a + kSides);
+        }
+    }
+    folder.write(name, text);
+}
+
+TEST(Generate, TakesNoiseOutOfNormalsAndSaysSo) {
+    const TempFolder folder;
+    writeNoisyTube(folder, "noisy.obj", true);
+    writeNoisyTube(folder, "clean.obj", false);
+    const std::string command = " --all --method basis --normals best --denoise auto --crease auto";
+    const ToolRun noisy = runTool(folder, "generate noisy.obj -o noisy.glb" + command);
+    EXPECT_EQ(noisy.exit_code, 0) << noisy.err;
+    EXPECT_NE(noisy.out.find("its positions are noisy, by 0.1"), std::string::npos) << noisy.out;
+    EXPECT_NE(noisy.out.find("degrees are hard (--crease auto)"), std::string::npos) << noisy.out;
+    const ToolRun clean = runTool(folder, "generate clean.obj -o clean.glb" + command);
+    EXPECT_EQ(clean.out.find("noisy"), clean.out.find("no positions are noisy") + 17) << clean.out;
+    const ToolRun other =
+        runTool(folder, "generate noisy.obj -o other.glb --all --method basis --normals area --denoise 2");
+    EXPECT_NE(other.out.find("--denoise has no effect: it is for --normals best"), std::string::npos) << other.out;
+    for (const char* wrong : {"--denoise 5", "--denoise loud", "--crease -1", "--crease 181"})
+        EXPECT_EQ(runTool(folder, std::string("generate noisy.obj -o x.glb ") + wrong).exit_code, 2) << wrong;
+}
+
+TEST(Check, NotesNoisyPositions) {
+    const TempFolder folder;
+    writeNoisyTube(folder, "noisy.obj", true);
+    writeNoisyTube(folder, "clean.obj", false);
+    EXPECT_NE(runTool(folder, "check noisy.obj").out.find("positionsNoisy"), std::string::npos);
+    EXPECT_EQ(runTool(folder, "check clean.obj").out.find("positionsNoisy"), std::string::npos);
+    EXPECT_NE(runTool(folder, "inspect noisy.obj").out.find("noisy, by 0.1"), std::string::npos);
+    EXPECT_EQ(runTool(folder, "inspect clean.obj").out.find("noisy"), std::string::npos);
 }
 
 }  // namespace

@@ -13,25 +13,28 @@ const methods = ["mikktspace", "lengyel", "uniform", "angle", "area", "flat", "b
 const tangentOptions = [...mikktspaceOptions, "frame", "refine"];
 const choices = { methods, ngons: ["triangulate", "skip"], options: tangentOptions };
 const weightings = ["flat", "uniform", "area", "angle", "angleArea", "max", "best"];
-const normalOptions = ["weighting", "creaseAngle", "smoothingGroups", "smoothingGroupsAreMasks", "weldPositions", "refine"];
+const normalOptions = ["weighting", "creaseAngle", "smoothingGroups", "smoothingGroupsAreMasks", "weldPositions", "refine", "denoise"];
 const steps = ["makeNormals", "sanitize", "orthogonalizeAll"];
 const windingCounts = [
   "faceCount", "turnedCount", "conflictCountBefore", "conflictCountAfter", "componentCount", "turnedComponentCount", "byNormalsCount",
   "byVolumeCount", "byNestingCount", "byWindingNumberCount", "byMajorityCount", "smallCount", "oneSidedCount",
 ];
-const normalCounts = ["faceCount", "degenerateFaceCount", "fallbackCornerCount"];
+const normalCounts = ["faceCount", "degenerateFaceCount", "fallbackCornerCount", "noise", "creaseAngle"];
 
 export const { generateTangents, sanitizeTangents, splitVertices } = makeCalls(wasm, choices);
+
+const numberOrAuto = (value, name) => (value === "auto" ? -1 : number(value, name));
 
 /** What the module takes for options of normals: a function, since groups are copied for a call. */
 function normalArguments(options) {
   const groups = integers(options.smoothingGroups, "smoothingGroups");
-  const before = [choice(options.weighting ?? "angle", "weighting", weightings), number(options.creaseAngle ?? 180, "creaseAngle")];
+  const before = [choice(options.weighting ?? "angle", "weighting", weightings), numberOrAuto(options.creaseAngle ?? 180, "creaseAngle")];
   const after = [
     boolean(options.smoothingGroupsAreMasks ?? false, "smoothingGroupsAreMasks"),
     boolean(options.weldPositions ?? true, "weldPositions"),
     conventionBits(options.convention ?? "gltf"), // of which handedness and winding count here
     count(options.refine ?? 2, "refine"),
+    numberOrAuto(options.denoise ?? 0, "denoise"),
   ];
   return (call) => [...before, call.put(groups, Uint32Array), groups?.length ?? 0, ...after];
 }

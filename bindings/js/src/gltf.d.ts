@@ -125,8 +125,10 @@ export interface GenerateOptions extends ModelOptions, ImageOptions, WatchOption
   packDrop?: "nothing" | "tangents" | "all";
   /** How normals are made where they are missing. */
   normals?: "flat" | "uniform" | "area" | "angle" | "angle-area" | "max" | "best";
-  /** Degrees. */
+  /** Degrees, or "auto". */
   crease?: number | string;
+  /** For `best` on noisy positions: "auto", or 0 to 4 times the noise that is measured. */
+  denoise?: number | string;
   /** Normals of each primitive from its own triangles; else they are smooth over the borders of primitives of one mesh. */
   normalsPerPrimitive?: boolean;
   /** Normals that are there are made anew too, and the tangents that are there with them. */

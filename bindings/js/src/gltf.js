@@ -36,7 +36,7 @@ const watched = ["decodeImage", "onProgress", "convention", "faces"];
 const known = {
   generate: [
     "name", ...ofAll, ...watched, "all", "onlyMissing", "overwrite", "repair", "strip", "method", "pairing", "threshold", "frame", "refine",
-    "textureTransform", "bitangents", "format", "pack", "packDrop", "normals", "crease", "normalsPerPrimitive",
+    "textureTransform", "bitangents", "format", "pack", "packDrop", "normals", "crease", "denoise", "normalsPerPrimitive",
     "overwriteNormals", "morphNormals", "compress", "flipGreen", "flipGreenAll", "mendMaps", "mendWinding", "encodeImage",
     "noSanitize", "orthogonalize", "keepCoordinates", "dryRun",
   ],

@@ -25,13 +25,17 @@ export interface NormalReport {
   degenerateFaceCount: number;
   /** Corners whose mean vanished and that got a substitute. */
   fallbackCornerCount: number;
+  /** Noise of positions that `denoise` removed: standard deviation in mean edge lengths; 0: none. */
+  noise: number;
+  /** The angle that edges were held against: as given, or what "auto" found. */
+  creaseAngle: number;
 }
 
 export interface NormalOptions {
   /** How much a face counts at a corner; `angle` unless given. */
   weighting?: "flat" | "uniform" | "area" | "angle" | "angleArea" | "max" | "best";
-  /** Degrees, 0 to 180, 180 unless given: edges whose faces differ by more are hard. */
-  creaseAngle?: number;
+  /** Degrees, 0 to 180, 180 unless given: edges whose faces differ by more are hard. "auto": an angle by the mesh. */
+  creaseAngle?: number | "auto";
   /** One number per face: faces are smooth together only when their numbers are equal and not 0. */
   smoothingGroups?: Indices | null;
   /** Or, with true, when they have a bit in common. */
@@ -42,6 +46,11 @@ export interface NormalOptions {
   convention?: ConventionName | Convention;
   /** 0, 1 or 2 (the default) steps after the fit of `best`. */
   refine?: 0 | 1 | 2;
+  /**
+   * For `best` on noisy positions: normals by more of the surface around. "auto": as much as is measured, and nothing where
+   * that is shape; 0 (the default) to 4: so many times the noise that is measured, also where it looks like shape.
+   */
+  denoise?: number | "auto";
   report?: Partial<NormalReport>;
 }
 

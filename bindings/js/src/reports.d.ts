@@ -229,6 +229,10 @@ export interface GeneratedNormals {
   degenerateFaces: number;
   /** Corners whose mean vanished. */
   fallbackCorners: number;
+  /** Noise of positions that --denoise removed, as a standard deviation in mean edge lengths; 0: none. */
+  noise: number;
+  /** Edges sharper than this are hard; 180: none is by its angle. */
+  creaseDeg: number;
 }
 
 export interface GeneratedTangents {
@@ -469,6 +473,9 @@ export interface InspectedPrimitive {
   degenerateUvTriangles: number;
   /** Triangles with two corners at one position. */
   degenerateTriangles: number;
+  /** Random offsets of positions, as a standard deviation along the normal in mean edge lengths; 0: less than .03, or less
+   * than 1,000 triangles. */
+  positionNoise: number;
   /** Triangles that show the texture mirrored. */
   mirroredTriangles: number;
   /** Connected pieces of the UV map. */

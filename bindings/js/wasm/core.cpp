@@ -25,7 +25,7 @@ TangentOptions tangentOptions(std::uint32_t method, float threshold_deg, std::ui
 
 NormalOptions normalOptions(std::uint32_t weighting, float crease_angle_deg, const std::uint32_t* groups,
                             std::size_t group_count, bool groups_are_masks, bool weld_positions,
-                            std::uint32_t convention, std::uint32_t refine) {
+                            std::uint32_t convention, std::uint32_t refine, float denoise) {
     NormalOptions options;
     options.weighting = static_cast<NormalWeighting>(weighting);
     options.crease_angle_deg = crease_angle_deg;
@@ -34,6 +34,7 @@ NormalOptions normalOptions(std::uint32_t weighting, float crease_angle_deg, con
     options.weld_positions = weld_positions;
     options.convention = conventionOf(convention);
     options.refine = refine;
+    options.denoise = denoise;
     return options;
 }
 
@@ -76,13 +77,15 @@ TSPACE_JS_EXPORT(destroyPlan) void destroyPlan(TangentPlan* plan) { delete plan;
 TSPACE_JS_EXPORT(generateNormals)
 std::uint32_t normals(std::uint32_t weighting, float crease_angle_deg, const std::uint32_t* groups,
                       std::size_t group_count, bool groups_are_masks, bool weld_positions, std::uint32_t convention,
-                      std::uint32_t refine, float* out) {
+                      std::uint32_t refine, float denoise, float* out) {
     const auto options = normalOptions(weighting, crease_angle_deg, groups, group_count, groups_are_masks,
-                                       weld_positions, convention, refine);
+                                       weld_positions, convention, refine, denoise);
     auto result = generateNormals(mesh(), options, vec3Span(out, mesh().cornerCount()));
     if (!result) return codeOf(result);
     const std::uint64_t counts[] = {result->face_count, result->degenerate_face_count, result->fallback_corner_count};
     keepCounts(counts);
+    js::report[3] = double{result->noise};
+    js::report[4] = double{result->crease_angle_deg};
     return 0;
 }
 
@@ -110,11 +113,12 @@ std::uint32_t frames(std::uint32_t method, float threshold_deg, std::uint32_t pa
                      std::uint32_t convention, std::uint32_t frame, std::uint32_t refine, bool make_normals,
                      bool sanitize, bool orthogonalize_all, std::uint32_t weighting, float crease_angle_deg,
                      const std::uint32_t* groups, std::size_t group_count, bool groups_are_masks, bool weld_positions,
-                     std::uint32_t normal_convention, std::uint32_t normal_refine, std::uint32_t* result) {
+                     std::uint32_t normal_convention, std::uint32_t normal_refine, float normal_denoise,
+                     std::uint32_t* result) {
     IndexedFramesOptions options;
     options.tangents = tangentOptions(method, threshold_deg, pairing, ngons, convention, frame, refine);
     options.normals = normalOptions(weighting, crease_angle_deg, groups, group_count, groups_are_masks, weld_positions,
-                                    normal_convention, normal_refine);
+                                    normal_convention, normal_refine, normal_denoise);
     options.make_normals = make_normals;
     options.sanitize = sanitize;
     options.orthogonalize_all = orthogonalize_all;

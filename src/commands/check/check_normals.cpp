@@ -5,6 +5,7 @@
 
 #include "commands/check/findings.h"
 #include "commands/check/primitive_checks.h"
+#include "commands/shared/noted_noise.h"
 #include "core/base/angle.h"
 #include "core/base/unit.h"
 #include "core/mesh/surface/equal_vertices.h"
@@ -155,6 +156,16 @@ void checkPositions(PrimitiveFacts& facts) {
     if (bad.count == 0) return;
     facts.add(FindingCode::positionsNotFinite, Severity::error, bad, "vertices",
               "the positions of " + countText(bad, "vertices") + " are NaN or infinite");
+}
+
+/// Random offsets of positions, by the mesh alone: what the file has as normals may well be without them.
+void checkNoise(PrimitiveFacts& facts) {
+    const double noise = notedNoise(facts.mesh.triangles(), facts.mesh.position_step);
+    if (noise == 0) return;
+    Tally all{.count = facts.mesh.positions.size(), .total = facts.mesh.positions.size()};
+    facts.add(FindingCode::positionsNoisy, Severity::note, all, "vertices",
+              "its positions are noisy: they lie " + stepText(noise) +
+                  " of the length of an edge beside a smooth surface, in the mean square");
 }
 
 void checkNormals(PrimitiveFacts& facts) {

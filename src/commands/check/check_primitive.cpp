@@ -79,6 +79,7 @@ Result<PrimitiveVerdict> judgePrimitive(const ScenePrimitive& primitive, const C
     checkPositions(facts);
     checkRounding(facts);
     checkNormals(facts);
+    checkNoise(facts);
     checkMorphValues(facts);
     checkMorphNormals(facts);
     checkUvs(facts);

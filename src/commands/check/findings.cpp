@@ -106,6 +106,10 @@ constexpr std::array<CodeText, kFindingCodeCount> kCodes{{
     {"normalMapIsHeight", "Make a normal map of it: tspace height-to-normal MAP -o OUT.png --strength S"},
     {"normalMapScale", "Give the texture a scale above 0, or take the normal map away, if that is what is meant."},
     {"normalMapIsPicture", "Put the normal map there that is meant, or take this one away: it may be the base color."},
+    {"positionsNoisy",
+     "Nothing needs to be done if it is shaded smoothly. Else make normals without the noise, which leaves vertices "
+     "where "
+     "they are: tspace generate --overwrite-normals --normals best --denoise auto."},
 }};
 
 }  // namespace
@@ -177,6 +181,7 @@ const char* findingSummary(FindingCode code) {
         "A grey image is used as a normal map.",
         "The scale of a normal map is 0 or below.",
         "A picture in colors is used as a normal map.",
+        "Positions are noisy.",
     };
     static_assert(kSummaries.size() == kFindingCodeCount);
     const auto number = static_cast<std::size_t>(code);

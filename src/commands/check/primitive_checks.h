@@ -53,6 +53,7 @@ Result<std::vector<Finding>> checkPrimitive(const ScenePrimitive& primitive, con
 // were made on quads: `facts` then has those.
 void checkPositions(PrimitiveFacts& facts);
 void checkNormals(PrimitiveFacts& facts);
+void checkNoise(PrimitiveFacts& facts);
 void checkMorphValues(PrimitiveFacts& facts);
 void checkMorphNormals(PrimitiveFacts& facts);
 void checkUvs(PrimitiveFacts& facts);

@@ -185,6 +185,26 @@ void addMapOptions(OptionList& list, GenerateOptions& options) {
         .excludes = {"--flip-green", "--flip-green-all", "--mend-maps", "--repair"};
 }
 
+/// A number from 0 to `most`, or "auto".
+Option numberOrAuto(const char* names, const char* value_name, float& target, float automatic, int most,
+                    HelpText help) {
+    const double default_value = target;
+    const auto take = [&target, automatic, most](const std::string& given) -> std::string {
+        double number = 0;
+        if (given == "auto") {
+            target = automatic;
+        } else if (parseReal(given, number) && number >= 0 && number <= most) {
+            target = static_cast<float>(number);
+        } else {
+            return "must be auto or a number from 0 to " + std::to_string(most);
+        }
+        return {};
+    };
+    Option made = option(names, value_name, take, std::move(help));
+    made.default_text = std::to_string(static_cast<int>(default_value));
+    return made;
+}
+
 void addOtherOptions(OptionList& list, GenerateOptions& options) {
     Option& weighting =
         add(list, "Normals",
@@ -195,9 +215,16 @@ void addOtherOptions(OptionList& list, GenerateOptions& options) {
                    "with angle weights."));
     weighting.default_text.clear();
     add(list, "Normals",
-        degrees("--crease", options.normals.crease_angle_deg, 180,
-                "For normals that are made: edges sharper than this stay hard. In degrees, 0 to 180; 180 makes none "
-                "hard. Given without --normals it takes the weights of angle."));
+        numberOrAuto(
+            "--crease", "DEG", options.normals.crease_angle_deg, NormalOptions::crease_auto, 180,
+            "For normals that are made: edges sharper than this stay hard. In degrees, 0 to 180; 180 makes none "
+            "hard. auto: an angle by the mesh, which the report says. Given without --normals it takes the "
+            "weights of angle."));
+    add(list, "Normals",
+        numberOrAuto("--denoise", "FACTOR", options.normals.denoise, NormalOptions::denoise_auto, 4,
+                     "For --normals best on noisy positions, such as scans: normals by more of the surface around, so "
+                     "that noise is not shaded. Vertices stay. auto: as much as is measured, and nothing where that is "
+                     "shape; 0 to 4: so many times the noise that is measured, also where it looks like shape."));
     add(list, "Normals",
         flag("--normals-per-primitive", options.normals_per_primitive,
              "Make the normals of each primitive from its own triangles. By default they are smooth over the border of "

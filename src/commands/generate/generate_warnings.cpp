@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "core/base/short_number.h"
+
 namespace tspace {
 
 namespace {
@@ -66,6 +68,29 @@ bool any(const GenerateReport& report, const Test& test) {
     return std::any_of(report.primitives.begin(), report.primitives.end(), test);
 }
 
+/// What was found where the options leave it to the mesh.
+void noteFoundValues(const NormalOptions& options, GenerateReport& report) {
+    for (PrimitiveReport& primitive : report.primitives) {
+        if (!primitive.normals_generated) continue;
+        const NormalReport& normals = primitive.normals;
+        if (options.crease_angle_deg == NormalOptions::crease_auto && options.weighting != NormalWeighting::flat)
+            primitive.notes.push_back("edges sharper than " + shortNumber(normals.crease_angle_deg) +
+                                      " degrees are hard (--crease auto)");
+        if (normals.noise > 0)
+            primitive.notes.push_back("its positions are noisy, by " + shortNumber(normals.noise) +
+                                      " of an edge: normals were made without that (--denoise)");
+    }
+}
+
+void warnOfNoise(const GenerateOptions& options, bool any_made, GenerateReport& report) {
+    if (options.normals.denoise == 0 || !any_made) return;
+    const bool any_denoised = any(report, [](const auto& primitive) { return primitive.normals.noise > 0; });
+    if (options.normals.weighting != NormalWeighting::best)
+        warn({"--denoise"}, "it is for --normals best", report);
+    else if (!any_denoised)
+        warn({"--denoise"}, "no positions are noisy", report);
+}
+
 void warnOfNormals(const GenerateOptions& options, GenerateReport& report) {
     const GenerateOptions plain;
     std::vector<std::string> idle;
@@ -79,6 +104,7 @@ void warnOfNormals(const GenerateOptions& options, GenerateReport& report) {
         const bool is_weighted = options.normals.weighting != plain.normals.weighting && !follows;
         if (is_weighted && !options.overwrite_normals) idle.emplace_back("--normals");
         if (has_crease) idle.emplace_back("--crease");
+        if (options.normals.denoise != 0) idle.emplace_back("--denoise");
         if (options.normals_per_primitive) idle.emplace_back("--normals-per-primitive");
         warn(idle,
              options.overwrite_normals
@@ -86,6 +112,8 @@ void warnOfNormals(const GenerateOptions& options, GenerateReport& report) {
                  : "no normals were made; those that are there stay (--overwrite-normals makes them anew)",
              report);
     }
+    noteFoundValues(options.normals, report);
+    warnOfNoise(options, any_made, report);
     const bool morphs = any(report, [](const auto& primitive) { return primitive.morph_normals_computed != 0; });
     if (options.morph_normals != MorphNormals::keep && !morphs) {
         const bool any_target = any(report, [](const auto& primitive) { return primitive.morph_target_count != 0; });

@@ -4,6 +4,7 @@
 
 #include "commands/inspect/inspect.h"
 #include "commands/inspect/uv_map.h"
+#include "commands/shared/noted_noise.h"
 #include "model/gltf/accessor.h"
 #include "model/gltf/draco_primitives.h"
 #include "model/gltf/material_needs.h"
@@ -94,6 +95,10 @@ void describeTriangles(const Document& document, const Primitive& primitive, boo
     std::vector<Vec2> uvs;
     if (info.uv_set >= 0) uvs = readUvs(document, primitive, static_cast<std::size_t>(info.uv_set));
     describeUvMap(corners, positions, uvs, !is_mirrored, info);
+    MeshView triangles;
+    triangles.positions = std::span(positions);
+    triangles.indices = IndexView(std::span(corners));
+    info.position_noise = notedNoise(triangles);
 }
 
 void describeUses(const std::vector<TangentUse>& uses, PrimitiveInfo& info) {

@@ -47,6 +47,7 @@ Json inspectedPrimitiveJson(const PrimitiveInfo& primitive) {
         {"uvSet", primitive.uv_set},
         {"degenerateUvTriangles", primitive.degenerate_uv_count},
         {"degenerateTriangles", primitive.degenerate_triangle_count},
+        {"positionNoise", primitive.position_noise},
         {"mirroredTriangles", primitive.mirrored_triangle_count},
         {"uvIslands", primitive.uv_island_count},
         {"mirroredUvIslands", primitive.mirrored_island_count},

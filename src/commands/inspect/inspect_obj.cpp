@@ -4,6 +4,7 @@
 
 #include "commands/inspect/inspect.h"
 #include "commands/inspect/uv_map.h"
+#include "commands/shared/noted_noise.h"
 #include "model/io/file_error.h"
 #include "model/obj/obj_primitives.h"
 #include "model/obj/obj_reader.h"
@@ -44,6 +45,7 @@ PrimitiveInfo describePrimitive(const Model& model, const ObjPrimitive& primitiv
     for (const std::uint32_t corner : triangles.corners) corners.push_back(geometry.polygons.indices[corner]);
     info.triangle_count = corners.size() / 3;
     describeUvMap(corners, geometry.pool.positions, geometry.pool.uvs, true, info);
+    info.position_noise = notedNoise(geometry.view());
     return info;
 }
 

@@ -121,6 +121,11 @@ std::string primitiveRows(const PrimitiveInfo& primitive) {
         table.addRow(
             {"faults", counted(primitive.degenerate_triangle_count, "triangle") + " with two corners at one place"});
     }
+    if (primitive.position_noise != 0) {
+        table.addRow({"positions", fmt::format("noisy, by {:.2g} of an edge; normals without that: tspace generate "
+                                               "--overwrite-normals --normals best --denoise auto",
+                                               primitive.position_noise)});
+    }
     return fmt::format("  mesh {}{}, primitive {}{}\n{}", primitive.mesh, name, primitive.primitive, material,
                        table.text("    "));
 }

@@ -50,6 +50,12 @@ inline constexpr std::size_t kSizes[] = {sizeof(Struct)};
 template <>
 inline constexpr std::size_t kSizes<tspace_Mesh>[] = {offsetof(tspace_Mesh, normal_indices), sizeof(tspace_Mesh)};
 template <>
+inline constexpr std::size_t kSizes<tspace_NormalOptions>[] = {offsetof(tspace_NormalOptions, denoise),
+                                                               sizeof(tspace_NormalOptions)};
+template <>
+inline constexpr std::size_t kSizes<tspace_NormalReport>[] = {offsetof(tspace_NormalReport, noise),
+                                                              sizeof(tspace_NormalReport)};
+template <>
 inline constexpr std::size_t kSizes<tspace_SanitizeReport>[] = {offsetof(tspace_SanitizeReport, placeholder_count),
                                                                 sizeof(tspace_SanitizeReport)};
 

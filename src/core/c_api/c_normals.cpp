@@ -3,6 +3,7 @@
 #include "tspace/normals.h"
 
 #include "core/c_api/c_convert.h"
+#include "tspace/position_noise.h"
 
 using namespace tspace;         // NOLINT: this file only forwards
 using namespace tspace::c_api;  // NOLINT
@@ -47,6 +48,7 @@ NormalOptions toOptions(const tspace_NormalOptions& options) {
     result.weld_positions = options.weld_positions != 0;
     result.convention = toConvention(options.convention);
     result.refine = options.refine;
+    result.denoise = options.denoise;
     return result;
 }
 
@@ -56,6 +58,8 @@ tspace_NormalReport toReport(const NormalReport& report) {
     made.face_count = report.face_count;
     made.degenerate_face_count = report.degenerate_face_count;
     made.fallback_corner_count = report.fallback_corner_count;
+    made.noise = report.noise;
+    made.crease_angle_deg = report.crease_angle_deg;
     return made;
 }
 
@@ -73,6 +77,26 @@ tspace_ErrorCode tspace_generateNormals(const tspace_Mesh* mesh, const tspace_No
             generateNormals(toMesh(*mesh), toOptions(orDefault(options)), toSpan<Vec3>(out), hooks.execution());
         if (!result) return result.error();
         give(toReport(*result), report);
+        return Done{};
+    });
+}
+
+tspace_ErrorCode tspace_measurePositionNoise(const tspace_Mesh* mesh, const tspace_Execution* execution,
+                                             tspace_PositionNoise* noise, tspace_Error* error) noexcept {
+    return atCBorder(error, [&]() -> Result<Done> {
+        Error e = firstError([&] { return checkMesh(mesh); }, [&] { return checkExecution(execution); },
+                             [&] { return checkNeeded(noise, "noise"); });
+        if (e.code != ErrorCode::ok) return e;
+        const Hooks hooks(execution);
+        const Result<PositionNoise> result = measurePositionNoise(toMesh(*mesh), hooks.execution());
+        if (!result) return result.error();
+        tspace_PositionNoise made;
+        TSPACE_INIT(made);
+        made.sigma = result->sigma;
+        made.kink_share = result->kink_share;
+        made.noise = result->noise;
+        made.mean_edge = result->mean_edge;
+        give(made, noise);
         return Done{};
     });
 }

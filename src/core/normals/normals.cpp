@@ -5,6 +5,8 @@
 
 #include "core/base/border.h"
 #include "core/base/parallel.h"
+#include "core/normals/crease_auto.h"
+#include "core/normals/denoise.h"
 #include "core/normals/normals_call.h"
 #include "core/normals/pose_normals.h"
 
@@ -12,26 +14,37 @@ namespace tspace {
 
 namespace {
 
-Error checkOptions(const MeshView& mesh, const NormalOptions& options, const StridedSpan<Vec3>& out) {
+/// For `best` and for creases each point groups its faces, which takes about so many times as long.
+constexpr std::uint64_t kSlow = 4;
+
+Error checkOptions(const MeshView& mesh, const NormalOptions& options) {
     if (static_cast<std::uint32_t>(options.weighting) > static_cast<std::uint32_t>(NormalWeighting::best)) {
         return {ErrorCode::invalidOption, "weighting is not one of NormalWeighting"};
     }
-    if (!(options.crease_angle_deg >= 0 && options.crease_angle_deg <= 180)) {
-        return {ErrorCode::invalidOption, "crease_angle_deg is not between 0 and 180"};
+    if (!((options.crease_angle_deg >= 0 && options.crease_angle_deg <= 180) ||
+          options.crease_angle_deg == NormalOptions::crease_auto)) {
+        return {ErrorCode::invalidOption, "crease_angle_deg is neither between 0 and 180 nor crease_auto"};
     }
     if (options.refine > 2) return {ErrorCode::invalidOption, "refine is not 0, 1 or 2"};
+    if (!((options.denoise >= 0 && options.denoise <= 4) || options.denoise == NormalOptions::denoise_auto)) {
+        return {ErrorCode::invalidOption, "denoise is neither between 0 and 4 nor denoise_auto"};
+    }
     if (!options.smoothing_groups.empty()) {
         const StridedSpan<const std::uint32_t> groups = options.smoothing_groups;
         if (Error e = checkSpan(groups, mesh.faceCount(), "smoothing_groups"); e.code != ErrorCode::ok) return e;
     }
-    return checkSpan(out, mesh.cornerCount(), "out");
+    return {ErrorCode::ok, {}};
 }
+
+}  // namespace
 
 NormalReport averageNormals(const NormalsCall& call) {
     const bool is_usual = call.are_triangles && call.mesh.vertexCount() != 0 && call.options.crease_angle_deg >= 180 &&
                           call.options.smoothing_groups.empty() && call.weighting != NormalWeighting::max;
     return is_usual ? smoothTriangles(call) : smoothFaces(call);
 }
+
+namespace {
 
 /// Corners of degenerate faces get the mean of the others at their point; without such faces no points are looked up.
 NormalReport flatNormals(const MeshView& mesh, const MeshView& posed, const Call<NormalOptions>& options,
@@ -49,20 +62,43 @@ NormalReport flatNormals(const MeshView& mesh, const MeshView& posed, const Call
     return writeFaceNormals(call);
 }
 
+NormalReport smoothNormals(const MeshView& mesh, const MeshView& posed, const Call<NormalOptions>& options,
+                           StridedSpan<Vec3> out, Parallel& parallel, const Creases& creases) {
+    NormalsCall call(mesh, posed, options, out, parallel);
+    if (!creases.edges.empty()) call.edges = creases.edges.data();
+    NormalReport report = call.is_best && options.denoise != 0 ? denoisedNormals(call) : averageNormals(call);
+    report.crease_angle_deg = options.crease_angle_deg;
+    return report;
+}
+
 Result<NormalReport> checkAndGenerate(const MeshView& mesh, const MeshView& posed, const Call<NormalOptions>& options,
                                       StridedSpan<Vec3> out) {
-    // For `best` and for creases each point groups its faces, which takes about four times as long.
-    constexpr std::uint64_t kSlow = 4;
     const bool is_slow = options.weighting == NormalWeighting::best || options.crease_angle_deg < 180;
     Parallel parallel(options.execution, (is_slow ? kSlow : 1) * mesh.cornerCount());
     if (Error e = checkMesh(mesh, &parallel); e.code != ErrorCode::ok) return e;
     if (Error e = checkSpan(posed.positions, mesh.vertexCount(), "positions"); e.code != ErrorCode::ok) return e;
-    if (Error e = checkOptions(mesh, options, out); e.code != ErrorCode::ok) return e;
+    if (Error e = checkOptions(mesh, options); e.code != ErrorCode::ok) return e;
+    if (Error e = checkSpan(out, mesh.cornerCount(), "out"); e.code != ErrorCode::ok) return e;
     if (options.weighting == NormalWeighting::flat) return flatNormals(mesh, posed, options, out, parallel);
-    return averageNormals({mesh, posed, options, out, parallel});
+    if (options.crease_angle_deg != NormalOptions::crease_auto)
+        return smoothNormals(mesh, posed, options, out, parallel, {});
+    Call<NormalOptions> found = options;
+    const Creases creases = findCreases(mesh, options, options.execution, parallel);
+    found.crease_angle_deg = creases.are_all_soft ? 180 : creases.angle_deg;
+    NormalReport report = smoothNormals(mesh, posed, found, out, parallel, creases);
+    report.crease_angle_deg = creases.angle_deg;
+    return report;
 }
 
 }  // namespace
+
+Result<PositionNoise> measurePositionNoise(const MeshView& mesh, const Execution& execution) {
+    return atBorder([&]() -> Result<PositionNoise> {
+        Parallel parallel(execution, kSlow * mesh.cornerCount());
+        if (Error e = checkMesh(mesh, &parallel); e.code != ErrorCode::ok) return e;
+        return noiseOf(mesh, execution, parallel, true);
+    });
+}
 
 Result<NormalReport> generateNormals(const MeshView& mesh, const NormalOptions& options, StridedSpan<Vec3> out,
                                      const Execution& execution) {

@@ -11,6 +11,7 @@
 #include "core/base/range_lists.h"
 #include "core/base/vec_math.h"
 #include "core/base/weld.h"
+#include "core/normals/crease_auto.h"
 #include "core/normals/face_terms.h"
 #include "tspace/mesh.h"
 #include "tspace/normals.h"
@@ -140,6 +141,9 @@ struct NormalsCall {
     bool are_triangles, is_best;
     NormalWeighting weighting;  ///< of the means
     bool by_area, by_angle;
+    /// Where smoothFaces leaves, for `best`, the lowest corner of each corner's component. Null: not wanted.
+    Buffer<std::uint32_t>* components = nullptr;
+    const EdgeKind* edges = nullptr;  ///< per corner; null: all by their angle
 };
 
 /// The common case by a shorter way: triangles, all weightings but max, and a point has one normal. Scratch
@@ -153,6 +157,9 @@ NormalReport smoothTriangles(const NormalsCall& call);
 /// 150 bytes per triangle of a range, which are an eighth of a small mesh and about 8000 of a large one; for `best`
 /// also 28 bytes per corner. While vertices are welded 10 to 24 bytes per vertex. Throws OutOfMemory.
 NormalReport smoothFaces(const NormalsCall& call);
+
+/// One of these two ways.
+NormalReport averageNormals(const NormalsCall& call);
 
 /// The weighting `flat`, except that corners of degenerate faces are left as they are and counted as substitutes.
 /// Points are not read.

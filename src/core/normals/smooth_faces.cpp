@@ -376,8 +376,10 @@ NormalReport smoothFaces(const NormalsCall& call) {
             for (std::size_t c = begin; c < end; ++c) {
                 const std::uint32_t component = components[c] & ~ComponentCorners::kAside;
                 if (component != c) call.out[c] = call.out[component];
+                components[c] = component;
             }
         });
+        if (call.components != nullptr) *call.components = std::move(components);
     }
     return report;
 }

@@ -168,7 +168,7 @@ class PointComponents {
             follower[slot] = static_cast<std::uint8_t>(found != 0 ? std::countr_zero(found) : slot);
         }
         for (std::uint32_t slot = 0; slot < count_; ++slot) {
-            if (follower[slot] != slot) joinTwo(slot, follower[slot]);
+            if (follower[slot] != slot) joinTwo(slot, follower[slot], corner(slot));
         }
         return true;
     }
@@ -194,14 +194,21 @@ class PointComponents {
 
     void joinOverEdge(Link* run, Link* past) {
         if (past - run < 2) return;
-        if (past - run == 2) return joinTwo(run[0].slot, run[1].slot);
+        if (past - run == 2) {
+            const std::uint32_t here = corner(run->slot);
+            return joinTwo(run[0].slot, run[1].slot, at_.next(run->slot) == run->key ? here : faces_.previous(here));
+        }
         sortAboutEdge(run, past);
         joinGroups(run, past);
     }
 
-    void joinTwo(std::uint32_t a, std::uint32_t b) {
+    /// `edge`: a corner from which their edge goes to the next corner.
+    void joinTwo(std::uint32_t a, std::uint32_t b, std::uint32_t edge) {
         const std::uint32_t g = group(a), h = group(b);
-        if (rule_.groups_are_masks ? (g & h) != 0 : g == h) joinIfSmooth(a, b);
+        if (rule_.groups_are_masks ? (g & h) == 0 : g != h) return;
+        const EdgeKind kind = rule_.call.edges == nullptr ? EdgeKind::byAngle : rule_.call.edges[edge];
+        if (kind == EdgeKind::byAngle) return joinIfSmooth(a, b);
+        if (kind == EdgeKind::soft) join(a, b);
     }
 
     /// Each group for itself. They are sorted by group, unless these are masks.

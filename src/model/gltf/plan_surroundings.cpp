@@ -159,6 +159,13 @@ std::string noteOf(std::size_t others, std::uint64_t points, bool any_keeps) {
     return note;
 }
 
+/// How far a normal looks. A step of `best` looks one triangle further, and what removes noise through three rings, over
+/// which it averages eight times what it found; so far away it does not count any more.
+unsigned ringsAround(const NormalOptions& options) {
+    if (options.weighting != NormalWeighting::best) return 1;
+    return options.refine + (options.denoise == 0 ? 1 : 8);
+}
+
 }  // namespace
 
 void planSurroundings(Model& model, const GenerateOptions& options, GeneratePlan& plan) {
@@ -171,8 +178,7 @@ void planSurroundings(Model& model, const GenerateOptions& options, GeneratePlan
         for (const std::size_t number : pool.primitives) makes_normals[number] = true;
         for (PoolGeometry& geometry : pool.geometries) geometry_of.emplace(geometry.primitives[0], &geometry);
     }
-    // A step of `best` looks one triangle further.
-    const unsigned rings = options.normals.weighting == NormalWeighting::best ? 1 + options.normals.refine : 1;
+    const unsigned rings = ringsAround(options.normals);
     for (std::size_t first = 0, past = 0; first < primitives.size(); first = past) {
         std::vector<std::size_t> numbers;
         bool any = false;

@@ -163,6 +163,19 @@ TEST_F(CErrors, ServeCallersThatWereCompiledWithAnOlderHeader) {
     EXPECT_EQ(old_report.get().not_finite_count, 1u);
     EXPECT_EQ(old_report.get().struct_size, offsetof(tspace_SanitizeReport, placeholder_count));
     EXPECT_TRUE(old_report.isRestUntouched());
+
+    tspace_NormalOptions normals;
+    TSPACE_INIT(normals);
+    AsOldCaller<tspace_NormalOptions> old_options(normals, offsetof(tspace_NormalOptions, denoise));
+    tspace_NormalReport made;
+    TSPACE_INIT(made);
+    AsOldCaller<tspace_NormalReport> old_made(made, offsetof(tspace_NormalReport, noise));
+    std::vector<float> room(3 * mesh.cornerCount());
+    ASSERT_EQ(TSPACE_OK, tspace_generateNormals(&old_mesh.get(), &old_options.get(), {room.data(), room.size() / 3, 0},
+                                                nullptr, &old_made.get(), &error))
+        << error.message;
+    EXPECT_NE(old_made.get().face_count, 0u);
+    EXPECT_TRUE(old_made.isRestUntouched());
 }
 
 TEST_F(CErrors, KnowEverySizeThatAStructHad) {

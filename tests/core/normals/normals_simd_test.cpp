@@ -23,7 +23,8 @@ const NormalOptions kKinds[] = {{.weighting = NormalWeighting::angle},
                                 {.weighting = NormalWeighting::angleArea},
                                 {.weighting = NormalWeighting::uniform},
                                 {.weighting = NormalWeighting::best, .refine = 1},
-                                {.weighting = NormalWeighting::best, .refine = 2}};
+                                {.weighting = NormalWeighting::best, .refine = 2},
+                                {.weighting = NormalWeighting::best, .denoise = 4}};
 
 struct Outcome {
     std::vector<Vec3> normals;

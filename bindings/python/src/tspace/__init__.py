@@ -96,10 +96,10 @@ from ._files import (
     inspect,
 )
 from ._indexed import IndexedFrames, IndexedFramesReport, make_indexed_frames
-from ._normals import NormalResult, normals
+from ._normals import NormalResult, normals, position_noise
 from ._options import Convention
 from ._pack import PackResult, pack_frames, unpack_frames
-from ._reports import NormalReport, PackReport, SanitizeReport, TangentReport, WindingReport
+from ._reports import NormalReport, PackReport, PositionNoise, SanitizeReport, TangentReport, WindingReport
 from ._sanitize import SanitizeResult, sanitize
 from ._split import Split, Triangles, split, triangulate
 from ._tangents import Plan, TangentResult, tangents
@@ -130,6 +130,7 @@ __all__ = [
     "PackReport",
     "PackResult",
     "Plan",
+    "PositionNoise",
     "ReadWriteError",
     "Report",
     "SanitizeReport",
@@ -154,6 +155,7 @@ __all__ = [
     "mend_winding",
     "normals",
     "pack_frames",
+    "position_noise",
     "sanitize",
     "split",
     "tangents",

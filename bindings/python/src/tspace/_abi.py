@@ -5,7 +5,7 @@ ctypes lets go of the interpreter's lock for the time of each call.
 """
 
 import ctypes
-from ctypes import POINTER, Structure, c_char, c_char_p, c_float, c_size_t, c_uint32, c_uint64, c_void_p
+from ctypes import POINTER, Structure, c_char, c_char_p, c_double, c_float, c_size_t, c_uint32, c_uint64, c_void_p
 from pathlib import Path
 
 METHODS = {
@@ -111,6 +111,8 @@ class NormalOptions(Structure):
         ("weld_positions", c_uint32),
         ("refine", c_uint32),
         ("reserved", c_uint32),
+        ("denoise", c_float),
+        ("reserved_end", c_uint32),
     ]
 
 
@@ -121,6 +123,18 @@ class NormalReport(Structure):
         ("face_count", c_uint64),
         ("degenerate_face_count", c_uint64),
         ("fallback_corner_count", c_uint64),
+        ("noise", c_float),
+        ("crease_angle_deg", c_float),
+    ]
+
+
+class PositionNoise(Structure):
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("sigma", c_float),
+        ("kink_share", c_float),
+        ("noise", c_float),
+        ("mean_edge", c_double),
     ]
 
 
@@ -333,6 +347,13 @@ declare(
             c_size_t,
             POINTER(Execution),
             POINTER(WindingReport),
+            POINTER(Error),
+        ),
+        "tspace_measurePositionNoise": (
+            c_uint32,
+            POINTER(Mesh),
+            POINTER(Execution),
+            POINTER(PositionNoise),
             POINTER(Error),
         ),
         "tspace_generateTangents": (

@@ -237,6 +237,10 @@ class GeneratedNormals(Report):
     degenerate_faces: int
     #: Corners whose mean vanished.
     fallback_corners: int
+    #: Noise of positions that --denoise removed, as a standard deviation in mean edge lengths; 0: none.
+    noise: float
+    #: Edges sharper than this are hard; 180: none is by its angle.
+    crease_deg: float
 
 
 class GeneratedTangents(Report):
@@ -478,6 +482,9 @@ class InspectedPrimitive(Report):
     degenerate_uv_triangles: int
     #: Triangles with two corners at one position.
     degenerate_triangles: int
+    #: Random offsets of positions, as a standard deviation along the normal in mean edge lengths; 0: less than .03, or
+    #: less than 1,000 triangles.
+    position_noise: float
     #: Triangles that show the texture mirrored.
     mirrored_triangles: int
     #: Connected pieces of the UV map.

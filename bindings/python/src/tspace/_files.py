@@ -26,7 +26,7 @@ _INTERNAL, _CANNOT_READ = 11, 103
 _LIMITS = "allow_external memory_limit import_seconds"
 _OPTIONS = {
     "generate": "all only_missing overwrite repair strip method faces pairing threshold frame refine texture_transform"
-    " bitangents convention format pack pack_drop normals crease normals_per_primitive overwrite_normals morph_normals compress flip_green mend_maps"
+    " bitangents convention format pack pack_drop normals crease denoise normals_per_primitive overwrite_normals morph_normals compress flip_green mend_maps"
     f" flip_green_all convert_maps mend_winding no_sanitize orthogonalize keep_coordinates dry_run threads no_sync {_LIMITS}",
     "check": f"fail_on severity ignore angle convention faces no_images threads {_LIMITS}",
     "inspect": _LIMITS,

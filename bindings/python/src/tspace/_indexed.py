@@ -56,7 +56,8 @@ def make_indexed_frames(
     refine: Optional[int] = None,
     make_normals: bool = False,
     weighting: str = "angle",
-    crease: float = 180.0,
+    crease: Union[float, str] = 180.0,
+    denoise: Union[float, str] = 0,
     smoothing_groups: Any = None,
     smoothing_masks: bool = False,
     weld_positions: bool = True,
@@ -79,7 +80,7 @@ def make_indexed_frames(
     refine:     steps that "best" takes after its fit, for tangents and normals: 0, 1 or 2;
                 None: 1 for tangents and 2 for normals
     make_normals: True: normals are made although there are some
-    weighting, crease, smoothing_groups, smoothing_masks, weld_positions: how normals are made, as for `normals`
+    weighting, crease, denoise, smoothing_groups, smoothing_masks, weld_positions: how normals are made, as for `normals`
     sanitize:   False: broken tangents stay
     orthogonalize_all: True: also makes sound tangents unit and orthogonal to N
     keep_apart: arrays of shape (corners, k), without indices only: what else must not be shared, colours for instance
@@ -91,7 +92,9 @@ def make_indexed_frames(
     run = execution(threads)
     tangents = tangent_options(method, convention, threshold, pairing, ngons, "corner", frame, 1 if refine is None else refine)
     groups = None if smoothing_groups is None else uint32_array("smoothing_groups", smoothing_groups)
-    made_by = normal_options(weighting, crease, groups, smoothing_masks, weld_positions, convention, 2 if refine is None else refine)
+    made_by = normal_options(
+        weighting, crease, groups, smoothing_masks, weld_positions, convention, 2 if refine is None else refine, denoise
+    )
     mesh = Mesh(positions, normals, uvs, indices, face_sizes, normal_indices, uv_indices)
     rows, keep = corner_attributes("keep_apart", keep_apart, mesh.corner_count, 0.0)
     options = _abi.IndexedFramesOptions(

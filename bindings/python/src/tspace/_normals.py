@@ -10,8 +10,8 @@ import numpy
 from . import _abi
 from ._arrays import check_apart, output_array, uint32_array, write_span
 from ._mesh import Mesh
-from ._options import ConventionLike, convention_struct, execution, named, real, small_number
-from ._reports import NormalReport, report
+from ._options import ConventionLike, convention_struct, execution, named, real_or_auto, small_number
+from ._reports import NormalReport, PositionNoise, report
 
 
 class NormalResult(NamedTuple):
@@ -29,18 +29,21 @@ def normal_options(
     weld_positions: Any,
     convention: Any,
     refine: Any,
+    denoise: Any,
 ) -> _abi.NormalOptions:
     """The struct of the C API, which points into `groups`."""
     return _abi.NormalOptions(
         ctypes.sizeof(_abi.NormalOptions),
         named("weighting", weighting, _abi.WEIGHTINGS),
         _abi.Convention() if convention is None else convention_struct(convention),
-        real("crease", crease),
+        real_or_auto("crease", crease),
         None if groups is None else groups.ctypes.data,
         0 if groups is None else groups.size,
         bool(smoothing_masks),
         bool(weld_positions),
         small_number("refine", refine),
+        0,
+        real_or_auto("denoise", denoise),
     )
 
 
@@ -51,12 +54,13 @@ def normals(
     *,
     face_sizes: Any = ...,
     weighting: str = ...,
-    crease: float = ...,
+    crease: Union[float, str] = ...,
     smoothing_groups: Any = ...,
     smoothing_masks: bool = ...,
     weld_positions: bool = ...,
     convention: Optional[ConventionLike] = ...,
     refine: int = ...,
+    denoise: Union[float, str] = ...,
     threads: Union[int, str] = ...,
     out: Optional[numpy.ndarray] = ...,
     full: Literal[False] = ...,
@@ -71,12 +75,13 @@ def normals(
     *,
     face_sizes: Any = ...,
     weighting: str = ...,
-    crease: float = ...,
+    crease: Union[float, str] = ...,
     smoothing_groups: Any = ...,
     smoothing_masks: bool = ...,
     weld_positions: bool = ...,
     convention: Optional[ConventionLike] = ...,
     refine: int = ...,
+    denoise: Union[float, str] = ...,
     threads: Union[int, str] = ...,
     out: Optional[numpy.ndarray] = ...,
     full: Literal[True],
@@ -90,12 +95,13 @@ def normals(
     *,
     face_sizes: Any = None,
     weighting: str = "angle",
-    crease: float = 180.0,
+    crease: Union[float, str] = 180.0,
     smoothing_groups: Any = None,
     smoothing_masks: bool = False,
     weld_positions: bool = True,
     convention: Optional[ConventionLike] = None,
     refine: int = 2,
+    denoise: Union[float, str] = 0,
     threads: Union[int, str] = 1,
     out: Optional[numpy.ndarray] = None,
     full: bool = False,
@@ -111,20 +117,23 @@ def normals(
     face_sizes:       None: triangles. A number: corners of every face. (faces,): corners of each face
     weighting:        how much a face counts: "angle", "area", "angle_area", "uniform", "max", "best"; "flat": no averaging
     crease:           degrees, 180: no edge is hard. Two faces are smoothed over their edge only when their normals differ
-                      by no more than this
+                      by no more than this. "auto": an angle by the mesh, which the report says
     smoothing_groups: (faces,), a number per face: faces smooth together only when theirs are equal and not 0
     smoothing_masks:  True: faces smooth together whose numbers have a bit in common
     weld_positions:   True: vertices at the same position are one point, so that UV seams stay smooth; False: only equal
                       indices are
     convention:       its handedness and winding say which side is out; None: right-handed, counter-clockwise
     refine:           steps that "best" takes after its fit: 0, 1 or 2
+    denoise:          for "best" on noisy positions, such as scans: normals by more of the surface around. "auto": as much as
+                      is measured, and nothing where that is shape; 0 to 4: so many times the noise that is measured, also
+                      where it looks like shape
     threads:          1, another number, or "all". The bits are the same for any
     out:              an array of float32 that takes the result and is returned
     full:             True: returns a NormalResult, which has a report too
     """
     mesh = Mesh(positions, None, None, indices, face_sizes)
     groups = None if smoothing_groups is None else uint32_array("smoothing_groups", smoothing_groups)
-    options = normal_options(weighting, crease, groups, smoothing_masks, weld_positions, convention, refine)
+    options = normal_options(weighting, crease, groups, smoothing_masks, weld_positions, convention, refine, denoise)
     run = execution(threads)
     result = output_array(out, mesh.corner_count, 3)
     check_apart(out, mesh.arrays if groups is None else [*mesh.arrays, groups])
@@ -135,3 +144,19 @@ def normals(
     ):
         mesh.fail(error)
     return NormalResult(result, report(NormalReport, counts)) if full else result
+
+
+def position_noise(
+    positions: Any, indices: Any = None, *, face_sizes: Any = None, threads: Union[int, str] = 1
+) -> PositionNoise:
+    """Measures the noise in the positions of a mesh: `noise` is what `normals(..., denoise="auto")` removes.
+
+    positions, indices, face_sizes, threads: as for `normals`
+    """
+    mesh = Mesh(positions, None, None, indices, face_sizes)
+    run = execution(threads)
+    found = _abi.PositionNoise(ctypes.sizeof(_abi.PositionNoise))
+    error = _abi.Error()
+    if _abi.library.tspace_measurePositionNoise(byref(mesh.struct), byref(run), byref(found), byref(error)):
+        mesh.fail(error)
+    return report(PositionNoise, found)

@@ -105,6 +105,11 @@ def real(option: str, value: Any) -> float:
     return float(value)
 
 
+def real_or_auto(option: str, value: Any) -> float:
+    """A real number, or "auto", which is -1 in the library."""
+    return -1.0 if isinstance(value, str) and value == "auto" else real(option, value)
+
+
 def small_number(option: str, value: Any) -> int:
     """A whole number that a uint32 holds; the library says which it takes."""
     if not isinstance(value, numbers.Integral) or isinstance(value, bool):

@@ -26,6 +26,17 @@ class NormalReport(NamedTuple):
     face_count: int  #: faces with at least 3 corners
     degenerate_face_count: int  #: faces without a normal (zero area or not finite)
     fallback_corner_count: int  #: corners whose mean vanished and that got a substitute
+    noise: float  #: noise of positions that `denoise` removed: standard deviation in mean edge lengths; 0: none
+    crease_angle_deg: float  #: the angle that edges were held against: as given, or what "auto" found
+
+
+class PositionNoise(NamedTuple):
+    """How noisy positions are. Lengths are parts of `mean_edge`."""
+
+    sigma: float  #: how far positions lie from a smooth surface through their neighbours: standard deviation
+    kink_share: float  #: of how normals differ along an edge, the part that no smooth surface has: the median, 0 to 1
+    noise: float  #: what of `sigma` is noise; 0: they are not noisy
+    mean_edge: float  #: of a sample, in the unit of positions
 
 
 class WindingReport(NamedTuple):

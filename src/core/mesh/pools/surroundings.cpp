@@ -111,7 +111,8 @@ void BorderedNormals::choose(std::span<const Vec3> normals) {
         if (place == at.size()) at.emplace_back();
         at[place].push_back(v);
     }
-    const double most = std::min(kMostTakenDeg, static_cast<double>(options_.crease_angle_deg));
+    const bool has_angle = options_.crease_angle_deg != NormalOptions::crease_auto;
+    const double most = has_angle ? std::min(kMostTakenDeg, double{options_.crease_angle_deg}) : kMostTakenDeg;
     stays_.assign(normals.size(), kNone);
     for (std::size_t c = 0; c < normals.size(); ++c) {
         const std::uint32_t place = places.find(positionKey(mesh_.positions[mesh_.indices[c]]));
@@ -135,6 +136,8 @@ NormalReport BorderedNormals::take(const NormalReport& of_whole, std::span<const
     report.face_count = mesh_.indices.size() / 3;
     report.degenerate_face_count = of_whole.degenerate_face_count - degenerate_around_;
     report.fallback_corner_count = std::min<std::uint64_t>(of_whole.fallback_corner_count, mesh_.indices.size());
+    report.noise = of_whole.noise;
+    report.crease_angle_deg = of_whole.crease_angle_deg;
     return report;
 }
 

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+// Which noise of positions is worth a word.
+#pragma once
+
+#include "tspace/mesh.h"
+
+namespace tspace {
+
+/// PositionNoise::noise, where somebody will see it in normals and where it is sure: .03 edges turn normals by a degree, and
+/// it takes some hundred vertices to tell. Else 0, as where it cannot be measured. Of the 1,005 primitives of 162 models two
+/// have more: both are damaged on purpose.
+/// position_step: of positions that are stored as whole numbers; rounding to them is no noise
+double notedNoise(const MeshView& mesh, double position_step = 0);
+
+}  // namespace tspace

@@ -1,0 +1,315 @@
+// SPDX-License-Identifier: MIT
+#include "core/normals/crease_auto.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "core/base/angle.h"
+#include "core/base/float4.h"
+#include "core/base/sort.h"
+#include "core/base/vec_math.h"
+#include "core/normals/denoise.h"
+
+namespace tspace {
+
+namespace {
+
+constexpr std::uint32_t kNoPair = ~std::uint32_t{0};
+
+/// Which corner's edge is the other side of a corner's edge, where an edge has two faces.
+class EdgePairs {
+  public:
+    explicit EdgePairs(const NormalsCall& call)
+        : call_(call), others_(call.allocator, call.mesh.cornerCount(), kNoPair) {
+        const std::size_t corners = call.mesh.cornerCount();
+        Buffer<std::uint32_t> begins(call.allocator, call.mesh.vertexCount() + 2, 0u);
+        for (std::uint32_t c = 0; c < corners; ++c) {
+            const Ends ends = endsOf(c);
+            if (ends.low != ends.high) ++begins[ends.low + 2];
+        }
+        for (std::size_t p = 2; p < begins.size(); ++p) begins[p] += begins[p - 1];
+        Buffer<Entry> entries(call.allocator, begins[begins.size() - 1]);
+        for (std::uint32_t c = 0; c < corners; ++c) {
+            const Ends ends = endsOf(c);
+            if (ends.low != ends.high) entries[begins[ends.low + 1]++] = {ends.high, c};
+        }
+        for (std::size_t p = 0; p + 2 < begins.size(); ++p)
+            pair(entries.data() + begins[p], entries.data() + begins[p + 1]);
+    }
+
+    [[nodiscard]] std::uint32_t other(std::size_t corner) const { return others_[corner]; }
+    [[nodiscard]] bool hasCrowdedEdges() const { return has_crowded_; }
+
+    struct Ends {
+        std::uint32_t low, high;  ///< points
+    };
+    [[nodiscard]] Ends endsOf(std::uint32_t corner) const {
+        if (!call_.are_triangles && !call_.faces.isUsed(call_.faces.of(corner))) return {0, 0};
+        const std::uint32_t a = call_.items.pointOf(corner), b = call_.items.pointOf(call_.faces.next(corner));
+        return {std::min(a, b), std::max(a, b)};
+    }
+
+  private:
+    struct Entry {
+        std::uint32_t high, corner;
+    };
+
+    void pair(Entry* begin, Entry* end) {
+        sortList(begin, end, [](const Entry& a, const Entry& b) {
+            return a.high != b.high ? a.high < b.high : a.corner < b.corner;
+        });
+        for (Entry* run = begin; run != end;) {
+            Entry* past = run + 1;
+            while (past != end && past->high == run->high) ++past;
+            if (past - run == 2) {
+                others_[run[0].corner] = run[1].corner;
+                others_[run[1].corner] = run[0].corner;
+            }
+            has_crowded_ = has_crowded_ || past - run > 2;
+            run = past;
+        }
+    }
+
+    const NormalsCall& call_;
+    Buffer<std::uint32_t> others_;
+    bool has_crowded_ = false;
+};
+
+Float4 toFloat4(const DVec3& v) {
+    return Float4{static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), 0};
+}
+
+/// Close to exp(-x) for x >= 0, and 0 from 16 on; without a function whose last bits differ between C libraries.
+float decay(float x) {
+    float y = std::max(0.0f, 1 - x * (1.0f / 16));
+    for (int i = 0; i < 4; ++i) y *= y;
+    return y;
+}
+
+class CreaseFinder {
+  public:
+    CreaseFinder(const NormalsCall& call, const EdgePairs& pairs, double noise_deg)
+        : call_(call), pairs_(pairs), noise_deg_(noise_deg) {}
+
+    Creases find() {
+        makeFaces();
+        if (noise_deg_ > kLeastFilteredDeg) filter();
+        measureAngles();
+        Creases creases;
+        creases.angle_deg = static_cast<float>(angleInGap());
+        mark(creases);
+        return creases;
+    }
+
+  private:
+    static constexpr double kLeastFilteredDeg = 3, kLoudDeg = 12, kLouderDeg = 30;
+
+    template <class Body>
+    void forFaces(const Body& body) {
+        call_.parallel.forRanges(call_.mesh.faceCount(), Parallel::kGrain / 4, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t f = begin; f < end; ++f) body(static_cast<std::uint32_t>(f));
+        });
+    }
+    template <class Body>
+    void forCorners(const Body& body) {
+        call_.parallel.forRanges(call_.mesh.cornerCount(), Parallel::kGrain, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t c = begin; c < end; ++c) body(static_cast<std::uint32_t>(c));
+        });
+    }
+
+    void makeFaces() {
+        const std::size_t count = call_.mesh.faceCount();
+        normals_ = Buffer<float>(call_.allocator, 4 * count);
+        forFaces([&](std::uint32_t f) {
+            const bool is_used = call_.faces.isUsed(f);
+            const FaceRow row = is_used
+                                    ? faceRow(call_.mesh, call_.faces.first(f), call_.faces.past(f), call_.factor, true)
+                                    : FaceRow{};
+            Float4 normal = splat(0.0f);
+            if (!row.isDegenerate()) {
+                normal = toFloat4(row.unit());
+                normal[3] = static_cast<float>(row.size);
+            }
+            storeFloat4(normals_.data() + 4 * std::size_t{f}, normal);
+        });
+    }
+    /// The fourth number is twice the area.
+    [[nodiscard]] Float4 normal(std::size_t face) const { return loadFloat4(normals_.data() + 4 * face); }
+
+    /// Each face's normal becomes the mean of its own and those across its edges: near ones and like ones count more.
+    void filter() {
+        const std::size_t count = call_.mesh.faceCount();
+        Buffer<float> centres(call_.allocator, 4 * count);
+        forFaces([&](std::uint32_t f) {
+            DVec3 sum;
+            const std::uint32_t first = call_.faces.first(f), past = call_.faces.past(f);
+            for (std::uint32_t c = first; c < past; ++c)
+                sum = sum + toDouble(call_.mesh.positions[call_.mesh.indices[c]]);
+            storeFloat4(centres.data() + 4 * std::size_t{f}, toFloat4((1.0 / std::max(1u, past - first)) * sum));
+        });
+        const auto centre = [&](std::size_t face) { return loadFloat4(centres.data() + 4 * face); };
+        double distances = 0;
+        std::size_t edges = 0;
+        for (std::uint32_t c = 0; c < call_.mesh.cornerCount(); ++c) {
+            if (pairs_.other(c) == kNoPair || pairs_.other(c) < c) continue;
+            const Float4 apart = centre(call_.faces.of(c)) - centre(call_.faces.of(pairs_.other(c)));
+            const double square = dotted(apart, apart);
+            if (!std::isfinite(square)) continue;
+            distances += std::sqrt(square);
+            ++edges;
+        }
+        const double mean = distances / static_cast<double>(std::max<std::size_t>(edges, 1));
+        if (!(mean > 0)) return;
+        const double alike = noise_deg_ < kLoudDeg ? 0.25 : noise_deg_ < kLouderDeg ? 0.35 : 0.5;
+        const auto per_place = static_cast<float>(0.5 / (mean * mean)),
+                   per_turn = static_cast<float>(0.5 / (alike * alike));
+        struct Near {
+            std::uint32_t face;
+            float weight;  ///< by its area, and by how near it is
+        };
+        Buffer<Near> near(call_.allocator, call_.mesh.cornerCount());
+        forCorners([&](std::uint32_t c) {
+            const std::uint32_t f = call_.faces.of(c),
+                                g = pairs_.other(c) == kNoPair ? f : call_.faces.of(pairs_.other(c));
+            const Float4 apart = centre(g) - centre(f);
+            near[c] = {g, g == f ? 0 : normal(g)[3] * decay(per_place * dotted(apart, apart))};
+        });
+        Buffer<float> before(call_.allocator, 4 * count);
+        const int passes = noise_deg_ < kLoudDeg / 2 ? 8 : noise_deg_ < kLoudDeg ? 16 : 32;
+        for (int pass = 0; pass < passes; ++pass) {
+            std::swap(normals_, before);
+            const float* const from = before.data();
+            forFaces([&](std::uint32_t f) {
+                const Float4 own = loadFloat4(from + 4 * std::size_t{f});
+                Float4 sum = splat(own[3]) * own;
+                for (std::uint32_t c = call_.faces.first(f), past = call_.faces.past(f); c < past; ++c) {
+                    const Float4 other = loadFloat4(from + 4 * std::size_t{near[c].face}), turn = other - own;
+                    sum += splat(near[c].weight * decay(per_turn * dotted(turn, turn))) * other;
+                }
+                const float square = dotted(sum, sum);
+                Float4 mean_normal = square > 0 && std::isfinite(square) ? splat(1 / std::sqrt(square)) * sum : own;
+                mean_normal[3] = own[3];
+                storeFloat4(normals_.data() + 4 * std::size_t{f}, mean_normal);
+            });
+        }
+    }
+
+    /// In degrees, at both corners of each pair; -1 where there is none.
+    void measureAngles() {
+        angles_ = Buffer<float>(call_.allocator, call_.mesh.cornerCount(), -1.0f);
+        forCorners([&](std::uint32_t c) {
+            const std::uint32_t other = pairs_.other(c);
+            if (other == kNoPair) return;
+            const Float4 m = normal(call_.faces.of(std::min(c, other))), n = normal(call_.faces.of(std::max(c, other)));
+            if (!(m[3] > 0) || !(n[3] > 0)) return;
+            const DVec3 a{m[0], m[1], m[2]}, b{n[0], n[1], n[2]};
+            const double angle = angleBetween(a, b) * (180 / kPi);
+            angles_[c] = static_cast<float>(angle);
+        });
+    }
+
+    [[nodiscard]] double edgeLength(std::uint32_t corner) const {
+        const MeshView& mesh = call_.mesh;
+        return length(toDouble(mesh.positions[mesh.indices[call_.faces.next(corner)]]) -
+                      toDouble(mesh.positions[mesh.indices[corner]]));
+    }
+
+    /// The middle of the widest run of degrees in which there are the fewest edges, by length.
+    [[nodiscard]] double angleInGap() const {
+        constexpr int kBins = 180, kBlur = 6;
+        constexpr double kMost = 70;
+        std::array<double, kBins> lengths{}, density{};
+        double all = 0;
+        for (std::uint32_t c = 0; c < call_.mesh.cornerCount(); ++c) {
+            if (angles_[c] < 0 || pairs_.other(c) < c) continue;
+            const double size = edgeLength(c);
+            if (!std::isfinite(size)) continue;
+            lengths[static_cast<std::size_t>(std::min(kBins - 1, static_cast<int>(angles_[c])))] += size;
+            all += size;
+        }
+        // A normal distribution of 2 degrees.
+        constexpr double kWeights[kBlur + 1] = {0.199676, 0.176213, 0.121109, 0.064826, 0.027023, 0.008773, 0.002218};
+        for (int bin = 0; bin < kBins; ++bin) {
+            for (int d = -kBlur; d <= kBlur; ++d) {
+                const int from = std::clamp(bin + d, 0, kBins - 1);
+                density[static_cast<std::size_t>(bin)] +=
+                    kWeights[d < 0 ? -d : d] * lengths[static_cast<std::size_t>(from)];
+            }
+        }
+        const int first = static_cast<int>(std::max(15.0, std::min(25.0, 12 + noise_deg_)));
+        const auto end = static_cast<int>(kMost);
+        double least = density[static_cast<std::size_t>(first)];
+        for (int bin = first; bin < end; ++bin) least = std::min(least, density[static_cast<std::size_t>(bin)]);
+        // Grids cut the edges of shapes, by all angles: then no gap shows, and this one is right on all that were tried.
+        constexpr double kAngleOfGrids = 30;
+        if (noise_deg_ <= kLeastFilteredDeg && least > 3e-4 * all) return kAngleOfGrids;
+        const double limit = least + 5e-5 * all;
+        int best_begin = first, best_end = first;
+        for (int begin = first; begin < end; ++begin) {
+            int past = begin;
+            while (past < end && density[static_cast<std::size_t>(past)] <= limit) ++past;
+            if (past - begin > best_end - best_begin) best_begin = begin, best_end = past;
+            if (past > begin) begin = past;
+        }
+        return 0.5 * (best_begin + best_end);
+    }
+
+    void mark(Creases& creases) const {
+        const std::size_t corners = call_.mesh.cornerCount();
+        creases.edges = Buffer<EdgeKind>(call_.allocator, corners, EdgeKind::byAngle);
+        Buffer<std::uint8_t> counts(call_.allocator, call_.mesh.vertexCount(),
+                                    std::uint8_t{0});  // of hard edges, 2 is many
+        const auto forPairs = [&](const auto& body) {
+            for (std::uint32_t c = 0; c < corners; ++c) {
+                if (angles_[c] >= 0 && pairs_.other(c) > c) body(c, pairs_.endsOf(c));
+            }
+        };
+        const auto set = [&](std::uint32_t corner, EdgeKind kind) {
+            creases.edges[corner] = creases.edges[pairs_.other(corner)] = kind;
+        };
+        const auto countHard = [&] {
+            std::fill(counts.begin(), counts.end(), std::uint8_t{0});
+            forPairs([&](std::uint32_t c, EdgePairs::Ends ends) {
+                if (creases.edges[c] != EdgeKind::hard) return;
+                for (const std::uint32_t point : {ends.low, ends.high}) counts[point] = counts[point] == 0 ? 1 : 2;
+            });
+        };
+        forPairs([&](std::uint32_t c, EdgePairs::Ends) {
+            set(c, angles_[c] > creases.angle_deg ? EdgeKind::hard : EdgeKind::soft);
+        });
+        countHard();
+        forPairs([&](std::uint32_t c, EdgePairs::Ends ends) {
+            if (creases.edges[c] == EdgeKind::hard && counts[ends.low] == 1 && counts[ends.high] == 1)
+                set(c, EdgeKind::soft);
+        });
+        countHard();
+        forPairs([&](std::uint32_t c, EdgePairs::Ends ends) {
+            const bool is_gap = counts[ends.low] == 1 && counts[ends.high] == 1 && angles_[c] > creases.angle_deg / 2;
+            if (creases.edges[c] == EdgeKind::soft && is_gap) set(c, EdgeKind::hard);
+        });
+        creases.are_all_soft = !pairs_.hasCrowdedEdges() && std::find(creases.edges.begin(), creases.edges.end(),
+                                                                      EdgeKind::hard) == creases.edges.end();
+    }
+
+    const NormalsCall& call_;
+    const EdgePairs& pairs_;
+    double noise_deg_;
+    Buffer<float> normals_, angles_;
+};
+
+}  // namespace
+
+Creases findCreases(const MeshView& mesh, const NormalOptions& options, const Execution& execution,
+                    Parallel& parallel) {
+    constexpr double kTurnOfNoise = 183;  // degrees that noise of one edge turns edges by, at most
+    Call<NormalOptions> plain{{}, execution};
+    plain.convention = options.convention;
+    plain.weld_positions = options.weld_positions;
+    const NormalsCall call(mesh, mesh, plain, {}, parallel);
+    const EdgePairs pairs(call);
+    return CreaseFinder(call, pairs, kTurnOfNoise * roughnessOf(call)).find();
+}
+
+}  // namespace tspace

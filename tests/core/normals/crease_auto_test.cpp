@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: MIT
+// NormalOptions::crease_auto: which edges it makes hard, and what it reports.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "core/base/vec_math.h"
+#include "core/normals/pose_normals.h"
+#include "scans.h"
+#include "support/simple_mesh.h"
+#include "support/thread_team.h"
+#include "tspace/normals.h"
+
+namespace tspace {
+namespace {
+
+using accuracy::Random;
+using accuracy::Scan;
+using accuracy::Shape;
+using test::SimpleMesh;
+
+constexpr float kAuto = NormalOptions::crease_auto;
+
+struct Outcome {
+    std::vector<Vec3> normals;
+    NormalReport report;
+};
+
+Outcome normalsOf(const MeshView& mesh, const NormalOptions& options, const Execution& execution = {}) {
+    Outcome outcome{std::vector<Vec3>(mesh.cornerCount()), {}};
+    const Result<NormalReport> report = generateNormals(mesh, options, outcome.normals, execution);
+    EXPECT_TRUE(report.ok());
+    if (report) outcome.report = *report;
+    return outcome;
+}
+Outcome bestOf(const MeshView& mesh, float crease_deg, float denoise = 0, const Execution& execution = {}) {
+    return normalsOf(mesh, {.weighting = NormalWeighting::best, .crease_angle_deg = crease_deg, .denoise = denoise},
+                     execution);
+}
+bool areSame(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
+    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Vec3)) == 0;
+}
+const Shape& shape(const char* name) {
+    const auto all = accuracy::shapes();
+    return *std::find_if(all.begin(), all.end(), [&](const Shape& s) { return std::strcmp(s.name, name) == 0; });
+}
+
+/// A tube with a flat end: its rim turns by 90 degrees, its sides by 360 / sides.
+SimpleMesh tube(std::uint32_t sides) {
+    SimpleMesh mesh;
+    for (std::uint32_t row = 0; row <= 8; ++row) {
+        for (std::uint32_t side = 0; side < sides; ++side) {
+            const double angle = 6.283185307179586 * side / sides;
+            mesh.positions.push_back({static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle)),
+                                      0.25f * static_cast<float>(row)});
+        }
+    }
+    for (std::uint32_t row = 0; row < 8; ++row) {
+        for (std::uint32_t side = 0; side < sides; ++side) {
+            const std::uint32_t a = row * sides + side, b = row * sides + (side + 1) % sides;
+            mesh.addTriangle(a, b, b + sides);
+            mesh.addTriangle(a, b + sides, a + sides);
+        }
+    }
+    for (std::uint32_t side = 1; side + 1 < sides; ++side)
+        mesh.addTriangle(8 * sides, 8 * sides + side, 8 * sides + side + 1);
+    return mesh;
+}
+
+TEST(AutomaticCreases, AreTheRimOfATubeAndNotItsSides) {
+    for (const std::uint32_t sides : {24u, 48u, 96u}) {
+        const SimpleMesh mesh = tube(sides);
+        const Outcome found = bestOf(mesh.view(), kAuto), wanted = bestOf(mesh.view(), 60);
+        EXPECT_TRUE(areSame(found.normals, wanted.normals)) << sides;
+        EXPECT_GT(found.report.crease_angle_deg, 360.0f / static_cast<float>(sides)) << sides;
+        EXPECT_LT(found.report.crease_angle_deg, 90) << sides;
+        EXPECT_EQ(wanted.report.crease_angle_deg, 60);
+    }
+}
+
+TEST(AutomaticCreases, OfACubeAreItsEdges) {
+    for (const SimpleMesh& cube : {test::quadCube(), test::triangleCube(0b101101)})
+        EXPECT_TRUE(areSame(bestOf(cube.view(), kAuto).normals, bestOf(cube.view(), 60).normals));
+}
+
+TEST(AutomaticCreases, AreNoneOnSmoothShapes) {
+    for (const char* name : {"blob", "torus", "rounded box"}) {
+        for (const double noise : {0.0, 0.03, 0.1}) {
+            const Scan scan = accuracy::scan(shape(name), 48, noise, Random{1});
+            const double by_mesh = shadedError(scan, bestOf(scan.view(), kAuto).normals, 2000, Random{5});
+            const double without = shadedError(scan, bestOf(scan.view(), 180).normals, 2000, Random{5});
+            EXPECT_LT(by_mesh, 1.03 * without) << name << ' ' << noise;
+        }
+    }
+}
+
+/// Shaded, in parts of the least of four weightings with three angles.
+double partOfExisting(const Scan& scan, const std::vector<Vec3>& normals) {
+    using enum NormalWeighting;
+    double least = 180;
+    for (const NormalWeighting weighting : {area, angle, angleArea, best}) {
+        for (const float crease : {30.0f, 45.0f, 180.0f}) {
+            const Outcome other = normalsOf(scan.view(), {.weighting = weighting, .crease_angle_deg = crease});
+            least = std::min(least, shadedError(scan, other.normals, 3000, Random{5}));
+        }
+    }
+    return shadedError(scan, normals, 3000, Random{5}) / least;
+}
+
+TEST(AutomaticCreases, LeaveNoNoiseOnAPartWithEdges) {
+    const Scan scan = accuracy::scan(shape("part"), 72, 0.1, Random{1});
+    const Outcome found = bestOf(scan.view(), kAuto, NormalOptions::denoise_auto);
+    EXPECT_NEAR(found.report.noise, 0.1, 0.02);
+    EXPECT_LT(partOfExisting(scan, found.normals), 0.85);
+}
+
+TEST(AutomaticCreases, HaveTheSameBitsForAnyNumberOfThreads) {
+    const Scan scan = accuracy::scan(shape("part"), 40, 0.1, Random{2});
+    const Outcome one = bestOf(scan.view(), kAuto, NormalOptions::denoise_auto);
+    for (const unsigned threads : {2u, 4u, 7u}) {
+        const Outcome many =
+            bestOf(scan.view(), kAuto, NormalOptions::denoise_auto, {.executor = test::threadTeam(threads)});
+        EXPECT_TRUE(areSame(one.normals, many.normals)) << threads;
+        EXPECT_EQ(one.report.crease_angle_deg, many.report.crease_angle_deg);
+    }
+}
+
+TEST(AutomaticCreases, WorkWithEveryWeightingAndWithGroups) {
+    const SimpleMesh mesh = tube(48);
+    for (const NormalWeighting weighting :
+         {NormalWeighting::uniform, NormalWeighting::area, NormalWeighting::angle, NormalWeighting::max}) {
+        EXPECT_TRUE(areSame(normalsOf(mesh.view(), {.weighting = weighting, .crease_angle_deg = kAuto}).normals,
+                            normalsOf(mesh.view(), {.weighting = weighting, .crease_angle_deg = 60}).normals));
+    }
+    std::vector<std::uint32_t> groups(mesh.indices.size() / 3);
+    for (std::size_t f = 0; f < groups.size(); ++f) groups[f] = 1 + static_cast<std::uint32_t>(f / 200 % 2);
+    EXPECT_TRUE(areSame(normalsOf(mesh.view(), {.crease_angle_deg = kAuto, .smoothing_groups = groups}).normals,
+                        normalsOf(mesh.view(), {.crease_angle_deg = 60, .smoothing_groups = groups}).normals));
+}
+
+TEST(AutomaticCreases, AreThoseOfTheMeshInEveryPose) {
+    const SimpleMesh mesh = tube(24);
+    std::vector<Vec3> flat = mesh.positions;
+    for (Vec3& p : flat) p.z *= 0.01f;
+    std::vector<Vec3> by_mesh(mesh.indices.size()), by_angle(mesh.indices.size());
+    const auto pose = [&](float crease, std::vector<Vec3>& out) {
+        const NormalOptions options{.crease_angle_deg = crease};
+        EXPECT_TRUE(generatePoseNormals(mesh.view(), StridedSpan<const Vec3>(flat), options, out).ok());
+    };
+    pose(kAuto, by_mesh);
+    pose(60, by_angle);
+    EXPECT_TRUE(areSame(by_mesh, by_angle));
+}
+
+TEST(AutomaticCreases, OfBrokenMeshesGiveUnitNormals) {
+    SimpleMesh mesh = tube(24);
+    const auto check = [&](const char* name) {
+        const Outcome found = bestOf(mesh.view(), kAuto, 1);
+        EXPECT_TRUE(std::all_of(found.normals.begin(), found.normals.end(), [](const Vec3& n) {
+            return std::fabs(length(n) - 1) < 1e-5f;
+        })) << name;
+    };
+    const SimpleMesh sound = mesh;
+    for (const Vec3& bad : {Vec3{std::numeric_limits<float>::quiet_NaN(), 0, 0},
+                            Vec3{std::numeric_limits<float>::infinity(), 0, 0}, Vec3{3e38f, -3e38f, 0}, Vec3{}}) {
+        for (std::size_t v = 0; v < mesh.positions.size(); v += 13) mesh.positions[v] = bad;
+        check("some vertices");
+    }
+    mesh.positions.assign(mesh.positions.size(), Vec3{1, 2, 3});
+    check("one point");
+    mesh = sound;
+    for (std::size_t c = 0; c < mesh.indices.size(); ++c)
+        mesh.indices[c] = static_cast<std::uint32_t>(c * 7919 % mesh.positions.size());
+    check("triangles at random");
+    for (std::size_t c = 0; c < mesh.indices.size(); c += 3) mesh.indices[c] = 0, mesh.indices[c + 1] = 1;
+    check("a book");
+    mesh.indices.clear();
+    check("nothing");
+}
+
+}  // namespace
+}  // namespace tspace
