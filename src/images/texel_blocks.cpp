@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+// BC1 to BC5 and EAC. Formulas: Khronos Data Format Specification 1.4, chapters S3TC, RGTC and ETC2; exact, where hardware rounds.
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+
+#include "images/texel_format.h"
+
+namespace tspace {
+
+namespace {
+
+constexpr std::size_t kTexels = 16;
+
+/// Colours of BC1, whose third and fourth are black and transparent where `has_alpha` and the first is not the larger.
+void decodeColors(const std::uint8_t* block, bool has_alpha, Rgba* texels) {
+    const std::uint32_t first = little16(block), second = little16(block + 2), codes = little32(block + 4);
+    const bool is_cut = has_alpha && first <= second;
+    constexpr unsigned kShift[] = {11, 5, 0}, kMost[] = {31, 63, 31};
+    std::array<Rgba, 4> palette{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        const unsigned a = first >> kShift[i] & kMost[i], b = second >> kShift[i] & kMost[i];
+        const auto of = [&](unsigned sum, unsigned parts) {
+            return static_cast<float>(sum) / static_cast<float>(parts * kMost[i]);
+        };
+        palette[0][i] = of(a, 1);
+        palette[1][i] = of(b, 1);
+        palette[2][i] = is_cut ? of(a + b, 2) : of(2 * a + b, 3);
+        palette[3][i] = is_cut ? 0 : of(a + 2 * b, 3);
+    }
+    for (std::size_t i = 0; i < 4; ++i) palette[i][3] = is_cut && i == 3 ? 0.0F : 1.0F;
+    for (std::size_t i = 0; i < kTexels; ++i) texels[i] = palette[codes >> 2 * i & 3];
+}
+
+/// The eight values of a channel of BC4.
+std::array<float, 8> channelPalette(const std::uint8_t* block, bool is_signed) {
+    const auto end = [&](std::uint8_t byte) {
+        const int value = is_signed ? std::bit_cast<std::int8_t>(byte) : byte;
+        return is_signed ? std::max(value, -127) + 127 : value;
+    };
+    const int most = is_signed ? 254 : 255, first = end(block[0]), second = end(block[1]);
+    // Compared as stored: -128 is not -127 there.
+    const bool is_full =
+        is_signed ? std::bit_cast<std::int8_t>(block[0]) > std::bit_cast<std::int8_t>(block[1]) : block[0] > block[1];
+    const auto of = [&](int sum, int parts) { return static_cast<float>(sum) / static_cast<float>(parts * most); };
+    std::array<float, 8> palette{of(first, 1), of(second, 1), 0, 0, 0, 0, 0, 1};
+    const int parts = is_full ? 7 : 5;
+    for (int k = 1; k < parts; ++k)
+        palette[static_cast<std::size_t>(k) + 1] = of((parts - k) * first + k * second, parts);
+    return palette;
+}
+
+void decodeChannel(const std::uint8_t* block, bool is_signed, std::size_t channel, Rgba* texels) {
+    const std::array<float, 8> palette = channelPalette(block, is_signed);
+    std::uint64_t codes = little64(block) >> 16;
+    for (std::size_t i = 0; i < kTexels; ++i, codes >>= 3) texels[i][channel] = palette[codes & 7];
+}
+
+constexpr std::int8_t kEacModifiers[16][8] = {
+    {-3, -6, -9, -15, 2, 5, 8, 14}, {-3, -7, -10, -13, 2, 6, 9, 12}, {-2, -5, -8, -13, 1, 4, 7, 12},
+    {-2, -4, -6, -13, 1, 3, 5, 12}, {-3, -6, -8, -12, 2, 5, 7, 11},  {-3, -7, -9, -11, 2, 6, 8, 10},
+    {-4, -7, -8, -11, 3, 6, 7, 10}, {-3, -5, -8, -11, 2, 4, 7, 10},  {-2, -6, -8, -10, 1, 5, 7, 9},
+    {-2, -5, -8, -10, 1, 4, 7, 9},  {-2, -4, -8, -10, 1, 3, 7, 9},   {-2, -5, -7, -10, 1, 4, 6, 9},
+    {-3, -4, -7, -10, 2, 3, 6, 9},  {-1, -2, -3, -10, 0, 1, 2, 9},   {-4, -6, -8, -9, 3, 5, 7, 8},
+    {-3, -5, -7, -9, 2, 4, 6, 8}};
+
+/// Big-endian, and column by column.
+void decodeEacChannel(const std::uint8_t* block, bool is_signed, std::size_t channel, Rgba* texels) {
+    const int stored = is_signed ? std::max<int>(std::bit_cast<std::int8_t>(block[0]), -127) : block[0];
+    const int base = is_signed ? stored * 8 : stored * 8 + 4;
+    const int multiplier = block[1] >> 4, step = multiplier == 0 ? 1 : 8 * multiplier;
+    const std::int8_t* const modifiers = kEacModifiers[block[1] & 15];
+    std::uint64_t codes = 0;
+    for (std::size_t i = 2; i < 8; ++i) codes = codes << 8 | block[i];
+    for (std::size_t i = 0; i < kTexels; ++i) {
+        const int value = base + modifiers[codes >> (45 - 3 * i) & 7] * step;
+        const std::size_t texel = i % 4 * 4 + i / 4;
+        texels[texel][channel] = is_signed ? static_cast<float>(std::clamp(value, -1023, 1023) + 1023) / 2046.0F
+                                           : static_cast<float>(std::clamp(value, 0, 2047)) / 2047.0F;
+    }
+}
+
+template <class DecodeOne>
+void decodeChannels(const TexelFormat& format, const std::uint8_t* block, Rgba* texels, const DecodeOne& decode) {
+    std::fill_n(texels, kTexels, Rgba{0, 0, 0, 1});
+    for (std::size_t i = 0; i < format.channels; ++i) decode(block + 8 * i, format.is_signed, i, texels);
+    if (format.channels != 1) return;
+    for (std::size_t i = 0; i < kTexels; ++i) texels[i][1] = texels[i][2] = texels[i][0];
+}
+
+}  // namespace
+
+void decodeBc1(const TexelFormat&, const std::uint8_t* block, Rgba* texels) { decodeColors(block, true, texels); }
+
+void decodeBc2(const TexelFormat&, const std::uint8_t* block, Rgba* texels) {
+    decodeColors(block + 8, false, texels);
+    const std::uint64_t alpha = little64(block);
+    for (std::size_t i = 0; i < kTexels; ++i) texels[i][3] = static_cast<float>(alpha >> 4 * i & 15) / 15.0F;
+}
+
+void decodeBc3(const TexelFormat&, const std::uint8_t* block, Rgba* texels) {
+    decodeColors(block + 8, false, texels);
+    decodeChannel(block, false, 3, texels);
+}
+
+void decodeBc4(const TexelFormat& format, const std::uint8_t* block, Rgba* texels) {
+    decodeChannels(format, block, texels, decodeChannel);
+}
+
+void decodeEac(const TexelFormat& format, const std::uint8_t* block, Rgba* texels) {
+    decodeChannels(format, block, texels, decodeEacChannel);
+}
+
+}  // namespace tspace
