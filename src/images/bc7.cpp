@@ -9,17 +9,17 @@ namespace tspace {
 
 namespace {
 
-constexpr std::size_t kTexels = 16;
+constexpr std::size_t kBc7Texels = 16;
 
 /// A row of the table of modes: bits of each field.
 struct Bc7Mode {
     std::uint8_t subsets, partition_bits, rotation_bits, selection_bits, color_bits, alpha_bits, endpoint_p, shared_p,
         index_bits, second_bits;
 };
-constexpr Bc7Mode kModes[] = {{3, 4, 0, 0, 4, 0, 1, 0, 3, 0}, {2, 6, 0, 0, 6, 0, 0, 1, 3, 0},
-                              {3, 6, 0, 0, 5, 0, 0, 0, 2, 0}, {2, 6, 0, 0, 7, 0, 1, 0, 2, 0},
-                              {1, 0, 2, 1, 5, 6, 0, 0, 2, 3}, {1, 0, 2, 0, 7, 8, 0, 0, 2, 2},
-                              {1, 0, 0, 0, 7, 7, 1, 0, 4, 0}, {2, 6, 0, 0, 5, 5, 1, 0, 2, 0}};
+constexpr Bc7Mode kBc7Modes[] = {{3, 4, 0, 0, 4, 0, 1, 0, 3, 0}, {2, 6, 0, 0, 6, 0, 0, 1, 3, 0},
+                                 {3, 6, 0, 0, 5, 0, 0, 0, 2, 0}, {2, 6, 0, 0, 7, 0, 1, 0, 2, 0},
+                                 {1, 0, 2, 1, 5, 6, 0, 0, 2, 3}, {1, 0, 2, 0, 7, 8, 0, 0, 2, 2},
+                                 {1, 0, 0, 0, 7, 7, 1, 0, 4, 0}, {2, 6, 0, 0, 5, 5, 1, 0, 2, 0}};
 
 /// Bit i: the subset of texel i.
 constexpr std::uint16_t kTwoSubsets[64] = {
@@ -53,18 +53,18 @@ constexpr std::uint8_t kThirdOfThree[64] = {15, 8, 8,  3,  15, 15, 3,  8,  15, 1
                                             15, 3, 15, 15, 15, 15, 15, 15, 15, 15, 15, 15, 3,  15, 15, 8};
 
 /// By the number of bits of an index, in 64ths.
-constexpr std::uint8_t kWeights[5][16] = {{},
-                                          {},
-                                          {0, 21, 43, 64},
-                                          {0, 9, 18, 27, 37, 46, 55, 64},
-                                          {0, 4, 9, 13, 17, 21, 26, 30, 34, 38, 43, 47, 51, 55, 60, 64}};
+constexpr std::uint8_t kBc7Weights[5][16] = {{},
+                                             {},
+                                             {0, 21, 43, 64},
+                                             {0, 9, 18, 27, 37, 46, 55, 64},
+                                             {0, 4, 9, 13, 17, 21, 26, 30, 34, 38, 43, 47, 51, 55, 60, 64}};
 
 struct Bc7Block {
     Bc7Mode mode = {};
     std::uint32_t partition = 0, rotation = 0, selection = 0;
     /// Of 8 bits: [subset * 2 + end][channel].
     std::array<std::array<std::uint8_t, 4>, 6> ends = {};
-    std::array<std::uint8_t, kTexels> first = {}, second = {};  ///< indices
+    std::array<std::uint8_t, kBc7Texels> first = {}, second = {};  ///< indices
 
     [[nodiscard]] std::size_t subsetOf(std::size_t texel) const {
         if (mode.subsets == 2) return kTwoSubsets[partition] >> texel & 1;
@@ -77,7 +77,7 @@ struct Bc7Block {
     }
 };
 
-void readEnds(BlockBits& bits, Bc7Block& block) {
+void readBc7Ends(BlockBits& bits, Bc7Block& block) {
     const Bc7Mode& mode = block.mode;
     const std::size_t count = std::size_t{2} * mode.subsets;
     for (std::size_t channel = 0; channel < 4; ++channel) {
@@ -99,20 +99,20 @@ void readEnds(BlockBits& bits, Bc7Block& block) {
 }
 
 /// False where the mode is none.
-bool readBlock(const std::uint8_t* bytes, Bc7Block& block) {
+bool readBc7Block(const std::uint8_t* bytes, Bc7Block& block) {
     if (bytes[0] == 0) return false;
     const auto number = static_cast<unsigned>(std::countr_zero(bytes[0]));
-    block.mode = kModes[number];
+    block.mode = kBc7Modes[number];
     BlockBits bits(bytes);
     bits.take(number + 1);
     block.partition = bits.take(block.mode.partition_bits);
     block.rotation = bits.take(block.mode.rotation_bits);
     block.selection = bits.take(block.mode.selection_bits);
-    readEnds(bits, block);
-    for (std::size_t i = 0; i < kTexels; ++i)
+    readBc7Ends(bits, block);
+    for (std::size_t i = 0; i < kBc7Texels; ++i)
         block.first[i] = static_cast<std::uint8_t>(bits.take(block.mode.index_bits - (block.isAnchor(i) ? 1U : 0U)));
     if (block.mode.second_bits == 0) return true;
-    for (std::size_t i = 0; i < kTexels; ++i)
+    for (std::size_t i = 0; i < kBc7Texels; ++i)
         block.second[i] = static_cast<std::uint8_t>(bits.take(block.mode.second_bits - (i == 0 ? 1U : 0U)));
     return true;
 }
@@ -121,15 +121,15 @@ bool readBlock(const std::uint8_t* bytes, Bc7Block& block) {
 
 void decodeBc7(const TexelFormat&, const std::uint8_t* bytes, Rgba* texels) {
     Bc7Block block;
-    if (!readBlock(bytes, block)) {
-        for (std::size_t i = 0; i < kTexels; ++i) texels[i] = {0, 0, 0, 0};
+    if (!readBc7Block(bytes, block)) {
+        for (std::size_t i = 0; i < kBc7Texels; ++i) texels[i] = {0, 0, 0, 0};
         return;
     }
     const bool has_second = block.mode.second_bits != 0;
-    for (std::size_t i = 0; i < kTexels; ++i) {
+    for (std::size_t i = 0; i < kBc7Texels; ++i) {
         const std::size_t end = 2 * block.subsetOf(i);
-        const unsigned first = kWeights[block.mode.index_bits][block.first[i]];
-        const unsigned second = has_second ? kWeights[block.mode.second_bits][block.second[i]] : first;
+        const unsigned first = kBc7Weights[block.mode.index_bits][block.first[i]];
+        const unsigned second = has_second ? kBc7Weights[block.mode.second_bits][block.second[i]] : first;
         const unsigned of_color = block.selection == 0 ? first : second;
         const unsigned of_alpha = block.selection == 0 ? second : first;
         for (std::size_t channel = 0; channel < 4; ++channel) {

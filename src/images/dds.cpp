@@ -77,11 +77,27 @@ class DdsReader {
         const std::uint64_t wanted = texture_.levelBytes();
         if (wanted > bytes_.size() - data_at_) return {};
         texture_.level = bytes_.subspan(data_at_, static_cast<std::size_t>(wanted));
+        listLevels();
         return std::move(texture_);
     }
 
   private:
     [[nodiscard]] std::uint32_t number(std::size_t at) const { return little32(bytes_.data() + at); }
+
+    /// One after the other; those that are cut off are left out.
+    void listLevels() {
+        constexpr std::size_t kCountAt = 28;
+        constexpr std::uint32_t kMostLevels = 31;
+        const std::uint32_t count = std::clamp<std::uint32_t>(number(kCountAt), 1, kMostLevels);
+        std::size_t at = data_at_;
+        for (std::uint32_t i = 0; i < count; ++i) {
+            const auto side = [&](std::uint32_t texels) { return std::max<std::uint32_t>(texels >> i, 1); };
+            const std::uint64_t wanted = texture_.format.bytesOf(side(texture_.size.width), side(texture_.size.height));
+            if (wanted > bytes_.size() - at) return;
+            texture_.levels.push_back({at, static_cast<std::size_t>(wanted)});
+            at += static_cast<std::size_t>(wanted);
+        }
+    }
 
     bool isPicture() {
         constexpr std::size_t kCapsAt = 112;

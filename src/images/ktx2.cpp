@@ -150,6 +150,7 @@ class Ktx2Reader {
                 return false;
             if (texture_.repacking == Repacking::none && range.count != wanted) return false;
             ranges.push_back(range);
+            texture_.levels.push_back({static_cast<std::size_t>(range.begin), static_cast<std::size_t>(range.count)});
         }
         texture_.level = *part(ranges.front().begin, ranges.front().count);
         std::sort(ranges.begin(), ranges.end(), [](const Range& a, const Range& b) { return a.begin < b.begin; });

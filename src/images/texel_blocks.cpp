@@ -10,7 +10,7 @@ namespace tspace {
 
 namespace {
 
-constexpr std::size_t kTexels = 16;
+constexpr std::size_t kBlockTexels = 16;
 
 /// Colours of BC1, whose third and fourth are black and transparent where `has_alpha` and the first is not the larger.
 void decodeColors(const std::uint8_t* block, bool has_alpha, Rgba* texels) {
@@ -29,7 +29,7 @@ void decodeColors(const std::uint8_t* block, bool has_alpha, Rgba* texels) {
         palette[3][i] = is_cut ? 0 : of(a + 2 * b, 3);
     }
     for (std::size_t i = 0; i < 4; ++i) palette[i][3] = is_cut && i == 3 ? 0.0F : 1.0F;
-    for (std::size_t i = 0; i < kTexels; ++i) texels[i] = palette[codes >> 2 * i & 3];
+    for (std::size_t i = 0; i < kBlockTexels; ++i) texels[i] = palette[codes >> 2 * i & 3];
 }
 
 /// The eight values of a channel of BC4.
@@ -53,7 +53,7 @@ std::array<float, 8> channelPalette(const std::uint8_t* block, bool is_signed) {
 void decodeChannel(const std::uint8_t* block, bool is_signed, std::size_t channel, Rgba* texels) {
     const std::array<float, 8> palette = channelPalette(block, is_signed);
     std::uint64_t codes = little64(block) >> 16;
-    for (std::size_t i = 0; i < kTexels; ++i, codes >>= 3) texels[i][channel] = palette[codes & 7];
+    for (std::size_t i = 0; i < kBlockTexels; ++i, codes >>= 3) texels[i][channel] = palette[codes & 7];
 }
 
 constexpr std::int8_t kEacModifiers[16][8] = {
@@ -72,7 +72,7 @@ void decodeEacChannel(const std::uint8_t* block, bool is_signed, std::size_t cha
     const std::int8_t* const modifiers = kEacModifiers[block[1] & 15];
     std::uint64_t codes = 0;
     for (std::size_t i = 2; i < 8; ++i) codes = codes << 8 | block[i];
-    for (std::size_t i = 0; i < kTexels; ++i) {
+    for (std::size_t i = 0; i < kBlockTexels; ++i) {
         const int value = base + modifiers[codes >> (45 - 3 * i) & 7] * step;
         const std::size_t texel = i % 4 * 4 + i / 4;
         texels[texel][channel] = is_signed ? static_cast<float>(std::clamp(value, -1023, 1023) + 1023) / 2046.0F
@@ -82,10 +82,10 @@ void decodeEacChannel(const std::uint8_t* block, bool is_signed, std::size_t cha
 
 template <class DecodeOne>
 void decodeChannels(const TexelFormat& format, const std::uint8_t* block, Rgba* texels, const DecodeOne& decode) {
-    std::fill_n(texels, kTexels, Rgba{0, 0, 0, 1});
+    std::fill_n(texels, kBlockTexels, Rgba{0, 0, 0, 1});
     for (std::size_t i = 0; i < format.channels; ++i) decode(block + 8 * i, format.is_signed, i, texels);
     if (format.channels != 1) return;
-    for (std::size_t i = 0; i < kTexels; ++i) texels[i][1] = texels[i][2] = texels[i][0];
+    for (std::size_t i = 0; i < kBlockTexels; ++i) texels[i][1] = texels[i][2] = texels[i][0];
 }
 
 }  // namespace
@@ -95,7 +95,7 @@ void decodeBc1(const TexelFormat&, const std::uint8_t* block, Rgba* texels) { de
 void decodeBc2(const TexelFormat&, const std::uint8_t* block, Rgba* texels) {
     decodeColors(block + 8, false, texels);
     const std::uint64_t alpha = little64(block);
-    for (std::size_t i = 0; i < kTexels; ++i) texels[i][3] = static_cast<float>(alpha >> 4 * i & 15) / 15.0F;
+    for (std::size_t i = 0; i < kBlockTexels; ++i) texels[i][3] = static_cast<float>(alpha >> 4 * i & 15) / 15.0F;
 }
 
 void decodeBc3(const TexelFormat&, const std::uint8_t* block, Rgba* texels) {
@@ -105,6 +105,32 @@ void decodeBc3(const TexelFormat&, const std::uint8_t* block, Rgba* texels) {
 
 void decodeBc4(const TexelFormat& format, const std::uint8_t* block, Rgba* texels) {
     decodeChannels(format, block, texels, decodeChannel);
+}
+
+/// The ends are inverted and change places, and so do the codes; the value between stay as they are.
+void invertBc4Channel(const TexelFormat& format, std::uint8_t* block, unsigned channel) {
+    std::uint8_t* const at = block + std::size_t{8} * channel;
+    const auto inverted = [&](std::uint8_t byte) {
+        if (!format.is_signed) return static_cast<std::uint8_t>(255 - byte);
+        const int value = std::bit_cast<std::int8_t>(byte);
+        return static_cast<std::uint8_t>(value == -128 ? 127 : -value);
+    };
+    const bool is_full =
+        format.is_signed ? std::bit_cast<std::int8_t>(at[0]) > std::bit_cast<std::int8_t>(at[1]) : at[0] > at[1];
+    const std::uint8_t first = inverted(at[1]), second = inverted(at[0]);
+    at[0] = first;
+    at[1] = second;
+    // -127 and -128 are one number: where both are ends, all values are.
+    const bool is_one = is_full && first == second;
+    std::uint64_t codes = 0;
+    for (unsigned i = 0; i < kBlockTexels; ++i) {
+        const std::size_t bit = 16 + 3 * i;
+        const unsigned code = static_cast<unsigned>(little64(at) >> bit) & 7;
+        unsigned changed = code < 2 ? 1 - code : is_full ? 9 - code : code < 6 ? 7 - code : 13 - code;
+        if (is_one) changed = 0;
+        codes |= std::uint64_t{changed} << 3 * i;
+    }
+    for (std::size_t i = 0; i < 6; ++i) at[2 + i] = static_cast<std::uint8_t>(codes >> 8 * i);
 }
 
 void decodeEac(const TexelFormat& format, const std::uint8_t* block, Rgba* texels) {

@@ -82,90 +82,125 @@ void decodeMasked(const TexelFormat& format, const std::uint8_t* block, Rgba* te
     if (format.masks[1] == 0 && format.masks[2] == 0) (*texels)[1] = (*texels)[2] = (*texels)[0];
 }
 
-constexpr TexelFormat plain(const char* name, std::uint8_t channels, std::uint8_t bits,
-                            void (*decode)(const TexelFormat&, const std::uint8_t*, Rgba*), bool is_signed = false) {
+void invertByte(const TexelFormat& format, std::uint8_t* block, unsigned channel) {
+    std::uint8_t& byte = block[channel];
+    const int value = std::bit_cast<std::int8_t>(byte);
+    byte = static_cast<std::uint8_t>(!format.is_signed ? 255 - byte : value == -128 ? 127 : -value);
+}
+
+void invertWord(const TexelFormat& format, std::uint8_t* block, unsigned channel) {
+    std::uint8_t* const at = block + std::size_t{2} * channel;
+    const std::uint32_t word = little16(at);
+    const std::uint32_t changed = !format.is_signed ? 65535 - word : word == 0x8000 ? 0x7fff : 0x10000 - word;
+    at[0] = static_cast<std::uint8_t>(changed);
+    at[1] = static_cast<std::uint8_t>(changed >> 8);
+}
+
+/// All bits of the mask.
+void invertMasked(const TexelFormat& format, std::uint8_t* block, unsigned channel) {
+    for (unsigned i = 0; i < format.block_bytes; ++i)
+        block[i] ^= static_cast<std::uint8_t>(format.masks[channel] >> 8 * i);
+}
+
+constexpr TexelFormat plainFormat(const char* name, std::uint8_t channels, std::uint8_t bits,
+                                  void (*decode)(const TexelFormat&, const std::uint8_t*, Rgba*),
+                                  bool is_signed = false) {
     return {.name = name,
             .block_bytes = static_cast<std::uint8_t>(channels * bits / 8),
             .channels = channels,
             .bits = bits,
             .is_signed = is_signed,
-            .decode = decode};
+            .decode = decode,
+            .invert = bits == 8    ? invertByte
+                      : bits == 16 ? invertWord
+                                   : nullptr};
 }
 
-constexpr TexelFormat floats(const char* name, std::uint8_t channels, std::uint8_t bits,
-                             void (*decode)(const TexelFormat&, const std::uint8_t*, Rgba*)) {
-    TexelFormat format = plain(name, channels, bits, decode);
+constexpr TexelFormat floatFormat(const char* name, std::uint8_t channels, std::uint8_t bits,
+                                  void (*decode)(const TexelFormat&, const std::uint8_t*, Rgba*)) {
+    TexelFormat format = plainFormat(name, channels, bits, decode);
     format.is_float = true;
+    format.invert = nullptr;
     return format;
 }
 
-constexpr TexelFormat block(const char* name, std::uint8_t bytes, std::uint8_t channels, std::uint8_t bits,
-                            void (*decode)(const TexelFormat&, const std::uint8_t*, Rgba*), bool is_signed = false) {
+constexpr TexelFormat blockFormat(const char* name, std::uint8_t bytes, std::uint8_t channels, std::uint8_t bits,
+                                  void (*decode)(const TexelFormat&, const std::uint8_t*, Rgba*),
+                                  bool is_signed = false) {
     return {.name = name,
             .side = 4,
             .block_bytes = bytes,
             .channels = channels,
             .bits = bits,
             .is_signed = is_signed,
-            .decode = decode};
+            .decode = decode,
+            .invert = decode == decodeBc4 ? invertBc4Channel : nullptr};
 }
 
-constexpr TexelFormat bgrx() {
-    TexelFormat format = plain("B8G8R8X8", 3, 8, decodeTurnedBytes);
+constexpr TexelFormat bgrxFormat() {
+    TexelFormat format = plainFormat("B8G8R8X8", 3, 8, decodeTurnedBytes);
     format.block_bytes = 4;
     return format;
 }
 
-constexpr TexelFormat tenBits() {
-    TexelFormat format = plain("R10G10B10A2", 4, 16, decodeTenBits);
+constexpr TexelFormat tenBitFormat() {
+    TexelFormat format = plainFormat("R10G10B10A2", 4, 16, decodeTenBits);
     format.block_bytes = 4;
+    format.invert = invertMasked;
+    format.masks = {0x3ff, 0xffc00, 0x3ff00000, 0xc0000000};
     return format;
 }
 
-/// In the order of TexelKind. BC4, BC5 and EAC resolve more than 8 bits.
+constexpr TexelFormat maskedFormat() {
+    TexelFormat format = plainFormat("uncompressed", 4, 8, decodeMasked);
+    format.invert = invertMasked;
+    return format;
+}
+
+/// In the order of TexelKind. Of plain formats with blue first green is the second too. BC4, BC5 and EAC resolve more than 8 bits.
 constexpr TexelFormat kFormats[] = {
-    plain("R8", 1, 8, decodeBytes),
-    plain("R8 signed", 1, 8, decodeBytes, true),
-    plain("R8G8", 2, 8, decodeBytes),
-    plain("R8G8 signed", 2, 8, decodeBytes, true),
-    plain("R8G8B8", 3, 8, decodeBytes),
-    plain("R8G8B8 signed", 3, 8, decodeBytes, true),
-    plain("B8G8R8", 3, 8, decodeTurnedBytes),
-    plain("R8G8B8A8", 4, 8, decodeBytes),
-    plain("R8G8B8A8 signed", 4, 8, decodeBytes, true),
-    plain("B8G8R8A8", 4, 8, decodeTurnedBytes),
-    bgrx(),
-    tenBits(),
-    plain("R16", 1, 16, decodeWords),
-    plain("R16 signed", 1, 16, decodeWords, true),
-    plain("R16G16", 2, 16, decodeWords),
-    plain("R16G16 signed", 2, 16, decodeWords, true),
-    plain("R16G16B16", 3, 16, decodeWords),
-    plain("R16G16B16 signed", 3, 16, decodeWords, true),
-    plain("R16G16B16A16", 4, 16, decodeWords),
-    plain("R16G16B16A16 signed", 4, 16, decodeWords, true),
-    floats("R16 float", 1, 16, decodeHalves),
-    floats("R16G16 float", 2, 16, decodeHalves),
-    floats("R16G16B16 float", 3, 16, decodeHalves),
-    floats("R16G16B16A16 float", 4, 16, decodeHalves),
-    floats("R32 float", 1, 32, decodeFloats),
-    floats("R32G32 float", 2, 32, decodeFloats),
-    floats("R32G32B32 float", 3, 32, decodeFloats),
-    floats("R32G32B32A32 float", 4, 32, decodeFloats),
-    plain("uncompressed", 4, 8, decodeMasked),
-    block("BC1", 8, 4, 8, decodeBc1),
-    block("BC2", 16, 4, 8, decodeBc2),
-    block("BC3", 16, 4, 8, decodeBc3),
-    block("BC4", 8, 1, 16, decodeBc4),
-    block("BC4 signed", 8, 1, 16, decodeBc4, true),
-    block("BC5", 16, 2, 16, decodeBc4),
-    block("BC5 signed", 16, 2, 16, decodeBc4, true),
-    block("BC7", 16, 4, 8, decodeBc7),
-    block("EAC R11", 8, 1, 16, decodeEac),
-    block("EAC R11 signed", 8, 1, 16, decodeEac, true),
-    block("EAC RG11", 16, 2, 16, decodeEac),
-    block("EAC RG11 signed", 16, 2, 16, decodeEac, true),
-    block("UASTC", 16, 4, 8, decodeUastc),
+    plainFormat("R8", 1, 8, decodeBytes),
+    plainFormat("R8 signed", 1, 8, decodeBytes, true),
+    plainFormat("R8G8", 2, 8, decodeBytes),
+    plainFormat("R8G8 signed", 2, 8, decodeBytes, true),
+    plainFormat("R8G8B8", 3, 8, decodeBytes),
+    plainFormat("R8G8B8 signed", 3, 8, decodeBytes, true),
+    plainFormat("B8G8R8", 3, 8, decodeTurnedBytes),
+    plainFormat("R8G8B8A8", 4, 8, decodeBytes),
+    plainFormat("R8G8B8A8 signed", 4, 8, decodeBytes, true),
+    plainFormat("B8G8R8A8", 4, 8, decodeTurnedBytes),
+    bgrxFormat(),
+    tenBitFormat(),
+    plainFormat("R16", 1, 16, decodeWords),
+    plainFormat("R16 signed", 1, 16, decodeWords, true),
+    plainFormat("R16G16", 2, 16, decodeWords),
+    plainFormat("R16G16 signed", 2, 16, decodeWords, true),
+    plainFormat("R16G16B16", 3, 16, decodeWords),
+    plainFormat("R16G16B16 signed", 3, 16, decodeWords, true),
+    plainFormat("R16G16B16A16", 4, 16, decodeWords),
+    plainFormat("R16G16B16A16 signed", 4, 16, decodeWords, true),
+    floatFormat("R16 float", 1, 16, decodeHalves),
+    floatFormat("R16G16 float", 2, 16, decodeHalves),
+    floatFormat("R16G16B16 float", 3, 16, decodeHalves),
+    floatFormat("R16G16B16A16 float", 4, 16, decodeHalves),
+    floatFormat("R32 float", 1, 32, decodeFloats),
+    floatFormat("R32G32 float", 2, 32, decodeFloats),
+    floatFormat("R32G32B32 float", 3, 32, decodeFloats),
+    floatFormat("R32G32B32A32 float", 4, 32, decodeFloats),
+    maskedFormat(),
+    blockFormat("BC1", 8, 4, 8, decodeBc1),
+    blockFormat("BC2", 16, 4, 8, decodeBc2),
+    blockFormat("BC3", 16, 4, 8, decodeBc3),
+    blockFormat("BC4", 8, 1, 16, decodeBc4),
+    blockFormat("BC4 signed", 8, 1, 16, decodeBc4, true),
+    blockFormat("BC5", 16, 2, 16, decodeBc4),
+    blockFormat("BC5 signed", 16, 2, 16, decodeBc4, true),
+    blockFormat("BC7", 16, 4, 8, decodeBc7),
+    blockFormat("EAC R11", 8, 1, 16, decodeEac),
+    blockFormat("EAC R11 signed", 8, 1, 16, decodeEac, true),
+    blockFormat("EAC RG11", 16, 2, 16, decodeEac),
+    blockFormat("EAC RG11 signed", 16, 2, 16, decodeEac, true),
+    blockFormat("UASTC", 16, 4, 8, decodeUastc),
     {},
 };
 

@@ -59,6 +59,11 @@ enum class TexelKind : std::uint8_t {
     none
 };
 
+struct TexelFormat;
+
+/// Inverts a channel of a block: 1 - c, exactly.
+using InvertChannel = void (*)(const TexelFormat&, std::uint8_t* block, unsigned channel);
+
 struct TexelFormat {
     const char* name = "";
     std::uint8_t side = 1;         ///< texels along each side of a block: 1 or 4
@@ -68,6 +73,7 @@ struct TexelFormat {
     bool is_signed = false, is_float = false;
     /// Writes side * side texels, row by row. Any bytes may come.
     void (*decode)(const TexelFormat&, const std::uint8_t* block, Rgba* texels) = nullptr;
+    InvertChannel invert = nullptr;           ///< null where the format cannot hold the result exactly
     std::array<std::uint32_t, 4> masks = {};  ///< of `masked`
 
     [[nodiscard]] std::uint64_t blocksAlong(std::uint32_t texels) const {
@@ -92,6 +98,8 @@ void decodeBc4(const TexelFormat& format, const std::uint8_t* block, Rgba* texel
 void decodeEac(const TexelFormat& format, const std::uint8_t* block, Rgba* texels);
 void decodeBc7(const TexelFormat& format, const std::uint8_t* block, Rgba* texels);
 void decodeUastc(const TexelFormat& format, const std::uint8_t* block, Rgba* texels);
+
+void invertBc4Channel(const TexelFormat& format, std::uint8_t* block, unsigned channel);
 
 inline std::uint32_t little16(const std::uint8_t* at) { return loadLittleEndian<std::uint16_t>(at); }
 inline std::uint32_t little32(const std::uint8_t* at) { return loadLittleEndian<std::uint32_t>(at); }

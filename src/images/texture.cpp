@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "images/codecs.h"
+#include "images/layout_guess.h"
 #include "images/texture_file.h"
 
 namespace tspace {
@@ -91,58 +92,6 @@ std::optional<TextureFile> openTexture(ByteSpan bytes, std::uint64_t most_pixels
 }
 
 std::string brokenTexture(const TextureFile& texture) { return std::string("it is a broken ") + texture.container; }
-
-/// Where x and y are among four channels, where one of the usual places fits: x alone in alpha and y in green, with red the same
-/// everywhere; or x in all three colours and y in alpha.
-class LayoutGuess {
-  public:
-    void add(const Vec3& texel, float alpha) {
-        const std::array<float, 4> values{texel.x, texel.y, texel.z, alpha};
-        for (std::size_t i = 0; i < 4; ++i) {
-            least_[i] = std::min(least_[i], values[i]);
-            most_[i] = std::max(most_[i], values[i]);
-        }
-        most_apart_ = std::max({most_apart_, std::fabs(texel.x - texel.y), std::fabs(texel.x - texel.z)});
-        green_.add(alpha, texel.y);
-        red_.add(texel.x, alpha);
-        ++count_;
-    }
-
-    [[nodiscard]] std::optional<MapLayout> layout() const {
-        constexpr float kSame = 3.0F / 255.0F;  // lost in compression
-        const auto varies = [&](std::size_t i) { return most_[i] - least_[i] > kSame; };
-        if (!varies(3) || !varies(1)) return {};
-        if (!varies(0) && green_.fits(count_)) return twoChannelLayout(MapChannel::alpha, MapChannel::green);
-        if (most_apart_ <= kSame && red_.fits(count_)) return twoChannelLayout(MapChannel::red, MapChannel::alpha);
-        return {};
-    }
-
-  private:
-    /// Whether pairs are x and y of unit vectors around z.
-    struct Pairs {
-        double sum_x = 0, sum_y = 0;
-        std::uint64_t inside = 0;
-
-        void add(float x, float y) {
-            constexpr double kLongest = 1.04;
-            const double a = 2 * static_cast<double>(x) - 1, b = 2 * static_cast<double>(y) - 1;
-            sum_x += a;
-            sum_y += b;
-            inside += a * a + b * b <= kLongest ? 1 : 0;
-        }
-        [[nodiscard]] bool fits(std::uint64_t count) const {
-            constexpr double kMostMean = 0.3, kLeastInside = 0.99;
-            const auto total = static_cast<double>(count);
-            return std::fabs(sum_x) < kMostMean * total && std::fabs(sum_y) < kMostMean * total &&
-                   static_cast<double>(inside) >= kLeastInside * total;
-        }
-    };
-
-    std::array<float, 4> least_ = {1, 1, 1, 1}, most_ = {};
-    float most_apart_ = 0;
-    Pairs green_ = {}, red_ = {};
-    std::uint64_t count_ = 0;
-};
 
 void guessLayout(FloatImage& image) {
     if (image.alpha.empty() || !(image.texture.layout == MapLayout{})) return;

@@ -22,6 +22,10 @@ struct TextureFile {
     Repacking repacking = Repacking::none;
     /// The first, which is the largest, as it lies in the file. Of a KTX2 that is packed once more any number of bytes.
     ByteSpan level = {};
+    struct Place {
+        std::size_t at = 0, bytes = 0;
+    };
+    std::vector<Place> levels = {};                  ///< where all of them are in the file
     bool is_srgb = false;                            ///< the file says that its numbers have the sRGB curve
     bool turns_columns = false, turns_rows = false;  ///< the first texel is not the top left one
     /// Of each colour that is shown: the channel of the format, or one of these.

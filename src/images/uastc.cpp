@@ -9,7 +9,7 @@ namespace tspace {
 
 namespace {
 
-constexpr std::size_t kTexels = 16, kSolid = 8;
+constexpr std::size_t kUastcTexels = 16, kSolid = 8;
 
 /// A mode: how it is told, and bits of each field.
 struct UastcMode {
@@ -89,7 +89,7 @@ struct UastcBlock {
     UastcMode mode = {};
     std::uint32_t pattern = 0, selected = 3;
     std::array<std::array<std::uint32_t, 4>, 6> ends = {};  ///< [subset * 2 + end][channel], of 8 bits
-    std::array<std::array<std::uint8_t, kTexels>, 2> weights = {};
+    std::array<std::array<std::uint8_t, kUastcTexels>, 2> weights = {};
 
     [[nodiscard]] std::size_t subsetOf(std::size_t texel) const {
         if (mode.subsets == 3) return kThreePatterns[pattern] >> 2 * texel & 3;
@@ -141,7 +141,7 @@ void readUastcEnds(BlockBits& bits, UastcBlock& block) {
 void readUastcWeights(BlockBits& bits, UastcBlock& block) {
     unsigned seen = 0;
     const std::size_t planes = block.mode.has_planes ? 2 : 1;
-    for (std::size_t i = 0; i < kTexels; ++i) {
+    for (std::size_t i = 0; i < kUastcTexels; ++i) {
         const unsigned subset = 1U << block.subsetOf(i);
         const unsigned wide = block.mode.weight_bits - ((seen & subset) == 0 ? 1U : 0U);
         seen |= subset;
@@ -177,10 +177,10 @@ bool readUastcBlock(const std::uint8_t* bytes, UastcBlock& block) {
 void decodeUastc(const TexelFormat&, const std::uint8_t* bytes, Rgba* texels) {
     UastcBlock block;
     if (!readUastcBlock(bytes, block)) {
-        std::fill_n(texels, kTexels, Rgba{1, 0, 1, 1});  // the colour of errors
+        std::fill_n(texels, kUastcTexels, Rgba{1, 0, 1, 1});  // the colour of errors
         return;
     }
-    for (std::size_t i = 0; i < kTexels; ++i) {
+    for (std::size_t i = 0; i < kUastcTexels; ++i) {
         const std::size_t end = 2 * block.subsetOf(i);
         for (std::size_t channel = 0; channel < 4; ++channel) {
             std::uint32_t value = block.ends[end][channel];

@@ -5,6 +5,7 @@
 #include "expect_bounded.h"
 #include "images/image.h"
 #include "images/images.h"
+#include "images/textures.h"
 #include "model/gltf_builder.h"
 #include "tspace/check.h"
 
@@ -69,6 +70,19 @@ TEST(MemoryCeiling, HoldsForJpegThatClaimsFourBillionPixels) {
 TEST(MemoryCeiling, HoldsForManyFlatImagesOfManyPixels) {
     expectImageBounded(test::pngFile(flatImage(2048)), 100, false);
     expectImageBounded(test::jpegFile(flatImage(2048), 50), 100, false);
+}
+
+TEST(MemoryCeiling, HoldsForTexturesThatUnpackToManyPixels) {
+    // 16 million pixels of one colour in a few kilobytes, and a file that claims four times as many.
+    const std::string data(std::size_t{2} << 24, '\x80');
+    test::Ktx2Parts parts{.format = 16, .width = 4096, .height = 4096, .levels = {test::zstdOf(data)}};
+    parts.unpacked = {data.size()};
+    parts.scheme = 2;
+    expectImageBounded(test::ktx2File(parts), 20, false);
+    parts.width = parts.height = 8192;
+    parts.unpacked = {4 * data.size()};
+    expectImageBounded(test::ktx2File(parts), 1, true);
+    expectImageBounded(test::ddsFile(83, 1 << 16, 1 << 16, std::string(64, 'x')), 1, true);
 }
 
 TEST(MemoryCeiling, LeavesGoodNormalMapsToBeLookedAt) {
