@@ -2,6 +2,7 @@
 // The head of a DDS file, by Microsoft's programming guide for DDS.
 #include <algorithm>
 #include <bit>
+#include <iterator>
 #include <string_view>
 
 #include "images/texture_file.h"

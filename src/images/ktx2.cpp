@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The head of a KTX2 file, by the Khronos KTX File Format Specification 2.0.
 #include <algorithm>
+#include <iterator>
 #include <string_view>
 
 #include "images/texture_file.h"
@@ -38,7 +39,8 @@ constexpr VulkanFormat kVulkanFormats[] = {
 
 /// What the file says of its texels beside Vulkan's number.
 struct Description {
-    std::uint32_t model = 0, transfer = 0, channel = 0;
+    std::uint32_t model = 0, transfer = 0;
+    std::uint32_t samples = 0, channel = 0, second_channel = 0;  ///< what the first two samples are
 };
 
 class Ktx2Reader {
@@ -83,7 +85,9 @@ class Ktx2Reader {
         const std::optional<ByteSpan> data = part(number(48), number(52));
         if (!data || data->size() < kHead + kBlock) return false;
         description_ = {.model = (*data)[12], .transfer = (*data)[14]};
-        if (data->size() >= kHead + kBlock + kSample) description_.channel = (*data)[kChannelAt] & 15;
+        description_.samples = static_cast<std::uint32_t>((data->size() - kHead - kBlock) / kSample);
+        if (description_.samples > 0) description_.channel = (*data)[kChannelAt] & 15;
+        if (description_.samples > 1) description_.second_channel = (*data)[kChannelAt + kSample] & 15;
         return true;
     }
 
@@ -106,17 +110,38 @@ class Ktx2Reader {
             if (description_.channel == kRg) setChannels(0, 1);
             return true;
         }
+        if (vulkan == 0 && description_.model == kEtc1s) {
+            constexpr std::uint32_t kRed = 3, kGreen = 4;
+            texture_.format = texelFormat(description_.samples > 1 ? TexelKind::etc1s_alpha : TexelKind::etc1s);
+            if (description_.channel == kRed && description_.second_channel == kGreen) setChannels(0, 3);
+            return true;
+        }
+        if (findAstc(vulkan)) return true;
         why_ = "it is a KTX2 of Vulkan's format " + std::to_string(vulkan) + ", which is not read";
-        if (description_.model == kAstc) why_ = "it is a KTX2 of ASTC, which is not read";
+        if (description_.model == kAstc && whyNotAstc() != nullptr) why_ = whyNotAstc();
         if (description_.model == kUastcHdr) why_ = "it is a KTX2 of UASTC for high dynamic range, which is not read";
-        if (description_.model == kEtc1s)
-            why_ = "it is a KTX2 of ETC1S (Basis Universal), which is not read, and too coarse for normals";
         return false;
     }
 
+    /// Of each size of blocks one format without and one with the sRGB curve, one after the other.
+    bool findAstc(std::uint32_t vulkan) {
+        constexpr std::uint32_t kFirst = 157;
+        constexpr std::uint8_t kSizes[][2] = {{4, 4}, {5, 4},  {5, 5},  {6, 5},  {6, 6},   {8, 5},   {8, 6},
+                                              {8, 8}, {10, 5}, {10, 6}, {10, 8}, {10, 10}, {12, 10}, {12, 12}};
+        if (vulkan < kFirst || (vulkan - kFirst) / 2 >= std::size(kSizes) || whyNotAstc() != nullptr) return false;
+        texture_.format = texelFormat(TexelKind::astc);
+        texture_.format.width = kSizes[(vulkan - kFirst) / 2][0];
+        texture_.format.height = kSizes[(vulkan - kFirst) / 2][1];
+        texture_.is_srgb = texture_.is_srgb || (vulkan - kFirst) % 2 != 0;
+        return true;
+    }
+
     bool findRepacking() {
-        constexpr std::uint32_t kPlain = 0, kZstd = 2, kZlib = 3;
+        constexpr std::uint32_t kPlain = 0, kBasisLz = 1, kZstd = 2, kZlib = 3;
         const std::uint32_t scheme = number(44);
+        const bool is_etc1s = texture_.format.decode == decodeEtc1s;
+        if (is_etc1s != (scheme == kBasisLz)) return false;
+        if (is_etc1s) return findGlobalData();
         if (scheme != kPlain && scheme != kZstd && scheme != kZlib) {
             why_ = "it is a KTX2 packed by scheme " + std::to_string(scheme) + ", which is not read";
             return false;
@@ -128,6 +153,13 @@ class Ktx2Reader {
             return false;
         }
         return true;
+    }
+
+    bool findGlobalData() {
+        texture_.repacking = Repacking::basis_lz;
+        const std::optional<ByteSpan> data = part(little64(bytes_.data() + 64), little64(bytes_.data() + 72));
+        if (data) texture_.global = *data;
+        return data.has_value();
     }
 
     /// All levels must lie behind the head, apart from each other.
@@ -146,8 +178,9 @@ class Ktx2Reader {
             const std::uint64_t unpacked = little64(entry + 16);
             const auto size = [&](std::uint32_t side) { return std::max<std::uint32_t>(side >> i, 1); };
             const std::uint64_t wanted = texture_.format.bytesOf(size(texture_.size.width), size(texture_.size.height));
-            if (range.begin < kHeadBytes + kEntry * count || !part(range.begin, range.count) || unpacked != wanted)
-                return false;
+            if (range.begin < kHeadBytes + kEntry * count || !part(range.begin, range.count)) return false;
+            // BasisLZ says nothing of unpacked bytes.
+            if (unpacked != wanted && texture_.repacking != Repacking::basis_lz) return false;
             if (texture_.repacking == Repacking::none && range.count != wanted) return false;
             ranges.push_back(range);
             texture_.levels.push_back({static_cast<std::size_t>(range.begin), static_cast<std::size_t>(range.count)});

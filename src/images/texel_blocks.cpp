@@ -80,6 +80,17 @@ void decodeEacChannel(const std::uint8_t* block, bool is_signed, std::size_t cha
     }
 }
 
+constexpr std::uint8_t kEtc1Modifiers[8][2] = {{2, 8},   {5, 17},  {9, 29},   {13, 42},
+                                               {18, 60}, {24, 80}, {33, 106}, {47, 183}};
+
+/// A channel of a slice of ETC1S: 0 to 255.
+int etc1sValue(const std::uint8_t* slice, std::size_t channel, std::size_t texel) {
+    const unsigned code = slice[4 + texel / 4] >> 2 * (texel % 4) & 3;
+    const std::uint8_t* const modifiers = kEtc1Modifiers[slice[3] & 7];
+    const int by = code == 0 ? -modifiers[1] : code == 1 ? -modifiers[0] : modifiers[code - 2];
+    return std::clamp((slice[channel] << 3 | slice[channel] >> 2) + by, 0, 255);
+}
+
 template <class DecodeOne>
 void decodeChannels(const TexelFormat& format, const std::uint8_t* block, Rgba* texels, const DecodeOne& decode) {
     std::fill_n(texels, kBlockTexels, Rgba{0, 0, 0, 1});
@@ -131,6 +142,13 @@ void invertBc4Channel(const TexelFormat& format, std::uint8_t* block, unsigned c
         codes |= std::uint64_t{changed} << 3 * i;
     }
     for (std::size_t i = 0; i < 6; ++i) at[2 + i] = static_cast<std::uint8_t>(codes >> 8 * i);
+}
+
+void decodeEtc1s(const TexelFormat& format, const std::uint8_t* block, Rgba* texels) {
+    for (std::size_t i = 0; i < kBlockTexels; ++i) {
+        for (std::size_t k = 0; k < 3; ++k) texels[i][k] = static_cast<float>(etc1sValue(block, k, i)) / 255.0F;
+        texels[i][3] = format.channels == 4 ? static_cast<float>(etc1sValue(block + 8, 1, i)) / 255.0F : 1.0F;
+    }
 }
 
 void decodeEac(const TexelFormat& format, const std::uint8_t* block, Rgba* texels) {

@@ -128,7 +128,8 @@ constexpr TexelFormat blockFormat(const char* name, std::uint8_t bytes, std::uin
                                   void (*decode)(const TexelFormat&, const std::uint8_t*, Rgba*),
                                   bool is_signed = false) {
     return {.name = name,
-            .side = 4,
+            .width = 4,
+            .height = 4,
             .block_bytes = bytes,
             .channels = channels,
             .bits = bits,
@@ -201,6 +202,9 @@ constexpr TexelFormat kFormats[] = {
     blockFormat("EAC RG11", 16, 2, 16, decodeEac),
     blockFormat("EAC RG11 signed", 16, 2, 16, decodeEac, true),
     blockFormat("UASTC", 16, 4, 8, decodeUastc),
+    blockFormat("ETC1S", 8, 3, 8, decodeEtc1s),
+    blockFormat("ETC1S", 16, 4, 8, decodeEtc1s),
+    blockFormat("ASTC", 16, 4, 16, nullptr),
     {},
 };
 

@@ -56,6 +56,9 @@ enum class TexelKind : std::uint8_t {
     eac_rg,
     eac_rgs,
     uastc,
+    etc1s,        ///< as unpackBasisLz gives it
+    etc1s_alpha,  ///< with a second slice, whose green is alpha
+    astc,         ///< of 4 x 4 texels; other sizes are to be set
     none
 };
 
@@ -66,22 +69,25 @@ using InvertChannel = void (*)(const TexelFormat&, std::uint8_t* block, unsigned
 
 struct TexelFormat {
     const char* name = "";
-    std::uint8_t side = 1;         ///< texels along each side of a block: 1 or 4
-    std::uint8_t block_bytes = 0;  ///< of a block
+    std::uint8_t width = 1, height = 1;  ///< texels of a block
+    std::uint8_t block_bytes = 0;        ///< of a block
     std::uint8_t channels = 4;
     std::uint8_t bits = 8;  ///< what a channel resolves: 8, 16 or 32 (floats)
     bool is_signed = false, is_float = false;
-    /// Writes side * side texels, row by row. Any bytes may come.
+    /// Writes width * height texels, row by row. Any bytes may come. Null: whole levels are decoded at once (ASTC).
     void (*decode)(const TexelFormat&, const std::uint8_t* block, Rgba* texels) = nullptr;
     InvertChannel invert = nullptr;           ///< null where the format cannot hold the result exactly
     std::array<std::uint32_t, 4> masks = {};  ///< of `masked`
 
-    [[nodiscard]] std::uint64_t blocksAlong(std::uint32_t texels) const {
-        return (std::uint64_t{texels} + side - 1) / side;
+    [[nodiscard]] std::uint64_t blocksAcross(std::uint32_t texels) const {
+        return (std::uint64_t{texels} + width - 1) / width;
+    }
+    [[nodiscard]] std::uint64_t blocksDown(std::uint32_t texels) const {
+        return (std::uint64_t{texels} + height - 1) / height;
     }
     /// Bytes of an image of that size. No product of sizes below 2^30 overflows.
-    [[nodiscard]] std::uint64_t bytesOf(std::uint32_t width, std::uint32_t height) const {
-        return blocksAlong(width) * blocksAlong(height) * block_bytes;
+    [[nodiscard]] std::uint64_t bytesOf(std::uint32_t across, std::uint32_t down) const {
+        return blocksAcross(across) * blocksDown(down) * block_bytes;
     }
 };
 
@@ -97,6 +103,8 @@ void decodeBc3(const TexelFormat& format, const std::uint8_t* block, Rgba* texel
 void decodeBc4(const TexelFormat& format, const std::uint8_t* block, Rgba* texels);
 void decodeEac(const TexelFormat& format, const std::uint8_t* block, Rgba* texels);
 void decodeBc7(const TexelFormat& format, const std::uint8_t* block, Rgba* texels);
+/// Eight bytes a slice: the colour of 5 bits a channel, the number of a table, and four rows of codes.
+void decodeEtc1s(const TexelFormat& format, const std::uint8_t* block, Rgba* texels);
 void decodeUastc(const TexelFormat& format, const std::uint8_t* block, Rgba* texels);
 
 void invertBc4Channel(const TexelFormat& format, std::uint8_t* block, unsigned channel);

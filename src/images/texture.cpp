@@ -11,21 +11,31 @@ namespace tspace {
 
 namespace {
 
-constexpr std::uint64_t kMostSide = 4;
-
 std::uint64_t rowBytes(const TextureFile& texture) {
-    return kMostSide * (std::uint64_t{texture.size.width} + kMostSide) * sizeof(Rgba);
+    const TexelFormat& format = texture.format;
+    return format.blocksAcross(texture.size.width) * format.width * format.height * sizeof(Rgba);
 }
 
 /// The first level as it is unpacked, if it has to be.
 class TextureLevel {
   public:
-    explicit TextureLevel(const TextureFile& texture) : texture_(texture), blocks_(texture.level) {}
+    explicit TextureLevel(const TextureFile& texture)
+        : texture_(texture), format_(texture.format), blocks_(texture.level) {}
 
     bool unpack() {
-        if (texture_.repacking == Repacking::none) return true;
-        unpacked_.resize(static_cast<std::size_t>(texture_.levelBytes()));
-        if (!unpackLevel(texture_.repacking, texture_.level, unpacked_)) return false;
+        if (texture_.repacking != Repacking::none) {
+            unpacked_.resize(static_cast<std::size_t>(texture_.levelBytes()));
+            const bool is_done = texture_.repacking == Repacking::basis_lz
+                                     ? unpackBasisLz(texture_, unpacked_)
+                                     : unpackLevel(texture_.repacking, texture_.level, unpacked_);
+            if (!is_done) return false;
+            blocks_ = unpacked_;
+        }
+        if (format_.decode != nullptr) return true;
+        format_ = texelFormat(TexelKind::rgba32f);
+        std::vector<std::uint8_t> texels(static_cast<std::size_t>(format_.block_bytes * texture_.size.pixels()));
+        if (!decodeAstc(texture_, blocks_, texels)) return false;
+        unpacked_ = std::move(texels);
         blocks_ = unpacked_;
         return true;
     }
@@ -33,20 +43,19 @@ class TextureLevel {
     /// Calls put(row, texels) for each row of the image, in any order.
     template <class Put>
     void forRows(const Put& put) const {
-        const TexelFormat& format = texture_.format;
-        const std::uint32_t side = format.side, width = texture_.size.width, height = texture_.size.height;
-        const auto across = static_cast<std::size_t>(format.blocksAlong(width));
-        const std::size_t stride = across * side;
-        std::vector<Rgba> rows(stride * side);
+        const std::uint32_t width = texture_.size.width, height = texture_.size.height;
+        const auto across = static_cast<std::size_t>(format_.blocksAcross(width));
+        const std::size_t stride = across * format_.width;
+        std::vector<Rgba> rows(stride * format_.height);
         std::array<Rgba, 16> block{};
         const std::uint8_t* at = blocks_.data();
-        for (std::uint32_t top = 0; top < height; top += side) {
-            for (std::size_t column = 0; column < across; ++column, at += format.block_bytes) {
-                format.decode(format, at, block.data());
-                for (std::size_t y = 0; y < side; ++y)
-                    std::copy_n(&block[y * side], side, &rows[y * stride + column * side]);
+        for (std::uint32_t top = 0; top < height; top += format_.height) {
+            for (std::size_t column = 0; column < across; ++column, at += format_.block_bytes) {
+                format_.decode(format_, at, block.data());
+                for (std::size_t y = 0; y < format_.height; ++y)
+                    std::copy_n(&block[y * format_.width], format_.width, &rows[y * stride + column * format_.width]);
             }
-            for (std::uint32_t y = 0; y < side && top + y < height; ++y) {
+            for (std::uint32_t y = 0; y < format_.height && top + y < height; ++y) {
                 const std::span<Rgba> row = std::span(rows).subspan(y * stride, width);
                 arrange(row);
                 put(texture_.turns_rows ? height - 1 - top - y : top + y, row);
@@ -71,6 +80,7 @@ class TextureLevel {
     }
 
     const TextureFile& texture_;
+    TexelFormat format_;  ///< of blocks_
     ByteSpan blocks_;
     std::vector<std::uint8_t> unpacked_ = {};
 };
@@ -141,7 +151,10 @@ ImageClaim claimOfTexture(ByteSpan bytes) {
     const std::optional<TextureFile> texture = readTextureHead(bytes, why);
     if (!texture) return {};
     const std::uint64_t pixel_bytes = texture->format.is_float ? 16 + 3 : 3;
-    const std::uint64_t unpacked = texture->repacking == Repacking::none ? 0 : texture->levelBytes();
+    std::uint64_t unpacked = texture->repacking == Repacking::none ? 0 : texture->levelBytes();
+    // All texels of ASTC at once, as floats, and the library's tables.
+    constexpr std::uint64_t kTables = std::uint64_t{8} << 20;
+    if (texture->format.decode == nullptr) unpacked += sizeof(Rgba) * texture->size.pixels() + kTables;
     return {texture->size, pixel_bytes * texture->size.pixels() + unpacked + rowBytes(*texture)};
 }
 

@@ -13,7 +13,7 @@
 namespace tspace {
 
 /// How KTX2 packs its levels once more.
-enum class Repacking : std::uint8_t { none, zstd, zlib };
+enum class Repacking : std::uint8_t { none, zstd, zlib, basis_lz };
 
 struct TextureFile {
     const char* container = "";  ///< "KTX2", "DDS"
@@ -26,6 +26,7 @@ struct TextureFile {
         std::size_t at = 0, bytes = 0;
     };
     std::vector<Place> levels = {};                  ///< where all of them are in the file
+    ByteSpan global = {};                            ///< code books of BasisLZ
     bool is_srgb = false;                            ///< the file says that its numbers have the sRGB curve
     bool turns_columns = false, turns_rows = false;  ///< the first texel is not the top left one
     /// Of each colour that is shown: the channel of the format, or one of these.
@@ -37,13 +38,27 @@ struct TextureFile {
     /// Bytes of the first level, unpacked.
     [[nodiscard]] std::uint64_t levelBytes() const { return format.bytesOf(size.width, size.height); }
     /// "BC5 in a DDS".
-    [[nodiscard]] std::string name() const { return std::string(format.name) + " in a " + container; }
+    [[nodiscard]] std::string name() const {
+        std::string text = format.name;
+        if (format.decode == nullptr)
+            text.append(" ").append(std::to_string(format.width)).append("x").append(std::to_string(format.height));
+        return text.append(" in a ").append(container);
+    }
 };
 
 /// Nothing, with the reason in `why`, for what is broken, is no picture (cubes, volumes, arrays) or has a format that is not read.
 std::optional<TextureFile> readTextureHead(ByteSpan bytes, std::string& why);
 std::optional<TextureFile> readKtx2Head(ByteSpan bytes, std::string& why);
 std::optional<TextureFile> readDdsHead(ByteSpan bytes, std::string& why);
+
+/// The blocks of the first level, packed by BasisLZ. False where it is broken.
+bool unpackBasisLz(const TextureFile& texture, std::span<std::uint8_t> blocks);
+
+/// Null, or why ASTC is not read.
+const char* whyNotAstc();
+/// Decodes blocks of ASTC to red, green, blue and alpha, four floats a texel: `texels` has as many bytes. False where the library
+/// fails.
+bool decodeAstc(const TextureFile& texture, ByteSpan blocks, std::span<std::uint8_t> texels);
 
 /// The layout of two channels where colours `x` and `y` are shown.
 MapLayout twoChannelLayout(MapChannel x, MapChannel y);

@@ -2,6 +2,7 @@
 // UASTC. Formulas and tables: Khronos Data Format Specification 1.4, chapter UASTC (by Rich Geldreich, public domain).
 #include <algorithm>
 #include <cstddef>
+#include <iterator>
 
 #include "images/texel_format.h"
 
