@@ -38,7 +38,7 @@ function(tspace_link_needs target)
         get_target_property(needs ${library} LINK_LIBRARIES)
         list(FILTER needs EXCLUDE REGEX "^tspace::")
         # Static libraries of images are not all made to be in a shared one.
-        foreach(image_library turbojpeg webp sharpyuv)
+        foreach(image_library turbojpeg webp sharpyuv zstd z)
             list(TRANSFORM needs REPLACE "BUILD_INTERFACE:.*/lib${image_library}[.]a" "BUILD_INTERFACE:${image_library}")
         endforeach()
         target_link_libraries(${target} PRIVATE ${needs})

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Images of normal maps. CMake target tspace::asset. Reads PNG (8 and 16 bits), JPEG and WebP, told apart by content, where
-// tspace was built with their libraries.
+// tspace was built with their libraries; KTX2 and DDS always.
 //
 // All functions are thread-safe, and give the same bytes each time.
 #pragma once
@@ -20,6 +20,8 @@ enum class ImageFileFormat : std::uint32_t {
     png = 1,
     jpeg = 2,
     webp = 3,
+    ktx2 = 4,
+    dds = 5,
 };
 
 struct FlipGreenOptions {
@@ -44,7 +46,7 @@ struct FlipGreenReport {
     std::uint32_t width = 0, height = 0;
     std::uint32_t bits = 8;  ///< of a channel
     /// Every texel has exactly 255 - G (65535 - G with 16 bits), and all other channels are as they were. false: a JPEG was
-    /// written, whose texels are rounded again.
+    /// written, whose texels are rounded again, or a PNG of a KTX2 or DDS that has numbers between the integers.
     bool is_exact = true;
     std::vector<std::string> warnings = {};  ///< one sentence each
 };
@@ -58,7 +60,10 @@ struct FlippedImage {
 ///
 /// PNG keeps its colour type, bits, alpha, palette, and every chunk; rows come one after the other (interlaced files no
 /// longer are). Of a transparent or background colour green is inverted too. JPEG is compressed once more, without
-/// subsampling, and keeps its Exif data, profile and comments. WebP is written without loss, without metadata. Whatever a file says
+/// subsampling, and keeps its Exif data, profile and comments. WebP is written without loss, without metadata. KTX2
+/// and DDS keep their blocks, of which green is inverted exactly in all levels: uncompressed integers and BC5; others, and KTX2
+/// packed by Zstandard or zlib, are refused (unsupportedFile), but can be written as PNG: x, y and z, where z is made if there
+/// are two channels. Whatever a file says
 /// about its colour space stays as it is, and nothing is added: glTF takes normal maps as numbers.
 ///
 /// Errors: unsupportedFile (not an image that this build reads; grey, so that there is no green channel; animated; a
@@ -68,7 +73,7 @@ struct FlippedImage {
 Result<FlippedImage> flipGreen(std::span<const std::uint8_t> image, const FlipGreenOptions& options = {});
 
 /// The same from file to file; `output` may be `input`. Where no format is asked for, the name of the output decides: .png, .jpg,
-/// .jpeg or .webp. The output appears at once, or not at all. Errors also: cannotRead, cannotWrite; unsupportedFile for
+/// .jpeg, .webp, .ktx2 or .dds. The output appears at once, or not at all. Errors also: cannotRead, cannotWrite; unsupportedFile for
 /// another extension. Returns what was done.
 Result<FlipGreenReport> flipGreenFile(const std::string& input, const std::string& output,
                                       const FlipGreenOptions& options = {});

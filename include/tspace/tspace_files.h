@@ -118,9 +118,11 @@ tspace_ErrorCode tspace_diffBytes(const tspace_Model* a, const tspace_Model* b, 
  *
  * PNG keeps its colour type, bits, alpha, palette, and every chunk; rows come one after the other (interlaced files
  * no longer are). Of a transparent or background colour green is inverted too. JPEG is compressed once more, without
- * subsampling, and keeps its Exif data, profile and comments. WebP is written without loss, without metadata.
- * Whatever a file says about its colour space stays as it is, and nothing is added: glTF takes normal maps as
- * numbers.
+ * subsampling, and keeps its Exif data, profile and comments. WebP is written without loss, without metadata. KTX2
+ * and DDS keep their blocks, of which green is inverted exactly in all levels: uncompressed integers and BC5;
+ * others, and KTX2 packed by Zstandard or zlib, are refused (UNSUPPORTED_FILE), but can be written as PNG: x, y and
+ * z, where z is made if there are two channels. Whatever a file says about its colour space stays as it is, and
+ * nothing is added: glTF takes normal maps as numbers.
  *
  * Errors: UNSUPPORTED_FILE (not an image that this build reads; grey, so that there is no green channel; animated; a
  * format that cannot be written), INVALID_FILE (broken), INVALID_OPTION, TOO_LARGE, OUT_OF_MEMORY. Time and memory:
@@ -131,15 +133,15 @@ tspace_ErrorCode tspace_diffBytes(const tspace_Model* a, const tspace_Model* b, 
 tspace_ErrorCode tspace_flipGreenBytes(const uint8_t* data, size_t size, const char* options, tspace_Bytes* output,
                                        tspace_Bytes* report, tspace_Error* error) TSPACE_NOEXCEPT;
 /* The same from file to file; `output` may be `input`. Where no format is asked for, the name of the output decides:
- * .png, .jpg, .jpeg or .webp. The output appears at once, or not at all. Errors also: CANNOT_READ, CANNOT_WRITE;
- * UNSUPPORTED_FILE for another extension. Returns what was done.
+ * .png, .jpg, .jpeg, .webp, .ktx2 or .dds. The output appears at once, or not at all. Errors also: CANNOT_READ,
+ * CANNOT_WRITE; UNSUPPORTED_FILE for another extension. Returns what was done.
  * In C: options and report as tspace_flipGreenBytes. */
 tspace_ErrorCode tspace_flipGreenFile(const char* input, const char* output, const char* options, tspace_Bytes* report,
                                       tspace_Error* error) TSPACE_NOEXCEPT;
 
-/* Makes a normal map, `output` (.png), of the height map `input` (PNG, JPEG, WebP, EXR; of colours the mean counts).
- * Errors: those of readers of models; CANNOT_READ, CANNOT_WRITE, UNSUPPORTED_FILE, INVALID_FILE (an image that
- * cannot be read), INVALID_OPTION, TOO_LARGE, OUT_OF_MEMORY. Thread-safe.
+/* Makes a normal map, `output` (.png), of the height map `input` (PNG, JPEG, WebP, EXR, KTX2, DDS; of colours the
+ * mean counts). Errors: those of readers of models; CANNOT_READ, CANNOT_WRITE, UNSUPPORTED_FILE, INVALID_FILE (an
+ * image that cannot be read), INVALID_OPTION, TOO_LARGE, OUT_OF_MEMORY. Thread-safe.
  * In C: options of `tspace height-to-normal`, report tspace.height-to-normal/1. */
 tspace_ErrorCode tspace_heightToNormalFile(const char* input, const char* output, const char* options,
                                            tspace_Bytes* report, tspace_Error* error) TSPACE_NOEXCEPT;

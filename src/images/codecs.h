@@ -23,6 +23,7 @@ ImageClaim claimOfPng(ByteSpan bytes);
 ImageClaim claimOfJpeg(ByteSpan bytes);
 ImageClaim claimOfWebp(ByteSpan bytes);
 ImageClaim claimOfExr(ByteSpan bytes);
+ImageClaim claimOfTexture(ByteSpan bytes);
 
 std::optional<RgbImage> decodePng(ByteSpan bytes, std::uint64_t most_pixels, std::string& why);
 /// decodeFloatImage for PNG; samples of fewer than 16 bits are widened by repeating their bits, which keeps n /
@@ -32,6 +33,12 @@ std::optional<FloatImage> decodeDeepPng(ByteSpan bytes, std::uint64_t most_pixel
 std::vector<std::uint8_t> decodePngRgba(ByteSpan bytes);
 std::optional<RgbImage> decodeJpeg(ByteSpan bytes, std::uint64_t most_pixels, std::string& why);
 std::optional<RgbImage> decodeWebp(ByteSpan bytes, std::uint64_t most_pixels, std::string& why);
+
+/// KTX2 and DDS: their first level.
+std::optional<RgbImage> decodeTexture(ByteSpan bytes, std::uint64_t most_pixels, std::string& why);
+std::optional<FloatImage> decodeFloatTexture(ByteSpan bytes, std::uint64_t most_pixels, std::string& why);
+/// One byte a pixel; nothing where it is broken or has no alpha.
+std::vector<std::uint8_t> decodeTextureAlpha(ByteSpan bytes);
 
 /// Whether OpenEXR is there at run time; without it nothing else of EXR may be called but claimOfExr.
 bool hasOpenExr();

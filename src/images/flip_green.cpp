@@ -19,6 +19,10 @@ ImageFileFormat fileFormat(ImageFormat format) {
             return ImageFileFormat::jpeg;
         case ImageFormat::webp:
             return ImageFileFormat::webp;
+        case ImageFormat::ktx2:
+            return ImageFileFormat::ktx2;
+        case ImageFormat::dds:
+            return ImageFileFormat::dds;
         default:
             return ImageFileFormat::sameAsInput;
     }
@@ -109,6 +113,9 @@ std::uint64_t flipWorkBytes(ByteSpan bytes) {
             return claim.work_bytes + 3 * claim.size.pixels() + 2 * bytes.size();
         case ImageFormat::webp:
             return claim.work_bytes + 24 * claim.size.pixels();
+        case ImageFormat::ktx2:
+        case ImageFormat::dds:
+            return claim.work_bytes + 24 * claim.size.pixels();
         default:
             return 0;
     }
@@ -138,6 +145,8 @@ Result<FlippedImage> flipImage(ByteSpan bytes, const FlipGreenOptions& options) 
                             {.format = *output, .width = size.width, .height = size.height, .bits = png->bits}};
     }
 #endif
+    const bool is_texture = *input == ImageFileFormat::ktx2 || *input == ImageFileFormat::dds;
+    if (is_texture && *output == *input) return flipTexture(bytes, *input);
     return flipPixels(bytes, *input, *output, options.jpeg_quality);
 }
 

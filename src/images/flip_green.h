@@ -30,6 +30,10 @@ struct FlippedPng {
 };
 Result<FlippedPng> flipPng(ByteSpan bytes);
 
+/// A KTX2 or DDS with its green channel, or the one that holds y, inverted in all levels, and all else as it was. `format`: of the
+/// file. Fails where the format cannot hold that exactly.
+Result<FlippedImage> flipTexture(ByteSpan bytes, ImageFileFormat format);
+
 /// Pixels of a JPEG or WebP. Fails for grey images, and for those that are broken or animated.
 Result<ChannelImage> readJpegPixels(ByteSpan bytes);
 Result<ChannelImage> readWebpPixels(ByteSpan bytes);

@@ -28,6 +28,7 @@ std::optional<FloatImage> decodeFloatImage(ByteSpan bytes, std::uint64_t most_pi
 #ifdef TSPACE_HAS_OPENEXR
     if (format == ImageFormat::exr && whyNotRead(format) == nullptr) return decodeExr(bytes, most_pixels, why);
 #endif
+    if (format == ImageFormat::ktx2 || format == ImageFormat::dds) return decodeFloatTexture(bytes, most_pixels, why);
     const std::optional<RgbImage> image = decodeImage(bytes, most_pixels, why);
     if (!image) return {};
     return floatsOf(*image);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "images/image.h"
+#include "tspace/map_layout.h"
 #include "tspace/vec.h"
 
 namespace tspace {
@@ -12,14 +13,26 @@ inline constexpr std::uint64_t kMapPixelBytes = 72;
 /// Larger images of a model are not written anew.
 inline constexpr std::uint64_t kMostModelMapPixels = std::uint64_t{1} << 26;
 
-/// Channels as stored, from 0 (the integer 0) to 1 (the largest integer); floats of an EXR as they are. The first row is the top
+/// What a texture file (KTX2, DDS) says of its pixels.
+struct TextureFacts {
+    std::string name = {};    ///< "BC5 in a DDS"
+    MapLayout layout = {};    ///< of a normal map: where the format has x, y and z. Not the default: z is to be made
+    bool is_guessed = false;  ///< the layout is not said by the format, but the texels look like it
+    bool is_srgb = false;     ///< it says that its numbers have the sRGB curve, which normal maps must not have
+};
+
+/// By the head alone, so that nothing is guessed; nothing for other files and for what is not read.
+std::optional<TextureFacts> textureFacts(ByteSpan bytes);
+
+/// Channels as stored, from 0 (the integer 0) to 1 (the largest integer); floats of an EXR as they are. Of textures see Rgba in texel_format.h. The first row is the top
 /// one. An integer n of up to 16 bits comes back as n when it is written with as many bits.
 struct FloatImage {
     std::uint32_t width = 0, height = 0;
-    unsigned bits = 8;              ///< of a channel in the file: 8 or 16; of an EXR: 16 or 32
+    unsigned bits = 8;              ///< of a channel in the file: 8 or 16; of floats: 16 or 32. Of BC4, BC5 and EAC 16
     std::vector<Vec3> texels = {};  ///< width * height; of grey images all three are equal
     std::vector<float> alpha = {};  ///< as many, or empty: opaque
-    std::uint64_t not_finite = 0;   ///< texels of an EXR that were not finite, and are grey now
+    std::uint64_t not_finite = 0;   ///< texels of an EXR or texture that were not finite, and are grey now
+    TextureFacts texture = {};      ///< with an empty name for other files
 };
 
 /// decodeImage with all bits of the file. Memory: 16 bytes a pixel, or 12 without alpha, and the decoder's.

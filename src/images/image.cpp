@@ -22,7 +22,7 @@ bool has(ByteSpan bytes, std::size_t at, std::string_view text) {
 struct Codec {
     const char* name = "";
     const char* mime_type = "";
-    const char* why_not = "it is neither PNG, JPEG nor WebP";
+    const char* why_not = "it is neither PNG, JPEG, WebP, KTX2 nor DDS";
     ImageClaim (*claim)(ByteSpan) = nullptr;
     std::optional<RgbImage> (*decode)(ByteSpan, std::uint64_t, std::string&) = nullptr;
 };
@@ -73,11 +73,11 @@ Codec codecOf(ImageFormat format) {
         case ImageFormat::webp:
             return webp;
         case ImageFormat::ktx2:
-            return {"KTX2", "image/ktx2", "it is KTX2, which is not read"};
+            return {"KTX2", "image/ktx2", nullptr, claimOfTexture, decodeTexture};
         case ImageFormat::basis:
             return {"Basis Universal", "image/basis", "it is a Basis Universal file, which is not read"};
         case ImageFormat::dds:
-            return {"DDS", "image/vnd-ms.dds", "it is DDS, which is not read"};
+            return {"DDS", "image/vnd-ms.dds", nullptr, claimOfTexture, decodeTexture};
         case ImageFormat::avif:
             return {"AVIF", "image/avif", "it is AVIF, which is not read"};
         case ImageFormat::exr:
@@ -135,12 +135,14 @@ std::optional<RgbImage> decodeImage(ByteSpan bytes, std::uint64_t most_pixels, s
 }
 
 std::vector<std::uint8_t> decodeAlpha([[maybe_unused]] ByteSpan bytes) {
+    const ImageFormat format = imageFormat(bytes);
+    if (format == ImageFormat::ktx2 || format == ImageFormat::dds) return decodeTextureAlpha(bytes);
     std::vector<std::uint8_t> pixels;
 #ifdef TSPACE_HAS_IMAGES
-    if (imageFormat(bytes) == ImageFormat::png) pixels = decodePngRgba(bytes);
+    if (format == ImageFormat::png) pixels = decodePngRgba(bytes);
 #endif
 #ifdef TSPACE_HAS_WEBP
-    if (imageFormat(bytes) == ImageFormat::webp) {
+    if (format == ImageFormat::webp) {
         Result<ChannelImage> image = readWebpPixels(bytes);
         if (image && image->channels == 4) pixels = std::move(image->pixels);
     }

@@ -20,7 +20,7 @@ ImageFormat imageFormat(ByteSpan bytes);
 const char* formatName(ImageFormat format);
 /// "image/png"; empty for an unknown one.
 const char* mimeType(ImageFormat format);
-/// Null, or why this build reads no pixels of that format: half a sentence, "it is KTX2, which is not read".
+/// Null, or why this build reads no pixels of that format: half a sentence, "it is AVIF, which is not read".
 const char* whyNotRead(ImageFormat format);
 
 /// 8 bits a channel; the first row is the top one.
@@ -41,11 +41,11 @@ struct ImageSize {
 /// The size in the file's header, without any check; at most 2^30 each. 0 where decodeImage decodes nothing.
 ImageSize claimedSize(ByteSpan bytes);
 
-/// Decodes PNG, JPEG, WebP and EXR (rounded to 8 bits), told apart by content. Nothing, with the reason in `why` (half a sentence), for other
+/// Decodes PNG, JPEG, WebP, EXR, KTX2 and DDS (rounded to 8 bits), told apart by content. Nothing, with the reason in `why` (half a sentence), for other
 /// formats, broken files, more than `most_pixels` pixels, and images that are out of proportion to their bytes.
 std::optional<RgbImage> decodeImage(ByteSpan bytes, std::uint64_t most_pixels, std::string& why);
 
-/// The alpha channel of an image that decodeImage decodes, rounded to 8 bits; empty where it has none, or is no PNG or WebP.
+/// The alpha channel of an image that decodeImage decodes, rounded to 8 bits; empty where it has none, or is no PNG, WebP, KTX2 or DDS.
 /// Holds 4 bytes a pixel beside what decodeImage holds.
 std::vector<std::uint8_t> decodeAlpha(ByteSpan bytes);
 

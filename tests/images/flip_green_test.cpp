@@ -8,7 +8,9 @@
 #include <cstdlib>
 #include <functional>
 
+#include "images/float_image.h"
 #include "images/images.h"
+#include "images/textures.h"
 #include "support/temp_folder.h"
 #include "tspace/flip_green.h"
 
@@ -99,6 +101,101 @@ TEST(FlipGreen, IsExactForEveryKindOfPngAndChangesNothingElse) {
         }
         RC_ASSERT(readPng(flipped(result->bytes)).samples == samples);  // twice is nothing
     }));
+}
+
+std::optional<FloatImage> floatsOf(std::span<const std::uint8_t> file) {
+    std::string why;
+    return decodeFloatImage(file, 1 << 22, why);
+}
+
+/// Green of all levels, that of the others by way of files that begin with them.
+TEST(FlipGreen, IsExactInTheBlocksOfATexture) {
+    const Bytes8 random = noise(16 * 64);
+    const std::string blocks(random.begin(), random.end());
+    for (const std::uint32_t format : {83U, 84U}) {
+        for (const bool is_small : {false, true}) {
+            const std::string large = std::string(16 * 256, '\x55') + blocks;
+            const std::string file = is_small ? ddsFile(format, 32, 32, blocks) : ddsFile(format, 64, 64, large, 2);
+            const Result<FlippedImage> result = flipGreen(bytesOf(file));
+            ASSERT_TRUE(result);
+            EXPECT_TRUE(result->report.is_exact);
+            EXPECT_EQ(result->report.format, ImageFileFormat::dds);
+            Bytes8 after = result->bytes;
+            const std::size_t head = 148 + (is_small ? 0 : 16 * 256);
+            const std::string level(after.begin() + static_cast<std::ptrdiff_t>(head), after.end());
+            const auto before = floatsOf(bytesOf(ddsFile(format, 32, 32, blocks)));
+            const auto inverted = floatsOf(bytesOf(ddsFile(format, 32, 32, level)));
+            ASSERT_TRUE(before && inverted);
+            for (std::size_t i = 0; i < before->texels.size(); ++i) {
+                ASSERT_EQ(inverted->texels[i].x, before->texels[i].x);
+                ASSERT_NEAR(inverted->texels[i].y, 1 - before->texels[i].y, 1e-7);
+            }
+        }
+    }
+}
+
+TEST(FlipGreen, IsExactInPlainTextures) {
+    const Bytes8 random = noise(16 * 16 * 16);
+    for (const auto& [format, bytes] : {std::pair(16U, 2),
+                                        {17U, 2},
+                                        {23U, 3},
+                                        {30U, 3},
+                                        {38U, 4},
+                                        {44U, 4},
+                                        {64U, 4},
+                                        {77U, 4},
+                                        {78U, 4},
+                                        {91U, 8}}) {
+        const std::string data(random.begin(), random.begin() + 256 * bytes);
+        const std::string file = ktx2File({.format = format, .width = 16, .height = 16, .levels = {data}});
+        const Bytes8 after = flipped(bytesOf(file));
+        const auto was = floatsOf(bytesOf(file)), is = floatsOf(after);
+        ASSERT_TRUE(was && is) << format;
+        for (std::size_t i = 0; i < was->texels.size(); ++i) {
+            ASSERT_EQ(is->texels[i].x, was->texels[i].x);
+            ASSERT_EQ(is->texels[i].z, was->texels[i].z);
+            ASSERT_NEAR(is->texels[i].y, 1 - was->texels[i].y, 1e-6) << format;
+        }
+    }
+}
+
+TEST(FlipGreen, InvertsYOfATextureThatHasItInAlpha) {
+    const RgbImage map = normalMapOf(32, bumps);
+    std::string data;
+    for (std::size_t i = 0; i < map.rgb.size(); i += 3) {
+        const char x = static_cast<char>(map.rgb[i]);
+        data += std::string{x, x, x, static_cast<char>(map.rgb[i + 1])};
+    }
+    const Result<FlippedImage> result = flipGreen(bytesOf(ddsFile(28, 32, 32, data)));
+    ASSERT_TRUE(result);
+    EXPECT_EQ(result->report.warnings.size(), 1u);
+    for (std::size_t i = 0; i < data.size(); ++i) {
+        const auto was = static_cast<std::uint8_t>(data[i]), is = result->bytes[148 + i];
+        ASSERT_EQ(is, i % 4 == 3 ? 255 - was : was);
+    }
+}
+
+TEST(FlipGreen, MakesAPngOfATextureThatCannotHoldIt) {
+    const RgbImage map = normalMapOf(32, bumps);
+    const std::string data = redAndGreen(map);
+    Ktx2Parts parts{.format = 16, .width = 32, .height = 32, .levels = {zstdOf(data)}, .unpacked = {data.size()}};
+    parts.scheme = 2;
+    const std::string file = ktx2File(parts);
+    EXPECT_EQ(whyNot(bytesOf(file)), ErrorCode::unsupportedFile);
+    EXPECT_EQ(whyNot(bytesOf(ddsFile(98, 4, 4, std::string(16, 'x')))), ErrorCode::unsupportedFile);
+    EXPECT_EQ(whyNot(bytesOf(ddsFile(80, 4, 4, std::string(8, 'x')))), ErrorCode::unsupportedFile) << "grey";
+    EXPECT_EQ(whyNot(bytesOf(file.substr(0, 90))), ErrorCode::invalidFile);
+    const Result<FlippedImage> png = flipGreen(bytesOf(file), {.format = ImageFileFormat::png});
+    ASSERT_TRUE(png);
+    EXPECT_TRUE(png->report.is_exact);
+    EXPECT_EQ(png->report.warnings.size(), 1u) << "z was made";
+    const auto image = floatsOf(png->bytes);
+    ASSERT_TRUE(image);
+    for (std::size_t i = 0; i < image->texels.size(); ++i) {
+        EXPECT_NEAR(image->texels[i].x, map.rgb[3 * i] / 255.0, 1e-5);
+        EXPECT_NEAR(image->texels[i].y, 1 - map.rgb[3 * i + 1] / 255.0, 1e-5);
+        EXPECT_NEAR(image->texels[i].z, map.rgb[3 * i + 2] / 255.0, 0.01);
+    }
 }
 
 TEST(FlipGreen, KeepsThePixelsOfAPaletteAndInvertsItsColors) {
@@ -196,7 +293,7 @@ TEST(FlipGreen, RefusesWhatHasNoGreenOrCannotBeRead) {
     const Bytes8 grey = makePng({2, 2, 8, kGrey, 0, 0, 0}, noise(4));
     const Bytes8 color = makePng({8, 8, 8, kRgb, 0, 0, 0}, noise(192));
     EXPECT_EQ(whyNot(grey), ErrorCode::unsupportedFile);
-    EXPECT_EQ(whyNot(bytesOf("\xabKTX 20\xbb\r\n\x1a\n")), ErrorCode::unsupportedFile);
+    EXPECT_EQ(whyNot(bytesOf("\xabKTX 20\xbb\r\n\x1a\n")), ErrorCode::invalidFile);
     EXPECT_EQ(whyNot(bytesOf("")), ErrorCode::unsupportedFile);
     EXPECT_EQ(whyNot(std::span(color).first(color.size() / 2)), ErrorCode::invalidFile);
     EXPECT_EQ(whyNot(std::span(color).first(20)), ErrorCode::invalidFile);

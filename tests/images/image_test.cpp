@@ -69,10 +69,10 @@ TEST(DecodeImage, SaysWhyItDoesNotLook) {
     EXPECT_EQ(whyNot(png, 1000), "it has more pixels than are looked at");
     EXPECT_EQ(whyNot(jpeg, 1000), "it has more pixels than are looked at");
     EXPECT_EQ(whyNot("RIFF????WEBP"), "it is a broken WebP");
-    EXPECT_EQ(whyNot(""), "it is neither PNG, JPEG nor WebP");
-    EXPECT_EQ(whyNot("\xabKTX 20\xbb\r\n\x1a\n"), "it is KTX2, which is not read");
+    EXPECT_EQ(whyNot(""), "it is neither PNG, JPEG, WebP, KTX2 nor DDS");
+    EXPECT_EQ(whyNot("\xabKTX 20\xbb\r\n\x1a\n"), "it is a broken KTX2");
     EXPECT_EQ(whyNot(std::string("sB\x13\0\x4d\0", 6)), "it is a Basis Universal file, which is not read");
-    EXPECT_EQ(whyNot("DDS |"), "it is DDS, which is not read");
+    EXPECT_EQ(whyNot("DDS |"), "it is a broken DDS");
     EXPECT_EQ(whyNot(png.substr(0, png.size() / 2)), "it is a broken PNG");
     EXPECT_EQ(whyNot(jpeg.substr(0, 10)), "it is a broken JPEG");
 }

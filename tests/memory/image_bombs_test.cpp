@@ -2,9 +2,12 @@
 // Images that claim, or hold, far more pixels than their bytes: `check` decodes normal maps.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "expect_bounded.h"
 #include "images/image.h"
 #include "images/images.h"
+#include "images/textures.h"
 #include "model/gltf_builder.h"
 #include "tspace/check.h"
 
@@ -69,6 +72,37 @@ TEST(MemoryCeiling, HoldsForJpegThatClaimsFourBillionPixels) {
 TEST(MemoryCeiling, HoldsForManyFlatImagesOfManyPixels) {
     expectImageBounded(test::pngFile(flatImage(2048)), 100, false);
     expectImageBounded(test::jpegFile(flatImage(2048), 50), 100, false);
+}
+
+/// One byte, `count` times, packed by Zstandard (RFC 8878) without holding them: the memory of this process counts too.
+std::string zstdRun(char byte, std::size_t count) {
+    constexpr std::size_t kMostOfBlock = std::size_t{1} << 17;
+    const auto put = [](std::string& to, std::size_t number, int bytes) {
+        for (int i = 0; i < bytes; ++i) to += static_cast<char>(number >> 8 * i & 255);
+    };
+    std::string frame("\x28\xb5\x2f\xfd\xa0", 5);  // a single segment, whose size has four bytes
+    put(frame, count, 4);
+    for (std::size_t left = count; left > 0;) {
+        const std::size_t size = std::min(left, kMostOfBlock);
+        left -= size;
+        constexpr std::size_t kRun = 1;
+        put(frame, (left == 0 ? 1U : 0U) | kRun << 1 | size << 3, 3);
+        frame += byte;
+    }
+    return frame;
+}
+
+TEST(MemoryCeiling, HoldsForTexturesThatUnpackToManyPixels) {
+    // 16 million pixels of one colour in a few kilobytes, and a file that claims four times as many.
+    constexpr std::size_t kBytes = std::size_t{2} << 24;
+    test::Ktx2Parts parts{.format = 16, .width = 4096, .height = 4096, .levels = {zstdRun('\x80', kBytes)}};
+    parts.unpacked = {kBytes};
+    parts.scheme = 2;
+    expectImageBounded(test::ktx2File(parts), 20, false);
+    parts.width = parts.height = 8192;
+    parts.unpacked = {4 * kBytes};
+    expectImageBounded(test::ktx2File(parts), 1, true);
+    expectImageBounded(test::ddsFile(83, 1 << 16, 1 << 16, std::string(64, 'x')), 1, true);
 }
 
 TEST(MemoryCeiling, LeavesGoodNormalMapsToBeLookedAt) {

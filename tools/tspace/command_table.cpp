@@ -40,7 +40,7 @@ ToolTable toolTable() {
     ToolTable tool;
     for (Command (*const make)() :
          {generateCommand, diffCommand, identifyCommand, inspectCommand, checkCommand, flipGreenCommand, renderCommand,
-          convertMapCommand, heightToNormalCommand, viewCommand, bakeCommand, mapErrorCommand}) {
+          convertMapCommand, heightToNormalCommand, compressMapCommand, viewCommand, bakeCommand, mapErrorCommand}) {
         tool.commands.push_back(make());
     }
     tool.commands.push_back(helpCommand(tool.commands));

@@ -55,6 +55,7 @@ Command flipGreenCommand();
 Command renderCommand();
 Command convertMapCommand();
 Command heightToNormalCommand();
+Command compressMapCommand();
 Command viewCommand();
 Command bakeCommand();
 Command mapErrorCommand();

@@ -56,7 +56,7 @@ Command convertMapCommand() {
         .finish = [&arguments](const Given& given) { return finish(given, arguments.options); },
     };
     const char* group = kInputAndOutput;
-    command.add(group, operand("IN", arguments.input, "An image: PNG, JPEG, WebP or EXR; - for stdin."));
+    command.add(group, operand("IN", arguments.input, "An image: PNG, JPEG, WebP, EXR, KTX2 or DDS; - for stdin."));
     Option output = text("-o, --output", "OUT", arguments.output,
                          "Where to write: a file that ends in .png or .exr; - for stdout, a PNG.");
     output.is_file = output.is_required = true;

@@ -61,10 +61,11 @@ Command flipGreenCommand() {
         .finish = [&arguments](const Given&) { return finish(arguments); },
     };
     const char* group = kInputAndOutput;
-    command.add(group, operand("IN", arguments.input, "An image: PNG, JPEG or WebP; - for stdin."));
+    command.add(group, operand("IN", arguments.input, "An image: PNG, JPEG, WebP, KTX2 or DDS; - for stdin."));
     command
         .add(group, text("-o, --output", "OUT", arguments.output,
-                         "Where to write: a file that ends in .png, .jpg, .jpeg or .webp, or - for stdout. The format "
+                         "Where to write: a file that ends in .png, .jpg, .jpeg, .webp, .ktx2 or .dds, or - for "
+                         "stdout. The format "
                          "is that of the input, or PNG."))
         .is_file = true;
     Option& in_place =

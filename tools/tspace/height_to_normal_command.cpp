@@ -54,9 +54,11 @@ Command heightToNormalCommand() {
                      "tspace height-to-normal height.png -o normal-dx.png --convention directx --bits 8"},
     };
     const char* group = kInputAndOutput;
-    command.add(group, operand("IN", arguments.input,
-                               "A height map: PNG (8 or 16 bits), JPEG, WebP or EXR; - for stdin. Of colors the mean "
-                               "counts."));
+    command.add(
+        group,
+        operand("IN", arguments.input,
+                "A height map: PNG (8 or 16 bits), JPEG, WebP, EXR, KTX2 or DDS; - for stdin. Of colors the mean "
+                "counts."));
     Option output =
         text("-o, --output", "OUT", arguments.output, "Where to write: a file that ends in .png; - for stdout.");
     output.is_file = output.is_required = true;

@@ -67,7 +67,7 @@ Command mapErrorCommand() {
                      "tspace map-error normal.png low.fbx --high scan.ply --convention unreal --heat heat.png --json"},
     };
     const char* group = kInputAndOutput;
-    command.add(group, operand("MAP", arguments.map, "A normal map: PNG, JPEG or WebP."));
+    command.add(group, operand("MAP", arguments.map, "A normal map: PNG, JPEG, WebP, EXR, KTX2 or DDS."));
     command.add(group, operand("LOW", arguments.low, "The model that the map is for."));
     Option& high =
         command.add(group, text("--high", "HIGH", arguments.high, "The model with the detail, in the same place."));

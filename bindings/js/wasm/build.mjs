@@ -27,9 +27,10 @@ const fileRooms = [
 const notHere = new Set([
   "core/base/parallel.cpp", "core/base/arena.cpp", "model/io/atomic_output_disk.cpp", "model/io/file_io.cpp",
   "model/io/temporary_files.cpp", "model/obj/tiny_obj_loader.cpp", "model/gltf/codecs/draco_library.cpp", "model/gltf/codecs/meshopt_library.cpp",
+  ...["astc", "basis_lz", "bc7", "dds", "flip_texture", "ktx2", "pack_bc4", "texel_blocks", "texel_format", "texture", "uastc", "unpack_level", "write_texture"].map((name) => `images/${name}.cpp`),
   "images/exr.cpp", "images/float_image.cpp", "images/jpeg.cpp", "images/png.cpp", "images/webp.cpp", "maps/rays.cpp",
   "commands/generate/convert_maps.cpp", "commands/generate/mend_maps.cpp", "commands/diff/diff_words.cpp",
-  "commands/shared/map_image_file.cpp", "commands/shared/map_mesh.cpp",
+  "commands/shared/map_image_file.cpp", "commands/shared/map_mesh.cpp", "commands/flip_green/texture_png.cpp",
   ...["bake/bake_file", "bake/map_pictures", "bake/model_maps", "bake/model_surfaces", "convert_map/convert_map_file",
     "height_to_normal/height_to_normal_file", "render/draw_model", "render/model_picture", "render/picture_file", "render/render_file"]
     .map((name) => `commands/${name}.cpp`),

@@ -5,9 +5,11 @@
 #include <string_view>
 
 #include "codecs.h"
+#include "commands/flip_green/texture_png.h"
 #include "images/codecs.h"
 #include "images/flip_green.h"
 #include "images/png_pixels.h"
+#include "model/io/file_error.h"
 
 using namespace tspace::js;
 
@@ -195,5 +197,24 @@ Result<std::vector<std::uint8_t>> writeJpeg(const ChannelImage& image, int quali
 Result<std::vector<std::uint8_t>> writeWebp(const ChannelImage& image) {
     return encode(image.pixels.data(), ImageFormat::webp, {image.width, image.height}, image.channels, 1, 100);
 }
+
+// Decoders of texture files are not in the module: callers give decoders of other images alone.
+namespace {
+
+std::string whyNoTexture(ByteSpan bytes) { return std::string("it is ") + formatName(imageFormat(bytes)) + ", which is not read"; }
+
+}  // namespace
+
+ImageClaim claimOfTexture(ByteSpan) { return {}; }
+std::optional<RgbImage> decodeTexture(ByteSpan bytes, std::uint64_t, std::string& why) {
+    why = whyNoTexture(bytes);
+    return {};
+}
+std::vector<std::uint8_t> decodeTextureAlpha(ByteSpan) { return {}; }
+std::optional<TextureFacts> textureFacts(ByteSpan) { return {}; }
+Result<FlippedImage> flipTexture(ByteSpan bytes, ImageFileFormat) {
+    return Error{ErrorCode::unsupportedFile, whyNoTexture(bytes)};
+}
+FlippedImage flippedTexturePng(ByteSpan bytes) { failFile(ErrorCode::unsupportedFile, whyNoTexture(bytes)); }
 
 }  // namespace tspace

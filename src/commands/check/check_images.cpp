@@ -14,6 +14,8 @@
 #include "commands/check/map_findings.h"
 #include "commands/shared/uv_reading.h"
 #include "core/base/unit.h"
+#include "images/float_image.h"
+#include "images/layout_guess.h"
 #include "maps/texture_sample.h"
 #include "maps/uv_coverage.h"
 #include "model/io/work_together.h"
@@ -180,25 +182,41 @@ std::vector<TexelOnSurface> placedInWorld(const NormalMap& map, std::span<const 
     return in_world;
 }
 
-/// Decodes alpha only where x may be in it.
-std::vector<std::uint8_t> alphaOf(const Scene& scene, const SceneImage& image, std::span<const TexelBytes> texels) {
-    if (!mayHaveXInAlpha(texels)) return {};
+/// Decodes alpha only where x or y may be in it.
+std::vector<std::uint8_t> alphaOf(const Scene& scene, const SceneImage& image, std::span<const TexelBytes> texels,
+                                  bool is_texture) {
+    if (!is_texture && !mayHaveXInAlpha(texels)) return {};
     const std::uint64_t bytes = imageWorkBytes(image.bytes) + 5 * claimedSize(image.bytes).pixels();
     if (scene.memory && !scene.memory->has(bytes)) return {};
     return decodeAlpha(image.bytes);
 }
 
 /// Which of the two channels beside z is x: the derivatives of a height go together (GreenBlocks) the right way only.
-void chooseXAndY(const RgbImage& image, const TexelMask& inside, MapLayout& layout) {
+void chooseXAndY(const RgbImage& image, std::span<const std::uint8_t> alpha, const TexelMask& inside,
+                 MapLayout& layout) {
     constexpr double kClear = 0.2;
     const auto agreement = [&](const MapLayout& chosen) {
         RgbImage read = image;
-        readByLayout(read, {}, chosen);
+        readByLayout(read, alpha, chosen);
         return std::fabs(GreenBlocks(read, inside).all().correlation);
     };
     MapLayout other = layout;
     std::swap(other.x, other.y);
     if (agreement(other) > agreement(layout) + kClear) layout = other;
+}
+
+/// What the texels of a texture file look like that says nothing of x and y, and has alpha. Green and alpha may as well hold
+/// them where all colours are one.
+MapLayout guessedLayout(std::span<const TexelBytes> texels, const RgbImage& image, std::span<const std::uint8_t> alpha,
+                        const TexelMask& inside) {
+    LayoutGuess guess;
+    for (const TexelBytes& texel : texels) {
+        const auto part = [&](std::size_t i) { return static_cast<float>(texel[i]) / 255.0F; };
+        guess.add({part(0), part(1), part(2)}, part(3));
+    }
+    MapLayout layout = guess.layout().value_or(MapLayout{});
+    if (layout.y.channel == MapChannel::alpha) chooseXAndY(image, alpha, inside, layout);
+    return layout;
 }
 
 /// Whether red is y and green is x: only so are the derivatives those of a height. Relief that curves along x as it does along
@@ -216,10 +234,27 @@ bool areXAndYExchanged(const RgbImage& image, const TexelMask& inside) {
     return has_verdict && std::fabs(other.correlation) > kLeast;
 }
 
+/// Where a texture file says where x and y are, or its texels do, that counts. `known`: what the format says.
+void lookAtTexture(const MapLayout& known, std::span<const TexelBytes> texels, const RgbImage& image,
+                   std::span<const std::uint8_t> alpha, const TexelMask& inside, MapLook& look) {
+    const bool is_guessed = known == MapLayout{} && !alpha.empty();
+    const MapLayout layout = is_guessed ? guessedLayout(texels, image, alpha, inside) : known;
+    if (layout == MapLayout{}) return;
+    const bool has_z = layout.z.channel != MapChannel::none;
+    const bool is_plain = layout.x == MapLayout{}.x && layout.y == MapLayout{}.y;
+    look = {.content = has_z      ? MapContent::exchanged
+                       : is_plain ? MapContent::twoChannels
+                                  : MapContent::xInAlpha,
+            .layout = layout,
+            .count = texels.size(),
+            .total = texels.size()};
+}
+
 /// Finds out what the image holds, and makes it one that glTF reads.
 void lookAtContent(const Scene& scene, const TexelMask& inside, NormalMap& map, RgbImage& image) {
     std::vector<TexelBytes> texels = sampleTexels(image, {}, inside);
-    const std::vector<std::uint8_t> alpha = alphaOf(scene, scene.images[map.image], texels);
+    const std::optional<TextureFacts> facts = textureFacts(scene.images[map.image].bytes);
+    const std::vector<std::uint8_t> alpha = alphaOf(scene, scene.images[map.image], texels, facts.has_value());
     if (!alpha.empty()) texels = sampleTexels(image, alpha, inside);
     std::vector<TexelOnSurface> surface;
     std::vector<std::size_t> parts;
@@ -228,11 +263,12 @@ void lookAtContent(const Scene& scene, const TexelMask& inside, NormalMap& map, 
         showPoints(part, image, surface);
     }
     map.look = lookAtTexels(texels, !alpha.empty(), surface, placedInWorld(map, parts, surface));
-    if (map.look.content == MapContent::exchanged) chooseXAndY(image, inside, map.look.layout);
+    if (map.look.content == MapContent::exchanged) chooseXAndY(image, {}, inside, map.look.layout);
     if (map.look.content == MapContent::normals && areXAndYExchanged(image, inside)) {
         map.look.content = MapContent::exchanged;
         std::swap(map.look.layout.x, map.look.layout.y);
     }
+    if (facts) lookAtTexture(facts->layout, texels, image, alpha, inside, map.look);
     if (holdsNormals(map.look.content) && !(map.look.layout == MapLayout{}))
         readByLayout(image, alpha, map.look.layout);
 }
@@ -341,8 +377,11 @@ std::vector<Finding> describe(const Scene& scene, const NormalMap& map) {
         findings.push_back(unreadable(name, map.why_not));
     } else {
         const bool has_own_green = hasOwnGreen(map.look.layout);
-        std::optional<Finding> content = contentFinding(name, commandName(scene, map.image), map.look,
-                                                        isDown(map) && !(has_own_green && isDeclared(map)));
+        const std::optional<TextureFacts> facts = textureFacts(scene.images[map.image].bytes);
+        std::optional<Finding> content =
+            contentFinding(name, commandName(scene, map.image), map.look,
+                           isDown(map) && !(has_own_green && isDeclared(map)), !facts.has_value());
+        if (content && facts) content->message += " (it is " + facts->name + ")";
         if (content && map.look.content == MapContent::height && mayBeHeights(map)) {
             content->severity = Severity::note;
             content->message = name + " is a height map (map_bump), and no normal map";

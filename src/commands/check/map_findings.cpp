@@ -58,6 +58,10 @@ std::string messageOf(const std::string& name, const MapLook& look) {
             return "blue of the normal map " + name +
                    " is z itself, from 0 to 1, where glTF wants (z + 1) / 2: what leans is shown leaning too far";
         case MapContent::xInAlpha:
+            if (layout.x.channel != MapChannel::alpha || layout.y.channel != MapChannel::green) {
+                return "the normal map " + name + " holds only " + axisText("x", layout.x) + " and " +
+                       axisText("y", layout.y) + ", and no z, which glTF reads in blue";
+            }
             return "the normal map " + name +
                    " holds x in alpha and y in green (as DXT5nm does), and no z: red and blue say nothing";
         case MapContent::exchanged:
@@ -95,10 +99,12 @@ std::string messageOf(const std::string& name, const MapLook& look) {
     return name + " is grey, and no normal map: it is a height map, perhaps";
 }
 
-std::string remedyOf(const std::string& file, const MapLook& look, bool green_is_down) {
+std::string remedyOf(const std::string& file, const MapLook& look, bool green_is_down, bool can_mend) {
     const std::string flip = green_is_down ? " --flip-green" : "";
     // No full stop behind a command, since it would be copied along.
-    const std::string in_model = "In the model: tspace generate --mend-maps" + flip + " does it. The image alone: ";
+    const std::string in_model =
+        can_mend ? "In the model: tspace generate --mend-maps" + flip + " does it. The image alone: "
+                 : "Give the model an image that has x, y and z: ";
     const std::string convert = "tspace convert-map " + file + " -o OUT.png";
     if (look.content == MapContent::picture) return findingRemedy(FindingCode::normalMapIsPicture);
     if (look.content == MapContent::height) {
@@ -131,13 +137,13 @@ std::string layoutOptions(const MapLayout& layout) {
 }
 
 std::optional<Finding> contentFinding(const std::string& name, const std::string& file, const MapLook& look,
-                                      bool green_is_down) {
+                                      bool green_is_down, bool can_mend) {
     if (look.content == MapContent::normals) return {};
     const Tally texels{.count = look.count, .total = look.total};
     std::string message = messageOf(name, look);
     if (green_is_down) message += "; and y is inverted besides";
     Finding finding = makeFinding(codeOf(look.content), Severity::warning, texels, "texels", std::move(message));
-    finding.remedy = remedyOf(file, look, green_is_down);
+    finding.remedy = remedyOf(file, look, green_is_down, can_mend);
     finding.confidence = texels.share();
     return finding;
 }

@@ -14,8 +14,8 @@ namespace tspace {
 std::string layoutOptions(const MapLayout& layout);
 
 /// `name`: of the image, with quotes. `file`: its name in a command line. `green_is_down`: the channel that holds y is also
-/// inverted. Nothing for normals.
+/// inverted. `can_mend`: generate --mend-maps writes an image of this format anew. Nothing for normals.
 std::optional<Finding> contentFinding(const std::string& name, const std::string& file, const MapLook& look,
-                                      bool green_is_down);
+                                      bool green_is_down, bool can_mend = true);
 
 }  // namespace tspace

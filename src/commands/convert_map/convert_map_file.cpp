@@ -163,6 +163,7 @@ ConvertMapFileReport convert(const std::string& input, const std::string& output
     const ImageFormat format = outputFormat(output, options);
     const unsigned bits = outputBits(format, options.bits);
     FloatImage image = readMapImage(input, options.content, options.file);
+    const std::string how_read = options.layout == MapLayout{} ? readTextureVectors(image) : std::string();
     const std::vector<Vec3> before = applyLayout(options.layout, image);
     const Meshes meshes = readMeshes(input, options);
     const MapMesh* const from = meshes.from ? &*meshes.from : nullptr;
@@ -185,6 +186,7 @@ ConvertMapFileReport convert(const std::string& input, const std::string& output
     report.texels =
         valueOrThrow(convertMap(map, sides.from, sides.to, chosen, image.texels, options.execution, options.progress));
     if (!before.empty()) countLayout(before, image.texels, any == nullptr, report.texels);
+    if (!how_read.empty()) report.warnings.push_back(how_read);
     if (image.not_finite > 0)
         report.warnings.push_back(std::to_string(image.not_finite) +
                                   " texels of the image are not finite; they become grey, which has no direction");

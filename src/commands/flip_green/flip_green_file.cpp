@@ -2,6 +2,7 @@
 // flipGreen and flipGreenFile: what an image may take, and files.
 #include <algorithm>
 
+#include "commands/flip_green/texture_png.h"
 #include "images/flip_green.h"
 #include "model/io/atomic_output.h"
 #include "model/io/file_error.h"
@@ -34,6 +35,9 @@ FlippedImage flip(ByteSpan bytes, const FlipGreenOptions& options) {
     budget.allow(bytes.size());
     if (const std::uint64_t needed = flipWorkBytes(bytes); needed != 0) budget.require(needed, {});
     checkWork(bytes, options.memory_limit_bytes);
+    const ImageFormat format = imageFormat(bytes);
+    const bool is_texture = format == ImageFormat::ktx2 || format == ImageFormat::dds;
+    if (is_texture && options.format == ImageFileFormat::png) return flippedTexturePng(bytes);
     return valueOrThrow(flipImage(bytes, options));
 }
 
@@ -43,8 +47,10 @@ ImageFileFormat namedFormat(const std::string& output) {
     if (extension == ".png") return ImageFileFormat::png;
     if (extension == ".jpg" || extension == ".jpeg") return ImageFileFormat::jpeg;
     if (extension == ".webp") return ImageFileFormat::webp;
+    if (extension == ".ktx2") return ImageFileFormat::ktx2;
+    if (extension == ".dds") return ImageFileFormat::dds;
     failFile(ErrorCode::unsupportedFile,
-             "the output " + pathInQuotes(output) + " ends in none of .png, .jpg, .jpeg and .webp");
+             "the output " + pathInQuotes(output) + " ends in none of .png, .jpg, .jpeg, .webp, .ktx2 and .dds");
 }
 
 }  // namespace

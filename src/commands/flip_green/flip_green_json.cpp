@@ -12,6 +12,10 @@ const char* imageFormatName(ImageFileFormat format) {
             return "JPEG";
         case ImageFileFormat::webp:
             return "WebP";
+        case ImageFileFormat::ktx2:
+            return "KTX2";
+        case ImageFileFormat::dds:
+            return "DDS";
         case ImageFileFormat::sameAsInput:
             break;
     }

@@ -12,7 +12,9 @@ std::string flipGreenText(const Outcome<FlipGreenReport>& outcome) {
     Table table;
     table.addRow({"image", fmt::format("{}, {} x {}, {} bits a channel", imageFormatName(done.format), done.width,
                                        done.height, done.bits)});
-    table.addRow({"green", done.is_exact ? "inverted exactly" : "inverted, and compressed once more"});
+    table.addRow({"green", done.is_exact                          ? "inverted exactly"
+                           : done.format == ImageFileFormat::jpeg ? "inverted, and compressed once more"
+                                                                  : "inverted, and rounded"});
     for (const std::string& warning : done.warnings) table.addRow({"warning", printable(warning)});
     return fmt::format("{} -> {}{}\n{}", printable(outcome.input), printable(outcome.output),
                        outcome.is_dry_run ? " (not written)" : "", table.text("  "));

@@ -8,8 +8,8 @@
 
 #include "commands/generate/map_references.h"
 #include "commands/generate/place_image.h"
+#include "commands/shared/map_image_file.h"
 #include "commands/shared/map_mesh.h"
-#include "images/float_image.h"
 #include "maps/carried_error.h"
 #include "maps/uv_coverage.h"
 #include "model/gltf/material_needs.h"
@@ -223,7 +223,12 @@ class OneMap {
             why = "it takes more memory than the limit";
             return {};
         }
-        return decodeFloatImage(file_, kMostModelMapPixels, why);
+        std::optional<FloatImage> image = decodeFloatImage(file_, kMostModelMapPixels, why);
+        if (!image) return {};
+        readTextureVectors(*image);
+        constexpr unsigned kMostBits = 16;  // of a PNG
+        image->bits = std::min(image->bits, kMostBits);
+        return image;
     }
 
     void prepare(ShownMap& one, const Source& source, const FloatImage& image) const {

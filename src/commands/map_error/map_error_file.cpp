@@ -4,7 +4,7 @@
 
 #include "commands/bake/map_pictures.h"
 #include "commands/bake/model_surfaces.h"
-#include "images/float_image.h"
+#include "commands/shared/map_image_file.h"
 #include "model/io/atomic_output.h"
 #include "model/io/file_error.h"
 #include "model/io/file_io.h"
@@ -67,6 +67,7 @@ class FileMeasuring {
     MapErrorFileReport run(const std::string& map, const std::string& low, const std::string& high) {
         inputs_.add(map);
         image_ = aboutInput(BakeInput::map, [&] { return readMap(map); });
+        const std::string how_read = readTextureVectors(image_);
         report_.width = image_.width;
         report_.height = image_.height;
         report_.bits = image_.bits;
@@ -75,6 +76,7 @@ class FileMeasuring {
         report_.matched_by_name = models.matched_by_name;
         report_.warnings = models.low.warnings;
         report_.warnings.insert(report_.warnings.end(), models.high.warnings.begin(), models.high.warnings.end());
+        if (!how_read.empty()) report_.warnings.push_back(how_read);
         const LowModel::Image shown = aboutInput(BakeInput::low, [&] { return shownPart(models.low, options_); });
         const LowPart& part = shown.part;
         options_.map.reach = models.reach(options_.map.reach);

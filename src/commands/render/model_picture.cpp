@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "commands/shared/map_image_file.h"
 #include "commands/shared/picture/colors.h"
 #include "commands/shared/uv_reading.h"
 #include "core/base/unit.h"
@@ -68,15 +69,26 @@ bool isDeepPng(ByteSpan bytes) {
     return imageFormat(bytes) == ImageFormat::png && bytes.size() > kBitsAt && bytes[kBitsAt] == 16;
 }
 
-std::optional<PictureTexture> decodeDeep(ByteSpan bytes, std::uint64_t most_pixels, bool is_color, std::string& why) {
+bool isTextureFile(ByteSpan bytes) {
+    const ImageFormat format = imageFormat(bytes);
+    return format == ImageFormat::ktx2 || format == ImageFormat::dds;
+}
+
+/// `how_read`: of a normal map, a sentence where it needs one.
+std::optional<PictureTexture> decodeDeep(ByteSpan bytes, std::uint64_t most_pixels, bool is_color, std::string& why,
+                                         std::string& how_read) {
     std::optional<FloatImage> image = decodeFloatImage(bytes, most_pixels, why);
     if (!image) return {};
     PictureTexture texture{.width = image->width, .height = image->height};
     if (is_color) {
-        const std::vector<float> table = srgbTable(image->bits);
+        const std::vector<float> table = srgbTable(image->bits == 8 ? 8 : 16);
         const auto most = static_cast<float>(table.size() - 1);
-        const auto light = [&](float stored) { return table[static_cast<std::size_t>(stored * most + 0.5f)]; };
+        const auto light = [&](float stored) {
+            return table[static_cast<std::size_t>(std::clamp(stored, 0.0F, 1.0F) * most + 0.5f)];
+        };
         for (Vec3& texel : image->texels) texel = {light(texel.x), light(texel.y), light(texel.z)};
+    } else {
+        how_read = readTextureVectors(*image);
     }
     texture.texels = std::move(image->texels);
     texture.alpha = std::move(image->alpha);
@@ -129,21 +141,22 @@ const PictureTexture* ModelTextures::read(const Wanted& wanted) {
 
 std::optional<PictureTexture> ModelTextures::decode(const Wanted& wanted) {
     const SceneImage& source = scene_.images[wanted.image];
-    const bool in_floats = wanted.alpha || isDeepPng(source.bytes);
+    const bool in_floats = wanted.alpha || isDeepPng(source.bytes) || (!wanted.is_color && isTextureFile(source.bytes));
     const std::uint64_t pixels = claimedSize(source.bytes).pixels();
     const std::uint64_t kept = pixels * (in_floats ? sizeof(Vec3) + sizeof(float) : 3);
     const std::uint64_t needed = kept + imageWorkBytes(source.bytes);
-    std::string why;
+    std::string why, how_read;
     std::optional<PictureTexture> texture;
     if (source.bytes.empty()) {
         why = "it cannot be read";
     } else if (scene_.memory && !scene_.memory->has(needed)) {
         why = "it " + scene_.memory->whyNot(needed);
     } else {
-        texture = in_floats ? decodeDeep(source.bytes, most_pixels_, wanted.is_color, why)
+        texture = in_floats ? decodeDeep(source.bytes, most_pixels_, wanted.is_color, why, how_read)
                             : decodeBytes(source.bytes, most_pixels_, wanted.is_color, why);
     }
     if (texture && scene_.memory) scene_.memory->take(kept, {});
+    if (!how_read.empty()) warnings.push_back(how_read);
     if (!texture) {
         const std::string& name = source.uri.empty() ? source.name : source.uri;
         warnings.push_back("the texture " + (name.empty() ? "image " + std::to_string(wanted.image) : inQuotes(name)) +

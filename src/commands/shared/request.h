@@ -13,6 +13,7 @@
 #include "tspace/diff.h"
 #include "tspace/flip_green.h"
 #include "tspace/identify.h"
+#include "tspace/map_compress_file.h"
 #include "tspace/map_convert_file.h"
 #include "tspace/map_height_file.h"
 #include "tspace/render.h"
@@ -42,6 +43,7 @@ OptionList bakeOptions(BakeFileOptions& options);
 OptionList mapErrorOptions(MapErrorFileOptions& options);
 OptionList convertMapOptions(ConvertMapFileOptions& options);
 OptionList heightToNormalOptions(HeightToNormalFileOptions& options);
+OptionList compressMapOptions(CompressMapFileOptions& options);
 
 /// Applies what options mean together, once all are given. Returns what makes no sense, or nothing.
 std::string finish(const Given& given, GenerateOptions& options);

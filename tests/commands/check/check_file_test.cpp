@@ -7,6 +7,7 @@
 
 #include "commands/check/patch.h"
 #include "images/images.h"
+#include "images/textures.h"
 #include "model/gltf_builder.h"
 #include "support/temp_folder.h"
 
@@ -138,7 +139,56 @@ TEST(CheckFile, NamesTheFormatOfAnImageThatIsNotRead) {
     model.builder.json()["textures"] = Json::parse(R"([{"extensions":{"KHR_texture_basisu":{"source":0}}}])");
     const CheckReport report = model.check();
     ASSERT_EQ(codes(report), Codes{"note normalMapUnreadable"});
-    EXPECT_NE(report.findings[0].message.find("it is KTX2, which is not read"), std::string::npos);
+    EXPECT_NE(report.findings[0].message.find("it is a broken KTX2"), std::string::npos);
+}
+
+/// A map of x, y and z, packed by Zstandard.
+std::string plainKtx2(bool green_down) {
+    const RgbImage map = normalMapOf(256, bumps, green_down);
+    const std::string data(map.rgb.begin(), map.rgb.end());
+    Ktx2Parts parts{.format = 23, .width = 256, .height = 256, .levels = {zstdOf(data)}, .unpacked = {data.size()}};
+    parts.scheme = 2;
+    return ktx2File(parts);
+}
+
+TEST(CheckFile, LooksAtKtx2AndDds) {
+    TestModel model;
+    model.builder.json()["textures"] = Json::parse(R"([{"extensions":{"KHR_texture_basisu":{"source":0}}}])");
+    model.folder.write("normal.png", plainKtx2(false));
+    EXPECT_EQ(codes(model.check()), Codes{});
+    model.folder.write("normal.png", plainKtx2(true));
+    EXPECT_EQ(codes(model.check()), Codes{"warning greenFlipped"});
+    model.builder.json()["textures"] = Json::parse(R"([{"extensions":{"MSFT_texture_dds":{"source":0}}}])");
+    model.folder.write("normal.png", ddsFile(83, 256, 256, bc5Blocks(normalMapOf(256, bumps))));
+    const CheckReport report = model.check();
+    ASSERT_EQ(codes(report), Codes{"warning normalMapTwoChannels"});
+    EXPECT_NE(report.findings[0].message.find("it is BC5 in a DDS"), std::string::npos);
+    EXPECT_EQ(report.findings[0].remedy.find("--mend-maps"), std::string::npos) << "which writes no DDS";
+    model.folder.write("normal.png", ddsFile(83, 256, 256, bc5Blocks(normalMapOf(256, bumps, true))));
+    EXPECT_EQ(codes(model.check()), (Codes{"warning normalMapTwoChannels", "warning greenFlipped"}));
+}
+
+TEST(CheckFile, FindsXAndYInOtherChannelsOfATexture) {
+    // Waves along both axes tell x from y, where their products do not.
+    const RgbImage map = normalMapOf(256, [](double x, double y) {
+        return 0.012 * std::sin(50 * x) + 0.01 * std::cos(43 * y) + 0.006 * std::cos(30 * x) * std::sin(31 * y);
+    });
+    std::string in_colors, in_alpha, in_green;
+    for (std::size_t i = 0; i < map.rgb.size(); i += 3) {
+        const char x = static_cast<char>(map.rgb[i]), y = static_cast<char>(map.rgb[i + 1]);
+        in_colors += std::string{x, x, x, y};
+        in_alpha += std::string{y, y, y, x};
+        in_green += std::string{'\xff', y, '\xff', x};
+    }
+    TestModel model;
+    for (const auto& [data, says] : {std::pair(in_colors, "x in red and y in alpha"),
+                                     {in_alpha, "x in alpha and y in red"},
+                                     {in_green, "x in alpha and y in green"}}) {
+        model.folder.write("normal.png", ddsFile(28, 256, 256, data));
+        const CheckReport report = model.check();
+        ASSERT_EQ(codes(report), Codes{"warning normalMapChannels"}) << says;
+        EXPECT_NE(report.findings[0].message.find(says), std::string::npos) << report.findings[0].message;
+    }
 }
 
 TEST(CheckFile, LooksAtWebp) {

@@ -704,9 +704,9 @@ class FlipGreenReport(Report):
     format: str
     width: int
     height: int
-    #: Of a channel, 8 or 16.
+    #: Of a channel: 8 or 16, 32 of a texture of floats.
     bits: int
-    #: False where a JPEG was compressed once more.
+    #: False where a JPEG was compressed once more, or a texture rounded to a PNG.
     exact: bool
     #: Sentences for a person.
     warnings: List[str]

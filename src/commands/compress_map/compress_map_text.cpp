@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// A normal map that became a texture, as text.
+#include <fmt/format.h>
+
+#include "commands/compress_map/compress_map_report.h"
+#include "commands/shared/text.h"
+
+namespace tspace::report {
+
+std::string compressMapText(const Outcome<CompressMapFileReport>& outcome) {
+    const CompressMapFileReport& done = *outcome.result;
+    Table table;
+    table.addRow({"texture", fmt::format("BC5, {} x {}, {} {}, {} bytes", done.width, done.height, done.level_count,
+                                         done.level_count == 1 ? "level" : "levels", done.output_bytes)});
+    table.addRow(
+        {"error", fmt::format("{:.3g} degrees in the mean, {:.3g} at 99 % of the points, {:.3g} at most, filtered",
+                              done.mean_error_deg, done.p99_error_deg, done.max_error_deg)});
+    for (const std::string& warning : done.warnings) table.addRow({"warning", printable(warning)});
+    return fmt::format("{} -> {}{}\n{}", printable(outcome.input), printable(outcome.output),
+                       outcome.is_dry_run ? " (not written)" : "", table.text("  "));
+}
+
+}  // namespace tspace::report

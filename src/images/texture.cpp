@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: MIT
+// Texture files as images: rows of texels out of their blocks, and where a normal map in them has x, y and z.
+#include <algorithm>
+#include <cmath>
+
+#include "images/codecs.h"
+#include "images/layout_guess.h"
+#include "images/texture_file.h"
+
+namespace tspace {
+
+namespace {
+
+std::uint64_t rowBytes(const TextureFile& texture) {
+    const TexelFormat& format = texture.format;
+    return format.blocksAcross(texture.size.width) * format.width * format.height * sizeof(Rgba);
+}
+
+/// The first level as it is unpacked, if it has to be.
+class TextureLevel {
+  public:
+    explicit TextureLevel(const TextureFile& texture)
+        : texture_(texture), format_(texture.format), blocks_(texture.level) {}
+
+    bool unpack() {
+        if (texture_.repacking != Repacking::none) {
+            unpacked_.resize(static_cast<std::size_t>(texture_.levelBytes()));
+            const bool is_done = texture_.repacking == Repacking::basis_lz
+                                     ? unpackBasisLz(texture_, unpacked_)
+                                     : unpackLevel(texture_.repacking, texture_.level, unpacked_);
+            if (!is_done) return false;
+            blocks_ = unpacked_;
+        }
+        if (format_.decode != nullptr) return true;
+        format_ = texelFormat(TexelKind::rgba32f);
+        std::vector<std::uint8_t> texels(static_cast<std::size_t>(format_.block_bytes * texture_.size.pixels()));
+        if (!decodeAstc(texture_, blocks_, texels)) return false;
+        unpacked_ = std::move(texels);
+        blocks_ = unpacked_;
+        return true;
+    }
+
+    /// Calls put(row, texels) for each row of the image, in any order.
+    template <class Put>
+    void forRows(const Put& put) const {
+        const std::uint32_t width = texture_.size.width, height = texture_.size.height;
+        const auto across = static_cast<std::size_t>(format_.blocksAcross(width));
+        const std::size_t stride = across * format_.width;
+        std::vector<Rgba> rows(stride * format_.height);
+        std::array<Rgba, 16> block{};
+        const std::uint8_t* at = blocks_.data();
+        for (std::uint32_t top = 0; top < height; top += format_.height) {
+            for (std::size_t column = 0; column < across; ++column, at += format_.block_bytes) {
+                format_.decode(format_, at, block.data());
+                for (std::size_t y = 0; y < format_.height; ++y)
+                    std::copy_n(&block[y * format_.width], format_.width, &rows[y * stride + column * format_.width]);
+            }
+            for (std::uint32_t y = 0; y < format_.height && top + y < height; ++y) {
+                const std::span<Rgba> row = std::span(rows).subspan(y * stride, width);
+                arrange(row);
+                put(texture_.turns_rows ? height - 1 - top - y : top + y, row);
+            }
+        }
+    }
+
+  private:
+    /// Channels and columns as the file wants them to be shown.
+    void arrange(std::span<Rgba> row) const {
+        constexpr std::array<std::uint8_t, 4> kPlain = {0, 1, 2, 3};
+        if (texture_.swizzle != kPlain) {
+            for (Rgba& texel : row) {
+                const Rgba from = texel;
+                for (std::size_t i = 0; i < 4; ++i) {
+                    const std::uint8_t source = texture_.swizzle[i];
+                    texel[i] = source < 4 ? from[source] : source == TextureFile::kOne ? 1.0F : 0.0F;
+                }
+            }
+        }
+        if (texture_.turns_columns) std::reverse(row.begin(), row.end());
+    }
+
+    const TextureFile& texture_;
+    TexelFormat format_;  ///< of blocks_
+    ByteSpan blocks_;
+    std::vector<std::uint8_t> unpacked_ = {};
+};
+
+/// Whether alpha is shown and may be anything but 1.
+bool hasAlpha(const TextureFile& texture) {
+    const std::uint8_t source = texture.swizzle[3];
+    return source != TextureFile::kOne && (source != 3 || texture.format.channels == 4);
+}
+
+std::uint8_t byteOf(float part) {
+    return part > 0 ? static_cast<std::uint8_t>(std::min(part, 1.0F) * 255.0F + 0.5F) : std::uint8_t{0};
+}
+
+std::optional<TextureFile> openTexture(ByteSpan bytes, std::uint64_t most_pixels, std::string& why) {
+    std::optional<TextureFile> texture = readTextureHead(bytes, why);
+    if (texture && isTooLarge(texture->size, bytes.size(), most_pixels, why)) return {};
+    return texture;
+}
+
+std::string brokenTexture(const TextureFile& texture) { return std::string("it is a broken ") + texture.container; }
+
+void guessLayout(FloatImage& image) {
+    if (image.alpha.empty() || !(image.texture.layout == MapLayout{})) return;
+    LayoutGuess guess;
+    for (std::size_t i = 0; i < image.texels.size(); ++i) guess.add(image.texels[i], image.alpha[i]);
+    if (const std::optional<MapLayout> layout = guess.layout()) {
+        image.texture.layout = *layout;
+        image.texture.is_guessed = true;
+    }
+}
+
+/// Floats are made finite, and those that are vectors (some are below 0) moved to 0 to 1.
+void tameFloats(FloatImage& image) {
+    constexpr float kGrey = 0.5F, kBelow = -1.0F / 64.0F;
+    bool is_signed = false;
+    for (std::size_t i = 0; i < image.texels.size(); ++i) {
+        Vec3& texel = image.texels[i];
+        const bool is_finite = std::isfinite(texel.x) && std::isfinite(texel.y) && std::isfinite(texel.z);
+        if (!is_finite) {
+            texel = {kGrey, kGrey, kGrey};
+            ++image.not_finite;
+        }
+        if (!image.alpha.empty() && !std::isfinite(image.alpha[i])) image.alpha[i] = 1;
+        is_signed = is_signed || texel.x < kBelow || texel.y < kBelow;
+    }
+    if (!is_signed) return;
+    for (Vec3& texel : image.texels) texel = {0.5F * texel.x + 0.5F, 0.5F * texel.y + 0.5F, 0.5F * texel.z + 0.5F};
+}
+
+}  // namespace
+
+std::optional<TextureFile> readTextureHead(ByteSpan bytes, std::string& why) {
+    return imageFormat(bytes) == ImageFormat::ktx2 ? readKtx2Head(bytes, why) : readDdsHead(bytes, why);
+}
+
+std::optional<TextureFacts> textureFacts(ByteSpan bytes) {
+    const ImageFormat format = imageFormat(bytes);
+    if (format != ImageFormat::ktx2 && format != ImageFormat::dds) return {};
+    std::string why;
+    const std::optional<TextureFile> texture = readTextureHead(bytes, why);
+    if (!texture) return {};
+    return TextureFacts{.name = texture->name(), .layout = texture->layout, .is_srgb = texture->is_srgb};
+}
+
+ImageClaim claimOfTexture(ByteSpan bytes) {
+    std::string why;
+    const std::optional<TextureFile> texture = readTextureHead(bytes, why);
+    if (!texture) return {};
+    const std::uint64_t pixel_bytes = texture->format.is_float ? 16 + 3 : 3;
+    std::uint64_t unpacked = texture->repacking == Repacking::none ? 0 : texture->levelBytes();
+    // All texels of ASTC at once, as floats, and the library's tables.
+    constexpr std::uint64_t kTables = std::uint64_t{8} << 20;
+    if (texture->format.decode == nullptr) unpacked += sizeof(Rgba) * texture->size.pixels() + kTables;
+    return {texture->size, pixel_bytes * texture->size.pixels() + unpacked + rowBytes(*texture)};
+}
+
+std::optional<FloatImage> decodeFloatTexture(ByteSpan bytes, std::uint64_t most_pixels, std::string& why) {
+    const std::optional<TextureFile> texture = openTexture(bytes, most_pixels, why);
+    if (!texture) return {};
+    TextureLevel level(*texture);
+    why = brokenTexture(*texture);
+    if (!level.unpack()) return {};
+    const std::size_t width = texture->size.width;
+    FloatImage image{texture->size.width,
+                     texture->size.height,
+                     texture->format.bits,
+                     std::vector<Vec3>(static_cast<std::size_t>(texture->size.pixels())),
+                     {}};
+    if (hasAlpha(*texture)) image.alpha.resize(image.texels.size());
+    level.forRows([&](std::size_t y, std::span<const Rgba> row) {
+        for (std::size_t x = 0; x < row.size(); ++x) {
+            image.texels[y * width + x] = {row[x][0], row[x][1], row[x][2]};
+            if (!image.alpha.empty()) image.alpha[y * width + x] = row[x][3];
+        }
+    });
+    if (texture->format.is_float) tameFloats(image);
+    image.texture = {.name = texture->name(), .layout = texture->layout, .is_srgb = texture->is_srgb};
+    guessLayout(image);
+    // Most formats of blocks have an alpha channel, whether it is used or not.
+    if (std::all_of(image.alpha.begin(), image.alpha.end(), [](float alpha) { return alpha == 1; }))
+        image.alpha.clear();
+    return image;
+}
+
+std::optional<RgbImage> decodeTexture(ByteSpan bytes, std::uint64_t most_pixels, std::string& why) {
+    const std::optional<TextureFile> texture = openTexture(bytes, most_pixels, why);
+    if (!texture) return {};
+    RgbImage image{texture->size.width, texture->size.height, {}};
+    if (texture->format.is_float) {
+        const std::optional<FloatImage> floats = decodeFloatTexture(bytes, most_pixels, why);
+        if (!floats) return {};
+        image.rgb.reserve(3 * floats->texels.size());
+        for (const Vec3& texel : floats->texels) {
+            for (const float part : {texel.x, texel.y, texel.z}) image.rgb.push_back(byteOf(part));
+        }
+        return image;
+    }
+    TextureLevel level(*texture);
+    why = brokenTexture(*texture);
+    if (!level.unpack()) return {};
+    image.rgb.resize(static_cast<std::size_t>(3 * texture->size.pixels()));
+    level.forRows([&](std::size_t y, std::span<const Rgba> row) {
+        std::uint8_t* at = image.rgb.data() + 3 * y * image.width;
+        for (const Rgba& texel : row) {
+            for (std::size_t i = 0; i < 3; ++i) *at++ = byteOf(texel[i]);
+        }
+    });
+    return image;
+}
+
+std::vector<std::uint8_t> decodeTextureAlpha(ByteSpan bytes) {
+    std::string why;
+    const std::optional<TextureFile> texture = readTextureHead(bytes, why);
+    if (!texture || !hasAlpha(*texture)) return {};
+    TextureLevel level(*texture);
+    if (!level.unpack()) return {};
+    std::vector<std::uint8_t> alpha(static_cast<std::size_t>(texture->size.pixels()));
+    level.forRows([&](std::size_t y, std::span<const Rgba> row) {
+        std::uint8_t* at = alpha.data() + y * texture->size.width;
+        for (const Rgba& texel : row) *at++ = byteOf(texel[3]);
+    });
+    return alpha;
+}
+
+}  // namespace tspace

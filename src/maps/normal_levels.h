@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// Smaller levels of a normal map: mean directions.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/base/parallel.h"
+#include "core/base/vec_math.h"
+
+namespace tspace {
+
+struct NormalLevel {
+    std::uint32_t width = 0, height = 0;
+    std::vector<Vec3> normals = {};  ///< unit
+};
+
+/// The given level and all smaller ones down to 1 x 1, each half as wide and high, rounded down. A texel of any level is the unit mean of
+/// the normals that it covers on the first, in parts where an edge cuts them; z along where that has no direction. Memory: twice
+/// that of the first level. The same for any number of threads.
+std::vector<NormalLevel> makeNormalLevels(NormalLevel first, Parallel& parallel);
+
+}  // namespace tspace

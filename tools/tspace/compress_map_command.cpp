@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+// tspace compress-map: one normal map as a texture for engines.
+#include <memory>
+
+#include "command_table.h"
+#include "commands/compress_map/compress_map_report.h"
+#include "commands/shared/request.h"
+#include "common_options.h"
+#include "image_command.h"
+#include "jobs.h"
+#include "output_files.h"
+
+namespace tspace::tool {
+namespace {
+
+struct CompressMapArguments {
+    std::string input = {};
+    std::string output = {};
+    CompressMapFileOptions options = {};
+    bool json = false;
+    bool quiet = false;
+};
+
+ExitCode runCompressMap(const CompressMapArguments& arguments) {
+    const Result<Done> fit = prepareOutputs({arguments.output}, {arguments.input}, arguments.options.dry_run);
+    if (!fit) return printUsageError(fit.error().message + "; name another file");
+    if (goesToTerminal(arguments)) return printUsageError(kNoTextForATerminal);
+    const Result<CompressMapFileReport> result =
+        callOnImage(arguments.input, arguments.output, arguments.options.file.memory_limit_bytes, arguments.options,
+                    [&](const CompressMapFileOptions& options) {
+                        return compressMapFile(arguments.input, arguments.output, options);
+                    });
+    return printOutcome(arguments, result, report::compressMapJson, report::compressMapText);
+}
+
+}  // namespace
+
+Command compressMapCommand() {
+    const auto owned = std::make_shared<CompressMapArguments>();
+    CompressMapArguments& arguments = *owned;
+    arguments.options.execution.thread_count = kAllThreads;
+    Command command{
+        .name = "compress-map",
+        .summary = "pack a normal map as a texture for engines (BC5)",
+        .operands = "IN -o OUT",
+        .description =
+            "Packs a normal map in tangent space as BC5, one byte a texel: x in red, y in green, and z made by who "
+            "reads it. Blocks are searched for from all bits that the image has, so 16 bits give more than 8. All "
+            "smaller levels are made of mean directions. The report says how far the texture is off as it is "
+            "filtered.",
+        .examples = {"tspace compress-map normal.png -o normal.ktx2", "tspace compress-map normal.exr -o normal.dds"},
+    };
+    const char* group = kInputAndOutput;
+    command.add(group, operand("IN", arguments.input, "An image: PNG, JPEG, WebP, EXR, KTX2 or DDS; - for stdin."));
+    Option output = text("-o, --output", "OUT", arguments.output,
+                         "Where to write: a file that ends in .ktx2 or .dds; - for stdout, a KTX2.");
+    output.is_file = output.is_required = true;
+    command.add(group, output);
+    command.add(compressMapOptions(arguments.options));
+    addReporting(command, arguments.json, arguments.quiet);
+    command.run = [owned] { return runCompressMap(*owned); };
+    return command;
+}
+
+}  // namespace tspace::tool
