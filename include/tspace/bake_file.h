@@ -15,7 +15,7 @@
 namespace tspace {
 
 /// Which file an error is about: bakeFile and mapErrorFile tell its number as Error::element, where it is about one.
-enum class BakeInput : std::uint32_t { low = 0, high = 1, cage = 2, map = 3 };
+enum class BakeInput : std::uint32_t { low = 0, high = 1, cage = 2, map = 3, skew = 4 };
 
 struct BakeFileOptions {
     /// Its wrap modes are those of the low poly's textures. Its limit on memory is that of `file`, or 16 GB, where it is 0.
@@ -25,6 +25,7 @@ struct BakeFileOptions {
     NormalOptions normals{.weighting = NormalWeighting::flat};
     FileOptions file = {};
     std::string cage = {};    ///< a model with the low poly's triangles, moved to where rays begin; empty: none
+    std::string skew = {};    ///< an image for `map.rays.skew`; empty: none
     std::string misses = {};  ///< where to write a picture of what each texel is; empty: nowhere
     std::string heat = {};    ///< where to write a picture of the error; empty: nowhere
     /// Where to write the low poly with the frames that were used and the maps as its normal textures: .glb (holds them) or
@@ -39,12 +40,21 @@ struct BakeFileOptions {
     Progress progress = {};
 };
 
+/// How rays went.
+struct UsedRays {
+    RayTarget target = RayTarget::outermost;
+    RayDirections directions = RayDirections::automatic;
+    bool has_skew = false;  ///< an image said where they point
+    bool has_cage = false;  ///< a cage of the low poly's own said all of it
+};
+
 /// One image.
 struct BakedFile {
     std::string path = {};
     std::string material = {};  ///< its name; may be empty
     std::uint32_t tile = 0;     ///< 1001 and on with `udim`, else 0
     std::uint64_t triangle_count = 0;
+    UsedRays rays = {};
     BakedMap map = {};        ///< without texels
     double heat_top_deg = 0;  ///< what the brightest colour of the heat map stands for
 };
@@ -69,7 +79,7 @@ struct MapErrorFileOptions {
     TangentOptions tangents{.convention = conventions::gltf};  ///< as BakeFileOptions
     NormalOptions normals{.weighting = NormalWeighting::flat};
     FileOptions file = {};
-    std::string cage = {};
+    std::string cage = {}, skew = {};
     bool two_channels = false;  ///< z is made from x and y: `map.reading.two_channels`, whatever the reading
     std::string material = {};  ///< only triangles of the material with this name; empty: all
     std::uint32_t tile = 0;     ///< only triangles of this UDIM tile, 1001 and on; 0: all

@@ -35,7 +35,8 @@ class Baking {
           work_{execution.allocator, parallel_, progress} {}
 
     Result<BakedMap> run() {
-        Result<MapSurfaces> surfaces = MapSurfaces::make(low_, high_, options_.reach, parallel_);
+        Result<MapSurfaces> surfaces =
+            MapSurfaces::make(low_, high_, options_.reach, options_.rays, parallel_, allocator_);
         if (!surfaces) return std::move(surfaces).error();
         const LowUvs uvs(low_, allocator_);
         const std::uint32_t padding = std::max(options_.padding, kFilterTexels);
@@ -143,12 +144,24 @@ class Baking {
     }
 
     Result<BakedMap> measured(const MapSurfaces& surfaces) {
+        if (options_.rays.target == RayTarget::outermost || !low_.cage.empty()) {
+            map_.error = errorAgainst(surfaces, options_.heat);
+            return std::move(map_);
+        }
+        map_.own_error = errorAgainst(surfaces, false);
+        RayOptions seen = options_.rays;
+        seen.target = RayTarget::outermost;
+        map_.error = errorAgainst(surfaces.withRays(seen, 0, parallel_, allocator_), options_.heat);
+        return std::move(map_);
+    }
+
+    MapError errorAgainst(const MapSurfaces& surfaces, bool heat) {
         const MeasurePoints points = MeasurePoints::spread(surfaces, MapErrorOptions{}.point_count, work_);
         const MapImage image{map_.width, map_.height, map_.texels, options_.wrap_u, options_.wrap_v};
-        const MapCandidate candidate{options_.space, options_.reading, {}};
-        map_.error = points.measure(image, surfaces, candidate, parallel_);
-        if (options_.heat) map_.error.heat = heatOf(image, surfaces, candidate, work_);
-        return std::move(map_);
+        const MapCandidate candidate{.space = options_.space, .reading = options_.reading};
+        MapError error = points.measure(image, surfaces, candidate, parallel_);
+        if (heat) error.heat = heatOf(image, surfaces, candidate, work_);
+        return error;
     }
 
     LowPoly low_;
@@ -173,6 +186,7 @@ Error checkBakeOptions(const BakeOptions& options, std::size_t low_triangles, st
     if (options.reading.scale != 1) return wrong("maps are baked for a scale of 1");
     if (options.space == MapSpace::object && options.reading.two_channels)
         return wrong("normals of the object need three channels");
+    if (Error error = checkRays(options.rays, options.reach); error.code != ErrorCode::ok) return error;
     const std::uint64_t bytes = bakeBytes(low_triangles, high_triangles, options);
     if (options.memory_limit_bytes != 0 && bytes > options.memory_limit_bytes) {
         return makeError(ErrorCode::tooLarge, kNoElement,
@@ -187,8 +201,8 @@ std::uint64_t bakeBytes(std::uint64_t low_triangles, std::uint64_t high_triangle
     // TexelTriangles, the vectors and their votes, the result; and the system with what solving it needs.
     constexpr std::uint64_t kPlain = 26 + 16 + 13, kSolve = sizeof(TexelRow) + 36, kHeat = 6;
     const std::uint64_t texel = kPlain + (options.fit == MapFit::solve ? kSolve : 0) + (options.heat ? kHeat : 0);
-    // Boxes of Embree; points of the measure.
-    constexpr std::uint64_t kLow = 120, kHigh = 200, kPoints = 100000 * 64;
+    // Directions of rays and boxes of Embree; points of the measure.
+    constexpr std::uint64_t kLow = 120 + 400, kHigh = 200, kPoints = 100000 * 64;
     return texel * options.width * options.height + kLow * low_triangles + kHigh * high_triangles + kPoints;
 }
 

@@ -39,7 +39,7 @@ ExitCode runBake(const BakeArguments& arguments) {
     const BakeFileOptions& options = arguments.options;
     const Result<Done> fit =
         prepareOutputs({arguments.output, options.misses, options.heat, options.out_mesh, arguments.report},
-                       {arguments.low, arguments.high, options.cage});
+                       {arguments.low, arguments.high, options.cage, options.skew});
     if (!fit) return printUsageError(fit.error().message);
     catchInterrupts();
     InputFiles read;
@@ -49,7 +49,7 @@ ExitCode runBake(const BakeArguments& arguments) {
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
     ExitCode exit_code =
         result ? ExitCode::done
-               : printErrorOfFiles({arguments.low, arguments.high, arguments.options.cage}, result.error());
+               : printErrorOfFiles({arguments.low, arguments.high, options.cage, "", options.skew}, result.error());
     const report::Outcome<BakeFileReport> outcome{
         .input = arguments.low, .output = arguments.output, .result = result, .seconds = took.count()};
     if (!arguments.report.empty()) {

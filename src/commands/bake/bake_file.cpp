@@ -125,8 +125,16 @@ class FileBaking {
     }
 
     void bakeTiles(const LowModel::Image& image, const std::string& word) {
+        const auto addOtherImages = [&](LowPart& part) {
+            for (const LowModel::Image& other : models_.low.images) {
+                for (std::size_t i = 0; &other != &image && i < other.part.triangleCount(); ++i)
+                    part.addToRest(other.part, i);
+            }
+        };
         if (!options_.udim) {
-            bakeImage(image, word, 0, image.part);
+            LowPart part = image.part;
+            addOtherImages(part);
+            bakeImage(image, word, 0, part);
             return;
         }
         std::map<std::uint32_t, LowPart> tiles;
@@ -147,7 +155,11 @@ class FileBaking {
         if (outside > 0)
             report_.warnings.push_back(std::to_string(outside) + " triangles lie in no tile, and are left out");
         if (tiles.empty()) failFile(ErrorCode::missingAttribute, "the UVs of the low poly lie in no tile");
-        for (const auto& [tile, part] : tiles) {
+        for (auto& [tile, part] : tiles) {
+            for (std::size_t i = 0; i < image.part.triangleCount(); ++i) {
+                if (tileOf(&image.part.uvs[3 * i]) != tile) part.addToRest(image.part, i);
+            }
+            addOtherImages(part);
             const std::string number = std::to_string(tile);
             bakeImage(image, word.empty() ? number : word + "." + number, tile, part);
         }
@@ -160,10 +172,13 @@ class FileBaking {
             options.wrap_u = image.wrap_u;
             options.wrap_v = image.wrap_v;
         }
+        options.rays = models_.rays(options.rays, options.wrap_u, options.wrap_v);
         BakedFile file{.path = withWord(output_, word),
                        .material = image.material,
                        .tile = tile,
                        .triangle_count = part.triangleCount(),
+                       .rays = {options.rays.target, options.rays.directions, !options.rays.skew.texels.empty(),
+                                !part.cage.empty()},
                        .map = aboutInput(BakeInput::low, [&] {
                            return valueOrThrow(bakeMap(part.view(), models_.high.view(), options, options_.execution,
                                                        options_.progress));
@@ -187,7 +202,18 @@ class FileBaking {
         map.origins = {};
         map.overlaps = {};
         map.error.heat = {};
+        warnOfRays(file);
         report_.files.push_back(std::move(file));
+    }
+
+    /// What the map's own rays did not show.
+    void warnOfRays(const BakedFile& file) {
+        const MapError& own = file.map.own_error;
+        if (own.hidden_count == 0) return;
+        report_.warnings.push_back(std::to_string(own.hidden_count) + " of " +
+                                   std::to_string(own.point_count + own.missed_count) +
+                                   " points met another front of the high poly further out, which hides what " +
+                                   pathInQuotes(file.path) + " shows; --rays outermost bakes it");
     }
 
     const std::string& output_;

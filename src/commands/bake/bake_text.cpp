@@ -10,6 +10,16 @@ namespace {
 
 std::string degreesText(double degrees) { return fmt::format("{:.4f}", degrees); }
 
+std::string raysText(const BakedFile& file) {
+    const MapError& error = file.map.error;
+    if (file.rays.has_cage) return fmt::format("from the cage to {:.4g} beyond the low poly", error.reach);
+    const std::string directions = directionsWord(file.rays);
+    if (file.rays.target == RayTarget::nearest)
+        return fmt::format("nearest within {:.4g}, directions: {}", error.reach, directions);
+    return fmt::format("outermost, from a cage {:.4g} away to {:.4g} below, directions: {}", error.cage_offset,
+                       error.reach, directions);
+}
+
 void addFile(const BakedFile& file, Table& table) {
     const BakedMap& map = file.map;
     table.addRow({"map", fmt::format("{}, {} x {}, {} bits", printable(file.path), map.width, map.height, map.bits)});
@@ -17,7 +27,16 @@ void addFile(const BakedFile& file, Table& table) {
     table.addRow({"error", fmt::format("mean {} degrees, 99 % below {}, largest {}; at seams {} in the mean",
                                        degreesText(map.error.mean_deg), degreesText(map.error.p99_deg),
                                        degreesText(map.error.max_deg), degreesText(map.error.seam_mean_deg))});
-    table.addRow({"reach", fmt::format("{:.4g}", map.error.reach)});
+    if (map.own_error.point_count > 0)
+        table.addRow(
+            {"", fmt::format("mean {} degrees against what its own rays met", degreesText(map.own_error.mean_deg))});
+    table.addRow({"rays", raysText(file)});
+    if (map.error.missed_count > 0)
+        table.addRow(
+            {"note", fmt::format("{} of {} points of the error met no high poly: each counts as {:.0f} degrees; "
+                                 "the mean of the others is {}",
+                                 map.error.missed_count, map.error.missed_count + map.error.point_count, kMissedDeg,
+                                 degreesText(map.error.met_mean_deg))});
     if (map.missed_count > 0)
         table.addRow(
             {"warning", fmt::format("{} met no high poly and {} filled from around; --reach looks further, "

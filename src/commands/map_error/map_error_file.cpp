@@ -29,14 +29,20 @@ struct TriedFrames {
 LowModel::Image shownPart(const LowModel& model, const MapErrorFileOptions& options) {
     LowModel::Image shown;
     for (const LowModel::Image& image : model.images) {
-        if (!options.material.empty() && image.material != options.material) continue;
+        if (!options.material.empty() && image.material != options.material) {
+            for (std::size_t i = 0; i < image.part.triangleCount(); ++i) shown.part.addToRest(image.part, i);
+            continue;
+        }
         if (shown.part.positions.empty()) {
             shown.wrap_u = image.wrap_u;
             shown.wrap_v = image.wrap_v;
         }
         for (std::size_t i = 0; i < image.part.triangleCount(); ++i) {
-            if (options.tile == 0 || tileOf(&image.part.uvs[3 * i]) == options.tile)
+            if (options.tile == 0 || tileOf(&image.part.uvs[3 * i]) == options.tile) {
                 shown.part.addTriangle(image.part, i);
+            } else {
+                shown.part.addToRest(image.part, i);
+            }
         }
     }
     if (!shown.part.positions.empty()) return shown;
@@ -62,11 +68,12 @@ class FileMeasuring {
         bake_.file = options.file;
         inputs_.watch(bake_.file);
         bake_.cage = options.cage;
+        bake_.skew = options.skew;
     }
 
     MapErrorFileReport run(const std::string& map, const std::string& low, const std::string& high) {
         inputs_.add(map);
-        image_ = aboutInput(BakeInput::map, [&] { return readMap(map); });
+        image_ = aboutInput(BakeInput::map, [&] { return readFloatImage(map, bake_.file); });
         report_.width = image_.width;
         report_.height = image_.height;
         report_.bits = image_.bits;
@@ -78,6 +85,8 @@ class FileMeasuring {
         const LowModel::Image shown = aboutInput(BakeInput::low, [&] { return shownPart(models.low, options_); });
         const LowPart& part = shown.part;
         options_.map.reach = models.reach(options_.map.reach);
+        options_.map.rays = models.rays(options_.map.rays, options_.tile == 0 ? shown.wrap_u : TextureWrap::repeat,
+                                        options_.tile == 0 ? shown.wrap_v : TextureWrap::repeat);
         listFrames(low, models.low);
         const MapImage view{.width = image_.width,
                             .height = image_.height,
@@ -99,17 +108,6 @@ class FileMeasuring {
     }
 
   private:
-    [[nodiscard]] FloatImage readMap(const std::string& path) const {
-        const Bytes bytes = readFile(path);
-        // Images of a usual size are read whatever their files weigh.
-        constexpr std::uint64_t kUsualPixels = std::uint64_t{1} << 26, kPixelBytes = 32;
-        const std::uint64_t limit = options_.file.memory_limit_bytes;
-        std::string why;
-        std::optional<FloatImage> image = decodeFloatImage(bytes, limit == 0 ? kUsualPixels : limit / kPixelBytes, why);
-        if (!image) failFile(ErrorCode::invalidFile, "the map cannot be read: " + why);
-        return *std::move(image);
-    }
-
     /// The frames that the map may have been made for.
     void listFrames(const std::string& low, const LowModel& known) {
         frames_.push_back({"file"});
