@@ -96,13 +96,22 @@ struct ExplainedReading {
     MapError error = {};
 };
 
+/// One way in which rays may have gone when a map was baked, and the error of the map against what they meet.
+struct ExplainedRays {
+    UsedRays rays = {};
+    MapError error = {};  ///< with the reach and the offset that were tried
+};
+
 struct MapErrorFileReport {
     std::uint32_t width = 0, height = 0;
     unsigned bits = 8;
-    MapError error = {};                          ///< as asked for, without heat
-    std::vector<ExplainedReading> readings = {};  ///< all that were tried, the best first
-    bool fits = false;                            ///< no other reading is much better
-    std::string verdict = {};                     ///< one sentence for an artist
+    MapError error = {};  ///< as asked for, without heat
+    /// All that were tried, the best first. The first is how the map was baked, if any of them is. At 20,000 points, read as
+    /// the best of the readings under the rays that were asked for. With a cage of the low poly's own nothing else is tried.
+    std::vector<ExplainedRays> rays = {};
+    std::vector<ExplainedReading> readings = {};  ///< all that were tried, the best first; measured with the best rays
+    bool fits = false;                            ///< no other reading and no other rays are much better
+    std::string verdict = {};                     ///< for an artist
     bool frames_made = false, matched_by_name = false;
     double heat_top_deg = 0;
     std::vector<std::string> warnings = {};
@@ -110,7 +119,7 @@ struct MapErrorFileReport {
 
 /// Measures a normal map of a low poly against its high poly, and finds which way to read it explains it best: green up or down,
 /// the frames that are in the file or those of a method, on triangles or quads, a bitangent per pixel or per vertex, two
-/// channels or three, tangent or object space. Errors as bakeFile; also those of readers of images.
+/// channels or three, tangent or object space; and which rays it was baked with. Errors as bakeFile; also those of readers of images.
 Result<MapErrorFileReport> mapErrorFile(const std::string& map, const std::string& low, const std::string& high,
                                         const MapErrorFileOptions& options = {});
 
