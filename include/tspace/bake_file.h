@@ -65,11 +65,15 @@ struct BakeFileReport {
     bool matched_by_name = false;  ///< each mesh of the low poly saw its own mesh of the high poly alone
     std::uint64_t low_triangle_count = 0, high_triangle_count = 0;
     std::vector<std::string> output_files = {};  ///< everything that was written
-    std::vector<std::string> warnings = {};      ///< one sentence each
+    /// What makes maps useless, and why: rays that mostly met nothing, normals of the high poly that point inwards. Where no
+    /// ray of an image met anything, nothing is written.
+    std::vector<std::string> findings = {};
+    std::vector<std::string> warnings = {};  ///< one sentence each
 };
 
 /// Bakes the normal map of `low` from `high` into `output`, a PNG. A low poly of several materials gives a file each:
-/// NAME.MATERIAL.png. All files appear at once or not at all. Errors: those of bakeMap, and cannotRead, invalidFile,
+/// NAME.MATERIAL.png. All files appear at once or not at all. Errors: those of bakeMap, but for rays that meet nothing, which
+/// are findings; and cannotRead, invalidFile,
 /// unsupportedFile (also a build that writes no PNG), forbiddenPath, tooLarge, cannotWrite.
 Result<BakeFileReport> bakeFile(const std::string& low, const std::string& high, const std::string& output,
                                 const BakeFileOptions& options = {});

@@ -68,6 +68,7 @@ struct MapError {
     std::uint64_t hidden_count = 0;
     /// Points whose ray goes through a back of the high poly before the front that counts, or meets backs alone.
     std::uint64_t back_count = 0;
+    std::uint64_t inward_count = 0;                 ///< points that met a front whose normal, as shaded, points inwards
     double mean_deg = 0, p99_deg = 0, max_deg = 0;  ///< of all points; one that missed counts as kMissedDeg
     double met_mean_deg = 0;                        ///< the mean of those that met the high poly
     std::uint64_t seam_point_count = 0;             ///< those within a texel of a border of the UV map

@@ -6,6 +6,7 @@
 
 #include "core/base/border.h"
 #include "maps/map_surfaces.h"
+#include "maps/missed_cause.h"
 #include "maps/quantize.h"
 #include "maps/solve_texels.h"
 #include "maps/texel_plan.h"
@@ -25,11 +26,13 @@ constexpr unsigned kIntegerRounds = 3;
 
 class Baking {
   public:
+    /// `fails_if_missed`: where no ray meets anything; else the map has no texels then.
     Baking(const LowPoly& low, const HighPoly& high, const BakeOptions& options, const Execution& execution,
-           const Progress& progress)
+           const Progress& progress, bool fails_if_missed)
         : low_(low),
           high_(high),
           options_(options),
+          fails_if_missed_(fails_if_missed),
           allocator_(execution.allocator),
           parallel_(execution),
           work_{execution.allocator, parallel_, progress} {}
@@ -49,7 +52,10 @@ class Baking {
         if (triangles->counts.inside == 0)
             return makeError(ErrorCode::missingAttribute, kNoElement, "the UVs of the low poly cover no texel");
         traceTexels(*surfaces, *triangles, options_, work_, traced_);
-        if (Error error = countOrigins(*triangles); error.code != ErrorCode::ok) return error;
+        countOrigins(*triangles);
+        if (map_.hit_count == 0 && fails_if_missed_)
+            return makeError(ErrorCode::missingAttribute, kNoElement, "no line from the low poly meets the high poly");
+        if (map_.hit_count == 0) return withoutTexels(*surfaces);
         fillFromNeighbours(traced_, triangles->shape);
         if (solves()) {
             solve(*surfaces, *triangles);
@@ -66,7 +72,7 @@ class Baking {
         return options_.fit == MapFit::solve && std::min(options_.width, options_.height) >= kLeastSolved;
     }
 
-    Error countOrigins(const TexelTriangles& triangles) {
+    void countOrigins(const TexelTriangles& triangles) {
         for (const TexelOrigin origin : traced_.origins) {
             map_.hit_count += origin == TexelOrigin::hit ? 1 : 0;
             map_.missed_count += origin == TexelOrigin::missed ? 1 : 0;
@@ -77,8 +83,15 @@ class Baking {
         map_.conflict_count = traced_.conflict_count;
         map_.degenerate_uv_count =
             triangles.counts.without_area + triangles.counts.not_finite + triangles.counts.too_far;
-        if (map_.hit_count > 0) return {ErrorCode::ok};
-        return makeError(ErrorCode::missingAttribute, kNoElement, "no line from the low poly meets the high poly");
+    }
+
+    Result<BakedMap> withoutTexels(const MapSurfaces& surfaces) {
+        map_.width = options_.width;
+        map_.height = options_.height;
+        map_.bits = options_.bits;
+        map_.error.reach = surfaces.reach();
+        map_.error.cage_offset = surfaces.cageOffset();
+        return std::move(map_);
     }
 
     void tellOfFitting() const {
@@ -167,6 +180,7 @@ class Baking {
     LowPoly low_;
     HighPoly high_;
     const BakeOptions& options_;
+    bool fails_if_missed_;
     const Allocator* allocator_;
     Parallel parallel_;
     MapWork work_;
@@ -206,14 +220,28 @@ std::uint64_t bakeBytes(std::uint64_t low_triangles, std::uint64_t high_triangle
     return texel * options.width * options.height + kLow * low_triangles + kHigh * high_triangles + kPoints;
 }
 
-Result<BakedMap> bakeMap(const LowPoly& low, const HighPoly& high, const BakeOptions& options,
-                         const Execution& execution, const Progress& progress) {
+namespace {
+
+Result<BakedMap> bake(const LowPoly& low, const HighPoly& high, const BakeOptions& options, const Execution& execution,
+                      const Progress& progress, bool fails_if_missed) {
     return atBorder([&]() -> Result<BakedMap> {
         Error error = checkBakeOptions(options, low.positions.count / 3, high.corners.size() / 3);
         if (error.code == ErrorCode::ok) error = checkSurfaces(low, high, options.space == MapSpace::tangent);
         if (error.code != ErrorCode::ok) return error;
-        return Baking(low, high, options, execution, progress).run();
+        return Baking(low, high, options, execution, progress, fails_if_missed).run();
     });
+}
+
+}  // namespace
+
+Result<BakedMap> bakeMap(const LowPoly& low, const HighPoly& high, const BakeOptions& options,
+                         const Execution& execution, const Progress& progress) {
+    return bake(low, high, options, execution, progress, true);
+}
+
+Result<BakedMap> bakeEvenIfMissed(const LowPoly& low, const HighPoly& high, const BakeOptions& options,
+                                  const Execution& execution, const Progress& progress) {
+    return bake(low, high, options, execution, progress, false);
 }
 
 }  // namespace tspace

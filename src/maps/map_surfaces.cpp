@@ -143,10 +143,10 @@ RayNeighbourhood MapSurfaces::around(const Ray& ray, const RayHit* hit) const {
     // A line through an edge meets both of its triangles.
     constexpr double kNearby = 1e-6;
     const double most = std::max(ray.height, reach_), least = -reach_;
-    if (hit == nullptr) return {false, rays_->crossings(ray.place, ray.outward, least, most, ray.group).backs > 0};
+    if (hit == nullptr) return {.met_back = rays_->crossings(ray.place, ray.outward, least, most, ray.group).backs > 0};
     const RayCrossings crossings = rays_->crossings(ray.place, ray.outward, hit->distance + kNearby * (most + reach_),
                                                     std::max(most, hit->distance), ray.group);
-    return {crossings.fronts > 0, crossings.backs > 0};
+    return {.has_front_further_out = crossings.fronts > 0, .met_back = crossings.backs > 0};
 }
 
 bool MapSurfaces::truthAt(std::size_t triangle, const std::array<double, 3>& weights, double& guess, DVec3& normal,
@@ -158,6 +158,7 @@ bool MapSurfaces::truthAt(std::size_t triangle, const std::array<double, 3>& wei
     if (around != nullptr) *around = this->around(ray, is_hit ? &hit : nullptr);
     if (!is_hit) return false;
     normal = normalOf(hit);
+    if (around != nullptr) around->normal_is_inward = dot(normal, ray.outward) < 0;
     return dot(normal, normal) > 0;
 }
 

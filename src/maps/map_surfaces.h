@@ -26,6 +26,7 @@ Error checkRays(const RayOptions& rays, double reach);
 /// What lies around the place where a ray met the high poly, or about one that met nothing.
 struct RayNeighbourhood {
     bool has_front_further_out = false, met_back = false;
+    bool normal_is_inward = false;  ///< that of the high poly, as shaded, where its front was met
 };
 
 class MapSurfaces {

@@ -88,6 +88,7 @@ MeasurePoints MeasurePoints::spread(const MapSurfaces& surfaces, std::uint32_t c
             point.is_hit = surfaces.truthAt(point.triangle, weights, guess, normal, &around);
             point.is_hidden = around.has_front_further_out;
             point.met_back = around.met_back;
+            point.is_inward = around.normal_is_inward;
             if (point.is_hit) point.normal = toFloat(normal);
         }
     };
@@ -176,6 +177,7 @@ void MeasurePoints::countPoints(MapError& error) const {
         error.point_count += point.is_hit ? 1 : 0;
         error.hidden_count += point.is_hidden ? 1 : 0;
         error.back_count += point.met_back ? 1 : 0;
+        error.inward_count += point.is_inward ? 1 : 0;
     }
     error.missed_count = points_.size() - error.point_count;
 }

@@ -27,7 +27,7 @@ class MeasurePoints {
     struct Point {
         std::uint32_t triangle = 0;
         std::array<float, 2> weights = {};  ///< of the second and the third corner
-        bool is_hit = false, is_hidden = false, met_back = false;
+        bool is_hit = false, is_hidden = false, met_back = false, is_inward = false;
         Vec3 normal = {};  ///< the truth
     };
     std::vector<Point> points_ = {};

@@ -48,8 +48,12 @@ ExitCode runBake(const BakeArguments& arguments) {
     if (!result && wasInterrupted()) endByInterrupt();
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
     ExitCode exit_code =
-        result ? ExitCode::done
+        result ? (result->findings.empty() ? ExitCode::done : ExitCode::findings)
                : printErrorOfFiles({arguments.low, arguments.high, options.cage, "", options.skew}, result.error());
+    // Who reads no report shall see why there is no map.
+    if (result && result->output_files.empty()) {
+        for (const std::string& finding : result->findings) printRemark(finding);
+    }
     const report::Outcome<BakeFileReport> outcome{
         .input = arguments.low, .output = arguments.output, .result = result, .seconds = took.count()};
     if (!arguments.report.empty()) {

@@ -9,6 +9,7 @@ Json errorOfMapJson(const MapError& error) {
             {"missed", error.missed_count},
             {"hidden", error.hidden_count},
             {"backs", error.back_count},
+            {"inward", error.inward_count},
             {"meanDeg", error.mean_deg},
             {"metMeanDeg", error.met_mean_deg},
             {"p99Deg", error.p99_deg},
@@ -81,6 +82,7 @@ std::string bakeJson(const Outcome<BakeFileReport>& outcome, const std::string& 
     json["matchedByName"] = result->matched_by_name;
     json["files"] = listJson(result->files, bakedFileJson);
     json["outputFiles"] = result->output_files;
+    json["findings"] = result->findings;
     json["warnings"] = result->warnings;
     return jsonText(json);
 }

@@ -57,8 +57,12 @@ void addFile(const BakedFile& file, Table& table) {
 std::string bakeText(const Outcome<BakeFileReport>& outcome, const std::string& out_mesh) {
     const BakeFileReport& done = *outcome.result;
     Table table;
-    for (const BakedFile& file : done.files) addFile(file, table);
-    if (!out_mesh.empty()) table.addRow({"model", fmt::format("{}, with its frames and maps", printable(out_mesh))});
+    for (const BakedFile& file : done.files) {
+        if (file.map.hit_count > 0) addFile(file, table);
+    }
+    for (const std::string& finding : done.findings) table.addRow({"finding", printable(finding)});
+    if (!out_mesh.empty() && !done.output_files.empty())
+        table.addRow({"model", fmt::format("{}, with its frames and maps", printable(out_mesh))});
     if (done.frames_made) table.addRow({"note", "the low poly lacks frames; they were made as generate makes them"});
     if (done.matched_by_name) table.addRow({"note", "meshes were matched by their names"});
     for (const std::string& warning : done.warnings) table.addRow({"warning", printable(warning)});
