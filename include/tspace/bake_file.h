@@ -15,7 +15,7 @@
 namespace tspace {
 
 /// Which file an error is about: bakeFile and mapErrorFile tell its number as Error::element, where it is about one.
-enum class BakeInput : std::uint32_t { low = 0, high = 1, cage = 2, map = 3 };
+enum class BakeInput : std::uint32_t { low = 0, high = 1, cage = 2, map = 3, skew = 4 };
 
 struct BakeFileOptions {
     /// Its wrap modes are those of the low poly's textures. Its limit on memory is that of `file`, or 16 GB, where it is 0.
@@ -25,6 +25,7 @@ struct BakeFileOptions {
     NormalOptions normals{.weighting = NormalWeighting::flat};
     FileOptions file = {};
     std::string cage = {};    ///< a model with the low poly's triangles, moved to where rays begin; empty: none
+    std::string skew = {};    ///< an image for `map.rays.skew`; empty: none
     std::string misses = {};  ///< where to write a picture of what each texel is; empty: nowhere
     std::string heat = {};    ///< where to write a picture of the error; empty: nowhere
     /// Where to write the low poly with the frames that were used and the maps as its normal textures: .glb (holds them) or
@@ -39,12 +40,21 @@ struct BakeFileOptions {
     Progress progress = {};
 };
 
+/// How rays went.
+struct UsedRays {
+    RayTarget target = RayTarget::outermost;
+    RayDirections directions = RayDirections::automatic;
+    bool has_skew = false;  ///< an image said where they point
+    bool has_cage = false;  ///< a cage of the low poly's own said all of it
+};
+
 /// One image.
 struct BakedFile {
     std::string path = {};
     std::string material = {};  ///< its name; may be empty
     std::uint32_t tile = 0;     ///< 1001 and on with `udim`, else 0
     std::uint64_t triangle_count = 0;
+    UsedRays rays = {};
     BakedMap map = {};        ///< without texels
     double heat_top_deg = 0;  ///< what the brightest colour of the heat map stands for
 };
@@ -55,11 +65,15 @@ struct BakeFileReport {
     bool matched_by_name = false;  ///< each mesh of the low poly saw its own mesh of the high poly alone
     std::uint64_t low_triangle_count = 0, high_triangle_count = 0;
     std::vector<std::string> output_files = {};  ///< everything that was written
-    std::vector<std::string> warnings = {};      ///< one sentence each
+    /// What makes maps useless, and why: rays that mostly met nothing, normals of the high poly that point inwards. Where no
+    /// ray of an image met anything, nothing is written.
+    std::vector<std::string> findings = {};
+    std::vector<std::string> warnings = {};  ///< one sentence each
 };
 
 /// Bakes the normal map of `low` from `high` into `output`, a PNG. A low poly of several materials gives a file each:
-/// NAME.MATERIAL.png. All files appear at once or not at all. Errors: those of bakeMap, and cannotRead, invalidFile,
+/// NAME.MATERIAL.png. All files appear at once or not at all. Errors: those of bakeMap, but for rays that meet nothing, which
+/// are findings; and cannotRead, invalidFile,
 /// unsupportedFile (also a build that writes no PNG), forbiddenPath, tooLarge, cannotWrite.
 Result<BakeFileReport> bakeFile(const std::string& low, const std::string& high, const std::string& output,
                                 const BakeFileOptions& options = {});
@@ -69,7 +83,7 @@ struct MapErrorFileOptions {
     TangentOptions tangents{.convention = conventions::gltf};  ///< as BakeFileOptions
     NormalOptions normals{.weighting = NormalWeighting::flat};
     FileOptions file = {};
-    std::string cage = {};
+    std::string cage = {}, skew = {};
     bool two_channels = false;  ///< z is made from x and y: `map.reading.two_channels`, whatever the reading
     std::string material = {};  ///< only triangles of the material with this name; empty: all
     std::uint32_t tile = 0;     ///< only triangles of this UDIM tile, 1001 and on; 0: all
@@ -86,13 +100,22 @@ struct ExplainedReading {
     MapError error = {};
 };
 
+/// One way in which rays may have gone when a map was baked, and the error of the map against what they meet.
+struct ExplainedRays {
+    UsedRays rays = {};
+    MapError error = {};  ///< with the reach and the offset that were tried
+};
+
 struct MapErrorFileReport {
     std::uint32_t width = 0, height = 0;
     unsigned bits = 8;
-    MapError error = {};                          ///< as asked for, without heat
-    std::vector<ExplainedReading> readings = {};  ///< all that were tried, the best first
-    bool fits = false;                            ///< no other reading is much better
-    std::string verdict = {};                     ///< one sentence for an artist
+    MapError error = {};  ///< as asked for, without heat
+    /// All that were tried, the best first. The first is how the map was baked, if any of them is. At 20,000 points, read as
+    /// the best of the readings under the rays that were asked for. With a cage of the low poly's own nothing else is tried.
+    std::vector<ExplainedRays> rays = {};
+    std::vector<ExplainedReading> readings = {};  ///< all that were tried, the best first; measured with the best rays
+    bool fits = false;                            ///< no other reading and no other rays are much better
+    std::string verdict = {};                     ///< for an artist
     bool frames_made = false, matched_by_name = false;
     double heat_top_deg = 0;
     std::vector<std::string> warnings = {};
@@ -100,7 +123,7 @@ struct MapErrorFileReport {
 
 /// Measures a normal map of a low poly against its high poly, and finds which way to read it explains it best: green up or down,
 /// the frames that are in the file or those of a method, on triangles or quads, a bitangent per pixel or per vertex, two
-/// channels or three, tangent or object space. Errors as bakeFile; also those of readers of images.
+/// channels or three, tangent or object space; and which rays it was baked with. Errors as bakeFile; also those of readers of images.
 Result<MapErrorFileReport> mapErrorFile(const std::string& map, const std::string& low, const std::string& high,
                                         const MapErrorFileOptions& options = {});
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Baking: a normal map that makes a low poly look like a high poly. CMake target tspace::maps.
 //
-// Rays go along the interpolated normals of the low poly, both ways, to the nearest front-facing triangle. The map is right
-// for the frames that the low poly has, read as the options say; its error is measured (map_error.h).
+// Rays go from a cage around the low poly inwards (map_rays.h). The map is right for the frames that the low poly has, read
+// as the options say; its error is measured (map_error.h).
 #pragma once
 
 #include "tspace/map_error.h"
@@ -28,7 +28,8 @@ struct BakeOptions {
     MapFit fit = MapFit::solve;
     std::uint32_t padding = 16;  ///< texels around the triangles that continue them; 0 to 256
     double reach = 0;            ///< as MapErrorOptions::reach
-    bool heat = false;           ///< MapError::heat
+    RayOptions rays = {};
+    bool heat = false;  ///< MapError::heat
     /// Most memory that the call may take: bakeBytes is compared with it before any work (tooLarge). 0: no limit.
     std::uint64_t memory_limit_bytes = 0;
 };
@@ -52,7 +53,9 @@ struct BakedMap {
     std::uint64_t conflict_count =
         0;  ///< those of them that the triangles want over 2 degrees apart; they get the mean
     std::uint64_t degenerate_uv_count = 0;  ///< triangles without UV area, or whose UVs are not finite: nothing drawn
-    MapError error = {};                    ///< against the high poly, as shaded
+    /// Against the outermost front of the high poly, as shaded, whatever the map's own rays look for: what is seen.
+    MapError error = {};
+    MapError own_error = {};  ///< with RayTarget::nearest: against what its own rays met; else without points
 };
 
 /// The peak memory of a bake, about; with `solve` that of one whose texels all need rays between them.

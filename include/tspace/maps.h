@@ -9,5 +9,6 @@
 #include "tspace/map_height.h"
 #include "tspace/map_image.h"
 #include "tspace/map_layout.h"
+#include "tspace/map_rays.h"
 #include "tspace/map_reading.h"
 #include "tspace/texture_wrap.h"

@@ -6,6 +6,7 @@
 
 #include "core/base/border.h"
 #include "maps/map_surfaces.h"
+#include "maps/missed_cause.h"
 #include "maps/quantize.h"
 #include "maps/solve_texels.h"
 #include "maps/texel_plan.h"
@@ -25,17 +26,20 @@ constexpr unsigned kIntegerRounds = 3;
 
 class Baking {
   public:
+    /// `fails_if_missed`: where no ray meets anything; else the map has no texels then.
     Baking(const LowPoly& low, const HighPoly& high, const BakeOptions& options, const Execution& execution,
-           const Progress& progress)
+           const Progress& progress, bool fails_if_missed)
         : low_(low),
           high_(high),
           options_(options),
+          fails_if_missed_(fails_if_missed),
           allocator_(execution.allocator),
           parallel_(execution),
           work_{execution.allocator, parallel_, progress} {}
 
     Result<BakedMap> run() {
-        Result<MapSurfaces> surfaces = MapSurfaces::make(low_, high_, options_.reach, parallel_);
+        Result<MapSurfaces> surfaces =
+            MapSurfaces::make(low_, high_, options_.reach, options_.rays, parallel_, allocator_);
         if (!surfaces) return std::move(surfaces).error();
         const LowUvs uvs(low_, allocator_);
         const std::uint32_t padding = std::max(options_.padding, kFilterTexels);
@@ -48,7 +52,10 @@ class Baking {
         if (triangles->counts.inside == 0)
             return makeError(ErrorCode::missingAttribute, kNoElement, "the UVs of the low poly cover no texel");
         traceTexels(*surfaces, *triangles, options_, work_, traced_);
-        if (Error error = countOrigins(*triangles); error.code != ErrorCode::ok) return error;
+        countOrigins(*triangles);
+        if (map_.hit_count == 0 && fails_if_missed_)
+            return makeError(ErrorCode::missingAttribute, kNoElement, "no line from the low poly meets the high poly");
+        if (map_.hit_count == 0) return withoutTexels(*surfaces);
         fillFromNeighbours(traced_, triangles->shape);
         if (solves()) {
             solve(*surfaces, *triangles);
@@ -65,7 +72,7 @@ class Baking {
         return options_.fit == MapFit::solve && std::min(options_.width, options_.height) >= kLeastSolved;
     }
 
-    Error countOrigins(const TexelTriangles& triangles) {
+    void countOrigins(const TexelTriangles& triangles) {
         for (const TexelOrigin origin : traced_.origins) {
             map_.hit_count += origin == TexelOrigin::hit ? 1 : 0;
             map_.missed_count += origin == TexelOrigin::missed ? 1 : 0;
@@ -76,8 +83,15 @@ class Baking {
         map_.conflict_count = traced_.conflict_count;
         map_.degenerate_uv_count =
             triangles.counts.without_area + triangles.counts.not_finite + triangles.counts.too_far;
-        if (map_.hit_count > 0) return {ErrorCode::ok};
-        return makeError(ErrorCode::missingAttribute, kNoElement, "no line from the low poly meets the high poly");
+    }
+
+    Result<BakedMap> withoutTexels(const MapSurfaces& surfaces) {
+        map_.width = options_.width;
+        map_.height = options_.height;
+        map_.bits = options_.bits;
+        map_.error.reach = surfaces.reach();
+        map_.error.cage_offset = surfaces.cageOffset();
+        return std::move(map_);
     }
 
     void tellOfFitting() const {
@@ -143,17 +157,30 @@ class Baking {
     }
 
     Result<BakedMap> measured(const MapSurfaces& surfaces) {
+        if (options_.rays.target == RayTarget::outermost || !low_.cage.empty()) {
+            map_.error = errorAgainst(surfaces, options_.heat);
+            return std::move(map_);
+        }
+        map_.own_error = errorAgainst(surfaces, false);
+        RayOptions seen = options_.rays;
+        seen.target = RayTarget::outermost;
+        map_.error = errorAgainst(surfaces.withRays(seen, 0, parallel_, allocator_), options_.heat);
+        return std::move(map_);
+    }
+
+    MapError errorAgainst(const MapSurfaces& surfaces, bool heat) {
         const MeasurePoints points = MeasurePoints::spread(surfaces, MapErrorOptions{}.point_count, work_);
         const MapImage image{map_.width, map_.height, map_.texels, options_.wrap_u, options_.wrap_v};
-        const MapCandidate candidate{options_.space, options_.reading, {}};
-        map_.error = points.measure(image, surfaces, candidate, parallel_);
-        if (options_.heat) map_.error.heat = heatOf(image, surfaces, candidate, work_);
-        return std::move(map_);
+        const MapCandidate candidate{.space = options_.space, .reading = options_.reading};
+        MapError error = points.measure(image, surfaces, candidate, parallel_);
+        if (heat) error.heat = heatOf(image, surfaces, candidate, work_);
+        return error;
     }
 
     LowPoly low_;
     HighPoly high_;
     const BakeOptions& options_;
+    bool fails_if_missed_;
     const Allocator* allocator_;
     Parallel parallel_;
     MapWork work_;
@@ -173,6 +200,7 @@ Error checkBakeOptions(const BakeOptions& options, std::size_t low_triangles, st
     if (options.reading.scale != 1) return wrong("maps are baked for a scale of 1");
     if (options.space == MapSpace::object && options.reading.two_channels)
         return wrong("normals of the object need three channels");
+    if (Error error = checkRays(options.rays, options.reach); error.code != ErrorCode::ok) return error;
     const std::uint64_t bytes = bakeBytes(low_triangles, high_triangles, options);
     if (options.memory_limit_bytes != 0 && bytes > options.memory_limit_bytes) {
         return makeError(ErrorCode::tooLarge, kNoElement,
@@ -187,19 +215,33 @@ std::uint64_t bakeBytes(std::uint64_t low_triangles, std::uint64_t high_triangle
     // TexelTriangles, the vectors and their votes, the result; and the system with what solving it needs.
     constexpr std::uint64_t kPlain = 26 + 16 + 13, kSolve = sizeof(TexelRow) + 36, kHeat = 6;
     const std::uint64_t texel = kPlain + (options.fit == MapFit::solve ? kSolve : 0) + (options.heat ? kHeat : 0);
-    // Boxes of Embree; points of the measure.
-    constexpr std::uint64_t kLow = 120, kHigh = 200, kPoints = 100000 * 64;
+    // Directions of rays and boxes of Embree; points of the measure.
+    constexpr std::uint64_t kLow = 120 + 400, kHigh = 200, kPoints = 100000 * 64;
     return texel * options.width * options.height + kLow * low_triangles + kHigh * high_triangles + kPoints;
 }
 
-Result<BakedMap> bakeMap(const LowPoly& low, const HighPoly& high, const BakeOptions& options,
-                         const Execution& execution, const Progress& progress) {
+namespace {
+
+Result<BakedMap> bake(const LowPoly& low, const HighPoly& high, const BakeOptions& options, const Execution& execution,
+                      const Progress& progress, bool fails_if_missed) {
     return atBorder([&]() -> Result<BakedMap> {
         Error error = checkBakeOptions(options, low.positions.count / 3, high.corners.size() / 3);
         if (error.code == ErrorCode::ok) error = checkSurfaces(low, high, options.space == MapSpace::tangent);
         if (error.code != ErrorCode::ok) return error;
-        return Baking(low, high, options, execution, progress).run();
+        return Baking(low, high, options, execution, progress, fails_if_missed).run();
     });
+}
+
+}  // namespace
+
+Result<BakedMap> bakeMap(const LowPoly& low, const HighPoly& high, const BakeOptions& options,
+                         const Execution& execution, const Progress& progress) {
+    return bake(low, high, options, execution, progress, true);
+}
+
+Result<BakedMap> bakeEvenIfMissed(const LowPoly& low, const HighPoly& high, const BakeOptions& options,
+                                  const Execution& execution, const Progress& progress) {
+    return bake(low, high, options, execution, progress, false);
 }
 
 }  // namespace tspace

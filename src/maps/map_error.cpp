@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "tspace/map_error.h"
 
+#include <algorithm>
+
 #include "core/base/border.h"
 #include "maps/measure_points.h"
 
@@ -23,22 +25,43 @@ Result<std::vector<MapError>> measureAll(const MapImage& map, const LowPoly& low
                                          std::span<const MapCandidate> candidates, const MapErrorOptions& options,
                                          const Execution& execution, const Progress& progress) {
     if (Error error = checkMap(map, options); error.code != ErrorCode::ok) return error;
+    if (Error error = checkRays(options.rays, options.reach); error.code != ErrorCode::ok) return error;
     for (const MapCandidate& candidate : candidates) {
         const bool needs_tangents = candidate.space == MapSpace::tangent && candidate.tangents.empty();
         if (Error error = checkSurfaces(low, high, needs_tangents); error.code != ErrorCode::ok) return error;
+        if (candidate.rays != nullptr) {
+            if (Error error = checkRays(*candidate.rays, candidate.reach); error.code != ErrorCode::ok) return error;
+        }
         if (candidate.tangents.empty()) continue;
         Error error = checkSpan(candidate.tangents, low.positions.count, "candidate.tangents");
         if (error.code != ErrorCode::ok) return error;
     }
     Parallel parallel(execution);
     const MapWork work{execution.allocator, parallel, progress};
-    Result<MapSurfaces> surfaces = MapSurfaces::make(low, high, options.reach, parallel);
+    Result<MapSurfaces> surfaces =
+        MapSurfaces::make(low, high, options.reach, options.rays, parallel, execution.allocator);
     if (!surfaces) return std::move(surfaces).error();
-    const MeasurePoints points = MeasurePoints::spread(*surfaces, options.point_count, work);
-    std::vector<MapError> errors;
-    for (const MapCandidate& candidate : candidates) {
-        errors.push_back(points.measure(map, *surfaces, candidate, parallel));
-        if (options.heat) errors.back().heat = heatOf(map, *surfaces, candidate, work);
+    std::vector<MapError> errors(candidates.size());
+    const auto measure = [&](const MapSurfaces& used, const auto& has_these_rays) {
+        const MeasurePoints points = MeasurePoints::spread(used, options.point_count, work);
+        for (std::size_t i = 0; i < candidates.size(); ++i) {
+            if (!has_these_rays(candidates[i])) continue;
+            errors[i] = points.measure(map, used, candidates[i], parallel);
+            if (options.heat) errors[i].heat = heatOf(map, used, candidates[i], work);
+        }
+    };
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+        const auto is_alike = [&](const MapCandidate& other) {
+            return other.rays == candidates[i].rays && (other.rays == nullptr || other.reach == candidates[i].reach);
+        };
+        // Candidates with one kind of rays share the points.
+        if (std::any_of(candidates.begin(), candidates.begin() + static_cast<std::ptrdiff_t>(i), is_alike)) continue;
+        if (candidates[i].rays == nullptr) {
+            measure(*surfaces, is_alike);
+        } else {
+            measure(surfaces->withRays(*candidates[i].rays, candidates[i].reach, parallel, execution.allocator),
+                    is_alike);
+        }
     }
     return errors;
 }

@@ -10,13 +10,6 @@ namespace tspace {
 
 namespace {
 
-template <class T>
-DVec3 mixedAt(const StridedSpan<const T>& values, std::size_t triangle, const std::array<double, 3>& weights) {
-    DVec3 sum{};
-    for (std::size_t i = 0; i < 3; ++i) sum = sum + weights[i] * toDouble(values[3 * triangle + i]);
-    return sum;
-}
-
 Error apartError(const PositionBox& low, const PositionBox& high) {
     const std::string why = misplacement(low, high);
     return makeError(ErrorCode::missingAttribute, kNoElement,
@@ -42,6 +35,12 @@ Error checkSurfaces(const LowPoly& low, const HighPoly& high, bool needs_tangent
     then(checkSpan(low.uvs, corners, "low.uvs"));
     if (!low.tangents.empty()) then(checkSpan(low.tangents, corners, "low.tangents"));
     if (!low.cage.empty()) then(checkSpan(low.cage, corners, "low.cage"));
+    if (!low.rest_positions.empty() || !low.rest_normals.empty()) {
+        then(checkSpan(low.rest_positions, kAnyCount, "low.rest_positions"));
+        then(checkSpan(low.rest_normals, low.rest_positions.count, "low.rest_normals"));
+        if (low.rest_positions.count % 3 != 0 || low.rest_positions.count > kMaxCorners - corners)
+            then(makeError(ErrorCode::countMismatch, kNoElement, "the rest needs three positions per triangle"));
+    }
     then(checkSpan(high.positions, kAnyCount, "high.positions"));
     if (!high.normals.empty()) then(checkSpan(high.normals, high.positions.count, "high.normals"));
     if (error.code != ErrorCode::ok) return error;
@@ -59,19 +58,47 @@ double chosenReach(const LowPoly& low, const HighPoly& high) {
     return reachBetween(PositionBox(low.positions), PositionBox(high.positions));
 }
 
-Result<MapSurfaces> MapSurfaces::make(const LowPoly& low, const HighPoly& high, double reach, Parallel& parallel) {
-    if (!std::isfinite(reach) || reach < 0)
-        return makeError(ErrorCode::invalidOption, kNoElement, "the reach must be a length");
+Error checkRays(const RayOptions& rays, double reach) {
+    const auto wrong = [](const char* what) { return makeError(ErrorCode::invalidOption, kNoElement, "%s", what); };
+    if (!std::isfinite(reach) || reach < 0) return wrong("the reach must be a length");
+    if (!std::isfinite(rays.cage_offset) || rays.cage_offset < 0)
+        return wrong("the offset of the cage must be a length");
+    const MapImage& skew = rays.skew;
+    if (skew.texels.size() != std::size_t{skew.width} * skew.height)
+        return makeError(ErrorCode::countMismatch, kNoElement, "the image of the skew needs width * height texels");
+    return {ErrorCode::ok};
+}
+
+Result<MapSurfaces> MapSurfaces::make(const LowPoly& low, const HighPoly& high, double reach, const RayOptions& rays,
+                                      Parallel& parallel, const Allocator* allocator) {
     MapSurfaces surfaces;
     surfaces.low_ = low;
     surfaces.high_ = high;
     surfaces.reach_ = reach > 0 ? reach : chosenReach(low, high);
     if (!(surfaces.reach_ > 0)) return apartError(PositionBox(low.positions), PositionBox(high.positions));
-    Result<std::unique_ptr<const RaySurface>> rays =
+    Result<std::unique_ptr<const RaySurface>> made =
         RaySurface::make(high.positions, high.corners, high.groups, parallel);
-    if (!rays) return std::move(rays).error();
-    surfaces.rays_ = *std::move(rays);
+    if (!made) return std::move(made).error();
+    surfaces.rays_ = *std::move(made);
+    surfaces.aim(rays, parallel, allocator);
     return surfaces;
+}
+
+MapSurfaces MapSurfaces::withRays(const RayOptions& rays, double reach, Parallel& parallel,
+                                  const Allocator* allocator) const {
+    MapSurfaces surfaces;
+    surfaces.low_ = low_;
+    surfaces.high_ = high_;
+    surfaces.reach_ = reach > 0 ? reach : reach_;
+    surfaces.rays_ = rays_;
+    surfaces.aim(rays, parallel, allocator);
+    return surfaces;
+}
+
+void MapSurfaces::aim(const RayOptions& rays, Parallel& parallel, const Allocator* allocator) {
+    options_ = rays;
+    cage_offset_ = rays.cage_offset > 0 ? rays.cage_offset : reach_;
+    field_ = RayField(low_, rays, cage_offset_, parallel, allocator);
 }
 
 DVec3 MapSurfaces::normalOf(const RayHit& hit) const {
@@ -87,22 +114,51 @@ DVec3 MapSurfaces::normalOf(const RayHit& hit) const {
     return normalize(flat) ? flat : DVec3{};
 }
 
-bool MapSurfaces::truthAt(std::size_t triangle, const std::array<double, 3>& weights, double& guess,
-                          DVec3& normal) const {
-    const DVec3 place = mixedAt(low_.positions, triangle, weights);
-    DVec3 outward = mixedAt(low_.normals, triangle, weights);
-    if (!std::isfinite(place.x + place.y + place.z)) return false;
-    const std::uint32_t group = low_.groups.empty() ? 0 : low_.groups[triangle];
-    RayHit hit;
+bool MapSurfaces::rayAt(std::size_t triangle, const std::array<double, 3>& weights, Ray& ray) const {
+    ray.triangle = triangle;
+    ray.weights = weights;
+    ray.place = mixedAt(low_.positions, triangle, weights);
+    if (!std::isfinite(ray.place.x + ray.place.y + ray.place.z)) return false;
+    ray.group = low_.groups.empty() ? 0 : low_.groups[triangle];
+    if (low_.cage.empty()) return field_.at(triangle, weights, ray.outward, ray.height);
+    ray.outward = mixedAt(low_.cage, triangle, weights) - ray.place;
+    ray.height = length(ray.outward);
+    return normalize(ray.outward);
+}
+
+bool MapSurfaces::meet(const Ray& ray, double& guess, RayHit& hit) const {
+    if (low_.cage.empty() && options_.target == RayTarget::nearest)
+        return rays_->nearest(ray.place, ray.outward, reach_, ray.group, guess, hit);
     if (!low_.cage.empty()) {
-        const DVec3 cage = mixedAt(low_.cage, triangle, weights);
-        DVec3 inward = place - cage;
-        const double from_cage = length(inward);
-        if (!normalize(inward) || !rays_->first(cage, inward, from_cage + reach_, group, hit)) return false;
-    } else if (!normalize(outward) || !rays_->nearest(place, outward, reach_, group, guess, hit)) {
-        return false;
+        const DVec3 cage = mixedAt(low_.cage, ray.triangle, ray.weights);
+        if (!rays_->first(cage, -1.0 * ray.outward, ray.height + reach_, ray.group, hit)) return false;
+        hit.distance = ray.height - hit.distance;
+        return true;
     }
+    if (rays_->outermost(ray.place, ray.outward, -reach_, ray.height, ray.group, hit)) return true;
+    return ray.height < reach_ && rays_->innermost(ray.place, ray.outward, ray.height, reach_, ray.group, hit);
+}
+
+RayNeighbourhood MapSurfaces::around(const Ray& ray, const RayHit* hit) const {
+    // A line through an edge meets both of its triangles.
+    constexpr double kNearby = 1e-6;
+    const double most = std::max(ray.height, reach_), least = -reach_;
+    if (hit == nullptr) return {.met_back = rays_->crossings(ray.place, ray.outward, least, most, ray.group).backs > 0};
+    const RayCrossings crossings = rays_->crossings(ray.place, ray.outward, hit->distance + kNearby * (most + reach_),
+                                                    std::max(most, hit->distance), ray.group);
+    return {.has_front_further_out = crossings.fronts > 0, .met_back = crossings.backs > 0};
+}
+
+bool MapSurfaces::truthAt(std::size_t triangle, const std::array<double, 3>& weights, double& guess, DVec3& normal,
+                          RayNeighbourhood* around) const {
+    Ray ray;
+    if (!rayAt(triangle, weights, ray)) return false;
+    RayHit hit;
+    const bool is_hit = meet(ray, guess, hit);
+    if (around != nullptr) *around = this->around(ray, is_hit ? &hit : nullptr);
+    if (!is_hit) return false;
     normal = normalOf(hit);
+    if (around != nullptr) around->normal_is_inward = dot(normal, ray.outward) < 0;
     return dot(normal, normal) > 0;
 }
 

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "core/base/memory.h"
+#include "maps/ray_directions.h"
 #include "maps/rays.h"
 #include "maps/shading.h"
 #include "maps/uv_coverage.h"
@@ -19,29 +20,62 @@ Error checkSurfaces(const LowPoly& low, const HighPoly& high, bool needs_tangent
 /// Checks the options of bakeMap for meshes of so many triangles. An Error with code ok when all is well.
 Error checkBakeOptions(const BakeOptions& options, std::size_t low_triangles, std::size_t high_triangles);
 
+/// Checks what says where rays go. An Error with code ok when all is well.
+Error checkRays(const RayOptions& rays, double reach);
+
+/// What lies around the place where a ray met the high poly, or about one that met nothing.
+struct RayNeighbourhood {
+    bool has_front_further_out = false, met_back = false;
+    bool normal_is_inward = false;  ///< that of the high poly, as shaded, where its front was met
+};
+
 class MapSurfaces {
   public:
-    /// Checked meshes, which must stay. `reach`: 0 chooses. Errors: unsupportedFile, outOfMemory, invalidOption (a reach
-    /// that is no length), missingAttribute (meshes that are nowhere near each other).
-    static Result<MapSurfaces> make(const LowPoly& low, const HighPoly& high, double reach, Parallel& parallel);
+    /// Checked meshes, which must stay, and checked rays, whose image must stay. `reach`: 0 chooses. Errors:
+    /// unsupportedFile, outOfMemory, missingAttribute (meshes that are nowhere near each other).
+    static Result<MapSurfaces> make(const LowPoly& low, const HighPoly& high, double reach, const RayOptions& rays,
+                                    Parallel& parallel, const Allocator* allocator);
+    /// The same meshes with other rays. `reach`: 0 is that of this one.
+    [[nodiscard]] MapSurfaces withRays(const RayOptions& rays, double reach, Parallel& parallel,
+                                       const Allocator* allocator) const;
 
     [[nodiscard]] const LowPoly& low() const { return low_; }
+    [[nodiscard]] const RayOptions& rays() const { return options_; }
     [[nodiscard]] double reach() const { return reach_; }
+    /// 0 with a cage of the low poly's own.
+    [[nodiscard]] double cageOffset() const { return low_.cage.empty() ? cage_offset_ : 0; }
     [[nodiscard]] std::size_t triangleCount() const { return low_.positions.count / 3; }
 
-    /// The unit normal of the high poly, as shaded, where the line through a point of the low poly meets it. `guess` as
-    /// RaySurface::nearest; begin with 0. Threads may call at the same time.
-    bool truthAt(std::size_t triangle, const std::array<double, 3>& weights, double& guess, DVec3& normal) const;
+    /// The unit normal of the high poly, as shaded, where the ray of a point of the low poly meets it. `guess` as
+    /// RaySurface::nearest; begin with 0. `around`: null, or where to say what else the ray meets. Threads may call at the
+    /// same time.
+    bool truthAt(std::size_t triangle, const std::array<double, 3>& weights, double& guess, DVec3& normal,
+                 RayNeighbourhood* around = nullptr) const;
 
     [[nodiscard]] CornerFrames corners(std::size_t triangle, const StridedSpan<const Vec4>& tangents) const;
 
   private:
     LowPoly low_ = {};
     HighPoly high_ = {};
-    double reach_ = 0;
-    std::unique_ptr<const RaySurface> rays_ = {};
+    double reach_ = 0, cage_offset_ = 0;
+    RayOptions options_ = {};
+    RayField field_ = {};
+    std::shared_ptr<const RaySurface> rays_ = {};
 
-    [[nodiscard]] DVec3 normalOf(const RayHit& hit) const;
+    /// The ray of a point: where it begins to look, outwards, and how far the low poly is from there.
+    struct Ray {
+        std::size_t triangle = 0;
+        std::array<double, 3> weights = {};
+        DVec3 place = {}, outward = {};
+        double height = 0;
+        std::uint32_t group = 0;
+    };
+    bool rayAt(std::size_t triangle, const std::array<double, 3>& weights, Ray& ray) const;
+    /// `hit`.distance is outwards from the low poly.
+    bool meet(const Ray& ray, double& guess, RayHit& hit) const;
+    [[nodiscard]] RayNeighbourhood around(const Ray& ray, const RayHit* hit) const;
+    void aim(const RayOptions& rays, Parallel& parallel, const Allocator* allocator);
+    DVec3 normalOf(const RayHit& hit) const;
 };
 
 /// The UVs of a low poly as a list of triangles.

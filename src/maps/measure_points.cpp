@@ -7,6 +7,7 @@
 
 #include "core/base/hash.h"
 #include "maps/sample_bands.h"
+#include "maps/segment_distance.h"
 #include "maps/texture_sample.h"
 
 namespace tspace {
@@ -43,14 +44,6 @@ double areaOf(const LowPoly& low, std::size_t triangle) {
     const Vec2 a = low.uvs[3 * triangle], b = low.uvs[3 * triangle + 1], c = low.uvs[3 * triangle + 2];
     const bool shows = std::isfinite(a.x + a.y + b.x + b.y + c.x + c.y);
     return std::isfinite(area) && shows ? area : 0;
-}
-
-double squaredDistanceTo(const DVec3& point, const DVec3& a, const DVec3& b) {
-    const DVec3 edge = b - a, from = point - a;
-    const double squared = dot(edge, edge);
-    const double part = squared > 0 ? std::clamp(dot(from, edge) / squared, 0.0, 1.0) : 0.0;
-    const DVec3 away = from - part * edge;
-    return dot(away, away);
 }
 
 }  // namespace
@@ -91,7 +84,11 @@ MeasurePoints MeasurePoints::spread(const MapSurfaces& surfaces, std::uint32_t c
             const std::array<double, 3> weights{1.0 - point.weights[0] - point.weights[1], point.weights[0],
                                                 point.weights[1]};
             DVec3 normal;
-            point.is_hit = surfaces.truthAt(point.triangle, weights, guess, normal);
+            RayNeighbourhood around;
+            point.is_hit = surfaces.truthAt(point.triangle, weights, guess, normal, &around);
+            point.is_hidden = around.has_front_further_out;
+            point.met_back = around.met_back;
+            point.is_inward = around.normal_is_inward;
             if (point.is_hit) point.normal = toFloat(normal);
         }
     };
@@ -134,45 +131,55 @@ MapError MeasurePoints::measure(const MapImage& map, const MapSurfaces& surfaces
                                 Parallel& parallel) const {
     MapError error;
     error.reach = surfaces.reach();
+    error.cage_offset = surfaces.cageOffset();
     const LowPoly& low = surfaces.low();
     const StridedSpan<const Vec4>& tangents = candidate.tangents.empty() ? low.tangents : candidate.tangents;
-    std::vector<float> angles(points_.size());
+    // A point that met nothing counts as kMissedDeg, whatever the map shows there.
+    std::vector<float> angles(points_.size(), static_cast<float>(kMissedDeg));
     std::vector<std::uint8_t> near_border(points_.size());
     parallel.forRanges(points_.size(), kPointsOfTask, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             const Point& point = points_[i];
-            if (!point.is_hit) continue;
             const std::array<double, 3> weights{1.0 - point.weights[0] - point.weights[1], point.weights[0],
                                                 point.weights[1]};
             const Vec2 uv = uvAt(low, point.triangle, weights);
+            near_border[i] = isNearBorder(map, low, point, uv) ? 1 : 0;
+            if (!point.is_hit) continue;
             const DVec3 shaded = shadedAt(map, candidate, surfaces.corners(point.triangle, tangents), weights, uv);
             const double angle = degreesBetween(shaded, toDouble(point.normal));
             // A point without a shaded direction counts as the largest error.
             angles[i] = dot(shaded, shaded) > 0 && std::isfinite(angle) ? static_cast<float>(angle) : 180.0F;
-            near_border[i] = isNearBorder(map, low, point, uv) ? 1 : 0;
         }
     });
-    std::vector<float> compared;
-    double at_seams = 0, inside = 0;
+    countPoints(error);
+    if (points_.empty()) return error;
+    double at_seams = 0, inside = 0, met = 0;
     for (std::size_t i = 0; i < points_.size(); ++i) {
-        if (!points_[i].is_hit) continue;
-        compared.push_back(angles[i]);
-        (near_border[i] != 0 ? at_seams : inside) += static_cast<double>(angles[i]);
+        const auto angle = static_cast<double>(angles[i]);
+        if (points_[i].is_hit) met += angle;
+        (near_border[i] != 0 ? at_seams : inside) += angle;
         error.seam_point_count += near_border[i];
     }
-    error.point_count = compared.size();
-    error.missed_count = points_.size() - compared.size();
-    if (compared.empty()) return error;
-    const auto count = static_cast<double>(compared.size());
-    error.mean_deg = (at_seams + inside) / count;
-    const std::size_t inside_count = compared.size() - error.seam_point_count;
+    error.mean_deg = (at_seams + inside) / static_cast<double>(points_.size());
+    const std::size_t inside_count = points_.size() - error.seam_point_count;
+    if (error.point_count > 0) error.met_mean_deg = met / static_cast<double>(error.point_count);
     if (error.seam_point_count > 0) error.seam_mean_deg = at_seams / static_cast<double>(error.seam_point_count);
     if (inside_count > 0) error.inside_mean_deg = inside / static_cast<double>(inside_count);
-    const auto place = compared.begin() + static_cast<std::ptrdiff_t>((compared.size() - 1) * 99 / 100);
-    std::nth_element(compared.begin(), place, compared.end());
+    const auto place = angles.begin() + static_cast<std::ptrdiff_t>((angles.size() - 1) * 99 / 100);
+    std::nth_element(angles.begin(), place, angles.end());
     error.p99_deg = static_cast<double>(*place);
-    error.max_deg = static_cast<double>(*std::max_element(place, compared.end()));
+    error.max_deg = static_cast<double>(*std::max_element(place, angles.end()));
     return error;
+}
+
+void MeasurePoints::countPoints(MapError& error) const {
+    for (const Point& point : points_) {
+        error.point_count += point.is_hit ? 1 : 0;
+        error.hidden_count += point.is_hidden ? 1 : 0;
+        error.back_count += point.met_back ? 1 : 0;
+        error.inward_count += point.is_inward ? 1 : 0;
+    }
+    error.missed_count = points_.size() - error.point_count;
 }
 
 std::vector<float> heatOf(const MapImage& map, const MapSurfaces& surfaces, const MapCandidate& candidate,

@@ -27,7 +27,7 @@ class MeasurePoints {
     struct Point {
         std::uint32_t triangle = 0;
         std::array<float, 2> weights = {};  ///< of the second and the third corner
-        bool is_hit = false;
+        bool is_hit = false, is_hidden = false, met_back = false, is_inward = false;
         Vec3 normal = {};  ///< the truth
     };
     std::vector<Point> points_ = {};
@@ -35,6 +35,7 @@ class MeasurePoints {
         {};  ///< per triangle: bit i, its edge from corner i on is a border of the UV map
 
     void findBorders(const LowPoly& low);
+    void countPoints(MapError& error) const;
     [[nodiscard]] bool isNearBorder(const MapImage& map, const LowPoly& low, const Point& point, const Vec2& uv) const;
 };
 

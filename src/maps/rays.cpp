@@ -121,16 +121,44 @@ struct RaySurface::State {
 
 namespace {
 
-/// A line and its nearest hit. Embree's part comes first: the filter function gets a pointer to it.
+/// Which of the fronts on a line is looked for, if one is.
+enum class Wanted : std::uint8_t {
+    nearest,  ///< to `from`, on either side
+    first,    ///< in the order of the direction
+    last,
+    all  ///< all are counted, and backs
+};
+
+/// A line and its best hit. Embree's part comes first: the filter function gets a pointer to it.
 struct Query {
     QueryContext context;
     const RaySurface::State* surface;
     DVec3 from, direction;
-    double most;
+    double begin, end;  ///< along the direction
+    Wanted wanted;
     std::uint32_t group;
     bool is_hit;
     RayHit best;
+    RayCrossings crossings;
+
+    /// Less is better.
+    [[nodiscard]] double rank(double distance) const {
+        return wanted == Wanted::nearest ? std::fabs(distance) : wanted == Wanted::last ? -distance : distance;
+    }
+    [[nodiscard]] bool reaches(double distance) const {
+        if (wanted == Wanted::nearest) return std::fabs(distance) <= std::max(std::fabs(begin), std::fabs(end));
+        return distance >= begin && distance <= end;
+    }
 };
+
+/// Counts a triangle that is met, in front or from behind.
+void countCrossing(Query& query, std::uint32_t triangle) {
+    for (const double sign : {1.0, -1.0}) {
+        PlanePoint point;
+        if (!query.surface->meet(triangle, query.from, sign * query.direction, point)) continue;
+        if (query.reaches(sign * point.distance)) ++(sign > 0 ? query.crossings.fronts : query.crossings.backs);
+    }
+}
 
 /// Called for each triangle that the line meets; rejects it, so that Embree goes on to all others.
 void collectHit(const RTCFilterFunctionNArguments* arguments) {
@@ -138,12 +166,15 @@ void collectHit(const RTCFilterFunctionNArguments* arguments) {
     auto& query = *reinterpret_cast<Query*>(arguments->context);
     const std::uint32_t triangle = RTCHitN_primID(arguments->hit, arguments->N, 0);
     if (!query.surface->groups.empty() && query.surface->groups[triangle] != query.group) return;
+    if (query.wanted == Wanted::all) {
+        countCrossing(query, triangle);
+        return;
+    }
     PlanePoint point;
     if (!query.surface->meet(triangle, query.from, query.direction, point)) return;
-    const double away = std::fabs(point.distance);
-    if (!(away <= query.most)) return;
-    const double nearest = query.is_hit ? std::fabs(query.best.distance) : 0;
-    if (query.is_hit && !(away < nearest || (away == nearest && triangle < query.best.triangle))) return;
+    if (!query.reaches(point.distance)) return;
+    const double rank = query.rank(point.distance), best = query.is_hit ? query.rank(query.best.distance) : 0;
+    if (query.is_hit && !(rank < best || (rank == best && triangle < query.best.triangle))) return;
     query.is_hit = true;
     query.best = {triangle, point.weights, point.distance};
 }
@@ -237,9 +268,9 @@ Result<std::unique_ptr<const RaySurface>> RaySurface::make(StridedSpan<const Vec
 
 namespace {
 
-/// Finds what the line meets between `begin` and `end`, nearest to `from`.
-bool shoot(const RaySurface::State& state, const DVec3& from, const DVec3& direction, double begin, double end,
-           std::uint32_t group, RayHit& hit) {
+/// Finds what is wanted between `begin` and `end` on the line, or counts what is there.
+Query shoot(const RaySurface::State& state, const DVec3& from, const DVec3& direction, double begin, double end,
+            Wanted wanted, std::uint32_t group) {
     Query query;
 #if RTC_VERSION_MAJOR >= 4
     rtcInitRayQueryContext(&query.context);
@@ -249,7 +280,10 @@ bool shoot(const RaySurface::State& state, const DVec3& from, const DVec3& direc
     query.surface = &state;
     query.from = from;
     query.direction = direction;
-    query.most = std::max(std::fabs(begin), std::fabs(end));
+    query.begin = begin;
+    query.end = end;
+    query.wanted = wanted;
+    query.crossings = {};
     query.group = group;
     query.is_hit = false;
     // Embree ends the process where a ray begins or ends beyond 1.8e18: only the part near the surface is given to it,
@@ -259,7 +293,7 @@ bool shoot(const RaySurface::State& state, const DVec3& from, const DVec3& direc
     begin = std::max(begin, middle - kBeyond / state.scale);
     end = std::min(end, middle + kBeyond / state.scale);
     const DVec3 place = state.scale * (from + begin * direction - state.centre);
-    if (!(begin <= end) || !(dot(place, place) <= 4 * kBeyond * kBeyond)) return false;
+    if (!(begin <= end) || !(dot(place, place) <= 4 * kBeyond * kBeyond)) return query;
     const Vec3 origin = toFloat(place);
     RTCRayHit ray{};
     ray.ray.org_x = origin.x;
@@ -281,8 +315,15 @@ bool shoot(const RaySurface::State& state, const DVec3& from, const DVec3& direc
 #else
     embree().intersect1(state.scene, &query.context, &ray);
 #endif
-    if (query.is_hit) hit = query.best;
-    return query.is_hit;
+    return query;
+}
+
+/// The best hit, with its distance along the other direction.
+bool takeTurned(const Query& query, RayHit& hit) {
+    if (!query.is_hit) return false;
+    hit = query.best;
+    hit.distance = -hit.distance;
+    return true;
 }
 
 }  // namespace
@@ -293,8 +334,7 @@ bool RaySurface::nearest(const DVec3& from, const DVec3& outward, double reach, 
     // The part of a reach that is hardly more than zero may be zero.
     const double least = std::max(reach / 1024, std::min(reach, std::numeric_limits<double>::min()));
     for (double half = std::clamp(guess, least, reach);; half = std::min(4 * half, reach)) {
-        if (shoot(*state_, from, inward, -half, half, group, hit)) {
-            hit.distance = -hit.distance;
+        if (takeTurned(shoot(*state_, from, inward, -half, half, Wanted::nearest, group), hit)) {
             guess = 2 * std::fabs(hit.distance);
             return true;
         }
@@ -303,7 +343,24 @@ bool RaySurface::nearest(const DVec3& from, const DVec3& outward, double reach, 
 }
 
 bool RaySurface::first(const DVec3& from, const DVec3& inward, double most, std::uint32_t group, RayHit& hit) const {
-    return shoot(*state_, from, inward, 0, most, group, hit);
+    const Query query = shoot(*state_, from, inward, 0, most, Wanted::nearest, group);
+    if (query.is_hit) hit = query.best;
+    return query.is_hit;
+}
+
+bool RaySurface::outermost(const DVec3& from, const DVec3& outward, double begin, double end, std::uint32_t group,
+                           RayHit& hit) const {
+    return takeTurned(shoot(*state_, from, -1.0 * outward, -end, -begin, Wanted::first, group), hit);
+}
+
+bool RaySurface::innermost(const DVec3& from, const DVec3& outward, double begin, double end, std::uint32_t group,
+                           RayHit& hit) const {
+    return takeTurned(shoot(*state_, from, -1.0 * outward, -end, -begin, Wanted::last, group), hit);
+}
+
+RayCrossings RaySurface::crossings(const DVec3& from, const DVec3& outward, double begin, double end,
+                                   std::uint32_t group) const {
+    return shoot(*state_, from, -1.0 * outward, -end, -begin, Wanted::all, group).crossings;
 }
 
 #else
@@ -318,6 +375,9 @@ Result<std::unique_ptr<const RaySurface>> RaySurface::make(StridedSpan<const Vec
 }
 bool RaySurface::nearest(const DVec3&, const DVec3&, double, std::uint32_t, double&, RayHit&) const { return false; }
 bool RaySurface::first(const DVec3&, const DVec3&, double, std::uint32_t, RayHit&) const { return false; }
+bool RaySurface::outermost(const DVec3&, const DVec3&, double, double, std::uint32_t, RayHit&) const { return false; }
+bool RaySurface::innermost(const DVec3&, const DVec3&, double, double, std::uint32_t, RayHit&) const { return false; }
+RayCrossings RaySurface::crossings(const DVec3&, const DVec3&, double, double, std::uint32_t) const { return {}; }
 
 #endif
 

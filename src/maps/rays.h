@@ -21,6 +21,12 @@ struct RayHit {
     double distance = 0;                 ///< along the direction; negative on the other side
 };
 
+/// How many triangles a part of a line meets.
+struct RayCrossings {
+    std::uint32_t fronts = 0;  ///< that face outwards
+    std::uint32_t backs = 0;   ///< that face inwards
+};
+
 /// The triangles of a surface, ordered for rays. Const calls are thread-safe. Embree only says which triangles a line may
 /// meet: places are computed here, in double, and do not depend on the order in which triangles are found.
 class RaySurface {
@@ -42,6 +48,17 @@ class RaySurface {
 
     /// The first triangle from `from` along `inward` (unit) whose front faces `from`, within `most`.
     bool first(const DVec3& from, const DVec3& inward, double most, std::uint32_t group, RayHit& hit) const;
+
+    /// Of the triangles whose fronts face `outward` (unit), and which the line along it meets between `begin` and `end`, the
+    /// one that is furthest out, or the one that is furthest in.
+    bool outermost(const DVec3& from, const DVec3& outward, double begin, double end, std::uint32_t group,
+                   RayHit& hit) const;
+    bool innermost(const DVec3& from, const DVec3& outward, double begin, double end, std::uint32_t group,
+                   RayHit& hit) const;
+
+    /// How many triangles the line along `outward` (unit) meets from `begin` to `end`, in front and behind.
+    [[nodiscard]] RayCrossings crossings(const DVec3& from, const DVec3& outward, double begin, double end,
+                                         std::uint32_t group) const;
 
     struct State;
 

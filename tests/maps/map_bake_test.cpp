@@ -165,7 +165,7 @@ TEST_F(MapBake, ReachDecidesHowFarItLooks) {
 TEST_F(MapBake, ACageSaysWhereRaysBegin) {
     LowMesh low = bench::makeLow(surfaceNamed("saddle"), Charts::one);
     HighMesh high = bench::makeHigh(surfaceNamed("saddle"), 32, false);
-    // Another layer further out, which the nearest hit never sees.
+    // Another layer further out than the cage is by default, and than the nearest hit.
     const std::size_t count = high.positions.size(), corner_count = high.corners.size();
     for (std::size_t i = 0; i < count; ++i) {
         high.positions.push_back(high.positions[i] + Vec3{0, 0, 0.2F});
@@ -177,7 +177,8 @@ TEST_F(MapBake, ACageSaysWhereRaysBegin) {
     for (Vec3& position : cage) position.z += 0.3F;
     BakeOptions options = sized(32);
     options.space = MapSpace::object;
-    EXPECT_LT(baked(low.view(), high.view(), options).error.mean_deg, 1);
+    options.rays.target = RayTarget::nearest;
+    EXPECT_LT(baked(low.view(), high.view(), options).own_error.mean_deg, 1);
     LowPoly caged = low.view();
     caged.cage = cage;
     const BakedMap map = baked(caged, high.view(), options);

@@ -39,7 +39,7 @@ ExitCode runBake(const BakeArguments& arguments) {
     const BakeFileOptions& options = arguments.options;
     const Result<Done> fit =
         prepareOutputs({arguments.output, options.misses, options.heat, options.out_mesh, arguments.report},
-                       {arguments.low, arguments.high, options.cage});
+                       {arguments.low, arguments.high, options.cage, options.skew});
     if (!fit) return printUsageError(fit.error().message);
     catchInterrupts();
     InputFiles read;
@@ -48,8 +48,12 @@ ExitCode runBake(const BakeArguments& arguments) {
     if (!result && wasInterrupted()) endByInterrupt();
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
     ExitCode exit_code =
-        result ? ExitCode::done
-               : printErrorOfFiles({arguments.low, arguments.high, arguments.options.cage}, result.error());
+        result ? (result->findings.empty() ? ExitCode::done : ExitCode::findings)
+               : printErrorOfFiles({arguments.low, arguments.high, options.cage, "", options.skew}, result.error());
+    // Who reads no report shall see why there is no map.
+    if (result && result->output_files.empty()) {
+        for (const std::string& finding : result->findings) printRemark(finding);
+    }
     const report::Outcome<BakeFileReport> outcome{
         .input = arguments.low, .output = arguments.output, .result = result, .seconds = took.count()};
     if (!arguments.report.empty()) {

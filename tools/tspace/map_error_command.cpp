@@ -22,8 +22,8 @@ struct MapErrorArguments {
 };
 
 ExitCode runMapError(const MapErrorArguments& arguments) {
-    const Result<Done> fit = prepareOutputs({arguments.options.heat},
-                                            {arguments.map, arguments.low, arguments.high, arguments.options.cage});
+    const Result<Done> fit = prepareOutputs({arguments.options.heat}, {arguments.map, arguments.low, arguments.high,
+                                                                       arguments.options.cage, arguments.options.skew});
     if (!fit) return printUsageError(fit.error().message);
     catchInterrupts();
     MapErrorFileOptions options = arguments.options;
@@ -35,10 +35,10 @@ ExitCode runMapError(const MapErrorArguments& arguments) {
     const Result<MapErrorFileReport> result = mapErrorFile(arguments.map, arguments.low, arguments.high, options);
     progress.clear();
     if (!result && wasInterrupted()) endByInterrupt();
-    const ExitCode exit_code =
-        result
-            ? ExitCode::done
-            : printErrorOfFiles({arguments.low, arguments.high, arguments.options.cage, arguments.map}, result.error());
+    const ExitCode exit_code = result ? ExitCode::done
+                                      : printErrorOfFiles({arguments.low, arguments.high, arguments.options.cage,
+                                                           arguments.map, arguments.options.skew},
+                                                          result.error());
     const report::Outcome<MapErrorFileReport> outcome{.input = arguments.map, .result = result};
     std::string text;
     if (arguments.json) {

@@ -10,6 +10,7 @@
 #include "commands/bake/model_surfaces.h"
 #include "images/float_image.h"
 #include "maps/map_surfaces.h"
+#include "maps/missed_cause.h"
 #include "model/io/atomic_output.h"
 #include "model/io/file_error.h"
 #include "model/io/file_io.h"
@@ -58,6 +59,7 @@ class FileBaking {
     }
 
     BakeFileReport run(const std::string& low, const std::string& high) {
+        high_ = high;
         if (lowerExtension(output_) != ".png")
             failFile(ErrorCode::unsupportedFile, "the output " + pathInQuotes(output_) + " does not end in .png");
         checkOutMesh();
@@ -79,9 +81,10 @@ class FileBaking {
                                            ", which is clamped: there they show the texels of its edge");
             bakeTiles(image, word);
         }
-        if (!options_.out_mesh.empty())
+        if (!options_.out_mesh.empty() && !is_without_map_)
             addModelWithMaps({low, std::move(models_.low_glb), options_.out_mesh, std::move(maps_)}, options_.file,
                              files_, report_.warnings);
+        if (is_without_map_) return std::move(report_);
         report_.output_files = files_.files();
         files_.commit();
         return std::move(report_);
@@ -125,8 +128,16 @@ class FileBaking {
     }
 
     void bakeTiles(const LowModel::Image& image, const std::string& word) {
+        const auto addOtherImages = [&](LowPart& part) {
+            for (const LowModel::Image& other : models_.low.images) {
+                for (std::size_t i = 0; &other != &image && i < other.part.triangleCount(); ++i)
+                    part.addToRest(other.part, i);
+            }
+        };
         if (!options_.udim) {
-            bakeImage(image, word, 0, image.part);
+            LowPart part = image.part;
+            addOtherImages(part);
+            bakeImage(image, word, 0, part);
             return;
         }
         std::map<std::uint32_t, LowPart> tiles;
@@ -147,7 +158,11 @@ class FileBaking {
         if (outside > 0)
             report_.warnings.push_back(std::to_string(outside) + " triangles lie in no tile, and are left out");
         if (tiles.empty()) failFile(ErrorCode::missingAttribute, "the UVs of the low poly lie in no tile");
-        for (const auto& [tile, part] : tiles) {
+        for (auto& [tile, part] : tiles) {
+            for (std::size_t i = 0; i < image.part.triangleCount(); ++i) {
+                if (tileOf(&image.part.uvs[3 * i]) != tile) part.addToRest(image.part, i);
+            }
+            addOtherImages(part);
             const std::string number = std::to_string(tile);
             bakeImage(image, word.empty() ? number : word + "." + number, tile, part);
         }
@@ -160,15 +175,26 @@ class FileBaking {
             options.wrap_u = image.wrap_u;
             options.wrap_v = image.wrap_v;
         }
+        options.rays = models_.rays(options.rays, options.wrap_u, options.wrap_v);
         BakedFile file{.path = withWord(output_, word),
                        .material = image.material,
                        .tile = tile,
                        .triangle_count = part.triangleCount(),
+                       .rays = {options.rays.target, options.rays.directions, !options.rays.skew.texels.empty(),
+                                !part.cage.empty()},
                        .map = aboutInput(BakeInput::low, [&] {
-                           return valueOrThrow(bakeMap(part.view(), models_.high.view(), options, options_.execution,
-                                                       options_.progress));
+                           return valueOrThrow(bakeEvenIfMissed(part.view(), models_.high.view(), options,
+                                                                options_.execution, options_.progress));
                        })};
         BakedMap& map = file.map;
+        findCause(file, part);
+        if (map.hit_count == 0) {
+            is_without_map_ = true;
+            map.origins = {};
+            map.overlaps = {};
+            report_.files.push_back(std::move(file));
+            return;
+        }
         std::vector<std::uint8_t> png = pngOf(map.width, map.height, std::exchange(map.texels, {}), map.bits);
         // Baking again writes over the map that the low poly shows.
         inputs_.letOff(file.path);
@@ -187,10 +213,48 @@ class FileBaking {
         map.origins = {};
         map.overlaps = {};
         map.error.heat = {};
+        warnOfRays(file);
         report_.files.push_back(std::move(file));
     }
 
+    /// What makes the map useless.
+    void findCause(const BakedFile& file, const LowPart& part) {
+        const BakedMap& map = file.map;
+        const auto add = [&](const std::string& what, const std::string& why) {
+            report_.findings.push_back(pathInQuotes(high_) + ": " + what + (why.empty() ? "" : "; " + why));
+        };
+        constexpr std::uint64_t kFew = 50;  // one of so many
+        Parallel parallel(options_.execution);
+        if (map.missed_count > map.hit_count) {
+            add(std::to_string(map.missed_count) + " of " + std::to_string(map.missed_count + map.hit_count) +
+                    " texels of " + pathInQuotes(file.path) + " met no front of it" +
+                    (map.hit_count == 0 ? ", and nothing is written" : ""),
+                causeOfMisses(part.view(), models_.high.view(), map.error.reach, parallel));
+        } else if (2 * map.error.inward_count > map.error.point_count) {
+            add("its normals point inwards, against its faces, at " + std::to_string(map.error.inward_count) + " of " +
+                    std::to_string(map.error.point_count) + " points",
+                "");
+        } else if (kFew * map.missed_count > map.hit_count) {
+            const std::string why = otherPlaceOf(part.view(), models_.high.view(), parallel);
+            if (!why.empty())
+                add(std::to_string(map.missed_count) + " texels of " + pathInQuotes(file.path) + " met no front of it",
+                    why);
+        }
+    }
+
+    /// What the map's own rays did not show.
+    void warnOfRays(const BakedFile& file) {
+        const MapError& own = file.map.own_error;
+        if (own.hidden_count == 0) return;
+        report_.warnings.push_back(std::to_string(own.hidden_count) + " of " +
+                                   std::to_string(own.point_count + own.missed_count) +
+                                   " points met another front of the high poly further out, which hides what " +
+                                   pathInQuotes(file.path) + " shows; --rays outermost bakes it");
+    }
+
     const std::string& output_;
+    std::string high_ = {};
+    bool is_without_map_ = false;  ///< no ray of an image met anything
     InputFiles inputs_ = {};
     BakeFileOptions options_;
     BakeModels models_ = {};

@@ -7,12 +7,35 @@ namespace tspace::report {
 Json errorOfMapJson(const MapError& error) {
     return {{"points", error.point_count},
             {"missed", error.missed_count},
+            {"hidden", error.hidden_count},
+            {"backs", error.back_count},
+            {"inward", error.inward_count},
             {"meanDeg", error.mean_deg},
+            {"metMeanDeg", error.met_mean_deg},
             {"p99Deg", error.p99_deg},
             {"maxDeg", error.max_deg},
             {"seamPoints", error.seam_point_count},
             {"seamMeanDeg", error.seam_mean_deg},
             {"insideMeanDeg", error.inside_mean_deg}};
+}
+
+const char* raysWord(const UsedRays& rays) {
+    if (rays.has_cage) return "cage";
+    return rays.target == RayTarget::nearest ? "nearest" : "outermost";
+}
+
+const char* directionsWord(const UsedRays& rays) {
+    if (rays.has_cage) return "cage";
+    if (rays.has_skew) return "skew";
+    switch (rays.directions) {
+        case RayDirections::automatic:
+            return "auto";
+        case RayDirections::averaged:
+            return "averaged";
+        case RayDirections::normals:
+            break;
+    }
+    return "normals";
 }
 
 namespace {
@@ -33,8 +56,12 @@ Json bakedFileJson(const BakedFile& file) {
               {"overlapping", map.overlap_count},
               {"conflicting", map.conflict_count}}},
             {"degenerateUvs", map.degenerate_uv_count},
+            {"rays", raysWord(file.rays)},
+            {"directions", directionsWord(file.rays)},
             {"reach", map.error.reach},
+            {"cageOffset", map.error.cage_offset},
             {"error", errorOfMapJson(map.error)},
+            {"ownError", map.own_error.point_count > 0 ? errorOfMapJson(map.own_error) : Json()},
             {"heatTopDeg", file.heat_top_deg}};
 }
 
@@ -55,6 +82,7 @@ std::string bakeJson(const Outcome<BakeFileReport>& outcome, const std::string& 
     json["matchedByName"] = result->matched_by_name;
     json["files"] = listJson(result->files, bakedFileJson);
     json["outputFiles"] = result->output_files;
+    json["findings"] = result->findings;
     json["warnings"] = result->warnings;
     return jsonText(json);
 }

@@ -10,22 +10,21 @@ namespace {
 
 constexpr Named<MapSpace> kMapSpaces[] = {{"tangent", MapSpace::tangent}, {"object", MapSpace::object}};
 constexpr Named<MapFit> kFits[] = {{"solve", MapFit::solve}, {"texel", MapFit::texel}};
+constexpr Named<RayTarget> kTargets[] = {{"outermost", RayTarget::outermost}, {"nearest", RayTarget::nearest}};
+constexpr Named<RayDirections> kDirections[] = {
+    {"auto", RayDirections::automatic}, {"averaged", RayDirections::averaged}, {"normals", RayDirections::normals}};
 constexpr Named<unsigned> kMapBits[] = {{"8", 8}, {"16", 16}};
 
 constexpr unsigned kMostPadding = 256, kMostSide = 16384;
 
-Option reachOption(double& target) {
+Option lengthOption(const char* name, double& target, const char* help) {
     const auto take = [&target](const std::string& text) -> std::string {
         double given = 0;
         if (!parseReal(text, given) || !(given > 0) || !std::isfinite(given)) return "must be a length above 0";
         target = given;
         return {};
     };
-    return option(
-        "--reach", "LENGTH", take,
-        "How far from the low poly the high poly is looked for, outwards and inwards, in units of the models. "
-        "Default: a twentieth of the size of the larger one, or more where their boxes differ by more; the "
-        "report says how much.");
+    return option(name, "LENGTH", take, help);
 }
 
 Option mapSizeOption(BakeOptions& map) {
@@ -46,11 +45,37 @@ Option fileOption(const char* name, const char* value, std::string& target, cons
     return made;
 }
 
-Option cageOption(std::string& target) {
-    return fileOption(
-        "--cage", "MODEL", target,
-        "The low poly with its vertices moved outwards, in the same order: rays go from there to the low poly "
-        "and on. Without it they go both ways along the normals.");
+void addRayOptions(OptionList& list, double& reach, RayOptions& rays, std::string& cage, std::string& skew) {
+    const char* group = "Rays";
+    add(list, group,
+        choice("--rays", "WHICH", kTargets, rays.target,
+               "Which front of the high poly counts. outermost: the first one from the cage inwards, which is what is "
+               "seen, and beyond the cage where there is none; nearest: the one nearest to the low poly, on either "
+               "side, for fingers and thin parts."));
+    add(list, group,
+        choice("--directions", "HOW", kDirections, rays.directions,
+               "Where rays point. averaged: along the mean of the normals at each position, which leaves no gaps at "
+               "hard edges; auto: so near edges where faces meet at over 30 degrees, and straight at the faces away "
+               "from them, where averaged detail would lean; normals: along the normals as stored."));
+    add(list, group,
+        lengthOption("--cage-offset", rays.cage_offset,
+                     "How far from the faces of the low poly the cage is, where rays begin, in units of the models. "
+                     "Default: as the reach; the report says how much."));
+    add(list, group,
+        lengthOption("--reach", reach,
+                     "How far from the low poly the high poly is looked for, outwards and inwards, in units of the "
+                     "models. Default: a twentieth of the size of the larger one, or more where their boxes differ by "
+                     "more; the report says how much."));
+    Option painted = fileOption("--skew", "IMAGE", skew,
+                                "In place of --directions: an image by the UVs of the map, black where rays are "
+                                "averaged and white where they go straight at the triangles.");
+    painted.excludes = {"--directions"};
+    add(list, group, std::move(painted));
+    Option own = fileOption("--cage", "MODEL", cage,
+                            "The low poly with its vertices moved outwards, in the same order: rays go from there to "
+                            "the low poly and on, to the first front.");
+    own.excludes = {"--rays", "--directions", "--cage-offset", "--skew"};
+    add(list, group, std::move(own));
 }
 
 void addBakedMapOptions(OptionList& list, BakeFileOptions& options) {
@@ -104,8 +129,7 @@ OptionList bakeOptions(BakeFileOptions& options) {
                    "A picture of the error: from black over red to white, which is the 99th percentile."));
     addAllowExternal(list, options.file);
     addBakedMapOptions(list, options);
-    add(list, "Rays", reachOption(options.map.reach));
-    add(list, "Rays", cageOption(options.cage));
+    addRayOptions(list, options.map.reach, options.map.rays, options.cage, options.skew);
     add(list, "Frames",
         choice("--method", "NAME", kMethods, options.tangents.method,
                "How tangents are made for a low poly that has none, as generate makes them. Those that are in the file "
@@ -137,8 +161,7 @@ OptionList mapErrorOptions(MapErrorFileOptions& options) {
     add(list, group,
         flag("--two-channels", options.two_channels,
              "z is made from x and y, as of BC5 and DXT5nm; blue is not read."));
-    add(list, "Rays", reachOption(options.map.reach));
-    add(list, "Rays", cageOption(options.cage));
+    addRayOptions(list, options.map.reach, options.map.rays, options.cage, options.skew);
     addThreads(list, options.execution, "Number of threads; 0: as many as there are cores. Changes no figure.");
     addLimits(list, options.file);
     addSync(list, options.file.sync);

@@ -13,6 +13,10 @@ std::string bakeJson(const Outcome<BakeFileReport>& outcome, const std::string& 
 /// Of a bake that was done. `out_mesh`: as BakeFileOptions::out_mesh.
 std::string bakeText(const Outcome<BakeFileReport>& outcome, const std::string& out_mesh);
 
+/// As docs/json.md has them.
+const char* raysWord(const UsedRays& rays);
+const char* directionsWord(const UsedRays& rays);
+
 /// The angles between what a map shows and the high poly.
 Json errorOfMapJson(const MapError& error);
 

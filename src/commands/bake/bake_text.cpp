@@ -10,6 +10,16 @@ namespace {
 
 std::string degreesText(double degrees) { return fmt::format("{:.4f}", degrees); }
 
+std::string raysText(const BakedFile& file) {
+    const MapError& error = file.map.error;
+    if (file.rays.has_cage) return fmt::format("from the cage to {:.4g} beyond the low poly", error.reach);
+    const std::string directions = directionsWord(file.rays);
+    if (file.rays.target == RayTarget::nearest)
+        return fmt::format("nearest within {:.4g}, directions: {}", error.reach, directions);
+    return fmt::format("outermost, from a cage {:.4g} away to {:.4g} below, directions: {}", error.cage_offset,
+                       error.reach, directions);
+}
+
 void addFile(const BakedFile& file, Table& table) {
     const BakedMap& map = file.map;
     table.addRow({"map", fmt::format("{}, {} x {}, {} bits", printable(file.path), map.width, map.height, map.bits)});
@@ -17,7 +27,16 @@ void addFile(const BakedFile& file, Table& table) {
     table.addRow({"error", fmt::format("mean {} degrees, 99 % below {}, largest {}; at seams {} in the mean",
                                        degreesText(map.error.mean_deg), degreesText(map.error.p99_deg),
                                        degreesText(map.error.max_deg), degreesText(map.error.seam_mean_deg))});
-    table.addRow({"reach", fmt::format("{:.4g}", map.error.reach)});
+    if (map.own_error.point_count > 0)
+        table.addRow(
+            {"", fmt::format("mean {} degrees against what its own rays met", degreesText(map.own_error.mean_deg))});
+    table.addRow({"rays", raysText(file)});
+    if (map.error.missed_count > 0)
+        table.addRow(
+            {"note", fmt::format("{} of {} points of the error met no high poly: each counts as {:.0f} degrees; "
+                                 "the mean of the others is {}",
+                                 map.error.missed_count, map.error.missed_count + map.error.point_count, kMissedDeg,
+                                 degreesText(map.error.met_mean_deg))});
     if (map.missed_count > 0)
         table.addRow(
             {"warning", fmt::format("{} met no high poly and {} filled from around; --reach looks further, "
@@ -38,8 +57,12 @@ void addFile(const BakedFile& file, Table& table) {
 std::string bakeText(const Outcome<BakeFileReport>& outcome, const std::string& out_mesh) {
     const BakeFileReport& done = *outcome.result;
     Table table;
-    for (const BakedFile& file : done.files) addFile(file, table);
-    if (!out_mesh.empty()) table.addRow({"model", fmt::format("{}, with its frames and maps", printable(out_mesh))});
+    for (const BakedFile& file : done.files) {
+        if (file.map.hit_count > 0) addFile(file, table);
+    }
+    for (const std::string& finding : done.findings) table.addRow({"finding", printable(finding)});
+    if (!out_mesh.empty() && !done.output_files.empty())
+        table.addRow({"model", fmt::format("{}, with its frames and maps", printable(out_mesh))});
     if (done.frames_made) table.addRow({"note", "the low poly lacks frames; they were made as generate makes them"});
     if (done.matched_by_name) table.addRow({"note", "meshes were matched by their names"});
     for (const std::string& warning : done.warnings) table.addRow({"warning", printable(warning)});

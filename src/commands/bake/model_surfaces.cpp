@@ -324,6 +324,18 @@ void LowPart::addTriangle(const LowPart& from, std::size_t triangle) {
     if (!from.groups.empty()) groups.push_back(from.groups[triangle]);
 }
 
+void LowPart::addToRest(const LowPart& from, std::size_t triangle) {
+    const auto first = static_cast<std::ptrdiff_t>(3 * triangle);
+    rest_positions.insert(rest_positions.end(), from.positions.begin() + first, from.positions.begin() + first + 3);
+    rest_normals.insert(rest_normals.end(), from.normals.begin() + first, from.normals.begin() + first + 3);
+}
+
+RayOptions BakeModels::rays(const RayOptions& asked, TextureWrap wrap_u, TextureWrap wrap_v) const {
+    RayOptions rays = asked;
+    if (!skew.texels.empty()) rays.skew = {skew.width, skew.height, skew.texels, wrap_u, wrap_v};
+    return rays;
+}
+
 double BakeModels::reach(double asked) const {
     return asked != 0 ? asked : reachBetween(lowBox(), PositionBox(high.view().positions));
 }
@@ -357,6 +369,18 @@ std::optional<LowModel> readLowAnew(const std::string& low, const BakeFileOption
     return fits ? std::optional(std::move(model)) : std::nullopt;
 }
 
+FloatImage readFloatImage(const std::string& path, const FileOptions& options) {
+    if (options.opened) options.opened(path);
+    const Bytes bytes = readFile(path);
+    // Images of a usual size are read whatever their files weigh.
+    constexpr std::uint64_t kUsualPixels = std::uint64_t{1} << 26, kPixelBytes = 32;
+    const std::uint64_t limit = options.memory_limit_bytes;
+    std::string why;
+    std::optional<FloatImage> image = decodeFloatImage(bytes, limit == 0 ? kUsualPixels : limit / kPixelBytes, why);
+    if (!image) failFile(ErrorCode::invalidFile, "the image cannot be read: " + why);
+    return *std::move(image);
+}
+
 BakeModels readBakeModels(const std::string& low, const std::string& high, const BakeFileOptions& options) {
     BakeModels models;
     DrawnScene low_scene = aboutInput(BakeInput::low, [&] { return readWithFrames(low, options, models); });
@@ -381,6 +405,8 @@ BakeModels readBakeModels(const std::string& low, const std::string& high, const
     models.low.frames_made = frames_made;
     models.low.origin = origin;
     models.high = aboutInput(BakeInput::high, [&] { return highModel(high_scene, used, high, options); });
+    if (!options.skew.empty())
+        models.skew = aboutInput(BakeInput::skew, [&] { return readFloatImage(options.skew, options.file); });
     const std::string why = misplacement(models.lowBox(), PositionBox(models.high.view().positions));
     if (!why.empty()) models.high.warnings.push_back(why);
     return models;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "commands/bake/model_maps.h"
+#include "images/float_image.h"
 #include "maps/position_box.h"
 #include "maps/udim_tile.h"
 #include "model/io/file_error.h"
@@ -32,6 +33,7 @@ struct LowPart {
     std::vector<Vec4> tangents = {};
     std::vector<Vec2> uvs = {};
     std::vector<std::uint32_t> groups = {};
+    std::vector<Vec3> rest_positions = {}, rest_normals = {};  ///< as LowPoly's
 
     [[nodiscard]] LowPoly view() const {
         return {.positions = positions,
@@ -39,11 +41,14 @@ struct LowPart {
                 .tangents = tangents,
                 .uvs = uvs,
                 .cage = cage,
-                .groups = groups};
+                .groups = groups,
+                .rest_positions = rest_positions,
+                .rest_normals = rest_normals};
     }
     [[nodiscard]] std::size_t triangleCount() const { return positions.size() / 3; }
     /// Appends a triangle of another one.
     void addTriangle(const LowPart& from, std::size_t triangle);
+    void addToRest(const LowPart& from, std::size_t triangle);
 };
 
 /// What of a low poly shares a material, and so an image.
@@ -80,6 +85,9 @@ struct BakeModels {
     Bytes low_glb = {};  ///< the low poly with its frames, where `out_mesh` asks for it
     bool matched_by_name = false;
 
+    FloatImage skew = {};  ///< without texels where there is none
+    /// The rays of a bake or a measure: those asked for, with the image that was read, wrapped so.
+    [[nodiscard]] RayOptions rays(const RayOptions& asked, TextureWrap wrap_u, TextureWrap wrap_v) const;
     /// How far rays go for all images alike: what was asked, or by the sizes of both models as a whole.
     [[nodiscard]] double reach(double asked) const;
     [[nodiscard]] PositionBox lowBox() const;
@@ -88,6 +96,9 @@ struct BakeModels {
 /// How a primitive reads its normal map, or will: the normal map that its own material has, or the first thing that needs
 /// tangents, which they follow. Null: the first UVs, as they are.
 const TangentUse* mapUse(const ScenePrimitive& primitive);
+
+/// An image, within the limit on memory; small ones whatever their files weigh. Throws FileError.
+FloatImage readFloatImage(const std::string& path, const FileOptions& options);
 
 /// Reads the models, makes the frames that the low poly lacks, and matches meshes by name. Throws FileError, which says as
 /// its element which BakeInput it is about: also where the low poly has no UVs, where the cage has other triangles, and

@@ -5,6 +5,8 @@
 #include "commands/bake/map_pictures.h"
 #include "commands/bake/model_surfaces.h"
 #include "commands/shared/map_image_file.h"
+#include "core/base/short_number.h"
+#include "maps/shading.h"
 #include "model/io/atomic_output.h"
 #include "model/io/file_error.h"
 #include "model/io/file_io.h"
@@ -25,18 +27,30 @@ struct TriedFrames {
     std::vector<Vec4> tangents = {};  ///< empty: those of the low poly
 };
 
+struct TriedRays {
+    RayOptions options = {};
+    double reach = 0;
+    MapError error = {};
+};
+
 /// All images of a model, or the part that the options ask for, as one.
 LowModel::Image shownPart(const LowModel& model, const MapErrorFileOptions& options) {
     LowModel::Image shown;
     for (const LowModel::Image& image : model.images) {
-        if (!options.material.empty() && image.material != options.material) continue;
+        if (!options.material.empty() && image.material != options.material) {
+            for (std::size_t i = 0; i < image.part.triangleCount(); ++i) shown.part.addToRest(image.part, i);
+            continue;
+        }
         if (shown.part.positions.empty()) {
             shown.wrap_u = image.wrap_u;
             shown.wrap_v = image.wrap_v;
         }
         for (std::size_t i = 0; i < image.part.triangleCount(); ++i) {
-            if (options.tile == 0 || tileOf(&image.part.uvs[3 * i]) == options.tile)
+            if (options.tile == 0 || tileOf(&image.part.uvs[3 * i]) == options.tile) {
                 shown.part.addTriangle(image.part, i);
+            } else {
+                shown.part.addToRest(image.part, i);
+            }
         }
     }
     if (!shown.part.positions.empty()) return shown;
@@ -62,11 +76,12 @@ class FileMeasuring {
         bake_.file = options.file;
         inputs_.watch(bake_.file);
         bake_.cage = options.cage;
+        bake_.skew = options.skew;
     }
 
     MapErrorFileReport run(const std::string& map, const std::string& low, const std::string& high) {
         inputs_.add(map);
-        image_ = aboutInput(BakeInput::map, [&] { return readMap(map); });
+        image_ = aboutInput(BakeInput::map, [&] { return readFloatImage(map, bake_.file); });
         const std::string how_read = readTextureVectors(image_);
         report_.width = image_.width;
         report_.height = image_.height;
@@ -80,6 +95,8 @@ class FileMeasuring {
         const LowModel::Image shown = aboutInput(BakeInput::low, [&] { return shownPart(models.low, options_); });
         const LowPart& part = shown.part;
         options_.map.reach = models.reach(options_.map.reach);
+        options_.map.rays = models.rays(options_.map.rays, options_.tile == 0 ? shown.wrap_u : TextureWrap::repeat,
+                                        options_.tile == 0 ? shown.wrap_v : TextureWrap::repeat);
         listFrames(low, models.low);
         const MapImage view{.width = image_.width,
                             .height = image_.height,
@@ -87,13 +104,22 @@ class FileMeasuring {
                             .wrap_u = options_.tile == 0 ? shown.wrap_u : TextureWrap::repeat,
                             .wrap_v = options_.tile == 0 ? shown.wrap_v : TextureWrap::repeat};
         listReadings();
-        const std::vector<MapError> errors = aboutInput(BakeInput::low, [&] {
-            return valueOrThrow(measureReadings(view, part.view(), models.high.view(), candidates_, options_.map,
-                                                options_.execution, options_.progress));
-        });
-        for (std::size_t i = 0; i < errors.size(); ++i) report_.readings[i].error = errors[i];
+        const auto measure = [&](const std::vector<MapCandidate>& candidates, const MapErrorOptions& how) {
+            return aboutInput(BakeInput::low, [&] {
+                return valueOrThrow(measureReadings(view, part.view(), models.high.view(), candidates, how,
+                                                    options_.execution, options_.progress));
+            });
+        };
+        takeErrors(measure(candidates_, options_.map));
         // The first is what was asked for.
-        report_.error = errors.front();
+        report_.error = report_.readings.front().error;
+        tryRays(measure);
+        if (other_rays_) {
+            MapErrorOptions with_best = options_.map;
+            with_best.rays = tried_.front().options;
+            with_best.reach = tried_.front().reach;
+            takeErrors(measure(candidates_, with_best));
+        }
         shows_several_ = models.low.images.size() > 1 && options_.material.empty();
         judge(report_.readings.front());
         if (!options_.heat.empty()) writeHeat(view, part, models.high);
@@ -101,17 +127,6 @@ class FileMeasuring {
     }
 
   private:
-    [[nodiscard]] FloatImage readMap(const std::string& path) const {
-        const Bytes bytes = readFile(path);
-        // Images of a usual size are read whatever their files weigh.
-        constexpr std::uint64_t kUsualPixels = std::uint64_t{1} << 26, kPixelBytes = 32;
-        const std::uint64_t limit = options_.file.memory_limit_bytes;
-        std::string why;
-        std::optional<FloatImage> image = decodeFloatImage(bytes, limit == 0 ? kUsualPixels : limit / kPixelBytes, why);
-        if (!image) failFile(ErrorCode::invalidFile, "the map cannot be read: " + why);
-        return *std::move(image);
-    }
-
     /// The frames that the map may have been made for.
     void listFrames(const std::string& low, const LowModel& known) {
         frames_.push_back({"file"});
@@ -157,13 +172,91 @@ class FileMeasuring {
             }
         }
         for (const Green green : {Green::up, Green::down}) {
-            if (in_object) break;
+            // Where nearly all texels say the same either way, there is nothing to tell apart.
+            if (in_object || !blueMatters()) break;
             MapReading reading = asked;
             reading.green = green;
             reading.two_channels = !asked.two_channels;
             add("file", {MapSpace::tangent, reading, {}});
         }
         if (!in_object) add("object", {MapSpace::object, {}, {}});
+    }
+
+    void takeErrors(const std::vector<MapError>& errors) {
+        for (std::size_t i = 0; i < errors.size(); ++i) report_.readings[i].error = errors[i];
+    }
+
+    /// Whether z of the texels is another than that which follows from x and y, in more than a few of those that lean.
+    [[nodiscard]] bool blueMatters() const {
+        constexpr double kLeanDeg = 5, kOtherDeg = 2;
+        constexpr std::size_t kOneOf = 20;
+        MapReading three = options_.map.reading, two = three;
+        three.two_channels = false;
+        two.two_channels = true;
+        std::size_t leaning = 0, other = 0;
+        for (const Vec3& texel : image_.texels) {
+            const DVec3 a = decodeTexel(texel, three), b = decodeTexel(texel, two);
+            if (degreesBetween(a, {0, 0, 1}) < kLeanDeg && degreesBetween(b, {0, 0, 1}) < kLeanDeg) continue;
+            ++leaning;
+            other += degreesBetween(a, b) > kOtherDeg ? 1 : 0;
+        }
+        return other * kOneOf > leaning;
+    }
+
+    /// Measures the map with the rays that it may have been baked with.
+    template <class Measure>
+    void tryRays(const Measure& measure) {
+        const RayOptions& asked = options_.map.rays;
+        if (!options_.cage.empty()) {
+            report_.rays.push_back({{.has_cage = true}, report_.error});
+            return;
+        }
+        constexpr std::uint32_t kPoints = 20000;
+        const auto best =
+            std::min_element(report_.readings.begin(), report_.readings.end(),
+                             [](const auto& a, const auto& b) { return a.error.met_mean_deg < b.error.met_mean_deg; });
+        MapCandidate reading = candidates_[static_cast<std::size_t>(best - report_.readings.begin())];
+        listRays(asked);
+        std::vector<MapCandidate> candidates;
+        for (const TriedRays& rays : tried_) {
+            reading.rays = &rays.options;
+            reading.reach = rays.reach;
+            candidates.push_back(reading);
+        }
+        MapErrorOptions map = options_.map;
+        map.point_count = std::min(map.point_count, kPoints);
+        const std::vector<MapError> errors = measure(candidates, map);
+        for (std::size_t i = 0; i < errors.size(); ++i) tried_[i].error = errors[i];
+        const double mean = errors.front().mean_deg;
+        std::stable_sort(tried_.begin(), tried_.end(),
+                         [](const auto& a, const auto& b) { return a.error.mean_deg < b.error.mean_deg; });
+        const double better = tried_.front().error.mean_deg;
+        other_rays_ = isMuchBetter(better, mean);
+        for (const TriedRays& rays : tried_)
+            report_.rays.push_back(
+                {{rays.options.target, rays.options.directions, !rays.options.skew.texels.empty()}, rays.error});
+    }
+
+    /// The rays that were asked for first, then others. A cage is tried nearer and further away too.
+    void listRays(const RayOptions& asked) {
+        const double reach = options_.map.reach;
+        tried_.push_back({asked, reach});
+        // Of rays that meet the same the first is named.
+        for (const double factor : {1.0, 0.25, 3.0}) {
+            for (const RayTarget target : {RayTarget::outermost, RayTarget::nearest}) {
+                for (const RayDirections directions :
+                     {RayDirections::automatic, RayDirections::averaged, RayDirections::normals}) {
+                    TriedRays tried{{.target = target, .directions = directions}, factor * reach};
+                    const bool is_asked = target == asked.target && directions == asked.directions &&
+                                          asked.skew.texels.empty() && factor == 1 && asked.cage_offset == 0;
+                    if (!is_asked) tried_.push_back(tried);
+                }
+            }
+        }
+    }
+
+    static bool isMuchBetter(double better, double than) {
+        return better < kMuchBetter * than && than - better > kLeastGainDeg;
     }
 
     /// `asked` is a copy: the list is sorted.
@@ -175,30 +268,70 @@ class FileMeasuring {
                    (reading.reading.bitangent != asked.reading.bitangent ? 1 : 0) +
                    (reading.reading.two_channels != asked.reading.two_channels ? 1 : 0);
         };
+        // All readings miss at the same points, which tell nothing about them.
         std::stable_sort(report_.readings.begin(), report_.readings.end(),
-                         [](const auto& a, const auto& b) { return a.error.mean_deg < b.error.mean_deg; });
-        const double tie = kTie * report_.readings.front().error.mean_deg;
-        const auto end = std::find_if(report_.readings.begin(), report_.readings.end(),
-                                      [&](const ExplainedReading& reading) { return reading.error.mean_deg > tie; });
+                         [](const auto& a, const auto& b) { return a.error.met_mean_deg < b.error.met_mean_deg; });
+        const double tie = kTie * report_.readings.front().error.met_mean_deg;
+        const auto end =
+            std::find_if(report_.readings.begin(), report_.readings.end(),
+                         [&](const ExplainedReading& reading) { return reading.error.met_mean_deg > tie; });
         std::stable_sort(report_.readings.begin(), end,
                          [&](const auto& a, const auto& b) { return differences(a) < differences(b); });
         const ExplainedReading& best = report_.readings.front();
-        const double mean = asked.error.mean_deg, better = best.error.mean_deg;
-        report_.fits = !(better < kMuchBetter * mean && mean - better > kLeastGainDeg);
+        const double mean = asked.error.met_mean_deg, better = best.error.met_mean_deg;
+        const bool reads_well = !isMuchBetter(better, mean);
+        report_.fits = reads_well && !other_rays_;
+        if (asked.error.missed_count > asked.error.point_count) {
+            report_.fits = false;
+            report_.verdict = "Most of the low poly meets no high poly within " + shortNumber(asked.error.reach) +
+                              ", so that nothing can be said about the map: the models do not lie on each other.";
+            return;
+        }
         if (better > kUnexplainedDeg) {
             report_.fits = false;
             report_.verdict = "No way to read the map explains it: the best is wrong by " + degreesWord(better) +
                               " degrees in the mean, so it is probably of another model, of other UVs, or its high "
                               "poly is elsewhere" +
                               (shows_several_ ? "; or of one material, which --material names." : ".");
-        } else if (report_.fits) {
-            report_.verdict =
-                "The map fits the model as it is: it is wrong by " + degreesWord(mean) + " degrees in the mean.";
-        } else {
+        } else if (!reads_well) {
             report_.verdict = "The map was made for " + difference(asked, best) + ": read so it is wrong by " +
                               degreesWord(better) + " degrees in the mean, and as it is read now by " +
                               degreesWord(mean) + ".";
+        } else if (!other_rays_) {
+            report_.verdict =
+                "The map fits the model as it is: it is wrong by " + degreesWord(mean) + " degrees in the mean.";
         }
+        if (better <= kUnexplainedDeg) addRaysToVerdict();
+        if (asked.error.missed_count * 1000 > asked.error.point_count)
+            report_.verdict +=
+                " These are angles where it meets the high poly; " + std::to_string(asked.error.missed_count) + " of " +
+                std::to_string(asked.error.missed_count + asked.error.point_count) + " points meet nothing.";
+    }
+
+    void addRaysToVerdict() {
+        if (!other_rays_) return;
+        const TriedRays& best = tried_.front();
+        const bool is_near = best.reach == options_.map.reach;
+        const std::string away = is_near ? "" : ", within " + shortNumber(best.reach);
+        report_.verdict += (report_.verdict.empty() ? "The map was baked with " : " It was baked with ") +
+                           raysPhrase(best.options) + away + ": measured so it is wrong by " +
+                           degreesWord(best.error.mean_deg) + " degrees in the mean, and against what is met with " +
+                           raysPhrase(options_.map.rays) + " by " + degreesWord(report_.error.mean_deg) + ".";
+    }
+
+    static std::string raysPhrase(const RayOptions& rays) {
+        const bool is_nearest = rays.target == RayTarget::nearest;
+        const std::string which = is_nearest ? ", nearest" : ", outermost";
+        if (!rays.skew.texels.empty()) return "painted directions" + which;
+        switch (rays.directions) {
+            case RayDirections::automatic:
+                return (is_nearest ? "rays that bend at hard edges" : "a cage that bends at hard edges") + which;
+            case RayDirections::averaged:
+                return (is_nearest ? "averaged rays" : "an averaged cage") + which;
+            case RayDirections::normals:
+                break;
+        }
+        return "rays along the stored normals" + which;
     }
 
     /// What the map was made for, and this model is not.
@@ -246,7 +379,9 @@ class FileMeasuring {
     FloatImage image_ = {};
     std::vector<TriedFrames> frames_ = {};
     std::vector<MapCandidate> candidates_ = {};
-    bool shows_several_ = false;  ///< materials
+    std::vector<TriedRays> tried_ = {};  ///< the best first
+    bool other_rays_ = false;            ///< others than those asked for explain the map much better
+    bool shows_several_ = false;         ///< materials
     MapErrorFileReport report_ = {};
 };
 

@@ -20,7 +20,15 @@ std::string mapErrorJson(const Outcome<MapErrorFileReport>& outcome, const std::
     json["fits"] = result->fits;
     json["verdict"] = result->verdict;
     json["reach"] = result->error.reach;
+    json["cageOffset"] = result->error.cage_offset;
     json["angles"] = errorOfMapJson(result->error);
+    json["rays"] = listJson(result->rays, [](const ExplainedRays& rays) -> Json {
+        return {{"rays", raysWord(rays.rays)},
+                {"directions", directionsWord(rays.rays)},
+                {"reach", rays.error.reach},
+                {"cageOffset", rays.error.cage_offset},
+                {"angles", errorOfMapJson(rays.error)}};
+    });
     json["readings"] = listJson(result->readings, [](const ExplainedReading& reading) -> Json {
         return {{"frames", reading.frames},
                 {"green", reading.reading.green == Green::up ? "up" : "down"},

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "commands/bake/bake_report.h"
 #include "commands/map_error/map_error_report.h"
 #include "commands/shared/text.h"
 
@@ -20,6 +21,12 @@ std::string readingText(const ExplainedReading& reading) {
                        reading.reading.two_channels ? ", two channels" : "");
 }
 
+std::string raysText(const ExplainedRays& rays) {
+    if (rays.rays.has_cage) return "the cage that was given";
+    return fmt::format("{}, directions: {}, within {:.4g}", raysWord(rays.rays), directionsWord(rays.rays),
+                       rays.error.reach);
+}
+
 }  // namespace
 
 std::string mapErrorText(const Outcome<MapErrorFileReport>& outcome) {
@@ -33,9 +40,16 @@ std::string mapErrorText(const Outcome<MapErrorFileReport>& outcome) {
     for (std::size_t i = 0; i < std::min(kShown, done.readings.size()); ++i)
         table.addRow({i == 0 ? "readings" : "", fmt::format("{:.4f} degrees: {}", done.readings[i].error.mean_deg,
                                                             readingText(done.readings[i]))});
+    for (std::size_t i = 0; i < std::min(kShown, done.rays.size()); ++i)
+        table.addRow({i == 0 ? "rays" : "",
+                      fmt::format("{:.4f} degrees: {}", done.rays[i].error.mean_deg, raysText(done.rays[i]))});
+    if (error.hidden_count > 0)
+        table.addRow({"note", fmt::format("{} of {} points met another front of the high poly further out",
+                                          error.hidden_count, error.missed_count + error.point_count)});
     if (error.missed_count > 0)
-        table.addRow({"note", fmt::format("{} of {} points met no high poly within {:.4g}", error.missed_count,
-                                          error.missed_count + error.point_count, error.reach)});
+        table.addRow(
+            {"note", fmt::format("{} of {} points met no high poly within {:.4g}, and count as {:.0f} degrees",
+                                 error.missed_count, error.missed_count + error.point_count, error.reach, kMissedDeg)});
     for (const std::string& warning : done.warnings) table.addRow({"warning", printable(warning)});
     return fmt::format("{}: {}\n{}", printable(outcome.input), done.verdict, table.text("  "));
 }

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+// Why most rays of a low poly meet no high poly.
+#pragma once
+
+#include <string>
+
+#include "core/base/memory.h"
+#include "core/base/parallel.h"
+#include "tspace/map_bake.h"
+
+namespace tspace {
+
+/// The likely reason, as a part of a sentence about the high poly: faces that point inwards, a reach that is too short,
+/// another axis that points up, another unit. Each is tried: it is named where four of five rays then meet the high poly.
+/// Empty where none of them is the reason. Checked meshes; `reach`: what the rays had.
+std::string causeOfMisses(const LowPoly& low, const HighPoly& high, double reach, Parallel& parallel);
+
+/// Of a bake that met something in most places: the axes or units in which nearly all of the high poly lies on the low poly,
+/// where now less than half of it does. Empty where there are none.
+std::string otherPlaceOf(const LowPoly& low, const HighPoly& high, Parallel& parallel);
+
+/// bakeMap, but where nothing meets the high poly the result is a map without texels, and no error.
+Result<BakedMap> bakeEvenIfMissed(const LowPoly& low, const HighPoly& high, const BakeOptions& options,
+                                  const Execution& execution, const Progress& progress);
+
+}  // namespace tspace

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+// Where the ray of a point of a low poly points, and where the cage is on it.
+#pragma once
+
+#include <array>
+
+#include "core/base/memory.h"
+#include "core/base/parallel.h"
+#include "core/base/vec_math.h"
+#include "tspace/map_error.h"
+
+namespace tspace {
+
+/// What a triangle has at a point, of three entries per triangle.
+template <class T>
+DVec3 mixedAt(const StridedSpan<const T>& values, std::size_t triangle, const std::array<double, 3>& weights) {
+    DVec3 sum{};
+    for (std::size_t i = 0; i < 3; ++i) sum = sum + weights[i] * toDouble(values[3 * triangle + i]);
+    return sum;
+}
+
+/// An edge at which faces meet at over 30 degrees.
+struct HardEdge {
+    Vec3 from = {}, to = {};
+    Vec3 way = {};                          ///< to the cage, for an offset of 1: between its faces
+    Vec3 way_of_from = {}, way_of_to = {};  ///< between all faces at its ends
+};
+
+/// The rays of a low poly. Const calls are thread-safe.
+class RayField {
+  public:
+    RayField() = default;
+    /// Of a checked low poly, whose arrays must stay, as `rays`.skew must. `offset`: that of the cage. Time: linear, but
+    /// for a sort of the edges.
+    RayField(const LowPoly& low, const RayOptions& rays, double offset, Parallel& parallel, const Allocator* allocator);
+
+    /// The unit direction outwards at a point, and how far along it the cage is. False where there is none.
+    bool at(std::size_t triangle, const std::array<double, 3>& weights, DVec3& outward, double& height) const;
+
+  private:
+    static constexpr std::uint32_t kNoEdge = 0xffffffffu;
+    /// The hard edges that are nearest to a corner, over faces that meet smoothly.
+    using NearEdges = std::array<std::uint32_t, 2>;
+
+    [[nodiscard]] DVec3 faceOf(std::size_t triangle) const;
+    [[nodiscard]] double painted(std::size_t triangle, const std::array<double, 3>& weights) const;
+    /// The way at a point near hard edges, where `straight` is the way of its face.
+    [[nodiscard]] DVec3 bentAtEdges(std::size_t triangle, const DVec3& point, const DVec3& straight) const;
+
+    LowPoly low_ = {};
+    RayOptions rays_ = {};
+    double offset_ = 0;
+    double bend_ = 0;  ///< how far from a hard edge ways bend towards it
+    /// From a corner to the cage, for an offset of 1: longer than 1 where faces lean away from the mean, so that the cage
+    /// is as far from them.
+    Buffer<Vec3> averaged_ = {};
+    Buffer<Vec3> straight_ = {};   ///< the mean over faces that meet smoothly; empty unless it is asked for
+    Buffer<NearEdges> near_ = {};  ///< one per corner; empty where nothing is hard
+    Buffer<HardEdge> edges_ = {};
+};
+
+}  // namespace tspace
