@@ -312,7 +312,7 @@ TEST(Border, RejectsWrongOptionsAndLengths) {
     const SimpleMesh cube = test::quadCube();
     std::vector<Vec3> out(24), short_out(23);
     const std::vector<std::uint32_t> groups(5, 1);
-    EXPECT_EQ(errorOf(cube.view(), {.crease_angle_deg = -1}, out), ErrorCode::invalidOption);
+    EXPECT_EQ(errorOf(cube.view(), {.crease_angle_deg = -2}, out), ErrorCode::invalidOption);
     EXPECT_EQ(errorOf(cube.view(), {.crease_angle_deg = 181}, out), ErrorCode::invalidOption);
     EXPECT_EQ(errorOf(cube.view(), {.crease_angle_deg = kNan}, out), ErrorCode::invalidOption);
     EXPECT_EQ(errorOf(cube.view(), {.weighting = static_cast<NormalWeighting>(7)}, out), ErrorCode::invalidOption);
