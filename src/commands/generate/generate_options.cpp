@@ -216,7 +216,7 @@ void addOtherOptions(OptionList& list, GenerateOptions& options) {
     weighting.default_text.clear();
     add(list, "Normals",
         numberOrAuto(
-            "--crease", "DEG", options.normals.crease_angle_deg, NormalOptions::crease_auto, 180,
+            "--crease", "DEG", "a number of degrees", options.normals.crease_angle_deg, NormalOptions::crease_auto, 180,
             "For normals that are made: edges sharper than this stay hard. In degrees, 0 to 180; 180 makes none "
             "hard. auto: an angle by the mesh, which the report says. Given without --normals it takes the "
             "weights of angle."));
