@@ -185,18 +185,18 @@ void addMapOptions(OptionList& list, GenerateOptions& options) {
         .excludes = {"--flip-green", "--flip-green-all", "--mend-maps", "--repair"};
 }
 
-/// A number from 0 to `most`, or "auto".
-Option numberOrAuto(const char* names, const char* value_name, float& target, float automatic, int most,
-                    HelpText help) {
+/// A number from 0 to `most`, or "auto". `noun`: "a number", for messages
+Option numberOrAuto(const char* names, const char* value_name, const char* noun, float& target, float automatic,
+                    int most, HelpText help) {
     const double default_value = target;
-    const auto take = [&target, automatic, most](const std::string& given) -> std::string {
+    const auto take = [&target, noun, automatic, most](const std::string& given) -> std::string {
         double number = 0;
         if (given == "auto") {
             target = automatic;
         } else if (parseReal(given, number) && number >= 0 && number <= most) {
             target = static_cast<float>(number);
         } else {
-            return "must be auto or a number from 0 to " + std::to_string(most);
+            return std::string("must be ") + noun + " from 0 to " + std::to_string(most) + ", or auto";
         }
         return {};
     };
@@ -216,12 +216,12 @@ void addOtherOptions(OptionList& list, GenerateOptions& options) {
     weighting.default_text.clear();
     add(list, "Normals",
         numberOrAuto(
-            "--crease", "DEG", options.normals.crease_angle_deg, NormalOptions::crease_auto, 180,
+            "--crease", "DEG", "a number of degrees", options.normals.crease_angle_deg, NormalOptions::crease_auto, 180,
             "For normals that are made: edges sharper than this stay hard. In degrees, 0 to 180; 180 makes none "
             "hard. auto: an angle by the mesh, which the report says. Given without --normals it takes the "
             "weights of angle."));
     add(list, "Normals",
-        numberOrAuto("--denoise", "FACTOR", options.normals.denoise, NormalOptions::denoise_auto, 4,
+        numberOrAuto("--denoise", "FACTOR", "a number", options.normals.denoise, NormalOptions::denoise_auto, 4,
                      "For --normals best on noisy positions, such as scans: normals by more of the surface around, so "
                      "that noise is not shaded. Vertices stay. auto: as much as is measured, and nothing where that is "
                      "shape; 0 to 4: so many times the noise that is measured, also where it looks like shape."));

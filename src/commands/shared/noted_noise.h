@@ -7,8 +7,8 @@
 namespace tspace {
 
 /// PositionNoise::noise, where somebody will see it in normals and where it is sure: .03 edges turn normals by a degree, and
-/// it takes some hundred vertices to tell. Else 0, as where it cannot be measured. Of the 1,005 primitives of 162 models two
-/// have more: both are damaged on purpose.
+/// it takes some hundred vertices to tell. Else 0, as where it cannot be measured. Of the 1,005 primitives of 162 models one
+/// has more: it is damaged on purpose.
 /// position_step: of positions that are stored as whole numbers; rounding to them is no noise
 double notedNoise(const MeshView& mesh, double position_step = 0);
 
