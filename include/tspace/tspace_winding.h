@@ -66,7 +66,8 @@ typedef struct tspace_WindingReport {
  * execution  threads and memory; changes no bit
  * Errors: those of tspace_validate; COUNT_MISMATCH (turned), OUT_OF_MEMORY.
  * O(corners) but for sorting the edges of one point and, where closed components lie in one another, O(n log n).
- * Scratch memory: 16 bytes per corner, 12 per face and 28 per point. Thread-safe; same bits for any thread count.
+ * Scratch memory: 16 bytes per corner, 32 per face and 28 per vertex, and where closed components lie in one another
+ * 50 per face more. Thread-safe; same bits for any thread count.
  * In C: `turned` has face_count bytes. */
 tspace_ErrorCode tspace_mendWinding(const tspace_Mesh* mesh, const tspace_WindingOptions* options, uint8_t* turned,
                                     size_t turned_count, const tspace_Execution* execution,

@@ -60,7 +60,8 @@ struct WindingReport {
 /// execution  threads and memory; changes no bit
 /// Errors: those of validate(); countMismatch (turned), outOfMemory.
 /// O(corners) but for sorting the edges of one point and, where closed components lie in one another, O(n log n). Scratch
-/// memory: 16 bytes per corner, 12 per face and 28 per point. Thread-safe; same bits for any thread count.
+/// memory: 16 bytes per corner, 32 per face and 28 per vertex, and where closed components lie in one another 50 per face
+/// more. Thread-safe; same bits for any thread count.
 Result<WindingReport> mendWinding(const MeshView& mesh, const WindingOptions& options, StridedSpan<std::uint8_t> turned,
                                   const Execution& execution = {});
 

@@ -32,6 +32,7 @@ DVec3 normalSum(const Surface& surface, std::uint32_t face) {
 double solidAngle(const DVec3& a, const DVec3& b, const DVec3& c) {
     const double volume = dot(a, cross(b, c)), la = length(a), lb = length(b), lc = length(c);
     const double along = la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb;
+    if (!(std::fabs(along) < 1e300 && std::fabs(volume) < 1e300)) return 0;
     const double half = polarAngle(along, std::fabs(volume));
     return volume < 0 ? -2 * half : 2 * half;
 }

@@ -165,6 +165,7 @@ class Pairing {
                 y = (length(x) / length(y)) * y;
             }
             const double along = dot(in, x), across = dot(in, y);
+            if (!(std::fabs(along) < 1e300 && std::fabs(across) < 1e300)) continue;
             face.turn = across < 0 ? 2 * kPi - polarAngle(along, -across) : polarAngle(along, across);
         }
     }

@@ -343,6 +343,11 @@ TEST(MendWinding, SurvivesFacesWithoutAreaAndPositionsThatAreNoNumbers) {
     for (std::size_t f = 0; f < 24 * 48 * 2; ++f) {
         EXPECT_EQ(torus.mesh.indices[3 * f + 1] != damaged.mesh.indices[3 * f + 1], mended.turned[f] != 0) << f;
     }
+    // An open part whose winding number is asked for.
+    Bodies open;
+    addSphere(open, {}, 1, 0.7);
+    open.mesh.positions[30] = {std::nanf(""), INFINITY, 0};
+    EXPECT_EQ(0u, mend(open.view()).report.turned_count);
     SimpleMesh nothing;
     EXPECT_EQ(0u, mend(nothing.view()).report.face_count);
     SimpleMesh lines;
