@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
 // Green of a texture file inverted where it lies, in all levels.
-#include <algorithm>
-
 #include "images/codecs.h"
 #include "images/flip_green.h"
 #include "images/texture_file.h"
@@ -17,7 +15,8 @@ Result<FlippedImage> flipTexture(ByteSpan bytes, ImageFileFormat format) {
     constexpr const char* kWritePng = "; flip-green -o OUT.png makes a PNG of it";
     if (texture->repacking != Repacking::none)
         return Error{ErrorCode::unsupportedFile,
-                     "it is a KTX2 packed by Zstandard or zlib, which is not written anew" + std::string(kWritePng)};
+                     "it is a KTX2 packed once more (Zstandard, zlib, BasisLZ), which is not written anew" +
+                         std::string(kWritePng)};
     TextureFacts facts{.layout = texture->layout};
     if (texels.channels == 4 && facts.layout == MapLayout{}) {
         const std::optional<FloatImage> image = decodeFloatTexture(bytes, kMostModelMapPixels, why);
@@ -26,13 +25,12 @@ Result<FlippedImage> flipTexture(ByteSpan bytes, ImageFileFormat format) {
     }
     // Green as it is shown, or y where that is elsewhere.
     const std::uint8_t source = texture->swizzle[static_cast<std::size_t>(facts.layout.y.channel)];
-    if (source >= texels.channels || texels.channels == 1)
+    const bool is_masked_out = texels.masks[0] != 0 && source < texels.masks.size() && texels.masks[source] == 0;
+    if (source >= texels.channels || texels.channels == 1 || is_masked_out)
         return Error{ErrorCode::unsupportedFile, "it is a grey texture, which has no green channel of its own"};
     if (texels.invert == nullptr)
-        return Error{ErrorCode::unsupportedFile, "it is " + texture->name() +
-                                                     ", whose blocks cannot hold inverted green exactly, and tspace "
-                                                     "packs none" +
-                                                     kWritePng};
+        return Error{ErrorCode::unsupportedFile,
+                     "it is " + texture->name() + ", whose blocks cannot hold inverted green exactly" + kWritePng};
     FlippedImage flipped{
         {bytes.begin(), bytes.end()},
         {.format = format, .width = texture->size.width, .height = texture->size.height, .bits = texels.bits}};

@@ -34,8 +34,8 @@ constexpr VulkanFormat kVulkanFormats[] = {
     {134, TexelKind::bc1, true},  {135, TexelKind::bc2},        {136, TexelKind::bc2, true},
     {137, TexelKind::bc3},        {138, TexelKind::bc3, true},  {139, TexelKind::bc4},
     {140, TexelKind::bc4s},       {141, TexelKind::bc5},        {142, TexelKind::bc5s},
-    {145, TexelKind::bc7},        {146, TexelKind::bc7, true},  {153, TexelKind::eac_r},
-    {154, TexelKind::eac_rs},     {155, TexelKind::eac_rg},     {156, TexelKind::eac_rgs}};
+    {145, TexelKind::bc7},        {146, TexelKind::bc7, true},  {153, TexelKind::eacR},
+    {154, TexelKind::eacRs},      {155, TexelKind::eacRg},      {156, TexelKind::eacRgs}};
 
 /// What the file says of its texels beside Vulkan's number.
 struct Description {
@@ -112,7 +112,7 @@ class Ktx2Reader {
         }
         if (vulkan == 0 && description_.model == kEtc1s) {
             constexpr std::uint32_t kRed = 3, kGreen = 4;
-            texture_.format = texelFormat(description_.samples > 1 ? TexelKind::etc1s_alpha : TexelKind::etc1s);
+            texture_.format = texelFormat(description_.samples > 1 ? TexelKind::etc1sAlpha : TexelKind::etc1s);
             if (description_.channel == kRed && description_.second_channel == kGreen) setChannels(0, 3);
             return true;
         }
@@ -156,7 +156,7 @@ class Ktx2Reader {
     }
 
     bool findGlobalData() {
-        texture_.repacking = Repacking::basis_lz;
+        texture_.repacking = Repacking::basisLz;
         const std::optional<ByteSpan> data = part(little64(bytes_.data() + 64), little64(bytes_.data() + 72));
         if (data) texture_.global = *data;
         return data.has_value();
@@ -180,7 +180,7 @@ class Ktx2Reader {
             const std::uint64_t wanted = texture_.format.bytesOf(size(texture_.size.width), size(texture_.size.height));
             if (range.begin < kHeadBytes + kEntry * count || !part(range.begin, range.count)) return false;
             // BasisLZ says nothing of unpacked bytes.
-            if (unpacked != wanted && texture_.repacking != Repacking::basis_lz) return false;
+            if (unpacked != wanted && texture_.repacking != Repacking::basisLz) return false;
             if (texture_.repacking == Repacking::none && range.count != wanted) return false;
             ranges.push_back(range);
             texture_.levels.push_back({static_cast<std::size_t>(range.begin), static_cast<std::size_t>(range.count)});

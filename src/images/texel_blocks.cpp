@@ -118,7 +118,7 @@ void decodeBc4(const TexelFormat& format, const std::uint8_t* block, Rgba* texel
     decodeChannels(format, block, texels, decodeChannel);
 }
 
-/// The ends are inverted and change places, and so do the codes; the value between stay as they are.
+/// The ends are inverted and change places, and so do the codes; the values between stay.
 void invertBc4Channel(const TexelFormat& format, std::uint8_t* block, unsigned channel) {
     std::uint8_t* const at = block + std::size_t{8} * channel;
     const auto inverted = [&](std::uint8_t byte) {

@@ -51,14 +51,14 @@ enum class TexelKind : std::uint8_t {
     bc5,
     bc5s,
     bc7,
-    eac_r,
-    eac_rs,
-    eac_rg,
-    eac_rgs,
+    eacR,
+    eacRs,
+    eacRg,
+    eacRgs,
     uastc,
-    etc1s,        ///< as unpackBasisLz gives it
-    etc1s_alpha,  ///< with a second slice, whose green is alpha
-    astc,         ///< of 4 x 4 texels; other sizes are to be set
+    etc1s,       ///< as unpackBasisLz gives it
+    etc1sAlpha,  ///< with a second slice, whose green is alpha
+    astc,        ///< of 4 x 4 texels; other sizes are to be set
     none
 };
 

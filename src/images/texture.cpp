@@ -25,7 +25,7 @@ class TextureLevel {
     bool unpack() {
         if (texture_.repacking != Repacking::none) {
             unpacked_.resize(static_cast<std::size_t>(texture_.levelBytes()));
-            const bool is_done = texture_.repacking == Repacking::basis_lz
+            const bool is_done = texture_.repacking == Repacking::basisLz
                                      ? unpackBasisLz(texture_, unpacked_)
                                      : unpackLevel(texture_.repacking, texture_.level, unpacked_);
             if (!is_done) return false;

@@ -13,7 +13,7 @@
 namespace tspace {
 
 /// How KTX2 packs its levels once more.
-enum class Repacking : std::uint8_t { none, zstd, zlib, basis_lz };
+enum class Repacking : std::uint8_t { none, zstd, zlib, basisLz };
 
 struct TextureFile {
     const char* container = "";  ///< "KTX2", "DDS"

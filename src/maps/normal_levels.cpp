@@ -72,8 +72,9 @@ std::vector<NormalLevel> makeNormalLevels(NormalLevel first, Parallel& parallel)
     while (levels.back().width > 1 || levels.back().height > 1) {
         const std::uint32_t width = std::max(levels.back().width / 2, 1U);
         const std::uint32_t height = std::max(levels.back().height / 2, 1U);
-        // Where the last level covers the first evenly, means of its means are those of the first.
-        const bool is_even = !last.means.empty() && whole.width % last.width == 0 && whole.height % last.height == 0;
+        // Means of the last level's means are those of the first where no edge cuts a texel of either.
+        const bool is_even = !last.means.empty() && whole.width % last.width == 0 && whole.height % last.height == 0 &&
+                             last.width % width == 0 && last.height % height == 0;
         last = shrink(is_even ? last : whole, width, height, parallel);
         levels.push_back(unitOf(last));
     }

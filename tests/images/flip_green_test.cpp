@@ -184,6 +184,7 @@ TEST(FlipGreen, MakesAPngOfATextureThatCannotHoldIt) {
     EXPECT_EQ(whyNot(bytesOf(file)), ErrorCode::unsupportedFile);
     EXPECT_EQ(whyNot(bytesOf(ddsFile(98, 4, 4, std::string(16, 'x')))), ErrorCode::unsupportedFile);
     EXPECT_EQ(whyNot(bytesOf(ddsFile(80, 4, 4, std::string(8, 'x')))), ErrorCode::unsupportedFile) << "grey";
+    EXPECT_EQ(whyNot(bytesOf(maskedDdsFile(16, {0xff, 0, 0, 0xff00}, 1, 1, "ab"))), ErrorCode::unsupportedFile);
     EXPECT_EQ(whyNot(bytesOf(file.substr(0, 90))), ErrorCode::invalidFile);
     const Result<FlippedImage> png = flipGreen(bytesOf(file), {.format = ImageFileFormat::png});
     ASSERT_TRUE(png);

@@ -114,6 +114,7 @@ TEST(AllReports, OfMaps) {
                                                "convert-map --mesh a.obj"};
     for (std::size_t i = 0; i < images.size(); ++i) {
         reportOf(folder, commands[i % commands.size()] + " --dry-run -o out.png " + images[i]);
+        reportOf(folder, "compress-map --dry-run -o out.dds " + images[i]);
     }
 }
 

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#include "maps/normal_levels.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "maps/shading.h"
+
+namespace tspace {
+namespace {
+
+NormalLevel noiseLevel(std::uint32_t width, std::uint32_t height) {
+    NormalLevel level{width, height, {}};
+    std::uint32_t state = 11;
+    const auto next = [&state] {
+        state = state * 1664525U + 1013904223U;
+        return static_cast<double>(state >> 8) / 8388608.0 - 1;
+    };
+    for (std::uint32_t i = 0; i < width * height; ++i) {
+        const DVec3 vector{next(), next(), 1.2 + next()};
+        level.normals.push_back(toFloat((1 / length(vector)) * vector));
+    }
+    return level;
+}
+
+/// The unit mean over a texel of a level of that size, texel by texel in parts of the first level.
+DVec3 meanOf(const NormalLevel& first, const NormalLevel& level, std::uint32_t x, std::uint32_t y) {
+    DVec3 sum{};
+    const double wide = static_cast<double>(first.width) / level.width,
+                 high = static_cast<double>(first.height) / level.height;
+    for (std::uint32_t row = 0; row < first.height; ++row) {
+        const double down = std::min(row + 1.0, (y + 1) * high) - std::max<double>(row, y * high);
+        for (std::uint32_t column = 0; column < first.width && down > 0; ++column) {
+            const double across = std::min(column + 1.0, (x + 1) * wide) - std::max<double>(column, x * wide);
+            if (across > 0)
+                sum = sum + down * across * toDouble(first.normals[std::size_t{row} * first.width + column]);
+        }
+    }
+    return (1 / length(sum)) * sum;
+}
+
+TEST(NormalLevels, AreTheUnitMeansOfWhatTheyCoverWhateverTheSize) {
+    for (const auto& [width, height] : {std::pair(32U, 16U), {33U, 17U}, {7U, 1U}, {24U, 36U}, {1U, 1U}}) {
+        const NormalLevel first = noiseLevel(width, height);
+        Parallel parallel(Execution{.thread_count = 2});
+        const std::vector<NormalLevel> levels = makeNormalLevels(first, parallel);
+        EXPECT_EQ(levels.back().normals.size(), 1u);
+        std::uint32_t w = width, h = height;
+        for (const NormalLevel& level : levels) {
+            ASSERT_EQ(level.width, w);
+            ASSERT_EQ(level.height, h);
+            for (std::uint32_t y = 0; y < h; ++y) {
+                for (std::uint32_t x = 0; x < w; ++x)
+                    ASSERT_LT(
+                        degreesBetween(toDouble(level.normals[std::size_t{y} * w + x]), meanOf(first, level, x, y)),
+                        0.001);
+            }
+            w = std::max(w / 2, 1U);
+            h = std::max(h / 2, 1U);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace tspace
