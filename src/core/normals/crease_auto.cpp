@@ -90,13 +90,16 @@ float decay(float x) {
 
 class CreaseFinder {
   public:
-    CreaseFinder(const NormalsCall& call, const EdgePairs& pairs, double noise_deg)
-        : call_(call), pairs_(pairs), noise_deg_(noise_deg) {}
+    CreaseFinder(const NormalsCall& call, const EdgePairs& pairs) : call_(call), pairs_(pairs) {}
 
     Creases find() {
         makeFaces();
-        if (noise_deg_ > kLeastFilteredDeg) filter();
         measureAngles();
+        if (mayBeNoisy()) noise_deg_ = kTurnOfNoise * roughnessOf(call_);
+        if (noise_deg_ > kLeastFilteredDeg) {
+            filter();
+            measureAngles();
+        }
         Creases creases;
         creases.angle_deg = static_cast<float>(angleInGap());
         mark(creases);
@@ -105,6 +108,7 @@ class CreaseFinder {
 
   private:
     static constexpr double kLeastFilteredDeg = 3, kLoudDeg = 12, kLouderDeg = 30;
+    static constexpr double kTurnOfNoise = 183;  // degrees that noise of one edge turns edges by, at most
 
     template <class Body>
     void forFaces(const Body& body) {
@@ -216,11 +220,10 @@ class CreaseFinder {
                       toDouble(mesh.positions[mesh.indices[corner]]));
     }
 
-    /// The middle of the widest run of degrees in which there are the fewest edges, by length.
-    [[nodiscard]] double angleInGap() const {
-        constexpr int kBins = 180, kBlur = 6;
-        constexpr double kMost = 70;
-        std::array<double, kBins> lengths{}, density{};
+    static constexpr int kBins = 180;
+
+    /// The length of the edges of each degree; returns that of all.
+    double addLengths(std::array<double, kBins>& lengths) const {
         double all = 0;
         for (std::uint32_t c = 0; c < call_.mesh.cornerCount(); ++c) {
             if (angles_[c] < 0 || pairs_.other(c) < c) continue;
@@ -229,6 +232,23 @@ class CreaseFinder {
             lengths[static_cast<std::size_t>(std::min(kBins - 1, static_cast<int>(angles_[c])))] += size;
             all += size;
         }
+        return all;
+    }
+
+    /// Noise turns half of the edges by 126 degrees times its size, or more: so where half turn by less than 2, it is too
+    /// little to be filtered, and need not be measured.
+    [[nodiscard]] bool mayBeNoisy() const {
+        std::array<double, kBins> lengths{};
+        const double all = addLengths(lengths);
+        return lengths[0] + lengths[1] < all / 2;
+    }
+
+    /// The middle of the widest run of degrees in which there are the fewest edges, by length.
+    [[nodiscard]] double angleInGap() const {
+        constexpr int kBlur = 6;
+        constexpr double kMost = 70;
+        std::array<double, kBins> lengths{}, density{};
+        const double all = addLengths(lengths);
         // A normal distribution of 2 degrees.
         constexpr double kWeights[kBlur + 1] = {0.199676, 0.176213, 0.121109, 0.064826, 0.027023, 0.008773, 0.002218};
         for (int bin = 0; bin < kBins; ++bin) {
@@ -295,7 +315,7 @@ class CreaseFinder {
 
     const NormalsCall& call_;
     const EdgePairs& pairs_;
-    double noise_deg_;
+    double noise_deg_ = 0;
     Buffer<float> normals_, angles_;
 };
 
@@ -303,13 +323,12 @@ class CreaseFinder {
 
 Creases findCreases(const MeshView& mesh, const NormalOptions& options, const Execution& execution,
                     Parallel& parallel) {
-    constexpr double kTurnOfNoise = 183;  // degrees that noise of one edge turns edges by, at most
     Call<NormalOptions> plain{{}, execution};
     plain.convention = options.convention;
     plain.weld_positions = options.weld_positions;
     const NormalsCall call(mesh, mesh, plain, {}, parallel);
     const EdgePairs pairs(call);
-    return CreaseFinder(call, pairs, kTurnOfNoise * roughnessOf(call)).find();
+    return CreaseFinder(call, pairs).find();
 }
 
 }  // namespace tspace
