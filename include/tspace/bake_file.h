@@ -3,7 +3,8 @@
 //
 // A low poly is taken with the frames that are in its file; missing ones are made as generateFile makes them. Meshes stand
 // where the nodes of their files put them: a low poly at the first place, a high poly at all of them. Models of more than one
-// mesh are matched by name where all names fit: NAME, NAME_low and NAME_lp with NAME, NAME_high and NAME_hp.
+// object are matched by name: NAME, NAME_low and NAME_lp with NAME, NAME_high, NAME_hp and NAME_high_ANYTHING, of which there may
+// be several. Names of nodes come first, then those of meshes.
 #pragma once
 
 #include <string>
@@ -24,8 +25,11 @@ struct BakeFileOptions {
     TangentOptions tangents{.convention = conventions::gltf};
     NormalOptions normals{.weighting = NormalWeighting::flat};
     FileOptions file = {};
-    std::string cage = {};    ///< a model with the low poly's triangles, moved to where rays begin; empty: none
-    std::string skew = {};    ///< an image for `map.rays.skew`; empty: none
+    std::string cage = {};  ///< a model with the low poly's triangles, moved to where rays begin; empty: none
+    std::string skew = {};  ///< an image for `map.rays.skew`; empty: none
+    /// Which objects look at which: "names"; "all": at everything; else a file with lines LOW = HIGH, names of nodes or
+    /// meshes as they are. What has no partner sees everything, or is seen by everything, and a warning names it.
+    std::string match = "names";
     std::string misses = {};  ///< where to write a picture of what each texel is; empty: nowhere
     std::string heat = {};    ///< where to write a picture of the error; empty: nowhere
     /// Where to write the low poly with the frames that were used and the maps as its normal textures: .glb (holds them) or
@@ -62,7 +66,7 @@ struct BakedFile {
 struct BakeFileReport {
     std::vector<BakedFile> files = {};
     bool frames_made = false;      ///< the low poly had no tangents, or no normals, in part at least
-    bool matched_by_name = false;  ///< each mesh of the low poly saw its own mesh of the high poly alone
+    bool matched_by_name = false;  ///< objects of the low poly saw their own of the high poly alone
     std::uint64_t low_triangle_count = 0, high_triangle_count = 0;
     std::vector<std::string> output_files = {};  ///< everything that was written
     /// What makes maps useless, and why: rays that mostly met nothing, normals of the high poly that point inwards. Where no
@@ -83,7 +87,7 @@ struct MapErrorFileOptions {
     TangentOptions tangents{.convention = conventions::gltf};  ///< as BakeFileOptions
     NormalOptions normals{.weighting = NormalWeighting::flat};
     FileOptions file = {};
-    std::string cage = {}, skew = {};
+    std::string cage = {}, skew = {}, match = "names";  ///< as BakeFileOptions
     bool two_channels = false;  ///< z is made from x and y: `map.reading.two_channels`, whatever the reading
     std::string material = {};  ///< only triangles of the material with this name; empty: all
     std::uint32_t tile = 0;     ///< only triangles of this UDIM tile, 1001 and on; 0: all

@@ -23,6 +23,9 @@
 
 namespace tspace {
 
+/// A group that sees all, and is seen by all.
+inline constexpr std::uint32_t kEveryGroup = 0xffffffff;
+
 /// The mesh that a map is drawn on. All spans have three entries per triangle, one for each corner, or are empty where that
 /// is said. Triangles that are not finite are left out.
 struct LowPoly {
@@ -31,7 +34,8 @@ struct LowPoly {
     StridedSpan<const Vec4> tangents = {};  ///< empty with MapSpace::object
     StridedSpan<const Vec2> uvs = {};       ///< v runs down
     StridedSpan<const Vec3> cage = {};      ///< where rays begin; empty: as RayOptions say
-    /// One per triangle: it looks only at triangles of the high poly with the same number. Empty, also there: at all.
+    /// One per triangle: it looks only at triangles of the high poly with the same number, or where either is kEveryGroup.
+    /// Empty, also there: at all.
     std::span<const std::uint32_t> groups = {};
     /// What of the mesh the map does not show: other materials, other tiles. Three entries per triangle, of both or of
     /// none. Rays near an edge depend on the triangles on both sides of it.

@@ -19,6 +19,7 @@
 #endif
 
 #include "core/base/border.h"
+#include "tspace/map_error.h"
 
 namespace tspace {
 
@@ -165,7 +166,10 @@ void collectHit(const RTCFilterFunctionNArguments* arguments) {
     arguments->valid[0] = 0;
     auto& query = *reinterpret_cast<Query*>(arguments->context);
     const std::uint32_t triangle = RTCHitN_primID(arguments->hit, arguments->N, 0);
-    if (!query.surface->groups.empty() && query.surface->groups[triangle] != query.group) return;
+    if (!query.surface->groups.empty() && query.group != kEveryGroup) {
+        const std::uint32_t group = query.surface->groups[triangle];
+        if (group != query.group && group != kEveryGroup) return;
+    }
     if (query.wanted == Wanted::all) {
         countCrossing(query, triangle);
         return;

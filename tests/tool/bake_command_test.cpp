@@ -417,6 +417,45 @@ void writeTwoSheets(const TempFolder& folder) {
     folder.write("detail.obj", sheet(40, 0.05, false, "a_high") + sheet(40, 0, false, "b_high", 3, 41 * 41));
 }
 
+TEST_F(BakeCommand, SeveralHighPolysBelongToOneLowPolyByName) {
+    writeTwoSheets(folder);
+    // Of a: a base and a buckle above it. Of b: a sheet with detail that lies on a.
+    const auto high = [&](const std::string& third) {
+        return sheet(40, 0, false, "a_high", 0) + sheet(40, 0.02, false, "a_high_buckle", 0.03, 41 * 41) +
+               sheet(40, 0.05, false, third, 0.06, 2 * 41 * 41) + sheet(40, 0, false, "b_hp_001", 3, 3 * 41 * 41);
+    };
+    folder.write("parts.obj", high("b_high"));
+    folder.write("more.obj", high("floor"));
+    folder.write("buckle.obj", sheet(40, 0.02, false, "buckle", 0.03));
+    const auto bakedWith = [&](const std::string& options) {
+        const ToolRun run = runTool(folder, "bake two.obj -o n.png --size 32 --reach 0.2 --json " + options);
+        EXPECT_EQ(run.exit_code, 0) << run.err;
+        return nlohmann::json::parse(run.out);
+    };
+    const auto errorOfBuckle = [&] {
+        const ToolRun run =
+            runTool(folder, "map-error n.first.png two.obj --material first --high buckle.obj --reach 0.2 --json");
+        return nlohmann::json::parse(run.out)["angles"]["metMeanDeg"].get<double>();
+    };
+    const auto parts = bakedWith("--high parts.obj");
+    EXPECT_EQ(parts["matchedByName"], true);
+    EXPECT_TRUE(parts["warnings"].empty() || parts["warnings"][0].get<std::string>().find("name") == std::string::npos)
+        << parts["warnings"];
+    EXPECT_LT(errorOfBuckle(), 2) << "the buckle is seen, and what is b's is not";
+    EXPECT_EQ(bakedWith("--high parts.obj --match all")["matchedByName"], false);
+    EXPECT_GT(errorOfBuckle(), 4) << "everything is seen";
+    const std::string warnings = bakedWith("--high more.obj")["warnings"].dump();
+    EXPECT_NE(warnings.find("'floor'"), std::string::npos) << warnings;
+    EXPECT_GT(errorOfBuckle(), 4) << "everything looks at what has no partner";
+    folder.write("pairs.txt", "# low = high\na_low = a_high\na_low=a_high_buckle\n\nb_low = floor\nb_low = b_hp_001\n");
+    EXPECT_EQ(bakedWith("--high more.obj --match pairs.txt")["matchedByName"], true);
+    EXPECT_LT(errorOfBuckle(), 2);
+    folder.write("wrong.txt", "a_low\n");
+    const ToolRun wrong = runTool(folder, "bake two.obj --high more.obj -o n.png --match wrong.txt");
+    EXPECT_EQ(wrong.exit_code, 3);
+    EXPECT_NE(wrong.err.find("line 1"), std::string::npos) << wrong.err;
+}
+
 TEST_F(BakeCommand, AMapOfOneMaterialIsNotCalledThatOfAnotherModel) {
     writeTwoSheets(folder);
     const ToolRun run = runTool(folder, "bake two.obj --high detail.obj -o n.png --size 32");

@@ -110,6 +110,16 @@ void addBakedMapOptions(OptionList& list, BakeFileOptions& options) {
             "A file per tile of the UV map, NAME.1001.png and on. Without this, the image goes on outside of 0 to 1."));
 }
 
+Option matchOption(std::string& target) {
+    Option match =
+        text("--match", "HOW", target,
+             "Which objects of the low poly look at which of the high poly. names: Body_low at Body, Body_high, "
+             "Body_hp, Body_high_001 and Body_high_buckle, and what has no partner at everything; all: each at "
+             "everything; else a file with lines LOW = HIGH.");
+    match.default_text = "names";
+    return match;
+}
+
 }  // namespace
 
 OptionList bakeOptions(BakeFileOptions& options) {
@@ -127,6 +137,7 @@ OptionList bakeOptions(BakeFileOptions& options) {
     add(list, kInputAndOutput,
         fileOption("--heat", "PNG", options.heat,
                    "A picture of the error: from black over red to white, which is the 99th percentile."));
+    add(list, kInputAndOutput, matchOption(options.match));
     addAllowExternal(list, options.file);
     addBakedMapOptions(list, options);
     addRayOptions(list, options.map.reach, options.map.rays, options.cage, options.skew);
@@ -151,6 +162,7 @@ OptionList mapErrorOptions(MapErrorFileOptions& options) {
     add(list, kInputAndOutput,
         number("--tile", options.tile, 9999,
                "Look only at triangles of this UDIM tile, whose file the map is: 1001 and on. 0: at all."));
+    add(list, kInputAndOutput, matchOption(options.match));
     addAllowExternal(list, options.file);
     const char* group = "Map";
     add(list, group,

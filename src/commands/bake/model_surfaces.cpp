@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <map>
 #include <utility>
 
+#include "commands/bake/mesh_match.h"
 #include "commands/generate/generate_model.h"
 #include "commands/shared/uv_reading.h"
 #include "core/base/unit.h"
@@ -89,49 +89,6 @@ DrawnScene readWithFrames(const std::string& low, const BakeFileOptions& options
     return gltf::generateModel(std::move(model), generate, false).model.drawnScene(false);
 }
 
-/// "Body" of "Body_low", "BODY_HP" and so on, in lower case.
-std::string nameStem(std::string name) {
-    std::transform(name.begin(), name.end(), name.begin(),
-                   [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
-    for (const char* end : {"_low", "_lp", "_high", "_hp", "-low", "-high", ".low", ".high"}) {
-        const std::string_view ending = end;
-        if (name.size() > ending.size() && name.ends_with(ending)) return name.substr(0, name.size() - ending.size());
-    }
-    return name;
-}
-
-/// Numbers of names, in the order in which they came.
-class MeshNames {
-  public:
-    std::uint32_t numberOf(const std::string& name) {
-        return numbers_.emplace(nameStem(name), static_cast<std::uint32_t>(numbers_.size())).first->second;
-    }
-    [[nodiscard]] const std::uint32_t* find(const std::string& name) const {
-        const auto found = numbers_.find(nameStem(name));
-        return found != numbers_.end() ? &found->second : nullptr;
-    }
-    [[nodiscard]] std::size_t count() const { return numbers_.size(); }
-
-  private:
-    std::map<std::string, std::uint32_t> numbers_ = {};
-};
-
-/// Meshes are matched where there are several, and each of one model has one of the other.
-bool matchNames(const Scene& low, const Scene& high, MeshNames& names) {
-    for (const ScenePrimitive& primitive : low.primitives) {
-        if (!primitive.corners.empty()) names.numberOf(primitive.mesh_name);
-    }
-    const std::size_t count = names.count();
-    if (count < 2) return false;
-    MeshNames seen;
-    for (const ScenePrimitive& primitive : high.primitives) {
-        if (primitive.corners.empty()) continue;
-        if (names.find(primitive.mesh_name) == nullptr) return false;
-        seen.numberOf(primitive.mesh_name);
-    }
-    return seen.count() == count;
-}
-
 /// The order of the corners of a triangle at a place, which may mirror.
 std::size_t placedCorner(const Affine& place, std::size_t i) {
     constexpr std::size_t kMirrored[3] = {0, 2, 1};
@@ -182,7 +139,7 @@ void addCage(const ScenePrimitive& cage, const Affine& place, LowPart& part) {
         part.cage.push_back(toFloat(place.point(toDouble(cage.positions[cage.corners[placedCorner(place, i)]]))));
 }
 
-LowModel lowModel(const DrawnScene& drawn, const DrawnScene* cage, const MeshNames* names) {
+LowModel lowModel(const DrawnScene& drawn, const DrawnScene* cage, const MeshMatch* match) {
     const Scene& scene = drawn.scene;
     LowModel model;
     std::size_t without_uvs = 0;
@@ -202,7 +159,7 @@ LowModel lowModel(const DrawnScene& drawn, const DrawnScene* cage, const MeshNam
                                     .wrap_u = use != nullptr ? use->wrap_u : TextureWrap::repeat,
                                     .wrap_v = use != nullptr ? use->wrap_v : TextureWrap::repeat});
         }
-        const std::uint32_t group = names != nullptr ? *names->find(primitive.mesh_name) : 0;
+        const std::uint32_t group = match != nullptr ? match->low[i] : 0;
         LowPart& part = model.images[image->second].part;
         model.images[image->second].primitives.push_back(
             {.mesh = primitive.mesh,
@@ -221,7 +178,7 @@ LowModel lowModel(const DrawnScene& drawn, const DrawnScene* cage, const MeshNam
         model.warnings.push_back(std::to_string(without_uvs) +
                                  " primitives of the low poly have no UVs, and are left out");
     for (LowModel::Image& image : model.images) {
-        if (names == nullptr) image.part.groups.clear();
+        if (match == nullptr) image.part.groups.clear();
     }
     return model;
 }
@@ -269,14 +226,15 @@ std::vector<Vec3> smoothNormals(const ScenePrimitive& primitive, const BakeFileO
     return normals;
 }
 
-HighModel highModel(const DrawnScene& drawn, const MeshNames* names, const std::string& path,
+HighModel highModel(const DrawnScene& drawn, const MeshMatch* match, const std::string& path,
                     const BakeFileOptions& options) {
     HighModel model;
     std::size_t made = 0;
     // What glTF and OBJ leave out is flat; meshes of scanners and sculptors are meant to be smooth.
     const std::string extension = lowerExtension(path);
     const bool is_flat = isGltfName(path) || extension == ".obj";
-    for (const ScenePlacement& placement : drawn.placements) {
+    for (std::size_t i = 0; i < drawn.placements.size(); ++i) {
+        const ScenePlacement& placement = drawn.placements[i];
         const ScenePrimitive& primitive = drawn.scene.primitives[placement.primitive];
         const Affine& place = placement.to_world;
         if (primitive.corners.empty()) continue;
@@ -291,8 +249,7 @@ HighModel highModel(const DrawnScene& drawn, const MeshNames* names, const std::
                 addSmooth(primitive, smoothNormals(primitive, options), place, model);
             }
         }
-        if (names != nullptr)
-            model.groups.insert(model.groups.end(), primitive.corners.size() / 3, *names->find(primitive.mesh_name));
+        if (match != nullptr) model.groups.insert(model.groups.end(), primitive.corners.size() / 3, match->high[i]);
     }
     if (model.corners.empty()) failFile(ErrorCode::missingAttribute, "the high poly has no triangles");
     if (made > 0)
@@ -397,9 +354,9 @@ BakeModels readBakeModels(const std::string& low, const std::string& high, const
     const DVec3 of_high = farPlace(high_scene);
     const DVec3 origin = length(of_high) > 0 ? of_high : farPlace(low_scene);
     for (DrawnScene* const scene : {&low_scene, &cage_scene, &high_scene}) moveBy(origin, *scene);
-    MeshNames names;
-    models.matched_by_name = matchNames(low_scene.scene, high_scene.scene, names);
-    const MeshNames* const used = models.matched_by_name ? &names : nullptr;
+    const MeshMatch match = matchMeshes(low_scene, high_scene, options.match, options.file);
+    models.matched_by_name = match.is_used;
+    const MeshMatch* const used = match.is_used ? &match : nullptr;
     models.low = aboutInput(BakeInput::low,
                             [&] { return lowModel(low_scene, options.cage.empty() ? nullptr : &cage_scene, used); });
     models.low.frames_made = frames_made;
@@ -407,6 +364,7 @@ BakeModels readBakeModels(const std::string& low, const std::string& high, const
     models.high = aboutInput(BakeInput::high, [&] { return highModel(high_scene, used, high, options); });
     if (!options.skew.empty())
         models.skew = aboutInput(BakeInput::skew, [&] { return readFloatImage(options.skew, options.file); });
+    models.high.warnings.insert(models.high.warnings.end(), match.warnings.begin(), match.warnings.end());
     const std::string why = misplacement(models.lowBox(), PositionBox(models.high.view().positions));
     if (!why.empty()) models.high.warnings.push_back(why);
     return models;

@@ -77,6 +77,7 @@ class FileMeasuring {
         inputs_.watch(bake_.file);
         bake_.cage = options.cage;
         bake_.skew = options.skew;
+        bake_.match = options.match;
     }
 
     MapErrorFileReport run(const std::string& map, const std::string& low, const std::string& high) {

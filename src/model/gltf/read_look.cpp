@@ -164,10 +164,13 @@ std::vector<ScenePlacement> readPlacements(const Document& document, std::span<c
         if (!mesh) continue;
         const Affine place = boundPlace(document, nodes, node).value_or(nodes.world(node));
         document.memory->take(of_mesh[*mesh].size() * sizeof(ScenePlacement), join("/nodes", node));
-        for (const std::size_t primitive : of_mesh[*mesh]) placements.push_back({primitive, place});
+        // A name that is no text is none: it draws nothing.
+        const Json* const given = findMember(nodes[node], "name");
+        const std::string name = given != nullptr && given->is_string() ? given->get<std::string>() : std::string();
+        for (const std::size_t primitive : of_mesh[*mesh]) placements.push_back({primitive, place, name});
     }
     if (placements.empty()) {
-        for (std::size_t i = 0; i < primitives.size(); ++i) placements.push_back({i, {}});
+        for (std::size_t i = 0; i < primitives.size(); ++i) placements.push_back({i, {}, {}});
     }
     return placements;
 }

@@ -123,7 +123,7 @@ DrawnScene drawnSceneOf(const Model& model, std::span<const ObjPrimitive> primit
     ImageFiles files(model.files, with_images, *model.memory);
     DrawnScene drawn{.scene = loadScene(model, primitives, files)};
     for (const ObjPrimitive& primitive : primitives) {
-        drawn.placements.push_back({drawn.looks.size(), {.origin = model.offset}});
+        drawn.placements.push_back({drawn.looks.size(), {.origin = model.offset}, {}});
         drawn.looks.push_back(lookOf(model.materials[primitive.material], files));
     }
     drawn.scene.images = std::move(files.images);

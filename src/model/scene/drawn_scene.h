@@ -29,6 +29,7 @@ struct SurfaceLook {
 struct ScenePlacement {
     std::size_t primitive = 0;  ///< of the scene
     Affine to_world = {};
+    std::string node_name = {};  ///< of the node that puts it there; may be empty
 };
 
 struct DrawnScene {
