@@ -119,7 +119,7 @@ function openSample(name: string, bytes: Uint8Array<ArrayBuffer>): void {
 const sampleButtons = samples.map(({ name, file, bytes, hint }) =>
   el("button", { type: "button", class: "sample", "data-file": file, title: hint, "aria-pressed": "false", onclick: () => openSample(file, bytes()) }, name));
 
-const gallery = el("select", { class: "models", "aria-label": "Faults of real files" }, el("option", { value: "" }, "Faults…"),
+const gallery = el("select", { class: "faults", "aria-label": "Faults of real files" }, el("option", { value: "" }, "Faults…"),
   ...faults.map(({ name, hint }, i) => el("option", { value: i, title: hint }, name)));
 gallery.addEventListener("change", () => {
   if (gallery.value === "") return;
