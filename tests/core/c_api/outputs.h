@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+// Results of the C API beside those of the C++ API.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <vector>
+
+#include "tspace/tspace.h"
+#include "tspace/tspace.hpp"
+
+namespace tspace::test {
+
+/// Results of all kinds for one mesh.
+struct Outputs {
+    explicit Outputs(std::size_t n) : tangents(n), bitangents(n), magnitudes_s(n), magnitudes_t(n) {}
+
+    TangentOutput view() { return {tangents, bitangents, magnitudes_s, magnitudes_t}; }
+    tspace_TangentOutput c() {
+        tspace_TangentOutput out;
+        TSPACE_INIT(out);
+        out.tangents = {&tangents[0].x, tangents.size(), sizeof(Vec4)};
+        out.bitangents = {&bitangents[0].x, bitangents.size(), 0};
+        out.magnitudes_s = {magnitudes_s.data(), magnitudes_s.size(), 0};
+        out.magnitudes_t = {magnitudes_t.data(), magnitudes_t.size(), 0};
+        return out;
+    }
+
+    std::vector<Vec4> tangents;
+    std::vector<Vec3> bitangents;
+    std::vector<float> magnitudes_s, magnitudes_t;
+};
+
+template <class T>
+bool sameBits(const std::vector<T>& a, const std::vector<T>& b) {
+    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
+}
+
+inline void expectSame(const Outputs& a, const Outputs& b) {
+    EXPECT_TRUE(sameBits(a.tangents, b.tangents));
+    EXPECT_TRUE(sameBits(a.bitangents, b.bitangents));
+    EXPECT_TRUE(sameBits(a.magnitudes_s, b.magnitudes_s));
+    EXPECT_TRUE(sameBits(a.magnitudes_t, b.magnitudes_t));
+}
+
+}  // namespace tspace::test
