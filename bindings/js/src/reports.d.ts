@@ -474,7 +474,7 @@ export interface InspectedPrimitive {
   /** Triangles with two corners at one position. */
   degenerateTriangles: number;
   /** Random offsets of positions, as a standard deviation along the normal in mean edge lengths; 0: less than .03, or less
-   * than 1,000 triangles. */
+   * than 1,000 triangles, or no memory to measure. */
   positionNoise: number;
   /** Triangles that show the texture mirrored. */
   mirroredTriangles: number;

@@ -86,8 +86,8 @@ bool hasTriangleData(const Document& document, const Primitive& primitive, const
 /// Counts over the triangles; nothing where there is no data.
 void describeTriangles(const Document& document, const Primitive& primitive, bool is_mirrored, PrimitiveInfo& info) {
     if (!hasTriangleData(document, primitive, info)) return;
-    document.memory->require(std::uint64_t{72} * primitive.triangleCount() + std::uint64_t{64} * primitive.vertex_count,
-                             primitive.place());
+    const std::uint64_t bytes = std::uint64_t{72} * primitive.triangleCount() + std::uint64_t{64} * primitive.vertex_count;
+    document.memory->require(bytes, primitive.place());
     // Positions first: they fail before a number of vertices without data costs any memory.
     const std::vector<Vec3> positions = readVec3(document, primitive, "POSITION");
     const std::vector<std::uint32_t> corners = readTriangleCorners(document, primitive);
@@ -98,7 +98,7 @@ void describeTriangles(const Document& document, const Primitive& primitive, boo
     MeshView triangles;
     triangles.positions = std::span(positions);
     triangles.indices = IndexView(std::span(corners));
-    info.position_noise = notedNoise(triangles);
+    if (document.memory->has(bytes + noteMemory(triangles))) info.position_noise = notedNoise(triangles);
 }
 
 void describeUses(const std::vector<TangentUse>& uses, PrimitiveInfo& info) {

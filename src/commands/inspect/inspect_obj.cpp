@@ -15,7 +15,7 @@ namespace {
 
 using namespace obj;
 
-PrimitiveInfo describePrimitive(const Model& model, const ObjPrimitive& primitive) {
+PrimitiveInfo describePrimitive(const obj::Model& model, const ObjPrimitive& primitive) {
     const ObjGeometry geometry = buildGeometry(model, primitive);
     const Material& material = model.materials[primitive.material];
     PrimitiveInfo info;
@@ -48,11 +48,11 @@ PrimitiveInfo describePrimitive(const Model& model, const ObjPrimitive& primitiv
     MeshView cut;  // as check measures it
     cut.positions = std::span(geometry.pool.positions);
     cut.indices = IndexView(std::span(corners));
-    info.position_noise = notedNoise(cut);
+    if (model.memory->has(noteMemory(cut))) info.position_noise = notedNoise(cut);
     return info;
 }
 
-std::uint32_t imageCount(const Model& model) {
+std::uint32_t imageCount(const obj::Model& model) {
     std::set<std::string> files;
     for (const Material& material : model.materials) {
         for (const Texture* texture : {&material.base_color_texture, &material.normal_texture}) {

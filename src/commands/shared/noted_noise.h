@@ -2,6 +2,8 @@
 // Which noise of positions is worth a word.
 #pragma once
 
+#include <cstdint>
+
 #include "tspace/mesh.h"
 
 namespace tspace {
@@ -11,5 +13,8 @@ namespace tspace {
 /// has more: it is damaged on purpose.
 /// position_step: of positions that are stored as whole numbers; rounding to them is no noise
 double notedNoise(const MeshView& mesh, double position_step = 0);
+
+/// The memory that notedNoise takes for a while: that of measurePositionNoise, rounded up.
+std::uint64_t noteMemory(const MeshView& mesh);
 
 }  // namespace tspace

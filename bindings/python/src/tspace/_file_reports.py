@@ -483,7 +483,7 @@ class InspectedPrimitive(Report):
     #: Triangles with two corners at one position.
     degenerate_triangles: int
     #: Random offsets of positions, as a standard deviation along the normal in mean edge lengths; 0: less than .03, or
-    #: less than 1,000 triangles.
+    #: less than 1,000 triangles, or no memory to measure.
     position_noise: float
     #: Triangles that show the texture mirrored.
     mirrored_triangles: int
