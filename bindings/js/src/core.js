@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The whole core, for the entries that load its module.
-import { keepReport, makeCalls, meshOf, mikktspaceOptions, setMesh, tangentArguments, tangentCounts, writeTangents } from "./calls.js";
-import { boolean, choice, count, fail, floats, integers, number, object, optionsOf } from "./check.js";
-import { conventionBits } from "./convention.js";
+import { makeCalls, meshOf, mikktspaceOptions, setMesh, tangentArguments, tangentCounts, writeTangents } from "./calls.js";
+import { boolean, fail, floats, object, optionsOf } from "./check.js";
+import { normalArguments, normalOptions, normalsOf } from "./normal_calls.js";
 import { Wasm } from "./wasm.js";
 
 const wasm = new Wasm();
@@ -12,52 +12,15 @@ export const start = (source) => wasm.start(source);
 const methods = ["mikktspace", "lengyel", "uniform", "angle", "area", "flat", "basis", "fast", "best"];
 const tangentOptions = [...mikktspaceOptions, "frame", "refine"];
 const choices = { methods, ngons: ["triangulate", "skip"], options: tangentOptions };
-const weightings = ["flat", "uniform", "area", "angle", "angleArea", "max", "best"];
-const normalOptions = ["weighting", "creaseAngle", "smoothingGroups", "smoothingGroupsAreMasks", "weldPositions", "refine", "denoise"];
 const steps = ["makeNormals", "sanitize", "orthogonalizeAll"];
-const windingCounts = [
-  "faceCount", "turnedCount", "conflictCountBefore", "conflictCountAfter", "componentCount", "turnedComponentCount", "byNormalsCount",
-  "byVolumeCount", "byNestingCount", "byWindingNumberCount", "byMajorityCount", "smallCount", "oneSidedCount",
-];
-const normalCounts = ["faceCount", "degenerateFaceCount", "fallbackCornerCount", "noise", "creaseAngle"];
-
 export const { generateTangents, sanitizeTangents, splitVertices } = makeCalls(wasm, choices);
-
-const numberOrAuto = (value, name) => (value === "auto" ? -1 : number(value, name));
-
-/** What the module takes for options of normals: a function, since groups are copied for a call. */
-function normalArguments(options) {
-  const groups = integers(options.smoothingGroups, "smoothingGroups");
-  const before = [choice(options.weighting ?? "angle", "weighting", weightings), numberOrAuto(options.creaseAngle ?? 180, "creaseAngle")];
-  const after = [
-    boolean(options.smoothingGroupsAreMasks ?? false, "smoothingGroupsAreMasks"),
-    boolean(options.weldPositions ?? true, "weldPositions"),
-    conventionBits(options.convention ?? "gltf"), // of which handedness and winding count here
-    count(options.refine ?? 2, "refine"),
-    numberOrAuto(options.denoise ?? 0, "denoise"),
-  ];
-  return (call) => [...before, call.put(groups, Uint32Array), groups?.length ?? 0, ...after];
-}
-
-export function generateNormals(mesh, options = {}) {
-  optionsOf(options, [...normalOptions, "convention", "report"]);
-  const given = normalArguments(options);
-  const { positions, indices, faceSizes } = object(mesh, "mesh");
-  const checked = meshOf({ positions, indices, faceSizes });
-  return wasm.run((call) => {
-    setMesh(call, checked);
-    const out = call.allocate(checked.cornerCount * 12 + 16);
-    call.check(call.wasm.generateNormals(...given(call), out));
-    keepReport(call, options, normalCounts);
-    return call.get(Float32Array, out, checked.cornerCount * 3);
-  });
-}
+export const generateNormals = normalsOf(wasm, false);
 
 export function makeIndexedFrames(mesh, options = {}) {
   optionsOf(options, [...tangentOptions, ...steps, "normals", "report"]);
   const tangents = tangentArguments(options, choices);
   const chosen = steps.map((name) => boolean(options[name] ?? name === "sanitize", name));
-  const normals = normalArguments(object(options.normals ?? {}, "normals", normalOptions));
+  const normals = normalArguments(object(options.normals ?? {}, "normals", normalOptions), false);
   const checked = meshOf(mesh);
   return wasm.run((call) => {
     setMesh(call, checked);
@@ -76,38 +39,6 @@ export function makeIndexedFrames(mesh, options = {}) {
       tangents: take(Float32Array, 4, 4),
       report,
     };
-  });
-}
-
-/** The same indices, with the corners of faces that are turned in reverse order behind the first. */
-function turnedIndices({ indices, faceSizes, cornerCount }, turned) {
-  const made = indices ? indices.slice() : Uint32Array.from({ length: cornerCount }, (_, corner) => corner);
-  for (let face = 0, first = 0; face < turned.length; ++face) {
-    const size = faceSizes ? faceSizes[face] : 3;
-    if (turned[face]) made.subarray(first + 1, first + size).reverse();
-    first += size;
-  }
-  return made;
-}
-
-export function mendWinding(mesh, options = {}) {
-  optionsOf(options, ["useNormals", "weldPositions", "convention"]);
-  const given = [
-    boolean(options.useNormals ?? true, "useNormals"),
-    boolean(options.weldPositions ?? true, "weldPositions"),
-    conventionBits(options.convention ?? "gltf"), // of which handedness and winding count here
-  ];
-  const { positions, normals, indices, faceSizes, normalIndices } = object(mesh, "mesh");
-  const checked = meshOf({ positions, normals, indices, faceSizes, normalIndices });
-  return wasm.run((call) => {
-    setMesh(call, checked);
-    const faceCount = checked.faceSizes ? checked.faceSizes.length : Math.floor(checked.cornerCount / 3);
-    const out = call.allocate(faceCount + 16);
-    call.check(call.wasm.mendWinding(...given, out));
-    const report = {};
-    call.report(windingCounts, report);
-    const turned = call.get(Uint8Array, out, faceCount);
-    return { indices: turnedIndices(checked, turned), turned, report };
   });
 }
 

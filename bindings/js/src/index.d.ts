@@ -34,7 +34,7 @@ export interface NormalReport {
 export interface NormalOptions {
   /** How much a face counts at a corner; `angle` unless given. */
   weighting?: "flat" | "uniform" | "area" | "angle" | "angleArea" | "max" | "best";
-  /** Degrees, 0 to 180, 180 unless given: edges whose faces differ by more are hard. "auto": an angle by the mesh. */
+  /** Degrees, 0 to 180, 180 unless given: edges whose faces differ by more are hard. "auto", an angle by the mesh: of "tspace/normals". */
   creaseAngle?: number | "auto";
   /** One number per face: faces are smooth together only when their numbers are equal and not 0. */
   smoothingGroups?: Indices | null;
@@ -47,7 +47,7 @@ export interface NormalOptions {
   /** 0, 1 or 2 (the default) steps after the fit of `best`. */
   refine?: 0 | 1 | 2;
   /**
-   * For `best` on noisy positions: normals by more of the surface around. "auto": as much as is measured, and nothing where
+   * Of "tspace/normals", for `best` on noisy positions: normals by more of the surface around. "auto": as much as is measured, and nothing where
    * that is shape; 0 (the default) to 4: so many times the noise that is measured, also where it looks like shape.
    */
   denoise?: number | "auto";
@@ -85,46 +85,6 @@ export interface IndexedFrames {
 
 /** The usual case in one call: normals where they are missing, tangents, mended and split into an indexed mesh. */
 export function makeIndexedFrames(mesh: Mesh, options: IndexedFramesOptions): IndexedFrames;
-
-export interface WindingOptions {
-  /** true (the default): normals of the mesh, where it has some, say which side is out, if they agree among themselves. */
-  useNormals?: boolean;
-  /** true (the default): vertices at one position are one point. false: only equal indices are. */
-  weldPositions?: boolean;
-  /** Handedness and winding say which order of corners is right; counter-clockwise from outside, right-handed, unless given. */
-  convention?: ConventionName | Convention;
-}
-
-/** A component is what hangs together over pairs of faces at edges; a conflict is a pair that runs through its edge the same way. */
-export interface WindingReport {
-  /** Faces with at least 3 corners. */
-  faceCount: number;
-  turnedCount: number;
-  conflictCountBefore: number;
-  conflictCountAfter: number;
-  componentCount: number;
-  /** Components of which more than half of the faces were turned. */
-  turnedComponentCount: number;
-  /** Components decided by normals of the mesh; so on, how the others were. */
-  byNormalsCount: number;
-  byVolumeCount: number;
-  byNestingCount: number;
-  byWindingNumberCount: number;
-  byMajorityCount: number;
-  /** Components of fewer than 4 faces, which are left alone. */
-  smallCount: number;
-  /** Components that have one side only, as a Moebius band, and are left alone. */
-  oneSidedCount: number;
-}
-
-/** Turns faces that are wound against their neighbours, and parts that are inside out as a whole. UVs are not looked at. */
-export function mendWinding(mesh: Mesh, options?: WindingOptions): {
-  /** The mesh's own, in another order within faces that were turned. */
-  indices: Uint32Array;
-  /** One per face: 1 where it was turned. */
-  turned: Uint8Array;
-  report: WindingReport;
-};
 
 /** What of a mesh stays while it deforms. It lies in the module's memory: destroy it, or leave that to the collector. */
 export class Plan {

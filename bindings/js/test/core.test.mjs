@@ -10,28 +10,6 @@ import { grid } from "./meshes.mjs";
 await Promise.all([whole.ready, small.ready]);
 const { generateNormals, generateTangents, Plan, sanitizeTangents, splitVertices } = whole;
 
-describe("mendWinding", () => {
-  const positions = new Float32Array([0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1]);
-  const sound = [0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3];
-  it("gives indices in which faces are wound alike, and outwards", () => {
-    const indices = new Uint32Array([0, 2, 1, 0, 3, 1, 0, 3, 2, 1, 2, 3]);
-    const mended = whole.mendWinding({ positions, indices });
-    assert.deepEqual([...mended.indices], sound);
-    assert.deepEqual([...mended.turned], [0, 1, 0, 0]);
-    assert.equal(mended.report.turnedCount, 1);
-    assert.equal(mended.report.conflictCountBefore, 3);
-    assert.equal(mended.report.byVolumeCount, 1);
-    assert.equal(indices[4], 3); // those of the caller stay as they are
-  });
-  it("follows normals, unless it is not to", () => {
-    const normals = positions.map((x) => 0.2 - x);
-    const mesh = { positions, normals, indices: new Uint32Array(sound) };
-    assert.equal(whole.mendWinding(mesh).report.turnedCount, 4);
-    assert.equal(whole.mendWinding(mesh, { useNormals: false }).report.turnedCount, 0);
-    assert.throws(() => whole.mendWinding(mesh, { useNormal: false }), /useNormal/);
-  });
-});
-
 const folder = process.env.TSPACE_GOLDEN ?? new URL("../../../shared/golden/mikktspace", import.meta.url).pathname;
 const golden = existsSync(folder)
   ? readdirSync(folder)

@@ -16,7 +16,9 @@ const root = resolve(here, "../../..");
 const out = resolve(process.argv[2] ?? join(root, "build/js/wasm"));
 
 /// Rooms of src/ and their files; loops over meshes that are worth more code than -Oz gives.
-const rooms = ["base", "frames", "normals", "winding", "tangents", "tangents/mikktspace", "tangents/estimators", "indexed"].map((room) => `core/${room}`);
+const rooms = ["base", "frames", "normals", "tangents", "tangents/mikktspace", "tangents/estimators", "indexed"].map((room) => `core/${room}`);
+/// What plain_normals.cpp stands for.
+const notPlain = ["crease_auto", "denoise", "normal_groups", "position_noise"].map((name) => `core/normals/${name}.cpp`);
 const fileRooms = [
   ...["surface", "quads", "pools"].map((room) => `core/mesh/${room}`), "images", "maps",
   ...["io", "json", "gltf", "gltf/codecs", "gltf/compression", "obj", "read"].map((room) => `model/${room}`),
@@ -49,15 +51,18 @@ const loops = /mikktspace\/(grid_order|weld)\.cpp|core\/base\/(sum_rounds|weld|r
 const hot = /mikktspace\/(corner_terms_kernel|one_pass\.cpp|node_sums\.cpp)|core\/pack\/\w+_kernel/;
 
 const modules = {
-  core: { sources: ["memory.cpp", "common.cpp", "core.cpp"], isFast: true, defines: [], rooms, kernels: ["normals", "tangents"] },
+  core: { sources: ["memory.cpp", "common.cpp", "core.cpp", "plain_normals.cpp"], isFast: true, defines: [], rooms, kernels: ["normals", "tangents"], without: notPlain },
+  normals: {
+    sources: ["memory.cpp", "common.cpp", "normals.cpp"], isFast: true, defines: [], rooms: [...rooms, "core/winding"], kernels: ["normals", "tangents"],
+  },
   mikktspace: {
-    sources: ["memory.cpp", "common.cpp", "mikktspace.cpp"], isFast: true, defines: ["TSPACE_MIKKTSPACE_ONLY"], rooms, kernels: ["tangents"],
+    sources: ["memory.cpp", "common.cpp", "mikktspace.cpp"], isFast: true, defines: ["TSPACE_MIKKTSPACE_ONLY"], rooms, kernels: ["tangents"], without: notPlain,
   },
   pack: { sources: ["memory.cpp", "pack.cpp"], isFast: true, defines: [], rooms: ["core/base", "core/pack"], kernels: ["pack"] },
   gltf: {
     sources: ["heap.cpp", "c_library.cpp", "throw.cpp", "only_memory.cpp", "codecs.cpp", "images.cpp", "obj_parser.cpp", "gltf.cpp"], isFast: false,
     defines: ["TSPACE_THROWS_END_CALL", "TSPACE_HAS_IMAGES", "TSPACE_HAS_WEBP"],
-    rooms: [...rooms, "core/pack", ...fileRooms], more: ["core/c_api/c_convert.cpp"], kernels: ["normals", "tangents", "pack"], throws: true,
+    rooms: [...rooms, "core/winding", "core/pack", ...fileRooms], more: ["core/c_api/c_convert.cpp"], kernels: ["normals", "tangents", "pack"], throws: true,
     imports: [
       "attempt", "decodeDraco", "decodeImage", "decodeMeshopt", "encodeDraco", "encodeImage", "encodeMeshopt", "endCall", "findFile",
       "goOn", "hasCodec", "now", "parseNumber", "takeImage", "tell",
@@ -95,9 +100,9 @@ function kernelSources(room, isFast) {
 
 /// Twelve files of a library as one, which takes a third of the time; hot ones alone. Names are unique within a library: the
 /// core, the file layer, and the C API over it.
-function inBatches(name, rooms, isFast, more = []) {
+function inBatches(name, rooms, isFast, more = [], without = []) {
   const all = rooms.flatMap((room) => readdirSync(join(root, "src", room)).sort().map((file) => `${room}/${file}`))
-    .filter((file) => file.endsWith(".cpp") && !notHere.has(file) && !isForPeople(file)).concat(more);
+    .filter((file) => file.endsWith(".cpp") && !notHere.has(file) && !without.includes(file) && !isForPeople(file)).concat(more);
   const isAlone = (file) => hot.test(file) || loops.test(file);
   const files = all.filter((file) => !isAlone(file));
   const batches = all.filter(isAlone).map((file) => ({ path: join(root, "src", file), flags: isFast && hot.test(file) ? fastFlags : [] }));
@@ -114,7 +119,7 @@ function sourcesOf(name, module) {
     api: module.rooms.filter(isOf(["api"])),
   };
   const sources = Object.entries(libraries).flatMap(([library, list]) =>
-    inBatches(`${name}_${library}`, list, module.isFast, library === "api" ? module.more : []));
+    inBatches(`${name}_${library}`, list, module.isFast, library === "api" ? module.more : [], module.without));
   for (const room of module.kernels) sources.push(...kernelSources(room, module.isFast));
   // The parser of OBJ lets exponents of numbers overflow.
   for (const file of ["new.cpp", "state.cpp", ...module.sources])

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The module of the entry "tspace".
 #include "common.h"
+#include "normal_options.h"
 #include "tspace/indexed_frames.h"
-#include "tspace/normals.h"
-#include "tspace/winding.h"
 
 using namespace tspace;
 using namespace tspace::js;
@@ -20,21 +19,6 @@ TangentOptions tangentOptions(std::uint32_t method, float threshold_deg, std::ui
     options.convention = conventionOf(convention);
     options.frame = static_cast<FrameShape>(frame);
     options.refine = refine;
-    return options;
-}
-
-NormalOptions normalOptions(std::uint32_t weighting, float crease_angle_deg, const std::uint32_t* groups,
-                            std::size_t group_count, bool groups_are_masks, bool weld_positions,
-                            std::uint32_t convention, std::uint32_t refine, float denoise) {
-    NormalOptions options;
-    options.weighting = static_cast<NormalWeighting>(weighting);
-    options.crease_angle_deg = crease_angle_deg;
-    options.smoothing_groups = {groups, group_count};
-    options.smoothing_groups_are_masks = groups_are_masks;
-    options.weld_positions = weld_positions;
-    options.convention = conventionOf(convention);
-    options.refine = refine;
-    options.denoise = denoise;
     return options;
 }
 
@@ -82,27 +66,7 @@ std::uint32_t normals(std::uint32_t weighting, float crease_angle_deg, const std
                                        weld_positions, convention, refine, denoise);
     auto result = generateNormals(mesh(), options, vec3Span(out, mesh().cornerCount()));
     if (!result) return codeOf(result);
-    const std::uint64_t counts[] = {result->face_count, result->degenerate_face_count, result->fallback_corner_count};
-    keepCounts(counts);
-    js::report[3] = double{result->noise};
-    js::report[4] = double{result->crease_angle_deg};
-    return 0;
-}
-
-/// `turned`: one byte per face.
-TSPACE_JS_EXPORT(mendWinding)
-std::uint32_t mend(bool use_normals, bool weld_positions, std::uint32_t convention, std::uint8_t* turned) {
-    const WindingOptions options{
-        .convention = conventionOf(convention), .use_normals = use_normals, .weld_positions = weld_positions};
-    auto result = mendWinding(mesh(), options, {turned, mesh().faceCount(), 1});
-    if (!result) return codeOf(result);
-    const std::uint64_t counts[] = {
-        result->face_count,        result->turned_count,           result->conflict_count_before,
-        result->conflict_count_after, result->component_count,     result->turned_component_count,
-        result->by_normals_count,  result->by_volume_count,        result->by_nesting_count,
-        result->by_winding_number_count, result->by_majority_count, result->small_count,
-        result->one_sided_count};
-    keepCounts(counts);
+    keep(*result);
     return 0;
 }
 

@@ -65,7 +65,7 @@ std::uint32_t imageCount(const obj::Model& model) {
 }  // namespace
 
 Inspection inspectObj(const std::string& input, const FileOptions& options) {
-    const Model model = readModel(input, options);
+    const obj::Model model = readModel(input, options);
     Inspection result;
     result.format = "obj";
     result.file_bytes = model.input_bytes;

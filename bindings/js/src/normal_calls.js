@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// Normals, for the entries that make them.
+import { keepReport, meshOf, setMesh } from "./calls.js";
+import { boolean, choice, count, fail, integers, number, object, optionsOf } from "./check.js";
+import { conventionBits } from "./convention.js";
+
+const weightings = ["flat", "uniform", "area", "angle", "angleArea", "max", "best"];
+export const normalOptions = ["weighting", "creaseAngle", "smoothingGroups", "smoothingGroupsAreMasks", "weldPositions", "refine", "denoise"];
+const normalCounts = ["faceCount", "degenerateFaceCount", "fallbackCornerCount", "noise", "creaseAngle"];
+
+const numberOrAuto = (value, name) => (value === "auto" ? -1 : number(value, name));
+
+/**
+ * What the module takes for options of normals: a function, since groups are copied for a call.
+ * isWhole: the module of "tspace/normals", which has all of them.
+ */
+export function normalArguments(options, isWhole) {
+  for (const [name, given] of [["creaseAngle", options.creaseAngle === "auto"], ["denoise", (options.denoise ?? 0) !== 0]])
+    if (given && !isWhole) fail("invalidOption", `${name}: ${options[name]} is for generateNormals of "tspace/normals"`);
+  const groups = integers(options.smoothingGroups, "smoothingGroups");
+  const before = [choice(options.weighting ?? "angle", "weighting", weightings), numberOrAuto(options.creaseAngle ?? 180, "creaseAngle")];
+  const after = [
+    boolean(options.smoothingGroupsAreMasks ?? false, "smoothingGroupsAreMasks"),
+    boolean(options.weldPositions ?? true, "weldPositions"),
+    conventionBits(options.convention ?? "gltf"), // of which handedness and winding count here
+    count(options.refine ?? 2, "refine"),
+    numberOrAuto(options.denoise ?? 0, "denoise"),
+  ];
+  return (call) => [...before, call.put(groups, Uint32Array), groups?.length ?? 0, ...after];
+}
+
+/** The function of an entry. */
+export const normalsOf = (wasm, isWhole) => function generateNormals(mesh, options = {}) {
+  optionsOf(options, [...normalOptions, "convention", "report"]);
+  const given = normalArguments(options, isWhole);
+  const { positions, indices, faceSizes } = object(mesh, "mesh");
+  const checked = meshOf({ positions, indices, faceSizes });
+  return wasm.run((call) => {
+    setMesh(call, checked);
+    const out = call.allocate(checked.cornerCount * 12 + 16);
+    call.check(call.wasm.generateNormals(...given(call), out));
+    keepReport(call, options, normalCounts);
+    return call.get(Float32Array, out, checked.cornerCount * 3);
+  });
+};

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+// The entry "tspace/normals": what scans, meshes of AI tools and CAD need before tangents.
+import { source } from "#normals";
+import { meshOf, setMesh } from "./calls.js";
+import { boolean, object, optionsOf } from "./check.js";
+import { conventionBits } from "./convention.js";
+import { normalsOf } from "./normal_calls.js";
+import { Wasm } from "./wasm.js";
+
+export { conventions } from "./convention.js";
+export { TspaceError } from "./error.js";
+
+const wasm = new Wasm();
+export const ready = wasm.start(source);
+
+const windingCounts = [
+  "faceCount", "turnedCount", "conflictCountBefore", "conflictCountAfter", "componentCount", "turnedComponentCount", "byNormalsCount",
+  "byVolumeCount", "byNestingCount", "byWindingNumberCount", "byMajorityCount", "smallCount", "oneSidedCount",
+];
+
+export const generateNormals = normalsOf(wasm, true);
+
+export function measurePositionNoise(mesh) {
+  const { positions, indices, faceSizes } = object(mesh, "mesh");
+  const checked = meshOf({ positions, indices, faceSizes });
+  return wasm.run((call) => {
+    setMesh(call, checked);
+    call.check(call.wasm.measurePositionNoise());
+    const noise = {};
+    call.report(["sigma", "kinkShare", "noise", "meanEdge"], noise);
+    return noise;
+  });
+}
+
+/** The same indices, with the corners of faces that are turned in reverse order behind the first. */
+function turnedIndices({ indices, faceSizes, cornerCount }, turned) {
+  const made = indices ? indices.slice() : Uint32Array.from({ length: cornerCount }, (_, corner) => corner);
+  for (let face = 0, first = 0; face < turned.length; ++face) {
+    const size = faceSizes ? faceSizes[face] : 3;
+    if (turned[face]) made.subarray(first + 1, first + size).reverse();
+    first += size;
+  }
+  return made;
+}
+
+export function mendWinding(mesh, options = {}) {
+  optionsOf(options, ["useNormals", "weldPositions", "convention"]);
+  const given = [
+    boolean(options.useNormals ?? true, "useNormals"),
+    boolean(options.weldPositions ?? true, "weldPositions"),
+    conventionBits(options.convention ?? "gltf"), // of which handedness and winding count here
+  ];
+  const { positions, normals, indices, faceSizes, normalIndices } = object(mesh, "mesh");
+  const checked = meshOf({ positions, normals, indices, faceSizes, normalIndices });
+  return wasm.run((call) => {
+    setMesh(call, checked);
+    const faceCount = checked.faceSizes ? checked.faceSizes.length : Math.floor(checked.cornerCount / 3);
+    const out = call.allocate(faceCount + 16);
+    call.check(call.wasm.mendWinding(...given, out));
+    const report = {};
+    call.report(windingCounts, report);
+    const turned = call.get(Uint8Array, out, faceCount);
+    return { indices: turnedIndices(checked, turned), turned, report };
+  });
+}

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+// The module of the entry "tspace/normals": normals of meshes with noise, hard edges by the mesh, and winding.
+#include "common.h"
+#include "normal_options.h"
+#include "tspace/position_noise.h"
+#include "tspace/winding.h"
+
+using namespace tspace;
+using namespace tspace::js;
+
+extern "C" {
+
+/// `out`: three floats per corner.
+TSPACE_JS_EXPORT(generateNormals)
+std::uint32_t normals(std::uint32_t weighting, float crease_angle_deg, const std::uint32_t* groups,
+                      std::size_t group_count, bool groups_are_masks, bool weld_positions, std::uint32_t convention,
+                      std::uint32_t refine, float denoise, float* out) {
+    const auto options = normalOptions(weighting, crease_angle_deg, groups, group_count, groups_are_masks,
+                                       weld_positions, convention, refine, denoise);
+    auto result = generateNormals(mesh(), options, vec3Span(out, mesh().cornerCount()));
+    if (!result) return codeOf(result);
+    keep(*result);
+    return 0;
+}
+
+/// The report: sigma, the share of kinks, noise, and the mean edge.
+TSPACE_JS_EXPORT(measurePositionNoise) std::uint32_t measureNoise() {
+    auto result = measurePositionNoise(mesh());
+    if (!result) return codeOf(result);
+    js::report[0] = double{result->sigma};
+    js::report[1] = double{result->kink_share};
+    js::report[2] = double{result->noise};
+    js::report[3] = result->mean_edge;
+    return 0;
+}
+
+/// `turned`: one byte per face.
+TSPACE_JS_EXPORT(mendWinding)
+std::uint32_t mend(bool use_normals, bool weld_positions, std::uint32_t convention, std::uint8_t* turned) {
+    const WindingOptions options{
+        .convention = conventionOf(convention), .use_normals = use_normals, .weld_positions = weld_positions};
+    auto result = mendWinding(mesh(), options, {turned, mesh().faceCount(), 1});
+    if (!result) return codeOf(result);
+    const std::uint64_t counts[] = {
+        result->face_count,        result->turned_count,           result->conflict_count_before,
+        result->conflict_count_after, result->component_count,     result->turned_component_count,
+        result->by_normals_count,  result->by_volume_count,        result->by_nesting_count,
+        result->by_winding_number_count, result->by_majority_count, result->small_count,
+        result->one_sided_count};
+    keepCounts(counts);
+    return 0;
+}
+
+}  // extern "C"
