@@ -86,7 +86,8 @@ bool hasTriangleData(const Document& document, const Primitive& primitive, const
 /// Counts over the triangles; nothing where there is no data.
 void describeTriangles(const Document& document, const Primitive& primitive, bool is_mirrored, PrimitiveInfo& info) {
     if (!hasTriangleData(document, primitive, info)) return;
-    const std::uint64_t bytes = std::uint64_t{72} * primitive.triangleCount() + std::uint64_t{64} * primitive.vertex_count;
+    const std::uint64_t bytes =
+        std::uint64_t{72} * primitive.triangleCount() + std::uint64_t{64} * primitive.vertex_count;
     document.memory->require(bytes, primitive.place());
     // Positions first: they fail before a number of vertices without data costs any memory.
     const std::vector<Vec3> positions = readVec3(document, primitive, "POSITION");
