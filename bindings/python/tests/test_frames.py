@@ -229,7 +229,7 @@ class Normals(unittest.TestCase):
     def test_full_results_count_faces(self):
         shape = cube()
         result = tspace.normals(shape.positions, shape.indices, full=True)
-        self.assertEqual(result.report, tspace.NormalReport(12, 0, 0))
+        self.assertEqual(result.report, tspace.NormalReport(12, 0, 0, noise=0, crease_angle_deg=180))
 
 
 class After(unittest.TestCase):
