@@ -2,6 +2,8 @@
 // What inspect says about needs: every use, transforms, variants, and how often a mesh is drawn.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "generate_run.h"
 
 namespace tspace {
@@ -75,6 +77,47 @@ TEST(InspectNeeds, CountsNodesAndInstances) {
     const auto bad = inspectFile(folder.write("in.glb", builder.glb()));
     ASSERT_FALSE(bad);
     EXPECT_EQ(bad.error().place, "/nodes/2/extensions/EXT_mesh_gpu_instancing/attributes/TRANSLATION");
+}
+
+/// A wavy sheet of irregular triangles, two units wide, whose positions are whole numbers; stored as such, or as floats.
+GltfBuilder roundedSheet(bool as_floats) {
+    constexpr int kSide = 60;
+    GltfBuilder builder;
+    std::vector<std::int16_t> rounded;
+    std::vector<std::uint16_t> indices;
+    for (int y = 0; y < kSide; ++y) {
+        for (int x = 0; x < kSide; ++x) {
+            const double at_x = 2 * (x + 0.3 * std::sin(7.0 * x + 12.0 * y)),
+                         at_y = 2 * (y + 0.3 * std::sin(5.0 * x * y));
+            const double height = 12 * std::sin(0.075 * at_x + 0.4) * std::cos(0.055 * at_y);
+            for (const double number : {at_x, at_y, height, 0.0})
+                rounded.push_back(static_cast<std::int16_t>(std::lround(number)));
+            if (x + 1 == kSide || y + 1 == kSide) continue;
+            const auto a = static_cast<std::uint16_t>(y * kSide + x);
+            for (const int corner : {0, 1, kSide + 1, 0, kSide + 1, kSide})
+                indices.push_back(static_cast<std::uint16_t>(a + corner));
+        }
+    }
+    const std::size_t count = kSide * kSide;
+    std::size_t positions = 0;
+    if (as_floats) {
+        positions = builder.addFloats(std::vector<float>(rounded.begin(), rounded.end()), 4);
+        builder.json()["bufferViews"].back()["byteStride"] = 16;
+    } else {
+        positions = builder.addAccessor(rounded, 5122, "VEC3", count);
+        builder.json()["bufferViews"].back()["byteStride"] = 8;
+        builder.json()["extensionsUsed"] = builder.json()["extensionsRequired"] = {"KHR_mesh_quantization"};
+    }
+    builder.json()["accessors"].back()["type"] = "VEC3";
+    const std::size_t list = builder.addAccessor(indices, 5123, "SCALAR", indices.size());
+    builder.addPrimitive({{"POSITION", positions}})["indices"] = list;
+    return builder;
+}
+
+TEST(InspectNeeds, RoundingToStoredNumbersIsNoNoise) {
+    EXPECT_GT(inspect(roundedSheet(true)).primitives.at(0).position_noise, 0.03)
+        << "floats that happen to be whole numbers are taken for what they are";
+    EXPECT_EQ(inspect(roundedSheet(false)).primitives.at(0).position_noise, 0);
 }
 
 }  // namespace

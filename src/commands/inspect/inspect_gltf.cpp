@@ -99,7 +99,8 @@ void describeTriangles(const Document& document, const Primitive& primitive, boo
     MeshView triangles;
     triangles.positions = std::span(positions);
     triangles.indices = IndexView(std::span(corners));
-    if (document.memory->has(bytes + noteMemory(triangles))) info.position_noise = notedNoise(triangles);
+    if (document.memory->has(bytes + noteMemory(triangles)))
+        info.position_noise = notedNoise(triangles, stepOf(readAccessor(document, *primitive.find("POSITION"))));
 }
 
 void describeUses(const std::vector<TangentUse>& uses, PrimitiveInfo& info) {

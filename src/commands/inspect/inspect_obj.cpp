@@ -48,7 +48,7 @@ PrimitiveInfo describePrimitive(const obj::Model& model, const ObjPrimitive& pri
     MeshView cut;  // as check measures it
     cut.positions = std::span(geometry.pool.positions);
     cut.indices = IndexView(std::span(corners));
-    if (model.memory->has(noteMemory(cut))) info.position_noise = notedNoise(cut);
+    if (model.memory->has(noteMemory(cut))) info.position_noise = notedNoise(cut, 0);
     return info;
 }
 

@@ -339,6 +339,21 @@ Accessor readAccessor(const Document& document, std::size_t index) {
     return accessor;
 }
 
+double stepOf(const Accessor& accessor) {
+    if (accessor.component == ComponentType::f32) return 0;
+    if (!accessor.normalized) return 1;
+    switch (accessor.component) {
+        case ComponentType::i8:
+            return 1.0 / 127;
+        case ComponentType::u8:
+            return 1.0 / 255;
+        case ComponentType::i16:
+            return 1.0 / 32767;
+        default:
+            return 1.0 / 65535;
+    }
+}
+
 bool hasData(const Document& document, const Accessor& accessor) {
     if (document.hidden_accessors.count(accessor.index) != 0) return false;
     return (!accessor.view || viewHasData(document, *accessor.view)) &&

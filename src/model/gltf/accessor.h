@@ -56,6 +56,9 @@ struct Accessor {
 /// elements.
 Accessor readAccessor(const Document& document, std::size_t index);
 
+/// Between neighbouring numbers of an accessor of whole numbers; 0 for floats.
+double stepOf(const Accessor& accessor);
+
 /// True when copyElements finds the data that it needs.
 bool hasData(const Document& document, const Accessor& accessor);
 

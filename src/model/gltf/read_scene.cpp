@@ -17,22 +17,6 @@ namespace {
 /// Sets beyond are not looked at: no renderer has so many, and a file may claim billions.
 constexpr std::size_t kMaxUvSets = 64;
 
-/// Between neighbouring numbers of an accessor of whole numbers; 0 for floats.
-double stepOf(const Accessor& accessor) {
-    if (accessor.component == ComponentType::f32) return 0;
-    if (!accessor.normalized) return 1;
-    switch (accessor.component) {
-        case ComponentType::i8:
-            return 1.0 / 127;
-        case ComponentType::u8:
-            return 1.0 / 255;
-        case ComponentType::i16:
-            return 1.0 / 32767;
-        default:
-            return 1.0 / 65535;
-    }
-}
-
 class PrimitiveLoader {
   public:
     PrimitiveLoader(const Document& document, DecodedArrays& arrays) : document_(document), arrays_(arrays) {}
