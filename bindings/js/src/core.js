@@ -13,6 +13,7 @@ const methods = ["mikktspace", "lengyel", "uniform", "angle", "area", "flat", "b
 const tangentOptions = [...mikktspaceOptions, "frame", "refine"];
 const choices = { methods, ngons: ["triangulate", "skip"], options: tangentOptions };
 const steps = ["makeNormals", "sanitize", "orthogonalizeAll"];
+
 export const { generateTangents, sanitizeTangents, splitVertices } = makeCalls(wasm, choices);
 export const generateNormals = normalsOf(wasm, false);
 

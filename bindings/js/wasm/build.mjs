@@ -51,9 +51,9 @@ const loops = /mikktspace\/(grid_order|weld)\.cpp|core\/base\/(sum_rounds|weld|r
 const hot = /mikktspace\/(corner_terms_kernel|one_pass\.cpp|node_sums\.cpp)|core\/pack\/\w+_kernel/;
 
 const modules = {
-  core: { sources: ["memory.cpp", "common.cpp", "core.cpp", "plain_normals.cpp"], isFast: true, defines: [], rooms, kernels: ["normals", "tangents"], without: notPlain },
+  core: { sources: ["memory.cpp", "common.cpp", "core.cpp", "generate_normals.cpp", "plain_normals.cpp"], isFast: true, defines: [], rooms, kernels: ["normals", "tangents"], without: notPlain },
   normals: {
-    sources: ["memory.cpp", "common.cpp", "normals.cpp"], isFast: true, defines: [], rooms: [...rooms, "core/winding"], kernels: ["normals", "tangents"],
+    sources: ["memory.cpp", "common.cpp", "generate_normals.cpp", "normals.cpp"], isFast: true, defines: [], rooms: [...rooms, "core/winding"], kernels: ["normals", "tangents"],
   },
   mikktspace: {
     sources: ["memory.cpp", "common.cpp", "mikktspace.cpp"], isFast: true, defines: ["TSPACE_MIKKTSPACE_ONLY"], rooms, kernels: ["tangents"], without: notPlain,

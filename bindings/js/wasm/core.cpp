@@ -57,19 +57,6 @@ TSPACE_JS_EXPORT(evaluatePlan) std::uint32_t evaluate(const TangentPlan* plan, f
 TSPACE_JS_EXPORT(planBytes) std::size_t planBytes(const TangentPlan* plan) { return plan->memoryBytes(); }
 TSPACE_JS_EXPORT(destroyPlan) void destroyPlan(TangentPlan* plan) { delete plan; }
 
-/// `out`: three floats per corner.
-TSPACE_JS_EXPORT(generateNormals)
-std::uint32_t normals(std::uint32_t weighting, float crease_angle_deg, const std::uint32_t* groups,
-                      std::size_t group_count, bool groups_are_masks, bool weld_positions, std::uint32_t convention,
-                      std::uint32_t refine, float denoise, float* out) {
-    const auto options = normalOptions(weighting, crease_angle_deg, groups, group_count, groups_are_masks,
-                                       weld_positions, convention, refine, denoise);
-    auto result = generateNormals(mesh(), options, vec3Span(out, mesh().cornerCount()));
-    if (!result) return codeOf(result);
-    keep(*result);
-    return 0;
-}
-
 /// `result`: gets ten words, a pointer and a count for indices, source vertices, source corners, normals and tangents, to be
 /// released one by one. The report is that of tangents.
 TSPACE_JS_EXPORT(makeIndexedFrames)

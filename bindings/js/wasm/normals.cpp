@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The module of the entry "tspace/normals": normals of meshes with noise, hard edges by the mesh, and winding.
 #include "common.h"
-#include "normal_options.h"
 #include "tspace/position_noise.h"
 #include "tspace/winding.h"
 
@@ -9,19 +8,6 @@ using namespace tspace;
 using namespace tspace::js;
 
 extern "C" {
-
-/// `out`: three floats per corner.
-TSPACE_JS_EXPORT(generateNormals)
-std::uint32_t normals(std::uint32_t weighting, float crease_angle_deg, const std::uint32_t* groups,
-                      std::size_t group_count, bool groups_are_masks, bool weld_positions, std::uint32_t convention,
-                      std::uint32_t refine, float denoise, float* out) {
-    const auto options = normalOptions(weighting, crease_angle_deg, groups, group_count, groups_are_masks,
-                                       weld_positions, convention, refine, denoise);
-    auto result = generateNormals(mesh(), options, vec3Span(out, mesh().cornerCount()));
-    if (!result) return codeOf(result);
-    keep(*result);
-    return 0;
-}
 
 /// The report: sigma, the share of kinks, noise, and the mean edge.
 TSPACE_JS_EXPORT(measurePositionNoise) std::uint32_t measureNoise() {
