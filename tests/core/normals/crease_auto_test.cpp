@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "core/base/vec_math.h"
+#include "core/normals/normals_outcome.h"
 #include "core/normals/pose_normals.h"
 #include "scans.h"
 #include "support/simple_mesh.h"
@@ -20,34 +21,18 @@ namespace {
 using accuracy::Random;
 using accuracy::Scan;
 using accuracy::Shape;
+using test::areSame;
+using test::normalsOf;
+using test::Outcome;
+using test::shape;
 using test::SimpleMesh;
 
 constexpr float kAuto = NormalOptions::crease_auto;
 
-struct Outcome {
-    std::vector<Vec3> normals;
-    NormalReport report;
-};
-
-Outcome normalsOf(const MeshView& mesh, const NormalOptions& options, const Execution& execution = {}) {
-    Outcome outcome{std::vector<Vec3>(mesh.cornerCount()), {}};
-    const Result<NormalReport> report = generateNormals(mesh, options, outcome.normals, execution);
-    EXPECT_TRUE(report.ok());
-    if (report) outcome.report = *report;
-    return outcome;
-}
 Outcome bestOf(const MeshView& mesh, float crease_deg, float denoise = 0, const Execution& execution = {}) {
     return normalsOf(mesh, {.weighting = NormalWeighting::best, .crease_angle_deg = crease_deg, .denoise = denoise},
                      execution);
 }
-bool areSame(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
-    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Vec3)) == 0;
-}
-const Shape& shape(const char* name) {
-    const auto all = accuracy::shapes();
-    return *std::find_if(all.begin(), all.end(), [&](const Shape& s) { return std::strcmp(s.name, name) == 0; });
-}
-
 /// A tube with a flat end: its rim turns by 90 degrees, its sides by 360 / sides.
 SimpleMesh tube(std::uint32_t sides) {
     SimpleMesh mesh;

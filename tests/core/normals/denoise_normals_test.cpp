@@ -10,6 +10,7 @@
 #include <map>
 
 #include "core/base/vec_math.h"
+#include "core/normals/normals_outcome.h"
 #include "core/normals/pose_normals.h"
 #include "scans.h"
 #include "support/simple_mesh.h"
@@ -24,36 +25,20 @@ namespace {
 using accuracy::Random;
 using accuracy::Scan;
 using accuracy::Shape;
+using test::areSame;
+using test::normalsOf;
+using test::Outcome;
+using test::shape;
 using test::SimpleMesh;
 
-struct Outcome {
-    std::vector<Vec3> normals;
-    NormalReport report;
-};
-
-Outcome normalsOf(const MeshView& mesh, NormalOptions options, const Execution& execution = {}) {
-    Outcome outcome{std::vector<Vec3>(mesh.cornerCount()), {}};
-    const Result<NormalReport> report = generateNormals(mesh, options, outcome.normals, execution);
-    EXPECT_TRUE(report.ok());
-    if (report) outcome.report = *report;
-    return outcome;
-}
 Outcome bestOf(const MeshView& mesh, float denoise, float crease_deg = 180, const Execution& execution = {}) {
     return normalsOf(mesh, {.weighting = NormalWeighting::best, .crease_angle_deg = crease_deg, .denoise = denoise},
                      execution);
 }
 constexpr float kAuto = NormalOptions::denoise_auto;
 
-bool areSame(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
-    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Vec3)) == 0;
-}
 bool areUnit(const std::vector<Vec3>& normals) {
     return std::all_of(normals.begin(), normals.end(), [](const Vec3& n) { return std::fabs(length(n) - 1) < 1e-5f; });
-}
-
-const Shape& shape(const char* name) {
-    const auto all = accuracy::shapes();
-    return *std::find_if(all.begin(), all.end(), [&](const Shape& s) { return std::strcmp(s.name, name) == 0; });
 }
 
 /// Its caps are fans from one vertex of the rim.
