@@ -22,6 +22,21 @@ function(tspace_configure_target target)
     endif()
 endfunction()
 
+# The option TSPACE_WITH_<name>: ON where all of the variables behind `missing` are set, as find_library and the like set them.
+# `missing` says what was not found to who sets it ON all the same.
+function(tspace_optional name help missing)
+    set(has_all ON)
+    foreach(found ${ARGN})
+        if(NOT ${found})
+            set(has_all OFF)
+        endif()
+    endforeach()
+    option(TSPACE_WITH_${name} "${help}" ${has_all})
+    if(TSPACE_WITH_${name} AND NOT has_all)
+        message(FATAL_ERROR "TSPACE_WITH_${name} is ON, but ${missing} not found")
+    endif()
+endfunction()
+
 # Compiles twenty files as one, where TSPACE_BATCHES asks for it.
 function(tspace_batch_sources target)
     if(TSPACE_BATCHES)
