@@ -83,7 +83,7 @@ export function showRelief(host: HTMLElement, rows: HTMLElement, green: HTMLInpu
     const degrees = Math.round((a * 180) / Math.PI);
     numbers.set("what one sees", green.checked && Math.abs(degrees) < 10 ? "up and down are exchanged: bolts are lit from below, as holes would be"
       : Math.abs(degrees) < 10 ? "bolts stand out and the groove lies deep: T points where u grows"
-      : Math.abs(degrees) > 135 ? "all is turned round: bolts are holes"
+      : Math.abs(degrees) > 135 && !green.checked ? "all is turned round: bolts are holes"
       : `light seems to come from ${Math.abs(degrees)} degrees beside where it is`);
   });
   const disc: [Vec2, Vec2] = [[-1, 1], [-1, 1]];

@@ -64,6 +64,27 @@ it("decodes texels, and tells what a wrong T and a green that points down do", {
   assert.deepEqual(tab.faults, []);
 });
 
+/** How much brighter the upper half of a bolt is than its lower half, in the lit picture of the first figure. */
+const boltFromAbove = (tab) => tab.$eval("#relief image:nth-of-type(2)", async (image) => {
+  const bitmap = await createImageBitmap(await (await fetch(image.getAttribute("href"))).blob());
+  const context = new OffscreenCanvas(bitmap.width, bitmap.height).getContext("2d");
+  context.drawImage(bitmap, 0, 0);
+  const at = (u, v) => context.getImageData(Math.round(u * bitmap.width), Math.round((1 - v) * bitmap.height), 1, 1).data[0];
+  return at(0.24, 0.76 + 0.05) - at(0.24, 0.76 - 0.05);
+});
+
+it("lights bolts as what it says of them: from above, and from below where they look like holes", { skip }, async () => {
+  const tab = await open();
+  assert.ok((await boltFromAbove(tab)) > 40, "they stand out");
+  await tab.check("#down");
+  assert.ok((await boltFromAbove(tab)) < -40, "lit from below");
+  await tab.uncheck("#down");
+  await press(tab, "where T points", "Shift+ArrowUp", 4);
+  await press(tab, "where T points", "Shift+ArrowLeft", 30);
+  assert.match(await number(tab, "relief", "what one sees"), /bolts are holes/);
+  assert.ok((await boltFromAbove(tab)) < -40, "and turned round they are holes");
+});
+
 it("begins with triangles that disagree", { skip }, async () => {
   const tab = await open();
   const directions = await tab.$$eval("#average line.arrow.tangent.faint", (lines) => lines.map((l) => Math.atan2(l.y2.baseVal.value - l.y1.baseVal.value, l.x2.baseVal.value - l.x1.baseVal.value)));

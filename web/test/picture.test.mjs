@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { join } from "node:path";
-import { choose, drawn, missing, noShared, openFile, settled, shared, shares, shoot, withPage } from "./support.mjs";
+import { choose, drawn, farApart, missing, noShared, openFile, pixelsOf, settled, shared, shareOf, shares, shoot, withPage } from "./support.mjs";
 
 const aboveLegend = { left: 0, top: 0, right: 1, bottom: 0.88 };
 const settings = (tab) => tab.evaluate(() => ({ ...window.tspaceView.views.stage.viewport.settings }));
@@ -37,39 +37,17 @@ test("difference of lighting is nothing where frames are the same, and a half tu
   });
 });
 
-/** The share of the picture's pixels that are far from grey. */
-const colourful = async (tab) => {
-  await drawn(tab);
-  const png = (await tab.locator(".frame").screenshot({ style: ".frame > :not(canvas) { visibility: hidden; }" })).toString("base64");
-  return tab.evaluate(async (png) => {
-    const image = await createImageBitmap(new Blob([Uint8Array.from(atob(png), (c) => c.charCodeAt(0))]));
-    const context = new OffscreenCanvas(image.width, image.height).getContext("2d");
-    context.drawImage(image, 0, 0);
-    const { data } = context.getImageData(0, 0, image.width, image.height);
-    let count = 0;
-    for (let i = 0; i < data.length; i += 4) count += Math.max(data[i], data[i + 1], data[i + 2]) - Math.min(data[i], data[i + 1], data[i + 2]) > 60;
-    return (4 * count) / data.length;
-  }, png);
-};
-
 /** The box around all pixels that are not ground, as shares of the picture. */
 const filled = async (tab) => {
-  const png = (await tab.locator(".frame").screenshot({ style: ".frame > :not(canvas) { visibility: hidden; }" })).toString("base64");
-  return tab.evaluate(async (png) => {
-    const image = await createImageBitmap(new Blob([Uint8Array.from(atob(png), (c) => c.charCodeAt(0))]));
-    const context = new OffscreenCanvas(image.width, image.height).getContext("2d");
-    context.drawImage(image, 0, 0);
-    const { data } = context.getImageData(0, 0, image.width, image.height);
-    const ground = 4 * (4 * image.width + 4);
-    let left = image.width, right = 0, top = image.height, bottom = 0;
-    for (let i = 0; i < data.length; i += 4) {
-      const x = (i / 4) % image.width, y = Math.floor(i / 4 / image.width);
-      // Pixels at the rim may be mixed with what lies beside the picture.
-      if (Math.min(x, y, image.width - 1 - x, image.height - 1 - y) < 3 || Math.max(...[0, 1, 2].map((k) => Math.abs(data[i + k] - data[ground + k]))) < 12) continue;
+  const { width, height, channels, data } = await pixelsOf(tab), ground = channels * (4 * width + 4);
+  let left = width, right = 0, top = height, bottom = 0;
+  for (let y = 3; y < height - 3; ++y) {
+    for (let x = 3; x < width - 3; ++x) { // pixels at the rim may be mixed with what lies beside the picture
+      if (farApart(data, channels * (y * width + x), data, ground) < 12) continue;
       left = Math.min(left, x), right = Math.max(right, x), top = Math.min(top, y), bottom = Math.max(bottom, y);
     }
-    return { width: (right - left + 1) / image.width, height: (bottom - top + 1) / image.height };
-  }, png);
+  }
+  return { width: (right - left + 1) / width, height: (bottom - top + 1) / height };
 };
 
 for (const [width, height] of [[390, 844], [820, 1180], [1280, 800]]) {
@@ -116,7 +94,8 @@ test("surfaces look as their materials say: colours of vertices, what mirrors, w
   await withPage(async (tab) => {
     const open = (name) => openFile(tab, join(shared, "models/khronos", name));
     await open("BoxVertexColors.glb");
-    const share = await colourful(tab);
+    const image = await pixelsOf(tab), { data } = image;
+    const share = shareOf(image, (i) => Math.max(data[i], data[i + 1], data[i + 2]) - Math.min(data[i], data[i + 1], data[i + 2]) > 60);
     assert.ok(share > 0.2, `vertices have colours: ${share}`);
     await open("CesiumMan.glb");
     const sizes = await tab.evaluate(() => {

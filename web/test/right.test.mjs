@@ -6,7 +6,7 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { test } from "node:test";
 import { Glb } from "./glb.mjs";
-import { choose, drawn, mended, missing, noShared, openFile, settled, shared, shoot, withPage } from "./support.mjs";
+import { choose, drawn, farApart, mended, missing, noShared, openFile, pixelsOf, settled, shared, shareOf, shoot, withPage } from "./support.mjs";
 
 const sample = async (tab, name) => {
   await tab.getByRole("button", { name, exact: true }).click();
@@ -15,24 +15,12 @@ const sample = async (tab, name) => {
 const rightLabel = (tab) => tab.locator(".side.right").textContent();
 const cat = () => join(shared, "models/assets/Cat.glb");
 
-/** Share of pixels of the picture that differ by more than a step of rounding between two screenshots. */
-const differing = (tab, a, b) => tab.evaluate(async (files) => {
-  const [one, other] = await Promise.all(files.map(async (text) => {
-    const image = await createImageBitmap(new Blob([Uint8Array.from(atob(text), (c) => c.charCodeAt(0))]));
-    const context = new OffscreenCanvas(image.width, image.height).getContext("2d");
-    context.drawImage(image, 0, 0);
-    return context.getImageData(0, 0, image.width, image.height).data;
-  }));
-  let count = 0;
-  for (let i = 0; i < one.length; i += 4) count += Math.max(...[0, 1, 2].map((k) => Math.abs(one[i + k] - other[i + k]))) > 6;
-  return (4 * count) / one.length;
-}, [a, b].map((shot) => shot.toString("base64")));
+/** Share of pixels that differ by more than a step of rounding between two pictures. */
+const differing = (one, other) => shareOf(one, (i) => farApart(one.data, i, other.data, i) > 6);
 
 async function picture(tab, split) {
   await tab.locator(".split").fill(split);
-  await drawn(tab);
-  // The model alone, without what lies over it.
-  return tab.locator(".frame").screenshot({ style: ".frame > :not(canvas) { visibility: hidden; }" });
+  return pixelsOf(tab);
 }
 
 test("where green points down, the right side is what the file with turned green looks like", { skip: missing }, async () => {
@@ -40,7 +28,7 @@ test("where green points down, the right side is what the file with turned green
     await sample(tab, "Ring");
     assert.equal(await rightLabel(tab), "right frames (mikktspace), green turned");
     const left = await picture(tab, "1000"), right = await picture(tab, "0");
-    assert.ok((await differing(tab, left, right)) > 0.02, "as the file is, bumps are dents");
+    assert.ok(differing(left, right) > 0.02, "as the file is, bumps are dents");
     await tab.locator(".split").fill("500");
     await shoot(tab, "ring-green-turned");
     await tab.locator(".mend > summary").click();
@@ -49,7 +37,7 @@ test("where green points down, the right side is what the file with turned green
     await mended(tab);
     await tab.waitForFunction(() => window.tspaceView.views.stage.viewport.scene.drawn.every(({ rightMap, part }) => rightMap !== part.normalMap));
     assert.equal(await rightLabel(tab), "mended");
-    assert.ok((await differing(tab, right, await picture(tab, "0"))) < 0.002, "and the mended file looks the same");
+    assert.ok(differing(right, await picture(tab, "0")) < 0.002, "and the mended file looks the same");
     await sample(tab, "Crate");
     assert.equal(await rightLabel(tab), "right frames (mikktspace)", "nothing of it is left on the next model");
   });
@@ -103,7 +91,7 @@ test("inverted signs and green that cancel out are mended both or not at all", {
     await tab.locator(".look select").first().selectOption("mikktspace");
     await tab.locator(".figures", { hasText: "from mikktspace" }).waitFor();
     const left = await picture(tab, "1000"), right = await picture(tab, "0");
-    assert.ok((await differing(tab, left, right)) < 0.03, "both sides are right, and look the same");
+    assert.ok(differing(left, right) < 0.03, "both sides are right, and look the same");
   }, { allowMessages: true });
 });
 

@@ -4,6 +4,7 @@ import { existsSync, mkdirSync, mkdtempSync, readFileSync, readdirSync, rmSync, 
 import { tmpdir } from "node:os";
 import { dirname, join, relative } from "node:path";
 import { pathToFileURL } from "node:url";
+import { decode } from "fast-png";
 
 const chromium = ["/usr/bin/chromium", "/usr/bin/chromium-browser"].find(existsSync);
 const playwright = await import("playwright-core").catch(() => null);
@@ -105,6 +106,22 @@ export async function mended(tab) {
   const [download] = await Promise.all([tab.waitForEvent("download"), tab.locator(".result a").click()]);
   return readFileSync(await download.path());
 }
+
+/** The picture as pixels, without what lies over it. */
+export async function pixelsOf(tab) {
+  await drawn(tab);
+  return decode(await tab.locator(".frame").screenshot({ style: ".frame > :not(canvas) { visibility: hidden; }" }));
+}
+
+/** The share of an image's pixels of which something holds: `holds(at)` gets where red of the pixel is in its data. */
+export function shareOf({ width, height, channels }, holds) {
+  let count = 0;
+  for (let i = 0; i < width * height; ++i) count += holds(channels * i);
+  return count / (width * height);
+}
+
+/** The largest difference of red, green and blue between two places. */
+export const farApart = (a, at, b, other) => Math.max(...[0, 1, 2].map((k) => Math.abs(a[at + k] - b[other + k])));
 
 /** Shares of the picture's pixels that are nearest to each of the named colours; what is far from all counts as "other". */
 export async function shares(tab, colors, area = { left: 0, top: 0, right: 1, bottom: 1 }) {

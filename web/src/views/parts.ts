@@ -33,7 +33,7 @@ export class PartsView {
   describe(report: InspectReport | null): void {
     if (!report) return replaceChildren(this.#numbers);
     const sum = (of: (one: InspectReport["primitives"][number]) => number) => report.primitives.reduce((total, one) => total + of(one), 0);
-    const sets = report.primitives.reduce((most, { uvSets }) => Math.max(most, Array.isArray(uvSets) ? uvSets.length : Number(uvSets)), 0);
+    const sets = report.primitives.reduce((most, { uvSets }) => Math.max(most, uvSets), 0);
     const rows: [string, string][] = [
       ["Triangles", count(sum(({ triangles }) => triangles))],
       ["Vertices", count(sum(({ vertices }) => vertices))],
