@@ -5,18 +5,13 @@
 #include <queue>
 #include <span>
 
+#include "core/base/edge_runs.h"
 #include "core/base/unit.h"
 #include "maps/segment_distance.h"
 
 namespace tspace {
 
 namespace {
-
-/// A side of a triangle, by the roots of its ends.
-struct Side {
-    std::uint32_t low = 0, high = 0;
-    std::uint32_t corner = 0;  ///< where it begins
-};
 
 std::uint32_t nextCorner(std::uint32_t corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; }
 
@@ -28,15 +23,16 @@ class Search {
     }
 
     HardEdges run() {
-        sortSides();
-        for (std::size_t begin = 0; begin < sides_.size();) {
-            std::size_t end = begin + 1;
-            while (end < sides_.size() && sides_[end].low == sides_[begin].low &&
-                   sides_[end].high == sides_[begin].high)
-                ++end;
-            joinOrPart({sides_.data() + begin, end - begin});
-            begin = end;
-        }
+        const auto forHalves = [&](const auto& add) {
+            for (std::uint32_t corner = 0; corner < positions_.count; ++corner) {
+                const std::uint32_t a = roots_[corner], b = roots_[nextCorner(corner)];
+                if (a != b) add(std::min(a, b), std::max(a, b), corner);
+            }
+        };
+        forEachEdge(positions_.count, nullptr, forHalves,
+                    [&](std::uint32_t low, std::uint32_t high, std::span<const HalfEdge> sides) {
+                        joinOrPart(low, high, sides);
+                    });
         if (found_.edges.empty()) return std::move(found_);
         spread();
         found_.nearest.resize(groups_.size());
@@ -53,16 +49,6 @@ class Search {
     }
 
   private:
-    void sortSides() {
-        for (std::uint32_t corner = 0; corner < positions_.count; ++corner) {
-            const std::uint32_t a = roots_[corner], b = roots_[nextCorner(corner)];
-            if (a != b) sides_.push_back({std::min(a, b), std::max(a, b), corner});
-        }
-        std::sort(sides_.begin(), sides_.end(), [](const Side& a, const Side& b) {
-            return a.low != b.low ? a.low < b.low : a.high != b.high ? a.high < b.high : a.corner < b.corner;
-        });
-    }
-
     [[nodiscard]] DVec3 normalOf(std::uint32_t corner) const {
         const std::uint32_t first = corner - corner % 3;
         const DVec3 at = toDouble(positions_[first]);
@@ -71,26 +57,27 @@ class Search {
     }
 
     /// The sides of one edge: it is hard, or its two faces are one around both of its ends.
-    void joinOrPart(std::span<const Side> sides) {
+    void joinOrPart(std::uint32_t low, std::uint32_t high, std::span<const HalfEdge> sides) {
         constexpr double kCosine = 0.861629160441525819;  // of kHardDeg
         if (sides.size() == 1) return;
         if (sides.size() == 2) {
-            const DVec3 a = normalOf(sides[0].corner), b = normalOf(sides[1].corner);
+            const DVec3 a = normalOf(cornerOf(sides[0])), b = normalOf(cornerOf(sides[1]));
             // A triangle without area bends nothing.
             const bool has_angle = dot(a, a) > 0 && dot(b, b) > 0;
             if (!has_angle || dot(a, b) >= kCosine) {
-                for (const std::uint32_t end : {sides[0].low, sides[0].high})
-                    join(cornerAt(sides[0].corner, end), cornerAt(sides[1].corner, end));
+                for (const std::uint32_t end : {low, high})
+                    join(cornerAt(cornerOf(sides[0]), end), cornerAt(cornerOf(sides[1]), end));
                 return;
             }
         }
         const auto edge = static_cast<std::uint32_t>(found_.edges.size());
         DVec3 way{};
-        for (const Side& side : sides) way = way + normalOf(side.corner);
-        found_.edges.push_back({{sides[0].corner, nextCorner(sides[0].corner)}, normalize(way) ? way : DVec3{}});
-        for (const Side& side : sides) {
-            at_edges_.push_back({side.corner, edge});
-            at_edges_.push_back({nextCorner(side.corner), edge});
+        for (const HalfEdge side : sides) way = way + normalOf(cornerOf(side));
+        const std::uint32_t first = cornerOf(sides[0]);
+        found_.edges.push_back({{first, nextCorner(first)}, normalize(way) ? way : DVec3{}});
+        for (const HalfEdge side : sides) {
+            at_edges_.push_back({cornerOf(side), edge});
+            at_edges_.push_back({nextCorner(cornerOf(side)), edge});
         }
     }
 
@@ -158,7 +145,6 @@ class Search {
     std::span<const std::uint32_t> roots_;
     double far_;
     std::vector<std::uint32_t> groups_;  ///< corners at one place whose faces meet smoothly: a forest
-    std::vector<Side> sides_ = {};
     std::vector<std::array<std::uint32_t, 2>> at_edges_ = {};  ///< corners at hard edges, and which
     std::vector<std::array<std::uint32_t, 2>> near_ = {};      ///< of each group
     HardEdges found_ = {};

@@ -4,11 +4,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 #include <utility>
 
 #include "core/base/angle.h"
+#include "core/base/edge_runs.h"
 #include "core/base/float4.h"
-#include "core/base/sort.h"
 #include "core/base/vec_math.h"
 #include "core/normals/denoise.h"
 
@@ -23,20 +24,20 @@ class EdgePairs {
   public:
     explicit EdgePairs(const NormalsCall& call)
         : call_(call), others_(call.allocator, call.mesh.cornerCount(), kNoPair) {
-        const std::size_t corners = call.mesh.cornerCount();
-        Buffer<std::uint32_t> begins(call.allocator, call.mesh.vertexCount() + 2, 0u);
-        for (std::uint32_t c = 0; c < corners; ++c) {
-            const Ends ends = endsOf(c);
-            if (ends.low != ends.high) ++begins[ends.low + 2];
-        }
-        for (std::size_t p = 2; p < begins.size(); ++p) begins[p] += begins[p - 1];
-        Buffer<Entry> entries(call.allocator, begins[begins.size() - 1]);
-        for (std::uint32_t c = 0; c < corners; ++c) {
-            const Ends ends = endsOf(c);
-            if (ends.low != ends.high) entries[begins[ends.low + 1]++] = {ends.high, c};
-        }
-        for (std::size_t p = 0; p + 2 < begins.size(); ++p)
-            pair(entries.data() + begins[p], entries.data() + begins[p + 1]);
+        const auto forHalves = [&](const auto& add) {
+            for (std::uint32_t c = 0; c < others_.size(); ++c) {
+                const Ends ends = endsOf(c);
+                if (ends.low != ends.high) add(ends.low, ends.high, c);
+            }
+        };
+        forEachEdge(call.mesh.vertexCount(), call.allocator, forHalves,
+                    [&](std::uint32_t, std::uint32_t, std::span<const HalfEdge> halves) {
+                        has_crowded_ = has_crowded_ || halves.size() > 2;
+                        if (halves.size() != 2) return;
+                        const std::uint32_t a = cornerOf(halves[0]), b = cornerOf(halves[1]);
+                        others_[a] = b;
+                        others_[b] = a;
+                    });
     }
 
     [[nodiscard]] std::uint32_t other(std::size_t corner) const { return others_[corner]; }
@@ -52,26 +53,6 @@ class EdgePairs {
     }
 
   private:
-    struct Entry {
-        std::uint32_t high, corner;
-    };
-
-    void pair(Entry* begin, Entry* end) {
-        sortList(begin, end, [](const Entry& a, const Entry& b) {
-            return a.high != b.high ? a.high < b.high : a.corner < b.corner;
-        });
-        for (Entry* run = begin; run != end;) {
-            Entry* past = run + 1;
-            while (past != end && past->high == run->high) ++past;
-            if (past - run == 2) {
-                others_[run[0].corner] = run[1].corner;
-                others_[run[1].corner] = run[0].corner;
-            }
-            has_crowded_ = has_crowded_ || past - run > 2;
-            run = past;
-        }
-    }
-
     const NormalsCall& call_;
     Buffer<std::uint32_t> others_;
     bool has_crowded_ = false;

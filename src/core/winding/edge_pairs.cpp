@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Edges are listed by their lower point, so that all halves of an edge lie together in a short list.
 #include "core/winding/edge_pairs.h"
 
 #include <algorithm>
 #include <span>
 
 #include "core/base/angle.h"
+#include "core/base/edge_runs.h"
 #include "core/base/mesh_loops.h"
 #include "core/base/sort.h"
 
@@ -27,23 +27,22 @@ class Pairing {
         : surface_(surface), allocator_(allocator), partners_(allocator, surface.mesh.cornerCount(), kNoPartner) {}
 
     Buffer<std::uint32_t> run() {
-        const std::size_t points = surface_.mesh.vertexCount();
-        Buffer<std::uint32_t> ends(allocator_, points + 1, 0);
-        forEdges([&](std::uint32_t low, std::uint32_t, std::uint32_t) { ++ends[low + 1]; });
-        for (std::size_t p = 0; p < points; ++p) ends[p + 1] += ends[p];
-        Buffer<std::uint64_t> halves(allocator_, ends[points]);
-        // Afterwards ends[p] is where the list of p ends.
-        forEdges([&](std::uint32_t low, std::uint32_t high, std::uint32_t corner) {
-            halves[ends[low]++] = std::uint64_t{high} << 32 | corner;
-        });
-        for (std::size_t p = 0, begin = 0; p < points; begin = ends[p++]) pairAround(halves, begin, ends[p]);
+        forEachEdge(
+            surface_.mesh.vertexCount(), allocator_, [&](const auto& add) { forHalves(add); },
+            [&](std::uint32_t, std::uint32_t, std::span<const HalfEdge> halves) {
+                if (halves.size() == 2) {
+                    pair(cornerOf(halves[0]), cornerOf(halves[1]));
+                } else if (halves.size() > 2) {
+                    pairMany(halves);
+                }
+            });
         return std::move(partners_);
     }
 
   private:
     /// body(low, high, corner) for the edges of all faces that count.
     template <class Body>
-    void forEdges(Body&& body) const {
+    void forHalves(const Body& body) const {
         forEachFace(surface_.mesh, [&](std::size_t, std::size_t first, std::uint32_t size) {
             if (size < 3 || touchesTwice(first, size)) return;
             const auto begin = static_cast<std::uint32_t>(first), last = begin + size - 1;
@@ -66,20 +65,6 @@ class Pairing {
         return false;
     }
 
-    /// The halves of edges whose lower point is one.
-    void pairAround(Buffer<std::uint64_t>& halves, std::size_t begin, std::size_t end) {
-        if (end - begin < 2) return;
-        sortList(halves.data() + begin, halves.data() + end);
-        for (std::size_t i = begin, past = begin; i < end; i = past) {
-            while (past < end && halves[past] >> 32 == halves[i] >> 32) ++past;
-            if (past - i == 2) {
-                pair(static_cast<std::uint32_t>(halves[i]), static_cast<std::uint32_t>(halves[i + 1]));
-            } else if (past - i > 2) {
-                pairMany({halves.data() + i, past - i});
-            }
-        }
-    }
-
     [[nodiscard]] std::uint32_t apexOf(std::uint32_t corner) const {
         const std::uint32_t face = surface_.faces.of(corner);
         if (surface_.faces.past(face) - surface_.faces.first(face) != 3) return kFixed | corner;
@@ -91,10 +76,10 @@ class Pairing {
         partners_[b] = a | mark;
     }
 
-    void pairMany(std::span<const std::uint64_t> halves) {
+    void pairMany(std::span<const HalfEdge> halves) {
         Buffer<FaceAtEdge> faces(allocator_, halves.size());
         for (std::size_t i = 0; i < halves.size(); ++i) {
-            const auto corner = static_cast<std::uint32_t>(halves[i]);
+            const std::uint32_t corner = cornerOf(halves[i]);
             const std::uint32_t a = surface_.mesh.indices[corner],
                                 b = surface_.mesh.indices[surface_.faces.next(corner)];
             const bool is_forward = runsForward(corner);
