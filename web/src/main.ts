@@ -30,7 +30,7 @@ const findings = new FindingsView({
   mend: (finding) => mend.prepare(finding),
 });
 const progress = new Progress(() => app.stop());
-const look = new LookView(stage, (right) => void app.setRight(right));
+const look = new LookView(stage, (right) => void app.setRight(right), (variant) => void app.setVariant(variant));
 const uvMap = new UvMapView(stage.viewport);
 const parts = new PartsView(stage.viewport), motion = new MotionView(stage.viewport);
 const texel = new TexelView(stage.viewport, (spot) => uvMap.point(spot));
@@ -49,7 +49,7 @@ const mend = new MendView(
   ({ name, bytes, others }) => void app.openMended({ name, bytes, others }),
 );
 const app: App = new App(work, {
-  stage, findings, look, uvMap, place, parts, motion, progress, opened: showName, checked: (report) => mend.advise(report), ready: followLink,
+  stage, findings, look, uvMap, place, parts, motion, progress, opened: showName, offered: (variants) => look.offerVariants(variants), checked: (report) => mend.advise(report), ready: followLink,
   inspected: ({ primitives }) => mend.setCompressed(primitives.some(({ compression }) => compression !== "none")),
 });
 
