@@ -23,7 +23,8 @@ import { Work } from "./worker/client.js";
 // The library is read and compiled by the worker while WebGL starts, which holds this thread up for longer than all else.
 const work = new Work();
 await work.started;
-const stage = new Stage();
+const largeMap = el("section", { class: "large-map", "aria-label": "UV map", hidden: true });
+const stage = new Stage(largeMap);
 const place = new PlaceView(stage.viewport, (look) => stage.setLook(look));
 const findings = new FindingsView({
   choose: (chosen, isOne) => (stage.canvas.dataset.outlined = String(place.show(chosen, isOne))),
@@ -31,7 +32,7 @@ const findings = new FindingsView({
 });
 const progress = new Progress(() => app.stop());
 const look = new LookView(stage, (right) => void app.setRight(right), (variant) => void app.setVariant(variant));
-const uvMap = new UvMapView(stage.viewport);
+const uvMap = new UvMapView(stage.viewport, work, largeMap);
 const parts = new PartsView(stage.viewport), motion = new MotionView(stage.viewport);
 const texel = new TexelView(stage.viewport, (spot) => uvMap.point(spot));
 const title = el("p", { class: "model-name" });

@@ -10,7 +10,7 @@ import { poseOf } from "./pose.js";
 import { giveDecoders } from "./compressed.js";
 import type { Model, Part } from "./part.js";
 import { materialIn, putOn, variantsOf, type Origin } from "./variants.js";
-import { leaveOutBasis, missingImages, normalImagesOf } from "./textures.js";
+import { missingImages, normalImagesOf, readTextureFiles } from "./textures.js";
 
 /** More is not drawn, since a browser's memory ends there; findings are complete all the same. */
 const kMostCorners = 12_000_000;
@@ -133,7 +133,7 @@ export async function loadModel(model: ModelFiles, work: Work, variant = -1): Pr
   const remarks: string[] = [];
   const loader = new GLTFLoader(managerFor(model, urls));
   giveDecoders(loader, work);
-  leaveOutBasis(loader);
+  const why = readTextureFiles(loader, work);
   try {
     const buffer = model.bytes.buffer.slice(model.bytes.byteOffset, model.bytes.byteOffset + model.bytes.byteLength);
     const isText = /\.gltf$/i.test(model.name);
@@ -161,7 +161,7 @@ export async function loadModel(model: ModelFiles, work: Work, variant = -1): Pr
     }
     moveToOrigin(parts.values());
     if (left > 0) remarks.push(`${left} of its parts are not drawn: the picture ends at ${kMostCorners / 3 / 1e6} million triangles.`);
-    remarks.push(...(await missingImages(gltf)));
+    remarks.push(...(await missingImages(gltf, why)));
     const isMoving = gltf.animations.length > 0 || gltf.cameras.length > 0 || objects.some(([, { morphTargetInfluences }]) => morphTargetInfluences);
     const motion = isMoving && roots.length > 0 ? new Motion(roots, gltf.animations, gltf.cameras, objects) : null;
     return { parts: [...parts.values()], motion, normalImages, variants: variantsOf(gltf), remarks };
