@@ -113,3 +113,47 @@ test("compressed models are mended to the bytes that the tool unpacks them to", 
     rmSync(folder, { recursive: true, force: true });
   }
 });
+
+test("a .gltf that came in a folder goes out as a folder: only what changed has other bytes", { skip: noTool }, async () => {
+  const path = join(shared, "models/assets/sofa_03/sofa_03_1k.gltf"), { unzipSync, zipSync } = await import("fflate");
+  await withPage(async (tab) => {
+    const others = { ...named(path), "LICENSE.txt": join(shared, "models/README.md") };
+    assert.equal(await openFile(tab, path, { others }), "ready");
+    await tab.locator(".mend > summary").click();
+    await choose(tab, "all anew", ".mend");
+    await tab.getByLabel("Turn green of maps").check();
+    const glb = new Glb(await mended(tab));
+    const [download] = await Promise.all([tab.waitForEvent("download"), tab.locator(".result a.folder").click()]);
+    assert.equal(download.suggestedFilename(), "sofa_03_1k-mended.zip");
+    const zip = Object.fromEntries(Object.entries(unzipSync(readFileSync(await download.path()))).map(([name, bytes]) => [name.replace(/^sofa_03_1k-mended\//, ""), Buffer.from(bytes)]));
+    assert.deepEqual(Object.keys(zip).sort(), [...Object.keys(others), "sofa_03_1k.gltf"].sort(), "the same names");
+    const before = JSON.parse(readFileSync(path, "utf8")), after = JSON.parse(zip["sofa_03_1k.gltf"]);
+    assert.deepEqual(after.images.map(({ uri }) => uri), before.images.map(({ uri }) => uri));
+    const changed = Object.keys(others).filter((name) => !readFileSync(others[name]).equals(zip[name]));
+    assert.deepEqual(changed.sort(), ["sofa_03.bin", "textures/sofa_03_nor_gl_1k.jpg"]);
+    // The same numbers as in the GLB.
+    const numbers = ({ json, binary }, index) => {
+      const { bufferView, byteOffset = 0, count, type } = json.accessors[index], view = json.bufferViews[bufferView], start = (view.byteOffset ?? 0) + byteOffset, width = { VEC2: 8, VEC3: 12, VEC4: 16 }[type];
+      const stride = view.byteStride ?? width;
+      return Buffer.concat(Array.from({ length: count }, (_, i) => binary.subarray(start + i * stride, start + i * stride + width)));
+    };
+    for (const [m, mesh] of after.meshes.entries()) {
+      for (const [p, { attributes }] of mesh.primitives.entries()) {
+        for (const [name, index] of Object.entries(attributes)) {
+          const own = numbers({ json: after, binary: zip["sofa_03.bin"] }, index), theirs = numbers({ json: glb.json, binary: glb.binary() }, glb.json.meshes[m].primitives[p].attributes[name]);
+          assert.ok(own.length > 0 && own.equals(theirs), `${m}/${p} ${name}`);
+        }
+      }
+    }
+    // And the folder opens again, with nothing to find in it that was mended.
+    const folder = mkdtempSync(join(tmpdir(), "tspace-folder-"));
+    try {
+      writeFileSync(join(folder, "again.zip"), zipSync(Object.fromEntries(Object.entries(zip).map(([name, bytes]) => [`deep/${name}`, new Uint8Array(bytes)]))));
+      await tab.locator(".picker input").first().setInputFiles(join(folder, "again.zip"));
+      await tab.waitForFunction(() => window.tspaceView.model?.name === "sofa_03_1k.gltf" && document.documentElement.dataset.state === "ready");
+      assert.equal(await tab.locator(".remark").isVisible(), false);
+    } finally {
+      rmSync(folder, { recursive: true, force: true });
+    }
+  }, { allowMessages: true });
+});

@@ -61,8 +61,8 @@ export class LookView {
   /** A choice among the variants of the file, where it has some; `chosen`: by its number, or -1. */
   offerVariants(names: string[], chosen = -1): void {
     this.#variants.hidden = names.length === 0;
-    const variants = select("Variant", [["-1", "none: as the file stands"], ...names.map((name, i) => [String(i), name] as const)], String(chosen), (value) => this.vary(Number(value)));
-    replaceChildren(this.#variants, variants.element);
+    const variants = names.length > 0 && select("Variant", [["-1", "none: as the file stands"], ...names.map((name, i) => [String(i), name] as const)], String(chosen), (value) => this.vary(Number(value))).element;
+    replaceChildren(this.#variants, variants);
   }
 
   #choose(right: Right): void {
