@@ -7,6 +7,7 @@
 
 #include "generate_run.h"
 #include "model/gltf/accessor.h"
+#include "model/gltf/container.h"
 #include "model/gltf/primitive_reader.h"
 #include "model/read/read_scene.h"
 

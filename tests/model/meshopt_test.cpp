@@ -9,6 +9,7 @@
 #include "compressed_model.h"
 #include "gltf_builder.h"
 #include "model/gltf/accessor.h"
+#include "model/gltf/container.h"
 #include "model/gltf/meshopt_views.h"
 #include "model/gltf/primitive_reader.h"
 #include "model/read/read_scene.h"
