@@ -8,7 +8,7 @@
 #include "core/base/hash.h"
 #include "core/base/short_number.h"
 #include "core/base/unit.h"
-#include "maps/position_box.h"
+#include "maps/map_surfaces.h"
 #include "maps/ray_directions.h"
 #include "maps/rays.h"
 

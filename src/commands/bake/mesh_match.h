@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "model/scene/drawn_scene.h"
+#include "model/scene/scene.h"
 #include "tspace/asset.h"
 
 namespace tspace {

@@ -8,7 +8,7 @@
 
 #include "model/io/atomic_output.h"
 #include "model/io/file_io.h"
-#include "model/scene/texture_reading.h"
+#include "model/scene/scene.h"
 #include "tspace/bake_file.h"
 
 namespace tspace {

@@ -13,7 +13,6 @@
 #include "core/mesh/surface/float_loss.h"
 #include "maps/map_surfaces.h"
 #include "model/io/file_io.h"
-#include "model/read/load_document.h"
 #include "model/read/read_scene.h"
 
 namespace tspace {

@@ -8,8 +8,8 @@
 
 #include "commands/bake/model_maps.h"
 #include "images/float_image.h"
-#include "maps/position_box.h"
-#include "maps/udim_tile.h"
+#include "maps/map_surfaces.h"
+#include "maps/uv_coverage.h"
 #include "model/io/file_error.h"
 #include "model/scene/scene.h"
 #include "tspace/bake_file.h"

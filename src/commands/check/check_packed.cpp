@@ -13,7 +13,7 @@
 #include "commands/check/scene_verdict.h"
 #include "core/base/angle.h"
 #include "model/io/file_error.h"
-#include "model/io/work_together.h"
+#include "model/io/memory_budget.h"
 #include "tspace/pack.h"
 
 namespace tspace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "images/image.h"
-#include "maps/texel_mask.h"
+#include "maps/uv_coverage.h"
 
 namespace tspace {
 

@@ -10,7 +10,7 @@
 #include "commands/generate/place_image.h"
 #include "commands/shared/map_image_file.h"
 #include "commands/shared/map_mesh.h"
-#include "maps/carried_error.h"
+#include "maps/convert_texel.h"
 #include "maps/uv_coverage.h"
 #include "model/gltf/material_needs.h"
 #include "model/gltf/read_scene.h"

@@ -12,7 +12,6 @@
 #include "commands/generate/place_image.h"
 #include "commands/generate/texture_sources.h"
 #include "images/image.h"
-#include "model/gltf/read_look.h"
 #include "model/gltf/read_scene.h"
 #include "model/io/uri.h"
 

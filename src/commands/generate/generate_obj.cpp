@@ -9,7 +9,7 @@
 #include "core/mesh/pools/local_mesh.h"
 #include "core/mesh/pools/surface_faults.h"
 #include "core/mesh/pools/unit_lattice.h"
-#include "model/gltf/packed_layout.h"
+#include "model/gltf/packed.h"
 #include "model/io/atomic_output.h"
 #include "model/io/file_error.h"
 #include "model/obj/obj_primitives.h"

@@ -10,7 +10,7 @@
 
 #include "model/gltf/document.h"
 #include "model/gltf/primitive_reader.h"
-#include "model/scene/tangent_use.h"
+#include "model/scene/scene.h"
 
 namespace tspace::gltf {
 

@@ -8,8 +8,8 @@
 #include "core/mesh/pools/mend_tangents.h"
 #include "core/mesh/pools/unit_lattice.h"
 #include "core/mesh/surface/tangent_values.h"
+#include "model/gltf/apply_frames.h"
 #include "model/gltf/material_needs.h"
-#include "model/gltf/set_attribute.h"
 #include "model/io/file_error.h"
 
 namespace tspace::gltf {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "model/gltf/model.h"
-#include "model/obj/obj_model.h"
+#include "model/obj/obj_reader.h"
 #include "tspace/asset.h"
 
 namespace tspace {

@@ -7,7 +7,7 @@
 #include "commands/check/judge_maps.h"
 #include "commands/generate/mend_maps.h"
 #include "core/base/short_number.h"
-#include "model/obj/read_scene.h"
+#include "model/obj/obj_primitives.h"
 
 namespace tspace::obj {
 

@@ -9,7 +9,7 @@
 #include "commands/check/frame_health.h"
 #include "commands/check/scene_verdict.h"
 #include "core/base/sort.h"
-#include "model/gltf/primitive_notes.h"
+#include "model/gltf/material_needs.h"
 #include "model/gltf/read_scene.h"
 #include "model/io/file_error.h"
 

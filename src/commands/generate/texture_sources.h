@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <string>
 
-#include "model/gltf/json.h"
+#include "model/gltf/document.h"
 
 namespace tspace::gltf {
 

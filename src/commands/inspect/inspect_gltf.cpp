@@ -9,11 +9,10 @@
 #include "model/gltf/draco_primitives.h"
 #include "model/gltf/material_needs.h"
 #include "model/gltf/meshopt_views.h"
-#include "model/gltf/primitive_notes.h"
+#include "model/gltf/packed.h"
 #include "model/gltf/primitive_reader.h"
-#include "model/gltf/read_packed.h"
 #include "model/io/file_error.h"
-#include "model/read/load_document.h"
+#include "model/read/read_scene.h"
 
 namespace tspace {
 namespace {

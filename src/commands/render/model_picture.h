@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "commands/shared/picture/draw_surfaces.h"
-#include "model/scene/drawn_scene.h"
+#include "model/scene/scene.h"
 #include "tspace/render.h"
 
 namespace tspace {

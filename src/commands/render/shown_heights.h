@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "model/scene/drawn_scene.h"
+#include "model/scene/scene.h"
 #include "tspace/tangents.h"
 
 namespace tspace {

@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "commands/shared/uv_reading.h"
-#include "maps/udim_tile.h"
+#include "maps/uv_coverage.h"
 #include "model/io/file_error.h"
 #include "model/read/read_scene.h"
 #include "tspace/indexed_frames.h"

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "model/scene/drawn_scene.h"
+#include "model/scene/scene.h"
 #include "tspace/asset.h"
 
 namespace tspace {
