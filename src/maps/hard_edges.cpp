@@ -5,8 +5,8 @@
 #include <queue>
 #include <span>
 
-#include "core/base/edge_runs.h"
-#include "core/base/unit.h"
+#include "core/base/mesh_loops.h"
+#include "core/base/vec_math.h"
 #include "maps/segment_distance.h"
 
 namespace tspace {

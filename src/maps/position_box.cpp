@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/base/short_number.h"
+#include "core/base/numbers.h"
 
 namespace tspace {
 

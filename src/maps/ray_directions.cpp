@@ -4,8 +4,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "core/base/angle.h"
-#include "core/base/unit.h"
+#include "core/base/vec_math.h"
 #include "core/base/weld.h"
 #include "maps/hard_edges.h"
 #include "maps/segment_distance.h"

@@ -9,7 +9,7 @@
 #include <limits>
 #include <numeric>
 
-#include "core/base/little_endian.h"
+#include "core/base/numbers.h"
 
 namespace tspace::gltf {
 

@@ -9,7 +9,7 @@
 #include <tuple>
 
 #include "core/base/sort.h"
-#include "core/base/unit.h"
+#include "core/base/vec_math.h"
 #include "model/gltf/material_needs.h"
 #include "model/gltf/primitive_notes.h"
 #include "model/gltf/read_packed.h"

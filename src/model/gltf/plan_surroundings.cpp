@@ -8,8 +8,8 @@
 #include <string>
 #include <utility>
 
-#include "core/mesh/pools/surroundings.h"
-#include "core/mesh/surface/joined_pieces.h"
+#include "core/mesh/pools/local_mesh.h"
+#include "core/mesh/surface/surface.h"
 #include "model/io/file_error.h"
 
 namespace tspace::gltf {

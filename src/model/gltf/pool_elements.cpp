@@ -6,7 +6,7 @@
 #include <cstring>
 #include <utility>
 
-#include "core/base/little_endian.h"
+#include "core/base/numbers.h"
 #include "core/mesh/pools/unit_lattice.h"
 #include "model/gltf/gather_elements.h"
 #include "model/gltf/vertex_numbers.h"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/mesh/surface/uv_matrix.h"
+#include "core/mesh/surface/uvs.h"
 #include "model/gltf/document.h"
 #include "model/scene/tangent_use.h"
 #include "tspace/asset.h"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "core/base/little_endian.h"
+#include "core/base/numbers.h"
 #include "model/gltf/accessor.h"
 #include "model/gltf/material_needs.h"
 #include "model/io/file_error.h"

@@ -8,7 +8,7 @@
 #include <set>
 #include <string>
 
-#include "core/base/little_endian.h"
+#include "core/base/numbers.h"
 #include "core/base/unique_index.h"
 #include "model/gltf/packed_layout.h"
 

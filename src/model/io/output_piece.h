@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/base/little_endian.h"
+#include "core/base/numbers.h"
 #include "model/io/file_io.h"
 
 namespace tspace {

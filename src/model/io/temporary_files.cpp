@@ -20,7 +20,7 @@
 #include <vector>
 
 #include "core/base/border.h"
-#include "core/base/hash.h"
+#include "core/base/unique_index.h"
 #include "model/io/system_files.h"
 #include "tspace/asset.h"
 
