@@ -6,10 +6,10 @@
 #include <numbers>
 
 #include "core/base/border.h"
-#include "core/base/hash.h"
 #include "core/base/memory.h"
 #include "core/base/parallel.h"
 #include "core/base/sort.h"
+#include "core/base/unique_index.h"
 #include "core/base/vec_math.h"
 #include "maps/convert_texel.h"
 #include "maps/solve_texels.h"

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/base/border.h"
-#include "core/base/short_number.h"
+#include "core/base/numbers.h"
 
 namespace tspace {
 

@@ -5,7 +5,7 @@
 #include <bit>
 #include <numeric>
 
-#include "core/base/hash.h"
+#include "core/base/unique_index.h"
 #include "maps/ray_directions.h"
 #include "maps/texture_sample.h"
 

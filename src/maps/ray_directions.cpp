@@ -6,9 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "core/base/angle.h"
-#include "core/base/edge_runs.h"
-#include "core/base/unit.h"
+#include "core/base/vec_math.h"
+#include "core/base/mesh_loops.h"
 #include "core/base/weld.h"
 #include "maps/texture_sample.h"
 

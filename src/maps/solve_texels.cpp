@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "core/base/unit.h"
+#include "core/base/vec_math.h"
 
 namespace tspace {
 

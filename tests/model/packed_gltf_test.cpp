@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/base/angle.h"
 #include "core/base/vec_math.h"
 #include "generate_run.h"
 #include "model/gltf/packed.h"

@@ -18,7 +18,7 @@ const out = resolve(process.argv[2] ?? join(root, "build/js/wasm"));
 /// Rooms of src/ and their files; loops over meshes that are worth more code than -Oz gives.
 const rooms = ["base", "frames", "normals", "tangents", "tangents/mikktspace", "tangents/estimators", "indexed"].map((room) => `core/${room}`);
 /// What plain_normals.cpp stands for.
-const notPlain = ["crease_auto", "denoise", "normal_groups", "position_noise"].map((name) => `core/normals/${name}.cpp`);
+const notPlain = ["crease_auto", "denoise", "normal_groups"].map((name) => `core/normals/${name}.cpp`);
 const fileRooms = [
   ...["surface", "quads", "pools"].map((room) => `core/mesh/${room}`), "images", "maps",
   ...["io", "json", "gltf", "gltf/codecs", "obj", "read"].map((room) => `model/${room}`),
@@ -47,7 +47,7 @@ const inlined = (threshold) => ["-mllvm", `-inline-threshold=${threshold}`];
 const copiesLess = ["-mllvm", "-enable-pre=false", "-mllvm", "-jump-threading-threshold=0"];
 const smallFlags = ["-fno-slp-vectorize", ...copiesLess, ...inlined(-15)];
 const fastFlags = ["-O2", "-DTSPACE_FAST_KERNELS", ...inlined(600)];
-const loops = /mikktspace\/(grid_order|weld)\.cpp|core\/base\/(sum_rounds|weld|range_lists)\.cpp|frames\/(split|sanitize)\.cpp/;
+const loops = /mikktspace\/(grid_order|weld)\.cpp|core\/base\/(weld|range_lists)\.cpp|frames\/(split|sanitize)\.cpp/;
 const hot = /mikktspace\/(corner_terms_kernel|one_pass\.cpp|node_sums\.cpp)|core\/pack\/\w+_kernel/;
 
 const modules = {

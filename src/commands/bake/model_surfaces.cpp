@@ -9,7 +9,7 @@
 #include "commands/bake/mesh_match.h"
 #include "commands/generate/generate_model.h"
 #include "commands/shared/uv_reading.h"
-#include "core/base/unit.h"
+#include "core/base/vec_math.h"
 #include "core/mesh/surface/float_loss.h"
 #include "maps/map_surfaces.h"
 #include "model/io/file_io.h"

@@ -13,7 +13,7 @@
 #include "commands/check/map_content.h"
 #include "commands/check/map_findings.h"
 #include "commands/shared/uv_reading.h"
-#include "core/base/unit.h"
+#include "core/base/vec_math.h"
 #include "images/float_image.h"
 #include "images/texture_file.h"
 #include "maps/texture_sample.h"

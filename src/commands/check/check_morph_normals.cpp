@@ -7,9 +7,8 @@
 #include "commands/check/findings.h"
 #include "commands/check/morph_faults.h"
 #include "commands/check/primitive_checks.h"
-#include "core/base/angle.h"
-#include "core/base/unit.h"
-#include "core/mesh/surface/surface_turn.h"
+#include "core/base/vec_math.h"
+#include "core/mesh/surface/surface.h"
 
 namespace tspace {
 

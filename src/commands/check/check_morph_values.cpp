@@ -4,8 +4,8 @@
 
 #include "commands/check/findings.h"
 #include "commands/check/primitive_checks.h"
-#include "core/base/unit.h"
-#include "core/mesh/surface/tangent_values.h"
+#include "core/base/vec_math.h"
+#include "core/mesh/surface/surface.h"
 
 namespace tspace {
 

@@ -3,7 +3,7 @@
 #include "commands/check/primitive_checks.h"
 
 #include "commands/check/findings.h"
-#include "core/base/angle.h"
+#include "core/base/vec_math.h"
 
 namespace tspace {
 

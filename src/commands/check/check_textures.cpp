@@ -4,7 +4,7 @@
 
 #include "commands/check/findings.h"
 #include "commands/check/primitive_checks.h"
-#include "core/base/angle.h"
+#include "core/base/vec_math.h"
 
 namespace tspace {
 

@@ -5,8 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "core/base/angle.h"
-#include "core/base/unit.h"
+#include "core/base/vec_math.h"
 
 namespace tspace {
 

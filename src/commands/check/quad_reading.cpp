@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "core/mesh/quads/choose_faces.h"
+#include "core/mesh/quads/quads.h"
 
 namespace tspace {
 

@@ -2,7 +2,7 @@
 // Which vertices have the tangents that `generate` would give them. The checks have rules of their own, but bakers and
 // renderers expect the tangents of the reference, so these vertices are in no finding.
 #include "commands/check/frame_health.h"
-#include "core/base/angle.h"
+#include "core/base/vec_math.h"
 #include "tspace/sanitize.h"
 #include "tspace/tangents.h"
 

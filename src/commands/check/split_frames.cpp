@@ -5,9 +5,9 @@
 #include <bit>
 
 #include "commands/check/frame_health.h"
-#include "core/base/angle.h"
 #include "core/base/unique_index.h"
-#include "core/mesh/surface/equal_vertices.h"
+#include "core/base/vec_math.h"
+#include "core/mesh/surface/surface.h"
 #include "tspace/tangents.h"
 
 namespace tspace {

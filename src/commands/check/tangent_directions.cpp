@@ -4,10 +4,9 @@
 
 #include "commands/check/frame_health.h"
 #include "commands/check/vertex_patches.h"
-#include "core/base/angle.h"
 #include "core/base/sort.h"
-#include "core/base/unit.h"
-#include "core/mesh/surface/equal_vertices.h"
+#include "core/base/vec_math.h"
+#include "core/mesh/surface/surface.h"
 
 namespace tspace {
 

@@ -4,7 +4,7 @@
 
 #include "commands/check/frame_health.h"
 #include "commands/check/vertex_patches.h"
-#include "core/base/unit.h"
+#include "core/base/vec_math.h"
 
 namespace tspace {
 

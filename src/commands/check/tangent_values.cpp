@@ -4,8 +4,7 @@
 #include <cmath>
 
 #include "commands/check/frame_health.h"
-#include "core/base/angle.h"
-#include "core/base/unit.h"
+#include "core/base/vec_math.h"
 
 namespace tspace {
 

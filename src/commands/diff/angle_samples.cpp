@@ -5,9 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/base/angle.h"
 #include "core/base/sort.h"
-#include "core/base/unit.h"
+#include "core/base/vec_math.h"
 
 namespace tspace {
 

@@ -7,7 +7,7 @@
 #include "commands/generate/mend_winding.h"
 #include "commands/generate/obj_maps.h"
 #include "core/mesh/pools/local_mesh.h"
-#include "core/mesh/pools/surface_faults.h"
+#include "core/mesh/pools/primitive.h"
 #include "core/mesh/pools/unit_lattice.h"
 #include "model/gltf/packed.h"
 #include "model/io/atomic_output.h"

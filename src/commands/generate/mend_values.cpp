@@ -5,9 +5,9 @@
 #include <cstring>
 #include <map>
 
-#include "core/mesh/pools/mend_tangents.h"
+#include "core/mesh/pools/primitive.h"
 #include "core/mesh/pools/unit_lattice.h"
-#include "core/mesh/surface/tangent_values.h"
+#include "core/mesh/surface/surface.h"
 #include "model/gltf/apply_frames.h"
 #include "model/gltf/material_needs.h"
 #include "model/io/file_error.h"

@@ -12,7 +12,7 @@
 namespace tspace::gltf {
 
 /// Primitives whose tangents stay and lie in one accessor, where these have values that no tangent may have
-/// (surface/tangent_values.h) at some vertex, used by triangles or not. Tangents along N count where a material reads
+/// (hasSoundValues) at some vertex, used by triangles or not. Tangents along N count where a material reads
 /// them: elsewhere they may be normals for outlines.
 std::vector<std::vector<std::size_t>> findBrokenValues(Model& model, const GeneratePlan& plan);
 

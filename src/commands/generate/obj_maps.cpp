@@ -6,7 +6,7 @@
 
 #include "commands/check/judge_maps.h"
 #include "commands/generate/mend_maps.h"
-#include "core/base/short_number.h"
+#include "core/base/numbers.h"
 #include "model/obj/obj_primitives.h"
 
 namespace tspace::obj {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // heightToNormalFile: the image, the mesh, warnings.
 #include "commands/shared/map_image_file.h"
-#include "core/base/short_number.h"
+#include "core/base/numbers.h"
 #include "model/io/atomic_output.h"
 #include "model/io/file_error.h"
 #include "model/io/file_io.h"

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "core/mesh/surface/uv_islands.h"
+#include "core/mesh/surface/uvs.h"
 
 namespace tspace {
 

@@ -2,7 +2,7 @@
 #include "commands/render/draw_model.h"
 
 #include "commands/shared/picture/legend.h"
-#include "core/base/unit.h"
+#include "core/base/vec_math.h"
 
 namespace tspace {
 

@@ -5,7 +5,7 @@
 #include "commands/render/draw_model.h"
 #include "commands/render/picture_file.h"
 #include "commands/render/shown_heights.h"
-#include "core/base/unit.h"
+#include "core/base/vec_math.h"
 #include "model/io/atomic_output.h"
 #include "model/io/file_error.h"
 #include "model/read/read_scene.h"

@@ -14,15 +14,14 @@
 #include <string>
 #include <utility>
 
-#include "core/base/little_endian.h"
+#include "core/base/numbers.h"
 #include "core/base/parallel.h"
 #include "core/base/sort.h"
 #include "core/base/unique_index.h"
-#include "core/base/unit.h"
+#include "core/base/vec_math.h"
 #include "core/mesh/pools/local_mesh.h"
-#include "core/mesh/pools/morph_split.h"
-#include "core/mesh/pools/turned_normals.h"
-#include "core/mesh/surface/position_rounding.h"
+#include "core/mesh/pools/morph_frames.h"
+#include "core/mesh/surface/surface.h"
 #include "model/gltf/packed.h"
 #include "model/io/file_error.h"
 #include "tspace/arena.h"

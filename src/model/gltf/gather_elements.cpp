@@ -10,7 +10,7 @@
 #include <numeric>
 #include <utility>
 
-#include "core/base/little_endian.h"
+#include "core/base/numbers.h"
 #include "core/mesh/pools/unit_lattice.h"
 #include "model/gltf/vertex_numbers.h"
 

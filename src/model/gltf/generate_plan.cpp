@@ -11,9 +11,9 @@
 #include <utility>
 
 #include "core/base/sort.h"
-#include "core/base/unit.h"
-#include "core/mesh/pools/surroundings.h"
-#include "core/mesh/surface/joined_pieces.h"
+#include "core/base/vec_math.h"
+#include "core/mesh/pools/local_mesh.h"
+#include "core/mesh/surface/surface.h"
 #include "model/gltf/apply_frames.h"
 #include "model/gltf/material_needs.h"
 #include "model/gltf/packed.h"

@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
-#include "core/mesh/pools/mends.h"
-#include "core/mesh/surface/uv_matrix.h"
+#include "core/mesh/pools/primitive.h"
+#include "core/mesh/surface/uvs.h"
 #include "model/gltf/document.h"
 #include "model/gltf/model.h"
 #include "model/gltf/primitive_reader.h"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/mesh/surface/uv_matrix.h"
+#include "core/mesh/surface/uvs.h"
 #include "model/gltf/document.h"
 #include "model/gltf/primitive_reader.h"
 #include "model/scene/scene.h"

@@ -5,7 +5,7 @@
 #include <cstring>
 #include <set>
 
-#include "core/base/little_endian.h"
+#include "core/base/numbers.h"
 #include "model/gltf/accessor.h"
 #include "model/gltf/document.h"
 #include "model/gltf/material_needs.h"

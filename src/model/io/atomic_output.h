@@ -15,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/base/little_endian.h"
+#include "core/base/numbers.h"
 #include "model/io/file_io.h"
 #include "model/io/path.h"
 #include "model/io/system_files.h"

@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "core/base/border.h"
-#include "core/base/hash.h"
+#include "core/base/unique_index.h"
 #include "model/io/atomic_output.h"
 #include "model/io/file_error.h"
 #include "model/io/file_io.h"

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <utility>
 
-#include "core/base/little_endian.h"
+#include "core/base/numbers.h"
 #include "core/mesh/pools/unit_lattice.h"
 #include "images/codecs.h"
 #include "images/image.h"

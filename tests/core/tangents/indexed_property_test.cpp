@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/tangents/indexed_plan.h"
+#include "core/tangents/indexed_methods.h"
 #include "support/random_values.h"
 #include "support/simple_mesh.h"
 #include "tspace/frame.h"

@@ -10,8 +10,7 @@
 #include "commands/render/shown_heights.h"
 #include "commands/shared/page/page_parts.h"
 #include "commands/shared/picture/legend.h"
-#include "core/base/angle.h"
-#include "core/base/unit.h"
+#include "core/base/vec_math.h"
 #include "model/io/file_error.h"
 #include "model/read/read_scene.h"
 

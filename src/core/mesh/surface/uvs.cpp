@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Union-find over welded edges.
-#include "core/mesh/surface/uv_islands.h"
+// Islands by union-find over welded edges; matrices of texture transforms.
+#include "core/mesh/surface/uvs.h"
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <numeric>
 
 #include "core/base/unique_index.h"
+#include "core/base/vec_math.h"
 
 namespace tspace {
 namespace {
@@ -91,6 +93,48 @@ double signedUvArea(const Vec2& a, const Vec2& b, const Vec2& c, bool v_runs_dow
     const double t2 = static_cast<double>(c.y) - a.y;
     const double area = s1 * t2 - s2 * t1;
     return v_runs_down ? -area : area;
+}
+
+// From a texture transform to the matrix that its frames need.
+
+namespace {
+
+/// Files write a quarter turn as a float, or with a few digits.
+double snapped(double value) {
+    constexpr double kClose = 1e-6;
+    if (std::fabs(value) < kClose) return 0;
+    if (std::fabs(value) > 1 - kClose * kClose) return value < 0 ? -1 : 1;
+    return value;
+}
+
+}  // namespace
+
+UvMatrix uvMatrix(double rotation, double scale_u, double scale_v) {
+    const SineCosine turn = sineCosine(rotation);
+    const double sine = snapped(turn.sine), cosine = snapped(turn.cosine);
+    if (scale_u == 0) scale_u = 1;
+    if (scale_v == 0) scale_v = 1;
+    if (sine == 0 || cosine == 0) {
+        scale_u = std::copysign(1.0, scale_u);
+        scale_v = std::copysign(1.0, scale_v);
+    } else {
+        const double common = std::max(std::fabs(scale_u), std::fabs(scale_v));
+        scale_u /= common;
+        scale_v /= common;
+    }
+    // + 0.0: no negative zeros, which would differ between equal matrices.
+    return {cosine * scale_u, sine * scale_v + 0.0, -sine * scale_u + 0.0, cosine * scale_v};
+}
+
+std::vector<Vec2> transformUvs(StridedSpan<const Vec2> uvs, const UvMatrix& matrix) {
+    std::vector<Vec2> result;
+    result.reserve(uvs.count);
+    for (std::size_t i = 0; i < uvs.count; ++i) {
+        const Vec2& uv = uvs[i];
+        result.push_back({static_cast<float>(matrix.uu * uv.x + matrix.uv * uv.y),
+                          static_cast<float>(matrix.vu * uv.x + matrix.vv * uv.y)});
+    }
+    return result;
 }
 
 }  // namespace tspace

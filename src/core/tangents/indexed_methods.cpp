@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Planning for lengyel, flat and basis: faces cut to triangles, and what can be counted early.
-#include "core/tangents/indexed_plan.h"
+#include "core/tangents/indexed_methods.h"
 
 #include <algorithm>
 #include <atomic>
@@ -8,10 +8,8 @@
 
 #include "core/base/mesh_loops.h"
 #include "core/base/parallel.h"
-#include "core/base/unit.h"
-#include "core/base/uv_frame.h"
-#include "core/tangents/indexed_methods.h"
-#include "core/tangents/mikktspace/faces.h"
+#include "core/base/vec_math.h"
+#include "core/tangents/mikktspace/weld.h"
 
 namespace tspace {
 
@@ -161,6 +159,95 @@ void writeExtras(const TangentOutput& out, std::size_t entry, const CornerFrame&
     if (!out.bitangents.empty()) out.bitangents[entry] = frame.bitangent;
     if (!out.magnitudes_s.empty()) out.magnitudes_s[entry] = frame.magnitude_s;
     if (!out.magnitudes_t.empty()) out.magnitudes_t[entry] = frame.magnitude_t;
+}
+
+// One dP/du and dP/dv per face, made orthogonal to the normal of each of its corners.
+//
+// For a polygon they are the mean over its UV area, sum(t2 E1 - t1 E2) / sum(determinant) over any fan of
+// triangles: by Green's theorem a value of the border alone, which no choice of diagonals changes.
+
+namespace {
+
+Derivatives faceDerivatives(const IndexedPlan& plan, const Pose& pose, std::uint32_t first, std::uint32_t past) {
+    const std::uint32_t v0 = plan.corner_vertices[first];
+    UvFrame sum;
+    for (std::uint32_t c = first + 1; c + 1 < past; ++c) {
+        const std::uint32_t v1 = plan.corner_vertices[c];
+        const std::uint32_t v2 = plan.corner_vertices[c + 1];
+        const UvFrame frame = uvFrame(pose.positions[v0], pose.positions[v1], pose.positions[v2], plan.uvs[v0],
+                                      plan.uvs[v1], plan.uvs[v2]);
+        sum = {sum.tangent + frame.tangent, sum.bitangent + frame.bitangent, sum.determinant + frame.determinant};
+    }
+    if (!hasUvArea(sum.determinant)) return {};
+    const double r = 1 / sum.determinant;
+    const Derivatives d{r * sum.tangent, r * sum.bitangent};
+    return std::isfinite(length(d.s)) && std::isfinite(length(d.t)) ? d : Derivatives{};
+}
+
+}  // namespace
+
+void evaluateFlat(const IndexedPlan& plan, const Pose& pose, const TangentOutput& out, Parallel& parallel,
+                  TangentReport& report) {
+    report.default_corner_count =
+        sumRanges(parallel, plan.face_count, Parallel::kGrain, [&](std::size_t begin, std::size_t end) {
+            std::uint64_t count = 0;
+            for (std::size_t face = begin; face < end; ++face) {
+                const std::uint32_t first = plan.faceBegin(face);
+                const std::uint32_t past = plan.faceBegin(face + 1);
+                if (first == past || !plan.isUsed(first)) continue;
+                const Derivatives d = faceDerivatives(plan, pose, first, past);
+                for (std::uint32_t c = first; c < past; ++c) {
+                    const CornerFrame frame =
+                        makeCornerFrame(d, pose.normals[plan.corner_vertices[c]], plan.sign_factor);
+                    writeFrame(out, c, frame);
+                    count += frame.is_default ? 1 : 0;
+                }
+            }
+            return count;
+        });
+}
+
+// Tangents without UVs: an orthonormal basis from the normal alone.
+// Based on: Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 6(1), 2017.
+
+namespace {
+
+CornerFrame basisFrame(const Vec3& normal, float sign_factor) {
+    DVec3 n = toDouble(normal);
+    const bool has_direction = normalize(n);
+    const PlaneAxes axes = planeAxes(toDouble(has_direction ? toFloat(n) : Vec3{0, 0, 1}));
+    const Vec3 t = toFloat(axes.x);
+    return {{t.x, t.y, t.z, sign_factor}, sign_factor * toFloat(axes.y), 1, 1, !has_direction};
+}
+
+/// 1 for each vertex that a used corner names.
+Buffer<std::uint8_t> findUsedVertices(const IndexedPlan& plan, const Allocator* allocator) {
+    Buffer<std::uint8_t> used(allocator, plan.vertex_count, 0);
+    for (std::size_t c = 0; c < plan.cornerCount(); ++c) {
+        if (plan.isUsed(c)) used[plan.corner_vertices[c]] = 1;
+    }
+    return used;
+}
+
+}  // namespace
+
+void evaluateBasis(const IndexedPlan& plan, const Pose& pose, const TangentOutput& out, const Allocator* allocator,
+                   Parallel& parallel, TangentReport& report) {
+    const bool per_vertex = plan.domain == OutputDomain::vertex;
+    const Buffer<std::uint8_t> used = findUsedVertices(plan, allocator);
+    report.group_count = static_cast<std::uint64_t>(std::count(used.begin(), used.end(), std::uint8_t{1}));
+    report.default_corner_count =
+        sumRanges(parallel, plan.outputCount(), Parallel::kGrain, [&](std::size_t begin, std::size_t end) {
+            std::uint64_t count = 0;
+            for (std::size_t i = begin; i < end; ++i) {
+                const bool is_used = per_vertex ? used[i] != 0 : plan.isUsed(i);
+                const std::size_t vertex = per_vertex ? i : plan.corner_vertices[i];
+                const CornerFrame frame = is_used ? basisFrame(pose.normals[vertex], plan.sign_factor) : CornerFrame{};
+                writeFrame(out, i, frame);
+                count += frame.is_default ? 1 : 0;
+            }
+            return count;
+        });
 }
 
 }  // namespace tspace
