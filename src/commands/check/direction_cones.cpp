@@ -11,7 +11,6 @@
 #include "core/mesh/surface/equal_vertices.h"
 
 namespace tspace {
-
 namespace {
 
 constexpr double kTurn = 2 * kPi;
