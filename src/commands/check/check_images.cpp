@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What normal maps hold, and green channels that point down, throughout or in parts.
-#include "commands/check/check_images.h"
+#include "commands/check/scene_checks.h"
 
 #include <array>
 #include <cmath>
@@ -11,7 +11,6 @@
 
 #include "commands/check/findings.h"
 #include "commands/check/map_content.h"
-#include "commands/check/map_findings.h"
 #include "commands/shared/uv_reading.h"
 #include "core/base/vec_math.h"
 #include "images/float_image.h"
@@ -21,7 +20,6 @@
 #include "model/io/memory_budget.h"
 
 namespace tspace {
-
 namespace {
 
 /// Triangles that show a part of an image, and the primitives that have them.

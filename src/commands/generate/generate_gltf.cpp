@@ -4,14 +4,9 @@
 #include <optional>
 #include <utility>
 
-#include "commands/generate/cancelled_signs.h"
-#include "commands/generate/convert_maps.h"
 #include "commands/generate/flip_maps.h"
 #include "commands/generate/generate_model.h"
-#include "commands/generate/generate_warnings.h"
-#include "commands/generate/mend_values.h"
-#include "commands/generate/mend_winding.h"
-#include "commands/generate/repair_plan.h"
+#include "commands/generate/generate_steps.h"
 #include "core/base/parallel.h"
 #include "model/gltf/apply_frames.h"
 #include "model/gltf/compression.h"
@@ -24,7 +19,6 @@
 #include "model/read/read_scene.h"
 
 namespace tspace::gltf {
-
 namespace {
 
 /// Pools are computed together up to this many corners for each thread: enough to do, and not too much that waits in

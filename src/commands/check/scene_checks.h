@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
-// The normal maps of a scene.
+// The checks of a whole scene: its normal maps, its packed frames, and seams between its primitives.
 #pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "commands/check/map_content.h"
 #include "commands/check/normal_map.h"
@@ -8,6 +12,8 @@
 #include "tspace/check.h"
 
 namespace tspace {
+
+// The normal maps of a scene.
 
 /// What is known of green in one normal map, or in the part of it that one primitive shows. Where the file declares that it
 /// points down, and it does, that is up: its readers turn it.
@@ -39,5 +45,31 @@ ImageFindings checkImages(const Scene& scene, const CheckOptions& options);
 
 /// A note for each normal map whose scale is 0 or below.
 std::vector<Finding> checkMapScales(const Scene& scene);
+
+/// `--channels`, `--encoding` and all else that makes convert-map read a layout; empty for the default.
+std::string layoutOptions(const MapLayout& layout);
+
+/// `name`: of the image, with quotes. `file`: its name in a command line. `green_is_down`: the channel that holds y is also
+/// inverted. `can_mend`: generate --mend-maps writes an image of this format anew. Nothing for normals.
+std::optional<Finding> contentFinding(const std::string& name, const std::string& file, const MapLook& look,
+                                      bool green_is_down, bool can_mend = true);
+
+// The packed frames of a scene.
+
+struct PackedFindings {
+    std::vector<Finding> findings = {};
+    std::vector<PackedFramesInfo> infos = {};  ///< all that there are, in the order of the scene
+};
+
+/// Reads all packed frames back and compares them with the normals and tangents beside them; each once, however many
+/// primitives share them.
+PackedFindings checkPacked(const Scene& scene, const CheckOptions& options);
+
+// Seams in the shading between primitives of one mesh.
+
+/// Notes on pairs of primitives of a mesh that are one smooth surface, but whose normals differ at their border because each
+/// has those of its own triangles alone. A note stands only where the border cannot be an intended hard edge: its bend is no
+/// larger than what both sides smooth over elsewhere, and smaller than any edge that they have hard.
+std::vector<Finding> checkSeams(const Scene& scene, const CheckOptions& options);
 
 }  // namespace tspace
