@@ -5,8 +5,8 @@
 #include <array>
 #include <vector>
 
-#include "core/base/unique_index.h"
 #include "core/base/numbers.h"
+#include "core/base/unique_index.h"
 #include "core/base/vec_math.h"
 #include "maps/map_surfaces.h"
 #include "maps/ray_directions.h"

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "core/base/vec_math.h"
 #include "core/base/mesh_loops.h"
+#include "core/base/vec_math.h"
 #include "core/base/weld.h"
 #include "maps/texture_sample.h"
 

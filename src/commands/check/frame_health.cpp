@@ -13,9 +13,9 @@
 #include <utility>
 #include <vector>
 
-#include "core/base/vec_math.h"
 #include "core/base/sort.h"
 #include "core/base/unique_index.h"
+#include "core/base/vec_math.h"
 #include "core/mesh/surface/surface.h"
 #include "tspace/sanitize.h"
 #include "tspace/tangents.h"

@@ -15,10 +15,11 @@
 #include "core/mesh/pools/primitive.h"
 #include "core/mesh/pools/unit_lattice.h"
 #include "core/mesh/surface/surface.h"
+#include "model/gltf/apply_frames.h"
+#include "model/gltf/editor.h"
 #include "model/gltf/material_needs.h"
 #include "model/gltf/packed.h"
 #include "model/gltf/read_scene.h"
-#include "model/gltf/editor.h"
 #include "model/io/file_error.h"
 
 namespace tspace::gltf {
