@@ -11,7 +11,6 @@
 #include "core/base/sort.h"
 #include "core/base/unique_index.h"
 #include "core/base/vec_math.h"
-#include "maps/carried_error.h"
 #include "maps/convert_texel.h"
 #include "maps/solve_texels.h"
 #include "maps/texel_triangles.h"

@@ -6,8 +6,7 @@
 #include <numeric>
 
 #include "core/base/unique_index.h"
-#include "maps/sample_bands.h"
-#include "maps/segment_distance.h"
+#include "maps/ray_directions.h"
 #include "maps/texture_sample.h"
 
 namespace tspace {

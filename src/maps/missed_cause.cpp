@@ -8,7 +8,7 @@
 #include "core/base/numbers.h"
 #include "core/base/unique_index.h"
 #include "core/base/vec_math.h"
-#include "maps/position_box.h"
+#include "maps/map_surfaces.h"
 #include "maps/ray_directions.h"
 #include "maps/rays.h"
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/base/numbers.h"
+#include "model/gltf/container.h"
 #include "model/gltf/document.h"
 #include "model/io/file_error.h"
 #include "model/io/uri.h"

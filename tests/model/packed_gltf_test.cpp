@@ -7,8 +7,8 @@
 
 #include "core/base/vec_math.h"
 #include "generate_run.h"
-#include "model/gltf/read_packed.h"
-#include "model/read/load_document.h"
+#include "model/gltf/packed.h"
+#include "model/read/read_scene.h"
 
 namespace tspace {
 namespace {

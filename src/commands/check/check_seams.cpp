@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Mesh by mesh: edges that pieces of one surface share, and the normals at both of their ends on both sides.
-#include "commands/check/check_seams.h"
+#include "commands/check/scene_checks.h"
 
 #include <algorithm>
 #include <array>
@@ -15,7 +15,6 @@
 #include "core/mesh/surface/surface.h"
 
 namespace tspace {
-
 namespace {
 
 constexpr double kToDegrees = 180 / kPi;

@@ -10,7 +10,6 @@
 #include "core/mesh/surface/surface.h"
 
 namespace tspace {
-
 namespace {
 
 constexpr double kTurn = 2 * kPi;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Sums over primitives, and sentences.
-#include "commands/generate/generate_warnings.h"
+#include "commands/generate/generate_steps.h"
 
 #include <algorithm>
 #include <string>
@@ -9,7 +9,6 @@
 #include "core/base/numbers.h"
 
 namespace tspace {
-
 namespace {
 
 std::string counted(std::uint64_t count, const char* noun) {

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "core/base/numbers.h"
-#include "model/gltf/pool_elements.h"
+#include "model/gltf/gather_elements.h"
 #include "model/io/file_error.h"
 
 namespace tspace::gltf {

@@ -14,6 +14,7 @@
 #include "core/mesh/pools/unit_lattice.h"
 #include "images/codecs.h"
 #include "images/image.h"
+#include "model/gltf/container.h"
 #include "model/io/file_error.h"
 #include "model/io/uri.h"
 
