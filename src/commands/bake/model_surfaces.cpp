@@ -16,14 +16,13 @@
 
 #include "commands/generate/generate_model.h"
 #include "commands/shared/uv_reading.h"
-#include "core/base/unit.h"
+#include "core/base/vec_math.h"
 #include "core/mesh/surface/float_loss.h"
 #include "maps/map_surfaces.h"
 #include "model/io/file_error.h"
 #include "model/io/file_io.h"
-#include "model/read/load_document.h"
 #include "model/read/read_scene.h"
-#include "model/scene/drawn_scene.h"
+#include "model/scene/scene.h"
 #include "tspace/asset.h"
 #include "tspace/map_error.h"
 

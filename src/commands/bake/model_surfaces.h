@@ -8,13 +8,12 @@
 #include <vector>
 
 #include "images/float_image.h"
-#include "maps/position_box.h"
-#include "maps/udim_tile.h"
+#include "maps/map_surfaces.h"
+#include "maps/uv_coverage.h"
 #include "model/io/atomic_output.h"
 #include "model/io/file_error.h"
 #include "model/io/file_io.h"
 #include "model/scene/scene.h"
-#include "model/scene/texture_reading.h"
 #include "tspace/bake_file.h"
 #include "tspace/map_bake.h"
 

@@ -12,12 +12,12 @@
 #include "commands/check/findings.h"
 #include "commands/check/map_content.h"
 #include "commands/shared/uv_reading.h"
-#include "core/base/unit.h"
+#include "core/base/vec_math.h"
 #include "images/float_image.h"
-#include "images/layout_guess.h"
+#include "images/texture_file.h"
 #include "maps/texture_sample.h"
 #include "maps/uv_coverage.h"
-#include "model/io/work_together.h"
+#include "model/io/memory_budget.h"
 
 namespace tspace {
 namespace {

@@ -10,11 +10,8 @@
 #include "commands/check/direction_cones.h"
 #include "commands/check/findings.h"
 #include "commands/check/primitive_checks.h"
-#include "core/base/angle.h"
-#include "core/base/unit.h"
-#include "core/mesh/surface/equal_vertices.h"
-#include "core/mesh/surface/surface_turn.h"
-#include "core/mesh/surface/tangent_values.h"
+#include "core/base/vec_math.h"
+#include "core/mesh/surface/surface.h"
 
 namespace tspace {
 namespace {

@@ -11,9 +11,9 @@
 
 #include "commands/check/findings.h"
 #include "commands/check/scene_verdict.h"
-#include "core/base/angle.h"
+#include "core/base/vec_math.h"
 #include "model/io/file_error.h"
-#include "model/io/work_together.h"
+#include "model/io/memory_budget.h"
 #include "tspace/pack.h"
 
 namespace tspace {

@@ -10,11 +10,9 @@
 #include <utility>
 
 #include "commands/check/findings.h"
-#include "core/base/angle.h"
 #include "core/base/sort.h"
-#include "core/base/unit.h"
-#include "core/mesh/surface/equal_vertices.h"
-#include "core/mesh/surface/joined_pieces.h"
+#include "core/base/vec_math.h"
+#include "core/mesh/surface/surface.h"
 
 namespace tspace {
 namespace {

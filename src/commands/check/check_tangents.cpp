@@ -10,9 +10,8 @@
 
 #include "commands/check/findings.h"
 #include "commands/check/primitive_checks.h"
-#include "core/base/angle.h"
-#include "core/base/unit.h"
-#include "core/mesh/quads/choose_faces.h"
+#include "core/base/vec_math.h"
+#include "core/mesh/quads/quads.h"
 
 namespace tspace {
 namespace {

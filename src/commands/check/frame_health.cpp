@@ -13,11 +13,10 @@
 #include <utility>
 #include <vector>
 
-#include "core/base/angle.h"
 #include "core/base/sort.h"
 #include "core/base/unique_index.h"
-#include "core/base/unit.h"
-#include "core/mesh/surface/equal_vertices.h"
+#include "core/base/vec_math.h"
+#include "core/mesh/surface/surface.h"
 #include "tspace/sanitize.h"
 #include "tspace/tangents.h"
 

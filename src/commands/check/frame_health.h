@@ -10,8 +10,6 @@
 #include "commands/check/direction_cones.h"
 #include "commands/check/findings.h"
 #include "core/mesh/surface/surface.h"
-#include "core/mesh/surface/tangent_values.h"
-#include "core/mesh/surface/tangent_view.h"
 #include "tspace/check.h"
 
 namespace tspace {

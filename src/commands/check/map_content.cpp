@@ -7,8 +7,7 @@
 #include <optional>
 
 #include "commands/check/normal_map.h"
-#include "core/base/angle.h"
-#include "core/base/unit.h"
+#include "core/base/vec_math.h"
 #include "maps/grey.h"
 
 namespace tspace {

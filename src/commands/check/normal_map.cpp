@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/base/angle.h"
+#include "core/base/vec_math.h"
 
 namespace tspace {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "images/image.h"
-#include "maps/texel_mask.h"
+#include "maps/uv_coverage.h"
 #include "tspace/map_layout.h"
 
 namespace tspace {

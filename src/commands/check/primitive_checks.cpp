@@ -8,9 +8,8 @@
 
 #include "commands/check/findings.h"
 #include "commands/shared/noted_noise.h"
-#include "core/base/angle.h"
-#include "core/base/unit.h"
-#include "core/mesh/surface/equal_vertices.h"
+#include "core/base/vec_math.h"
+#include "core/mesh/surface/surface.h"
 #include "tspace/winding.h"
 
 namespace tspace {

@@ -15,7 +15,7 @@
 #include "commands/check/findings.h"
 #include "commands/check/primitive_checks.h"
 #include "model/io/file_error.h"
-#include "model/io/work_together.h"
+#include "model/io/memory_budget.h"
 
 namespace tspace {
 namespace {

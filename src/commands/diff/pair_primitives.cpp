@@ -12,8 +12,8 @@
 #include <string>
 #include <unordered_map>
 
-#include "core/base/hash.h"
 #include "core/base/sort.h"
+#include "core/base/unique_index.h"
 #include "core/base/vec_math.h"
 
 namespace tspace {

@@ -8,7 +8,7 @@
 
 #include "commands/generate/map_references.h"
 #include "commands/shared/map_image_file.h"
-#include "maps/carried_error.h"
+#include "maps/convert_texel.h"
 #include "maps/uv_coverage.h"
 #include "model/gltf/material_needs.h"
 #include "model/gltf/read_scene.h"

@@ -12,14 +12,14 @@
 #include "commands/generate/generate_steps.h"
 #include "commands/shared/uv_reading.h"
 #include "core/base/sort.h"
-#include "core/mesh/pools/mend_tangents.h"
+#include "core/mesh/pools/primitive.h"
 #include "core/mesh/pools/unit_lattice.h"
 #include "core/mesh/surface/surface.h"
-#include "core/mesh/surface/tangent_values.h"
+#include "model/gltf/apply_frames.h"
+#include "model/gltf/editor.h"
 #include "model/gltf/material_needs.h"
-#include "model/gltf/primitive_notes.h"
+#include "model/gltf/packed.h"
 #include "model/gltf/read_scene.h"
-#include "model/gltf/set_attribute.h"
 #include "model/io/file_error.h"
 
 namespace tspace::gltf {

@@ -13,7 +13,6 @@
 #include "commands/generate/map_references.h"
 #include "images/flip_green.h"
 #include "images/image.h"
-#include "model/gltf/read_look.h"
 #include "model/gltf/read_scene.h"
 #include "model/io/file_error.h"
 #include "model/io/uri.h"

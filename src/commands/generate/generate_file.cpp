@@ -5,7 +5,7 @@
 #include "commands/generate/generate_report.h"
 #include "model/io/file_error.h"
 #include "model/io/file_io.h"
-#include "model/read/load_document.h"
+#include "model/read/read_scene.h"
 #include "tspace/asset.h"
 
 namespace tspace {

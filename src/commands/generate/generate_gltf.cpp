@@ -9,18 +9,14 @@
 #include "commands/generate/generate_steps.h"
 #include "core/base/parallel.h"
 #include "model/gltf/apply_frames.h"
-#include "model/gltf/compression/recompress.h"
+#include "model/gltf/compression.h"
 #include "model/gltf/compute_pools.h"
 #include "model/gltf/container.h"
 #include "model/gltf/generate_plan.h"
-#include "model/gltf/plan_surroundings.h"
-#include "model/gltf/read_packed.h"
-#include "model/gltf/strip_tangents.h"
-#include "model/gltf/turn_triangles.h"
+#include "model/gltf/packed.h"
 #include "model/gltf/vertex_numbers.h"
-#include "model/gltf/write_packed.h"
 #include "model/io/file_error.h"
-#include "model/read/load_document.h"
+#include "model/read/read_scene.h"
 
 namespace tspace::gltf {
 namespace {

@@ -13,7 +13,7 @@
 #include "model/gltf/editor.h"
 #include "model/gltf/generate_plan.h"
 #include "model/gltf/model.h"
-#include "model/obj/obj_model.h"
+#include "model/obj/obj_reader.h"
 #include "model/scene/scene.h"
 #include "tspace/asset.h"
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/base/short_number.h"
+#include "core/base/numbers.h"
 
 namespace tspace {
 namespace {

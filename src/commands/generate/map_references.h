@@ -14,9 +14,8 @@
 #include "model/gltf/container.h"
 #include "model/gltf/document.h"
 #include "model/gltf/editor.h"
-#include "model/gltf/json.h"
 #include "model/gltf/primitive_reader.h"
-#include "model/scene/tangent_use.h"
+#include "model/scene/scene.h"
 
 namespace tspace::gltf {
 

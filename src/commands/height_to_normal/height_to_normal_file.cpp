@@ -5,7 +5,7 @@
 #include "commands/height_to_normal/height_to_normal_report.h"
 #include "commands/shared/file_options.h"
 #include "commands/shared/request.h"
-#include "core/base/short_number.h"
+#include "core/base/numbers.h"
 #include "model/io/atomic_output.h"
 #include "model/io/file_error.h"
 #include "model/io/file_io.h"

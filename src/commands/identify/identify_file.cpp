@@ -4,7 +4,7 @@
 
 #include "commands/identify/identify_report.h"
 #include "commands/identify/verdict.h"
-#include "core/mesh/quads/fit_quads.h"
+#include "core/mesh/quads/quads.h"
 #include "model/io/file_error.h"
 #include "model/read/read_scene.h"
 #include "tspace/identify.h"

@@ -8,11 +8,10 @@
 #include <vector>
 
 #include "commands/shared/uv_reading.h"
-#include "core/base/angle.h"
 #include "core/base/sort.h"
-#include "core/base/unit.h"
-#include "core/mesh/quads/fit_quads.h"
-#include "core/mesh/surface/uv_votes.h"
+#include "core/base/vec_math.h"
+#include "core/mesh/quads/quads.h"
+#include "core/mesh/surface/surface.h"
 
 namespace tspace {
 

@@ -12,7 +12,7 @@
 
 #include "commands/shared/picture/draw_surfaces.h"
 #include "images/image.h"
-#include "model/scene/drawn_scene.h"
+#include "model/scene/scene.h"
 #include "tspace/render.h"
 #include "tspace/tangents.h"
 

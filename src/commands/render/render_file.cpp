@@ -4,7 +4,7 @@
 
 #include "commands/render/model_picture.h"
 #include "commands/render/render_report.h"
-#include "core/base/unit.h"
+#include "core/base/vec_math.h"
 #include "model/io/atomic_output.h"
 #include "model/io/file_error.h"
 #include "model/read/read_scene.h"

@@ -9,7 +9,7 @@
 
 #include "commands/shared/uv_reading.h"
 #include "maps/grey.h"
-#include "maps/udim_tile.h"
+#include "maps/uv_coverage.h"
 #include "model/io/file_error.h"
 #include "model/io/file_io.h"
 #include "model/io/memory_budget.h"

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "commands/check/check_report.h"
-#include "model/scene/drawn_scene.h"
+#include "model/scene/scene.h"
 #include "tspace/asset.h"
 #include "tspace/check.h"
 

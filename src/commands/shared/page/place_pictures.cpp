@@ -9,8 +9,7 @@
 #include "commands/render/model_picture.h"
 #include "commands/shared/page/page_parts.h"
 #include "commands/shared/picture/colors.h"
-#include "core/base/angle.h"
-#include "core/base/unit.h"
+#include "core/base/vec_math.h"
 #include "model/io/file_error.h"
 #include "model/read/read_scene.h"
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/base/angle.h"
+#include "core/base/vec_math.h"
 #include "model/io/file_error.h"
 
 namespace tspace {
