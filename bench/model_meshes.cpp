@@ -11,7 +11,7 @@
 #include "model/gltf/primitive_reader.h"
 #include "model/io/file_error.h"
 #include "model/obj/obj_reader.h"
-#include "model/read/load_document.h"
+#include "model/read/read_scene.h"
 
 namespace tspace::bench {
 

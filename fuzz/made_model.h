@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "byte_reader.h"
-#include "model/gltf/glb.h"
-#include "model/gltf/packed_layout.h"
+#include "model/gltf/container.h"
+#include "model/gltf/packed.h"
 
 namespace tspace::fuzz {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Eight more families. No constant of tspace was chosen by looking at them, so they show whether the figures hold
 // elsewhere.
-#include "core/base/angle.h"
+#include "core/base/vec_math.h"
 #include "surfaces.h"
 
 namespace tspace::accuracy {

@@ -5,7 +5,7 @@
 #include <array>
 #include <utility>
 
-#include "core/base/angle.h"
+#include "core/base/vec_math.h"
 
 namespace tspace::accuracy {
 

@@ -2,7 +2,7 @@
 // Twelve surfaces: flat and curved, isometric, conformal, stretched, sheared and mirrored UV maps.
 #include "surfaces.h"
 
-#include "core/base/angle.h"
+#include "core/base/vec_math.h"
 
 namespace tspace::accuracy {
 

@@ -5,8 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "core/base/angle.h"
-#include "core/base/unit.h"
+#include "core/base/vec_math.h"
 #include "test_mesh.h"
 
 namespace tspace::bench {

@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "commands/shared/json_options.h"
+#include "commands/shared/option_table.h"
 #include "model/io/file_error.h"
 #include "tspace/asset.h"
 #include "tspace/tspace_files.h"

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <string_view>
 
+#include "images/codecs.h"
 #include "images/flip_green.h"
-#include "images/png_pixels.h"
 
 namespace tspace {
 

@@ -9,7 +9,6 @@
 #include "core/base/memory.h"
 #include "images/codecs.h"
 #include "images/flip_green.h"
-#include "images/png_pixels.h"
 
 namespace tspace {
 

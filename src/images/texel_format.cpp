@@ -2,9 +2,162 @@
 // Formats of texels that stand one by one, and the table of all formats.
 #include "images/texel_format.h"
 
+#include <algorithm>
 #include <bit>
+#include <cstddef>
+
+#include "images/texel_format.h"
 
 namespace tspace {
+
+// BC1 to BC5 and EAC. Formulas: Khronos Data Format Specification 1.4, chapters S3TC, RGTC and ETC2; exact, where hardware rounds.
+
+namespace {
+
+constexpr std::size_t kBlockTexels = 16;
+
+/// Colours of BC1, whose third and fourth are black and transparent where `has_alpha` and the first is not the larger.
+void decodeColors(const std::uint8_t* block, bool has_alpha, Rgba* texels) {
+    const std::uint32_t first = little16(block), second = little16(block + 2), codes = little32(block + 4);
+    const bool is_cut = has_alpha && first <= second;
+    constexpr unsigned kShift[] = {11, 5, 0}, kMost[] = {31, 63, 31};
+    std::array<Rgba, 4> palette{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        const unsigned a = first >> kShift[i] & kMost[i], b = second >> kShift[i] & kMost[i];
+        const auto of = [&](unsigned sum, unsigned parts) {
+            return static_cast<float>(sum) / static_cast<float>(parts * kMost[i]);
+        };
+        palette[0][i] = of(a, 1);
+        palette[1][i] = of(b, 1);
+        palette[2][i] = is_cut ? of(a + b, 2) : of(2 * a + b, 3);
+        palette[3][i] = is_cut ? 0 : of(a + 2 * b, 3);
+    }
+    for (std::size_t i = 0; i < 4; ++i) palette[i][3] = is_cut && i == 3 ? 0.0F : 1.0F;
+    for (std::size_t i = 0; i < kBlockTexels; ++i) texels[i] = palette[codes >> 2 * i & 3];
+}
+
+/// The eight values of a channel of BC4.
+std::array<float, 8> channelPalette(const std::uint8_t* block, bool is_signed) {
+    const auto end = [&](std::uint8_t byte) {
+        const int value = is_signed ? std::bit_cast<std::int8_t>(byte) : byte;
+        return is_signed ? std::max(value, -127) + 127 : value;
+    };
+    const int most = is_signed ? 254 : 255, first = end(block[0]), second = end(block[1]);
+    // Compared as stored: -128 is not -127 there.
+    const bool is_full =
+        is_signed ? std::bit_cast<std::int8_t>(block[0]) > std::bit_cast<std::int8_t>(block[1]) : block[0] > block[1];
+    const auto of = [&](int sum, int parts) { return static_cast<float>(sum) / static_cast<float>(parts * most); };
+    std::array<float, 8> palette{of(first, 1), of(second, 1), 0, 0, 0, 0, 0, 1};
+    const int parts = is_full ? 7 : 5;
+    for (int k = 1; k < parts; ++k)
+        palette[static_cast<std::size_t>(k) + 1] = of((parts - k) * first + k * second, parts);
+    return palette;
+}
+
+void decodeChannel(const std::uint8_t* block, bool is_signed, std::size_t channel, Rgba* texels) {
+    const std::array<float, 8> palette = channelPalette(block, is_signed);
+    std::uint64_t codes = little64(block) >> 16;
+    for (std::size_t i = 0; i < kBlockTexels; ++i, codes >>= 3) texels[i][channel] = palette[codes & 7];
+}
+
+constexpr std::int8_t kEacModifiers[16][8] = {
+    {-3, -6, -9, -15, 2, 5, 8, 14}, {-3, -7, -10, -13, 2, 6, 9, 12}, {-2, -5, -8, -13, 1, 4, 7, 12},
+    {-2, -4, -6, -13, 1, 3, 5, 12}, {-3, -6, -8, -12, 2, 5, 7, 11},  {-3, -7, -9, -11, 2, 6, 8, 10},
+    {-4, -7, -8, -11, 3, 6, 7, 10}, {-3, -5, -8, -11, 2, 4, 7, 10},  {-2, -6, -8, -10, 1, 5, 7, 9},
+    {-2, -5, -8, -10, 1, 4, 7, 9},  {-2, -4, -8, -10, 1, 3, 7, 9},   {-2, -5, -7, -10, 1, 4, 6, 9},
+    {-3, -4, -7, -10, 2, 3, 6, 9},  {-1, -2, -3, -10, 0, 1, 2, 9},   {-4, -6, -8, -9, 3, 5, 7, 8},
+    {-3, -5, -7, -9, 2, 4, 6, 8}};
+
+/// Big-endian, and column by column.
+void decodeEacChannel(const std::uint8_t* block, bool is_signed, std::size_t channel, Rgba* texels) {
+    const int stored = is_signed ? std::max<int>(std::bit_cast<std::int8_t>(block[0]), -127) : block[0];
+    const int base = is_signed ? stored * 8 : stored * 8 + 4;
+    const int multiplier = block[1] >> 4, step = multiplier == 0 ? 1 : 8 * multiplier;
+    const std::int8_t* const modifiers = kEacModifiers[block[1] & 15];
+    std::uint64_t codes = 0;
+    for (std::size_t i = 2; i < 8; ++i) codes = codes << 8 | block[i];
+    for (std::size_t i = 0; i < kBlockTexels; ++i) {
+        const int value = base + modifiers[codes >> (45 - 3 * i) & 7] * step;
+        const std::size_t texel = i % 4 * 4 + i / 4;
+        texels[texel][channel] = is_signed ? static_cast<float>(std::clamp(value, -1023, 1023) + 1023) / 2046.0F
+                                           : static_cast<float>(std::clamp(value, 0, 2047)) / 2047.0F;
+    }
+}
+
+constexpr std::uint8_t kEtc1Modifiers[8][2] = {{2, 8},   {5, 17},  {9, 29},   {13, 42},
+                                               {18, 60}, {24, 80}, {33, 106}, {47, 183}};
+
+/// A channel of a slice of ETC1S: 0 to 255.
+int etc1sValue(const std::uint8_t* slice, std::size_t channel, std::size_t texel) {
+    const unsigned code = slice[4 + texel / 4] >> 2 * (texel % 4) & 3;
+    const std::uint8_t* const modifiers = kEtc1Modifiers[slice[3] & 7];
+    const int by = code == 0 ? -modifiers[1] : code == 1 ? -modifiers[0] : modifiers[code - 2];
+    return std::clamp((slice[channel] << 3 | slice[channel] >> 2) + by, 0, 255);
+}
+
+template <class DecodeOne>
+void decodeChannels(const TexelFormat& format, const std::uint8_t* block, Rgba* texels, const DecodeOne& decode) {
+    std::fill_n(texels, kBlockTexels, Rgba{0, 0, 0, 1});
+    for (std::size_t i = 0; i < format.channels; ++i) decode(block + 8 * i, format.is_signed, i, texels);
+    if (format.channels != 1) return;
+    for (std::size_t i = 0; i < kBlockTexels; ++i) texels[i][1] = texels[i][2] = texels[i][0];
+}
+
+}  // namespace
+
+void decodeBc1(const TexelFormat&, const std::uint8_t* block, Rgba* texels) { decodeColors(block, true, texels); }
+
+void decodeBc2(const TexelFormat&, const std::uint8_t* block, Rgba* texels) {
+    decodeColors(block + 8, false, texels);
+    const std::uint64_t alpha = little64(block);
+    for (std::size_t i = 0; i < kBlockTexels; ++i) texels[i][3] = static_cast<float>(alpha >> 4 * i & 15) / 15.0F;
+}
+
+void decodeBc3(const TexelFormat&, const std::uint8_t* block, Rgba* texels) {
+    decodeColors(block + 8, false, texels);
+    decodeChannel(block, false, 3, texels);
+}
+
+void decodeBc4(const TexelFormat& format, const std::uint8_t* block, Rgba* texels) {
+    decodeChannels(format, block, texels, decodeChannel);
+}
+
+/// The ends are inverted and change places, and so do the codes; the values between stay.
+void invertBc4Channel(const TexelFormat& format, std::uint8_t* block, unsigned channel) {
+    std::uint8_t* const at = block + std::size_t{8} * channel;
+    const auto inverted = [&](std::uint8_t byte) {
+        if (!format.is_signed) return static_cast<std::uint8_t>(255 - byte);
+        const int value = std::bit_cast<std::int8_t>(byte);
+        return static_cast<std::uint8_t>(value == -128 ? 127 : -value);
+    };
+    const bool is_full =
+        format.is_signed ? std::bit_cast<std::int8_t>(at[0]) > std::bit_cast<std::int8_t>(at[1]) : at[0] > at[1];
+    const std::uint8_t first = inverted(at[1]), second = inverted(at[0]);
+    at[0] = first;
+    at[1] = second;
+    // -127 and -128 are one number: where both are ends, all values are.
+    const bool is_one = is_full && first == second;
+    std::uint64_t codes = 0;
+    for (unsigned i = 0; i < kBlockTexels; ++i) {
+        const std::size_t bit = 16 + 3 * i;
+        const unsigned code = static_cast<unsigned>(little64(at) >> bit) & 7;
+        unsigned changed = code < 2 ? 1 - code : is_full ? 9 - code : code < 6 ? 7 - code : 13 - code;
+        if (is_one) changed = 0;
+        codes |= std::uint64_t{changed} << 3 * i;
+    }
+    for (std::size_t i = 0; i < 6; ++i) at[2 + i] = static_cast<std::uint8_t>(codes >> 8 * i);
+}
+
+void decodeEtc1s(const TexelFormat& format, const std::uint8_t* block, Rgba* texels) {
+    for (std::size_t i = 0; i < kBlockTexels; ++i) {
+        for (std::size_t k = 0; k < 3; ++k) texels[i][k] = static_cast<float>(etc1sValue(block, k, i)) / 255.0F;
+        texels[i][3] = format.channels == 4 ? static_cast<float>(etc1sValue(block + 8, 1, i)) / 255.0F : 1.0F;
+    }
+}
+
+void decodeEac(const TexelFormat& format, const std::uint8_t* block, Rgba* texels) {
+    decodeChannels(format, block, texels, decodeEacChannel);
+}
 
 namespace {
 

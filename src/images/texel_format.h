@@ -5,7 +5,7 @@
 #include <array>
 #include <cstdint>
 
-#include "core/base/little_endian.h"
+#include "core/base/numbers.h"
 
 namespace tspace {
 

@@ -4,10 +4,48 @@
 #include <cmath>
 
 #include "images/codecs.h"
-#include "images/layout_guess.h"
+#include "images/flip_green.h"
 #include "images/texture_file.h"
 
+#ifdef TSPACE_HAS_ZSTD
+#include <zstd.h>
+#endif
+#ifdef TSPACE_HAS_ZLIB
+#include <zlib.h>
+#endif
+
 namespace tspace {
+
+// What KTX2 packs its levels with: Zstandard by libzstd, zlib by zlib. Both stop at the size that the level must have.
+
+const char* whyNotUnpacked(Repacking repacking) {
+#ifndef TSPACE_HAS_ZSTD
+    if (repacking == Repacking::zstd)
+        return "it is a KTX2 packed by Zstandard, which this build of tspace does not read";
+#endif
+#ifndef TSPACE_HAS_ZLIB
+    if (repacking == Repacking::zlib) return "it is a KTX2 packed by zlib, which this build of tspace does not read";
+#endif
+    (void)repacking;
+    return nullptr;
+}
+
+bool unpackLevel([[maybe_unused]] Repacking repacking, [[maybe_unused]] ByteSpan packed,
+                 [[maybe_unused]] std::span<std::uint8_t> out) {
+#ifdef TSPACE_HAS_ZSTD
+    if (repacking == Repacking::zstd)
+        return ZSTD_decompress(out.data(), out.size(), packed.data(), packed.size()) == out.size();
+#endif
+#ifdef TSPACE_HAS_ZLIB
+    if (repacking == Repacking::zlib) {
+        uLongf count = static_cast<uLongf>(out.size());
+        return count == out.size() && packed.size() == static_cast<uLong>(packed.size()) &&
+               uncompress(out.data(), &count, packed.data(), static_cast<uLong>(packed.size())) == Z_OK &&
+               count == out.size();
+    }
+#endif
+    return false;
+}
 
 namespace {
 
@@ -224,6 +262,46 @@ std::vector<std::uint8_t> decodeTextureAlpha(ByteSpan bytes) {
         for (const Rgba& texel : row) *at++ = byteOf(texel[3]);
     });
     return alpha;
+}
+
+// Green of a texture file inverted where it lies, in all levels.
+
+Result<FlippedImage> flipTexture(ByteSpan bytes, ImageFileFormat format) {
+    std::string why;
+    const std::optional<TextureFile> texture = readTextureHead(bytes, why);
+    if (!texture)
+        return Error{why.find("broken") != why.npos ? ErrorCode::invalidFile : ErrorCode::unsupportedFile, why};
+    const TexelFormat& texels = texture->format;
+    constexpr const char* kWritePng = "; flip-green -o OUT.png makes a PNG of it";
+    if (texture->repacking != Repacking::none)
+        return Error{ErrorCode::unsupportedFile,
+                     "it is a KTX2 packed once more (Zstandard, zlib, BasisLZ), which is not written anew" +
+                         std::string(kWritePng)};
+    TextureFacts facts{.layout = texture->layout};
+    if (texels.channels == 4 && facts.layout == MapLayout{}) {
+        const std::optional<FloatImage> image = decodeFloatTexture(bytes, kMostModelMapPixels, why);
+        if (!image) return Error{ErrorCode::invalidFile, why};
+        facts = image->texture;
+    }
+    // Green as it is shown, or y where that is elsewhere.
+    const std::uint8_t source = texture->swizzle[static_cast<std::size_t>(facts.layout.y.channel)];
+    const bool is_masked_out = texels.masks[0] != 0 && source < texels.masks.size() && texels.masks[source] == 0;
+    if (source >= texels.channels || texels.channels == 1 || is_masked_out)
+        return Error{ErrorCode::unsupportedFile, "it is a grey texture, which has no green channel of its own"};
+    if (texels.invert == nullptr)
+        return Error{ErrorCode::unsupportedFile,
+                     "it is " + texture->name() + ", whose blocks cannot hold inverted green exactly" + kWritePng};
+    FlippedImage flipped{
+        {bytes.begin(), bytes.end()},
+        {.format = format, .width = texture->size.width, .height = texture->size.height, .bits = texels.bits}};
+    if (facts.is_guessed && facts.layout.y.channel == MapChannel::alpha)
+        flipped.report.warnings.emplace_back(
+            "its texels look as if it held x in red and y in alpha: alpha is inverted");
+    for (const TextureFile::Place& level : texture->levels) {
+        for (std::size_t at = 0; at + texels.block_bytes <= level.bytes; at += texels.block_bytes)
+            texels.invert(texels, flipped.bytes.data() + level.at + at, source);
+    }
+    return flipped;
 }
 
 }  // namespace tspace

@@ -6,12 +6,11 @@
 #include <numbers>
 
 #include "core/base/border.h"
-#include "core/base/hash.h"
 #include "core/base/memory.h"
 #include "core/base/parallel.h"
 #include "core/base/sort.h"
+#include "core/base/unique_index.h"
 #include "core/base/vec_math.h"
-#include "maps/carried_error.h"
 #include "maps/convert_texel.h"
 #include "maps/solve_texels.h"
 #include "maps/texel_triangles.h"

@@ -8,7 +8,6 @@
 
 #include "core/base/border.h"
 #include "core/base/parallel.h"
-#include "maps/carried_error.h"
 #include "maps/convert_texel.h"
 #include "maps/texel_triangles.h"
 #include "maps/texture_sample.h"

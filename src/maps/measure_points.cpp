@@ -5,9 +5,8 @@
 #include <bit>
 #include <numeric>
 
-#include "core/base/hash.h"
-#include "maps/sample_bands.h"
-#include "maps/segment_distance.h"
+#include "core/base/unique_index.h"
+#include "maps/ray_directions.h"
 #include "maps/texture_sample.h"
 
 namespace tspace {

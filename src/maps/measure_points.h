@@ -2,10 +2,133 @@
 // Points spread over a low poly, the truth at each, and how far a map is from it.
 #pragma once
 
+#include <utility>
+
+#include "core/base/memory.h"
 #include "core/base/parallel.h"
 #include "maps/map_surfaces.h"
+#include "maps/texel_triangles.h"
 
 namespace tspace {
+
+// Points of triangles on a grid of n x n a texel, cut into bands of texel rows. Within a band points come one after the
+// other, so sums are equal for any number of threads.
+
+/// A point inside of a triangle or on its edge.
+struct BandSample {
+    std::uint32_t triangle = 0;
+    std::uint32_t row = 0, column = 0;  ///< of the grid, in the image
+    double x = 0, y = 0;                ///< in texels, where the triangle is placed
+    const ExactTriangle* exact = nullptr;
+
+    [[nodiscard]] std::array<double, 3> weights() const { return exact->weights(x, y); }
+};
+
+/// Band b has the grid rows b * kBandTexels * n + shift and on, as many as kBandTexels texels have or are left; beyond the last
+/// row comes the first. What lies outside of a clamped image is left out.
+class SampleBands {
+  public:
+    static constexpr std::uint32_t kBandTexels = 16;
+
+    SampleBands(const UvTriangles& triangles, std::uint32_t width, std::uint32_t height, std::uint32_t n,
+                std::uint32_t shift, const Allocator* allocator)
+        : triangles_(triangles),
+          shape_{width, height, triangles.wrap_u, triangles.wrap_v},
+          grid_{width * n, height * n, triangles.wrap_u, triangles.wrap_v},
+          n_(n),
+          shift_(shift),
+          begin_(allocator, bandCount() + 1, std::size_t{0}),
+          marks_(allocator, bandCount(), std::size_t{0}) {
+        const std::size_t count = triangles.corners.size() / 3;
+        for (std::size_t i = 0; i < count; ++i) {
+            forBands(i, [&](std::size_t band) { ++begin_[band]; });
+        }
+        std::size_t total = 0;
+        for (std::size_t band = 0; band <= bandCount(); ++band) total += std::exchange(begin_[band], total);
+        entries_ = Buffer<std::uint32_t>(allocator, total);
+        Buffer<std::size_t> next(allocator, bandCount(), std::size_t{0});
+        for (std::size_t i = 0; i < count; ++i) {
+            forBands(i,
+                     [&](std::size_t band) { entries_[begin_[band] + next[band]++] = static_cast<std::uint32_t>(i); });
+        }
+    }
+
+    [[nodiscard]] std::size_t bandCount() const { return (shape_.height + kBandTexels - 1) / kBandTexels; }
+    /// Texel rows of a band.
+    [[nodiscard]] std::uint32_t rowCount(std::size_t band) const {
+        return std::min(kBandTexels, shape_.height - static_cast<std::uint32_t>(band) * kBandTexels);
+    }
+
+    /// visit(BandSample), triangle after triangle.
+    template <class Visit>
+    void forSamples(std::size_t band, Visit&& visit) const {
+        const std::int64_t height = grid_.height;
+        const std::int64_t first = std::int64_t{kBandTexels} * n_ * static_cast<std::int64_t>(band) + shift_;
+        const std::int64_t last = first + std::int64_t{rowCount(band)} * n_ - 1;
+        const TexelRange parts[] = {{0, last - height}, {first, std::min(last, height - 1)}};
+        for (std::size_t i = begin_[band]; i < begin_[band + 1]; ++i) {
+            const std::array<Vec2, 3> uvs = cornerUvs(triangles_, entries_[i]);
+            PlacedTriangle placed;
+            if (placed.place(uvs, grid_) != UvPlacing::placed) continue;
+            const ExactTriangle exact(uvs, placed, shape_);
+            const TexelRange rows = placed.rows();
+            for (std::int64_t tile = floorDiv(rows.first, height); tile <= floorDiv(rows.last, height); ++tile) {
+                const bool flipped = isFlipped(tile, grid_.wrap_v);
+                for (const TexelRange& part : parts) {
+                    const TexelRange inside = rowsOfTile(rows, tile, grid_.height, grid_.wrap_v, part.first, part.last);
+                    for (std::int64_t at = inside.first; at <= inside.last; ++at)
+                        visitRow(placed, tile * height + (flipped ? height - 1 - at : at),
+                                 {.triangle = entries_[i], .row = static_cast<std::uint32_t>(at), .exact = &exact},
+                                 visit);
+                }
+            }
+        }
+    }
+
+  private:
+    template <class Visit>
+    void visitRow(const PlacedTriangle& placed, std::int64_t row, BandSample sample, Visit&& visit) const {
+        sample.y = (static_cast<double>(row) + 0.5) / n_;
+        forColumnsInImage(placed.columns(row), grid_.width, grid_.wrap_u, [&](std::int64_t column, std::size_t at) {
+            sample.x = (static_cast<double>(column) + 0.5) / n_;
+            sample.column = static_cast<std::uint32_t>(at);
+            visit(sample);
+        });
+    }
+
+    /// visit(band), once for each that the triangle has rows in. Of three tiles one is shown whole.
+    template <class Visit>
+    void forBands(std::size_t triangle, Visit&& visit) {
+        PlacedTriangle placed;
+        if (placed.place(cornerUvs(triangles_, triangle), grid_) != UvPlacing::placed || placed.doubleArea() == 0)
+            return;
+        ++mark_;
+        const auto visitOnce = [&](std::int64_t band) {
+            std::size_t& mark = marks_[static_cast<std::size_t>(band)];
+            if (mark != mark_) visit(static_cast<std::size_t>(band));
+            mark = mark_;
+        };
+        const TexelRange rows = placed.rows();
+        const std::int64_t height = grid_.height, band_rows = std::int64_t{kBandTexels} * n_;
+        const std::int64_t first_tile = floorDiv(rows.first, height);
+        for (std::int64_t tile = first_tile; tile <= std::min(floorDiv(rows.last, height), first_tile + 2); ++tile) {
+            const TexelRange inside = rowsOfTile(rows, tile, grid_.height, grid_.wrap_v, 0, height - 1);
+            if (inside.isEmpty()) continue;
+            if (inside.first < shift_) visitOnce(static_cast<std::int64_t>(bandCount()) - 1);
+            const std::int64_t begin = std::max<std::int64_t>(inside.first - shift_, 0);
+            for (std::int64_t band = begin / band_rows; band * band_rows <= inside.last - shift_; ++band)
+                visitOnce(band);
+        }
+    }
+
+    UvTriangles triangles_;
+    TextureShape shape_, grid_;
+    std::uint32_t n_, shift_;
+    Buffer<std::size_t> begin_;
+    Buffer<std::uint32_t> entries_ = {};
+    Buffer<std::size_t> marks_;  ///< by band: the last triangle that has it
+    std::size_t mark_ = 0;
+};
 
 /// Resources of a call.
 struct MapWork {

@@ -5,10 +5,10 @@
 #include <array>
 #include <vector>
 
-#include "core/base/hash.h"
-#include "core/base/short_number.h"
-#include "core/base/unit.h"
-#include "maps/position_box.h"
+#include "core/base/numbers.h"
+#include "core/base/unique_index.h"
+#include "core/base/vec_math.h"
+#include "maps/map_surfaces.h"
 #include "maps/ray_directions.h"
 #include "maps/rays.h"
 

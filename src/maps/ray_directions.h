@@ -2,14 +2,56 @@
 // Where the ray of a point of a low poly points, and where the cage is on it.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <vector>
 
 #include "core/base/memory.h"
 #include "core/base/parallel.h"
 #include "core/base/vec_math.h"
 #include "tspace/map_error.h"
+#include "tspace/span.h"
 
 namespace tspace {
+
+// How far a point is from a segment.
+
+/// Where on the segment from a (0) to b (1) it is nearest to the point.
+inline double nearestPart(const DVec3& point, const DVec3& a, const DVec3& b) {
+    const DVec3 edge = b - a;
+    const double squared = dot(edge, edge);
+    return squared > 0 ? std::clamp(dot(point - a, edge) / squared, 0.0, 1.0) : 0.0;
+}
+
+/// The square of the distance.
+inline double squaredDistanceTo(const DVec3& point, const DVec3& a, const DVec3& b) {
+    const DVec3 away = point - a - nearestPart(point, a, b) * (b - a);
+    return dot(away, away);
+}
+
+// Edges at which the faces of a low poly meet at an angle, and which of them are near.
+
+/// Faces that meet at more are not smooth, in degrees: 12 sides around a cylinder still are.
+inline constexpr float kHardDeg = 30.5F;
+
+struct HardEdges {
+    static constexpr std::uint32_t kNone = 0xffffffffu;
+
+    struct Edge {
+        std::array<std::uint32_t, 2> corners = {};  ///< where it begins and ends
+        DVec3 way = {};                             ///< unit, or zero: the mean of its faces' normals
+    };
+    std::vector<Edge> edges = {};
+    // One per corner; empty where no edge is hard:
+    /// The hard edges that are nearest to it over faces that meet smoothly. At most `far` away.
+    std::vector<std::array<std::uint32_t, 2>> nearest = {};
+    std::vector<std::uint32_t> groups = {};  ///< equal for corners at one place whose faces meet smoothly: one of them
+    std::vector<bool> at_edge = {};          ///< whether one of its group begins or ends a hard edge
+};
+
+/// `positions` three per triangle, and `roots` the first corner at the same place as each. Linear but for a sort of the edges;
+/// the same result for any number of threads.
+HardEdges findHardEdges(StridedSpan<const Vec3> positions, std::span<const std::uint32_t> roots, double far);
 
 /// What a triangle has at a point, of three entries per triangle.
 template <class T>

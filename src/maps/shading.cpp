@@ -4,7 +4,7 @@
 #include <cstring>
 #include <limits>
 
-#include "core/base/angle.h"
+#include "core/base/vec_math.h"
 
 namespace tspace {
 

@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "core/base/unit.h"
+#include "core/base/vec_math.h"
 #include "tspace/map_reading.h"
 
 namespace tspace {

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "core/base/parallel.h"
-#include "maps/texel_system.h"
+#include "maps/solve_texels.h"
 #include "maps/texel_triangles.h"
 #include "maps/trace_texels.h"
 

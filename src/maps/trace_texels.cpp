@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "maps/trace_texels.h"
 
-#include "maps/sample_bands.h"
+#include "maps/measure_points.h"
 #include "maps/solve_texels.h"
 #include "maps/texel_plan.h"
 

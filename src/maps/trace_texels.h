@@ -3,7 +3,7 @@
 #pragma once
 
 #include "maps/measure_points.h"
-#include "maps/texel_system.h"
+#include "maps/solve_texels.h"
 #include "maps/texel_triangles.h"
 #include "tspace/map_bake.h"
 

@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <utility>
 
-#include "core/base/hash.h"
+#include "core/base/unique_index.h"
 #include "maps/texture_sample.h"
 
 namespace tspace {

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <vector>
 
-#include "core/base/unit.h"
+#include "core/base/vec_math.h"
 #include "maps/shading.h"
 #include "tspace/map_height.h"
 

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "bake_cases.h"
-#include "core/base/unit.h"
+#include "core/base/vec_math.h"
 #include "tspace/map_bake.h"
 
 namespace tspace::test {

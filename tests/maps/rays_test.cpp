@@ -8,7 +8,7 @@
 #include <cmath>
 #include <random>
 
-#include "core/base/unit.h"
+#include "core/base/vec_math.h"
 
 namespace tspace::test {
 namespace {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-#include "core/base/unit.h"
+#include "core/base/vec_math.h"
 #include "support/thread_team.h"
 
 namespace tspace::test {

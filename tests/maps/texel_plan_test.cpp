@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/base/unit.h"
+#include "core/base/vec_math.h"
 #include "maps/solve_texels.h"
 
 namespace tspace::test {

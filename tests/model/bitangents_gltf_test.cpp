@@ -6,7 +6,7 @@
 
 #include "core/base/vec_math.h"
 #include "generate_run.h"
-#include "model/read/load_document.h"
+#include "model/read/read_scene.h"
 
 namespace tspace {
 namespace {

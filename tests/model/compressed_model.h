@@ -7,7 +7,7 @@
 #include <string>
 
 #include "gltf_builder.h"
-#include "model/read/load_document.h"
+#include "model/read/read_scene.h"
 #include "model_compare.h"
 #include "support/temp_folder.h"
 

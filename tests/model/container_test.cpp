@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 
 #include "gltf_builder.h"
+#include "model/gltf/container.h"
+#include "model/gltf/document.h"
 #include "model/gltf/draco_primitives.h"
-#include "model/gltf/glb.h"
-#include "model/gltf/json.h"
 #include "model/gltf/meshopt_views.h"
 
 namespace tspace::gltf {

@@ -13,7 +13,6 @@
 #include "maps/shading.h"
 #include "maps/texture_sample.h"
 #include "model/gltf_builder.h"
-#include "model/read/load_document.h"
 #include "model/read/read_scene.h"
 #include "support/shared_data.h"
 #include "support/temp_folder.h"

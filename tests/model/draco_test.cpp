@@ -13,7 +13,7 @@
 #include "model/gltf/accessor.h"
 #include "model/gltf/draco_primitives.h"
 #include "model/gltf/primitive_reader.h"
-#include "model/read/load_document.h"
+#include "model/read/read_scene.h"
 #include "model_files.h"
 
 namespace tspace::gltf {

@@ -8,7 +8,7 @@
 #include "images/images.h"
 #include "model/gltf/read_scene.h"
 #include "model/gltf_builder.h"
-#include "model/read/load_document.h"
+#include "model/read/read_scene.h"
 #include "support/temp_folder.h"
 #include "tspace/asset.h"
 #include "tspace/check.h"

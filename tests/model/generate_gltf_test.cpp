@@ -7,8 +7,9 @@
 
 #include "generate_run.h"
 #include "model/gltf/accessor.h"
+#include "model/gltf/container.h"
 #include "model/gltf/primitive_reader.h"
-#include "model/read/load_document.h"
+#include "model/read/read_scene.h"
 
 namespace tspace {
 namespace {

@@ -8,7 +8,8 @@
 #include <type_traits>
 #include <vector>
 
-#include "core/base/little_endian.h"
+#include "core/base/numbers.h"
+#include "model/gltf/container.h"
 #include "model/gltf/document.h"
 #include "model/io/file_error.h"
 #include "model/io/uri.h"

@@ -8,7 +8,7 @@
 
 #include "gltf_builder.h"
 #include "model/gltf/primitive_reader.h"
-#include "model/read/load_document.h"
+#include "model/read/read_scene.h"
 #include "model_files.h"
 #include "support/temp_folder.h"
 

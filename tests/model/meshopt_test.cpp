@@ -9,9 +9,10 @@
 #include "compressed_model.h"
 #include "gltf_builder.h"
 #include "model/gltf/accessor.h"
+#include "model/gltf/container.h"
 #include "model/gltf/meshopt_views.h"
 #include "model/gltf/primitive_reader.h"
-#include "model/read/load_document.h"
+#include "model/read/read_scene.h"
 
 namespace tspace::gltf {
 namespace {

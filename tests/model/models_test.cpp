@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "gltf_builder.h"
-#include "model/read/load_document.h"
+#include "model/read/read_scene.h"
 #include "model_compare.h"
 #include "model_files.h"
 #include "support/temp_folder.h"

@@ -5,11 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/base/angle.h"
 #include "core/base/vec_math.h"
 #include "generate_run.h"
-#include "model/gltf/read_packed.h"
-#include "model/read/load_document.h"
+#include "model/gltf/packed.h"
+#include "model/read/read_scene.h"
 
 namespace tspace {
 namespace {

@@ -11,7 +11,7 @@
 #include "core/base/vec_math.h"
 #include "generate_run.h"
 #include "images/images.h"
-#include "model/read/load_document.h"
+#include "model/read/read_scene.h"
 #include "tspace/check.h"
 
 namespace tspace {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "generate_run.h"
-#include "model/read/load_document.h"
+#include "model/read/read_scene.h"
 
 namespace tspace {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "gltf_builder.h"
 #include "model/io/uri.h"
-#include "model/read/load_document.h"
+#include "model/read/read_scene.h"
 #include "support/temp_folder.h"
 
 namespace tspace {

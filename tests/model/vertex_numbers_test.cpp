@@ -8,7 +8,7 @@
 
 #include "generate_run.h"
 #include "model/gltf/accessor.h"
-#include "model/gltf/codecs/draco.h"
+#include "model/gltf/codecs/codecs.h"
 #include "support/shared_data.h"
 
 namespace tspace::test {

@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-#include "core/base/little_endian.h"
+#include "core/base/numbers.h"
 
 namespace tspace::test {
 

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "model/io/temporary_files.h"
+#include "model/io/atomic_output.h"
 #include "tool/run_tool.h"
 
 namespace tspace::test {

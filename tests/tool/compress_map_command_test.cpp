@@ -6,7 +6,6 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "core/base/unit.h"
 #include "core/base/vec_math.h"
 #include "images/float_image.h"
 #include "images/images.h"

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "core/base/unit.h"
+#include "core/base/vec_math.h"
 #include "images/float_image.h"
 #include "images/images.h"
 #include "run_tool.h"

@@ -8,7 +8,7 @@
 #include <set>
 #include <tuple>
 
-#include "model/io/temporary_files.h"
+#include "model/io/atomic_output.h"
 #include "tool/run_tool.h"
 
 namespace tspace::test {

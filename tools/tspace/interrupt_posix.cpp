@@ -8,7 +8,7 @@
 #include <atomic>
 #include <initializer_list>
 
-#include "model/io/temporary_files.h"
+#include "model/io/atomic_output.h"
 
 namespace tspace::tool {
 namespace {

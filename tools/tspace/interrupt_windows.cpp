@@ -7,7 +7,7 @@
 #include <initializer_list>
 
 #include "interrupt.h"
-#include "model/io/temporary_files.h"
+#include "model/io/atomic_output.h"
 
 namespace tspace::tool {
 namespace {

@@ -11,7 +11,7 @@
 #endif
 
 #include "command_table.h"
-#include "commands/shared/nearest_name.h"
+#include "commands/shared/option_table.h"
 #include "console.h"
 #include "help.h"
 #include "interrupt.h"

@@ -18,28 +18,28 @@ const out = resolve(process.argv[2] ?? join(root, "build/js/wasm"));
 /// Rooms of src/ and their files; loops over meshes that are worth more code than -Oz gives.
 const rooms = ["base", "frames", "normals", "tangents", "tangents/mikktspace", "tangents/estimators", "indexed"].map((room) => `core/${room}`);
 /// What plain_normals.cpp stands for.
-const notPlain = ["crease_auto", "denoise", "normal_groups", "position_noise"].map((name) => `core/normals/${name}.cpp`);
+const notPlain = ["crease_auto", "denoise", "normal_groups"].map((name) => `core/normals/${name}.cpp`);
 const fileRooms = [
   ...["surface", "quads", "pools"].map((room) => `core/mesh/${room}`), "images", "maps",
-  ...["io", "json", "gltf", "gltf/codecs", "gltf/compression", "obj", "read"].map((room) => `model/${room}`),
+  ...["io", "json", "gltf", "gltf/codecs", "obj", "read"].map((room) => `model/${room}`),
   ...["shared", "bake", "check", "convert_map", "diff", "flip_green", "generate", "height_to_normal", "identify", "inspect", "render"]
     .map((room) => `commands/${room}`), "api",
 ];
 /// Threads, memory of an operating system, the disk, and readers of other formats; only_memory.cpp is in the place of some.
 const notHere = new Set([
   "core/base/parallel.cpp", "core/base/arena.cpp", "model/io/atomic_output_disk.cpp", "model/io/file_io.cpp",
-  "model/io/temporary_files.cpp", "model/obj/tiny_obj_loader.cpp", "model/gltf/codecs/draco_library.cpp", "model/gltf/codecs/meshopt_library.cpp",
-  ...["astc", "basis_lz", "bc7", "dds", "flip_texture", "ktx2", "pack_bc4", "texel_blocks", "texel_format", "texture", "uastc", "unpack_level", "write_texture"].map((name) => `images/${name}.cpp`),
+  "model/obj/tiny_obj_loader.cpp", "model/gltf/codecs/draco_library.cpp", "model/gltf/codecs/meshopt_library.cpp",
+  ...["astc", "basis_lz", "bc7", "dds", "ktx2", "pack_bc4", "texel_format", "texture", "uastc", "write_texture"].map((name) => `images/${name}.cpp`),
   "images/exr.cpp", "images/float_image.cpp", "images/jpeg.cpp", "images/png.cpp", "images/webp.cpp", "maps/rays.cpp",
   "commands/generate/convert_maps.cpp", "commands/generate/mend_maps.cpp", "commands/diff/diff_words.cpp",
-  "commands/shared/map_image_file.cpp", "commands/shared/map_mesh.cpp", "commands/flip_green/texture_png.cpp",
-  ...["bake/bake_file", "bake/map_pictures", "bake/model_maps", "bake/model_surfaces", "convert_map/convert_map_file",
-    "height_to_normal/height_to_normal_file", "render/draw_model", "render/model_picture", "render/picture_file", "render/render_file"]
+  "commands/shared/map_image_file.cpp", "commands/flip_green/texture_png.cpp",
+  ...["bake/bake_file", "bake/model_maps", "bake/model_surfaces", "convert_map/convert_map_file",
+    "height_to_normal/height_to_normal_file", "render/model_picture", "render/render_file"]
     .map((name) => `commands/${name}.cpp`),
   ...["posix", "windows"].map((system) => `model/io/system_files_${system}.cpp`),
 ]);
-/// Reports as text, SARIF and pages, which the tool alone prints.
-const isForPeople = (file) => /^commands\/(.*_(text|sarif)|shared\/text)\.cpp$/.test(file);
+/// Reports as text and SARIF, which the tool alone prints.
+const isForPeople = (file) => /^commands\/(.*_text|shared\/text)\.cpp$/.test(file);
 /// Functions that are called once stay functions: inlined, they make large ones with hundreds of locals, which take more
 /// bytes and compress worse. What is smaller than its call is inlined. Loops are compiled without that limit, and the hottest
 /// ones for speed: the linker inlines next to nothing, so that theirs are inlined before.
@@ -47,7 +47,7 @@ const inlined = (threshold) => ["-mllvm", `-inline-threshold=${threshold}`];
 const copiesLess = ["-mllvm", "-enable-pre=false", "-mllvm", "-jump-threading-threshold=0"];
 const smallFlags = ["-fno-slp-vectorize", ...copiesLess, ...inlined(-15)];
 const fastFlags = ["-O2", "-DTSPACE_FAST_KERNELS", ...inlined(600)];
-const loops = /mikktspace\/(grid_order|weld)\.cpp|core\/base\/(sum_rounds|weld|range_lists)\.cpp|frames\/(split|sanitize)\.cpp/;
+const loops = /mikktspace\/(grid_order|weld)\.cpp|core\/base\/(weld|range_lists)\.cpp|frames\/(split|sanitize)\.cpp/;
 const hot = /mikktspace\/(corner_terms_kernel|one_pass\.cpp|node_sums\.cpp)|core\/pack\/\w+_kernel/;
 
 const modules = {

@@ -8,8 +8,7 @@
 #include <memory>
 
 #include "model/io/file_error.h"
-#include "model/gltf/codecs/draco_library.h"
-#include "model/gltf/codecs/meshopt_library.h"
+#include "model/gltf/codecs/codecs.h"
 
 namespace tspace::js {
 namespace {

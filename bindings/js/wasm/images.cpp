@@ -8,7 +8,6 @@
 #include "commands/flip_green/texture_png.h"
 #include "images/codecs.h"
 #include "images/flip_green.h"
-#include "images/png_pixels.h"
 #include "model/io/file_error.h"
 
 using namespace tspace::js;

@@ -8,8 +8,8 @@
 #include "model/io/file_error.h"
 #include "model/imported/import_document.h"
 #include "model/io/uri.h"
-#include "commands/generate/convert_maps.h"
-#include "commands/generate/mend_maps.h"
+#include "commands/generate/generate_steps.h"
+#include "commands/generate/flip_maps.h"
 #include "tspace/arena.h"
 
 namespace tspace {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What the module of the entry "tspace" has in the place of denoise and crease_auto, which that of "tspace/normals" has: 16 KB
 // less. The calls of JavaScript refuse these options before they come here.
-#include "core/normals/crease_auto.h"
 #include "core/normals/denoise.h"
 #include "core/normals/normals_call.h"
 

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
+// bakeFile: reads, bakes, writes maps and their pictures; its report as JSON.
 #include "tspace/bake_file.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <set>
 
-#include "commands/bake/map_pictures.h"
+#include "commands/bake/bake_report.h"
 #include "commands/bake/model_surfaces.h"
 #include "images/float_image.h"
 #include "maps/map_surfaces.h"
@@ -16,7 +18,6 @@
 #include "model/io/file_io.h"
 
 namespace tspace {
-
 namespace {
 
 std::vector<std::uint8_t> pngOf(std::uint32_t width, std::uint32_t height, std::vector<Vec3> texels, unsigned bits) {
@@ -271,4 +272,138 @@ Result<BakeFileReport> bakeFile(const std::string& low, const std::string& high,
     return atFileBorder([&]() -> Result<BakeFileReport> { return FileBaking(output, options).run(low, high); });
 }
 
+std::vector<Vec3> pictureOfOrigins(const BakedMap& map) {
+    constexpr Vec3 kBackground{0, 0, 0}, kPadding{0.1F, 0.25F, 0.15F}, kHit{0.2F, 0.6F, 0.3F}, kMissed{1, 0.1F, 0.1F},
+        kOverlap{1, 0.85F, 0.1F};
+    std::vector<Vec3> picture;
+    picture.reserve(map.origins.size());
+    for (std::size_t i = 0; i < map.origins.size(); ++i) {
+        switch (map.origins[i]) {
+            case TexelOrigin::background:
+                picture.push_back(kBackground);
+                break;
+            case TexelOrigin::padding:
+                picture.push_back(kPadding);
+                break;
+            case TexelOrigin::hit:
+                picture.push_back(map.overlaps[i] ? kOverlap : kHit);
+                break;
+            case TexelOrigin::missed:
+                picture.push_back(kMissed);
+                break;
+        }
+    }
+    return picture;
+}
+
+std::vector<Vec3> pictureOfHeat(const std::vector<float>& heat, double top_deg) {
+    constexpr std::array<Vec3, 5> kRamp{
+        {{0, 0, 0}, {0.2F, 0.1F, 0.6F}, {0.85F, 0.15F, 0.3F}, {1, 0.75F, 0.1F}, {1, 1, 1}}};
+    constexpr Vec3 kNothing{0.2F, 0.2F, 0.2F};
+    std::vector<Vec3> picture;
+    picture.reserve(heat.size());
+    for (const float degrees : heat) {
+        if (degrees < 0) {
+            picture.push_back(kNothing);
+            continue;
+        }
+        const double part = top_deg > 0 ? std::clamp(static_cast<double>(degrees) / top_deg, 0.0, 1.0) : 0;
+        const double place = part * (kRamp.size() - 1);
+        const std::size_t step = std::min<std::size_t>(static_cast<std::size_t>(place), kRamp.size() - 2);
+        const auto rest = static_cast<float>(place - static_cast<double>(step));
+        const Vec3 &a = kRamp[step], &b = kRamp[step + 1];
+        picture.push_back({a.x + rest * (b.x - a.x), a.y + rest * (b.y - a.y), a.z + rest * (b.z - a.z)});
+    }
+    return picture;
+}
+
 }  // namespace tspace
+
+namespace tspace::report {
+
+// Baked maps, as JSON.
+
+Json errorOfMapJson(const MapError& error) {
+    return {{"points", error.point_count},
+            {"missed", error.missed_count},
+            {"hidden", error.hidden_count},
+            {"backs", error.back_count},
+            {"inward", error.inward_count},
+            {"meanDeg", error.mean_deg},
+            {"metMeanDeg", error.met_mean_deg},
+            {"p99Deg", error.p99_deg},
+            {"maxDeg", error.max_deg},
+            {"seamPoints", error.seam_point_count},
+            {"seamMeanDeg", error.seam_mean_deg},
+            {"insideMeanDeg", error.inside_mean_deg}};
+}
+
+const char* raysWord(const UsedRays& rays) {
+    if (rays.has_cage) return "cage";
+    return rays.target == RayTarget::nearest ? "nearest" : "outermost";
+}
+
+const char* directionsWord(const UsedRays& rays) {
+    if (rays.has_cage) return "cage";
+    if (rays.has_skew) return "skew";
+    switch (rays.directions) {
+        case RayDirections::automatic:
+            return "auto";
+        case RayDirections::averaged:
+            return "averaged";
+        case RayDirections::normals:
+            break;
+    }
+    return "normals";
+}
+
+namespace {
+
+Json bakedFileJson(const BakedFile& file) {
+    const BakedMap& map = file.map;
+    return {{"path", file.path},
+            {"material", file.material},
+            {"tile", file.tile},
+            {"width", map.width},
+            {"height", map.height},
+            {"bits", map.bits},
+            {"triangles", file.triangle_count},
+            {"texels",
+             {{"baked", map.hit_count},
+              {"missed", map.missed_count},
+              {"padding", map.padding_count},
+              {"overlapping", map.overlap_count},
+              {"conflicting", map.conflict_count}}},
+            {"degenerateUvs", map.degenerate_uv_count},
+            {"rays", raysWord(file.rays)},
+            {"directions", directionsWord(file.rays)},
+            {"reach", map.error.reach},
+            {"cageOffset", map.error.cage_offset},
+            {"error", errorOfMapJson(map.error)},
+            {"ownError", map.own_error.point_count > 0 ? errorOfMapJson(map.own_error) : Json()},
+            {"heatTopDeg", file.heat_top_deg}};
+}
+
+}  // namespace
+
+std::string bakeJson(const Outcome<BakeFileReport>& outcome, const std::string& high, ExitCode exit_code) {
+    const Result<BakeFileReport>& result = outcome.result;
+    Json json = documentJson("tspace.bake/1", result.ok(), exit_code);
+    json["low"] = outcome.input;
+    json["high"] = high;
+    json["output"] = outcome.output;
+    json["seconds"] = outcome.seconds;
+    json["error"] = errorJson(result ? nullptr : &result.error());
+    if (!result) return jsonText(json);
+    json["lowTriangles"] = result->low_triangle_count;
+    json["highTriangles"] = result->high_triangle_count;
+    json["framesMade"] = result->frames_made;
+    json["matchedByName"] = result->matched_by_name;
+    json["files"] = listJson(result->files, bakedFileJson);
+    json["outputFiles"] = result->output_files;
+    json["findings"] = result->findings;
+    json["warnings"] = result->warnings;
+    return jsonText(json);
+}
+
+}  // namespace tspace::report

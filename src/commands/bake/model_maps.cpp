@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "commands/bake/model_maps.h"
+#include "commands/bake/model_surfaces.h"
 
 #include <algorithm>
 #include <map>
@@ -12,7 +12,6 @@
 #include "model/io/uri.h"
 
 namespace tspace {
-
 namespace {
 
 using gltf::Document;

@@ -1,20 +1,53 @@
 // SPDX-License-Identifier: MIT
-// Model files as the arrays that baking takes.
+// Model files as the arrays that baking takes, and what comes out of a bake: pictures, and the model with its maps.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "commands/bake/model_maps.h"
 #include "images/float_image.h"
-#include "maps/position_box.h"
-#include "maps/udim_tile.h"
+#include "maps/map_surfaces.h"
+#include "maps/uv_coverage.h"
+#include "model/io/atomic_output.h"
 #include "model/io/file_error.h"
+#include "model/io/file_io.h"
 #include "model/scene/scene.h"
 #include "tspace/bake_file.h"
+#include "tspace/map_bake.h"
 
 namespace tspace {
+
+// A low poly with the maps that were baked for it as its normal textures.
+
+/// A primitive, and the UVs that its map is read with.
+struct MappedPrimitive {
+    std::uint32_t mesh = 0, primitive = 0;
+    bool had_map = false;  ///< its material has a normal map already, with these UVs
+    std::size_t uv_set = 0;
+    UvTransform transform = {};
+};
+
+/// A baked image, and the primitives that read it.
+struct ModelMap {
+    std::string path = {};  ///< the file that holds it
+    Bytes png = {};
+    std::vector<MappedPrimitive> primitives = {};
+    TextureWrap wrap_u = TextureWrap::repeat, wrap_v = TextureWrap::repeat;
+};
+
+struct ModelWithMaps {
+    std::string source = {};  ///< what the model was read from: the files that it names lie beside it
+    Bytes glb = {};           ///< the model with the frames that were baked for
+    std::string output = {};  ///< .glb or .gltf
+    std::vector<ModelMap> maps = {};
+};
+
+/// Adds the model with its maps, and the maps themselves, to `files`. A GLB holds them; a .gltf names them where they lie in
+/// its folder or below, and holds them otherwise. Maps that were there go where nothing else shows them. Throws FileError.
+void addModelWithMaps(ModelWithMaps&& model, const FileOptions& options, AtomicOutput& files,
+                      std::vector<std::string>& warnings);
 
 /// What `body` returns; where it fails, the error says that it is about this file.
 template <class Body>
@@ -109,5 +142,13 @@ BakeModels readBakeModels(const std::string& low, const std::string& high, const
 /// where that method gives another number of triangles. Throws FileError.
 std::optional<LowModel> readLowAnew(const std::string& low, const BakeFileOptions& options, Faces faces,
                                     const LowModel& known);
+
+// Pictures of a bake: what each texel is, and where the error is.
+
+/// Red: nothing was met; yellow: several triangles; green: baked; dark green: padding; black: background.
+std::vector<Vec3> pictureOfOrigins(const BakedMap& map);
+
+/// From black (0) over blue, red and yellow to white (`top_deg` and more). Texels without triangles: dark grey.
+std::vector<Vec3> pictureOfHeat(const std::vector<float>& heat, double top_deg);
 
 }  // namespace tspace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What normal maps hold, and green channels that point down, throughout or in parts.
-#include "commands/check/check_images.h"
+#include "commands/check/scene_checks.h"
 
 #include <array>
 #include <cmath>
@@ -11,17 +11,15 @@
 
 #include "commands/check/findings.h"
 #include "commands/check/map_content.h"
-#include "commands/check/map_findings.h"
 #include "commands/shared/uv_reading.h"
-#include "core/base/unit.h"
+#include "core/base/vec_math.h"
 #include "images/float_image.h"
-#include "images/layout_guess.h"
+#include "images/texture_file.h"
 #include "maps/texture_sample.h"
 #include "maps/uv_coverage.h"
-#include "model/io/work_together.h"
+#include "model/io/memory_budget.h"
 
 namespace tspace {
-
 namespace {
 
 /// Triangles that show a part of an image, and the primitives that have them.

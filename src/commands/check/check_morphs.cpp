@@ -1,18 +1,216 @@
 // SPDX-License-Identifier: MIT
-// Morph targets: whether base plus delta is still a frame of the morphed surface.
+// The checks of morph targets: their values, the normals and the tangents that they give.
 #include <algorithm>
 #include <array>
+#include <map>
 #include <set>
+#include <string>
+#include <utility>
 
 #include "commands/check/direction_cones.h"
 #include "commands/check/findings.h"
-#include "commands/check/morph_faults.h"
 #include "commands/check/primitive_checks.h"
-#include "core/base/angle.h"
-#include "core/base/unit.h"
-#include "core/mesh/surface/equal_vertices.h"
+#include "core/base/vec_math.h"
+#include "core/mesh/surface/surface.h"
 
 namespace tspace {
+namespace {
+
+// Morph targets of a primitive that share a fault, and the one finding about them.
+
+/// Offsets that come from a formula or a finer mesh are off in places beside coarse triangles. So a target counts only from
+/// this part on of the surface that turns.
+inline constexpr double kOffShare = 0.25;
+
+struct MorphFault {
+    Tally targets = {};    ///< vertices of the first; count and total in targets
+    double far_share = 0;  ///< largest share of the surface that is off by more than error_deg
+    std::size_t first = 0;
+
+    /// A target that has it. `far_area`: of vertices that are off by more than error_deg.
+    void addTarget(std::size_t number, const Tally& vertices, double far_area, double whole_area) {
+        if (targets.count++ == 0) {
+            first = number;
+            targets.vertices = vertices.vertices;
+        }
+        targets.worst_deg = std::max(targets.worst_deg, vertices.worst_deg);
+        targets.surface_share = std::max(targets.surface_share, vertices.surface_share);
+        if (whole_area > 0) far_share = std::max(far_share, far_area / whole_area);
+    }
+
+    /// Nothing where no target has the fault. `what`: the sentence without the angle of these vectors ("normals", "tangents").
+    void report(PrimitiveFacts& facts, FindingCode code, Severity severity, const std::string& what,
+                const char* vectors) const {
+        if (targets.count == 0) return;
+        facts.add(
+            code, severity, targets, "targets",
+            what + "; at full weight " + vectors + " are off by up to " + decimalText(targets.worst_deg) + " degrees");
+        facts.findings.back().place = facts.primitive.place + "/targets/" + std::to_string(first);
+    }
+};
+
+// Morph targets: whether what they add is finite, and leaves normals a length. A single vertex counts.
+
+/// The first target that has a fault, and how many more do.
+struct FaultyTargets {
+    Tally vertices = {};  ///< of the first
+    std::size_t first = 0, count = 0;
+    bool all_move = true;  ///< positions, so that the surface says how normals turn
+};
+
+class MorphValues {
+  public:
+    explicit MorphValues(PrimitiveFacts& facts) : facts_(facts), used_(facts.mesh.positions.size(), false) {
+        for (const std::uint32_t vertex : facts.mesh.corners) used_[vertex] = true;
+    }
+
+    /// Used vertices of whose offset in one array of the targets `is_faulty` says so.
+    template <class Test>
+    FaultyTargets find(SharedArray<Vec3> SceneMorphTarget::*array, const Test& is_faulty) const {
+        FaultyTargets result;
+        // A file may name the same array any number of times.
+        std::map<const Vec3*, bool> known;
+        const auto& targets = facts_.primitive.morph_targets;
+        for (std::size_t i = 0; i < targets.size(); ++i) {
+            const SharedArray<Vec3>& offsets = targets[i].*array;
+            if (offsets.empty()) continue;
+            const auto [entry, is_new] = known.try_emplace(offsets.data(), false);
+            if (is_new) {
+                const Tally tally = tallyOf(offsets, is_faulty);
+                entry->second = tally.count != 0;
+                if (entry->second && result.count == 0) result = {.vertices = tally, .first = i};
+            }
+            if (!entry->second) continue;
+            ++result.count;
+            result.all_move = result.all_move && !targets[i].positions.empty();
+        }
+        return result;
+    }
+
+    /// "what target 2 adds to the normals of 1 of 525 vertices <what>; so it is in 3 more targets"
+    void report(FindingCode code, const FaultyTargets& faulty, const char* attribute, const std::string& what) {
+        if (faulty.count == 0) return;
+        const std::size_t more = faulty.count - 1;
+        std::string message = "what target " + std::to_string(faulty.first) + " adds to the " + attribute + " of " +
+                              countText(faulty.vertices, "vertices") + " " + what;
+        if (more != 0) message += "; so it is in " + std::to_string(more) + " more target" + (more == 1 ? "" : "s");
+        facts_.add(code, Severity::error, faulty.vertices, "vertices", std::move(message));
+        Finding& finding = facts_.findings.back();
+        finding.place = facts_.primitive.place + "/targets/" + std::to_string(faulty.first);
+        if (code == FindingCode::positionsNotFinite) return;
+        finding.remedy = faulty.all_move ? findingRemedy(FindingCode::morphNormalsWrong)
+                                         : "Export the normals of the targets again.";
+    }
+
+  private:
+    template <class Test>
+    Tally tallyOf(const SharedArray<Vec3>& offsets, const Test& is_faulty) const {
+        Tally tally;
+        for (std::uint32_t v = 0; v < used_.size(); ++v) {
+            if (!used_[v]) continue;
+            ++tally.total;
+            if (is_faulty(v, offsets[v])) tally.add(v, facts_.surface.vertex_areas[v]);
+        }
+        tally.finish(facts_.surface.area);
+        return tally;
+    }
+
+    PrimitiveFacts& facts_;
+    std::vector<bool> used_;
+};
+
+}  // namespace
+
+void checkMorphValues(PrimitiveFacts& facts) {
+    if (facts.primitive.morph_targets.empty()) return;
+    MorphValues values(facts);
+    const auto not_finite = [](std::uint32_t, const Vec3& offset) { return !isFinite(offset); };
+    values.report(FindingCode::positionsNotFinite, values.find(&SceneMorphTarget::positions, not_finite), "positions",
+                  "is NaN or infinite");
+    if (facts.mesh.normals.empty() || facts.primitive.is_unlit) return;
+    values.report(FindingCode::normalsNotFinite, values.find(&SceneMorphTarget::normals, not_finite), "normals",
+                  "is NaN or infinite");
+    const auto vanishes = [&](std::uint32_t v, const Vec3& offset) {
+        const Vec3& base = facts.mesh.normals[v];
+        return isDirection(base) && isFinite(offset) && length(toDouble(base + offset)) < kShortest;
+    };
+    values.report(FindingCode::morphNormalsWrong, values.find(&SceneMorphTarget::normals, vanishes), "normals",
+                  "leaves them without length, so shaders get NaN at full weight");
+}
+
+// Morph targets: whether base plus delta is still a normal of the morphed surface.
+
+namespace {
+
+/// A vertex is off where its normal is further from where the surface turns it than this part of the turn, and direction_deg.
+constexpr double kOfTurn = 0.5;
+
+bool addsNothing(const SharedArray<Vec3>& offsets) { return std::all_of(offsets.begin(), offsets.end(), isZero); }
+
+class MorphNormalsChecker {
+  public:
+    explicit MorphNormalsChecker(PrimitiveFacts& facts)
+        : facts_(facts), turns_(facts.mesh.positions, facts.mesh.normals, facts.mesh.corners) {}
+
+    /// The normal of the base is turned as the surface turns: exporters weight triangles in other ways, and normals of the
+    /// base may be somebody's choice, but how they change is the surface's.
+    void check(std::size_t number, const SceneMorphTarget& target) {
+        MorphFault& fault = addsNothing(target.normals) ? missing_ : wrong_;
+        ++fault.targets.total;
+        const std::vector<VertexTurn> turns = turns_.under(target.positions.span());
+        Tally tally;
+        double far_area = 0, turning_area = 0;
+        for (std::uint32_t v = 0; v < turns.size(); ++v) {
+            const Vec3& base = facts_.mesh.normals[v];
+            if (!turns[v].isKnown() || !turns[v].is_certain || !isDirection(base)) continue;
+            const Vec3 moved = target.normals.empty() ? base : base + target.normals[v];
+            DVec3 is = toDouble(moved), should = toDouble(turns[v].apply(base));
+            if (!normalize(is) || !normalize(should)) continue;
+            const double limit = facts_.options.direction_deg, error = angleBetween(is, should) * 180 / kPi;
+            DVec3 was = toDouble(base);
+            normalize(was);
+            const double turn = std::max(angleBetween(was, should), angleBetween(was, is)) * 180 / kPi;
+            if (turn > limit) turning_area += facts_.surface.vertex_areas[v];
+            if (error <= std::max(limit, kOfTurn * turn)) continue;
+            tally.add(v, facts_.surface.vertex_areas[v], error);
+            if (error > facts_.options.error_deg) far_area += facts_.surface.vertex_areas[v];
+        }
+        tally.finish(facts_.surface.area);
+        if (tally.count == 0 || tally.area < kOffShare * turning_area) return;
+        fault.addTarget(number, tally, far_area, facts_.surface.area);
+    }
+
+    void report() {
+        const double share = facts_.options.error_share;
+        missing_.report(facts_, FindingCode::morphNormalsMissing,
+                        missing_.targets.surface_share >= share ? Severity::warning : Severity::note,
+                        countText(missing_.targets, "targets that add nothing to normals") + " turn the surface",
+                        "normals");
+        wrong_.report(
+            facts_, FindingCode::morphNormalsWrong, wrong_.far_share >= share ? Severity::error : Severity::warning,
+            "the normals of " + countText(wrong_.targets, "targets") + " do not turn with the surface", "normals");
+    }
+
+  private:
+    PrimitiveFacts& facts_;
+    SurfaceTurns turns_;
+    MorphFault missing_ = {}, wrong_ = {};
+};
+
+}  // namespace
+
+void checkMorphNormals(PrimitiveFacts& facts) {
+    const auto& targets = facts.primitive.morph_targets;
+    if (facts.mesh.normals.empty() || targets.empty() || facts.primitive.is_unlit) return;
+    MorphNormalsChecker checker(facts);
+    // A file may name the same arrays any number of times.
+    std::set<std::array<const Vec3*, 2>> seen;
+    for (std::size_t i = 0; i < targets.size(); ++i) {
+        if (targets[i].positions.empty()) continue;  // targets that move normals alone are authored
+        if (seen.insert({targets[i].positions.data(), targets[i].normals.data()}).second) checker.check(i, targets[i]);
+    }
+    checker.report();
+}
 
 namespace {
 

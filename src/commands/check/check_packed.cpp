@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Packed frames against the normals and tangents that they were packed from. Packing mends frames first, so packed ones are
 // compared with the frame that the finest format makes of normal and tangent: packing anew then mends every finding.
-#include "commands/check/check_packed.h"
+#include "commands/check/scene_checks.h"
 
 #include <algorithm>
 #include <array>
@@ -11,13 +11,12 @@
 
 #include "commands/check/findings.h"
 #include "commands/check/scene_verdict.h"
-#include "core/base/angle.h"
+#include "core/base/vec_math.h"
 #include "model/io/file_error.h"
-#include "model/io/work_together.h"
+#include "model/io/memory_budget.h"
 #include "tspace/pack.h"
 
 namespace tspace {
-
 namespace {
 
 constexpr FrameFormat kFinest = FrameFormat::frame64;

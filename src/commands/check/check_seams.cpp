@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Mesh by mesh: edges that pieces of one surface share, and the normals at both of their ends on both sides.
-#include "commands/check/check_seams.h"
+#include "commands/check/scene_checks.h"
 
 #include <algorithm>
 #include <array>
@@ -10,14 +10,11 @@
 #include <utility>
 
 #include "commands/check/findings.h"
-#include "core/base/angle.h"
 #include "core/base/sort.h"
-#include "core/base/unit.h"
-#include "core/mesh/surface/equal_vertices.h"
-#include "core/mesh/surface/joined_pieces.h"
+#include "core/base/vec_math.h"
+#include "core/mesh/surface/surface.h"
 
 namespace tspace {
-
 namespace {
 
 constexpr double kToDegrees = 180 / kPi;

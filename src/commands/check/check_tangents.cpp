@@ -1,16 +1,269 @@
 // SPDX-License-Identifier: MIT
 // Whether tangents are there when they are needed, and whether they are good along the UVs that they should follow;
-// else, whether they are along other ones.
+// else, whether they are on quads, in other axes, or along other UVs.
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <utility>
 
 #include "commands/check/findings.h"
-#include "commands/check/other_axes.h"
-#include "commands/check/other_reading.h"
 #include "commands/check/primitive_checks.h"
+#include "core/base/vec_math.h"
+#include "core/mesh/quads/quads.h"
 
 namespace tspace {
+namespace {
+
+/// Whether there are findings that another cut of quads could explain.
+bool hasFaults(const FrameHealth& health) {
+    for (const Tally* tally : {&health.signs_mixed, &health.signs_wrong, &health.mirrored_seams, &health.uv_seams,
+                               &health.directions_wrong, &health.frames_differ}) {
+        if (tally->count != 0) return true;
+    }
+    return false;
+}
+
+double uvArea(const TangentView& mesh, std::size_t triangle) {
+    const auto uv = [&](std::size_t k) { return mesh.uvs[mesh.corners[3 * triangle + k]]; };
+    const Vec2 a = uv(0), b = uv(1), c = uv(2);
+    return std::fabs((double{b.x} - a.x) * (double{c.y} - a.y) - (double{b.y} - a.y) * (double{c.x} - a.x));
+}
+
+/// The orientation of a quad, as in the reference: where it is folded in the UV map, its larger half decides.
+void giveFacesOneOrientation(const TangentView& mesh, std::span<const std::uint32_t> faces, Surface& surface) {
+    for (std::size_t t = 0; t + 1 < faces.size(); ++t) {
+        SurfaceFrame &first = surface.faces[t], &second = surface.faces[t + 1];
+        if (faces[t] != faces[t + 1] || first.orientation * second.orientation != -1) continue;
+        if (uvArea(mesh, t) >= uvArea(mesh, t + 1)) {
+            second.orientation = first.orientation;
+        } else {
+            first.orientation = second.orientation;
+        }
+    }
+}
+
+Result<QuadReading> cutQuads(const TangentView& mesh, const QuadFaces& faces) {
+    std::vector<std::uint32_t> vertices;
+    vertices.reserve(faces.corners.size());
+    for (const std::uint32_t corner : faces.corners) vertices.push_back(mesh.corners[corner]);
+    MeshView polygons;
+    polygons.positions = mesh.positions;
+    polygons.uvs = mesh.uvs;
+    polygons.indices = IndexView(std::span<const std::uint32_t>(vertices));
+    polygons.face_sizes = faces.sizes;
+    const Result<Triangulation> cut = triangulate(polygons);
+    if (!cut) return cut.error();
+    QuadReading reading;
+    reading.corners.reserve(cut->corners.size());
+    for (const std::uint32_t corner : cut->corners) reading.corners.push_back(vertices[corner]);
+    TangentView other = mesh;
+    other.corners = reading.corners;
+    reading.surface = describeSurface(other);
+    giveFacesOneOrientation(other, cut->faces, reading.surface);
+    return reading;
+}
+
+}  // namespace
+
+Result<std::optional<QuadReading>> findQuads(const TangentView& mesh, const FrameHealth& health,
+                                             const CheckOptions& options) {
+    const std::optional<QuadReading> none;
+    const bool is_asked = options.faces == Faces::quads || (options.faces == Faces::automatic && hasFaults(health));
+    if (!is_asked || mesh.normals.empty() || mesh.uvs.empty()) return none;
+    const Result<QuadFaces> faces =
+        chooseFaces(mesh.triangles(), mesh.tangents, false, options.faces, {.thread_count = 1});
+    if (!faces) return faces.error();
+    if (faces->quad_count == 0) return none;
+    Result<QuadReading> reading = cutQuads(mesh, *faces);
+    if (!reading) return std::move(reading).error();
+    return std::optional<QuadReading>(*std::move(reading));
+}
 
 namespace {
+
+// Tangents that are wrong because they were not turned along with their mesh, as from Z up to Y up.
+
+/// Share of the surface with tangents that lean out of it, from which other axes are looked for.
+constexpr double kClearlyLeaning = 0.2;
+/// Share of leaning tangents, and of wrong directions, that may remain in the right axes.
+constexpr double kMostWrong = 0.02;
+
+/// Component i of the result is `sign[i]` times component `from[i]`.
+struct AxisExchange {
+    std::array<std::size_t, 3> from = {0, 1, 2};
+    std::array<float, 3> sign = {1, 1, 1};
+
+    [[nodiscard]] Vec4 operator()(const Vec4& t) const {
+        const std::array<float, 3> v{t.x, t.y, t.z};
+        return {sign[0] * v[from[0]], sign[1] * v[from[1]], sign[2] * v[from[2]], t.w};
+    }
+    [[nodiscard]] std::string text() const {
+        std::string text;
+        for (std::size_t i = 0; i < 3; ++i)
+            text += std::string(i == 0 ? "" : ", ") + (sign[i] < 0 ? "-" : "") + "xyz"[from[i]];
+        return text;
+    }
+};
+
+double leaningShare(const PrimitiveFacts& facts, std::span<const Vec4> tangents) {
+    double leaning = 0;
+    for (std::uint32_t v = 0; v < tangents.size(); ++v) {
+        DVec3 n = toDouble(facts.mesh.normals[v]), t = toDouble(xyz(tangents[v]));
+        if (!normalize(n) || !normalize(t)) continue;
+        const double lean = std::fabs(90 - angleBetween(n, t) * 180 / kPi);
+        if (lean > facts.options.orthogonal_deg) leaning += facts.surface.vertex_areas[v];
+    }
+    return leaning / facts.surface.area;
+}
+
+double wrongShare(const PrimitiveFacts& facts, std::span<const Vec4> tangents) {
+    TangentView mesh = facts.mesh;
+    mesh.tangents = tangents;
+    const double limit = facts.options.direction_deg;
+    const std::vector<float> directions = directionDistances(mesh, facts.surface, limit);
+    double wrong = 0;
+    for (std::uint32_t v = 0; v < directions.size(); ++v)
+        wrong += directions[v] > limit ? facts.surface.known_areas[v] : 0;
+    return wrong / facts.surface.known_area;
+}
+
+/// The axes in which the tangents fit nearly everywhere, where they lie in the surface nearly nowhere as they are:
+/// "x, z, -y" of what is stored. Empty: there are none. Each of the 47 ways to exchange and negate axes is tried.
+std::string findOtherAxes(const PrimitiveFacts& facts, const FrameHealth& health) {
+    if (facts.mesh.uvs.empty() || !(facts.surface.known_area > 0)) return {};
+    if (health.not_orthogonal.surface_share + health.parallel.surface_share < kClearlyLeaning ||
+        health.directions_wrong.count == 0)
+        return {};
+    std::vector<Vec4> turned(facts.mesh.tangents.size());
+    AxisExchange axes;
+    do {
+        for (unsigned signs = 0; signs < 8; ++signs) {
+            for (std::size_t i = 0; i < 3; ++i) axes.sign[i] = (signs >> i & 1) != 0 ? -1.0f : 1.0f;
+            std::transform(facts.mesh.tangents.begin(), facts.mesh.tangents.end(), turned.begin(), axes);
+            if (leaningShare(facts, turned) <= kMostWrong && wrongShare(facts, turned) <= kMostWrong)
+                return axes.text();
+        }
+    } while (std::next_permutation(axes.from.begin(), axes.from.end()));
+    return {};
+}
+
+// Tangents that are wrong along the UVs they should follow may be right along others.
+
+struct OtherReading {
+    UvReading reading = {};
+    Surface surface = {};
+    FrameHealth health = {};
+    /// Which of the primitive's uses reads its texture like this, if any: then tangents along these UVs are a choice.
+    std::optional<std::size_t> use = {};
+};
+
+/// All shares are of the surface with UV area.
+constexpr double kClearlyWrong = 0.2;
+/// Wrong signs without wrong directions can be explained only by the own transform, which mirrors or does not.
+constexpr double kSomeSigns = 0.1;
+constexpr double kExplained = 0.02;
+/// Share of the surface with own UV area on which the other UVs must have area too.
+constexpr double kCovered = 0.95;
+
+struct Faults {
+    double directions = 0, signs = 0;
+};
+
+double shareOf(const Tally& tally, const Surface& surface) {
+    return surface.known_area > 0 ? tally.area / surface.known_area : 0;
+}
+
+Faults faultsOf(const FrameHealth& health, const Surface& surface) {
+    return {shareOf(health.directions_wrong, surface) + shareOf(health.uv_seams, surface) +
+                shareOf(health.mirrored_seams, surface),
+            health.wrong_sign_share};
+}
+
+/// How much of the surface on which `own` has UV area `other` has, too.
+double coverage(const Surface& own, const Surface& other) {
+    double covered = 0;
+    for (std::size_t f = 0; f < own.faces.size(); ++f) {
+        if (own.faces[f].orientation != 0 && other.faces[f].orientation != 0) covered += own.faces[f].area;
+    }
+    return own.known_area > 0 ? covered / own.known_area : 0;
+}
+
+bool readsLike(const UvReading& reading, const ScenePrimitive& primitive, const TangentUse& use) {
+    return !reading.transformed && reading.uv_set == use.uv_set && !readingOf(primitive, use).transformed;
+}
+
+class Search {
+  public:
+    Search(const PrimitiveFacts& facts, const Faults& now) : facts_(facts), now_(now) {}
+
+    /// Whether the reading explains it; then `found` is filled.
+    Result<bool> test(UvReading&& reading, bool is_own_set, OtherReading& found) const {
+        if (reading.uvs.empty()) return false;
+        TangentView mesh = facts_.mesh;
+        mesh.uvs = reading.uvs;
+        Surface surface = describeSurface(mesh);
+        if (coverage(facts_.surface, surface) < kCovered) return false;
+        Result<FrameHealth> health = examineTangents(mesh, surface, facts_.options);
+        if (!health) return health.error();
+        const Faults with_other = faultsOf(*health, surface);
+        const bool signs_fit = with_other.signs <= kExplained || (!is_own_set && health->all_signs_wrong);
+        if (with_other.directions > kExplained || !signs_fit) return false;
+        if (now_.directions <= kClearlyWrong && !(is_own_set && now_.signs > kSomeSigns)) return false;
+        found.reading = std::move(reading);
+        found.surface = std::move(surface);
+        found.health = *std::move(health);
+        return true;
+    }
+
+  private:
+    const PrimitiveFacts& facts_;
+    Faults now_;
+};
+
+/// Whether another reading has to explain directions, and not only signs.
+bool areDirectionsWrong(const FrameHealth& health, const Surface& surface) {
+    return faultsOf(health, surface).directions > kClearlyWrong;
+}
+
+/// The first reading that the tangents fit: the same set without its transform, then the other sets, then those of the
+/// primitive's further textures. Strict, since a coincidence is likelier than it seems: those UVs have area nearly
+/// everywhere the own ones have, the tangents follow them nearly everywhere, and clearly not the own ones. `health`:
+/// along facts.reading. Fails as examineTangents does.
+Result<std::optional<OtherReading>> findOtherReading(const PrimitiveFacts& facts, const FrameHealth& health) {
+    const ScenePrimitive& primitive = facts.primitive;
+    const Faults now = faultsOf(health, facts.surface);
+    std::optional<OtherReading> none;
+    const bool signs_matter = facts.reading.transformed && now.signs > kSomeSigns;
+    if (now.directions <= kClearlyWrong && !signs_matter) return none;
+    const Search search(facts, now);
+    OtherReading found;
+    for (std::size_t i = 0; i <= primitive.uv_sets.size(); ++i) {
+        const std::size_t set = i == 0 ? facts.reading.uv_set : i - 1;
+        const bool is_own = set == facts.reading.uv_set;
+        if (is_own && (i > 0 || !facts.reading.transformed)) continue;
+        UvReading reading = plainReading(primitive, set);
+        std::optional<std::size_t> use;
+        for (std::size_t u = 1; u < primitive.uses.size() && !use; ++u) {
+            if (readsLike(reading, primitive, primitive.uses[u])) use = u;
+        }
+        found.use = use;
+        const Result<bool> fits = search.test(std::move(reading), is_own, found);
+        if (!fits) return fits.error();
+        if (*fits) return std::optional<OtherReading>(std::move(found));
+    }
+    for (std::size_t u = 1; u < primitive.uses.size(); ++u) {
+        UvReading reading = readingOf(primitive, primitive.uses[u]);
+        if (!reading.transformed) continue;
+        const bool is_own = reading.uv_set == facts.reading.uv_set;
+        found.use = u;
+        const Result<bool> fits = search.test(std::move(reading), is_own, found);
+        if (!fits) return fits.error();
+        if (*fits) return std::optional<OtherReading>(std::move(found));
+    }
+    return none;
+}
 
 /// The tangents fit other UVs. That is an error only where it would be one without this explanation, and where no
 /// other texture of the primitive is read like that.

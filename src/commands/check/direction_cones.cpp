@@ -5,13 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/base/angle.h"
 #include "core/base/sort.h"
-#include "core/base/unit.h"
-#include "core/mesh/surface/equal_vertices.h"
+#include "core/base/vec_math.h"
+#include "core/mesh/surface/surface.h"
 
 namespace tspace {
-
 namespace {
 
 constexpr double kTurn = 2 * kPi;

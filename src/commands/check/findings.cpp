@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Names, remedies and texts of findings.
+// Names, remedies and texts of findings; the findings about tangents, and about what normal maps hold.
 #include "commands/check/findings.h"
 
 #include <array>
 #include <cmath>
 
-namespace tspace {
+#include "commands/check/frame_health.h"
+#include "commands/check/scene_checks.h"
 
+namespace tspace {
 namespace {
 
 struct CodeText {
@@ -243,6 +245,265 @@ std::string countText(const Tally& tally, const char* unit) {
 std::string shareText(double share) {
     if (share > 0 && share < 0.001) return "less than 0.1 %";
     return decimalText(share * 100) + " %";
+}
+
+// The findings on the tangents of one mesh.
+
+namespace {
+
+constexpr const char* kVertices = "vertices";
+constexpr const char* kTriangles = "triangles";
+
+std::string onSurface(const Tally& tally) { return " (" + shareText(tally.surface_share) + " of the surface)"; }
+
+class FindingList {
+  public:
+    explicit FindingList(const CheckOptions& options) : options_(options) {}
+
+    void add(FindingCode code, Severity severity, const Tally& tally, const char* unit, std::string message) {
+        if (tally.count == 0) return;
+        findings.push_back(
+            makeFinding(code, onShare(severity, tally.surface_share, options_), tally, unit, std::move(message)));
+    }
+
+    /// A finding that counts vertices, on however little of the surface.
+    void addWhole(FindingCode code, Severity severity, const Tally& tally, std::string message) {
+        if (tally.count != 0) findings.push_back(makeFinding(code, severity, tally, kVertices, std::move(message)));
+    }
+
+    std::vector<Finding> findings = {};
+
+  private:
+    const CheckOptions& options_;
+};
+
+void addValues(const FrameHealth& health, const CheckOptions& options, FindingList& list) {
+    const auto severity = [&](double bad_share) {
+        return bad_share >= options.error_share ? Severity::error : Severity::warning;
+    };
+    list.addWhole(FindingCode::tangentsNotFinite, health.has_not_finite ? Severity::error : Severity::warning,
+                  health.not_finite,
+                  "the tangents of " + countText(health.not_finite, kVertices) + " are NaN or infinite");
+    list.addWhole(FindingCode::tangentsNotUnit, health.has_zero ? Severity::error : severity(health.far_from_unit),
+                  health.not_unit,
+                  "the tangents of " + countText(health.not_unit, kVertices) + " are not unit" +
+                      (health.has_zero ? ", some have no length at all" : "") + onSurface(health.not_unit));
+    Tally leaning = health.not_orthogonal;
+    if (health.parallel_apart) {
+        list.addWhole(FindingCode::tangentsNotOrthogonal, Severity::error, health.parallel,
+                      "the tangents of " + countText(health.parallel, kVertices) +
+                          " lie along the normal, so that there is no bitangent" + onSurface(health.parallel));
+    } else {
+        leaning.include(health.parallel);
+    }
+    const bool is_parallel =
+        !health.parallel_apart && health.parallel.surface_share >= options.error_share && health.parallel.count != 0;
+    list.addWhole(FindingCode::tangentsNotOrthogonal, is_parallel ? Severity::error : Severity::warning, leaning,
+                  "the tangents of " + countText(leaning, kVertices) +
+                      " are not perpendicular to the normal, off by up to " + decimalText(leaning.worst_deg) +
+                      " degrees" +
+                      (is_parallel ? "; " + std::to_string(health.parallel.count) + " of them lie along it" : "") +
+                      onSurface(leaning));
+    list.addWhole(FindingCode::signsNotOne, health.sign_vanishes ? Severity::error : Severity::warning,
+                  health.sign_not_one,
+                  "the sign (w) of " + countText(health.sign_not_one, kVertices) + " is neither +1 nor -1");
+}
+
+void addSigns(const FrameHealth& health, FindingList& list) {
+    if (health.all_signs_wrong) {
+        list.add(FindingCode::signsInverted, Severity::error, health.signs_wrong, kVertices,
+                 "every sign is inverted: w is the opposite of what the UVs ask for at " +
+                     countText(health.signs_wrong, kVertices) + ", so bumps look like dents along v");
+    } else {
+        list.add(FindingCode::signsWrong, Severity::error, health.signs_wrong, kVertices,
+                 "the sign (w) of " + countText(health.signs_wrong, kVertices) +
+                     " is the opposite of what the UVs ask for" + onSurface(health.signs_wrong));
+    }
+    list.add(FindingCode::signsMixed, Severity::error, health.signs_mixed, kTriangles,
+             "the corners of " + countText(health.signs_mixed, kTriangles) +
+                 " have different signs, and the bitangent vanishes between them" + onSurface(health.signs_mixed));
+    list.add(FindingCode::mirroredSeamAveraged, Severity::error, health.mirrored_seams, kVertices,
+             "the two sides of a mirrored seam share one tangent at " + countText(health.mirrored_seams, kVertices) +
+                 onSurface(health.mirrored_seams));
+}
+
+void addDirections(const FrameHealth& health, const CheckOptions& options, FindingList& list) {
+    const auto severity = [&](const Tally& tally) {
+        if (health.far_directions >= options.error_share) return Severity::error;
+        return tally.surface_share >= options.error_share ? Severity::warning : Severity::note;
+    };
+    list.add(FindingCode::uvSeamAveraged, severity(health.uv_seams), health.uv_seams, kVertices,
+             "the tangents of " + countText(health.uv_seams, kVertices) +
+                 " are a mean over both sides of a UV seam, and fit neither, off by up to " +
+                 decimalText(health.uv_seams.worst_deg) + " degrees" + onSurface(health.uv_seams));
+    list.add(FindingCode::directionsWrong, severity(health.directions_wrong), health.directions_wrong, kVertices,
+             "the tangents of " + countText(health.directions_wrong, kVertices) +
+                 " do not point where u grows, off by up to " + decimalText(health.directions_wrong.worst_deg) +
+                 " degrees" + onSurface(health.directions_wrong));
+    list.add(FindingCode::splitFramesDiffer, Severity::warning, health.frames_differ, kVertices,
+             countText(health.frames_differ, kVertices) +
+                 " are equal to another in position, normal and UV but have another tangent, which shows as an edge");
+}
+
+}  // namespace
+
+std::vector<Finding> tangentFindings(const FrameHealth& health, const CheckOptions& options) {
+    FindingList list(options);
+    addValues(health, options, list);
+    addSigns(health, list);
+    addDirections(health, options, list);
+    return std::move(list.findings);
+}
+
+std::string whyTangentsAreWrong(const FrameHealth& health, const CheckOptions& options) {
+    for (Finding& finding : tangentFindings(health, options)) {
+        if (finding.severity == Severity::error) return std::move(finding.message);
+    }
+    return {};
+}
+
+// The contents of an image in words, with the command that makes a normal map of it.
+
+namespace {
+
+/// Whether only x and y are taken, and in which channels they are.
+char letterOf(const MapComponent& component) {
+    constexpr const char* kPlain = "rgba";
+    constexpr const char* kInverted = "RGBA";
+    return (component.is_inverted ? kInverted : kPlain)[static_cast<std::size_t>(component.channel)];
+}
+
+const char* channelName(MapChannel channel) {
+    constexpr const char* kNames[] = {"red", "green", "blue", "alpha", "no channel"};
+    return kNames[static_cast<std::size_t>(channel)];
+}
+
+std::string axisText(const char* axis, const MapComponent& component) {
+    return std::string(axis) + (component.is_inverted ? " inverted in " : " in ") + channelName(component.channel);
+}
+
+FindingCode codeOf(MapContent content) {
+    switch (content) {
+        case MapContent::twoChannels:
+            return FindingCode::normalMapTwoChannels;
+        case MapContent::unsignedZ:
+            return FindingCode::normalMapUnsigned;
+        case MapContent::xInAlpha:
+        case MapContent::exchanged:
+            return FindingCode::normalMapChannels;
+        case MapContent::encoded:
+            return FindingCode::normalMapIsSrgb;
+        case MapContent::objectSpace:
+            return FindingCode::normalMapInObjectSpace;
+        case MapContent::picture:
+            return FindingCode::normalMapIsPicture;
+        case MapContent::normals:
+        case MapContent::height:
+            break;
+    }
+    return FindingCode::normalMapIsHeight;
+}
+
+std::string messageOf(const std::string& name, const MapLook& look) {
+    const MapLayout& layout = look.layout;
+    const bool is_srgb = layout.curve == MapCurve::srgb;
+    switch (look.content) {
+        case MapContent::twoChannels:
+            return "the normal map " + name +
+                   " holds only x and y, in red and green: its blue is the same everywhere and says nothing of z, "
+                   "which glTF reads there";
+        case MapContent::unsignedZ:
+            return "blue of the normal map " + name +
+                   " is z itself, from 0 to 1, where glTF wants (z + 1) / 2: what leans is shown leaning too far";
+        case MapContent::xInAlpha:
+            if (layout.x.channel != MapChannel::alpha || layout.y.channel != MapChannel::green) {
+                return "the normal map " + name + " holds only " + axisText("x", layout.x) + " and " +
+                       axisText("y", layout.y) + ", and no z, which glTF reads in blue";
+            }
+            return "the normal map " + name +
+                   " holds x in alpha and y in green (as DXT5nm does), and no z: red and blue say nothing";
+        case MapContent::exchanged:
+            if (layout.z == MapLayout{}.z) {
+                return "red and green of the normal map " + name +
+                       " are exchanged: its slopes are those of a height only where x is in green and y in red";
+            }
+            return "channels of the normal map " + name + " are exchanged: it has " + axisText("x", layout.x) + ", " +
+                   axisText("y", layout.y) + " and " + axisText("z", layout.z) + ", where it points in the mean";
+        case MapContent::encoded:
+            return "the normal map " + name +
+                   " was stored as a picture: its texels are unit vectors only once the sRGB "
+                   "curve is " +
+                   (is_srgb ? "taken off (flat is about 188, not 128)" : "put on (flat is about 55, not 128)");
+        case MapContent::objectSpace:
+            if (!look.follows_mesh) {
+                return "the normal map " + name +
+                       " is not in tangent space: its vectors point all around, as in object or world space, though "
+                       "not along the normals of this mesh";
+            }
+            return "the normal map " + name +
+                   (look.is_in_world ? " is in world space: its vectors point along the normals that nodes turn"
+                                     : " is in object space: its vectors point along the normals of the mesh") +
+                   (layout == MapLayout{} ? std::string()
+                                          : ", with " + axisText("x", layout.x) + ", " + axisText("y", layout.y) +
+                                                " and " + axisText("z", layout.z));
+        case MapContent::picture:
+            return name +
+                   " is a picture in colors, and no normal map: its texels are no unit vectors around one that points "
+                   "out of the surface";
+        case MapContent::normals:
+        case MapContent::height:
+            break;
+    }
+    return name + " is grey, and no normal map: it is a height map, perhaps";
+}
+
+std::string remedyOf(const std::string& file, const MapLook& look, bool green_is_down, bool can_mend) {
+    const std::string flip = green_is_down ? " --flip-green" : "";
+    // No full stop behind a command, since it would be copied along.
+    const std::string in_model =
+        can_mend ? "In the model: tspace generate --mend-maps" + flip + " does it. The image alone: "
+                 : "Give the model an image that has x, y and z: ";
+    const std::string convert = "tspace convert-map " + file + " -o OUT.png";
+    if (look.content == MapContent::picture) return findingRemedy(FindingCode::normalMapIsPicture);
+    if (look.content == MapContent::height) {
+        return "Make a normal map of it: tspace height-to-normal " + file +
+               " -o OUT.png --strength S, where S is how high white stands above black.";
+    }
+    if (look.content == MapContent::objectSpace && !look.follows_mesh) {
+        return "Find out which model it was made for: " + convert +
+               " --from object --mesh MODEL (or --from world, where the nodes of the scene counted). Or bake it anew.";
+    }
+    if (look.content == MapContent::objectSpace && look.is_in_world)
+        return "Take it out of world space: " + convert + " --from world --mesh MODEL" + layoutOptions(look.layout);
+    if (look.content == MapContent::objectSpace)
+        return in_model + convert + " --from object --mesh MODEL" + layoutOptions(look.layout);
+    return in_model + convert + layoutOptions(look.layout) + flip;
+}
+
+}  // namespace
+
+std::string layoutOptions(const MapLayout& layout) {
+    std::string text;
+    const MapLayout plain{.curve = layout.curve};
+    if (!(layout == plain)) {
+        text = std::string(" --channels ") + letterOf(layout.x) + letterOf(layout.y);
+        if (layout.z.channel != MapChannel::none) text += letterOf(layout.z);
+    }
+    if (layout.curve == MapCurve::srgb) text += " --srgb";
+    if (layout.curve == MapCurve::linearised) text += " --linearised";
+    return text;
+}
+
+std::optional<Finding> contentFinding(const std::string& name, const std::string& file, const MapLook& look,
+                                      bool green_is_down, bool can_mend) {
+    if (look.content == MapContent::normals) return {};
+    const Tally texels{.count = look.count, .total = look.total};
+    std::string message = messageOf(name, look);
+    if (green_is_down) message += "; and y is inverted besides";
+    Finding finding = makeFinding(codeOf(look.content), Severity::warning, texels, "texels", std::move(message));
+    finding.remedy = remedyOf(file, look, green_is_down, can_mend);
+    finding.confidence = texels.share();
+    return finding;
 }
 
 }  // namespace tspace

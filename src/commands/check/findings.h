@@ -1,13 +1,50 @@
 // SPDX-License-Identifier: MIT
-// Makes findings: numbers become sentences.
+// Makes findings: what was counted becomes sentences.
 #pragma once
 
+#include <algorithm>
+#include <cstdint>
 #include <string>
+#include <vector>
 
-#include "commands/check/tally.h"
+#include "core/base/sort.h"
 #include "tspace/check.h"
 
 namespace tspace {
+
+// How often something was met, on how much of the surface, and where first.
+
+struct Tally {
+    static constexpr std::size_t kMostVertices = 8;
+
+    std::uint64_t count = 0;
+    std::uint64_t total = 0;  ///< of how many
+    double area = 0;
+    double surface_share = 0;  ///< of the mesh's area, once finish() was called
+    double worst_deg = 0;
+    std::vector<std::uint32_t> vertices = {};  ///< the first
+
+    void add(std::uint32_t vertex, double its_area, double deg = 0) {
+        ++count;
+        area += its_area;
+        worst_deg = std::max(worst_deg, deg);
+        if (vertices.size() < kMostVertices) vertices.push_back(vertex);
+    }
+    /// Adds a tally of the same total.
+    void include(const Tally& other) {
+        count += other.count;
+        area += other.area;
+        surface_share = std::min(1.0, surface_share + other.surface_share);
+        worst_deg = std::max(worst_deg, other.worst_deg);
+        vertices.insert(vertices.end(), other.vertices.begin(), other.vertices.end());
+        sortList(vertices.begin(), vertices.end());
+        if (vertices.size() > kMostVertices) vertices.resize(kMostVertices);
+    }
+    [[nodiscard]] double share() const {
+        return total == 0 ? 0 : static_cast<double>(count) / static_cast<double>(total);
+    }
+    void finish(double whole_area) { surface_share = whole_area > 0 ? std::min(1.0, area / whole_area) : 0; }
+};
 
 /// The remedy of inverted signs and green that points down, which cancel out.
 inline constexpr const char* kBothOrNeither =

@@ -8,10 +8,8 @@
 #include <vector>
 
 #include "commands/check/direction_cones.h"
-#include "commands/check/tally.h"
+#include "commands/check/findings.h"
 #include "core/mesh/surface/surface.h"
-#include "core/mesh/surface/tangent_values.h"
-#include "core/mesh/surface/tangent_view.h"
 #include "tspace/check.h"
 
 namespace tspace {
@@ -84,17 +82,5 @@ std::vector<Finding> tangentFindings(const FrameHealth& health, const CheckOptio
 /// Why these tangents surely render wrong, where a material reads them: the message of the first finding that is an error.
 /// Empty: they are good enough to be kept.
 std::string whyTangentsAreWrong(const FrameHealth& health, const CheckOptions& options);
-
-// The steps of examineTangents, one per file.
-void examineValues(const TangentView& mesh, const Surface& surface, const CheckOptions& options, FrameHealth& health);
-void examineSigns(const TangentView& mesh, const Surface& surface, const CheckOptions& options,
-                  std::span<const float> directions, FrameHealth& health);
-void examineDirections(const TangentView& mesh, const Surface& surface, const CheckOptions& options,
-                       std::span<const float> directions, FrameHealth& health);
-/// Fills FrameHealth::settled. Returns whether that changes what was found.
-Result<bool> settleVertices(const TangentView& mesh, const Surface& surface, const CheckOptions& options,
-                            FrameHealth& health);
-Result<Done> examineSplits(const TangentView& mesh, const Surface& surface, const CheckOptions& options,
-                           FrameHealth& health);
 
 }  // namespace tspace

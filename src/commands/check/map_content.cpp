@@ -6,13 +6,11 @@
 #include <iterator>
 #include <optional>
 
-#include "commands/check/map_axes.h"
-#include "core/base/angle.h"
-#include "core/base/unit.h"
+#include "commands/check/normal_map.h"
+#include "core/base/vec_math.h"
 #include "maps/grey.h"
 
 namespace tspace {
-
 namespace {
 
 /// How far from 1 a vector of 8 bits may be, compressed and filtered.

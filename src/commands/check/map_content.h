@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "images/image.h"
-#include "maps/texel_mask.h"
+#include "maps/uv_coverage.h"
 #include "tspace/map_layout.h"
 #include "tspace/vec.h"
 

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Which way green points in a normal map, or in parts of it.
+// Which way green points in a normal map, or in parts of it, and which axes of a map are those of a mesh.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "images/image.h"
-#include "maps/texel_mask.h"
+#include "maps/uv_coverage.h"
+#include "tspace/map_layout.h"
 
 namespace tspace {
 
@@ -77,5 +79,24 @@ class GreenBlocks {
     std::vector<Block> means_ = {};  ///< by squares of four texels, where single ones do not say it of the whole map
     std::uint32_t part_count_ = 0;
 };
+
+// Which axes of a map are those of a mesh: the rotation or exchange of channels that brings directions to normals.
+
+/// The mean of n v^T over the surface; n is the mesh's normal, v the direction in the map.
+struct Moments {
+    std::array<std::array<double, 3>, 3> sum = {};
+    double weight = 0;
+};
+
+/// The largest mean cosine that any rotation or reflection of the map's axes gives: the sum of the singular values.
+double bestAgreement(const Moments& moments);
+
+/// Which signed channels the mesh's x, y and z are in, and the mean cosine between its normals and the map's then.
+struct Axes {
+    MapLayout layout = {};
+    double agreement = -1;
+};
+
+Axes bestAxes(const Moments& moments);
 
 }  // namespace tspace

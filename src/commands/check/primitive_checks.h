@@ -3,16 +3,29 @@
 // the place and the names of the primitive afterwards, where they leave them empty.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "commands/check/frame_health.h"
-#include "commands/check/quad_reading.h"
 #include "commands/shared/uv_reading.h"
 #include "core/mesh/surface/surface.h"
 #include "model/scene/scene.h"
 #include "tspace/check.h"
 
 namespace tspace {
+
+// Tangents that were made on quads, compared with the triangles that MikkTSpace cuts these into.
+
+struct QuadReading {
+    std::vector<std::uint32_t> corners = {};  ///< three per triangle, as TangentView::corners
+    Surface surface = {};                     ///< of these; the two halves of a quad have one orientation
+};
+
+/// The quads that CheckOptions::faces means, cut as MikkTSpace cuts them. Nothing: the mesh's own triangles are meant,
+/// or, with Faces::automatic, nothing in `health` asks for another reading. `health`: of the mesh. Near-linear;
+/// fails where generateTangents does.
+Result<std::optional<QuadReading>> findQuads(const TangentView& mesh, const FrameHealth& health,
+                                             const CheckOptions& options);
 
 /// What the checks of one primitive share.
 struct PrimitiveFacts {

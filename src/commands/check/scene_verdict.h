@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "commands/check/check_images.h"
+#include "commands/check/scene_checks.h"
 #include "model/scene/scene.h"
 #include "tspace/check.h"
 

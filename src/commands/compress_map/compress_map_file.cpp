@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
-// compressMapFile: the image, its levels, their blocks, and how far they are off.
+// compressMapFile: the image, its levels, their blocks, and how far they are off. Its options, and its report as JSON.
 #include "tspace/map_compress_file.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
+#include "commands/compress_map/compress_map_report.h"
+#include "commands/shared/file_options.h"
 #include "commands/shared/map_image_file.h"
+#include "commands/shared/request.h"
 #include "images/pack_bc4.h"
 #include "images/texel_format.h"
 #include "images/write_texture.h"
@@ -16,7 +19,6 @@
 #include "model/io/file_error.h"
 
 namespace tspace {
-
 namespace {
 
 /// Unit vectors with z of at least 0, and what of the image was none.
@@ -177,3 +179,45 @@ Result<CompressMapFileReport> compressMapFile(const std::string& input, const st
 }
 
 }  // namespace tspace
+
+namespace tspace::options {
+
+OptionList compressMapOptions(CompressMapFileOptions& options) {
+    OptionList list;
+    add(list, "Texture",
+        flag("--signed", options.is_signed,
+             "Write BC5 with a sign (SNORM). Flat parts of maps of more than 8 bits are then exact; engines must be "
+             "told."));
+    add(list, "Texture",
+        setting("--no-levels", options.levels, false, "Write the first level alone. By default all smaller ones too."));
+    add(list, kInputAndOutput, flag("--dry-run", options.dry_run, "Do everything but write."));
+    addThreads(list, options.execution,
+               "Threads; 0: as many as there are cores. The output is the same for any number.");
+    addLimits(list, options.file);
+    addSync(list, options.file.sync);
+    return list;
+}
+
+}  // namespace tspace::options
+
+namespace tspace::report {
+
+std::string compressMapJson(const Outcome<CompressMapFileReport>& outcome, ExitCode exit_code) {
+    const Result<CompressMapFileReport>& result = outcome.result;
+    Json json = madeFileJson("tspace.compress-map/1", outcome, exit_code);
+    if (!result) return jsonText(json);
+    json["width"] = result->width;
+    json["height"] = result->height;
+    json["bitsBefore"] = result->bits_before;
+    json["levels"] = result->level_count;
+    json["outputBytes"] = result->output_bytes;
+    json["meanErrorDeg"] = result->mean_error_deg;
+    json["p99ErrorDeg"] = result->p99_error_deg;
+    json["maxErrorDeg"] = result->max_error_deg;
+    json["belowHorizon"] = result->below_horizon;
+    json["notUnit"] = result->not_unit;
+    json["warnings"] = result->warnings;
+    return jsonText(json);
+}
+
+}  // namespace tspace::report

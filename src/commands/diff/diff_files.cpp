@@ -1,19 +1,83 @@
 // SPDX-License-Identifier: MIT
-// Reads, pairs, compares corner by corner.
+// diffFiles: reads, pairs, compares corner by corner. Options of diff and identify, and the report of diff as JSON.
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <vector>
 
-#include "commands/diff/angle_samples.h"
+#include "commands/diff/diff_report.h"
 #include "commands/diff/pair_primitives.h"
+#include "commands/shared/file_options.h"
+#include "commands/shared/request.h"
+#include "core/base/sort.h"
 #include "core/base/vec_math.h"
 #include "model/io/file_error.h"
 #include "model/read/read_scene.h"
 #include "tspace/diff.h"
 
 namespace tspace {
-
 namespace {
+
+// Many angles, and their statistics.
+
+class AngleSamples {
+  public:
+    /// Degrees between two directions of any length. Pairs of unusable directions (zero, or not finite) are counted,
+    /// unless both are. Returns the angle, or 0.
+    double add(const Vec3& a, const Vec3& b);
+    void append(const AngleSamples& other);
+
+    /// Sorts; O(n log n).
+    [[nodiscard]] AngleStatistics statistics() const;
+
+  private:
+    std::vector<float> degrees_ = {};
+    std::uint64_t unusable_count_ = 0;
+};
+
+// Nearest-rank percentiles.
+
+/// The smallest value that `share` of all do not exceed.
+double percentile(const std::vector<float>& sorted, double share) {
+    const auto rank = static_cast<std::size_t>(std::ceil(share * static_cast<double>(sorted.size())));
+    return sorted[std::max<std::size_t>(rank, 1) - 1];
+}
+
+double AngleSamples::add(const Vec3& a, const Vec3& b) {
+    const bool has_a = isDirection(a), has_b = isDirection(b);
+    if (!has_a || !has_b) {
+        unusable_count_ += has_a != has_b;
+        return 0;
+    }
+    const double degrees = angleBetween(toDouble(a), toDouble(b)) * (180 / kPi);
+    degrees_.push_back(static_cast<float>(degrees));
+    return degrees;
+}
+
+void AngleSamples::append(const AngleSamples& other) {
+    degrees_.insert(degrees_.end(), other.degrees_.begin(), other.degrees_.end());
+    unusable_count_ += other.unusable_count_;
+}
+
+AngleStatistics AngleSamples::statistics() const {
+    AngleStatistics result;
+    result.count = degrees_.size();
+    result.unusable_count = unusable_count_;
+    if (degrees_.empty()) return result;
+    std::vector<float> sorted = degrees_;
+    sortList(sorted.begin(), sorted.end());
+    double sum = 0;
+    for (const float value : sorted) {
+        sum += value;
+        const auto bin = std::lower_bound(kAngleBins.begin(), kAngleBins.end() - 1, static_cast<double>(value));
+        ++result.histogram[static_cast<std::size_t>(bin - kAngleBins.begin())];
+    }
+    result.mean_deg = sum / static_cast<double>(sorted.size());
+    result.median_deg = percentile(sorted, 0.5);
+    result.p95_deg = percentile(sorted, 0.95);
+    result.max_deg = sorted.back();
+    return result;
+}
 
 struct FrameSamples {
     AngleSamples tangents = {}, normals = {}, bitangents = {};
@@ -195,3 +259,125 @@ Result<FrameDiff> diffFiles(const std::string& a, const std::string& b, const Di
 }
 
 }  // namespace tspace
+
+namespace tspace::options {
+
+OptionList diffOptions(DiffRequest& request) {
+    OptionList list;
+    const char* group = "Comparing";
+    addAllowExternal(list, request.options.file);
+    add(list, group,
+        degrees(
+            "--tolerance", request.tolerance_deg, 180,
+            "Exit with 1 when an angle is above this, a sign differs, or a triangle has no partner. In degrees, 0 to "
+            "180."));
+    add(list, group, number("--worst", request.options.worst_count, 10000, "How many of the worst places are listed."));
+    addLimits(list, request.options.file);
+    return list;
+}
+
+OptionList identifyOptions(IdentifyOptions& options) {
+    OptionList list;
+    addAllowExternal(list, options.file);
+    add(list, "Comparing",
+        degrees("--tolerance", options.tolerance_deg, 180,
+                "Tangents nearer than this count as the same. In degrees, 0 to 180."));
+    addThreads(list, options.execution,
+               "Number of threads; 0: as many as there are cores. Changes no bit of the result.");
+    addLimits(list, options.file);
+    return list;
+}
+
+OptionList inspectOptions(FileOptions& options) {
+    OptionList list;
+    addAllowExternal(list, options);
+    addLimits(list, options);
+    return list;
+}
+
+OptionList flipGreenOptions(FlipGreenOptions& options) {
+    OptionList list;
+    add(list, kInputAndOutput, flag("--dry-run", options.dry_run, "Do everything but write."));
+    addMemoryLimit(list, options.memory_limit_bytes);
+    addSync(list, options.sync);
+    return list;
+}
+
+}  // namespace tspace::options
+
+namespace tspace::report {
+namespace {
+
+Json anglesJson(const AngleStatistics& angles) {
+    return Json::object({{"corners", angles.count},
+                         {"unusable", angles.unusable_count},
+                         {"meanDeg", angles.mean_deg},
+                         {"medianDeg", angles.median_deg},
+                         {"p95Deg", angles.p95_deg},
+                         {"maxDeg", angles.max_deg},
+                         {"histogram", angles.histogram}});
+}
+
+Json sideJson(const PrimitiveDiff& p, bool is_a) {
+    const std::string& place = is_a ? p.place_a : p.place_b;
+    if (place.empty()) return nullptr;
+    return Json::object({{"place", place},
+                         {"mesh", is_a ? p.mesh_a : p.mesh_b},
+                         {"primitive", is_a ? p.primitive_a : p.primitive_b},
+                         {"triangles", is_a ? p.triangle_count_a : p.triangle_count_b},
+                         {"hasTangents", is_a ? p.has_tangents_a : p.has_tangents_b},
+                         {"tangentsNotRead", is_a ? p.tangents_not_read_a : p.tangents_not_read_b},
+                         {"hasNormals", is_a ? p.has_normals_a : p.has_normals_b}});
+}
+
+Json comparedPrimitiveJson(const PrimitiveDiff& p) {
+    return Json::object({{"a", sideJson(p, true)},
+                         {"b", sideJson(p, false)},
+                         {"meshName", p.mesh_name},
+                         {"pairedBy", p.paired_by},
+                         {"pairedTriangles", p.paired_triangle_count},
+                         {"signChanges", p.sign_change_count},
+                         {"tangents", anglesJson(p.tangents)},
+                         {"normals", anglesJson(p.normals)},
+                         {"bitangents", anglesJson(p.bitangents)}});
+}
+
+Json worstJson(const FrameDifference& d) {
+    return Json::object({{"meshA", d.mesh_a},
+                         {"primitiveA", d.primitive_a},
+                         {"vertexA", d.vertex_a},
+                         {"meshB", d.mesh_b},
+                         {"primitiveB", d.primitive_b},
+                         {"vertexB", d.vertex_b},
+                         {"position", Json::array({d.position.x, d.position.y, d.position.z})},
+                         {"tangentDeg", d.tangent_deg},
+                         {"normalDeg", d.normal_deg},
+                         {"bitangentDeg", d.bitangent_deg},
+                         {"signDiffers", d.sign_differs}});
+}
+
+}  // namespace
+
+std::string diffJson(const std::string& a, const std::string& b, double tolerance_deg, const Result<FrameDiff>& diff,
+                     ExitCode exit_code) {
+    Json json = documentJson("tspace.diff/1", diff.ok(), exit_code);
+    json["a"] = a;
+    json["b"] = b;
+    json["error"] = errorJson(diff ? nullptr : &diff.error());
+    if (!diff) return jsonText(json);
+    json["toleranceDeg"] = tolerance_deg;
+    json["isWithinTolerance"] = diff->isWithin(tolerance_deg);
+    json["corners"] = diff->corner_count;
+    json["signChanges"] = diff->sign_change_count;
+    json["unpairedTriangles"] = diff->unpaired_triangle_count;
+    json["missingTangents"] = diff->missing_count;
+    json["histogramUpperDeg"] = kAngleBins;
+    json["tangents"] = anglesJson(diff->tangents);
+    json["normals"] = anglesJson(diff->normals);
+    json["bitangents"] = anglesJson(diff->bitangents);
+    json["worst"] = listJson(diff->worst, worstJson);
+    json["primitives"] = listJson(diff->primitives, comparedPrimitiveJson);
+    return jsonText(json);
+}
+
+}  // namespace tspace::report

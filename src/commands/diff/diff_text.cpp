@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "commands/diff/diff_report.h"
-#include "commands/diff/diff_words.h"
 #include "commands/shared/text.h"
 
 namespace tspace::report {

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "commands/diff/diff_words.h"
+#include "commands/diff/diff_report.h"
 
 #include <algorithm>
 #include <charconv>
 
-#include "commands/shared/counted.h"
+#include "commands/shared/report.h"
 
 namespace tspace::report {
-
 namespace {
 
 std::string spelled(double value, std::chars_format format, int digits) {

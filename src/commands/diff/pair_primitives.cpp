@@ -1,12 +1,222 @@
 // SPDX-License-Identifier: MIT
-// Geometry first, since names repeat and tools drop them; then names; then the place in the file.
+// Triangles by their corners, or by their places. Primitives by geometry first, since names repeat and tools drop them; then by
+// names; then by the place in the file.
 #include "commands/diff/pair_primitives.h"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <functional>
+#include <limits>
 #include <map>
 #include <string>
+#include <unordered_map>
+
+#include "core/base/sort.h"
+#include "core/base/unique_index.h"
+#include "core/base/vec_math.h"
 
 namespace tspace {
+
+// Triangles as keys: three corners, the smallest first.
+
+namespace {
+
+/// Texture coordinates that both meshes may have kept; the first set alone, since tools add and drop the others.
+const SharedArray<Vec2>* firstUvs(const ScenePrimitive& primitive) {
+    return primitive.uv_sets.empty() || primitive.uv_sets[0].empty() ? nullptr : &primitive.uv_sets[0];
+}
+
+class CornerHashes {
+  public:
+    CornerHashes(const ScenePrimitive& primitive, bool with_uvs) : corners_(primitive.corners) {
+        const SharedArray<Vec2>* uvs = with_uvs ? firstUvs(primitive) : nullptr;
+        vertices_.reserve(primitive.positions.size());
+        for (std::size_t i = 0; i < primitive.positions.size(); ++i) {
+            std::uint64_t hash = hashPosition(primitive.positions[i]);
+            if (uvs != nullptr) hash = foldHash(hash, hashPosition({(*uvs)[i].x, (*uvs)[i].y, 0}));
+            vertices_.push_back(hash);
+        }
+    }
+
+    struct Key {
+        std::uint64_t hash = 0;
+        std::uint32_t first = 0;  ///< the corner that the key begins with
+    };
+    /// Begins with the smallest rotation, so that the key does not depend on the corner the file begins with.
+    [[nodiscard]] Key keyOf(std::size_t triangle) const {
+        const std::array<std::uint64_t, 3> h = {at(triangle, 0), at(triangle, 1), at(triangle, 2)};
+        std::uint32_t first = 0;
+        for (std::uint32_t k = 1; k < 3; ++k) {
+            if (rotated(h, k) < rotated(h, first)) first = k;
+        }
+        return {foldHash(foldHash(h[first], h[(first + 1) % 3]), h[(first + 2) % 3]), first};
+    }
+
+  private:
+    static std::array<std::uint64_t, 3> rotated(const std::array<std::uint64_t, 3>& h, std::uint32_t k) {
+        return {h[k], h[(k + 1) % 3], h[(k + 2) % 3]};
+    }
+    [[nodiscard]] std::uint64_t at(std::size_t triangle, std::size_t k) const {
+        return vertices_[corners_[triangle * 3 + k]];
+    }
+
+    SharedArray<std::uint32_t> corners_;
+    std::vector<std::uint64_t> vertices_;
+};
+
+/// Pairs triangles that are not yet paired. `paired_b` is one mark per triangle.
+void pairEqualKeys(const ScenePrimitive& a, const ScenePrimitive& b, bool with_uvs, std::vector<char>& paired_a,
+                   std::vector<char>& paired_b, std::vector<TrianglePair>& pairs) {
+    const CornerHashes hashes_a(a, with_uvs), hashes_b(b, with_uvs);
+    constexpr std::uint32_t kNone = 0xffffffffu;
+    struct List {
+        std::uint32_t head = kNone, tail = kNone;
+    };
+    std::unordered_map<std::uint64_t, List> by_key;
+    std::vector<std::uint32_t> next(paired_b.size(), kNone);
+    for (std::uint32_t t = 0; t < paired_b.size(); ++t) {
+        if (paired_b[t] != 0) continue;
+        List& list = by_key[hashes_b.keyOf(t).hash];
+        (list.head == kNone ? list.head : next[list.tail]) = t;
+        list.tail = t;
+    }
+    for (std::uint32_t t = 0; t < paired_a.size(); ++t) {
+        if (paired_a[t] != 0) continue;
+        const CornerHashes::Key key = hashes_a.keyOf(t);
+        const auto found = by_key.find(key.hash);
+        if (found == by_key.end() || found->second.head == kNone) continue;
+        const std::uint32_t partner = found->second.head;
+        found->second.head = next[partner];
+        paired_a[t] = paired_b[partner] = 1;
+        pairs.push_back({t, partner, (hashes_b.keyOf(partner).first + 3 - key.first) % 3});
+    }
+}
+
+constexpr double kPlaceTolerance = 1e-3;
+
+/// Used vertices moved and scaled so that their box has its centre at 0 and the largest side 1.
+std::vector<DVec3> boxedPositions(const ScenePrimitive& primitive) {
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    DVec3 low{kInfinity, kInfinity, kInfinity}, high{-kInfinity, -kInfinity, -kInfinity};
+    for (const std::uint32_t vertex : primitive.corners) {
+        const DVec3 p = toDouble(primitive.positions[vertex]);
+        if (!isFinite(primitive.positions[vertex])) continue;
+        low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+        high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+    }
+    const DVec3 extent = high - low;
+    const double size = std::max({extent.x, extent.y, extent.z});
+    const double scale = size > 0 ? 1 / size : 1;
+    const DVec3 centre = 0.5 * (low + high);
+    std::vector<DVec3> boxed;
+    boxed.reserve(primitive.positions.size());
+    for (const Vec3& p : primitive.positions) {
+        boxed.push_back(isFinite(p) ? scale * (toDouble(p) - centre) : DVec3{kInfinity, kInfinity, kInfinity});
+    }
+    return boxed;
+}
+
+/// Triangles of one mesh by the place of their centre.
+class TriangleGrid {
+  public:
+    explicit TriangleGrid(const ScenePrimitive& primitive)
+        : corners_(primitive.corners), positions_(boxedPositions(primitive)) {
+        for (std::uint32_t t = 0; t < corners_.size() / 3; ++t) {
+            const DVec3 centre = centreOf(t);
+            if (std::isfinite(centre.x + centre.y + centre.z)) cells_[cellHash(centre, 0)].push_back(t);
+        }
+    }
+
+    [[nodiscard]] const DVec3& at(std::uint32_t triangle, std::uint32_t k) const {
+        return positions_[corners_[std::size_t{3} * triangle + k]];
+    }
+    [[nodiscard]] DVec3 centreOf(std::uint32_t t) const { return (1.0 / 3) * (at(t, 0) + at(t, 1) + at(t, 2)); }
+
+    /// Calls visit(triangle) for those near `centre`, the first hundred of each cell, until it returns true.
+    template <class Visit>
+    void visitNear(const DVec3& centre, Visit&& visit) const {
+        constexpr std::size_t kMostPerCell = 100;
+        if (!std::isfinite(centre.x + centre.y + centre.z)) return;
+        for (unsigned corner = 0; corner < 8; ++corner) {
+            const auto found = cells_.find(cellHash(centre, corner));
+            if (found == cells_.end()) continue;
+            const std::vector<std::uint32_t>& cell = found->second;
+            for (std::size_t i = 0; i < std::min(cell.size(), kMostPerCell); ++i) {
+                if (visit(cell[i])) return;
+            }
+        }
+    }
+
+  private:
+    /// Cells are twice as wide as the tolerance, so centres that are near lie in the own cell or in those on the nearer side:
+    /// bit k of `corner` steps along axis k. Number 0 is the own cell.
+    static std::uint64_t cellHash(const DVec3& p, unsigned corner) {
+        const auto cell = [&](double x, unsigned axis) {
+            const double scaled = x / (2 * kPlaceTolerance);
+            const double own = std::floor(scaled);
+            const double step = scaled - own < 0.5 ? -1 : 1;
+            return static_cast<std::uint64_t>(static_cast<std::int64_t>(own + ((corner >> axis & 1U) != 0 ? step : 0)));
+        };
+        return foldHash(foldHash(mixBits(cell(p.x, 0)), cell(p.y, 1)), cell(p.z, 2));
+    }
+
+    SharedArray<std::uint32_t> corners_;
+    std::vector<DVec3> positions_;
+    std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> cells_ = {};
+};
+
+/// The rotation that lays triangle `t` of A on `u` of B, or 3 when none does.
+std::uint32_t rotationBetween(const TriangleGrid& a, std::uint32_t t, const TriangleGrid& b, std::uint32_t u) {
+    for (std::uint32_t rotation = 0; rotation < 3; ++rotation) {
+        bool is_near = true;
+        for (std::uint32_t k = 0; k < 3 && is_near; ++k) {
+            is_near = length(a.at(t, k) - b.at(u, (k + rotation) % 3)) <= kPlaceTolerance;
+        }
+        if (is_near) return rotation;
+    }
+    return 3;
+}
+
+}  // namespace
+
+std::uint64_t geometryHash(const ScenePrimitive& primitive) {
+    const CornerHashes hashes(primitive, false);
+    const std::size_t count = primitive.corners.size() / 3;
+    std::uint64_t sum = count;
+    for (std::size_t t = 0; t < count; ++t) sum += mixBits(hashes.keyOf(t).hash);
+    return sum;
+}
+
+std::vector<TrianglePair> pairByCorners(const ScenePrimitive& a, const ScenePrimitive& b) {
+    std::vector<char> paired_a(a.corners.size() / 3, 0), paired_b(b.corners.size() / 3, 0);
+    std::vector<TrianglePair> pairs;
+    pairs.reserve(paired_a.size());
+    if (firstUvs(a) != nullptr && firstUvs(b) != nullptr) pairEqualKeys(a, b, true, paired_a, paired_b, pairs);
+    if (pairs.size() < paired_a.size()) pairEqualKeys(a, b, false, paired_a, paired_b, pairs);
+    sortList(pairs.begin(), pairs.end(), [](const TrianglePair& x, const TrianglePair& y) { return x.a < y.a; });
+    return pairs;
+}
+
+std::vector<TrianglePair> pairByPlace(const ScenePrimitive& a, const ScenePrimitive& b) {
+    const TriangleGrid grid_a(a), grid_b(b);
+    std::vector<char> is_paired(b.corners.size() / 3, 0);
+    std::vector<TrianglePair> pairs;
+    for (std::uint32_t t = 0; t < a.corners.size() / 3; ++t) {
+        const auto pairWith = [&](std::uint32_t u) {
+            if (is_paired[u] != 0) return false;
+            const std::uint32_t rotation = rotationBetween(grid_a, t, grid_b, u);
+            if (rotation == 3) return false;
+            is_paired[u] = 1;
+            pairs.push_back({t, u, rotation});
+            return true;
+        };
+        // Most files keep the order; where triangles lie on each other it decides.
+        if (t < is_paired.size() && pairWith(t)) continue;
+        grid_b.visitNear(grid_a.centreOf(t), pairWith);
+    }
+    return pairs;
+}
 
 namespace {
 

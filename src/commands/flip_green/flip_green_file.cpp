@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// flipGreen and flipGreenFile: what an image may take, and files.
+// flipGreen and flipGreenFile: what an image may take, and files. Their report as JSON.
 #include <algorithm>
 
+#include "commands/flip_green/flip_green_report.h"
 #include "commands/flip_green/texture_png.h"
 #include "images/flip_green.h"
 #include "model/io/atomic_output.h"
@@ -10,7 +11,6 @@
 #include "tspace/flip_green.h"
 
 namespace tspace {
-
 namespace {
 
 /// Rows of a PNG take next to no memory but time, and a few bytes may claim any number of them: their unpacked bytes may be
@@ -74,3 +74,38 @@ Result<FlipGreenReport> flipGreenFile(const std::string& input, const std::strin
 }
 
 }  // namespace tspace
+
+namespace tspace::report {
+
+const char* imageFormatName(ImageFileFormat format) {
+    switch (format) {
+        case ImageFileFormat::png:
+            return "PNG";
+        case ImageFileFormat::jpeg:
+            return "JPEG";
+        case ImageFileFormat::webp:
+            return "WebP";
+        case ImageFileFormat::ktx2:
+            return "KTX2";
+        case ImageFileFormat::dds:
+            return "DDS";
+        case ImageFileFormat::sameAsInput:
+            break;
+    }
+    return "";
+}
+
+std::string flipGreenJson(const Outcome<FlipGreenReport>& outcome, ExitCode exit_code) {
+    const Result<FlipGreenReport>& result = outcome.result;
+    Json json = madeFileJson("tspace.flip-green/1", outcome, exit_code);
+    if (!result) return jsonText(json);
+    json["format"] = imageFormatName(result->format);
+    json["width"] = result->width;
+    json["height"] = result->height;
+    json["bits"] = result->bits;
+    json["exact"] = result->is_exact;
+    json["warnings"] = result->warnings;
+    return jsonText(json);
+}
+
+}  // namespace tspace::report

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "commands/generate/convert_maps.h"
+#include "commands/generate/generate_steps.h"
 
 #include <algorithm>
 #include <charconv>
@@ -7,16 +7,13 @@
 #include <utility>
 
 #include "commands/generate/map_references.h"
-#include "commands/generate/place_image.h"
 #include "commands/shared/map_image_file.h"
-#include "commands/shared/map_mesh.h"
-#include "maps/carried_error.h"
+#include "maps/convert_texel.h"
 #include "maps/uv_coverage.h"
 #include "model/gltf/material_needs.h"
 #include "model/gltf/read_scene.h"
 
 namespace tspace::gltf {
-
 namespace {
 
 /// A primitive that shows the map, and the frames of its corners.

@@ -1,15 +1,66 @@
 // SPDX-License-Identifier: MIT
-// Normal maps of a glTF file whose green channel is inverted, or that are written anew: where they lie, who else reads them, and putting the new
-// ones in their place.
+// Normal maps whose green channel is inverted, or that are written anew: which they are, where they lie in a glTF file, who else
+// reads them, and putting the new ones in their place.
 #pragma once
 
 #include <map>
 #include <span>
+#include <string>
 #include <vector>
 
+#include "commands/check/map_content.h"
 #include "model/gltf/container.h"
 #include "model/gltf/editor.h"
 #include "model/gltf/model.h"
+#include "model/io/file_io.h"
+#include "model/scene/scene.h"
+
+namespace tspace {
+
+// Which normal maps get their green channel inverted, and their files afterwards.
+
+/// One image that is a normal map.
+struct JudgedMap {
+    std::size_t image = 0;
+    Bytes flipped = {};          ///< the image file with green inverted; empty: it stays as it is
+    MapLook look = {};           ///< what it holds
+    bool is_y_inverted = false;  ///< y is, which is not in green
+    NormalMapReport report = {};
+};
+
+/// The image file with its green channel inverted; nothing, with the reason in `why` (half a sentence), where that is not
+/// possible.
+Bytes flipImage(std::span<const std::uint8_t> bytes, const MemoryBudget& budget, std::string& why);
+
+/// Looks at the normal maps of the scene, which has its images, and inverts those that FlipGreen says (all stay with
+/// FlipGreen::none).
+///
+/// keeps_tangents    per primitive of the scene: its tangents stay, or a repair leaves what a normal map cancels. Where
+///                   their signs are inverted too, the two cancel out, and FlipGreen::down leaves the map alone
+///
+/// Throws FileError.
+std::vector<JudgedMap> judgeMaps(const Scene& scene, const std::vector<bool>& keeps_tangents,
+                                 const GenerateOptions& options);
+
+// Images that hold something else than glTF reads, written anew as normal maps.
+
+/// The image of `map` as a PNG that glTF reads. `bytes`: the image file, or what became of it. Empty where it stays, with
+/// the reason in `map.report`, which else says what the image held. Throws FileError.
+Bytes mendMap(const Scene& scene, ByteSpan bytes, const GenerateOptions& options, JudgedMap& map);
+
+struct MadeOfHeights {
+    /// The image is grey, or broken. If not, it is taken as a normal map.
+    bool is_height_map = false;
+    Bytes file = {};           ///< a PNG; empty where there is none
+    std::string why_not = {};  ///< half a sentence
+    double mean_lean_deg = 0;  ///< HeightToNormalReport
+};
+
+/// A normal map of image `image`, on all primitives of the material, white being `strength` units high. Throws FileError.
+MadeOfHeights makeOfHeights(const Scene& scene, std::size_t material, std::size_t image, double strength,
+                            const GenerateOptions& options);
+
+}  // namespace tspace
 
 namespace tspace::gltf {
 

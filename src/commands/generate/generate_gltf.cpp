@@ -4,31 +4,21 @@
 #include <optional>
 #include <utility>
 
-#include "commands/generate/cancelled_signs.h"
-#include "commands/generate/convert_maps.h"
 #include "commands/generate/flip_maps.h"
 #include "commands/generate/generate_model.h"
-#include "commands/generate/generate_warnings.h"
-#include "commands/generate/mend_values.h"
-#include "commands/generate/mend_winding.h"
-#include "commands/generate/repair_plan.h"
+#include "commands/generate/generate_steps.h"
 #include "core/base/parallel.h"
 #include "model/gltf/apply_frames.h"
-#include "model/gltf/compression/recompress.h"
+#include "model/gltf/compression.h"
 #include "model/gltf/compute_pools.h"
 #include "model/gltf/container.h"
 #include "model/gltf/generate_plan.h"
-#include "model/gltf/plan_surroundings.h"
-#include "model/gltf/read_packed.h"
-#include "model/gltf/strip_tangents.h"
-#include "model/gltf/turn_triangles.h"
+#include "model/gltf/packed.h"
 #include "model/gltf/vertex_numbers.h"
-#include "model/gltf/write_packed.h"
 #include "model/io/file_error.h"
-#include "model/read/load_document.h"
+#include "model/read/read_scene.h"
 
 namespace tspace::gltf {
-
 namespace {
 
 /// Pools are computed together up to this many corners for each thread: enough to do, and not too much that waits in

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Generating in memory, and generateFile for glTF inputs: read, decide, compute, edit, write.
+// Generating in memory, and generateFile for each format of input: read, decide, compute, edit, write.
 #pragma once
 
 #include <string>
@@ -29,5 +29,8 @@ namespace tspace {
 
 /// The same for a model file of any format.
 gltf::GeneratedModel generateModel(const std::string& input, const GenerateOptions& options, bool with_images);
+
+/// generateFile for an OBJ input; `output` is a .glb or .gltf.
+Result<GenerateReport> generateObj(const std::string& input, const std::string& output, const GenerateOptions& options);
 
 }  // namespace tspace

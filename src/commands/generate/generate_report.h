@@ -2,6 +2,8 @@
 // What tspace generate reports.
 #pragma once
 
+#include <cstdint>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -19,5 +21,59 @@ std::string generateText(const GenerateOutcome& outcome);
 std::string generateLine(const GenerateOutcome& outcome);
 /// Totals over several files.
 std::string generateSummary(const std::vector<GenerateOutcome>& outcomes, double seconds);
+
+// What was done to all primitives of a file together.
+
+struct NamedCount {
+    const char* json_name;
+    const char* words;
+    std::uint64_t SanitizeReport::*count;
+};
+inline constexpr NamedCount kCauses[] = {
+    {"notFinite", "not finite", &SanitizeReport::not_finite_count},
+    {"zero", "zero", &SanitizeReport::zero_count},
+    {"notUnit", "not unit", &SanitizeReport::not_unit_count},
+    {"parallel", "parallel to the normal", &SanitizeReport::parallel_count},
+    {"placeholder", "without a direction", &SanitizeReport::placeholder_count},
+    {"badSign", "sign not +1 or -1", &SanitizeReport::bad_sign_count},
+    {"mixedSign", "mixed signs in a face", &SanitizeReport::mixed_sign_count},
+    {"orthogonalized", "made orthogonal as asked", &SanitizeReport::orthogonalized_count},
+};
+inline constexpr NamedCount kCures[] = {
+    {"normalized", "", &SanitizeReport::normalized_count},
+    {"fromNeighbor", "", &SanitizeReport::from_neighbor_count},
+    {"fromBasis", "", &SanitizeReport::from_basis_count},
+};
+
+inline constexpr PrimitiveAction kActions[] = {
+    PrimitiveAction::generated, PrimitiveAction::replaced,     PrimitiveAction::unchanged,  PrimitiveAction::kept,
+    PrimitiveAction::notNeeded, PrimitiveAction::notTriangles, PrimitiveAction::impossible, PrimitiveAction::removed,
+};
+
+/// Whether tangents of it were computed.
+bool wasComputed(PrimitiveAction action);
+
+/// Sums over primitives; vertices and triangles of those that were computed only.
+struct Totals {
+    std::uint64_t actions[std::size(kActions)] = {};
+    std::uint64_t primitive_count = 0;
+    std::uint64_t triangle_count = 0;
+    std::uint64_t vertices_before = 0;
+    std::uint64_t vertices_after = 0;
+    std::uint64_t normals_generated = 0, normals_replaced = 0;
+    std::uint64_t morph_normals_computed = 0;
+    std::uint64_t on_quads = 0, quad_count = 0;  ///< primitives, and their quads
+    std::uint64_t bitangents_generated = 0;
+    std::uint64_t frames_packed = 0, packed_mended = 0;  ///< primitives, and their frames
+    std::uint64_t tangents_dropped = 0, normals_dropped = 0;
+    std::uint64_t morph_deltas_computed = 0;
+    std::uint64_t morph_sign_flip_count = 0;
+    std::uint64_t degenerate_uv_count = 0;
+    std::uint64_t degenerate_triangle_count = 0;
+    SanitizeReport sanitize = {};
+    bool reference_order_abandoned = false;
+};
+
+Totals totalsOf(const GenerateReport& report);
 
 }  // namespace tspace::report

@@ -5,7 +5,6 @@
 #include <map>
 
 #include "commands/generate/generate_report.h"
-#include "commands/generate/generate_totals.h"
 #include "commands/shared/text.h"
 
 namespace tspace::report {

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Sums over primitives, and sentences.
-#include "commands/generate/generate_warnings.h"
+#include "commands/generate/generate_steps.h"
 
 #include <algorithm>
 #include <string>
 #include <vector>
 
-#include "core/base/short_number.h"
+#include "core/base/numbers.h"
 
 namespace tspace {
-
 namespace {
 
 std::string counted(std::uint64_t count, const char* noun) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "commands/generate/mend_maps.h"
+#include "commands/generate/flip_maps.h"
 
 #include <algorithm>
 #include <optional>
@@ -9,7 +9,6 @@
 #include "tspace/map_height.h"
 
 namespace tspace {
-
 namespace {
 
 /// Half a sentence: what stood in the image.

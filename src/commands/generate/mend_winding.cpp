@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "commands/generate/mend_winding.h"
+#include "commands/generate/generate_steps.h"
 
 #include <algorithm>
 #include <map>
@@ -9,7 +9,6 @@
 #include "model/io/file_error.h"
 
 namespace tspace {
-
 namespace {
 
 /// The primitives of one mesh over one list of vertices. Those that draw the same triangles of the same vertices are one.

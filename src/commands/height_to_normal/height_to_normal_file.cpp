@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: MIT
-// heightToNormalFile: the image, the mesh, warnings.
+// heightToNormalFile: the image, the mesh, warnings. Its options, and its report as JSON.
 #include "commands/shared/map_image_file.h"
-#include "core/base/short_number.h"
+
+#include "commands/height_to_normal/height_to_normal_report.h"
+#include "commands/shared/file_options.h"
+#include "commands/shared/request.h"
+#include "core/base/numbers.h"
 #include "model/io/atomic_output.h"
 #include "model/io/file_error.h"
 #include "model/io/file_io.h"
 #include "tspace/map_height_file.h"
 
 namespace tspace {
-
 namespace {
 
 /// Leans beyond these mean that the strength is in other units than the mesh.
@@ -72,3 +75,71 @@ Result<HeightToNormalFileReport> heightToNormalFile(const std::string& input, co
 }
 
 }  // namespace tspace
+
+namespace tspace::options {
+namespace {
+
+constexpr Named<unsigned> kPngBits[] = {{"8", 8}, {"16", 16}};
+
+}  // namespace
+
+OptionList heightToNormalOptions(HeightToNormalFileOptions& options) {
+    OptionList list;
+    const auto take_strength = [&options](const std::string& value) {
+        return parseReal(value, options.strength) ? std::string() : std::string("must be a number");
+    };
+    Option strength =
+        option("--strength", "S", take_strength,
+               "How high white stands above black: with --mesh in the units of the model, else in texels. "
+               "Below 0 white lies deeper.");
+    strength.default_text = std::to_string(1);
+    add(list, "Map", strength);
+    add(list, kInputAndOutput,
+        text("--mesh", "FILE", options.mesh,
+             "The model that shows the map. Slopes are then those on its surface, whatever the size of the image and "
+             "of the UVs, and the normals are told in its tangent frames; missing tangents are made."))
+        .is_file = true;
+    addMaterialOfMap(list, options.material);
+    add(list, kInputAndOutput, flag("--dry-run", options.dry_run, "Do everything but write."));
+    addAllowExternal(list, options.file);
+    add(list, "Map",
+        flag("--clamp", options.clamp,
+             "The image ends at its borders. By default it goes on at the other side, as textures that repeat do; with "
+             "--mesh as the mesh's texture does."));
+    const auto take_convention = [&options](const std::string& name) {
+        options.green = findMapReading(name.c_str())->green;
+        return std::string();
+    };
+    Option convention = option("--convention", "NAME", take_convention,
+                               "The program that will show the output: green points up, or, for directx and unreal, "
+                               "down.");
+    convention.choices = {"gltf", "opengl", "directx", "unreal", "unity", "blender", "godot", "three"};
+    convention.default_text = "gltf";
+    add(list, "Map", convention);
+    add(list, "Map", choice("--bits", "BITS", kPngBits, options.bits, "Of a channel of the output."));
+    addMakingAnImage(list, "Map", options.tangents.method, options.execution, options.file);
+    return list;
+}
+
+}  // namespace tspace::options
+
+namespace tspace::report {
+
+std::string heightToNormalJson(const Outcome<HeightToNormalFileReport>& outcome, ExitCode exit_code) {
+    const Result<HeightToNormalFileReport>& result = outcome.result;
+    Json json = madeFileJson("tspace.height-to-normal/1", outcome, exit_code);
+    if (!result) return jsonText(json);
+    json["width"] = result->width;
+    json["height"] = result->height;
+    json["bitsBefore"] = result->bits_before;
+    json["bits"] = result->bits;
+    json["mesh"] = mapMeshJson(result->mesh);
+    json["texelsOnMesh"] = result->texels.on_mesh;
+    json["texelSize"] = result->texels.texel_size;
+    json["meanLeanDeg"] = result->texels.mean_lean_deg;
+    json["maxLeanDeg"] = result->texels.max_lean_deg;
+    json["warnings"] = result->warnings;
+    return jsonText(json);
+}
+
+}  // namespace tspace::report

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which method made the tangents, with which signs, along which UVs.
+// Which method made the tangents, with which signs, along which UVs; and the sentences that say so.
 #include "commands/identify/verdict.h"
 
 #include <algorithm>
@@ -7,9 +7,241 @@
 #include <utility>
 #include <vector>
 
-#include "commands/identify/explain.h"
+#include "commands/shared/uv_reading.h"
+#include "core/base/sort.h"
+#include "core/base/vec_math.h"
+#include "core/mesh/quads/quads.h"
+#include "core/mesh/surface/surface.h"
 
 namespace tspace {
+
+// Runs a method on the primitive's own data and counts how many of the stored tangents it gives.
+
+namespace {
+
+/// The set that the first use reads; the first there is when no texture asks.
+std::size_t texturesSet(const ScenePrimitive& primitive) {
+    if (!primitive.uses.empty()) return primitive.uses.front().uv_set;
+    std::size_t set = 0;
+    while (set + 1 < primitive.uv_sets.size() && primitive.uv_sets[set].empty()) ++set;
+    return set;
+}
+
+/// Every set as it is stored. The texture's set comes before that as its transform makes it, where that changes frames.
+std::vector<UvReading> readingsOf(const ScenePrimitive& primitive) {
+    std::vector<UvReading> readings;
+    for (std::size_t set = 0; set < primitive.uv_sets.size(); ++set) {
+        if (primitive.uv_sets[set].empty()) continue;
+        if (!primitive.uses.empty() && set == texturesSet(primitive)) {
+            UvReading transformed = readingOf(primitive, primitive.uses.front());
+            if (transformed.transformed) readings.push_back(std::move(transformed));
+        }
+        readings.push_back(plainReading(primitive, set));
+    }
+    return readings;
+}
+
+/// Whether all tangents can have been stored as whole numbers of 8 or 16 bits.
+bool areQuantized(std::span<const Vec4> tangents) {
+    const auto areMultiples = [&](double steps) {
+        const double slack = 1e-6 * steps;
+        const auto isMultiple = [=](float part) {
+            const double value = steps * static_cast<double>(part);
+            return std::fabs(value - std::nearbyint(value)) <= slack;
+        };
+        return std::all_of(tangents.begin(), tangents.end(),
+                           [&](const Vec4& t) { return isMultiple(t.x) && isMultiple(t.y) && isMultiple(t.z); });
+    };
+    return areMultiples(127) || areMultiples(32767);
+}
+
+/// `computed` has the raw sign, one per corner.
+void compare(const ScenePrimitive& primitive, std::span<const std::uint8_t> votes, std::span<const Vec4> computed,
+             double tolerance_deg, Explanation& explanation) {
+    // The float error of a method is negligible beside a step of whole numbers.
+    constexpr double kRoundingDeg = 1e-4;
+    const double nothing_deg = areQuantized(primitive.tangents.span()) ? kRoundingDeg : 0;
+    std::vector<char> is_near_at(primitive.positions.size(), 0);
+    std::vector<std::uint32_t> counted;
+    double sum_deg = 0;
+    for (std::size_t c = 0; c < computed.size(); ++c) {
+        const std::uint32_t vertex = primitive.corners[c];
+        const Vec4& stored = primitive.tangents[vertex];
+        if (!isDirection(xyz(stored))) continue;
+        if (votes[c / 3] == 0) {
+            ++explanation.undecided_count;
+            continue;
+        }
+        counted.push_back(vertex);
+        if (!isDirection(xyz(computed[c]))) {
+            sum_deg += 180;
+            continue;
+        }
+        const double angle = angleBetween(toDouble(xyz(stored)), toDouble(xyz(computed[c]))) * (180 / kPi);
+        if (angle > nothing_deg) sum_deg += angle;
+        if (angle <= tolerance_deg) {
+            ++explanation.near_count;
+            is_near_at[vertex] = 1;
+        }
+        // glTF's v runs down, so it wants the opposite of the raw orientation.
+        explanation.gltf_sign_count += stored.w * computed[c].w < 0;
+        explanation.inverted_sign_count += stored.w * computed[c].w > 0;
+    }
+    explanation.corner_count = counted.size();
+    if (!counted.empty()) explanation.mean_deg = sum_deg / static_cast<double>(counted.size());
+    for (const std::uint32_t vertex : counted)
+        explanation.near_any_count += static_cast<unsigned char>(is_near_at[vertex]);
+}
+
+/// Explanations along one reading of the UVs.
+class Explainer {
+  public:
+    Explainer(const ScenePrimitive& primitive, const UvReading& reading, const IdentifyOptions& options)
+        : primitive_(primitive),
+          reading_(reading),
+          options_(options),
+          mesh_({.positions = primitive.positions.span(),
+                 .normals = primitive.normals.span(),
+                 .uvs = reading.uvs,
+                 .indices = primitive.corners.span()}),
+          votes_(uvVotes(mesh_)) {}
+
+    /// Whether any triangle has UV area.
+    [[nodiscard]] bool hasVotes() const { return std::find(votes_.begin(), votes_.end(), 1) != votes_.end(); }
+
+    Result<Done> tryMethods(std::vector<Explanation>& explanations) const {
+        std::vector<Vec4> computed(primitive_.corners.size());
+        for (const Method method : knownMethods()) {
+            if (const Result<Done> tried = tryMethod(method, computed, explanations); !tried) return tried;
+            if (method != Method::mikktspace) continue;
+            if (const Result<Done> tried = tryQuads(computed, explanations); !tried) return tried;
+        }
+        return Done{};
+    }
+
+  private:
+    /// `best` with as many steps as explain most.
+    Result<Done> tryMethod(Method method, std::span<Vec4> computed, std::vector<Explanation>& explanations) const {
+        Explanation most;
+        for (const std::uint32_t refine : {1u, 0u, 2u}) {
+            const TangentOptions how{.method = method, .convention = conventions::opengl, .refine = refine};
+            const Result<TangentReport> done = generateTangents(mesh_, how, {.tangents = computed}, options_.execution);
+            if (!done) return done.error();
+            const Explanation explanation = explainedBy(method, Faces::triangles, computed);
+            if (refine == 1 || explanation.near_count > most.near_count) most = explanation;
+            if (method != Method::best) break;
+        }
+        explanations.push_back(most);
+        return Done{};
+    }
+
+    Result<Done> tryQuads(std::span<const Vec4> on_triangles, std::vector<Explanation>& explanations) const {
+        const Result<QuadFit> fit =
+            fitQuads(mesh_, primitive_.tangents.span(), options_.execution, options_.tolerance_deg, on_triangles);
+        if (!fit) return fit.error();
+        if (fit->wins()) explanations.push_back(explainedBy(Method::mikktspace, Faces::quads, fit->tangents));
+        return Done{};
+    }
+
+    [[nodiscard]] Explanation explainedBy(Method method, Faces faces, std::span<const Vec4> computed) const {
+        Explanation explanation;
+        explanation.method = method;
+        explanation.faces = faces;
+        explanation.uv_set = static_cast<std::int32_t>(reading_.uv_set);
+        explanation.is_textures_set = reading_.uv_set == texturesSet(primitive_);
+        explanation.is_transformed = reading_.transformed;
+        compare(primitive_, votes_, computed, options_.tolerance_deg, explanation);
+        return explanation;
+    }
+
+    const ScenePrimitive& primitive_;
+    const UvReading& reading_;
+    const IdentifyOptions& options_;
+    MeshView mesh_;
+    std::vector<std::uint8_t> votes_;
+};
+
+/// Near corners, and half of those that are near to another corner of their vertex; less what a method that only tspace
+/// has must be better by. Among the corners of a vertex `flat` has so many directions that one is near by chance.
+double scoreOf(const Explanation& entry) {
+    constexpr double kOwnMethodsShare = 0.05;
+    const bool is_own = entry.method == Method::fast || entry.method == Method::best;
+    const std::uint64_t near_any = entry.method == Method::flat ? entry.near_count : entry.near_any_count;
+    return 0.5 * static_cast<double>(entry.near_count + near_any) -
+           (is_own ? kOwnMethodsShare * static_cast<double>(entry.corner_count) : 0.0);
+}
+
+std::size_t rankOf(const Explanation& entry) {
+    const std::vector<Method> known = knownMethods();
+    return static_cast<std::size_t>(std::find(known.begin(), known.end(), entry.method) - known.begin());
+}
+
+}  // namespace
+
+std::vector<Method> knownMethods() {
+    return {Method::mikktspace, Method::angle, Method::area, Method::uniform,
+            Method::lengyel,    Method::flat,  Method::fast, Method::best};
+}
+
+Result<std::vector<Explanation>> explainTangents(const ScenePrimitive& primitive, const IdentifyOptions& options) {
+    std::vector<Explanation> explanations;
+    for (const UvReading& reading : readingsOf(primitive)) {
+        const Explainer explainer(primitive, reading, options);
+        if (!explainer.hasVotes()) continue;
+        if (const Result<Done> done = explainer.tryMethods(explanations); !done) return done.error();
+    }
+    return explanations;
+}
+
+bool isCloser(const Explanation& a, const Explanation& b) {
+    // 0: the very bits of the file, at every corner.
+    if (a.mean_deg == 0) return b.mean_deg > 0;
+    constexpr double kRoundingDeg = 0.001;
+    return b.mean_deg > 2 * a.mean_deg + kRoundingDeg;
+}
+
+void sortExplanations(std::vector<Explanation>& explanations) {
+    if (explanations.empty()) return;
+    sortStably(explanations.begin(), explanations.end(), [](const Explanation& a, const Explanation& b) {
+        const double score_a = scoreOf(a), score_b = scoreOf(b);
+        return score_a != score_b ? score_a > score_b : a.near_count > b.near_count;
+    });
+    // A method that gives the stored bits is no coincidence, whatever else comes near to them.
+    auto top = explanations.begin();
+    for (auto entry = top + 1; entry != explanations.end(); ++entry) {
+        const bool is_same_reading =
+            entry->is_textures_set == top->is_textures_set && entry->is_transformed == top->is_transformed;
+        const bool is_own = entry->method == Method::fast || entry->method == Method::best;
+        if (!is_own && is_same_reading && entry->nearShare() + kTieShare >= top->nearShare() && isCloser(*entry, *top))
+            top = entry;
+    }
+    std::rotate(explanations.begin(), top, top + 1);
+    const Explanation best = explanations.front();
+    const double least = scoreOf(best) - kTieShare * static_cast<double>(best.corner_count);
+    auto first = explanations.begin();
+    for (auto entry = first + 1; entry != explanations.end(); ++entry) {
+        if (scoreOf(*entry) < least || entry->is_transformed != best.is_transformed || isCloser(best, *entry)) continue;
+        if (entry->is_textures_set == first->is_textures_set ? rankOf(*entry) < rankOf(*first)
+                                                             : entry->is_textures_set) {
+            first = entry;
+        }
+    }
+    std::rotate(explanations.begin(), first, first + 1);
+}
+
+const Explanation* bestReading(const PrimitiveIdentity& primitive, bool is_transformed) {
+    const auto found = std::find_if(
+        primitive.explanations.begin(), primitive.explanations.end(),
+        [&](const Explanation& entry) { return entry.is_textures_set && entry.is_transformed == is_transformed; });
+    return found == primitive.explanations.end() ? nullptr : &*found;
+}
+
+bool followsTransform(const PrimitiveIdentity& primitive) {
+    const Explanation *turned = bestReading(primitive, true), *plain = bestReading(primitive, false);
+    if (turned == nullptr || plain == nullptr) return turned != nullptr;
+    if (turned->near_count != plain->near_count) return turned->near_count > plain->near_count;
+    return turned->gltf_sign_count >= plain->gltf_sign_count;
+}
 
 namespace {
 

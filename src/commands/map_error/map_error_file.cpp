@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
+// mapErrorFile: reads a map and both models, measures; its report as JSON.
 #include <algorithm>
 #include <charconv>
 
-#include "commands/bake/map_pictures.h"
+#include "commands/bake/bake_report.h"
 #include "commands/bake/model_surfaces.h"
+#include "commands/map_error/map_error_report.h"
 #include "commands/shared/map_image_file.h"
-#include "core/base/short_number.h"
+#include "core/base/numbers.h"
 #include "maps/shading.h"
 #include "model/io/atomic_output.h"
 #include "model/io/file_error.h"
@@ -13,7 +15,6 @@
 #include "tspace/bake_file.h"
 
 namespace tspace {
-
 namespace {
 
 /// A map fits another reading where its error is below this part of the asked one, and lower by at least this angle; less is
@@ -394,3 +395,46 @@ Result<MapErrorFileReport> mapErrorFile(const std::string& map, const std::strin
 }
 
 }  // namespace tspace
+
+namespace tspace::report {
+
+std::string mapErrorJson(const Outcome<MapErrorFileReport>& outcome, const std::string& low, const std::string& high,
+                         ExitCode exit_code) {
+    const Result<MapErrorFileReport>& result = outcome.result;
+    Json json = documentJson("tspace.map-error/1", result.ok(), exit_code);
+    json["map"] = outcome.input;
+    json["low"] = low;
+    json["high"] = high;
+    json["error"] = errorJson(result ? nullptr : &result.error());
+    if (!result) return jsonText(json);
+    json["width"] = result->width;
+    json["height"] = result->height;
+    json["bits"] = result->bits;
+    json["fits"] = result->fits;
+    json["verdict"] = result->verdict;
+    json["reach"] = result->error.reach;
+    json["cageOffset"] = result->error.cage_offset;
+    json["angles"] = errorOfMapJson(result->error);
+    json["rays"] = listJson(result->rays, [](const ExplainedRays& rays) -> Json {
+        return {{"rays", raysWord(rays.rays)},
+                {"directions", directionsWord(rays.rays)},
+                {"reach", rays.error.reach},
+                {"cageOffset", rays.error.cage_offset},
+                {"angles", errorOfMapJson(rays.error)}};
+    });
+    json["readings"] = listJson(result->readings, [](const ExplainedReading& reading) -> Json {
+        return {{"frames", reading.frames},
+                {"green", reading.reading.green == Green::up ? "up" : "down"},
+                {"bitangent", reading.reading.bitangent == BitangentPlace::perPixel ? "pixel" : "vertex"},
+                {"unitVectors", reading.reading.unit_vectors},
+                {"twoChannels", reading.reading.two_channels},
+                {"angles", errorOfMapJson(reading.error)}};
+    });
+    json["framesMade"] = result->frames_made;
+    json["matchedByName"] = result->matched_by_name;
+    json["heatTopDeg"] = result->heat_top_deg;
+    json["warnings"] = result->warnings;
+    return jsonText(json);
+}
+
+}  // namespace tspace::report

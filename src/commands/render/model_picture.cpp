@@ -1,21 +1,24 @@
 // SPDX-License-Identifier: MIT
+
 #include "commands/render/model_picture.h"
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <optional>
 
+#include "commands/generate/flip_maps.h"
 #include "commands/shared/map_image_file.h"
 #include "commands/shared/picture/colors.h"
 #include "commands/shared/uv_reading.h"
-#include "core/base/unit.h"
+#include "core/base/vec_math.h"
 #include "core/mesh/surface/surface.h"
-#include "core/mesh/surface/uv_islands.h"
+#include "core/mesh/surface/uvs.h"
 #include "images/float_image.h"
 #include "model/io/file_error.h"
 #include "tspace/sanitize.h"
 
 namespace tspace {
-
 namespace {
 
 /// One unit normal per corner; zero where the triangle has no area.
@@ -282,6 +285,93 @@ void ModelPicture::place() {
     for (const ScenePlacement& placement : drawn_.placements) {
         add(placement.primitive, drawn_.scene.primitives[placement.primitive].positions.span(), placement.to_world);
     }
+}
+
+namespace {
+
+/// Twice: for the camera's direction, and for its distance.
+void visitPoints(const ModelPicture& model, Effort& effort, bool is_uv,
+                 const std::function<void(const DVec3&)>& visit) {
+    for (const DrawnMesh& mesh : model.meshes()) {
+        effort.spend(1 + 2 * mesh.corners.size());
+        for (const std::uint32_t vertex : mesh.corners) visit(mesh.to_world.point(toDouble(mesh.positions[vertex])));
+    }
+    if (!is_uv) return;
+    visit({0, 0, 0});
+    visit({1, -1, 0});
+}
+
+}  // namespace
+
+SurfacePicture drawModel(const ModelPicture& model, const RenderOptions& options) {
+    const bool is_uv = options.show == RenderShow::uv;
+    // Under the heat map stands its scale.
+    const std::uint32_t scale_rows = options.show == RenderShow::error ? heatScaleRows(options.width) : 0;
+    const std::uint32_t height = scale_rows + 16 <= options.height ? options.height - scale_rows : options.height;
+    const std::uint64_t samples = std::uint64_t{options.width} * options.samples * options.height * options.samples;
+    constexpr std::uint64_t kSteps = std::uint64_t{1} << 28, kMostLayers = 100, kCornerSteps = 64;
+    Effort effort(kSteps + kMostLayers * samples + kCornerSteps * model.cornerCount());
+    const ViewAngles angles = is_uv ? ViewAngles{} : ViewAngles{options.yaw_deg, options.pitch_deg};
+    const Camera camera = Camera::around(
+        [&](const std::function<void(const DVec3&)>& visit) { visitPoints(model, effort, is_uv, visit); }, angles,
+        is_uv ? 0 : options.field_of_view_deg, options.width * options.samples, height * options.samples);
+    const DVec3 light = toDouble(options.to_light);
+    DVec3 to_light = light.x * camera.right() + light.y * camera.up() + light.z * camera.back();
+    normalize(to_light);
+    Parallel parallel(options.execution);
+    SurfacePicture picture = drawSurfaces(options.show, model.meshes(), model.surfaces(), camera, to_light,
+                                          {options.width, height, options.samples}, effort, parallel);
+    if (height != options.height) {
+        picture.image.height = options.height;
+        picture.image.rgb.resize(std::size_t{3} * options.width * options.height);
+        drawHeatScale(picture.image);
+    }
+    if (is_uv) drawUvSquare(picture.image, camera, options.samples);
+    return picture;
+}
+
+std::vector<std::uint8_t> encodePicture(const RgbImage& image) {
+    std::optional<std::vector<std::uint8_t>> png = encodePng(image);
+    if (!png) failFile(ErrorCode::unsupportedFile, "this build of tspace writes no PNG");
+    return *std::move(png);
+}
+
+std::vector<std::string> showHeights(Method method, const Execution& execution, DrawnScene& drawn) {
+    GenerateOptions options;
+    options.tangents.method = method;
+    options.execution = execution;
+    std::vector<std::string> warnings;
+    Scene& scene = drawn.scene;
+    struct Shown {
+        bool is_height_map = false;
+        std::optional<std::size_t> image = {};
+    };
+    std::map<std::size_t, Shown> shown_of;  // per material
+    for (std::size_t i = 0; i < scene.primitives.size(); ++i) {
+        SurfaceLook& look = drawn.looks[i];
+        for (const TangentUse& use : scene.primitives[i].uses) {
+            if (!use.may_be_heights || !use.image || !look.normal_texture) continue;
+            const auto [entry, is_new] = shown_of.try_emplace(use.material);
+            Shown& shown = entry->second;
+            if (is_new) {
+                MadeOfHeights made = makeOfHeights(scene, use.material, *use.image, look.normal_scale, options);
+                shown.is_height_map = made.is_height_map;
+                const std::string name = scene.images[*use.image].uri;
+                if (!made.file.empty()) {
+                    scene.memory->take(made.file.size(), {});
+                    shown.image = scene.images.size();
+                    scene.images.push_back({.name = name, .uri = name});
+                    scene.images.back().bytes.assign(made.file.begin(), made.file.end());
+                } else if (made.is_height_map) {
+                    warnings.push_back("the height map '" + name + "' is not shown: " + made.why_not);
+                }
+            }
+            if (!shown.is_height_map) continue;
+            look.normal_texture->image = shown.image;
+            look.normal_scale = 1;
+        }
+    }
+    return warnings;
 }
 
 }  // namespace tspace

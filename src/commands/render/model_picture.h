@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// A model made ready for pictures: its surfaces, their frames and textures.
+// A model made ready for pictures: its surfaces, their frames and textures, its height maps as normal maps; and drawing it.
 #pragma once
 
 #include <compare>
+#include <cstdint>
 #include <deque>
 #include <map>
 #include <optional>
@@ -10,8 +11,10 @@
 #include <vector>
 
 #include "commands/shared/picture/draw_surfaces.h"
-#include "model/scene/drawn_scene.h"
+#include "images/image.h"
+#include "model/scene/scene.h"
 #include "tspace/render.h"
+#include "tspace/tangents.h"
 
 namespace tspace {
 
@@ -102,5 +105,20 @@ class ModelPicture {
     std::vector<DrawnMesh> meshes_ = {};
     std::vector<const ShownSurface*> shown_ = {};
 };
+
+// A whole model in a picture.
+
+/// Size, camera, light and execution are those of `options`; options.show is what `model` was made for. Under a heat map
+/// stands its scale. Throws FileError (tooLarge).
+SurfacePicture drawModel(const ModelPicture& model, const RenderOptions& options);
+
+/// A PNG of 8 bits. Throws FileError (unsupportedFile) where this build writes none.
+std::vector<std::uint8_t> encodePicture(const RgbImage& image);
+
+// Height maps of OBJ (map_bump) as pictures show them: as the normal maps that generate makes of them.
+
+/// Puts normal maps that are made of heights into `drawn`. A map of which none can be made is left out, and a warning says so.
+/// `method`: whose tangents they are read with. Throws FileError.
+std::vector<std::string> showHeights(Method method, const Execution& execution, DrawnScene& drawn);
 
 }  // namespace tspace

@@ -1,17 +1,15 @@
 // SPDX-License-Identifier: MIT
-// renderFile: reads a model, draws it, writes the picture.
+// renderFile: reads a model, draws it, writes the picture; its report as JSON.
 #include <cmath>
 
-#include "commands/render/draw_model.h"
-#include "commands/render/picture_file.h"
-#include "commands/render/shown_heights.h"
-#include "core/base/unit.h"
+#include "commands/render/model_picture.h"
+#include "commands/render/render_report.h"
+#include "core/base/vec_math.h"
 #include "model/io/atomic_output.h"
 #include "model/io/file_error.h"
 #include "model/read/read_scene.h"
 
 namespace tspace {
-
 namespace {
 
 void checkRenderOptions(const RenderOptions& options) {
@@ -95,3 +93,28 @@ Result<RenderReport> renderFile(const std::string& input, const std::string& out
 }
 
 }  // namespace tspace
+
+namespace tspace::report {
+
+std::string renderJson(const Outcome<RenderReport>& outcome, ExitCode exit_code) {
+    const Result<RenderReport>& result = outcome.result;
+    Json json = madeFileJson("tspace.render/1", outcome, exit_code);
+    if (!result) return jsonText(json);
+    json["show"] = renderShowName(result->show);
+    json["width"] = result->width;
+    json["height"] = result->height;
+    json["primitives"] = result->primitive_count;
+    json["triangles"] = result->triangle_count;
+    json["primitivesComputed"] = result->computed_count;
+    json["primitivesWithoutTangents"] = result->without_tangents_count;
+    json["tangentError"] = nullptr;
+    if (result->error_sample_count > 0) {
+        json["tangentError"] = Json::object({{"samples", result->error_sample_count},
+                                             {"meanDeg", result->mean_error_deg},
+                                             {"maxDeg", result->max_error_deg}});
+    }
+    json["warnings"] = result->warnings;
+    return jsonText(json);
+}
+
+}  // namespace tspace::report

@@ -5,7 +5,7 @@
 
 #include "commands/shared/file_options.h"
 #include "commands/shared/request.h"
-#include "core/base/angle.h"
+#include "core/base/vec_math.h"
 
 namespace tspace::options {
 namespace {

@@ -1,15 +1,235 @@
 // SPDX-License-Identifier: MIT
+
 #include "commands/shared/map_image_file.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 
+#include "commands/shared/uv_reading.h"
 #include "maps/grey.h"
+#include "maps/uv_coverage.h"
 #include "model/io/file_error.h"
 #include "model/io/file_io.h"
 #include "model/io/memory_budget.h"
+#include "model/read/read_scene.h"
+#include "tspace/indexed_frames.h"
 
 namespace tspace {
+namespace {
+
+/// The name of an image without folders and extension.
+std::string stemOf(const std::string& name) {
+    const std::size_t folder = name.find_last_of("/\\");
+    const std::string file = folder == std::string::npos ? name : name.substr(folder + 1);
+    return file.substr(0, file.find_last_of('.'));
+}
+
+/// How a primitive shows the map, where it does.
+const TangentUse* useOfImage(const Scene& scene, const ScenePrimitive& primitive, const std::string& stem) {
+    for (const TangentUse& use : primitive.uses) {
+        if (!use.image || !showsNormals(use)) continue;
+        const SceneImage& image = scene.images[*use.image];
+        if (!stem.empty() && (stemOf(image.uri) == stem || stemOf(image.name) == stem)) return &use;
+    }
+    return nullptr;
+}
+
+const TangentUse* firstNormalMap(const ScenePrimitive& primitive) {
+    for (const TangentUse& use : primitive.uses) {
+        if (showsNormals(use)) return &use;
+    }
+    return nullptr;
+}
+
+struct ChosenPrimitive {
+    const ScenePrimitive* primitive = nullptr;
+    std::size_t number = 0;           ///< in the scene
+    const TangentUse* use = nullptr;  ///< null: the first UVs, as they are
+};
+
+std::vector<ChosenPrimitive> choosePrimitives(const Scene& scene, const MapMeshChoice& choice) {
+    const std::string stem = stemOf(choice.image_name);
+    const bool by_image = choice.material.empty() &&
+                          std::any_of(scene.primitives.begin(), scene.primitives.end(), [&](const auto& primitive) {
+                              return useOfImage(scene, primitive, stem) != nullptr;
+                          });
+    std::vector<ChosenPrimitive> chosen;
+    for (const ScenePrimitive& primitive : scene.primitives) {
+        if (!choice.material.empty() && primitive.material_name != choice.material) continue;
+        const TangentUse* use = useOfImage(scene, primitive, stem);
+        if (by_image && use == nullptr) continue;
+        if (use == nullptr) use = firstNormalMap(primitive);
+        const std::size_t set = use == nullptr ? 0 : use->uv_set;
+        if (primitive.corners.empty() || set >= primitive.uv_sets.size() || primitive.uv_sets[set].empty()) continue;
+        const auto number = static_cast<std::size_t>(&primitive - scene.primitives.data());
+        chosen.push_back({&primitive, number, use});
+    }
+    return chosen;
+}
+
+template <class T>
+void gatherCorners(std::span<const T> from, std::span<const std::uint32_t> indices, std::vector<T>& to) {
+    to.reserve(to.size() + indices.size());
+    for (const std::uint32_t index : indices) to.push_back(from[index]);
+}
+
+void addFrames(const ScenePrimitive& primitive, std::span<const Vec2> uvs, const TangentOptions& options,
+               const Execution& execution, MapMesh& mesh) {
+    if (!primitive.normals.empty() && !primitive.tangents.empty()) {
+        gatherCorners(primitive.normals.span(), primitive.corners.span(), mesh.normals);
+        gatherCorners(primitive.tangents.span(), primitive.corners.span(), mesh.tangents);
+        return;
+    }
+    const MeshView view{.positions = primitive.positions.span(),
+                        .normals = primitive.normals.span(),
+                        .uvs = uvs,
+                        .indices = primitive.corners.span()};
+    IndexedFramesOptions frames{.tangents = options, .normals = {.weighting = NormalWeighting::flat}};
+    const IndexedFrames made = valueOrThrow(makeIndexedFrames(view, frames, execution));
+    gatherCorners(std::span<const Vec3>(made.normals), made.indices, mesh.normals);
+    gatherCorners(std::span<const Vec4>(made.tangents), made.indices, mesh.tangents);
+    mesh.report.tangents_made = true;
+}
+
+/// The scale of x and y of the map that all of them have.
+double scaleOf(std::span<const ChosenPrimitive> chosen) {
+    const auto scale_of = [](const ChosenPrimitive& one) { return one.use == nullptr ? 1.0 : one.use->scale; };
+    const ChosenPrimitive& first = chosen.front();
+    for (const ChosenPrimitive& one : chosen) {
+        const std::string material = "the material " + inQuotes(one.primitive->material_name);
+        const auto scale = static_cast<float>(scale_of(one));
+        if (scale == 0 || !std::isfinite(scale))
+            failFile(ErrorCode::invalidFile, material + " gives its normal map a scale that shows nothing of it");
+        if (scale_of(one) != scale_of(first)) {
+            failFile(ErrorCode::invalidFile, material + " gives the map another scale than " +
+                                                 inQuotes(first.primitive->material_name) + "; choose one of them");
+        }
+    }
+    return scale_of(first);
+}
+
+/// Whether two places turn directions alike; offsets and sizes do not matter.
+bool turnsAlike(const Affine& a, const Affine& b) {
+    constexpr double kSame = 1e-6;
+    const auto size = [](const Affine& place) {
+        return std::sqrt(dot(place.x, place.x) + dot(place.y, place.y) + dot(place.z, place.z));
+    };
+    const auto apart = [&](const DVec3& p, const DVec3& q) { return length(size(b) * p - size(a) * q); };
+    return std::max({apart(a.x, b.x), apart(a.y, b.y), apart(a.z, b.z)}) <= kSame * size(a) * size(b);
+}
+
+/// The transform by which the scene shows a primitive. Nothing where the scene does not show it.
+std::optional<Affine> placeOf(const DrawnScene& drawn, const ChosenPrimitive& chosen) {
+    std::optional<Affine> place;
+    for (const ScenePlacement& placement : drawn.placements) {
+        if (placement.primitive != chosen.number) continue;
+        if (!place) place = placement.to_world;
+        if (turnsAlike(*place, placement.to_world)) continue;
+        failFile(ErrorCode::invalidFile, "several nodes show the mesh " + inQuotes(chosen.primitive->mesh_name) +
+                                             ", turned or squeezed in different ways, and a map in world space "
+                                             "fits one of them only");
+    }
+    return place;
+}
+
+/// Turns the corners from `first` on into the world.
+void placeCorners(const Affine& place, std::size_t first, MapMesh& mesh) {
+    for (std::size_t i = first; i < mesh.normals.size(); ++i) {
+        mesh.normals[i] = normalAt(place, mesh.normals[i]);
+        mesh.tangents[i] = tangentAt(place, mesh.tangents[i]);
+    }
+    std::array<DVec3, 3> axes{place.normal({1, 0, 0}), place.normal({0, 1, 0}), place.normal({0, 0, 1})};
+    const double size = std::max({length(axes[0]), length(axes[1]), length(axes[2])});
+    if (size > 0) {
+        for (DVec3& axis : axes) axis = (1 / size) * axis;
+    }
+    mesh.axes.resize(mesh.normals.size() / 3, {toFloat(axes[0]), toFloat(axes[1]), toFloat(axes[2])});
+}
+
+/// Removes the triangles from corner `first` on that are not in the tile.
+void keepTile(std::uint32_t tile, std::size_t first, MapMesh& mesh) {
+    std::size_t kept = first;
+    for (std::size_t i = first; i < mesh.uvs.size(); i += 3) {
+        if (tileOf(&mesh.uvs[i]) != tile) continue;
+        for (std::size_t k = 0; k < 3; ++k, ++kept) {
+            mesh.uvs[kept] = mesh.uvs[i + k];
+            mesh.positions[kept] = mesh.positions[i + k];
+            mesh.normals[kept] = mesh.normals[i + k];
+            mesh.tangents[kept] = mesh.tangents[i + k];
+        }
+    }
+    mesh.uvs.resize(kept);
+    mesh.positions.resize(kept);
+    mesh.normals.resize(kept);
+    mesh.tangents.resize(kept);
+    mesh.report.triangle_count = kept / 3;
+}
+
+}  // namespace
+
+bool showsNormals(const TangentUse& use) { return use.needed_by != "anisotropy"; }
+
+void addMapCorners(const ScenePrimitive& primitive, const TangentUse* use, const TangentOptions& tangents,
+                   const Execution& execution, MapMesh& mesh) {
+    const auto uvs_of = [&](const TangentUse& of) {
+        return textureUvs(primitive.uv_sets[of.uv_set].span(), of.transform);
+    };
+    const TangentUse plain;
+    const TangentUse& reading = use == nullptr ? plain : *use;
+    const std::vector<Vec2> uvs = uvs_of(reading);
+    const TangentUse* const first = primitive.uses.empty() ? nullptr : &primitive.uses.front();
+    const bool has_first =
+        first != nullptr && first->uv_set < primitive.uv_sets.size() && !primitive.uv_sets[first->uv_set].empty();
+    addFrames(primitive, has_first ? uvs_of(*first) : uvs, tangents, execution, mesh);
+    gatherCorners(std::span<const Vec2>(uvs), primitive.corners.span(), mesh.uvs);
+    gatherCorners(primitive.positions.span(), primitive.corners.span(), mesh.positions);
+    std::vector<std::string>& materials = mesh.report.materials;
+    if (std::find(materials.begin(), materials.end(), primitive.material_name) == materials.end())
+        materials.push_back(primitive.material_name);
+    ++mesh.report.primitive_count;
+    mesh.report.triangle_count = mesh.uvs.size() / 3;
+}
+
+MapMesh readMapMesh(const std::string& model, const MapMeshChoice& choice, const TangentOptions& tangents,
+                    const FileOptions& file, const Execution& execution) {
+    const DrawnScene drawn = readDrawnScene(model, file, false);
+    const Scene& scene = drawn.scene;
+    const std::vector<ChosenPrimitive> chosen = choosePrimitives(scene, choice);
+    if (chosen.empty()) {
+        const std::string which =
+            choice.material.empty() ? std::string() : " of the material " + inQuotes(choice.material);
+        failFile(ErrorCode::invalidFile, "the model has no triangles" + which + " with the UVs of a normal map");
+    }
+    MapMesh mesh;
+    mesh.report.scale = scaleOf(chosen);
+    // Tiles lie beside each other, whatever a texture does at its edges.
+    if (chosen.front().use != nullptr && choice.tile == 0) {
+        mesh.wrap_u = chosen.front().use->wrap_u;
+        mesh.wrap_v = chosen.front().use->wrap_v;
+    }
+    constexpr std::size_t kCornerBytes = sizeof(Vec2) + 2 * sizeof(Vec3) + sizeof(Vec4) + sizeof(MapAxes) / 3;
+    for (const ChosenPrimitive& one : chosen) {
+        std::optional<Affine> place;
+        if (choice.in_world) {
+            place = placeOf(drawn, one);
+            if (!place) continue;
+        }
+        const std::size_t first = mesh.normals.size();
+        scene.memory->take(4 * kCornerBytes * one.primitive->corners.size(), one.primitive->place);
+        const MapMeshReport before = mesh.report;
+        addMapCorners(*one.primitive, one.use, tangents, execution, mesh);
+        if (choice.tile != 0) keepTile(choice.tile, first, mesh);
+        if (mesh.uvs.size() == first) mesh.report = before;
+        if (place) placeCorners(*place, first, mesh);
+    }
+    if (mesh.uvs.empty() && choice.tile != 0)
+        failFile(ErrorCode::invalidFile, "no triangles lie in the tile " + std::to_string(choice.tile));
+    if (mesh.uvs.empty())
+        failFile(ErrorCode::invalidFile, "no node of the scene shows the mesh, so it has no world space");
+    return mesh;
+}
 
 namespace {
 

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
-// The common kinds of options.
+// The common kinds of options, and options as JSON.
 #include "commands/shared/option_table.h"
 
 #include <algorithm>
 #include <cstdlib>
 #include <optional>
 
-#include "commands/shared/nearest_name.h"
 #include "model/json/json.h"
 
 namespace tspace::options {
@@ -167,6 +166,100 @@ Option degreesOption(const char* names, double default_value, int most, std::fun
     Option made = option(names, "DEG", take, std::move(help));
     made.default_text = plainText(default_value);
     return made;
+}
+
+namespace {
+
+std::size_t editDistance(const std::string& a, const std::string& b) {
+    std::vector<std::size_t> before_last, last(b.size() + 1), row(b.size() + 1);
+    for (std::size_t j = 0; j <= b.size(); ++j) last[j] = j;
+    for (std::size_t i = 1; i <= a.size(); ++i) {
+        row[0] = i;
+        for (std::size_t j = 1; j <= b.size(); ++j) {
+            const bool is_equal = a[i - 1] == b[j - 1];
+            row[j] = std::min({last[j] + 1, row[j - 1] + 1, last[j - 1] + (is_equal ? 0 : 1)});
+            const bool is_swap = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
+            if (is_swap) row[j] = std::min(row[j], before_last[j - 2] + 1);
+        }
+        before_last = last;
+        last = row;
+    }
+    return last[b.size()];
+}
+
+}  // namespace
+
+std::string nearestName(const std::string& word, const std::vector<std::string>& names) {
+    constexpr std::size_t kShortest = 3, kLongest = 64;  // "-q" is no mistyped "-h"
+    if (word.size() < kShortest || word.size() > kLongest) return {};
+    // One mistake in three letters, so that short words are not taken for each other.
+    const std::size_t most = word.size() / 3;
+    std::size_t least = 2 * most + 2;
+    std::string nearest;
+    for (const std::string& name : names) {
+        std::size_t distance = 2 * editDistance(word, name);
+        // A name that goes on is behind those that are as near as may be.
+        if (name.starts_with(word)) distance = std::min(distance, 2 * most + 1);
+        if (distance < least) {
+            least = distance;
+            nearest = name;
+        }
+    }
+    return nearest;
+}
+
+std::string didYouMean(const std::string& word, const std::vector<std::string>& names) {
+    const std::string nearest = nearestName(word, names);
+    return nearest.empty() ? "" : "; did you mean '" + nearest + "'?";
+}
+
+// Members of a JSON object as values of options.
+
+namespace {
+
+/// A value as it stands on a command line; of a list, with commas. Empty where it is neither text nor a number.
+std::string wordOf(const Json& value, bool is_list) {
+    if (value.is_string()) return value.text();
+    if (value.is_number()) return value.dump();
+    std::string words;
+    if (!is_list || !value.is_array()) return words;
+    for (const Json& part : value) {
+        if (!words.empty()) words += ',';
+        words += wordOf(part, false);
+    }
+    return words;
+}
+
+std::string giveMember(const Option& option, const Json& value, Given& given) {
+    if (value.is_null()) return {};
+    if (option.value.empty()) {
+        if (!value.is_boolean()) return option.name() + " must be true or false";
+        return value.get<bool>() ? giveValue(option, "", given) : "";
+    }
+    const bool has_word = value.is_string() || value.is_number() || (option.is_list && value.is_array());
+    if (!has_word) return option.name() + " needs a value: " + option.value;
+    return giveValue(option, wordOf(value, option.is_list), given);
+}
+
+}  // namespace
+
+std::string readJsonOptions(const OptionList& list, std::string_view text, Given& given) {
+    if (text.empty()) return {};
+    JsonError error;
+    const std::optional<Json> root = Json::read(text, error);
+    if (!root) {
+        return "the options cannot be read: " + error.message +
+               (error.byte ? " (at byte " + std::to_string(*error.byte) + ")" : "");
+    }
+    if (!root->is_object()) return "the options are not a JSON object";
+    for (const auto& [name, value] : root->items()) {
+        const std::string long_name = std::string("--").append(name);
+        const Option* option = findOption(list, long_name);
+        const std::string wrong =
+            option == nullptr ? unknownOption(list, long_name) : giveMember(*option, value, given);
+        if (!wrong.empty()) return wrong;
+    }
+    return checkTogether(list, given);
 }
 
 }  // namespace tspace::options

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-// What an option of a call on files is: one description of each, from which the C API reads its JSON (json_options.h), and
-// the tool its command line, help, man pages and completions.
+// What an option of a call on files is: one description of each, from which the C API reads its JSON, and the tool its command
+// line, help, man pages and completions.
 #pragma once
 
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace tspace::options {
@@ -136,5 +137,19 @@ Option choice(const char* names, const char* value_name, const Named<Value> (&ta
 bool parseNumber(const std::string& text, std::uint64_t& number);
 /// As parseNumber, for any finite number.
 bool parseReal(const std::string& text, double& number);
+
+/// The name that `word` becomes by the fewest letters added, left out, changed or swapped with their neighbour, or that
+/// it is the beginning of. Empty where none is near enough to be what was meant.
+std::string nearestName(const std::string& word, const std::vector<std::string>& names);
+
+/// "; did you mean '...'?", or nothing.
+std::string didYouMean(const std::string& word, const std::vector<std::string>& names);
+
+// Options as JSON, for callers of the C API.
+
+/// Gives the members of a JSON object to the options of these names, without their dashes: {"method": "best",
+/// "crease": 60, "overwrite": true, "ignore": ["tangentsUnused"]}. A flag is a boolean; false and null are as if nothing
+/// was given. An empty text has no members. Returns what is wrong, in the words of the command line, or nothing.
+std::string readJsonOptions(const OptionList& list, std::string_view text, Given& given);
 
 }  // namespace tspace::options

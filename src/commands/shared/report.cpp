@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What the JSON of all commands has in common.
 #include "commands/shared/report.h"
+
 #include "tspace/version.h"
 
 namespace tspace::report {
@@ -32,5 +33,17 @@ Json mapMeshJson(const MapMeshReport& mesh) {
 }
 
 std::string jsonText(const Json& document) { return document.dump(2, ' ', BadUtf8::replace) + "\n"; }
+
+std::string counted(std::uint64_t count, const char* noun) {
+    std::string plural = noun;
+    if (count != 1) {
+        if (plural == "vertex") {
+            plural = "vertices";
+        } else {
+            plural += plural.ends_with("sh") ? "es" : "s";
+        }
+    }
+    return std::to_string(count) + " " + plural;
+}
 
 }  // namespace tspace::report

@@ -4,6 +4,7 @@
 // tool alone prints, and which needs a library of its own (tspace_texts).
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include "commands/shared/exit_code.h"
@@ -57,5 +58,8 @@ Json listJson(const List& values, ToJson toJson) {
 
 /// The document as text. Bytes that are not UTF-8 (from file names) become U+FFFD.
 std::string jsonText(const Json& document);
+
+/// "1 corner", "2 corners".
+std::string counted(std::uint64_t count, const char* noun);
 
 }  // namespace tspace::report

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "commands/shared/counted.h"
+#include "commands/shared/report.h"
 
 namespace tspace::report {
 

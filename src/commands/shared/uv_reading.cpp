@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "commands/shared/uv_reading.h"
 
-#include "core/base/angle.h"
-#include "core/mesh/surface/uv_matrix.h"
+#include "core/base/vec_math.h"
+#include "core/mesh/surface/uvs.h"
 
 namespace tspace {
 

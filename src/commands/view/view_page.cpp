@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The files of a model as blocks of data in the page. Browsers do not run a script whose type is no language.
-#include "commands/view/view_page.h"
+// The files of a model as blocks of data in the page, and the report as JSON. Browsers do not run a script whose type is no
+// language.
+#include "commands/view/view_report.h"
 
 #include <filesystem>
 #include <mutex>
@@ -9,7 +10,7 @@
 #include <string_view>
 #include <utility>
 
-#include "commands/shared/html_text.h"
+#include "commands/shared/page/page_parts.h"
 #include "model/io/atomic_output.h"
 #include "model/io/file_error.h"
 #include "model/io/file_io.h"
@@ -85,3 +86,19 @@ Result<ViewReport> writeViewPage(const Path& input, const Path& output, const Pa
 }
 
 }  // namespace tspace
+
+namespace tspace::report {
+
+std::string viewJson(const Outcome<ViewReport>& outcome, ExitCode exit_code) {
+    const Result<ViewReport>& result = outcome.result;
+    Json json = documentJson("tspace.view/1", result.ok(), exit_code);
+    json["input"] = outcome.input;
+    json["output"] = outcome.output;
+    json["error"] = errorJson(result ? nullptr : &result.error());
+    if (!result) return jsonText(json);
+    json["files"] = result->files;
+    json["outputBytes"] = result->output_bytes;
+    return jsonText(json);
+}
+
+}  // namespace tspace::report

@@ -1,11 +1,33 @@
 // SPDX-License-Identifier: MIT
-// What tspace view reports.
+// One HTML file that shows a model: the page of web/, with the model and the files that it names inside; and what tspace view
+// reports.
 #pragma once
 
+#include <cstdint>
 #include <string>
+#include <vector>
 
 #include "commands/shared/report.h"
-#include "commands/view/view_page.h"
+#include "model/io/path.h"
+#include "tspace/asset.h"
+#include "tspace/result.h"
+
+namespace tspace {
+
+// One HTML file that shows a model: the page of web/, with the model and the files that it names inside.
+
+struct ViewReport {
+    std::vector<std::string> files = {};  ///< the files in the page: the model, then those that it names
+    std::uint64_t output_bytes = 0;
+};
+
+/// Writes `output` from the page that scripts/web builds and a model (GLB, glTF or OBJ), whose files go in as they are.
+/// options   content and find_file must be empty
+/// Errors: cannotRead (the page or the model), invalidFile, unsupportedFile (another format, or `page` has no place for a
+/// model), tooLarge, cannotWrite. Nothing has changed then.
+Result<ViewReport> writeViewPage(const Path& input, const Path& output, const Path& page, const FileOptions& options);
+
+}  // namespace tspace
 
 namespace tspace::report {
 

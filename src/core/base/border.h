@@ -5,6 +5,7 @@
 #include <type_traits>
 
 #include "core/base/memory.h"
+#include "tspace/execution.h"
 #include "tspace/mesh.h"
 #include "tspace/result.h"
 
@@ -52,5 +53,11 @@ Error checkMesh(const MeshView& mesh, Parallel* parallel = nullptr);
 /// Checks that there are indices and that each is below `vertex_count`, with `parallel` by all threads. Error as
 /// checkSpan.
 Error checkIndices(const IndexView& indices, std::size_t vertex_count, Parallel* parallel = nullptr);
+
+/// The options of a call, and what it runs on: below the border both go the same ways.
+template <class Options>
+struct Call : Options {
+    Execution execution = {};
+};
 
 }  // namespace tspace

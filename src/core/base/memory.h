@@ -3,15 +3,21 @@
 // OutOfMemory and turned into an Error by atBorder (border.h), so no exception leaves the library.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <new>
+#include <span>
 #include <type_traits>
 #include <utility>
 
 #ifdef __linux__
 #include <sys/mman.h>
+#endif
+
+#if defined(TSPACE_SIMD_X86)
+#include <xmmintrin.h>
 #endif
 
 #include "tspace/execution.h"
@@ -119,5 +125,98 @@ class Buffer {
     T* data_ = nullptr;
     std::size_t count_ = 0;
 };
+
+// One block of memory for the many small buffers of a short call, or for scratch memory that borrows an output.
+// Requests that do not fit go to the caller's allocator.
+
+/// An allocator for the duration of one call: gives out a block from its start to its end. Memory is used
+/// again when the last buffer that was given out goes first. For the calling thread only, as every allocator.
+class ScratchBlock {
+  public:
+    ScratchBlock(const Allocator* parent, std::size_t bytes)
+        : parent_(parent), own_(parent, bytes), block_(own_.data()), size_(bytes) {}
+    /// Gives out memory that the caller owns.
+    ScratchBlock(const Allocator* parent, std::span<std::byte> memory) : parent_(parent) {
+        const std::size_t skip = -reinterpret_cast<std::uintptr_t>(memory.data()) % kMemoryAlignment;
+        if (memory.size() <= skip) return;
+        block_ = memory.data() + skip;
+        size_ = memory.size() - skip;
+    }
+    ScratchBlock(const ScratchBlock&) = delete;
+    ScratchBlock& operator=(const ScratchBlock&) = delete;
+
+    [[nodiscard]] const Allocator* allocator() const { return &allocator_; }
+    /// Whether so many bytes would come from the block.
+    [[nodiscard]] bool has(std::size_t bytes) const { return bytes <= size_ - used_; }
+
+  private:
+    static std::size_t rounded(std::size_t bytes) {
+        return (bytes + kMemoryAlignment - 1) / kMemoryAlignment * kMemoryAlignment;
+    }
+
+    static void* allocate(void* user, std::size_t bytes, std::size_t) {
+        auto& self = *static_cast<ScratchBlock*>(user);
+        if (!self.has(bytes)) return allocateArray(self.parent_, bytes, 1);
+        void* memory = self.block_ + self.used_;
+        self.used_ = std::min(self.used_ + rounded(bytes), self.size_);
+        return memory;
+    }
+
+    static void release(void* user, void* memory, std::size_t bytes, std::size_t) {
+        auto& self = *static_cast<ScratchBlock*>(user);
+        // Compared as numbers: comparing pointers into different arrays is undefined.
+        const std::size_t offset =
+            reinterpret_cast<std::uintptr_t>(memory) - reinterpret_cast<std::uintptr_t>(self.block_);
+        if (offset >= self.size_) {
+            releaseBytes(self.parent_, memory, bytes);
+            return;
+        }
+        if (std::min(offset + rounded(bytes), self.size_) == self.used_) self.used_ = offset;
+    }
+
+    const Allocator* parent_;
+    Buffer<std::byte> own_;
+    std::byte* block_ = nullptr;
+    std::size_t size_ = 0, used_ = 0;
+    Allocator allocator_{allocate, release, this};
+};
+
+// Prefetching of cache lines, and streaming stores for large outputs: such outputs leave the caches before they are
+// read, and an ordinary store reads each line first.
+
+/// Prefetches the lines of `bytes` bytes that lie `ahead` bytes after `place`, to read or to write them. Hardware
+/// prefetchers do not cross pages. The addresses need not exist.
+template <bool kToWrite = false>
+inline void prefetchLines(const void* place, std::size_t bytes, std::size_t ahead = 4096) {
+    constexpr std::size_t kLine = 64;
+    const auto first = reinterpret_cast<std::uintptr_t>(place) + ahead;
+    for (std::size_t i = 0; i < bytes; i += kLine)
+        __builtin_prefetch(reinterpret_cast<const void*>(first + i), kToWrite ? 1 : 0);
+}
+
+/// Whether rows at `to`, so many bytes in all, should be streamed. They must lie one behind the other.
+inline bool areStreamed([[maybe_unused]] const void* to, [[maybe_unused]] std::size_t bytes) {
+#if defined(TSPACE_SIMD_X86)
+    constexpr std::size_t kLarge = std::size_t{32} << 20;  // what many processors have as their last cache
+    return bytes >= kLarge && reinterpret_cast<std::uintptr_t>(to) % 16 == 0;
+#else
+    return false;
+#endif
+}
+
+/// to[0..3] = row[0..3]; both aligned to 16 bytes. No thread may read it before this one has called endOfRows.
+inline void streamRow(float* to, const float* row) {
+#if defined(TSPACE_SIMD_X86)
+    _mm_stream_ps(to, _mm_load_ps(row));
+#else
+    std::memcpy(to, row, 4 * sizeof(float));
+#endif
+}
+
+inline void endOfRows() {
+#if defined(TSPACE_SIMD_X86)
+    _mm_sfence();
+#endif
+}
 
 }  // namespace tspace

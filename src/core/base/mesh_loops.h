@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Loops over all faces, and over all indices: their type is dispatched once per loop, not per corner.
+// Loops over all faces, over all indices, whose type is dispatched once per loop, not per corner, and over all edges.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
+#include "core/base/memory.h"
+#include "core/base/sort.h"
 #include "tspace/mesh.h"
 
 namespace tspace {
@@ -48,6 +51,35 @@ void forEachFace(const MeshView& mesh, Body&& body) {
         const std::uint32_t size = one_size ? same_size : sizes[face];
         body(face, corner, size);
         corner += size;
+    }
+}
+
+// Half-edges, an edge at a time: listed by their lower point, so that all halves of an edge lie together in a short list.
+
+/// The higher point of an edge, and the corner of the face at which this half of it begins.
+using HalfEdge = std::uint64_t;
+inline std::uint32_t cornerOf(HalfEdge half) { return static_cast<std::uint32_t>(half); }
+
+/// body(low, high, halves) for each edge between two points below `point_count`, in ascending order, with its halves by
+/// their corners. forHalves(add) calls add(low, high, corner) for all halves, and is called twice. Takes 8 bytes for each half
+/// and 4 for each point. O(n log n) for points with many edges, else linear.
+template <class ForHalves, class Body>
+void forEachEdge(std::size_t point_count, const Allocator* allocator, const ForHalves& forHalves, const Body& body) {
+    Buffer<std::uint32_t> ends(allocator, point_count + 1, 0);
+    forHalves([&](std::uint32_t low, std::uint32_t, std::uint32_t) { ++ends[low + 1]; });
+    for (std::size_t p = 0; p < point_count; ++p) ends[p + 1] += ends[p];
+    Buffer<HalfEdge> halves(allocator, ends[point_count]);
+    // Afterwards ends[p] is where the list of p ends.
+    forHalves([&](std::uint32_t low, std::uint32_t high, std::uint32_t corner) {
+        halves[ends[low]++] = std::uint64_t{high} << 32 | corner;
+    });
+    for (std::size_t p = 0, begin = 0; p < point_count; begin = ends[p++]) {
+        sortList(halves.data() + begin, halves.data() + ends[p]);
+        for (std::size_t i = begin, past = begin; i < ends[p]; i = past) {
+            while (past < ends[p] && halves[past] >> 32 == halves[i] >> 32) ++past;
+            body(static_cast<std::uint32_t>(p), static_cast<std::uint32_t>(halves[i] >> 32),
+                 std::span<const HalfEdge>(halves.data() + i, past - i));
+        }
     }
 }
 

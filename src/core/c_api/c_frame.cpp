@@ -1,12 +1,82 @@
 // SPDX-License-Identifier: MIT
-// C API: the mathematics of one frame.
-#include "tspace/frame.h"
-
+// C API: version, errors, conventions and arenas; the mathematics of one frame; packed frames.
 #include <bit>
+#include <memory>
 
+#include "core/c_api/c_convert.h"
+#include "tspace/arena.h"
+#include "tspace/frame.h"
+#include "tspace/pack.h"
 #include "tspace/tspace.h"
 
+using namespace tspace;         // NOLINT: this file only forwards
+using namespace tspace::c_api;  // NOLINT
+
+uint32_t tspace_version() noexcept { return TSPACE_VERSION_NUMBER; }
+
+const char* tspace_errorName(tspace_ErrorCode code) noexcept { return errorName(static_cast<ErrorCode>(code)); }
+
+size_t tspace_cornerCount(const tspace_Mesh* mesh) noexcept {
+    return mesh == nullptr ? 0 : toMesh(*mesh).cornerCount();
+}
+
+size_t tspace_faceCount(const tspace_Mesh* mesh) noexcept { return mesh == nullptr ? 0 : toMesh(*mesh).faceCount(); }
+
+tspace_ErrorCode tspace_validate(const tspace_Mesh* mesh, tspace_Error* error) noexcept {
+    return atCBorder(error, [&]() -> Result<Done> {
+        if (Error e = checkMesh(mesh); e.code != ErrorCode::ok) return e;
+        return validate(toMesh(*mesh));
+    });
+}
+
+tspace_ErrorCode tspace_findConvention(const char* name, tspace_Convention* out, tspace_Error* error) noexcept {
+    return atCBorder(error, [&]() -> Result<Done> {
+        if (name == nullptr || out == nullptr) return Error{ErrorCode::nullData, "name or out is null"};
+        const Convention* convention = findConvention(name);
+        if (convention == nullptr) {
+            return makeError(ErrorCode::invalidOption, kNoElement, "there is no convention with the name \"%s\"", name);
+        }
+        *out = std::bit_cast<tspace_Convention>(*convention);
+        return Done{};
+    });
+}
+
+float tspace_signFactor(tspace_Convention convention) noexcept { return signFactor(toConvention(convention)); }
+
+float tspace_normalFactor(tspace_Convention convention) noexcept { return normalFactor(toConvention(convention)); }
+
+using namespace tspace;         // NOLINT: this file only forwards
+using namespace tspace::c_api;  // NOLINT
+
+struct tspace_Arena {
+    Arena arena;
+    tspace_Allocator allocator{arena.allocator()->allocate, arena.allocator()->release, arena.allocator()->user};
+};
+
+tspace_ErrorCode tspace_createArena(tspace_Arena** arena, tspace_Error* error) noexcept {
+    return atCBorder(error, [&]() -> Result<Done> {
+        if (arena == nullptr) return Error{ErrorCode::nullData, "arena is null"};
+        *arena = nullptr;
+        *arena = std::make_unique<tspace_Arena>().release();
+        return Done{};
+    });
+}
+
+const tspace_Allocator* tspace_arenaAllocator(const tspace_Arena* arena) noexcept { return &arena->allocator; }
+
+size_t tspace_arenaHeldBytes(const tspace_Arena* arena) noexcept { return arena->arena.heldBytes(); }
+
+size_t tspace_arenaUsedBytes(const tspace_Arena* arena) noexcept { return arena->arena.usedBytes(); }
+
+void tspace_trimArena(tspace_Arena* arena) noexcept { arena->arena.trim(); }
+
+void tspace_destroyArena(tspace_Arena* arena) noexcept { delete arena; }
+
 namespace {
+
+// C API: version, errors, mesh validation and conventions.
+
+// C API: the mathematics of one frame.
 
 // C and C++ structs have the same members in the same order, so a value is passed on bit by bit.
 tspace::Vec2 in(const tspace_Vec2& v) { return std::bit_cast<tspace::Vec2>(v); }
@@ -98,4 +168,72 @@ tspace_Vec3 tspace_objectNormalMikktspace(tspace_Vec3 interpolated_normal, tspac
                                           tspace_Vec3 tangent_space_normal) noexcept {
     return out(
         tspace::objectNormalMikktspace(in(interpolated_normal), in(interpolated_tangent), in(tangent_space_normal)));
+}
+
+using namespace tspace;         // NOLINT: this file only forwards
+using namespace tspace::c_api;  // NOLINT
+
+static_assert(TSPACE_FRAME_FORMAT_FRAME32 == static_cast<std::uint32_t>(FrameFormat::frame32));
+static_assert(TSPACE_FRAME_FORMAT_FRAME48 == static_cast<std::uint32_t>(FrameFormat::frame48));
+static_assert(TSPACE_FRAME_FORMAT_FRAME64 == static_cast<std::uint32_t>(FrameFormat::frame64));
+static_assert(TSPACE_FRAME_FORMAT_OCT32 == static_cast<std::uint32_t>(FrameFormat::oct32));
+static_assert(TSPACE_FRAME_FORMAT_QTANGENT64 == static_cast<std::uint32_t>(FrameFormat::qtangent64));
+static_assert(TSPACE_FRAME_FORMAT_SNORM8_PAIR == static_cast<std::uint32_t>(FrameFormat::snorm8Pair));
+static_assert(TSPACE_FRAME_FORMAT_SNORM16_PAIR == static_cast<std::uint32_t>(FrameFormat::snorm16Pair));
+static_assert(TSPACE_FRAME_FORMAT_GLTF_SNORM8 == static_cast<std::uint32_t>(FrameFormat::gltfSnorm8));
+static_assert(TSPACE_FRAME_FORMAT_GLTF_SNORM16 == static_cast<std::uint32_t>(FrameFormat::gltfSnorm16));
+
+namespace {
+
+// C API: packed frames.
+
+void writePackReport(const PackReport& from, tspace_PackReport* to) {
+    tspace_PackReport made;
+    TSPACE_INIT(made);
+    made.bad_normal_count = from.bad_normal_count;
+    made.not_finite_count = from.not_finite_count;
+    made.zero_count = from.zero_count;
+    made.parallel_count = from.parallel_count;
+    made.not_unit_count = from.not_unit_count;
+    made.not_orthogonal_count = from.not_orthogonal_count;
+    made.bad_sign_count = from.bad_sign_count;
+    made.mended_count = from.mendedCount();
+    give(made, to);
+}
+
+/// A span can be made of these bytes: null has none.
+Error checkBytes(const void* bytes, std::size_t count) { return checkSpan(bytes, count, 1, 1, count, "bytes"); }
+
+}  // namespace
+
+size_t tspace_frameBytes(tspace_FrameFormat format) noexcept { return frameBytes(static_cast<FrameFormat>(format)); }
+
+tspace_FrameErrorBound tspace_frameErrorBound(tspace_FrameFormat format) noexcept {
+    const FrameErrorBound bound = frameErrorBound(static_cast<FrameFormat>(format));
+    return {bound.normal_deg, bound.tangent_deg};
+}
+
+tspace_ErrorCode tspace_packFrames(tspace_ConstSpan normals, tspace_ConstSpan tangents, tspace_FrameFormat format,
+                                   void* out, size_t out_bytes, tspace_PackReport* report,
+                                   tspace_Error* error) noexcept {
+    return atCBorder(error, [&]() -> Result<Done> {
+        const Error e =
+            firstError([&] { return checkSized(report, "report"); }, [&] { return checkBytes(out, out_bytes); });
+        if (e.code != ErrorCode::ok) return e;
+        const Result<PackReport> result =
+            packFrames(toSpan<Vec3>(normals), toSpan<Vec4>(tangents), static_cast<FrameFormat>(format),
+                       {static_cast<std::byte*>(out), out_bytes});
+        if (!result) return result.error();
+        writePackReport(*result, report);
+        return Done{};
+    });
+}
+
+tspace_ErrorCode tspace_unpackFrames(const void* bytes, size_t byte_count, tspace_FrameFormat format,
+                                     tspace_Span normals, tspace_Span tangents, tspace_Error* error) noexcept {
+    return atCBorder(error, [&]() -> Result<Done> {
+        if (Error e = checkBytes(bytes, byte_count); e.code != ErrorCode::ok) return e;
+        return unpackFrames({static_cast<const std::byte*>(bytes), byte_count}, static_cast<FrameFormat>(format),
+                            toSpan<Vec3>(normals), toSpan<Vec4>(tangents));
+    });
 }

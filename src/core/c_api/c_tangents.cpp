@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: MIT
-// C API: tangents, plans and sanitize.
+// C API: tangents, plans and sanitize; an indexed mesh with frames in one call; split and triangulate.
 #include "tspace/tangents.h"
 
 #include <memory>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "core/c_api/c_convert.h"
+#include "tspace/indexed_frames.h"
 #include "tspace/sanitize.h"
+#include "tspace/split.h"
+#include "tspace/triangulate.h"
 
 using namespace tspace;         // NOLINT: this file only forwards
 using namespace tspace::c_api;  // NOLINT
@@ -21,6 +25,8 @@ struct tspace_TangentPlan {
 };
 
 namespace {
+
+// C API: tangents, plans and sanitize.
 
 static_assert(TSPACE_METHOD_MIKKTSPACE == static_cast<std::uint32_t>(Method::mikktspace));
 static_assert(TSPACE_METHOD_LENGYEL == static_cast<std::uint32_t>(Method::lengyel));
@@ -201,4 +207,171 @@ tspace_ErrorCode tspace_sanitizeTangents(const tspace_Mesh* mesh, const tspace_S
         give(toReport(*result), report);
         return Done{};
     });
+}
+
+using namespace tspace;         // NOLINT: this file only forwards
+using namespace tspace::c_api;  // NOLINT
+
+namespace {
+
+// C API: an indexed mesh with frames in one call.
+
+/// The struct of the C API, as the first base, and the memory that its pointers point into.
+struct OwnedFrames : tspace_IndexedFrames {
+    explicit OwnedFrames(IndexedFrames&& made)
+        : tspace_IndexedFrames(),
+          frames(std::move(made)),
+          normals_made_of(toReport(frames.report.normals)),
+          tangents_made_of(toReport(frames.report.tangents)),
+          mended(toReport(frames.report.sanitize)) {
+        indices = frames.indices.data();
+        corner_count = frames.indices.size();
+        source_vertices = frames.source_vertices.data();
+        source_corners = frames.source_corners.data();
+        normals = frames.normals.empty() ? nullptr : &frames.normals.front().x;
+        tangents = frames.tangents.empty() ? nullptr : &frames.tangents.front().x;
+        vertex_count = frames.vertexCount();
+        normal_report = frames.report.normals_made ? &normals_made_of : nullptr;
+        tangent_report = &tangents_made_of;
+        sanitize_report = &mended;
+    }
+    OwnedFrames(const OwnedFrames&) = delete;
+    OwnedFrames& operator=(const OwnedFrames&) = delete;
+
+    IndexedFrames frames;
+    tspace_NormalReport normals_made_of;
+    tspace_TangentReport tangents_made_of;
+    tspace_SanitizeReport mended;
+};
+
+Error checkOptions(const tspace_IndexedFramesOptions* given) {
+    if (Error error = checkNeeded(given, "options"); error.code != ErrorCode::ok) return error;
+    const tspace_IndexedFramesOptions options = orDefault(given);
+    return firstError([&] { return c_api::checkOptions(options.tangents); },
+                      [&] { return c_api::checkOptions(options.normals); },
+                      [&] { return checkChoice(options.make_normals, 1, "make_normals"); },
+                      [&] { return checkChoice(options.sanitize, 1, "sanitize"); },
+                      [&] { return checkChoice(options.orthogonalize_all, 1, "orthogonalize_all"); });
+}
+
+}  // namespace
+
+tspace_ErrorCode tspace_makeIndexedFrames(const tspace_Mesh* mesh, const tspace_IndexedFramesOptions* options,
+                                          const tspace_Execution* execution, tspace_IndexedFrames** frames,
+                                          tspace_Error* error) noexcept {
+    return atCBorder(error, [&]() -> Result<Done> {
+        if (frames == nullptr) return Error{ErrorCode::nullData, "frames is null"};
+        *frames = nullptr;
+        const Error e = firstError([&] { return checkMesh(mesh); }, [&] { return checkOptions(options); },
+                                   [&] { return checkExecution(execution); });
+        if (e.code != ErrorCode::ok) return e;
+        const tspace_IndexedFramesOptions given = orDefault(options);
+        const Result<std::vector<CornerAttribute>> keep_apart =
+            toAttributes(given.keep_apart, given.keep_apart_count, "keep_apart");
+        if (!keep_apart) return keep_apart.error();
+        const Hooks hooks(execution);
+        IndexedFramesOptions converted;
+        converted.tangents = toOptions(orDefault(given.tangents));
+        converted.normals = toOptions(orDefault(given.normals));
+        converted.make_normals = given.make_normals != 0;
+        converted.sanitize = given.sanitize != 0;
+        converted.orthogonalize_all = given.orthogonalize_all != 0;
+        converted.keep_apart = *keep_apart;
+        Result<IndexedFrames> made = makeIndexedFrames(toMesh(*mesh), converted, hooks.execution());
+        if (!made) return made.error();
+        *frames = std::make_unique<OwnedFrames>(std::move(*made)).release();
+        return Done{};
+    });
+}
+
+void tspace_destroyIndexedFrames(tspace_IndexedFrames* frames) noexcept { delete static_cast<OwnedFrames*>(frames); }
+
+using namespace tspace;         // NOLINT: this file only forwards
+using namespace tspace::c_api;  // NOLINT
+
+namespace {
+
+// C API: split and triangulate, whose results the library owns until the caller destroys them.
+
+static_assert(TSPACE_NO_CORNER == kNoCorner);
+
+/// The struct of the C API, as the first base, and the memory that its pointers point into.
+struct OwnedSplit : tspace_SplitResult {
+    SplitResult result;
+};
+
+struct OwnedTriangulation : tspace_Triangulation {
+    Triangulation result;
+};
+
+}  // namespace
+
+namespace tspace::c_api {
+
+Result<std::vector<CornerAttribute>> toAttributes(const tspace_CornerAttribute* attributes, std::size_t count,
+                                                  const char* name) {
+    std::vector<CornerAttribute> result;
+    if (count == 0) return result;
+    if (attributes == nullptr)
+        return makeError(ErrorCode::nullData, kNoElement, "%s is null but %s_count is not 0", name, name);
+    result.reserve(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        const tspace_CornerAttribute& given = attributes[i];
+        const std::size_t tight = sizeof(float) * given.component_count;
+        result.push_back(
+            {given.data, given.stride_bytes == 0 ? tight : given.stride_bytes, given.component_count, given.tolerance});
+    }
+    return result;
+}
+
+}  // namespace tspace::c_api
+
+tspace_ErrorCode tspace_splitVertices(const tspace_Indices* indices, size_t vertex_count, size_t corner_count,
+                                      const tspace_CornerAttribute* attributes, size_t attribute_count,
+                                      const tspace_Execution* execution, tspace_SplitResult** result,
+                                      tspace_Error* error) noexcept {
+    return atCBorder(error, [&]() -> Result<Done> {
+        if (result == nullptr) return Error{ErrorCode::nullData, "result is null"};
+        *result = nullptr;
+        const Result<std::vector<CornerAttribute>> converted = toAttributes(attributes, attribute_count, "attribute");
+        if (!converted) return converted.error();
+        if (Error e = checkExecution(execution); e.code != ErrorCode::ok) return e;
+        const Hooks hooks(execution);
+        const IndexView view = indices == nullptr ? IndexView() : toIndices(*indices);
+        Result<SplitResult> split = splitVertices(view, vertex_count, corner_count, *converted, hooks.execution());
+        if (!split) return split.error();
+        auto owned = std::make_unique<OwnedSplit>();
+        owned->result = std::move(*split);
+        owned->indices = owned->result.indices.data();
+        owned->corner_count = owned->result.indices.size();
+        owned->source_vertices = owned->result.source_vertices.data();
+        owned->source_corners = owned->result.source_corners.data();
+        owned->vertex_count = owned->result.vertexCount();
+        *result = owned.release();
+        return Done{};
+    });
+}
+
+void tspace_destroySplitResult(tspace_SplitResult* result) noexcept { delete static_cast<OwnedSplit*>(result); }
+
+tspace_ErrorCode tspace_triangulate(const tspace_Mesh* mesh, tspace_Triangulation** result,
+                                    tspace_Error* error) noexcept {
+    return atCBorder(error, [&]() -> Result<Done> {
+        if (result == nullptr) return Error{ErrorCode::nullData, "result is null"};
+        *result = nullptr;
+        if (Error e = checkMesh(mesh); e.code != ErrorCode::ok) return e;
+        Result<Triangulation> cut = triangulate(toMesh(*mesh));
+        if (!cut) return cut.error();
+        auto owned = std::make_unique<OwnedTriangulation>();
+        owned->result = std::move(*cut);
+        owned->corners = owned->result.corners.data();
+        owned->faces = owned->result.faces.data();
+        owned->triangle_count = owned->result.faces.size();
+        *result = owned.release();
+        return Done{};
+    });
+}
+
+void tspace_destroyTriangulation(tspace_Triangulation* result) noexcept {
+    delete static_cast<OwnedTriangulation*>(result);
 }

@@ -6,8 +6,6 @@
 
 #include <cmath>
 
-#include "core/base/unit.h"
-#include "core/base/uv_frame.h"
 #include "core/base/vec_math.h"
 
 namespace tspace {

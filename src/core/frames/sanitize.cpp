@@ -13,11 +13,9 @@
 #include <utility>
 
 #include "core/base/border.h"
-#include "core/base/float4.h"
 #include "core/base/memory.h"
 #include "core/base/mesh_loops.h"
 #include "core/base/parallel.h"
-#include "core/base/unit.h"
 #include "core/base/vec_math.h"
 #include "core/base/weld.h"
 #include "core/frames/one_list.h"

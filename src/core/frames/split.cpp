@@ -12,7 +12,6 @@
 #include <utility>
 
 #include "core/base/border.h"
-#include "core/base/hash.h"
 #include "core/base/memory.h"
 #include "core/base/mesh_loops.h"
 #include "core/base/parallel.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The kernel behind best_sums.h: the normal of the quadratic surface through the edges around a point, unless these
+// The kernel behind BestKernels: the normal of the quadratic surface through the edges around a point, unless these
 // look like noise or a bevel: then the mean by angle * area. In between a blend. From sums, in single precision, so
 // that no list of the corners around a point is needed.
 // Based on: Zhang & Naga, "A New Finite Element Gradient Recovery Method: Superconvergence Property", 2005 (a quadratic
@@ -14,8 +14,8 @@
 // point.
 #pragma once
 
-#include "core/normals/best_sums.h"
-#include "core/simd/plane_kernel.h"
+#include "core/normals/face_terms.h"
+#include "core/simd/vectors_kernel.h"
 
 namespace tspace::smooth::TSPACE_LANES {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/normals/crease_auto.h"
+#include "core/normals/normals_call.h"
 
 #include <algorithm>
 #include <array>
@@ -7,9 +7,7 @@
 #include <span>
 #include <utility>
 
-#include "core/base/angle.h"
-#include "core/base/edge_runs.h"
-#include "core/base/float4.h"
+#include "core/base/mesh_loops.h"
 #include "core/base/vec_math.h"
 #include "core/normals/denoise.h"
 

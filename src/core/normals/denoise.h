@@ -1,11 +1,300 @@
 // SPDX-License-Identifier: MIT
-// NormalOptions::denoise: what noise there is, and normals without it.
+// Noise in positions: what there is, and normals without it, by quadratic fits over rings of vertices.
 #pragma once
 
-#include "core/normals/normal_groups.h"
+#include <atomic>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "core/base/memory.h"
+#include "core/base/vec_math.h"
+#include "core/normals/normals_call.h"
 #include "tspace/position_noise.h"
 
 namespace tspace {
+
+// Corners that share a normal are one vertex of a mesh that is cut open at its hard edges: positions, who is next to whom,
+// and the rings around each.
+
+// Three components; the fourth one is 0.
+inline Float4 crossed(Float4 a, Float4 b) {
+    const Float4 a_yzx = __builtin_shufflevector(a, a, 1, 2, 0, 3), b_yzx = __builtin_shufflevector(b, b, 1, 2, 0, 3);
+    const Float4 c = a * b_yzx - a_yzx * b;
+    return __builtin_shufflevector(c, c, 1, 2, 0, 3);
+}
+inline float dotted(Float4 a, Float4 b) {
+    const Float4 c = a * b;
+    return (c[0] + c[1]) + c[2];
+}
+
+/// The group of each corner: its point, or a dense number.
+class CornerGroups {
+  public:
+    /// components: the lowest corner of each corner's component; empty where all corners of a point are one.
+    CornerGroups(const NormalsCall& call, Buffer<std::uint32_t> components);
+
+    [[nodiscard]] std::uint32_t of(std::uint32_t corner) const {
+        return numbers_.empty() ? call_.items.pointOf(corner) : numbers_[corner];
+    }
+    [[nodiscard]] std::size_t count() const { return count_; }
+
+  private:
+    const NormalsCall& call_;
+    Buffer<std::uint32_t> numbers_;
+    std::size_t count_;
+};
+
+/// Triangles without area, or with a corner that is not finite, are left out. A polygon counts as `best` sees it: as a
+/// triangle at each corner, with the corners before and after it.
+class NormalGroups {
+  public:
+    /// `length`: positions here are in units of it. Takes 56 bytes per group and 16 per corner, and 4 per group
+    /// and thread for marks. Throws OutOfMemory.
+    NormalGroups(const NormalsCall& call, const CornerGroups& corner_groups, double length);
+
+    [[nodiscard]] std::size_t count() const { return count_; }
+    [[nodiscard]] Float4 position(std::size_t group) const { return loadFloat4(positions_.data() + 4 * group); }
+    /// Unit mean of the faces by area, or zero.
+    [[nodiscard]] Float4 areaNormal(std::size_t group) const { return loadFloat4(normals_.data() + 4 * group); }
+    /// The variance of that mean's direction (of both its angles together, in rad^2), where noise moves all points but this one
+    /// by 1 along the normal. Infinite where there is no mean.
+    [[nodiscard]] float areaVariance(std::size_t group) const { return variances_[group]; }
+    [[nodiscard]] std::span<const std::uint32_t> neighbours(std::size_t group) const {
+        return {neighbours_.data() + begins_[group], counts_[group]};
+    }
+
+    /// body(i, group, marks) for i in [0, count), where group = groupOf(i), each group once at most. marks: one number per group,
+    /// which is none of a group in the beginning.
+    template <class GroupOf, class Body>
+    void forSome(std::size_t count, const GroupOf& groupOf, const Body& body) const {
+        constexpr std::size_t kChunk = 256;
+        const std::size_t chunks = (count + kChunk - 1) / kChunk;
+        const std::size_t tasks = std::min<std::size_t>(chunks, marks_.size() / std::max<std::size_t>(count_, 1));
+        std::atomic<std::size_t> next{0};
+        call_.parallel.forTasks(tasks, [&](std::size_t task) {
+            std::uint32_t* const marks = marks_.data() + task * count_;
+            std::fill_n(marks, count_, ~std::uint32_t{0});
+            for (std::size_t chunk; (chunk = next.fetch_add(1, std::memory_order_relaxed)) < chunks;) {
+                const std::size_t end = std::min(count, (chunk + 1) * kChunk);
+                for (std::size_t i = chunk * kChunk; i < end; ++i) body(i, groupOf(i), marks);
+            }
+        });
+    }
+    template <class Body>
+    void forAll(const Body& body) const {
+        forSome(
+            count_, [](std::size_t i) { return i; },
+            [&](std::size_t, std::size_t group, std::uint32_t* marks) {
+                body(static_cast<std::uint32_t>(group), marks);
+            });
+    }
+
+    /// The groups that a corner's edges lead to, after and before it on its face.
+    struct Ends {
+        std::uint32_t next, previous;
+    };
+    [[nodiscard]] std::span<const Ends> corners(std::size_t group) const {
+        return {corners_.data() + begins_[group] / 2, corners_.data() + begins_[group + 1] / 2};
+    }
+
+  private:
+    void sortCorners(const CornerGroups& corner_groups, double length);
+    void findNeighbours();
+    void findNeighbours(std::uint32_t group, const Ends* begin, const Ends* end, std::uint32_t* places, float* turns);
+
+    const NormalsCall& call_;
+    std::size_t count_;
+    std::size_t most_corners_ = 0;  ///< of any group
+    Buffer<float> positions_, normals_, variances_;
+    Buffer<Ends> corners_;
+    Buffer<std::uint32_t> begins_, counts_, neighbours_;  ///< room for two neighbours per corner
+    mutable Buffer<std::uint32_t> marks_;                 ///< of each task
+};
+
+/// The groups around one, ring by ring. Bounded, so that a point with any number of neighbours takes no more time than
+/// others: of each group at most kFan neighbours are looked at, evenly spread, and there are at most kMost in all.
+class RingWalk {
+  public:
+    static constexpr std::size_t kMost = 256, kFan = 32;
+
+    /// marks: those of NormalGroups::forSome.
+    RingWalk(const NormalGroups& groups, std::uint32_t* marks, std::uint32_t centre)
+        : groups_(groups), marks_(marks), centre_(centre) {
+        add(centre);
+    }
+
+    /// Adds the next ring. False if there are too many; then the last ring is not all here.
+    bool grow();
+
+    [[nodiscard]] std::size_t size() const { return size_; }
+    /// Ring after ring, from the centre on. Three places behind them are anyone's.
+    [[nodiscard]] std::uint32_t* list() { return list_; }
+
+  private:
+    /// Without a branch, which no CPU would foresee. There is room for one.
+    void add(std::uint32_t group) {
+        list_[size_] = group;
+        size_ += marks_[group] != centre_ ? 1 : 0;
+        marks_[group] = centre_;
+    }
+
+    const NormalGroups& groups_;
+    std::uint32_t* marks_;
+    std::uint32_t centre_;
+    std::size_t size_ = 0, ring_ = 0;
+    std::uint32_t list_[kMost + kFan + 1];
+};
+
+// The quadratic z(x, y) through the groups around one, by sums that grow ring by ring.
+
+/// A point's own axes: z along a unit normal.
+struct RingFrame {
+    Float4 x, y, z;
+
+    explicit RingFrame(Float4 normal) : z(normal) {
+        const Float4 size = abs4(normal);
+        const Float4 least = size[0] <= size[1] && size[0] <= size[2] ? Float4{1, 0, 0, 0}
+                             : size[1] <= size[2]                     ? Float4{0, 1, 0, 0}
+                                                                      : Float4{0, 0, 1, 0};
+        x = crossed(normal, least);
+        x *= splat(1 / std::sqrt(dotted(x, x)));
+        y = crossed(normal, x);
+    }
+};
+
+/// Sums over points of products of x, y, z, for the least squares of
+///     z = a xx + b xy + c yy + d x + e y + f.
+class RingSums {
+  public:
+    /// Adds the groups of a walk from `begin` on. The centre is the origin.
+    void add(const NormalGroups& groups, const RingFrame& frame, RingWalk& walk, std::size_t begin) {
+        std::uint32_t* const list = walk.list();
+        const std::size_t end = walk.size();
+        const Float4 origin = groups.position(list[0]);
+        count_ += end - begin;
+        for (std::size_t i = end; i < end + 3; ++i) list[i] = list[0];  // which adds zeros
+        for (std::size_t i = begin; i < end; i += 4) {
+            const Float4 a = groups.position(list[i]) - origin, b = groups.position(list[i + 1]) - origin;
+            const Float4 c = groups.position(list[i + 2]) - origin, d = groups.position(list[i + 3]) - origin;
+            const Float4 ab = __builtin_shufflevector(a, b, 0, 1, 4, 5), cd = __builtin_shufflevector(c, d, 0, 1, 4, 5);
+            const Float4 px = __builtin_shufflevector(ab, cd, 0, 2, 4, 6),
+                         py = __builtin_shufflevector(ab, cd, 1, 3, 5, 7);
+            const Float4 ab_z = __builtin_shufflevector(a, b, 2, 2, 6, 6),
+                         cd_z = __builtin_shufflevector(c, d, 2, 2, 6, 6);
+            const Float4 pz = __builtin_shufflevector(ab_z, cd_z, 0, 2, 4, 6);
+            const auto along = [&](Float4 axis) {
+                return splat(axis[0]) * px + splat(axis[1]) * py + splat(axis[2]) * pz;
+            };
+            addProducts(along(frame.x), along(frame.y), along(frame.z));
+        }
+    }
+
+    /// What elimination leaves of the equations for the last unknowns.
+    struct Rest {
+        double matrix[2][2], right[2];
+        bool is_sound = false;
+    };
+    /// For d and e.
+    [[nodiscard]] Rest slopes() const { return eliminate<false>(); }
+    /// For f, in matrix[1][1] and right[1].
+    [[nodiscard]] Rest height() const { return eliminate<true>(); }
+
+  private:
+    enum Product {
+        x,
+        y,
+        xx,
+        xy,
+        yy,
+        xxx,
+        xxy,
+        xyy,
+        yyy,
+        xxxx,
+        xxxy,
+        xxyy,
+        xyyy,
+        yyyy,
+        z,
+        zx,
+        zy,
+        zxx,
+        zxy,
+        zyy,
+        kProducts
+    };
+
+    void addProducts(Float4 px, Float4 py, Float4 pz) {
+        const Float4 pxx = px * px, pxy = px * py, pyy = py * py;
+        sums_[x] += px, sums_[y] += py;
+        sums_[xx] += pxx, sums_[xy] += pxy, sums_[yy] += pyy;
+        sums_[xxx] += pxx * px, sums_[xxy] += pxx * py, sums_[xyy] += px * pyy, sums_[yyy] += pyy * py;
+        sums_[xxxx] += pxx * pxx, sums_[xxxy] += pxx * pxy, sums_[xxyy] += pxx * pyy;
+        sums_[xyyy] += pxy * pyy, sums_[yyyy] += pyy * pyy;
+        sums_[z] += pz, sums_[zx] += pz * px, sums_[zy] += pz * py;
+        sums_[zxx] += pz * pxx, sums_[zxy] += pz * pxy, sums_[zyy] += pz * pyy;
+    }
+
+    [[nodiscard]] double sum(Product p) const {
+        return (double{sums_[p][0]} + sums_[p][1]) + (double{sums_[p][2]} + sums_[p][3]);
+    }
+
+    template <bool kHeightLast>
+    [[nodiscard]] Rest eliminate() const;
+
+    Float4 sums_[kProducts] = {};
+    std::size_t count_ = 0;
+};
+
+/// Gauss without pivots, for the matrix is positive definite. A pivot below this part of its diagonal means that the points
+/// do not determine the surface: sums in single precision are good to 1e-6 of it.
+template <bool kHeightLast>
+RingSums::Rest RingSums::eliminate() const {
+    constexpr double kLeastPivot = 1e-4;
+    constexpr std::size_t kSize = 6, kLast = 4;
+    constexpr std::size_t f = kHeightLast ? 5 : 3, d = kHeightLast ? 3 : 4, e = kHeightLast ? 4 : 5;
+    double m[kSize][kSize + 1];  // the upper half, and the right sides
+    const auto set = [&](std::size_t row, std::size_t column, double value) {
+        m[row < column ? row : column][row < column ? column : row] = value;
+    };
+    m[0][0] = sum(xxxx), m[0][1] = sum(xxxy), m[0][2] = sum(xxyy), m[1][1] = m[0][2], m[1][2] = sum(xyyy);
+    m[2][2] = sum(yyyy);
+    const double s_xx = sum(xx), s_xy = sum(xy), s_yy = sum(yy);
+    const double s_xxx = sum(xxx), s_xxy = sum(xxy), s_xyy = sum(xyy), s_yyy = sum(yyy);
+    set(0, d, s_xxx), set(0, e, s_xxy), set(0, f, s_xx);
+    set(1, d, s_xxy), set(1, e, s_xyy), set(1, f, s_xy);
+    set(2, d, s_xyy), set(2, e, s_yyy), set(2, f, s_yy);
+    set(d, d, s_xx), set(d, e, s_xy), set(d, f, sum(x)), set(e, e, s_yy), set(e, f, sum(y));
+    set(f, f, static_cast<double>(count_));
+    m[0][kSize] = sum(zxx), m[1][kSize] = sum(zxy), m[2][kSize] = sum(zyy);
+    m[d][kSize] = sum(zx), m[e][kSize] = sum(zy), m[f][kSize] = sum(z);
+
+    Rest rest;
+    double diagonal[kSize];
+    for (std::size_t i = 0; i < kSize; ++i) diagonal[i] = m[i][i];
+    constexpr std::size_t kSteps = kHeightLast ? kSize - 1 : kLast;
+    for (std::size_t k = 0; k < kSteps; ++k) {
+        if (!(m[k][k] > kLeastPivot * diagonal[k])) return rest;
+        const double inverse = 1 / m[k][k];
+        for (std::size_t i = k + 1; i < kSize; ++i) {
+            const double factor = inverse * m[k][i];
+            for (std::size_t j = i; j <= kSize; ++j) m[i][j] -= factor * m[k][j];
+        }
+    }
+    rest.matrix[0][0] = m[4][4], rest.matrix[0][1] = rest.matrix[1][0] = m[4][5], rest.matrix[1][1] = m[5][5];
+    rest.right[0] = m[4][kSize], rest.right[1] = m[5][kSize];
+    rest.is_sound = m[5][5] > kLeastPivot * diagonal[5] && std::isfinite(rest.right[0]) && std::isfinite(rest.right[1]);
+    if (!kHeightLast) {
+        const double det = m[4][4] * m[5][5] - m[4][5] * m[4][5];
+        rest.is_sound =
+            rest.is_sound && m[4][4] > kLeastPivot * diagonal[4] && det > kLeastPivot * m[4][4] * diagonal[5];
+    }
+    return rest;
+}
+
+// NormalOptions::denoise: what noise there is, and normals without it.
 
 /// By some thousand edges and the normals of `best` at their ends, which call.out has. mean_edge is 0 where no edge has a
 /// finite length; a call without results gives that alone. Takes 64 KB.
@@ -25,7 +314,7 @@ double roughnessOf(const NormalsCall& call);
 PositionNoise noiseOf(const MeshView& mesh, const Execution& execution, Parallel& parallel, bool wants_sigma);
 
 /// averageNormals by `best`, then without noise. That of the mesh: in a pose it is no other, so that what does not move near
-/// a point leaves its normal alone. Takes normal_groups.h and 76 bytes per group. Throws OutOfMemory.
+/// a point leaves its normal alone. Takes NormalGroups and 76 bytes per group. Throws OutOfMemory.
 NormalReport denoisedNormals(NormalsCall& call);
 
 }  // namespace tspace

@@ -7,7 +7,7 @@
 #include <atomic>
 #include <cmath>
 
-#include "core/base/caches.h"
+#include "core/base/memory.h"
 #include "core/base/mesh_loops.h"
 #include "core/base/range_lists.h"
 

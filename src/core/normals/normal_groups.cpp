@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The graph of groups: a counting sort of corners, then the neighbours of each group.
-#include "core/normals/normal_groups.h"
+#include "core/normals/denoise.h"
 
 #include <cmath>
 #include <limits>

@@ -1,22 +1,46 @@
 // SPDX-License-Identifier: MIT
-// Smoothing normals: the arguments and faces of a call, the two ways (smoothTriangles, smoothFaces), and the rounds of
-// NormalWeighting::best, with which both end.
+// Smoothing normals: the arguments and faces of a call, hard edges by the mesh, the two ways (smoothTriangles, smoothFaces),
+// the rounds of NormalWeighting::best, with which both end, and which corners around a point share one normal.
 #pragma once
 
 #include <cstdint>
+#include <span>
 
-#include "core/base/call.h"
+#include "core/base/border.h"
 #include "core/base/memory.h"
 #include "core/base/parallel.h"
 #include "core/base/range_lists.h"
 #include "core/base/vec_math.h"
 #include "core/base/weld.h"
-#include "core/normals/crease_auto.h"
 #include "core/normals/face_terms.h"
 #include "tspace/mesh.h"
 #include "tspace/normals.h"
 
 namespace tspace {
+
+// NormalOptions::crease_auto: which edges are hard, by the mesh.
+
+/// Of the edge from a corner to the next one on its face.
+enum class EdgeKind : std::uint8_t {
+    byAngle,  ///< it has other than two faces
+    soft,
+    hard,
+};
+
+struct Creases {
+    float angle_deg = 180;
+    bool are_all_soft = true;     ///< no edge is hard, nor has more than two faces
+    Buffer<EdgeKind> edges = {};  ///< of each corner
+};
+
+/// By the histogram of the angles of edges: in the widest gap between those that most have and those that few have. Where
+/// positions are noisy, by faces whose normals were smoothed over what is no edge. Then without what is one edge long, and
+/// with what one edge interrupts. The mesh and its options have been checked.
+/// Takes NormalGroups (denoise.h), then 57 bytes per corner. O(n log n) for points with many edges, else linear. Throws OutOfMemory.
+/// Based on: Zheng, Fu, Au & Tai, "Bilateral Normal Filtering for Mesh Denoising", 2011.
+Creases findCreases(const MeshView& mesh, const NormalOptions& options, const Execution& execution, Parallel& parallel);
+
+// The arguments and faces of a call, and the ways to smooth.
 
 /// The faces of a mesh by their corners. Faces of one size need no table; otherwise 4 bytes per corner and face.
 class Faces {
@@ -148,7 +172,7 @@ struct NormalsCall {
 
 /// The common case by a shorter way: triangles, all weightings but max, and a point has one normal. Scratch
 /// memory: 4 bytes per vertex, core/base/range_lists.h and 1 MB, or up to 4 MB for each of several threads; where triangles
-/// that follow one another are far apart 36 bytes per vertex; for `best` 60, and core/base/sum_rounds.h. While vertices are
+/// that follow one another are far apart 36 bytes per vertex; for `best` 60, and SumRounds. While vertices are
 /// welded 10 to 24. Throws OutOfMemory.
 NormalReport smoothTriangles(const NormalsCall& call);
 
@@ -177,10 +201,68 @@ inline constexpr std::size_t kBehind = 2;
 /// sharp           the means by `max`, or zero where one vanished, and kBehind more; empty: they are found by the same
 ///                 triangles. Where one vanished the mean by angle * area stays
 ///
-/// Scratch memory: 24 bytes per group with `sharp`, and core/base/sum_rounds.h. Linear. Throws OutOfMemory.
+/// Scratch memory: 24 bytes per group with `sharp`, and SumRounds. Linear. Throws OutOfMemory.
 void refine(const NormalsCall& call, const TriangleGroups& triangles, std::size_t adding_corners,
             StridedSpan<Vec3> normals, Buffer<Vec3> sharp);
 
 }  // namespace smooth
+
+// Which corners around a point share one normal.
+
+/// A triangle at hand; or, of another face, one of its corners with its neighbours, which has one entry.
+struct LocalTriangle {
+    std::uint32_t points[5];  ///< of the corners, and of the first two again. Named by their lowest vertices.
+    std::uint32_t corner;     ///< of the mesh: the first one's number
+    double weights[3];        ///< of the face's row
+};
+
+/// The corners at a point, ascending: entries, four times a triangle plus a corner of it.
+struct PointCorners {
+    std::uint32_t point, count;
+    const std::uint32_t* entries;
+    const LocalTriangle* triangles;
+
+    [[nodiscard]] std::uint32_t triangle(std::uint32_t slot) const { return entries[slot] >> 2; }
+    [[nodiscard]] const LocalTriangle& at(std::uint32_t slot) const { return triangles[entries[slot] >> 2]; }
+    [[nodiscard]] std::uint32_t corner(std::uint32_t slot) const { return at(slot).corner + (entries[slot] & 3); }
+    /// The points after and before it on the border of its face.
+    [[nodiscard]] std::uint32_t next(std::uint32_t slot) const { return at(slot).points[(entries[slot] & 3) + 1]; }
+    [[nodiscard]] std::uint32_t previous(std::uint32_t slot) const { return at(slot).points[(entries[slot] & 3) + 2]; }
+    [[nodiscard]] double weight(std::uint32_t slot) const { return at(slot).weights[entries[slot] & 3]; }
+};
+
+/// Which faces may be smoothed together: creases and smoothing groups.
+struct SmoothingRule {
+    explicit SmoothingRule(const NormalsCall& c);
+
+    /// No crease: every pair of faces at a point may be connected.
+    [[nodiscard]] bool anyAngle() const { return call.options.crease_angle_deg >= 180; }
+    /// All corners at a point are one component.
+    [[nodiscard]] bool connectsAll() const { return anyAngle() && groups.empty(); }
+
+    const NormalsCall& call;
+    double crease_rad, crease_cosine;  ///< with creases faces are connected over edges that turn by no more than this
+    std::span<const std::uint32_t> groups;  ///< one per face, or empty
+    bool groups_are_masks;
+};
+
+/// A corner around a point, by its place there, and the component that it is in.
+struct Link {
+    std::uint32_t key, slot;
+};
+
+/// Finds the components of the corners at a point: returns all of them, sorted by component, then by slot. `links` has
+/// room for 2 * count entries, `parents` for count. O(n log n), also when all faces share one edge.
+///
+/// Below 180 degrees two faces are connected over a shared edge. Where more than two faces meet in an edge,
+/// each is held against the next one of its smoothing group as they turn about it, which for flat faces
+/// connects the same faces as holding each against each.
+///
+/// rows   of the triangles at hand, by the mesh, not a pose
+const Link* findComponents(const SmoothingRule& rule, const FaceRow* rows, const PointCorners& at, Link* links,
+                           std::uint32_t* parents);
+
+/// All corners as one component.
+const Link* oneComponent(std::uint32_t count, Link* links);
 
 }  // namespace tspace

@@ -12,9 +12,9 @@
 #include <numeric>
 #include <utility>
 
-#include "core/base/angle.h"
 #include "core/base/range_lists.h"
-#include "core/normals/smoothing.h"
+#include "core/base/vec_math.h"
+#include "core/normals/normals_call.h"
 
 namespace tspace {
 

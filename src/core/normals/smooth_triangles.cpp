@@ -10,9 +10,7 @@
 #include <cstddef>
 #include <cstring>
 
-#include "core/base/angle.h"
-#include "core/base/caches.h"
-#include "core/base/float4.h"
+#include "core/base/memory.h"
 #include "core/base/mesh_loops.h"
 #include "core/base/range_lists.h"
 #include "core/base/vec_math.h"
@@ -34,7 +32,7 @@ constexpr std::size_t kRangesPerThread = 4;  ///< at least
 struct PointSum {
     double x, y, z, weights;  ///< of a sum that is taken again: minus the weights
 
-    // For the functions of float4.h.
+    // For the functions of Float4.
     [[nodiscard]] float* floats() { return reinterpret_cast<float*>(this); }
     [[nodiscard]] const float* floats() const { return reinterpret_cast<const float*>(this); }
 

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Components of the faces around a point, by union-find over smooth edges.
-#include "core/normals/smoothing.h"
+#include "core/normals/normals_call.h"
 
 #include <algorithm>
 #include <bit>
 
-#include "core/base/angle.h"
-#include "core/base/float4.h"
 #include "core/base/sort.h"
+#include "core/base/vec_math.h"
 
 namespace tspace {
 

@@ -9,7 +9,7 @@
 #include <iterator>
 
 #include "core/base/border.h"
-#include "core/base/unit.h"
+#include "core/base/vec_math.h"
 #include "core/pack/formats.h"
 
 namespace tspace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Vectors of three on lanes, and how they are read. Included after lanes_*.h, with TSPACE_LANES set to its
-// namespace.
+// Vectors of three on lanes and how they are read, directions and planes, the arc cosine. Included after lanes_*.h, with
+// TSPACE_LANES set to its namespace.
 #pragma once
 
 namespace tspace::simd::TSPACE_LANES {
@@ -53,6 +53,112 @@ inline bool namesLast(const std::uint32_t* vertices, std::uint32_t last) {
     std::uint32_t named = 0;
     for (std::size_t i = 0; i < 3 * kWidth; ++i) named |= vertices[i] == last ? 1u : 0u;
     return named != 0;
+}
+
+// Directions and planes on lanes. Included after lanes_*.h, with TSPACE_LANES set to its namespace.
+
+inline Mask isFinite(Floats a) { return absolute(a) < broadcast(__builtin_huge_valf()); }
+inline Floats keep(Mask m, Floats a) { return select(m, a, zero()); }
+inline Vectors keep(Mask m, Vectors v) { return {keep(m, v.x), keep(m, v.y), keep(m, v.z)}; }
+/// a / b, and 0 where b is not above zero or the quotient is not finite.
+inline Floats quotient(Floats a, Floats b) {
+    const Floats q = a / b;
+    return keep((b > zero()) & isFinite(q), q);
+}
+
+/// A vector in the tangent plane.
+struct Flat {
+    Floats x, y;
+};
+inline Flat operator+(Flat a, Flat b) { return {a.x + b.x, a.y + b.y}; }
+inline Flat operator-(Flat a, Flat b) { return {a.x - b.x, a.y - b.y}; }
+inline Flat operator*(Floats k, Flat a) { return {k * a.x, k * a.y}; }
+inline Floats dot(Flat a, Flat b) { return a.x * b.x + a.y * b.y; }
+
+inline Flat keep(Mask m, Flat a) { return {keep(m, a.x), keep(m, a.y)}; }
+
+/// Zero where a vector has no direction.
+template <class Vector>
+inline Vector unit(Vector v) {
+    const Floats square = dot(v, v), scale = broadcast(1.0f) / squareRoot(square);
+    return keep((square > zero()) & isFinite(square) & isFinite(scale), scale * v);
+}
+
+/// The unit normal, with -0 as +0; the z axis where a normal has no direction.
+inline Vectors unitNormal(Vectors n) {
+    const Vectors u = unit(n);
+    const Mask none = !(dot(u, u) > zero());
+    return {u.x + zero(), u.y + zero(), select(none, broadcast(1.0f), u.z) + zero()};
+}
+
+/// A normal with two axes in the plane across it.
+/// Based on: Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 6(1), 2017.
+struct Plane {
+    Vectors n, x, y;
+
+    explicit Plane(Vectors normal) : n(unitNormal(normal)) {
+        const Floats one = broadcast(1.0f), s = select(n.z < zero(), broadcast(-1.0f), one);
+        const Floats a = broadcast(-1.0f) / (s + n.z), b = n.x * n.y * a;
+        x = {one + s * n.x * n.x * a, s * b, minus(s * n.x)};
+        y = {b, s + n.y * n.y * a, minus(n.y)};
+    }
+    [[nodiscard]] Flat flatten(Vectors v) const { return {dot(x, v), dot(y, v)}; }
+    [[nodiscard]] Vectors raise(Flat f) const { return f.x * x + f.y * y; }
+};
+
+/// Solves three equations by Cholesky's way (L D L^T). m: 00 01 02 11 12 22, to whose diagonal `ridge`, twice that, and
+/// `ridge` are added: this keeps the pivots positive, but for rounding.
+template <class Right>
+inline void solveRidged(const Floats (&m)[6], Floats ridge, const Right (&p)[3], Right (&q)[3]) {
+    const Floats one = broadcast(1.0f), least = broadcast(0.5f) * ridge, two = ridge + ridge;
+    const Floats i0 = one / larger(m[0] + ridge, least);
+    const Floats l1 = m[1] * i0, l2 = m[2] * i0;
+    const Floats i1 = one / larger(m[3] + two - l1 * m[1], ridge);
+    const Floats rest = m[4] - l1 * m[2], l3 = rest * i1;
+    const Floats i2 = one / larger(m[5] + ridge - l2 * m[2] - l3 * rest, least);
+    const Right y1 = p[1] - l1 * p[0], y2 = p[2] - l2 * p[0] - l3 * y1;
+    q[2] = i2 * y2;
+    q[1] = i1 * y1 - l3 * q[2];
+    q[0] = i0 * p[0] - l1 * q[1] - l2 * q[2];
+}
+
+// The arc cosine on lanes. Included after lanes_*.h, with TSPACE_LANES set to its namespace.
+
+/// acos of three cosines, rounded to float: the bits of the C library's double acos rounded to float (compared
+/// for every float). Three at a time, step by step, because each step waits for the one before it.
+///
+/// y = min(c^2, (1 - |c|) / 2), which is at most 1/4, and s = sqrt(y) is |c| or, from 1/2 on, the sine of
+/// half the angle. asin(s) = s + s y P(y). Then acos(c) is pi/2 -+ asin(s), or 2 asin(s), or pi - 2 asin(s).
+inline void arcCosines(const Floats (&cosines)[3], Floats (&angles)[3]) {
+    // Minimax, of degree 11: the error of y P(y) is below 2^-55.
+    constexpr double kHighest = 0x1.030c9deb668f4p-5;
+    constexpr double kCoefficients[] = {-0x1.026fe5933eb78p-6, 0x1.3aea7222cb789p-6, 0x1.b3bf2c44e47e8p-8,
+                                        0x1.8dc3f723da505p-7,  0x1.c728512876979p-7, 0x1.1c697e5b02bbap-6,
+                                        0x1.6e8a21d60a180p-6,  0x1.f1c72a0b08729p-6, 0x1.6db6db4a71a6fp-5,
+                                        0x1.333333335f5c3p-4,  0x1.555555555543cp-3};
+    constexpr std::size_t kParts = 3 * kDoubleParts;
+    const Doubles half = broadcastDouble(0.5);
+    Doubles x[kParts], y[kParts], p[kParts];
+    for (std::size_t i = 0; i < kParts; ++i) {
+        const Floats c = larger(broadcast(-1.0f), smaller(broadcast(1.0f), cosines[i / kDoubleParts]));
+        x[i] = part(c, i % kDoubleParts);
+        const Doubles a = absolute(x[i]);
+        y[i] = smaller(a * a, half - half * a);
+        p[i] = broadcastDouble(kHighest);
+    }
+    for (const double coefficient : kCoefficients) {
+        const Doubles k = broadcastDouble(coefficient);
+        for (std::size_t i = 0; i < kParts; ++i) p[i] = p[i] * y[i] + k;
+    }
+    const Doubles quarter = broadcastDouble(0x1.921fb54442d18p+0);
+    for (std::size_t i = 0; i < kParts; ++i) {
+        const DoubleMask steep = absolute(x[i]) > half;
+        const Doubles s = squareRoot(y[i]);
+        const Doubles arc = s + s * y[i] * p[i];
+        const Doubles turned = withSignOf(negateUnless(steep, arc + keepWhere(steep, arc)), x[i]);
+        x[i] = quarter - keepWhere(steep, withSignOf(quarter, x[i])) + turned;
+    }
+    for (std::size_t k = 0; k < 3; ++k) angles[k] = join(x + k * kDoubleParts);
 }
 
 }  // namespace tspace::simd::TSPACE_LANES

@@ -9,12 +9,11 @@
 #include <cstddef>
 #include <span>
 
-#include "core/base/caches.h"
-#include "core/base/float4.h"
+#include "core/base/memory.h"
 #include "core/base/mesh_loops.h"
 #include "core/base/parallel.h"
 #include "core/base/range_lists.h"
-#include "core/base/uv_frame.h"
+#include "core/base/vec_math.h"
 #include "core/tangents/derivative_terms.h"
 #include "core/tangents/indexed_methods.h"
 

@@ -1,16 +1,116 @@
 // SPDX-License-Identifier: MIT
-// Components of a surface: wound alike by walking over pairs of faces, then decided as a whole.
+// Faces that go on into one another, boxes around them, and components of a surface.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
-#include "core/base/call.h"
+#include "core/base/border.h"
+#include "core/base/memory.h"
 #include "core/base/parallel.h"
-#include "core/winding/box_tree.h"
-#include "core/winding/edge_pairs.h"
+#include "core/base/vec_math.h"
+#include "core/normals/normals_call.h"
 #include "tspace/winding.h"
 
 namespace tspace::winding {
+
+// Which faces go on into one another over the edges that they share.
+
+/// The faces of a call and the points that they share.
+struct Surface {
+    const MeshView& mesh;
+    const Faces& faces;
+    const Buffer<std::uint32_t>& points;  ///< of each corner
+
+    [[nodiscard]] std::uint32_t pointOf(std::uint32_t corner) const { return points[corner]; }
+    [[nodiscard]] DVec3 position(std::uint32_t corner) const { return toDouble(mesh.positions[mesh.indices[corner]]); }
+    /// Twice the area times the normal that a counter-clockwise winding gives.
+    [[nodiscard]] DVec3 areaVector(std::uint32_t face) const {
+        const std::uint32_t first = faces.first(face), past = faces.past(face);
+        const DVec3 origin = position(first);
+        DVec3 sum, before = position(first + 1) - origin;
+        for (std::uint32_t c = first + 2; c < past; ++c) {
+            const DVec3 here = position(c) - origin;
+            sum = sum + cross(before, here);
+            before = here;
+        }
+        return sum;
+    }
+};
+
+inline constexpr std::uint32_t kNoPartner = 0xffffffffu;
+/// Of a pair that lies on one another: neither is turned against the other.
+inline constexpr std::uint32_t kFixed = 0x80000000u;
+
+/// For each corner c: the corner whose edge, from it to the next one of its face, is the other half of c's edge. kNoPartner
+/// at borders, and for faces that are not used or touch a point twice.
+Buffer<std::uint32_t> pairEdges(const Surface& surface, const Allocator* allocator);
+
+// A tree of boxes, halved at the median of the widest side: for rays and for points.
+
+struct Box {
+    float least[3] = {3e38f, 3e38f, 3e38f}, most[3] = {-3e38f, -3e38f, -3e38f};
+
+    void add(const Vec3& p) {
+        const float at[3] = {p.x, p.y, p.z};
+        for (int k = 0; k < 3; ++k) {
+            least[k] = std::min(least[k], at[k]);
+            most[k] = std::max(most[k], at[k]);
+        }
+    }
+    void add(const Box& b) {
+        for (int k = 0; k < 3; ++k) {
+            least[k] = std::min(least[k], b.least[k]);
+            most[k] = std::max(most[k], b.most[k]);
+        }
+    }
+    [[nodiscard]] bool holds(const Box& b) const {
+        for (int k = 0; k < 3; ++k) {
+            if (!(least[k] <= b.least[k] && b.most[k] <= most[k])) return false;
+        }
+        return true;
+    }
+};
+
+class BoxTree {
+  public:
+    /// `boxes` stay where they are as long as the tree.
+    BoxTree(const Buffer<Box>& boxes, std::size_t count, const Allocator* allocator);
+
+    /// body(number) for the boxes that, as all nodes above them, are accepted by accepts(box).
+    template <class Accepts, class Body>
+    void visit(Accepts&& accepts, Body&& body) const {
+        std::size_t stack[64], depth = 0;
+        if (count_ != 0) stack[depth++] = 1;
+        while (depth != 0) {
+            const std::size_t node = stack[--depth];
+            if (!accepts(nodes_[node])) continue;
+            if (2 * node + 1 < nodes_.size()) {
+                stack[depth++] = 2 * node + 1;
+                stack[depth++] = 2 * node;
+                continue;
+            }
+            const Range range = rangeOf(node);
+            for (std::size_t i = range.begin; i < range.end; ++i) {
+                if (accepts(boxes_[order_[i]])) body(order_[i]);
+            }
+        }
+    }
+
+  private:
+    struct Range {
+        std::size_t begin, end;
+    };
+    /// Nodes are numbered from 1, level by level; each level halves the ranges of the one above.
+    [[nodiscard]] Range rangeOf(std::size_t node) const;
+
+    const Buffer<Box>& boxes_;
+    std::size_t count_;
+    Buffer<std::uint32_t> order_;
+    Buffer<Box> nodes_;
+};
+
+// Components of a surface: wound alike by walking over pairs of faces, then decided as a whole.
 
 /// Faces in the order in which they were reached; those of a component lie together.
 struct Component {

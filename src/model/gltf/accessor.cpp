@@ -6,7 +6,7 @@
 #include <array>
 #include <cstring>
 
-#include "core/base/little_endian.h"
+#include "core/base/numbers.h"
 #include "model/gltf/meshopt_views.h"
 #include "model/io/file_error.h"
 #include "tspace/mesh.h"

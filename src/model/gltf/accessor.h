@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "model/gltf/codecs/component_type.h"
+#include "model/gltf/codecs/codecs.h"
 #include "model/gltf/document.h"
 #include "tspace/vec.h"
 

@@ -1,14 +1,218 @@
 // SPDX-License-Identifier: MIT
-// Writes PoolElements into the accessors of a document.
+// What `generate` changes in a file.
 #include "model/gltf/apply_frames.h"
 
 #include <algorithm>
+#include <array>
+#include <map>
+#include <optional>
 #include <utility>
 
-#include "model/gltf/primitive_notes.h"
-#include "model/gltf/set_attribute.h"
+#include "model/gltf/editor.h"
+#include "model/gltf/gather_elements.h"
+#include "model/gltf/material_needs.h"
+#include "model/gltf/packed.h"
 
 namespace tspace::gltf {
+
+// Keeps, overwrites or stores elements.
+
+namespace {
+
+bool hasFormatOf(const Accessor& accessor, const ElementData& data) {
+    return accessor.component == data.component && accessor.type == data.type &&
+           accessor.normalized == data.normalized && accessor.count == data.count;
+}
+
+Json& attributesOf(Editor& editor, const Primitive& primitive, std::ptrdiff_t target) {
+    Json& object = editor.primitive(primitive.mesh, primitive.index);
+    return target < 0 ? object["attributes"] : object["targets"][static_cast<std::size_t>(target)];
+}
+
+}  // namespace
+
+bool setAttribute(Editor& editor, const Document& document, const SharedAttribute& attribute, ElementData&& data) {
+    const auto accessorOf = [&](const Primitive& primitive) {
+        const bool is_base = attribute.target == kBase;
+        const auto old = findAttribute(
+            is_base ? primitive.attributes : primitive.targets[static_cast<std::size_t>(attribute.target)],
+            attribute.name);
+        return old ? old : attribute.spare;
+    };
+    const Primitive& first = attribute.primitives[attribute.numbers[0]];
+    const std::optional<std::size_t> old = accessorOf(first);
+    const bool alone = old && editor.accessorUses(*old) == attribute.numbers.size();
+    std::optional<Accessor> current;
+    if (old && old != attribute.spare && attribute.may_stay) {
+        current = readAccessor(document, *old);
+        if (!hasFormatOf(*current, data)) current.reset();
+    }
+    if (current) data.makeNow();
+    if (current && copyElements(document, *current) == data.bytes) return false;
+    // KHR_mesh_quantization widens the formats of the specification's attributes; application-specific ones may always
+    // be integers.
+    if (data.normalized && !isPackedAttribute(attribute.name)) editor.require("KHR_mesh_quantization");
+    if (attribute.target != kBase) makeSparseWhereSmaller(data);
+    // Of a target, as what moves its vertices: Draco holds no targets.
+    const Json& attributes = attributesOf(editor, first, attribute.target);
+    data.like = (attribute.target == kBase ? attributes["POSITION"] : attributes.front()).get<std::size_t>();
+    if (current && alone && !data.places && editor.canOverwrite(*current)) {
+        editor.overwrite(*current, data.bytes);
+        return true;
+    }
+    const std::size_t stored = editor.store(std::move(data), alone ? old : std::nullopt);
+    for (const std::size_t number : attribute.numbers) {
+        const Primitive& primitive = attribute.primitives[number];
+        attributesOf(editor, primitive, attribute.target)[attribute.name] = stored;
+        editor.moveUse(accessorOf(primitive), stored);
+    }
+    return true;
+}
+
+// Removing TANGENT from primitives, morph targets and what Draco says of them.
+
+namespace {
+
+bool names(const AttributeList& list, const char* attribute) {
+    return std::any_of(list.begin(), list.end(), [&](const auto& entry) { return entry.first == attribute; });
+}
+
+bool hasKnownType(const Json& accessor) {
+    static constexpr std::array kTypes{"SCALAR", "VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "MAT4"};
+    const std::string type = accessor["type"].get<std::string>();
+    return std::any_of(kTypes.begin(), kTypes.end(), [&](const char* known) { return type == known; });
+}
+
+}  // namespace
+
+bool canStripTangents(const Primitive& primitive) {
+    bool has = names(primitive.attributes, "TANGENT");
+    for (const AttributeList& target : primitive.targets) {
+        const bool here = names(target, "TANGENT");
+        if (here && target.size() == 1) return false;
+        has = has || here;
+    }
+    return has;
+}
+
+/// Removes the name from the primitive's Draco extension: decoders must not look for a removed attribute.
+void eraseAttribute(Editor& editor, const Primitive& primitive, const char* name) {
+    Json& object = editor.primitive(primitive.mesh, primitive.index);
+    object["attributes"].erase(name);
+    if (findExtension(object, "KHR_draco_mesh_compression") == nullptr) return;
+    Json& draco = object["extensions"]["KHR_draco_mesh_compression"];
+    if (findMember(draco, "attributes") != nullptr && draco["attributes"].is_object()) draco["attributes"].erase(name);
+}
+
+void stripTangents(Editor& editor, std::span<const Primitive> primitives, std::span<const PrimitiveReport> reports) {
+    for (std::size_t i = 0; i < primitives.size(); ++i) {
+        if (reports[i].action != PrimitiveAction::removed) continue;
+        const Primitive& primitive = primitives[i];
+        if (const auto tangents = primitive.find("TANGENT")) {
+            eraseAttribute(editor, primitive, "TANGENT");
+            editor.release(*tangents);
+        }
+        for (std::size_t t = 0; t < primitive.targets.size(); ++t) {
+            if (const auto deltas = findAttribute(primitive.targets[t], "TANGENT")) {
+                editor.primitive(primitive.mesh, primitive.index)["targets"][t].erase("TANGENT");
+                editor.release(*deltas);
+            }
+        }
+    }
+}
+
+void removeUnreadableTangents(Editor& editor, std::span<const Primitive> primitives, GeneratePlan& plan) {
+    std::vector<bool> is_computed(primitives.size(), false);
+    for (const Pool& pool : plan.pools) {
+        for (const std::size_t number : pool.primitives) is_computed[number] = true;
+    }
+    for (std::size_t i = 0; i < primitives.size(); ++i) {
+        const Primitive& primitive = primitives[i];
+        for (const UnreadableTangents& tangents : primitive.unreadable_tangents) {
+            const bool is_base = tangents.target < 0;
+            if (is_base) {
+                eraseAttribute(editor, primitive, "TANGENT");
+            } else {
+                Json& targets = editor.primitive(primitive.mesh, primitive.index)["targets"];
+                targets[static_cast<std::size_t>(tangents.target)].erase("TANGENT");
+            }
+            // The size of an unknown type is unknown, so its data cannot be freed.
+            if (hasKnownType(editor.accessor(tangents.accessor))) editor.release(tangents.accessor);
+            if (!is_base || is_computed[i]) continue;
+            PrimitiveReport& report = plan.reports[i];
+            report.action = PrimitiveAction::removed;
+            report.reason = "its tangents could not be read, and none are computed: " + report.reason;
+        }
+    }
+}
+
+void noteUnreadableTangents(std::span<const Primitive> primitives, std::span<PrimitiveReport> reports) {
+    for (std::size_t i = 0; i < primitives.size(); ++i) {
+        for (const UnreadableTangents& tangents : primitives[i].unreadable_tangents) {
+            const bool is_base = tangents.target < 0;
+            reports[i].notes.push_back((is_base ? "its tangents were wrong: "
+                                                : "what morph target " + std::to_string(tangents.target) +
+                                                      " added to its tangents was wrong: ") +
+                                       tangents.why);
+            if (is_base && reports[i].action == PrimitiveAction::generated)
+                reports[i].action = PrimitiveAction::replaced;
+        }
+    }
+}
+
+namespace {
+
+std::vector<std::uint32_t> turnedCorners(const Document& document, const Primitive& primitive,
+                                         const std::vector<std::uint8_t>& turned) {
+    std::vector<std::uint32_t> corners = readTriangleCorners(document, primitive);
+    for (std::size_t t = 0; t < turned.size(); ++t) {
+        if (turned[t] != 0) std::swap(corners[3 * t + 1], corners[3 * t + 2]);
+    }
+    return corners;
+}
+
+/// Primitives whose new lists are the same, and replace the same.
+struct NewList {
+    std::vector<std::uint32_t> corners = {};
+    std::vector<std::size_t> primitives = {};
+};
+
+}  // namespace
+
+void turnTriangles(Document& document, const std::string& new_file, std::span<const Primitive> primitives,
+                   std::span<const std::vector<std::uint8_t>> turned) {
+    const std::optional<std::size_t> none;
+    // By old list and vertices, which also decide how a list is stored.
+    std::map<std::pair<std::optional<std::size_t>, std::optional<std::size_t>>, std::vector<NewList>> lists;
+    for (std::size_t i = 0; i < primitives.size(); ++i) {
+        if (std::find(turned[i].begin(), turned[i].end(), 1) == turned[i].end()) continue;
+        std::vector<NewList>& known = lists[{primitives[i].indices, primitives[i].find("POSITION")}];
+        std::vector<std::uint32_t> corners = turnedCorners(document, primitives[i], turned[i]);
+        auto list = std::find_if(known.begin(), known.end(), [&](const NewList& l) { return l.corners == corners; });
+        if (list == known.end()) list = known.insert(known.end(), {std::move(corners), {}});
+        list->primitives.push_back(i);
+    }
+    Editor editor(document, new_file);
+    for (auto& [key, known] : lists) {
+        const std::optional<std::size_t> old = key.first;
+        for (NewList& list : known) {
+            const Primitive& first = primitives[list.primitives.front()];
+            ElementData data = newIndices(document, first, std::move(list.corners), first.vertex_count);
+            data.like = old ? old : key.second;
+            const bool alone = old && editor.accessorUses(*old) == list.primitives.size();
+            const std::size_t stored = editor.store(std::move(data), alone ? old : none);
+            for (const std::size_t number : list.primitives) {
+                Json& object = editor.primitive(primitives[number].mesh, primitives[number].index);
+                object["indices"] = stored;
+                if (primitives[number].mode != Mode::triangles) object["mode"] = static_cast<unsigned>(Mode::triangles);
+                editor.moveUse(old, stored);
+            }
+        }
+    }
+    editor.finish();
+}
+
+// Writes PoolElements into the accessors of a document.
 
 namespace {
 

@@ -1,16 +1,71 @@
 // SPDX-License-Identifier: MIT
-// Putting computed frames into the document: new tangents and normals, and, where vertices were split, every
-// other attribute, morph target and index list with them.
+// What `generate` changes in a file: attributes set and removed, triangles turned, computed frames stored.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <span>
+#include <string>
+#include <vector>
 
+#include "model/gltf/document.h"
 #include "model/gltf/editor.h"
+#include "model/gltf/gather_elements.h"
 #include "model/gltf/generate_plan.h"
-#include "model/gltf/pool_elements.h"
+#include "model/gltf/primitive_reader.h"
 #include "model/gltf/vertex_numbers.h"
 
 namespace tspace::gltf {
+
+// Sets one attribute of the primitives that share it.
+
+struct SharedAttribute {
+    std::span<const Primitive> primitives = {};  ///< all of the document, as it was when `numbers` were chosen
+    std::span<const std::size_t> numbers = {};   ///< the primitives that share the attribute, or lack it
+    std::ptrdiff_t target = kBase;
+    std::string name = {};
+    /// Whether existing elements may stay, or be overwritten in place.
+    bool may_stay = true;
+    /// An accessor that only these primitives used, for an attribute that was removed: its entry is re-used.
+    std::optional<std::size_t> spare = {};
+};
+
+/// Sets the attribute in all of `numbers`. Returns false when the document has exactly these bits already.
+bool setAttribute(Editor& editor, const Document& document, const SharedAttribute& attribute, ElementData&& data);
+
+// Removes attributes: tangents that no material needs, and those that cannot be read.
+
+/// True when the primitive or one of its morph targets has tangents that can be removed. They cannot where a morph
+/// target has nothing else: an empty target is not valid, and removing it would renumber the weights.
+bool canStripTangents(const Primitive& primitive);
+
+/// Removes TANGENT from the primitives whose report says `removed`, and from their morph targets. Data without other
+/// uses is freed.
+void stripTangents(Editor& editor, std::span<const Primitive> primitives, std::span<const PrimitiveReport> reports);
+
+/// Removes every Primitive::unreadable_tangents, before new tangents are stored. Primitives without new tangents become
+/// `removed`: the tangent deltas of their morph targets must go too.
+void removeUnreadableTangents(Editor& editor, std::span<const Primitive> primitives, GeneratePlan& plan);
+/// Notes the removal in the reports; call when all tangents are computed.
+void noteUnreadableTangents(std::span<const Primitive> primitives, std::span<PrimitiveReport> reports);
+
+/// Removes the name of an attribute from a primitive and from its Draco extension. The accessor still counts as used.
+void eraseAttribute(Editor& editor, const Primitive& primitive, const char* name);
+
+// Turns triangles by their index lists. Attributes and morph targets stay as they are, so vertices keep their numbers.
+
+/// New index lists for the primitives of which triangles are turned: triangles, also where there were strips, fans or no
+/// lists. Primitives that draw the same triangles of the same vertices share a new list if they shared the old one.
+///
+/// new_file    as for Editor
+/// primitives  those of the document, which are to be read anew afterwards
+/// turned      of each primitive: one per triangle, 1 to turn it; or empty: none of them
+void turnTriangles(Document& document, const std::string& new_file, std::span<const Primitive> primitives,
+                   std::span<const std::vector<std::uint8_t>> turned);
+
+// Putting computed frames into the document: new tangents and normals, and, where vertices were split, every
+// other attribute, morph target and index list with them.
 
 /// Changes the document so that the pool's primitives have the frames in `elements`, whose bytes it takes. Without a
 /// split only TANGENT (and NORMAL and _BITANGENT where they were made) changes, in the primitives and in those morph

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "model/io/output_piece.h"
+#include "model/io/atomic_output.h"
 
 namespace tspace::gltf {
 

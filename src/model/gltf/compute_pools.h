@@ -2,16 +2,31 @@
 // Frames for pools of a glTF file, several pools at the same time.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
 
 #include "core/mesh/pools/primitive.h"
-#include "model/gltf/decoded_arrays.h"
+#include "model/gltf/document.h"
+#include "model/gltf/gather_elements.h"
 #include "model/gltf/generate_plan.h"
-#include "model/gltf/pool_elements.h"
+#include "model/gltf/model.h"
+#include "model/gltf/primitive_reader.h"
 
 namespace tspace::gltf {
+
+// Finds vertices that differ in their frames alone.
+
+struct WeldedVertices {
+    std::vector<std::uint32_t> kept = {};       ///< the first vertex of each class of equal ones, ascending
+    std::vector<std::uint32_t> number_of = {};  ///< per vertex: its index in `kept`
+};
+
+/// Vertices are equal where all attributes are, those of morph targets too, except NORMAL, TANGENT, _BITANGENT and packed
+/// frames. Floats are compared by bits, with -0 equal to 0. Primitives with CESIUM_primitive_outline, whose lists name
+/// vertices, keep all. Linear.
+WeldedVertices weldVertices(const Document& document, const Primitive& primitive);
 
 /// Computes pools of one document, several at the same time. Scratch memory serves one after the other.
 class PoolComputer {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "core/base/little_endian.h"
+#include "core/base/numbers.h"
 #include "model/gltf/draco_primitives.h"
 #include "model/gltf/gather_elements.h"
 #include "model/gltf/references.h"

@@ -8,15 +8,18 @@
 #include <span>
 #include <vector>
 
-#include "core/mesh/pools/mends.h"
-#include "core/mesh/surface/uv_matrix.h"
+#include "core/mesh/pools/primitive.h"
+#include "core/mesh/surface/uvs.h"
 #include "model/gltf/document.h"
+#include "model/gltf/model.h"
 #include "model/gltf/primitive_reader.h"
 #include "tspace/asset.h"
 
 namespace tspace {
+
 struct Surroundings;
-}
+
+}  // namespace tspace
 
 namespace tspace::gltf {
 
@@ -71,5 +74,12 @@ bool lacksDeltas(const Primitive& primitive);
 
 GeneratePlan planGenerate(const Document& document, std::span<const Primitive> primitives,
                           const GenerateOptions& options);
+
+// Which primitives of a mesh are one surface where normals are made.
+
+/// Gives the geometries whose normals are made the triangles of other primitives of their mesh that they are one surface
+/// with, and notes it in the reports. A geometry that several meshes draw gets those of the first. Nothing for flat normals,
+/// which look at no neighbours, nor with normals_per_primitive.
+void planSurroundings(Model& model, const GenerateOptions& options, GeneratePlan& plan);
 
 }  // namespace tspace::gltf

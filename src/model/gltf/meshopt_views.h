@@ -11,7 +11,7 @@
 #include <string>
 
 #include "model/gltf/accessor.h"
-#include "model/gltf/codecs/meshopt.h"
+#include "model/gltf/codecs/codecs.h"
 #include "model/gltf/document.h"
 
 namespace tspace::gltf {

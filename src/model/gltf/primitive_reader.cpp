@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <bit>
 
-#include "model/gltf/packed_layout.h"
+#include "model/gltf/packed.h"
 #include "model/io/file_error.h"
 
 namespace tspace::gltf {

@@ -1,16 +1,201 @@
 // SPDX-License-Identifier: MIT
 #include "model/gltf/read_scene.h"
 
+#include <algorithm>
+#include <cstring>
 #include <set>
 
+#include "core/base/numbers.h"
 #include "model/gltf/accessor.h"
 #include "model/gltf/document.h"
 #include "model/gltf/material_needs.h"
-#include "model/gltf/read_packed.h"
+#include "model/gltf/packed.h"
 #include "model/io/file_error.h"
 #include "model/io/uri.h"
 
 namespace tspace::gltf {
+
+// Materials for rendering, and the transforms of nodes.
+
+namespace {
+
+std::optional<TextureReading> readOwnTexture(const Document& document, const Json& object, const char* key,
+                                             const std::string& place) {
+    const Json* texture = readObject(object, key, place);
+    if (texture == nullptr) return {};
+    return readTexture(document, *texture, join(place, key));
+}
+
+/// The local transform of a node: a matrix, or translation, rotation and scale.
+Affine readTransform(const Json& node, const std::string& place) {
+    if (findMember(node, "matrix") != nullptr) {
+        double m[16] = {};
+        readNumbers(node, "matrix", place, m);
+        return {{m[0], m[1], m[2]}, {m[4], m[5], m[6]}, {m[8], m[9], m[10]}, {m[12], m[13], m[14]}};
+    }
+    double move[3] = {0, 0, 0}, turn[4] = {0, 0, 0, 1}, scale[3] = {1, 1, 1};
+    readNumbers(node, "translation", place, move);
+    readNumbers(node, "rotation", place, turn);
+    readNumbers(node, "scale", place, scale);
+    const double x = turn[0], y = turn[1], z = turn[2], w = turn[3];
+    return {scale[0] * DVec3{1 - 2 * (y * y + z * z), 2 * (x * y + z * w), 2 * (x * z - y * w)},
+            scale[1] * DVec3{2 * (x * y - z * w), 1 - 2 * (x * x + z * z), 2 * (y * z + x * w)},
+            scale[2] * DVec3{2 * (x * z + y * w), 2 * (y * z - x * w), 1 - 2 * (x * x + y * y)},
+            {move[0], move[1], move[2]}};
+}
+
+/// The nodes of a document as a forest: nodes with several parents, and cycles, are cut off.
+class Nodes {
+  public:
+    explicit Nodes(const Document& document)
+        : document_(document), list_(rootArray(document, "nodes")), worlds_(list_.size()), seen_(list_.size(), 0) {
+        std::vector<std::uint8_t> is_child(list_.size(), 0);
+        for (std::size_t i = 0; i < list_.size(); ++i) {
+            for (const std::size_t child : indicesIn(list_[i], "children", join("/nodes", i))) is_child[child] = 1;
+        }
+        for (std::size_t i = 0; i < list_.size(); ++i) {
+            if (is_child[i] == 0) roots_.push_back(i);
+        }
+        below(roots_);
+    }
+
+    /// The nodes of the default scene, parents before children.
+    std::vector<std::size_t> shown() {
+        const Json& scenes = rootArray(document_, "scenes");
+        if (scenes.empty()) return below(roots_);
+        const std::size_t scene = readIndex(document_.json, "scene", "", scenes.size(), "scene").value_or(0);
+        return below(indicesIn(scenes[scene], "nodes", join("/scenes", scene)));
+    }
+
+    [[nodiscard]] const Json& operator[](std::size_t node) const { return list_[node]; }
+    [[nodiscard]] const Affine& world(std::size_t node) const { return worlds_[node]; }
+
+  private:
+    [[nodiscard]] std::vector<std::size_t> indicesIn(const Json& object, const char* key,
+                                                     const std::string& place) const {
+        std::vector<std::size_t> result;
+        const Json& array = readArray(object, key, place, false);
+        for (std::size_t i = 0; i < array.size(); ++i)
+            result.push_back(toIndex(array[i], join(join(place, key), i), list_.size(), "node"));
+        return result;
+    }
+
+    /// Visits each node once, with the transform by which it is reached first.
+    std::vector<std::size_t> below(const std::vector<std::size_t>& roots) {
+        ++walk_;
+        std::vector<std::size_t> order;
+        const auto meet = [&](std::size_t node, const Affine& parent) {
+            if (seen_[node] == walk_) return;
+            if (seen_[node] == 0) worlds_[node] = compose(parent, readTransform(list_[node], join("/nodes", node)));
+            seen_[node] = walk_;
+            order.push_back(node);
+        };
+        for (const std::size_t root : roots) meet(root, {});
+        for (std::size_t i = 0; i < order.size(); ++i) {
+            const std::size_t node = order[i];
+            for (const std::size_t child : indicesIn(list_[node], "children", join("/nodes", node)))
+                meet(child, worlds_[node]);
+        }
+        return order;
+    }
+
+    const Document& document_;
+    const Json& list_;
+    std::vector<Affine> worlds_;
+    std::vector<std::uint8_t> seen_;  ///< number of the last walk that met the node
+    std::uint8_t walk_ = 0;
+    std::vector<std::size_t> roots_ = {};
+};
+
+/// The first inverse bind matrix of a skin; none: the identity, as the specification says.
+Affine readFirstBind(const Document& document, const Json& skin, const std::string& place) {
+    const std::size_t count = rootArray(document, "accessors").size();
+    const auto index = readIndex(skin, "inverseBindMatrices", place, count, "accessor");
+    if (!index) return {};
+    const Accessor accessor = readAccessor(document, *index);
+    if (accessor.component != ComponentType::f32 || accessor.component_count != 16 || accessor.count == 0) return {};
+    const auto elements = hasData(document, accessor) ? viewElements(document, accessor) : std::nullopt;
+    if (!elements) return {};
+    float m[16];
+    for (std::size_t i = 0; i < 16; ++i) m[i] = loadLittleEndian<float>(elements->data + i * sizeof(float));
+    return {{m[0], m[1], m[2]}, {m[4], m[5], m[6]}, {m[8], m[9], m[10]}, {m[12], m[13], m[14]}};
+}
+
+/// Where the first joint of the node's skin puts a mesh; nothing: it has no skin.
+std::optional<Affine> boundPlace(const Document& document, const Nodes& nodes, std::size_t node) {
+    const Json& skins = rootArray(document, "skins");
+    const auto skin = readIndex(nodes[node], "skin", join("/nodes", node), skins.size(), "skin");
+    if (!skin) return {};
+    const std::string place = join("/skins", *skin);
+    const Json& joints = readArray(skins[*skin], "joints", place, false);
+    if (joints.empty()) return {};
+    const std::size_t joint =
+        toIndex(joints[0], join(join(place, "joints"), 0), rootArray(document, "nodes").size(), "node");
+    return compose(nodes.world(joint), readFirstBind(document, skins[*skin], place));
+}
+
+}  // namespace
+
+SurfaceLook readLook(const Document& document, const Primitive& primitive) {
+    SurfaceLook look;
+    if (!primitive.material) return look;
+    const Json& material = rootArray(document, "materials")[*primitive.material];
+    const std::string place = join("/materials", *primitive.material);
+    if (const Json* metal = readObject(material, "pbrMetallicRoughness", place)) {
+        const std::string metal_place = join(place, "pbrMetallicRoughness");
+        double color[4] = {1, 1, 1, 1};
+        readNumbers(*metal, "baseColorFactor", metal_place, color);
+        for (std::size_t i = 0; i < 4; ++i) look.base_color[i] = static_cast<float>(std::clamp(color[i], 0.0, 1.0));
+        look.base_texture = readOwnTexture(document, *metal, "baseColorTexture", metal_place);
+    }
+    look.normal_texture = readOwnTexture(document, material, "normalTexture", place);
+    if (look.normal_texture)
+        look.normal_scale = readNumber(material["normalTexture"], "scale", join(place, "normalTexture"), 1);
+    if (readString(material, "alphaMode", place) == "MASK")
+        look.alpha_cutoff = readNumber(material, "alphaCutoff", place, 0.5);
+    look.is_double_sided = readBool(material, "doubleSided", place, false);
+    look.is_unlit = findExtension(material, "KHR_materials_unlit") != nullptr;
+    return look;
+}
+
+std::vector<ScenePlacement> readPlacements(const Document& document, std::span<const Primitive> primitives) {
+    const std::size_t mesh_count = rootArray(document, "meshes").size();
+    std::vector<std::vector<std::size_t>> of_mesh(mesh_count);
+    for (std::size_t i = 0; i < primitives.size(); ++i) of_mesh[primitives[i].mesh].push_back(i);
+    Nodes nodes(document);
+    std::vector<ScenePlacement> placements;
+    for (const std::size_t node : nodes.shown()) {
+        const auto mesh = readIndex(nodes[node], "mesh", join("/nodes", node), mesh_count, "mesh");
+        if (!mesh) continue;
+        const Affine place = boundPlace(document, nodes, node).value_or(nodes.world(node));
+        document.memory->take(of_mesh[*mesh].size() * sizeof(ScenePlacement), join("/nodes", node));
+        // A name that is no text is none: it draws nothing.
+        const Json* const given = findMember(nodes[node], "name");
+        const std::string name = given != nullptr && given->is_string() ? given->get<std::string>() : std::string();
+        for (const std::size_t primitive : of_mesh[*mesh]) placements.push_back({primitive, place, name});
+    }
+    if (placements.empty()) {
+        for (std::size_t i = 0; i < primitives.size(); ++i) placements.push_back({i, {}, {}});
+    }
+    return placements;
+}
+
+void tellPlaces(const Document& document, std::span<const Primitive> primitives, Scene& scene) {
+    std::vector<ScenePlacement> placements;
+    if (tryFile([&] { placements = readPlacements(document, primitives); })) return;
+    for (const ScenePlacement& placement : placements)
+        scene.primitives[placement.primitive].places.push_back(placement.to_world);
+}
+
+std::set<std::size_t> imagesOf(std::span<const SurfaceLook> looks) {
+    std::set<std::size_t> images;
+    for (const SurfaceLook& look : looks) {
+        for (const auto* texture : {&look.base_texture, &look.normal_texture}) {
+            if (*texture && (*texture)->image) images.insert(*(*texture)->image);
+        }
+    }
+    return images;
+}
 
 namespace {
 

@@ -8,8 +8,8 @@
 #include <unordered_map>
 #include <utility>
 
-#include "core/base/little_endian.h"
-#include "model/gltf/pool_elements.h"
+#include "core/base/numbers.h"
+#include "model/gltf/gather_elements.h"
 #include "model/io/file_error.h"
 
 namespace tspace::gltf {

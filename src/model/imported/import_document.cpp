@@ -12,7 +12,6 @@
 #include <utility>
 #include <vector>
 
-#include "model/imported/import_process.h"
 #include "model/io/file_error.h"
 #include "model/io/file_io.h"
 

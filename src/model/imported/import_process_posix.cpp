@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A child process with two pipes. It confines itself before it reads the file (tools/tspace_import), and is killed when the
 // thread that started it, and waits for it here, ends.
-#include "model/imported/import_process.h"
+#include "model/imported/import_document.h"
 
 #include <fcntl.h>
 #include <poll.h>

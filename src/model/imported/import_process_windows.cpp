@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // tspace-import confines itself by Landlock and seccomp, so there is none on Windows.
-#include "model/imported/import_process.h"
+#include "model/imported/import_document.h"
 #include "model/io/file_error.h"
 
 namespace tspace {

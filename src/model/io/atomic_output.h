@@ -3,18 +3,101 @@
 // temporary name, and all are renamed at the end.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
 #include <functional>
+#include <memory>
 #include <mutex>
 #include <set>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "model/io/output_piece.h"
+#include "core/base/numbers.h"
+#include "model/io/file_io.h"
 #include "model/io/path.h"
+#include "model/io/system_files.h"
 #include "tspace/asset.h"
 
 namespace tspace {
+
+// Parts of an output file: existing bytes, or bytes that are made when they are written.
+
+class ByteMaker {
+  public:
+    virtual ~ByteMaker() = default;
+    [[nodiscard]] virtual std::size_t size() const = 0;
+    /// Fills `to` with the bytes from `begin` on. Must be thread-safe and deterministic.
+    virtual void make(std::size_t begin, std::span<std::uint8_t> to) const = 0;
+    /// All bytes, where they exist already; valid as long as this object. Else empty.
+    [[nodiscard]] virtual std::span<const std::uint8_t> there() const { return {}; }
+};
+
+/// Owns a vector and serves its bytes without a copy. T: numbers of four bytes without padding.
+template <class T>
+class KeptBytes final : public ByteMaker {
+  public:
+    explicit KeptBytes(std::vector<T>&& values) : values_(std::move(values)) {
+        turnLittleEndian({reinterpret_cast<std::uint8_t*>(values_.data()), size()}, 4);
+    }
+
+    [[nodiscard]] std::size_t size() const override { return values_.size() * sizeof(T); }
+    void make(std::size_t begin, std::span<std::uint8_t> to) const override {
+        if (!to.empty()) std::memcpy(to.data(), there().data() + begin, to.size());
+    }
+    [[nodiscard]] std::span<const std::uint8_t> there() const override {
+        return {reinterpret_cast<const std::uint8_t*>(values_.data()), size()};
+    }
+
+  private:
+    std::vector<T> values_;
+};
+
+struct OutputPiece {
+    OutputPiece(std::span<const std::uint8_t> there) : bytes(there) {}
+    OutputPiece(const Bytes& there) : bytes(there) {}
+    OutputPiece(std::shared_ptr<const ByteMaker> made) : bytes(made->there()), maker(std::move(made)) {}
+
+    [[nodiscard]] bool isThere() const { return !maker || !bytes.empty(); }
+
+    [[nodiscard]] std::size_t size() const { return maker ? maker->size() : bytes.size(); }
+
+    std::span<const std::uint8_t> bytes = {};
+    std::shared_ptr<const ByteMaker> maker = {};  ///< owner or maker of the bytes
+};
+
+// Temporary files: their names, which tell whose they are, and the list of this process's, which a signal handler removes.
+
+inline constexpr const char* kTemporaryEnding = ".tmp";
+/// The old file while new ones are renamed.
+inline constexpr const char* kAsideEnding = ".old";
+
+/// An unpredictable name beside `target`: TARGET.tspace-MACHINE-PROCESS-RANDOM and the ending. Long names of targets are
+/// cut, so that it has at most 255 bytes.
+Path besideName(const Path& target, const char* ending);
+
+/// A critical section in which temporary files are created, removed or renamed; signals are blocked, and one thread at a
+/// time is inside. Never returns once removeTemporaryFiles() was called.
+class TemporaryFilesInWork {
+  public:
+    TemporaryFilesInWork();
+    ~TemporaryFilesInWork();
+    TemporaryFilesInWork(const TemporaryFilesInWork&) = delete;
+    TemporaryFilesInWork& operator=(const TemporaryFilesInWork&) = delete;
+
+    /// Call before the file is created.
+    void add(const Path& path);
+    /// Call when the file is removed or renamed.
+    void forget(const Path& path) noexcept;
+
+  private:
+    HeldSignals signals_;
+};
+
+/// Removes all temporary files, and stops threads that would make others: the program ends. Async-signal-safe.
+void removeTemporaryFiles();
 
 /// The input files of one call, which its outputs must not replace: those that it reads, and images that its models name.
 class InputFiles {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // JSON as a tree of values. Objects keep the order of their members; numbers keep their kind (signed, unsigned, real)
 // and with it their spelling. This is all that the rest of the program sees of JSON: the library that reads and spells
-// the text is used by json_text.cpp alone, because its header takes seconds to compile.
+// the text is used by json.cpp alone, because its header takes seconds to compile.
 // Members are named as those of the standard containers.
 #pragma once
 
@@ -195,7 +195,7 @@ class Json {
     friend std::partial_ordering operator<=>(const Json& a, const Json& b) { return a.compare(b); }
 
   private:
-    friend class JsonBuilder;  // json_text.cpp
+    friend class JsonBuilder;  // json.cpp
     friend class JsonWriter;
 
     enum class Kind : std::uint8_t { null, boolean, integer, natural, real, text, array, object };

@@ -13,7 +13,6 @@
 #include "model/io/file_error.h"
 #include "model/io/file_io.h"
 #include "model/io/uri.h"
-#include "model/obj/obj_lines.h"
 #include "model/obj/obj_reader.h"
 #include "model/obj/tiny_obj_loader.h"
 

@@ -3,10 +3,12 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/mesh/pools/primitive.h"
-#include "model/obj/obj_model.h"
+#include "model/obj/obj_reader.h"
+#include "model/scene/scene.h"
 #include "tspace/asset.h"
 
 namespace tspace::obj {
@@ -42,5 +44,15 @@ struct ObjGeometry {
 };
 /// Corners without a normal (before completeNormals) get none: the pool then has no normals at all.
 ObjGeometry buildGeometry(const Model& model, const ObjPrimitive& primitive);
+
+// An OBJ file as a Scene.
+
+/// The primitives that a glTF made from the model would have. `with_images`: also the bytes of normal maps. Throws
+/// FileError.
+Scene sceneOf(const Model& model, std::span<const ObjPrimitive> primitives, bool with_images);
+
+/// readScene with materials for rendering, and `with_images` base colours too. Faces are double-sided, since OBJ has no
+/// culling.
+DrawnScene drawnSceneOf(const Model& model, std::span<const ObjPrimitive> primitives, bool with_images);
 
 }  // namespace tspace::obj

@@ -10,10 +10,11 @@
 #include <string_view>
 #include <utility>
 
-#include "core/base/little_endian.h"
+#include "core/base/numbers.h"
 #include "core/mesh/pools/unit_lattice.h"
 #include "images/codecs.h"
 #include "images/image.h"
+#include "model/gltf/container.h"
 #include "model/io/file_error.h"
 #include "model/io/uri.h"
 

@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "model/gltf/document.h"
-#include "model/gltf/packed_layout.h"
+#include "model/gltf/packed.h"
 #include "model/io/atomic_output.h"
 #include "model/io/path.h"
-#include "model/obj/obj_model.h"
+#include "model/obj/obj_reader.h"
 
 namespace tspace::obj {
 

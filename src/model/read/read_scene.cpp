@@ -1,19 +1,34 @@
 // SPDX-License-Identifier: MIT
-// Chooses the reader by the name of the file.
+// A model file of any format.
 #include "model/read/read_scene.h"
 
 #include <utility>
 
 #include "model/gltf/model.h"
-#include "model/gltf/read_look.h"
 #include "model/gltf/read_scene.h"
+#include "model/imported/import_document.h"
 #include "model/io/file_error.h"
 #include "model/io/file_io.h"
+#include "model/obj/obj_primitives.h"
 #include "model/obj/obj_reader.h"
-#include "model/obj/read_scene.h"
-#include "model/read/load_document.h"
+
+namespace tspace::gltf {
+
+// Chooses between the bytes of the caller, the importer and the file.
+
+Document loadDocument(const Path& path, const FileOptions& options, const Execution& execution,
+                      const Progress& progress) {
+    if (options.content.data() != nullptr)
+        return parseDocument(Bytes(options.content.begin(), options.content.end()), path, options);
+    if (isImportedFormat(path)) return importDocument(path, options, progress);
+    return parseDocument(readFile(path, {}, execution), path, options);
+}
+
+}  // namespace tspace::gltf
 
 namespace tspace {
+
+// Chooses the reader by the name of the file.
 
 namespace {
 

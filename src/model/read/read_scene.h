@@ -1,13 +1,28 @@
 // SPDX-License-Identifier: MIT
-// Any model file as a Scene.
+// A model file of any format.
 #pragma once
 
 #include <string>
 
-#include "model/scene/drawn_scene.h"
+#include "model/gltf/document.h"
+#include "model/io/path.h"
 #include "model/scene/scene.h"
+#include "tspace/asset.h"
+
+namespace tspace::gltf {
+
+// Models as glTF documents: glTF itself, and what the importer makes of other formats.
+
+/// Reads the file, or FileOptions::content, as parseDocument does. `progress` is called while the importer reads a file
+/// of another format. Throws FileError.
+Document loadDocument(const Path& path, const FileOptions& options, const Execution& execution = {.thread_count = 1},
+                      const Progress& progress = {});
+
+}  // namespace tspace::gltf
 
 namespace tspace {
+
+// Any model file as a Scene.
 
 /// Reads a model. `with_images`: also the bytes of images that a TangentUse names; an image that cannot be read is no
 /// error. Fails as generateFile does, also with tooLarge where a small file makes arrays that are far larger than

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
-// What a model file holds that frames depend on, in one form for every format. Read-only: check, diff and identify look
-// at it; generate decides by it, and edits the file's own document (gltf/model.h).
+// A model as arrays, of any format: what its primitives are, how their textures are read, how it is drawn.
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -15,11 +16,53 @@
 #include "core/base/vec_math.h"
 #include "core/mesh/surface/affine.h"
 #include "model/io/memory_budget.h"
-#include "model/scene/tangent_use.h"
 #include "tspace/asset.h"
+#include "tspace/texture_wrap.h"
 #include "tspace/vec.h"
 
 namespace tspace {
+
+// How a material reads a texture.
+
+/// KHR_texture_transform: uv' = translation * rotation * scale * uv. `rotation` in radians, counter-clockwise as the
+/// extension defines it.
+struct UvTransform {
+    double offset[2] = {0, 0};
+    double rotation = 0;
+    double scale[2] = {1, 1};
+
+    /// true when it turns, mirrors or squeezes directions: an offset alone does not touch frames.
+    [[nodiscard]] bool changesFrames() const { return rotation != 0 || scale[0] != 1 || scale[1] != 1; }
+    [[nodiscard]] bool mirrors() const { return scale[0] * scale[1] < 0; }
+};
+
+struct TextureReading {
+    std::size_t uv_set = 0;  ///< n of TEXCOORD_n; KHR_texture_transform's own texCoord goes first
+    UvTransform transform = {};
+    std::optional<std::size_t> image = {};  ///< index into the file's images
+    TextureWrap wrap_u = TextureWrap::repeat, wrap_v = TextureWrap::repeat;
+};
+
+// Why a primitive needs tangents: one texture or parameter of a material that is shaded in tangent space.
+
+struct TangentUse {
+    std::string needed_by = {};  ///< "normalTexture", "clearcoatNormalTexture" or "anisotropy"
+    std::string place = {};      ///< JSON pointer of the texture reference, or of the extension
+    /// False: a factor alone (KHR_materials_anisotropy), which tangents along any direction serve.
+    bool has_texture = true;
+    std::size_t uv_set = 0;  ///< n of TEXCOORD_n; KHR_texture_transform's own texCoord goes first
+    UvTransform transform = {};
+    std::optional<std::size_t> image = {};  ///< index into the file's images
+    TextureWrap wrap_u = TextureWrap::repeat, wrap_v = TextureWrap::repeat;
+    double scale = 1;               ///< of a normal map: what x and y are multiplied by
+    bool is_declared_down = false;  ///< the file says that green of its normal maps points down, as its readers know
+    bool may_be_heights = false;    ///< the format takes a grey image for a height map there (map_bump of OBJ)
+    std::size_t material = 0;
+    bool only_in_variant = false;  ///< the material is one of KHR_materials_variants, not the primitive's own
+};
+
+// What a model file holds that frames depend on, in one form for every format. Read-only: check, diff and identify look
+// at it; generate decides by it, and edits the file's own document (gltf/model.h).
 
 /// A read-only array that its copies share: files draw one accessor in many places.
 template <class T>
@@ -133,6 +176,33 @@ struct Scene {
     std::vector<std::string> warnings = {};       ///< what reading had to say
     DVec3 offset = {};                            ///< what reading took out of all positions (OBJ)
     std::shared_ptr<MemoryBudget> memory = {};    ///< what looking at it may still take
+};
+
+// A scene with what a picture of it needs beside frames: where its primitives stand, and how they look.
+
+/// What a primitive's own material says.
+struct SurfaceLook {
+    std::array<float, 4> base_color = {1, 1, 1, 1};  ///< linear
+    std::optional<TextureReading> base_texture = {};
+    std::optional<TextureReading> normal_texture = {};
+    double normal_scale = 1;
+    /// Where alpha is smaller the surface is not there; 0: it is there everywhere.
+    double alpha_cutoff = 0;
+    bool is_double_sided = false;
+    bool is_unlit = false;
+};
+
+/// A primitive at one of its places.
+struct ScenePlacement {
+    std::size_t primitive = 0;  ///< of the scene
+    Affine to_world = {};
+    std::string node_name = {};  ///< of the node that puts it there; may be empty
+};
+
+struct DrawnScene {
+    Scene scene = {};
+    std::vector<SurfaceLook> looks = {};          ///< one per primitive
+    std::vector<ScenePlacement> placements = {};  ///< in the order of nodes; never empty where there are primitives
 };
 
 }  // namespace tspace

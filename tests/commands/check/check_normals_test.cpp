@@ -4,8 +4,8 @@
 
 #include <limits>
 
-#include "commands/check/check_seams.h"
 #include "commands/check/patch.h"
+#include "commands/check/scene_checks.h"
 #include "support/shared_data.h"
 #include "tspace/check.h"
 

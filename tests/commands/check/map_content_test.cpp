@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "commands/check/map_content.h"
-#include "core/base/unit.h"
+#include "core/base/vec_math.h"
 #include "images/images.h"
 
 namespace tspace::test {

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "commands/check/primitive_checks.h"
-#include "core/base/unit.h"
+#include "core/base/vec_math.h"
 #include "tspace/tangents.h"
 
 namespace tspace::test {

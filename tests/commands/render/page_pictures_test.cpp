@@ -3,9 +3,8 @@
 #include <cmath>
 
 #include "commands/render/drawn.h"
-#include "commands/shared/page/diff_pictures.h"
-#include "commands/shared/page/finding_pictures.h"
-#include "commands/shared/page/remedy.h"
+#include "commands/shared/page/check_page.h"
+#include "commands/shared/page/diff_page.h"
 #include "commands/shared/picture/colors.h"
 
 namespace tspace::test {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/base/angle.h"
+#include "core/base/vec_math.h"
 
 #include <gtest/gtest.h>
 

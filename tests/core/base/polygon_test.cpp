@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/base/polygon.h"
+#include "core/frames/triangulate.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

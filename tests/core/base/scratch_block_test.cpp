@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/base/scratch_block.h"
+#include "core/base/memory.h"
 
 #include <gtest/gtest.h>
 

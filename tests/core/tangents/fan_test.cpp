@@ -8,8 +8,8 @@
 #include <set>
 #include <vector>
 
-#include "core/tangents/mikktspace/fan.h"
 #include "core/tangents/mikktspace/groups.h"
+#include "core/tangents/mikktspace/node_sums.h"
 
 namespace tspace::mikk {
 namespace {

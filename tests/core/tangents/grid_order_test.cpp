@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Which corner of a node the reference keeps, against a plain replay of its search.
-#include "core/tangents/mikktspace/grid_order.h"
+#include "core/tangents/mikktspace/last_bucket.h"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/tangents/indexed_plan.h"
+#include "core/tangents/indexed_methods.h"
 #include "support/random_values.h"
 #include "support/simple_mesh.h"
 #include "tspace/frame.h"
@@ -116,7 +116,7 @@ RC_GTEST_PROP(IndexedProperty, LengyelIsItsDefinition, ()) {
         if (l < 1e-2 * greatest || l == 0) continue;  // cancelled: nothing to compare with in floats
         const Vec3 wanted{static_cast<float>(rest[0] / l), static_cast<float>(rest[1] / l),
                           static_cast<float>(rest[2] / l)};
-        RC_ASSERT(dot(wanted, xyz(out.tangents[c])) > 1 - 1e-6);
+        RC_ASSERT(test::dot(wanted, xyz(out.tangents[c])) > 1 - 1e-6);
         const double volume = (n.y * wanted.z - n.z * wanted.y) * t[0] + (n.z * wanted.x - n.x * wanted.z) * t[1] +
                               (n.x * wanted.y - n.y * wanted.x) * t[2];
         if (std::fabs(volume) > 1e-3 * greatest) RC_ASSERT(out.tangents[c].w == (volume < 0 ? -1.0f : 1.0f));
@@ -226,7 +226,7 @@ RC_GTEST_PROP(IndexedProperty, FlatTriangleIsItsFaceFrameMadeOrthogonal, ()) {
         const Frame frame{face.tangent, face.bitangent, n};
         const double sine = test::norm(orthonormalize(frame).tangent);
         if (std::fabs(face.determinant) < 1e-2f || sine < 1e-2) continue;
-        RC_ASSERT(dot(packTangent(frame).w == 0 ? Vec3{} : xyz(packTangent(frame)), xyz(out.tangents[c])) > 1 - 1e-5);
+        RC_ASSERT(test::dot(packTangent(frame).w == 0 ? Vec3{} : xyz(packTangent(frame)), xyz(out.tangents[c])) > 1 - 1e-5);
         if (std::fabs(determinant(frame)) > 1e-3f) RC_ASSERT(out.tangents[c].w == frameSign(frame));
         RC_ASSERT(std::fabs(out.magnitudes_s[c] - test::norm(face.tangent)) <= 1e-5 * test::norm(face.tangent));
     }
@@ -268,9 +268,9 @@ RC_GTEST_PROP(IndexedProperty, BasisIsOrthonormalWithSignFactor, ()) {
         const Outputs out = tangentsOf(mesh.view(), Method::basis, convention);
         for (std::size_t c = 0; c < out.tangents.size(); ++c) {
             const Vec3& n = mesh.normals[mesh.indices[c]];
-            RC_ASSERT(std::fabs(dot(n, xyz(out.tangents[c]))) < 3e-7);
+            RC_ASSERT(std::fabs(test::dot(n, xyz(out.tangents[c]))) < 3e-7);
             RC_ASSERT(out.tangents[c].w == signFactor(convention));
-            RC_ASSERT(dot(rebuildBitangent(n, out.tangents[c]), out.bitangents[c]) > 1 - 1e-6);
+            RC_ASSERT(test::dot(rebuildBitangent(n, out.tangents[c]), out.bitangents[c]) > 1 - 1e-6);
         }
     }
 }

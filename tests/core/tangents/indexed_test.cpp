@@ -9,7 +9,7 @@
 #include <new>
 #include <random>
 
-#include "core/tangents/indexed_plan.h"
+#include "core/tangents/indexed_methods.h"
 #include "support/simple_mesh.h"
 #include "support/thread_team.h"
 

@@ -8,7 +8,7 @@
 
 #include "core/simd/lanes_scalar.h"
 #define TSPACE_LANES scalar
-#include "core/simd/arc_cosine_kernel.h"
+#include "core/simd/vectors_kernel.h"
 
 namespace tspace {
 namespace {

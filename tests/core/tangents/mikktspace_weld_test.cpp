@@ -11,7 +11,7 @@
 #include <map>
 #include <random>
 
-#include "core/base/scratch_block.h"
+#include "core/base/memory.h"
 #include "core/tangents/mikktspace/words.h"
 #include "core/tangents/shapes.h"
 

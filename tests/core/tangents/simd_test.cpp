@@ -306,7 +306,7 @@ TEST(OnePass, GivesTheSameTangentsWithoutTheOtherOutputs) {
 }
 
 TEST(OnePass, WritesLargeOutputsAsItWritesOthers) {
-    const SimpleMesh shape = gridOf(720000);  // 34 MB of tangents (core/caches.h)
+    const SimpleMesh shape = gridOf(720000);  // 34 MB of tangents (areStreamed)
     struct Padded {
         Vec4 tangent;
         float other = 7;

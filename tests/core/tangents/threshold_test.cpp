@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/tangents/mikktspace/splits.h"
+#include "core/tangents/mikktspace/groups.h"
 
 namespace tspace {
 namespace {

@@ -6,7 +6,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "core/base/little_endian.h"
+#include "core/base/numbers.h"
 
 namespace tspace::test {
 

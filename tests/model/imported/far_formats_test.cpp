@@ -11,7 +11,6 @@
 
 #include "far_files.h"
 #include "model/gltf/primitive_reader.h"
-#include "model/read/load_document.h"
 #include "model/read/read_scene.h"
 #include "support/shared_data.h"
 #include "support/temp_folder.h"

@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "model/gltf/primitive_reader.h"
-#include "model/read/load_document.h"
 #include "model/read/read_scene.h"
 #include "support/shared_data.h"
 #include "support/temp_folder.h"

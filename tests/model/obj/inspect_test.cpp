@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "commands/inspect/uv_map.h"
+#include "commands/inspect/inspect.h"
 #include "support/shared_data.h"
 #include "support/temp_folder.h"
 

@@ -6,8 +6,8 @@
 #include <ctime>
 
 #include "model/gltf/primitive_reader.h"
-#include "model/obj/obj_lines.h"
-#include "model/read/load_document.h"
+#include "model/obj/obj_reader.h"
+#include "model/read/read_scene.h"
 #include "support/shared_data.h"
 #include "support/temp_folder.h"
 #include "tspace/asset.h"

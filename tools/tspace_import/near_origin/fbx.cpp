@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 
-#include "core/base/little_endian.h"
+#include "core/base/numbers.h"
 #include "near_origin/coordinates.h"
 #include "near_origin/fbx_records.h"
 #include "near_origin/fbx_text.h"

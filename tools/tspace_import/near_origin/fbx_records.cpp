@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "core/base/little_endian.h"
+#include "core/base/numbers.h"
 
 namespace tspace::import {
 

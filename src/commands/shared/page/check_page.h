@@ -1,13 +1,61 @@
 // SPDX-License-Identifier: MIT
-// Findings as a page for people.
+// Findings as a page for people, with pictures of their places before and after the remedy.
 #pragma once
 
+#include <cstdint>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "commands/check/check_report.h"
+#include "model/scene/scene.h"
+#include "tspace/asset.h"
+#include "tspace/check.h"
 
 namespace tspace {
+
+// What a remedy gives: the command that it names, run in memory.
+
+/// The first command that a remedy names.
+struct RemedyCommand {
+    std::string text = {};                        ///< "tspace generate --repair"
+    std::optional<GenerateOptions> options = {};  ///< what it asks for; nothing where it leaves something open
+};
+/// Nothing where it names none.
+std::optional<RemedyCommand> commandIn(const std::string& remedy);
+
+/// What a command makes of a model, with its images, as a picture shows it. `file`: how `input` is opened. Throws FileError.
+DrawnScene mendedScene(const std::string& input, const FileOptions& file, GenerateOptions options);
+
+// Pictures of the places that findings are about.
+
+struct FindingPicture {
+    std::vector<std::uint8_t> before =
+        {};  ///< a PNG of the place as the file is; empty: there is none, and nothing else
+    std::vector<std::uint8_t> after = {};  ///< a PNG of that place after the remedy's command
+    std::string command = {};              ///< that command; empty: the remedy names none
+    std::string why_no_after = {};         ///< where there is a command: a sentence
+};
+
+/// A model that was checked.
+class FindingPictures {
+  public:
+    /// Throws FileError.
+    FindingPictures(const std::string& input, const FileOptions& options);
+    ~FindingPictures();
+    FindingPictures(const FindingPictures&) = delete;
+    FindingPictures& operator=(const FindingPictures&) = delete;
+
+    /// The camera stands over the triangles of the finding's vertices, or sees all of a primitive where it names none. No
+    /// picture where the file's scene does not draw it. A command is run once for all findings that name it. Throws
+    /// FileError.
+    FindingPicture draw(const Finding& finding);
+
+  private:
+    struct Model;
+    std::unique_ptr<Model> model_;
+};
 
 /// One HTML file that needs nothing else: a summary, an overview where there are several files, and of each file its
 /// findings, with pictures of their places before and after the remedy where that can be shown. Files are read once more

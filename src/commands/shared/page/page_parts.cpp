@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
+
 #include "commands/shared/page/page_parts.h"
 
-#include "commands/shared/html_text.h"
 #include "model/io/uri.h"
 
 namespace tspace {
-
 namespace {
 
 constexpr const char* kBeforeTitle = R"(<!doctype html>
@@ -62,6 +61,35 @@ std::string noFigureHtml(std::string_view sentence) { return "<p class=\"none\">
 
 std::string figuresHtml(const std::string& figures) {
     return figures.empty() ? figures : "<div class=\"pictures\">\n" + figures + "</div>\n";
+}
+
+std::string htmlText(std::string_view text) {
+    std::string result;
+    for (const char c : text) {
+        switch (c) {
+            case '&':
+                result += "&amp;";
+                break;
+            case '<':
+                result += "&lt;";
+                break;
+            case '>':
+                result += "&gt;";
+                break;
+            case '"':
+                result += "&quot;";
+                break;
+            case '\'':
+                result += "&#39;";
+                break;
+            default:
+                if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
+                    result += "&#" + std::to_string(static_cast<int>(c)) + ";";
+                else
+                    result += c;
+        }
+    }
+    return result;
 }
 
 }  // namespace tspace

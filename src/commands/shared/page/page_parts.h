@@ -27,4 +27,8 @@ std::string noFigureHtml(std::string_view sentence);
 /// Figures side by side; nothing for none.
 std::string figuresHtml(const std::string& figures);
 
+/// Text from a file or of a user, fit to stand in HTML or in quotation marks as a value. Bytes that are no UTF-8 are for
+/// the browser to replace.
+std::string htmlText(std::string_view text);
+
 }  // namespace tspace

@@ -6,17 +6,14 @@
 #include <numeric>
 #include <utility>
 
-#include "commands/render/picture_file.h"
-#include "commands/render/shown_heights.h"
+#include "commands/render/model_picture.h"
 #include "commands/shared/page/page_parts.h"
-#include "commands/shared/picture/legend.h"
-#include "core/base/angle.h"
-#include "core/base/unit.h"
+#include "commands/shared/picture/colors.h"
+#include "core/base/vec_math.h"
 #include "model/io/file_error.h"
 #include "model/read/read_scene.h"
 
 namespace tspace {
-
 namespace {
 
 constexpr std::uint32_t kPlaceSamples = 2;

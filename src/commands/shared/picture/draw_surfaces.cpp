@@ -1,13 +1,216 @@
 // SPDX-License-Identifier: MIT
-// First which triangle each sample sees, then the colour of each sample, and the mean of each pixel.
+// A picture of surfaces, and the colour of each of their points.
 #include "commands/shared/picture/draw_surfaces.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "commands/shared/picture/colors.h"
 
 namespace tspace {
+namespace {
+
+/// Light that comes from everywhere, and from the lamp.
+constexpr float kAmbient = 0.12f, kLamp = 0.88f;
+constexpr Vec3 kNothingKnown{0.55f, 0.55f, 0.55f};
+/// Pixels from one stripe to the next, along both axes.
+constexpr std::uint32_t kStripe = 8;
+
+using Weights = std::array<double, 3>;
+
+struct ShownTriangle {
+    std::array<std::size_t, 3> corners;
+    std::array<std::uint32_t, 3> vertices;
+};
+
+ShownTriangle shownTriangle(const ShownSurface& surface, std::size_t triangle) {
+    ShownTriangle result;
+    for (std::size_t k = 0; k < 3; ++k) {
+        result.corners[k] = 3 * triangle + k;
+        result.vertices[k] = surface.corners[3 * triangle + k];
+    }
+    return result;
+}
+
+template <class T>
+std::array<T, 3> valuesAt(const CornerValues<T>& values, const ShownTriangle& triangle) {
+    return {values.at(triangle.corners[0], triangle.vertices[0]), values.at(triangle.corners[1], triangle.vertices[1]),
+            values.at(triangle.corners[2], triangle.vertices[2])};
+}
+
+Vec2 uvAt(std::span<const Vec2> uvs, const ShownTriangle& triangle, const Weights& weights) {
+    double u = 0, v = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        u += weights[k] * uvs[triangle.vertices[k]].x;
+        v += weights[k] * uvs[triangle.vertices[k]].y;
+    }
+    return {static_cast<float>(u), static_cast<float>(v)};
+}
+
+Vec3 sampleAt(const PlacedTexture& texture, const ShownTriangle& triangle, const Weights& weights) {
+    return sampleTexture(*texture.image, texture.shape, uvAt(texture.uvs, triangle, weights));
+}
+
+float alphaAt(const PlacedTexture& texture, const ShownTriangle& triangle, const Weights& weights) {
+    if (texture.image->alpha.empty()) return 1;
+    const BilinearTaps taps = bilinearTaps(texture.shape, uvAt(texture.uvs, triangle, weights));
+    float alpha = 0;
+    for (std::size_t i = 0; i < 4; ++i) alpha += taps.weights[i] * texture.image->alpha[taps.texels[i]];
+    return alpha;
+}
+
+/// In the world, unit, turned round where the surface is seen from behind. Zero: it has no direction.
+DVec3 worldNormal(const Affine& to_world, DVec3 normal, bool is_back) {
+    normalize(normal);
+    DVec3 world = to_world.normal(normal);
+    if (!normalize(world)) return {};
+    return is_back ? -1.0 * world : world;
+}
+
+DVec3 plainNormal(const ShownSurface& surface, const Affine& to_world, const SurfacePoint& point) {
+    const std::array<Vec3, 3> normals = valuesAt(surface.normals, shownTriangle(surface, point.triangle));
+    DVec3 normal;
+    for (std::size_t k = 0; k < 3; ++k) normal = normal + point.weights[k] * toDouble(normals[k]);
+    return worldNormal(to_world, normal, point.is_back);
+}
+
+ShadingFrame frameAt(const ShownSurface& surface, const CornerValues<Vec3>& normals, const CornerValues<Vec4>& tangents,
+                     const SurfacePoint& point) {
+    const ShownTriangle triangle = shownTriangle(surface, point.triangle);
+    CornerFrames frames{.normals = valuesAt(normals, triangle)};
+    if (!tangents.empty()) frames.tangents = valuesAt(tangents, triangle);
+    return shadingFrame(frames, point.weights, surface.reading);
+}
+
+/// Darkens where the surface turns away, so that its shape is seen.
+Vec3 shaped(const Vec3& color, const DVec3& normal, const Lighting& lighting) {
+    const auto facing = static_cast<float>(std::fabs(dot(normal, lighting.to_eye)));
+    const float factor = 0.7f + 0.3f * std::min(facing, 1.0f);
+    return {factor * color.x, factor * color.y, factor * color.z};
+}
+
+bool isInStripe(const SurfacePoint& point) { return (point.column + point.row) % kStripe < kStripe / 2; }
+
+Vec3 litColor(const ShownSurface& surface, const Affine& to_world, const Lighting& lighting,
+              const SurfacePoint& point) {
+    Vec3 color{surface.base_color[0], surface.base_color[1], surface.base_color[2]};
+    if (surface.base.image != nullptr) {
+        const Vec3 texel = sampleAt(surface.base, shownTriangle(surface, point.triangle), point.weights);
+        color = {color.x * texel.x, color.y * texel.y, color.z * texel.z};
+    }
+    if (surface.is_unlit) return color;
+    const double cosine = dot(mappedNormal(surface, to_world, point), lighting.to_light);
+    const float light = kAmbient + kLamp * static_cast<float>(std::max(0.0, cosine));
+    return {light * color.x, light * color.y, light * color.z};
+}
+
+Vec3 tangentColor(const ShownSurface& surface, const Affine& to_world, const SurfacePoint& point) {
+    if (surface.tangents.empty()) return kNothingKnown;
+    DVec3 tangent = frameAt(surface, surface.normals, surface.tangents, point).tangent;
+    normalize(tangent);
+    DVec3 world = to_world.direction(tangent);
+    return normalize(world) ? vectorColor(toFloat(world)) : kNothingKnown;
+}
+
+UvSide uvSideOf(const ShownSurface& surface, const SurfacePoint& point) {
+    return surface.sides.empty() ? UvSide::unknown : surface.sides[point.triangle];
+}
+
+Vec3 islandColor(const ShownSurface& surface, const SurfacePoint& point) {
+    constexpr std::array<Vec3, 8> kIslands = {{{0.55f, 0.74f, 0.89f},
+                                               {0.98f, 0.75f, 0.52f},
+                                               {0.62f, 0.82f, 0.62f},
+                                               {0.94f, 0.62f, 0.60f},
+                                               {0.77f, 0.69f, 0.86f},
+                                               {0.80f, 0.68f, 0.60f},
+                                               {0.93f, 0.72f, 0.84f},
+                                               {0.84f, 0.84f, 0.50f}}};
+    if (surface.islands.empty()) return kNothingKnown;
+    const Vec3& color = kIslands[surface.islands[point.triangle] % kIslands.size()];
+    // Adjacent triangles differ a little, so that they are seen.
+    const float shade = (point.triangle % 2 != 0 ? 0.93f : 1.0f) *
+                        (uvSideOf(surface, point) == UvSide::mirrored && isInStripe(point) ? 0.45f : 1.0f);
+    return {shade * color.x, shade * color.y, shade * color.z};
+}
+
+Vec3 signColor(const ShownSurface& surface, const SurfacePoint& point) {
+    constexpr Vec3 kPlus{0.42f, 0.60f, 0.86f}, kMinus{0.95f, 0.66f, 0.33f}, kNeither{0.90f, 0.20f, 0.80f},
+        kWrong{0.80f, 0.08f, 0.10f}, kStripes{0.20f, 0.20f, 0.24f};
+    const UvSide side = uvSideOf(surface, point);
+    const bool is_mirrored = side == UvSide::mirrored;
+    Vec3 color = kNothingKnown;
+    bool disagrees = false;
+    if (!surface.tangents.empty()) {
+        const std::array<Vec4, 3> tangents = valuesAt(surface.tangents, shownTriangle(surface, point.triangle));
+        const float w = tangents[0].w;
+        const bool is_one = (w == 1 || w == -1) && w == tangents[1].w && w == tangents[2].w;
+        color = !is_one ? kNeither : w > 0 ? kPlus : kMinus;
+        disagrees = is_one && side != UvSide::unknown && (w < 0) != is_mirrored;
+    }
+    if (is_mirrored && isInStripe(point)) return disagrees ? kWrong : kStripes;
+    if (disagrees && !is_mirrored && !isInStripe(point)) return kWrong;
+    return color;
+}
+
+}  // namespace
+
+bool isThere(const ShownSurface& surface, std::size_t triangle, const Weights& weights) {
+    const float alpha =
+        surface.base.image == nullptr ? 1 : alphaAt(surface.base, shownTriangle(surface, triangle), weights);
+    return alpha * surface.base_color[3] >= surface.alpha_cutoff;
+}
+
+DVec3 mappedNormal(const ShownSurface& surface, const Affine& to_world, const SurfacePoint& point) {
+    if (surface.normal_map.image == nullptr || surface.tangents.empty()) return plainNormal(surface, to_world, point);
+    const Vec3 texel = sampleAt(surface.normal_map, shownTriangle(surface, point.triangle), point.weights);
+    const DVec3 normal =
+        shadedNormal(frameAt(surface, surface.normals, surface.tangents, point), decodeTexel(texel, surface.reading));
+    return worldNormal(to_world, normal, point.is_back);
+}
+
+double frameError(const ShownSurface& surface, const SurfacePoint& point) {
+    constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
+    const bool has_normals = !surface.expected_normals.empty(), has_tangents = !surface.tangents.empty();
+    if (has_tangents == surface.expected.empty() || !(has_tangents || has_normals)) return kMissing;
+    const ShadingFrame has = frameAt(surface, surface.normals, surface.tangents, point),
+                       expected = frameAt(surface, has_normals ? surface.expected_normals : surface.normals,
+                                          surface.expected, point);
+    double worst = 0;
+    const auto compare = [&](const DVec3& a, const DVec3& b) {
+        const bool is_there = dot(a, a) > 0 && dot(b, b) > 0;
+        const double degrees = is_there ? degreesBetween(a, b) : kMissing;
+        if (!std::isnan(worst) && !(degrees <= worst)) worst = degrees;
+    };
+    if (has_normals) compare(has.normal, expected.normal);
+    if (has_tangents) compare(has.tangent, expected.tangent);
+    if (has_tangents) compare(has.bitangent, expected.bitangent);
+    return worst;
+}
+
+Vec3 shadePoint(RenderShow show, const ShownSurface& surface, const Affine& to_world, const Lighting& lighting,
+                const SurfacePoint& point) {
+    switch (show) {
+        case RenderShow::lit:
+            return litColor(surface, to_world, lighting, point);
+        case RenderShow::normals:
+            return vectorColor(toFloat(plainNormal(surface, to_world, point)));
+        case RenderShow::mapped:
+            return vectorColor(toFloat(mappedNormal(surface, to_world, point)));
+        case RenderShow::tangents:
+            return tangentColor(surface, to_world, point);
+        case RenderShow::sign:
+            return shaped(signColor(surface, point), plainNormal(surface, to_world, point), lighting);
+        case RenderShow::error: {
+            const double degrees = frameError(surface, point);
+            const Vec3 color = std::isfinite(degrees) ? heatColor(static_cast<float>(degrees)) : kNothingKnown;
+            return shaped(color, plainNormal(surface, to_world, point), lighting);
+        }
+        case RenderShow::uv:
+            return islandColor(surface, point);
+    }
+    return kNothingKnown;
+}
 
 namespace {
 

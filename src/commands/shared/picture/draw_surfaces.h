@@ -1,16 +1,116 @@
 // SPDX-License-Identifier: MIT
-// A picture of surfaces.
+// A picture of surfaces, and the colour of each of their points, by the views of docs/render.md.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <span>
+#include <vector>
 
-#include "commands/shared/picture/camera.h"
-#include "commands/shared/picture/surface_shader.h"
 #include "commands/shared/picture/visible_triangles.h"
 #include "core/base/parallel.h"
+#include "core/mesh/surface/affine.h"
 #include "images/image.h"
+#include "maps/shading.h"
+#include "maps/texture_sample.h"
+#include "tspace/render.h"
+#include "tspace/vec.h"
 
 namespace tspace {
+
+// A texture of a picture. Textures are many and large, so those of 8 bits stay so.
+
+struct PictureTexture {
+    std::uint32_t width = 0, height = 0;
+    std::vector<std::uint8_t> bytes = {};  ///< three per texel, or
+    std::vector<Vec3> texels = {};         ///< one per texel, where 8 bits do not do
+    std::vector<float> values = {};        ///< 256: what the bytes stand for
+    std::vector<float> alpha = {};         ///< one per texel, or empty: opaque, or not asked for
+
+    [[nodiscard]] Vec3 at(std::size_t texel) const {
+        if (bytes.empty()) return texels[texel];
+        const std::uint8_t* rgb = bytes.data() + 3 * texel;
+        return {values[rgb[0]], values[rgb[1]], values[rgb[2]]};
+    }
+};
+
+/// The mean of the four texels around a point.
+inline Vec3 sampleTexture(const PictureTexture& texture, const TextureShape& shape, Vec2 uv) {
+    const BilinearTaps taps = bilinearTaps(shape, uv);
+    Vec3 sum{};
+    for (std::size_t i = 0; i < 4; ++i) {
+        const Vec3 texel = texture.at(taps.texels[i]);
+        const float weight = taps.weights[i];
+        sum = {sum.x + weight * texel.x, sum.y + weight * texel.y, sum.z + weight * texel.z};
+    }
+    return sum;
+}
+
+/// Values of a primitive, one per vertex or one per corner.
+template <class T>
+struct CornerValues {
+    std::span<const T> values = {};
+    bool is_per_corner = false;
+
+    [[nodiscard]] bool empty() const { return values.empty(); }
+    [[nodiscard]] const T& at(std::size_t corner, std::uint32_t vertex) const {
+        return values[is_per_corner ? corner : vertex];
+    }
+};
+
+/// A texture, and the UVs that it is read with.
+struct PlacedTexture {
+    TextureShape shape = {};
+    const PictureTexture* image = nullptr;  ///< null: none
+    std::span<const Vec2> uvs = {};         ///< one per vertex, after any transform
+};
+
+/// Whether a triangle shows its texture mirrored.
+enum class UvSide : std::uint8_t { unknown, plain, mirrored };
+
+/// The data of one primitive that views show.
+struct ShownSurface {
+    std::span<const std::uint32_t> corners = {};
+    CornerValues<Vec3> normals = {};
+    CornerValues<Vec4> tangents = {};                ///< empty: none
+    CornerValues<Vec4> expected = {};                ///< those that `error` compares with; empty: none
+    CornerValues<Vec3> expected_normals = {};        ///< likewise; empty: `normals`, which are not compared then
+    std::span<const UvSide> sides = {};              ///< one per triangle; empty: all unknown
+    std::span<const std::uint32_t> islands = {};     ///< one per triangle, for `uv`
+    std::array<float, 4> base_color = {1, 1, 1, 1};  ///< linear
+    PlacedTexture base = {};                         ///< linear
+    PlacedTexture normal_map = {};
+    MapReading reading = {};
+    float alpha_cutoff = 0;
+    bool is_unlit = false;
+};
+
+struct Lighting {
+    DVec3 to_light = {0, 0, 1};  ///< unit, in the world
+    DVec3 to_eye = {0, 0, 1};    ///< unit
+};
+
+/// A point of a triangle that is looked at.
+struct SurfacePoint {
+    std::size_t triangle = 0;
+    std::array<double, 3> weights = {};
+    bool is_back = false;  ///< seen from behind
+    std::uint32_t column = 0, row = 0;
+};
+
+/// Whether the surface is there: its alpha is not below the cutoff.
+bool isThere(const ShownSurface& surface, std::size_t triangle, const std::array<double, 3>& weights);
+
+/// Light of `lit`; for the other views the colour as it is stored. `to_world`: of the surface.
+Vec3 shadePoint(RenderShow show, const ShownSurface& surface, const Affine& to_world, const Lighting& lighting,
+                const SurfacePoint& point);
+
+/// The unit normal in the world that `lit` shades; zero where there is none. A surface seen from behind has it turned round.
+DVec3 mappedNormal(const ShownSurface& surface, const Affine& to_world, const SurfacePoint& point);
+
+/// The largest of the angles between T and T, B and B, and N and N where these are compared, at a point, in degrees; NaN
+/// where one is missing. Surfaces without any tangents have their normals compared alone.
+double frameError(const ShownSurface& surface, const SurfacePoint& point);
 
 struct PictureSize {
     std::uint32_t width = 0, height = 0;  ///< in pixels

@@ -8,14 +8,11 @@
 #include "core/base/border.h"
 #include "core/base/memory.h"
 #include "core/mesh/pools/local_mesh.h"
-#include "core/mesh/pools/mend_tangents.h"
 #include "core/mesh/pools/morph_frames.h"
-#include "core/mesh/pools/morph_normals.h"
 #include "core/mesh/pools/primitive.h"
-#include "core/mesh/pools/surface_faults.h"
-#include "core/mesh/pools/surroundings.h"
 #include "core/mesh/pools/unit_lattice.h"
-#include "core/mesh/quads/choose_faces.h"
+#include "core/mesh/quads/quads.h"
+#include "tspace/asset.h"
 #include "tspace/frame.h"
 #include "tspace/triangulate.h"
 
@@ -466,6 +463,42 @@ Result<PoolFrames> computeFrames(const PoolView& pool, std::span<const Primitive
         if (frames) countFaults(pool, *frames, reports);
         return frames;
     });
+}
+
+// Names of what can be done to a primitive, and of the faces that it can be done on.
+
+const char* actionName(PrimitiveAction action) {
+    switch (action) {
+        case PrimitiveAction::generated:
+            return "generated";
+        case PrimitiveAction::replaced:
+            return "replaced";
+        case PrimitiveAction::unchanged:
+            return "unchanged";
+        case PrimitiveAction::kept:
+            return "kept";
+        case PrimitiveAction::notNeeded:
+            return "notNeeded";
+        case PrimitiveAction::notTriangles:
+            return "notTriangles";
+        case PrimitiveAction::impossible:
+            return "impossible";
+        case PrimitiveAction::removed:
+            return "removed";
+    }
+    return "unknown";
+}
+
+const char* facesName(Faces faces) {
+    switch (faces) {
+        case Faces::triangles:
+            return "triangles";
+        case Faces::quads:
+            return "quads";
+        case Faces::automatic:
+            return "auto";
+    }
+    return "unknown";
 }
 
 }  // namespace tspace

@@ -1,8 +1,18 @@
 // SPDX-License-Identifier: MIT
+// A primitive takes out of its pool what it uses. With its surroundings, the mesh and the triangles around it become one mesh
+// for the call.
 #include "core/mesh/pools/local_mesh.h"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <utility>
 
+#include "core/base/unique_index.h"
+#include "core/base/vec_math.h"
+#include "core/mesh/pools/morph_frames.h"
+#include "core/mesh/surface/surface.h"
+#include "core/normals/pose_normals.h"
 #include "tspace/split.h"
 
 namespace tspace {
@@ -73,6 +83,132 @@ std::vector<Vec3> gatherNormals(const std::vector<Vec3>& normals, const std::vec
         result.push_back(corner == kNoCorner ? Vec3{0, 0, 1} : normals[corner]);
     }
     return result;
+}
+
+namespace {
+
+constexpr std::uint32_t kNone = 0xffffffffu;
+/// A stored normal that was made on its own side alone differs from the common one by half of the bend at the border;
+/// one that differs by more is meant as a hard edge.
+constexpr double kMostTakenDeg = 30;
+
+}  // namespace
+
+BorderedNormals::BorderedNormals(const LocalMesh& mesh, const Surroundings* around, const NormalOptions& options,
+                                 const Execution& execution)
+    : mesh_(mesh), around_(around), options_(options), execution_(execution) {
+    if (around_ == nullptr) return;
+    positions_.reserve(mesh.positions.count + around->positions.size());
+    for (std::size_t v = 0; v < mesh.positions.count; ++v) positions_.push_back(mesh.positions[v]);
+    positions_.insert(positions_.end(), around->positions.begin(), around->positions.end());
+    const auto first = static_cast<std::uint32_t>(mesh.positions.count);
+    first_corner_ = 3 * around->triangles_before;
+    indices_.reserve(mesh.indices.size() + around->indices.size());
+    for (std::size_t c = 0; c < first_corner_; ++c) indices_.push_back(first + around->indices[c]);
+    indices_.insert(indices_.end(), mesh.indices.begin(), mesh.indices.end());
+    for (std::size_t c = first_corner_; c < around->indices.size(); ++c) indices_.push_back(first + around->indices[c]);
+}
+
+MeshView BorderedNormals::whole() const {
+    MeshView view;
+    view.positions = StridedSpan<const Vec3>(std::span<const Vec3>(positions_));
+    view.indices = IndexView(std::span<const std::uint32_t>(indices_));
+    return view;
+}
+
+Result<NormalReport> BorderedNormals::base(StridedSpan<Vec3> out) {
+    if (around_ == nullptr) return generateNormals(mesh_.view(), options_, out, execution_);
+    // Triangles of the surroundings are left out of counts.
+    MeshView others;
+    others.positions = StridedSpan<const Vec3>(std::span<const Vec3>(around_->positions));
+    others.indices = IndexView(std::span<const std::uint32_t>(around_->indices));
+    std::vector<Vec3> normals(around_->indices.size());
+    NormalOptions flat = options_;
+    flat.weighting = NormalWeighting::flat;
+    const Result<NormalReport> counted = generateNormals(others, flat, normals, execution_);
+    if (!counted) return counted;
+    degenerate_around_ = counted->degenerate_face_count;
+
+    normals.resize(indices_.size());
+    const Result<NormalReport> made = generateNormals(whole(), options_, normals, execution_);
+    if (!made) return made;
+    choose(std::span<const Vec3>(normals).subspan(first_corner_, mesh_.indices.size()));
+    const NormalReport report = take(*made, normals, out);
+    for (std::size_t c = 0; c < stays_.size(); ++c) {
+        if (stays_[c] == kNone) continue;
+        DVec3 normal = toDouble(around_->normals[stays_[c]]);
+        normalize(normal);
+        out[c] = toFloat(normal);
+    }
+    return report;
+}
+
+Result<NormalReport> BorderedNormals::pose(const StridedSpan<const Vec3>& positions, std::size_t target,
+                                           StridedSpan<Vec3> out) {
+    if (around_ == nullptr) return generatePoseNormals(mesh_.view(), positions, options_, out, execution_);
+    MorphOffsets offsets;
+    if (around_->read) {
+        Result<MorphOffsets> read = around_->read(target);
+        if (!read) return std::move(read).error();
+        offsets = *std::move(read);
+    }
+    std::vector<Vec3> moved = positions_;
+    const std::size_t own = mesh_.positions.count;
+    for (std::size_t v = 0; v < own; ++v) moved[v] = positions[v];
+    for (std::size_t v = 0; v < offsets.positions.size(); ++v) moved[own + v] = moved[own + v] + offsets.positions[v];
+    std::vector<Vec3> normals(indices_.size());
+    const Result<NormalReport> made = generatePoseNormals(
+        whole(), StridedSpan<const Vec3>(std::span<const Vec3>(moved)), options_, normals, execution_);
+    if (!made) return made;
+    const NormalReport report = take(*made, normals, out);
+    for (std::size_t c = 0; c < stays_.size(); ++c) {
+        if (stays_[c] == kNone) continue;
+        const Vec3& stayed = around_->normals[stays_[c]];
+        DVec3 normal = toDouble(offsets.normals.empty() ? stayed : stayed + offsets.normals[stays_[c]]);
+        if (normalize(normal)) out[c] = toFloat(normal);
+    }
+    return report;
+}
+
+/// Which normals that stay are taken at which corners.
+void BorderedNormals::choose(std::span<const Vec3> normals) {
+    if (around_->normals.empty()) return;
+    UniqueIndex<std::array<std::uint32_t, 3>> places;
+    std::vector<std::vector<std::uint32_t>> at;
+    for (std::uint32_t v = 0; v < around_->normals.size(); ++v) {
+        if (!isDirection(around_->normals[v])) continue;
+        const std::uint32_t place = places.indexOf(positionKey(around_->positions[v]));
+        if (place == at.size()) at.emplace_back();
+        at[place].push_back(v);
+    }
+    const bool has_angle = options_.crease_angle_deg != NormalOptions::crease_auto;
+    const double most = has_angle ? std::min(kMostTakenDeg, double{options_.crease_angle_deg}) : kMostTakenDeg;
+    stays_.assign(normals.size(), kNone);
+    for (std::size_t c = 0; c < normals.size(); ++c) {
+        const std::uint32_t place = places.find(positionKey(mesh_.positions[mesh_.indices[c]]));
+        if (place == kNone) continue;
+        double least = most;
+        for (const std::uint32_t v : at[place]) {
+            DVec3 stayed = toDouble(around_->normals[v]);
+            normalize(stayed);
+            const double apart = angleBetween(stayed, toDouble(normals[c])) * 180 / kPi;
+            if (apart > least) continue;
+            least = apart;
+            stays_[c] = v;
+        }
+    }
+}
+
+NormalReport BorderedNormals::take(const NormalReport& of_whole, std::span<const Vec3> normals,
+                                   StridedSpan<Vec3> out) const {
+    for (std::size_t c = 0; c < mesh_.indices.size(); ++c) out[c] = normals[first_corner_ + c];
+    NormalReport report;
+    report.face_count = mesh_.indices.size() / 3;
+    report.degenerate_face_count = of_whole.degenerate_face_count - degenerate_around_;
+    report.fallback_corner_count = std::min<std::uint64_t>(of_whole.fallback_corner_count, mesh_.indices.size());
+    report.noise = of_whole.noise;
+    report.crease_angle_deg = of_whole.crease_angle_deg;
+    return report;
 }
 
 }  // namespace tspace

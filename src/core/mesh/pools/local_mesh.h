@@ -1,17 +1,21 @@
 // SPDX-License-Identifier: MIT
-// One primitive as a mesh of its own. A pool is often shared by many primitives that each use a small part of it, and
-// what the methods do per vertex should cost in proportion to that part.
+// One primitive as a mesh of its own, alone or with the triangles around it.
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
 #include "core/mesh/pools/primitive.h"
-#include "core/mesh/quads/quad_pairs.h"
+#include "core/mesh/quads/quads.h"
 #include "tspace/mesh.h"
+#include "tspace/normals.h"
 
 namespace tspace {
+
+// One primitive as a mesh of its own. A pool is often shared by many primitives that each use a small part of it, and
+// what the methods do per vertex should cost in proportion to that part.
 
 /// Its arrays are those of the pool, or own ones. Moving it leaves the views valid.
 struct LocalMesh {
@@ -104,5 +108,48 @@ std::vector<T> gather(std::span<const T> values, const std::vector<std::uint32_t
 
 /// The normals of corners; any, where no corner uses the vertex.
 std::vector<Vec3> gatherNormals(const std::vector<Vec3>& normals, const std::vector<std::uint32_t>& corners);
+
+// Normals of a primitive that is one surface with others: their triangles at the border count too.
+
+/// Triangles of other primitives around one. They get no normals here.
+struct Surroundings {
+    std::vector<Vec3> positions = {};
+    std::vector<Vec3> normals = {};  ///< empty, or one per vertex: one that stays; zero where there is none
+    std::vector<std::uint32_t> indices = {};
+    std::size_t triangles_before = 0;  ///< of them, those whose primitive is before this one in the file
+    std::uint64_t point_count = 0;     ///< positions that the primitive shares with the others
+    /// As MorphTargets::read, for these vertices; no function: targets do not move them.
+    std::function<Result<MorphOffsets>(std::size_t)> read = {};
+};
+
+/// The normals of one primitive, on the base and in poses, one after the other.
+class BorderedNormals {
+  public:
+    /// `around`: null where nothing is around the mesh, which has polygons only then. All must outlive this.
+    BorderedNormals(const LocalMesh& mesh, const Surroundings* around, const NormalOptions& options,
+                    const Execution& execution);
+
+    /// generateNormals of the mesh, one per corner of it. Where a vertex around the mesh has a normal that stays, and that is
+    /// within 30 degrees (and within the crease angle) of the one that would be made at the same position, it is taken.
+    /// Sums are in the order of the file, so that both sides of a border get the same bits.
+    Result<NormalReport> base(StridedSpan<Vec3> out);
+    /// generatePoseNormals, after base(); `positions` are those of the mesh as target `target` moves it.
+    Result<NormalReport> pose(const StridedSpan<const Vec3>& positions, std::size_t target, StridedSpan<Vec3> out);
+
+  private:
+    [[nodiscard]] MeshView whole() const;
+    void choose(std::span<const Vec3> normals);
+    NormalReport take(const NormalReport& of_whole, std::span<const Vec3> normals, StridedSpan<Vec3> out) const;
+
+    const LocalMesh& mesh_;
+    const Surroundings* around_;
+    const NormalOptions& options_;
+    const Execution& execution_;
+    std::vector<Vec3> positions_ = {};  ///< of the mesh, then of what is around it
+    std::vector<std::uint32_t> indices_ = {};
+    std::size_t first_corner_ = 0;           ///< of the mesh
+    std::vector<std::uint32_t> stays_ = {};  ///< per corner of the mesh: the vertex around it whose normal it takes
+    std::uint64_t degenerate_around_ = 0;
+};
 
 }  // namespace tspace

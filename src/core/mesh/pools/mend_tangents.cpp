@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "core/mesh/pools/mend_tangents.h"
+#include "core/mesh/pools/primitive.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "core/base/unit.h"
 #include "core/base/vec_math.h"
 #include "core/mesh/surface/surface.h"
-#include "core/mesh/surface/tangent_values.h"
 #include "tspace/frame.h"
 #include "tspace/sanitize.h"
 

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Offsets that morph targets add to the tangents of a pool: tangents of the moved shape with the groups of the base,
-// minus those of the base. Where a target takes vertices apart that are equal on the base, the moved shape is grouped
-// anew.
+// Morph targets: one split for a mesh and all its targets, and what targets add to tangents and normals.
 #pragma once
 
 #include <cstdint>
@@ -10,11 +8,48 @@
 #include <vector>
 
 #include "core/mesh/pools/local_mesh.h"
-#include "core/mesh/pools/morph_split.h"
-#include "core/mesh/surface/equal_vertices.h"
+#include "core/mesh/pools/primitive.h"
+#include "core/mesh/surface/surface.h"
+#include "tspace/split.h"
 #include "tspace/tangents.h"
 
 namespace tspace {
+
+// One split for a mesh and all its morph targets: a vertex whose corners one target moves apart is split for all.
+
+/// Offsets after a further split: each vertex from `old_count` on has those of its source, which is an earlier vertex.
+VertexOffsets spread(const VertexOffsets& offsets, std::span<const std::uint32_t> sources, std::size_t old_count);
+
+class MorphSplit {
+  public:
+    /// Goes on from `split`. `may_split` false: where corners of a vertex differ, the first one counts.
+    MorphSplit(SplitResult&& split, bool may_split);
+
+    /// The next target, by an offset per corner, which must be finite. Corners whose offsets differ by no more than
+    /// `tolerance` from the first corner of their vertex share that one's.
+    Result<Done> add(std::span<const Vec3> offsets, float tolerance, const Execution& execution);
+
+    /// Offsets of each target for the vertices there are now.
+    [[nodiscard]] std::vector<VertexOffsets> finish();
+
+    [[nodiscard]] SplitResult& split() { return split_; }
+
+  private:
+    struct Target {
+        VertexOffsets offsets = {};
+        std::size_t vertex_count = 0;  ///< how many there were
+    };
+    [[nodiscard]] bool agree(std::span<const Vec3> offsets, float tolerance) const;
+    Result<Done> refine(std::span<const Vec3> offsets, float tolerance, const Execution& execution);
+    SplitResult split_;
+    bool may_split_;
+    std::vector<std::uint32_t> parents_;  ///< the vertex that each was split from by a target, or itself
+    std::vector<Target> targets_ = {};
+};
+
+// Offsets that morph targets add to the tangents of a pool: tangents of the moved shape with the groups of the base,
+// minus those of the base. Where a target takes vertices apart that are equal on the base, the moved shape is grouped
+// anew.
 
 /// Vertices with equal position, normal and UV, over which the grouping methods go on.
 class WeldClasses {
@@ -101,5 +136,40 @@ std::uint64_t countDiffering(std::span<const Vec4> computed, std::span<const Vec
 
 /// Corners where the two differ in direction by more than 5 degrees.
 std::uint64_t countDiffering(std::span<const Vec4> computed, std::span<const Vec4> written);
+
+// Normals for a pool that has none, and for its morph targets.
+
+/// The pool after its normals: with them, and split where corners have different ones, on the base or in a target.
+struct PoolWithNormals {
+    VertexPool pool = {};  ///< its targets read those of the pool it was made from, which must outlive it
+    std::vector<PrimitiveGeometry> primitives = {};   ///< the same corners
+    std::vector<std::uint32_t> source_vertices = {};  ///< new vertex -> old vertex, identity first
+    std::vector<VertexOffsets> offsets = {};  ///< one per target: what it adds to the normals of the new vertices
+};
+
+/// Normals by options.normals. Which edges are hard is the base's matter; what a target adds makes the normals of the
+/// moved shape. Fills the normals of the reports. The result must stay where it is: its targets point into it.
+Result<Done> generatePoolNormals(const PoolView& pool, std::span<const PrimitiveGeometry> primitives,
+                                 const GenerateOptions& options, std::span<PrimitiveReport> reports,
+                                 PoolWithNormals& result);
+
+// Offsets that morph targets should add to normals that stay.
+
+class TurnedNormals {
+  public:
+    /// The pool has normals.
+    TurnedNormals(const PoolView& pool, std::span<const PrimitiveGeometry> primitives);
+
+    /// Per vertex the offset that turns its normal as the surface around it turns, when a target adds `positions` (one
+    /// per vertex, or none). Zero where nothing turns, and where triangles vanish.
+    [[nodiscard]] std::vector<Vec3> offsets(std::span<const Vec3> positions) const;
+
+  private:
+    std::vector<Vec3> positions_ = {}, normals_ = {};
+    std::vector<std::uint32_t> corners_ = {};
+};
+
+/// The vertices whose offset is not zero.
+VertexOffsets sparse(std::span<const Vec3> offsets);
 
 }  // namespace tspace

@@ -1,21 +1,85 @@
 // SPDX-License-Identifier: MIT
-// The middle of the pipeline: geometry in, frames for an indexed mesh out. Knows no file format. The readers fill
-// PrimitiveGeometry, the writers apply PrimitiveFrames.
+// The middle of the pipeline: geometry of the primitives of one vertex pool in, frames for an indexed mesh out. Beside it what
+// is to be mended, morph targets, and the two things that are asked of it alone: faults of triangles, and repair of tangents.
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
 
-#include "core/mesh/pools/mends.h"
-#include "core/mesh/pools/morph_targets.h"
-#include "core/mesh/surface/uv_matrix.h"
+#include "core/mesh/surface/surface.h"
+#include "core/mesh/surface/uvs.h"
 #include "tspace/asset.h"
+#include "tspace/result.h"
 #include "tspace/span.h"
 #include "tspace/split.h"
+#include "tspace/vec.h"
 
 namespace tspace {
+
+// Repair: at which vertices of a primitive tangents are mended, and how much of them.
+
+/// Parts of a vertex's frame to mend, as bits.
+namespace mend {
+inline constexpr std::uint8_t kValues =
+    1;  ///< values that no tangent may have: not finite, not unit, along N, w not +1 or -1
+inline constexpr std::uint8_t kStraighten = 2;  ///< made perpendicular to N; its direction in the surface stays
+inline constexpr std::uint8_t kTurnSign = 4;    ///< w is negated
+inline constexpr std::uint8_t kSides =
+    8;  ///< computed anew at corners whose triangle needs the other sign, or direction
+inline constexpr std::uint8_t kWhole = 16;   ///< computed anew at all its corners
+inline constexpr std::uint8_t kDeltas = 32;  ///< offsets of morph targets are computed anew
+}  // namespace mend
+
+struct VertexMend {
+    std::uint32_t vertex = 0;  ///< of the pool
+    std::uint8_t parts = 0;    ///< bits of namespace mend, not 0
+
+    friend bool operator==(const VertexMend&, const VertexMend&) = default;
+};
+
+/// The mends of one primitive. Values are mended at every vertex of the pool, listed or not.
+struct Mends {
+    std::vector<VertexMend> vertices = {};  ///< ascending
+    /// Its signs stay inverted, and tangents that are computed anew get such signs too.
+    bool inverted_signs = false;
+
+    friend bool operator==(const Mends&, const Mends&) = default;
+};
+
+// Morph targets on the way into and out of computeFrames.
+
+/// Offsets that one target adds to the vertices of a pool, one entry per vertex. Empty: it does not move this
+/// attribute.
+struct MorphOffsets {
+    std::vector<Vec3> positions = {};
+    std::vector<Vec3> tangents = {};  ///< what the file has; looked at only where tangents are mended
+    std::vector<Vec3> normals = {};   ///< added, then the sum is made unit; not looked at where normals are generated
+};
+
+/// The targets of a pool. They are read one by one, because a face has hundreds.
+struct MorphTargets {
+    std::size_t count = 0;
+    /// Returns target `i`. Called by the thread that computes the pool, up to twice for each target.
+    std::function<Result<MorphOffsets>(std::size_t)> read = {};
+};
+
+/// Offsets of some vertices, ascending by vertex; all others are zero.
+struct VertexOffsets {
+    std::vector<std::uint32_t> vertices = {};
+    std::vector<Vec3> offsets = {};  ///< finite
+};
+
+/// Offsets that one target adds to the frames of the new vertices.
+struct MorphFrames {
+    VertexOffsets normals = {};   ///< only where normals were generated
+    VertexOffsets tangents = {};  ///< to xyz; the sign cannot be morphed
+};
+
+// The middle of the pipeline: geometry in, frames for an indexed mesh out. Knows no file format. The readers fill
+// PrimitiveGeometry, the writers apply PrimitiveFrames.
 
 struct Surroundings;
 
@@ -91,9 +155,9 @@ struct PoolFrames {
 };
 
 /// Runs normals (if missing), tangents per primitive, sanitize, and one split over all primitives of the pool.
-/// Reports count faults of the triangles (surface_faults.h).
+/// Reports count faults of the triangles (surface_faults.cpp).
 /// Vertices that no corner uses get a frame from their normal, so that every tangent written is unit. With sanitize
-/// every bitangent is unit as well (mend_tangents.h). `reports` has one entry per primitive; its normals, tangents,
+/// every bitangent is unit as well (mendBitangents). `reports` has one entry per primitive; its normals, tangents,
 /// sanitize and count fields are filled (vertices are those of the pool). Morph targets: base + offset is the frame of
 /// the moved shape, computed with the base's hard edges and groups. There is one split for the base and all targets.
 /// Where faces collapse in a target the base's tangent stays. A vertex whose frame no target changes has the offset (0,
@@ -102,5 +166,48 @@ struct PoolFrames {
 /// indices.
 Result<PoolFrames> computeFrames(const PoolView& pool, std::span<const PrimitiveGeometry> primitives,
                                  const GenerateOptions& options, std::span<PrimitiveReport> reports);
+
+// Faults of the triangles that frames were made on, counted for a report.
+
+/// Fills normals_behind_count, and with `counts_winding` turned_triangle_count and two_sided_triangle_count.
+/// `normals`: those that were made, one per vertex, or empty. `corners`: three per triangle.
+void countFaults(std::span<const Vec3> positions, std::span<const Vec3> normals, std::span<const std::uint32_t> corners,
+                 bool counts_winding, PrimitiveReport& report);
+
+// Repair of tangents and bitangents: values that are wrong are mended, and all others keep their bits.
+
+/// The kept tangent with sound values (hasSoundValues): a length that is off is made unit, w becomes +1 or -1,
+/// and `instead`, which is sound, has the direction where there is none. What is sound keeps its bits.
+Vec4 withSoundValues(const Vec4& kept, const Vec4& instead, const Vec3& normal);
+
+/// Unit and perpendicular to N.
+Vec4 tangentFromNormal(const Vec3& normal, float sign);
+
+/// withSoundValues for all vertices of a mesh whose tangents stay, used by triangles or not: a tangent without
+/// direction gets that of a sound corner of its triangles, or at its position, else one from N. UVs are not read; there
+/// may be no normals, and no triangles. `along_normals`: a tangent along N counts as a direction too.
+Result<Done> mendValues(const TangentView& mesh, bool along_normals, std::span<Vec4> tangents);
+
+/// Puts the tangents that a pool keeps in place of those computed for a primitive, but where they are to be mended.
+///
+/// corners    the pool's vertex of each corner, three per triangle
+/// tangents   one per corner: in, what was computed; out, what is written
+///
+/// Returns one entry per corner: whether what morph targets add is to be new there, too. Near-linear.
+std::vector<bool> mendCorners(const PoolView& pool, std::span<const std::uint32_t> corners, const Mends& mends,
+                              std::span<Vec4> tangents);
+
+/// sign * cross(N, T), unit. Where N has no direction: a unit vector across T.
+Vec3 bitangentOf(const Vec4& tangent, const Vec3& normal);
+
+/// A bitangent stays, bit for bit, when it and its tangent are sound: it is unit, within 3 degrees of the plane across
+/// N, and on the side of sign * cross(N, T), and sanitize left the tangent where it was (within 8 degrees). Others
+/// become bitangentOf the mended tangent.
+///
+/// normals     one per vertex; `indices` has one per corner, as all the others
+/// computed    the tangents before sanitize
+/// mended      the same after it
+void mendBitangents(StridedSpan<const Vec3> normals, std::span<const std::uint32_t> indices,
+                    std::span<const Vec4> computed, std::span<const Vec4> mended, std::span<Vec3> bitangents);
 
 }  // namespace tspace

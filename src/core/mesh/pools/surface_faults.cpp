@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Faults of triangles. Those that are wound against their neighbours are found by union-find: each triangle stores
 // whether it is wound as the root of its set.
-#include "core/mesh/pools/surface_faults.h"
+#include "core/mesh/pools/primitive.h"
 
 #include <algorithm>
 #include <array>
@@ -15,7 +15,7 @@
 #include "core/base/sort.h"
 #include "core/base/unique_index.h"
 #include "core/base/vec_math.h"
-#include "core/mesh/surface/equal_vertices.h"
+#include "core/mesh/surface/surface.h"
 #include "tspace/vec.h"
 
 namespace tspace {

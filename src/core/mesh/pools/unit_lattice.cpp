@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "core/base/little_endian.h"
+#include "core/base/numbers.h"
 #include "core/base/vec_math.h"
 
 namespace tspace {

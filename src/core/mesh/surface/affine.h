@@ -2,7 +2,7 @@
 // Places in space: rotation, scale, shear and offset, in double.
 #pragma once
 
-#include "core/base/unit.h"
+#include "core/base/vec_math.h"
 
 namespace tspace {
 

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Points first, then what pairs of pieces say of one another at edges and triangles that both have, then groups.
-#include "core/mesh/surface/joined_pieces.h"
+#include "core/mesh/surface/surface.h"
 
 #include <algorithm>
 #include <tuple>
 
 #include "core/base/sort.h"
 #include "core/base/unique_index.h"
-#include "core/mesh/surface/equal_vertices.h"
 
 namespace tspace {
 

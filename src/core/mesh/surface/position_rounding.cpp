@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/mesh/surface/position_rounding.h"
+#include "core/mesh/surface/surface.h"
 
 #include <algorithm>
 #include <array>
@@ -12,9 +12,6 @@
 #include <tuple>
 #include <vector>
 
-#include "core/base/angle.h"
-#include "core/base/unit.h"
-#include "core/base/uv_frame.h"
 #include "core/base/vec_math.h"
 #include "tspace/span.h"
 #include "tspace/vec.h"

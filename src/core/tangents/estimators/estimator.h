@@ -13,7 +13,6 @@
 #include <cstdint>
 
 #include "core/simd/dispatch.h"
-#include "core/tangents/vertex_arrays.h"
 
 namespace tspace::estimators {
 

@@ -3,7 +3,7 @@
 // one triangle, or one group.
 #pragma once
 
-#include "core/simd/plane_kernel.h"
+#include "core/simd/vectors_kernel.h"
 #include "core/tangents/estimators/estimator.h"
 
 namespace tspace::estimators::TSPACE_LANES {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "core/base/sum_rounds.h"
+#include "core/base/range_lists.h"
 #include "core/tangents/estimators/estimator.h"
 
 namespace tspace::estimators {

@@ -4,7 +4,6 @@
 
 #include <span>
 
-#include "core/base/input_scale.h"
 #include "core/base/parallel.h"
 #include "core/base/range_lists.h"
 #include "tspace/tangents.h"

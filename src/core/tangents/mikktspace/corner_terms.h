@@ -9,7 +9,6 @@
 #include <cstdint>
 
 #include "core/simd/dispatch.h"
-#include "core/tangents/vertex_arrays.h"
 
 namespace tspace::mikk {
 

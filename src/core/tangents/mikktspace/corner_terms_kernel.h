@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The kernel behind corner_terms.h. Included once per CPU, after lanes_*.h and with TSPACE_LANES set to its
 // namespace. Each lane is one triangle and does what the reference does with it, operation by operation; zero and
-// unit are those of results.h.
+// unit are those of evaluate.h.
 #pragma once
 
-#include "core/simd/arc_cosine_kernel.h"
 #include "core/simd/vectors_kernel.h"
 #include "core/tangents/mikktspace/corner_terms.h"
 
@@ -22,7 +21,7 @@ inline Vectors select(Mask m, Vectors yes, Vectors no) {
     return {select(m, yes.x, no.x), select(m, yes.y, no.y), select(m, yes.z, no.z)};
 }
 
-/// unit() of results.h for a vector whose square is known. Where the square is above zero some component is above the
+/// unit() of evaluate.h for a vector whose square is known. Where the square is above zero some component is above the
 /// smallest normal number (the squares of smaller ones are zero), so notZero is tested only where the square is zero or NaN.
 inline Vectors unitByRules(Vectors v, Floats square) {
     const Vectors scaled = (broadcast(1.0f) / squareRoot(square)) * v;

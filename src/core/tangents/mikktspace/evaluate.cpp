@@ -8,10 +8,10 @@
 #include <atomic>
 #include <bit>
 
-#include "core/base/float4.h"
 #include "core/base/range_lists.h"
+#include "core/base/vec_math.h"
 #include "core/tangents/method_kind.h"
-#include "core/tangents/mikktspace/results.h"
+#include "core/tangents/mikktspace/evaluate.h"
 
 namespace tspace::mikk {
 

@@ -38,9 +38,7 @@
 
 #include "core/base/sort.h"
 #include "core/base/vec_math.h"
-#include "core/tangents/mikktspace/collect.h"
-#include "core/tangents/mikktspace/grid_order.h"
-#include "core/tangents/mikktspace/growing.h"
+#include "core/tangents/mikktspace/weld.h"
 #include "core/tangents/mikktspace/words.h"
 
 namespace tspace::mikk {

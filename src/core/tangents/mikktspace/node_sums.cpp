@@ -9,9 +9,9 @@
 #include <atomic>
 #include <cstddef>
 
-#include "core/base/float4.h"
 #include "core/base/mesh_loops.h"
 #include "core/base/range_lists.h"
+#include "core/base/vec_math.h"
 
 namespace tspace::mikk {
 

@@ -1,19 +1,130 @@
 // SPDX-License-Identifier: MIT
-// The sums of all nodes, by one sweep over the triangles.
+// Sums of all nodes in one pass over the triangles, and whether the triangles around a node are one fan.
 #pragma once
 
+#include <bit>
+#include <cstdint>
+#include <cstring>
 #include <functional>
 
-#include "core/base/float4.h"
+#include "core/base/memory.h"
 #include "core/base/parallel.h"
 #include "core/base/range_lists.h"
-#include "core/base/scratch_block.h"
-#include "core/tangents/mikktspace/fan.h"
-#include "core/tangents/mikktspace/results.h"
+#include "core/base/vec_math.h"
+#include "core/tangents/mikktspace/evaluate.h"
 #include "core/tangents/mikktspace/weld.h"
 #include "core/tangents/mikktspace/words.h"
 
 namespace tspace::mikk {
+
+// Whether the triangles around a node form one connected fan, found while they come by in ascending order.
+//
+// The rule of groups.h links a triangle's leaving half-edge (to the next node) with the oldest waiting
+// arriving one from that node, and the other way round. As long as no two half-edges of one direction wait
+// for the same neighbour, links are unambiguous and make paths, each of which is described by its two waiting ends. A Fan
+// holds two paths. More may begin before they meet, where triangles come in random order or the second triangles of all
+// quads follow the first ones: such a fan takes a ManyPaths of four paths until two are left again. A fifth path, an
+// ambiguous link, or a ring beside other paths makes the fan complex, and its node goes the vertex path.
+
+/// The paths of a fan that has more than two.
+struct ManyPaths {
+    static constexpr std::uint32_t kMost = 4;
+    struct Path {
+        std::uint32_t leaves, arrives;
+    } paths[kMost];
+};
+
+/// A pool of ManyPaths, numbered from 1. It must have one for each fan of three triangles or more.
+class FanRoom {
+  public:
+    explicit FanRoom(ManyPaths* places) : places_(places) {}
+
+    ManyPaths& operator[](std::uint32_t place) { return places_[place - 1]; }
+    std::uint32_t take() {
+        if (free_ == 0) return ++used_;
+        const std::uint32_t place = free_;
+        free_ = (*this)[place].paths[0].leaves;
+        return place;
+    }
+    void giveBack(std::uint32_t place) {
+        (*this)[place].paths[0].leaves = free_;
+        free_ = place;
+    }
+
+  private:
+    ManyPaths* places_;
+    std::uint32_t used_ = 0;  // how many were ever taken
+    std::uint32_t free_ = 0;  // head of the list of those given back, linked through paths[0].leaves
+};
+
+class Fan {
+  public:
+    [[nodiscard]] bool isOne() const { return ends_[0] != 0 && ends_[2] == 0; }
+    /// 0: there is at most one path.
+    [[nodiscard]] std::uint32_t secondPath() const { return ends_[2]; }
+
+    /// Adds the triangle whose corner at this node is followed by the node `next` and preceded by `previous`. Without
+    /// branches: in meshes without order a processor could not predict them.
+    void add(std::uint32_t next, std::uint32_t previous, FanRoom& room) {
+        const Four own = Four{next, previous, next, previous} | kTopBit;
+        const Four extended = std::bit_cast<Four>(ends_ == __builtin_shufflevector(own, own, 1, 0, 3, 2));
+        const Four kept = __builtin_shufflevector(extended, extended, 1, 0, 3, 2);  // the other ends of these paths
+        const Four other = ends_ & ~(extended | kept);
+        const bool is_complex = laneBits(std::bit_cast<Mask4>(ends_ == own)) != 0;
+        if (is_complex || (laneBits(std::bit_cast<Mask4>(other == 0)) & 5) == 0) [[unlikely]]
+            return addToMany({own[0], own[1]}, room);
+        // The other ends of the paths that it extends replace the triangle's own. A closed ring keeps ends that no triangle
+        // meets.
+        const Four changes = ((ends_ ^ own) | extended) & kept;
+        const Four grown = own ^ changes ^ turned(changes);
+        ends_ = __builtin_shufflevector(grown, other | turned(other), 0, 1, 4, 5);
+    }
+
+  private:
+    using Four = std::uint32_t __attribute__((vector_size(16)));
+    static constexpr Four kComplex{1, 0, 1, 0};
+    static Four turned(Four v) { return __builtin_shufflevector(v, v, 2, 3, 0, 1); }
+
+    [[gnu::noinline]] void addToMany(ManyPaths::Path grown, FanRoom& room) {
+        const bool begins = ends_[1] != 0;
+        if (!begins && ends_[3] == 0) return;
+        const std::uint32_t place = begins ? room.take() : ends_[2];
+        ManyPaths& many = room[place];
+        if (begins) many = {{{ends_[0], ends_[1]}, {ends_[2], ends_[3]}}};
+        const std::uint32_t kept = join(many, begins ? 2 : ends_[3], grown);
+        if (kept > 2) {
+            ends_ = Four{1, 0, place, kept};
+            return;
+        }
+        const ManyPaths::Path* path = many.paths;
+        ends_ = kept == 0 ? kComplex : Four{path[0].leaves, path[0].arrives, path[1].leaves, path[1].arrives};
+        room.giveBack(place);
+    }
+
+    /// Returns how many paths there are now, and 0 where the fan becomes complex.
+    static std::uint32_t join(ManyPaths& many, std::uint32_t count, ManyPaths::Path grown) {
+        const auto [next, previous] = grown;
+        std::uint32_t kept = 0;
+        for (std::uint32_t i = 0; i < count; ++i) {
+            const ManyPaths::Path path = many.paths[i];
+            const bool meets_end = path.leaves == previous, meets_start = path.arrives == next;
+            if (meets_end && meets_start) return 0;  // a ring, and other paths
+            if (path.leaves == next || path.arrives == previous) return 0;
+            if (meets_end) grown.arrives = path.arrives;
+            if (meets_start) grown.leaves = path.leaves;
+            if (!meets_end && !meets_start) many.paths[kept++] = path;
+        }
+        if (kept == ManyPaths::kMost) return 0;
+        many.paths[kept++] = grown;
+        return kept;
+    }
+
+    /// Path i leaves towards the node ends_[2 * i], where a triangle may follow, and arrives from ends_[2 * i + 1]; nodes have
+    /// kTopBit, 0 is no path. A fan with ManyPaths has {1, 0, its number, count of paths}; a complex one kComplex.
+    Four ends_{};
+};
+
+// The sums of all nodes, by one sweep over the triangles.
 
 /// The weighted sum of a node and its fan: half a cache line.
 struct alignas(32) NodeSum {

@@ -17,14 +17,14 @@
 #include <span>
 #include <utility>
 
-#include "core/base/caches.h"
-#include "core/base/float4.h"
+#include "core/base/memory.h"
 #include "core/base/mesh_loops.h"
+#include "core/base/vec_math.h"
 #include "core/tangents/method_kind.h"
-#include "core/tangents/mikktspace/collect.h"
+#include "core/tangents/mikktspace/evaluate.h"
 #include "core/tangents/mikktspace/node_sums.h"
-#include "core/tangents/mikktspace/results.h"
 #include "core/tangents/mikktspace/vertex_path.h"
+#include "core/tangents/mikktspace/weld.h"
 
 namespace tspace::mikk {
 

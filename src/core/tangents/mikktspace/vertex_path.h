@@ -1,24 +1,23 @@
 // SPDX-License-Identifier: MIT
 // The vertex path lists the corners around each chosen node, links them across their shared edges, groups them, and writes
-// a plan, which is evaluated (evaluation_plan.h). One pass chooses the complex nodes: several groups, fans of too many parts,
+// a plan, which is evaluated (evaluate.h). One pass chooses the complex nodes: several groups, fans of too many parts,
 // contested triangles, sums that do not show that nothing splits, corners of degenerate triangles, the reference's last
 // bucket. planTangents chooses all nodes.
 //
-//   vertex_corners.cpp  triangles around the chosen nodes, one orientation per face, corners node by node
-//   groups.cpp          links between the corners of a node, groups, contested triangles
-//   splits.cpp          groups that an angular threshold below 180 degrees separates
-//   plan.cpp            the plan
+//   plan.cpp            triangles around the chosen nodes, one orientation per face, corners node by node; and the plan
+//   groups.cpp          links between the corners of a node, groups, contested triangles; groups that an angular threshold
+//                       below 180 degrees separates
 #pragma once
 
 #include <cstddef>
 #include <span>
 
 #include "core/tangents/method_kind.h"
-#include "core/tangents/mikktspace/collect.h"
-#include "core/tangents/mikktspace/evaluation_plan.h"
-#include "core/tangents/mikktspace/growing.h"
+#include "core/tangents/mikktspace/evaluate.h"
 #include "core/tangents/mikktspace/last_bucket.h"
 #include "core/tangents/mikktspace/node_sums.h"
+#include "core/tangents/mikktspace/weld.h"
+#include "core/tangents/mikktspace/words.h"
 
 namespace tspace::mikk {
 

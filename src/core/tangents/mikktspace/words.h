@@ -10,12 +10,16 @@
 // simple node     its triangles make one fan, face one way, and no angular threshold can split them: one group. One pass
 //                 (one_pass.cpp) finishes these nodes. All others are complex and go the vertex path (vertex_path.h)
 // contested       a triangle without UV area at whose nodes groups of both orientations may ask for it (groups.h)
-// representative  the corner that the reference keeps for a node: the lowest in its own search order (grid_order.h)
+// representative  the corner that the reference keeps for a node: the lowest in its own search order (grid_order.cpp)
 //
 // The reference works face by face, with recursion; its "tri info" is a triangle, its "tangent space" a result. Here every
 // node is grouped alone: groups.h proves that the result is the same.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
+
+#include "core/base/memory.h"
 #include "tspace/tangents.h"
 
 namespace tspace::mikk {
@@ -33,5 +37,53 @@ struct Copy {
 
 /// The number of triangles that the faces of a mesh are cut into.
 std::uint64_t countTriangles(const MeshView& mesh, Ngons ngons);
+
+// A list that grows, on the caller's allocator. For the calling thread only, as every Buffer.
+
+template <class T>
+class Growing {
+  public:
+    explicit Growing(const Allocator* allocator) : allocator_(allocator) {}
+
+    /// `capacity` must not be below size().
+    [[gnu::noinline]] void reserve(std::size_t capacity) {
+        Buffer<T> larger(allocator_, capacity);
+        std::copy_n(buffer_.data(), count_, larger.data());
+        buffer_ = std::move(larger);
+    }
+    void push(const T& value) {
+        if (count_ == buffer_.size()) reserve(std::max<std::size_t>(16, 2 * count_));
+        buffer_[count_++] = value;
+    }
+    /// Makes room for `more` elements and returns the first; they are not initialised.
+    T* extend(std::size_t more) {
+        if (count_ + more > buffer_.size()) reserve(std::max(count_ + more, 2 * count_));
+        count_ += more;
+        return buffer_.data() + count_ - more;
+    }
+    [[nodiscard]] std::size_t size() const { return count_; }
+    [[nodiscard]] bool empty() const { return count_ == 0; }
+    T& operator[](std::size_t i) { return buffer_[i]; }
+    const T& operator[](std::size_t i) const { return buffer_[i]; }
+    T* begin() { return buffer_.data(); }
+    T* end() { return buffer_.data() + count_; }
+    const T* begin() const { return buffer_.data(); }
+    const T* end() const { return buffer_.data() + count_; }
+
+    /// Takes the last `count` elements off.
+    void drop(std::size_t count) { count_ -= count; }
+
+    /// The elements in a Buffer of exactly their size.
+    [[nodiscard, gnu::noinline]] Buffer<T> exact() const {
+        Buffer<T> result(allocator_, count_);
+        std::copy_n(buffer_.data(), count_, result.data());
+        return result;
+    }
+
+  private:
+    const Allocator* allocator_;
+    Buffer<T> buffer_;
+    std::size_t count_ = 0;
+};
 
 }  // namespace tspace::mikk

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Calls of Draco. Its decoders are given limits, because their counts come from the file.
-#include "model/gltf/codecs/draco_library.h"
+#include "model/gltf/codecs/codecs.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Calls of meshoptimizer.
-#include "model/gltf/codecs/meshopt_library.h"
+#include "model/gltf/codecs/codecs.h"
 
 #include <algorithm>
 #include <cstring>

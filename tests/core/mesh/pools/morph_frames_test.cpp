@@ -22,7 +22,6 @@ MorphTargets reading(const Targets& targets) {
 }
 
 Vec3 sum(const Vec3& a, const Vec3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-bool isZero(const Vec3& v) { return v == Vec3{}; }
 double lengthOf(const Vec3& v) { return std::sqrt(double{v.x} * v.x + double{v.y} * v.y + double{v.z} * v.z); }
 Vec3 unit(const Vec3& v) {
     const double r = 1 / lengthOf(v);

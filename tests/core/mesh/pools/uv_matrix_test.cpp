@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/mesh/surface/uv_matrix.h"
+#include "core/mesh/surface/uvs.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Tangents show on which faces they were made.
-#include "core/mesh/quads/fit_quads.h"
+#include "core/mesh/quads/quads.h"
 
 #include <gtest/gtest.h>
 
 #include "core/base/vec_math.h"
-#include "core/mesh/quads/choose_faces.h"
 #include "core/mesh/quads/quad_meshes.h"
 
 namespace tspace::test {

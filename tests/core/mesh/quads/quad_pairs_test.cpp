@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Pairs of triangles become the quads that they were cut from, corner by corner.
-#include "core/mesh/quads/quad_pairs.h"
+#include "core/mesh/quads/quads.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "core/mesh/quads/choose_faces.h"
 #include "core/mesh/quads/quad_meshes.h"
 
 namespace tspace::test {

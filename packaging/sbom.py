@@ -1,0 +1,83 @@
+# SPDX-License-Identifier: MIT
+"""Prints what the packages of a release need, as SPDX 2.3: sbom.py VERSION FOLDER.
+
+Read from the packages themselves: the fields Depends and Recommends of .deb files, Requires-Dist of wheels, dependencies
+of npm archives. The time is SOURCE_DATE_EPOCH, so that the same packages give the same bytes.
+"""
+import datetime
+import email
+import hashlib
+import json
+import os
+import re
+import subprocess
+import sys
+import tarfile
+import zipfile
+from pathlib import Path
+
+
+def debian_needs(path):
+    fields = subprocess.run(["dpkg-deb", "-f", path, "Depends", "Recommends"], capture_output=True, text=True, check=True).stdout
+    for line in fields.splitlines():
+        for needed in line.split(":", 1)[1].split(","):
+            yield "deb", re.split(r"[ :(|]", needed.strip())[0]
+
+
+def wheel_needs(path):
+    with zipfile.ZipFile(path) as wheel:
+        metadata = next(name for name in wheel.namelist() if name.endswith(".dist-info/METADATA"))
+        for needed in email.message_from_bytes(wheel.read(metadata)).get_all("Requires-Dist", []):
+            yield "pypi", re.match(r"[\w.-]+", needed)[0]
+
+
+def npm_needs(path):
+    with tarfile.open(path) as archive:
+        package = json.load(archive.extractfile("package/package.json"))
+    for kind in ("dependencies", "peerDependencies", "optionalDependencies"):
+        for needed in package.get(kind, {}):
+            yield "npm", needed
+
+
+READERS = {".deb": debian_needs, ".whl": wheel_needs, ".tgz": npm_needs}
+
+
+def spdx_id(*parts):
+    return "SPDXRef-" + re.sub(r"[^A-Za-z0-9.-]", "-", "-".join(parts))
+
+
+def package(name, identifier, **more):
+    return {"name": name, "SPDXID": identifier, "downloadLocation": "NOASSERTION", "filesAnalyzed": False, **more}
+
+
+def main(version, folder):
+    ours, needed, relations = [], {}, []
+    for path in sorted(path for path in Path(folder).rglob("*") if path.is_file()):
+        if path.name == "SHA256SUMS" or path.suffix == ".json":
+            continue
+        name = str(path.relative_to(folder))
+        digest = hashlib.sha256(path.read_bytes()).hexdigest()
+        ours.append(package(name, spdx_id(name), versionInfo=version, licenseDeclared="MIT",
+                            checksums=[{"algorithm": "SHA256", "checksumValue": digest}]))
+        relations.append(("SPDXRef-DOCUMENT", "DESCRIBES", spdx_id(name)))
+        for registry, what in READERS.get(path.suffix, lambda _: ())(path):
+            identifier = spdx_id(registry, what)
+            needed[identifier] = package(what, identifier, externalRefs=[{
+                "referenceCategory": "PACKAGE-MANAGER", "referenceType": "purl",
+                "referenceLocator": f"pkg:{'deb/debian' if registry == 'deb' else registry}/{what}"}])
+            if identifier != spdx_id(name):
+                relations.append((spdx_id(name), "DEPENDS_ON", identifier))
+    time = datetime.datetime.fromtimestamp(int(os.environ["SOURCE_DATE_EPOCH"]), datetime.timezone.utc)
+    everything = hashlib.sha256("".join(one["checksums"][0]["checksumValue"] for one in ours).encode()).hexdigest()
+    json.dump({
+        "spdxVersion": "SPDX-2.3", "dataLicense": "CC0-1.0", "SPDXID": "SPDXRef-DOCUMENT", "name": f"tspace-{version}",
+        "documentNamespace": f"https://spdx.org/spdxdocs/tspace-{version}-{everything}",
+        "creationInfo": {"created": time.strftime("%Y-%m-%dT%H:%M:%SZ"), "creators": ["Tool: packaging/sbom.py"]},
+        "packages": ours + [needed[one] for one in sorted(needed)],
+        "relationships": [{"spdxElementId": a, "relationshipType": kind, "relatedSpdxElement": b} for a, kind, b in sorted(set(relations))],
+    }, sys.stdout, indent=1)
+    print()
+
+
+if __name__ == "__main__":
+    main(sys.argv[1], sys.argv[2])

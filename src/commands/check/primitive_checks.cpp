@@ -1,0 +1,393 @@
+// SPDX-License-Identifier: MIT
+// The checks of one primitive, but those of tangents and morph targets.
+#include "commands/check/primitive_checks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "commands/check/findings.h"
+#include "commands/shared/noted_noise.h"
+#include "core/base/vec_math.h"
+#include "core/mesh/surface/surface.h"
+#include "tspace/winding.h"
+
+namespace tspace {
+
+// Positions and normals: finite, unit, and on the front of their triangles.
+
+namespace {
+
+/// Beyond 96 degrees a normal points to the back, with some room for coarse smooth shading.
+constexpr double kLeastFacing = -0.1;
+/// From this share of the surface on the whole mesh is said to be inside out.
+constexpr double kMostOfSurface = 0.5;
+constexpr double kNearlyAll = 0.95;
+constexpr double kSomeNormals = 0.01;
+/// Degrees between a normal and the nearest of its triangles: a normal that is the mean over an edge of a box is 45 from both.
+constexpr double kFarDeg = 40;
+/// Share of the surface from which normals off their triangles are reported.
+constexpr double kSomeFar = 0.5;
+
+std::vector<bool> usedVertices(const TangentView& mesh) {
+    std::vector<bool> used(mesh.positions.size(), false);
+    for (const std::uint32_t vertex : mesh.corners) used[vertex] = true;
+    return used;
+}
+
+void checkNormalValues(PrimitiveFacts& facts) {
+    const TangentView& mesh = facts.mesh;
+    Tally not_finite, not_unit;
+    std::uint64_t zero_count = 0;
+    const std::vector<bool> used = usedVertices(mesh);
+    for (std::uint32_t v = 0; v < used.size(); ++v) {
+        if (!used[v]) continue;
+        ++not_finite.total;
+        ++not_unit.total;
+        if (!isFinite(mesh.normals[v])) {
+            not_finite.add(v, facts.surface.vertex_areas[v]);
+            continue;
+        }
+        const double size = length(toDouble(mesh.normals[v]));
+        if (std::fabs(size - 1) > facts.options.unit_tolerance) not_unit.add(v, facts.surface.vertex_areas[v]);
+        zero_count += size < kShortest ? 1 : 0;
+    }
+    not_finite.finish(facts.surface.area);
+    not_unit.finish(facts.surface.area);
+    if (not_finite.count > 0) {
+        facts.add(FindingCode::normalsNotFinite, Severity::error, not_finite, "vertices",
+                  "the normals of " + countText(not_finite, "vertices") + " are NaN or infinite");
+    }
+    if (not_unit.count > 0) {
+        // One normal without length gives NaN in shaders.
+        facts.add(FindingCode::normalsNotUnit, zero_count != 0 ? Severity::error : Severity::warning, not_unit,
+                  "vertices",
+                  "the normals of " + countText(not_unit, "vertices") + " do not have length 1" +
+                      (zero_count != 0 ? ", " + std::to_string(zero_count) + " of them length 0" : ""));
+        if (zero_count != 0) {
+            facts.findings.back().remedy =
+                "Export the normals again, those of length 0 cannot be normalised; then compute the tangents anew.";
+        }
+    }
+}
+
+/// Cosine between the normals of a face and its own.
+double facingOf(const PrimitiveFacts& facts, std::size_t face) {
+    DVec3 mean;
+    for (std::size_t k = 0; k < 3; ++k) {
+        DVec3 normal = toDouble(facts.mesh.normals[facts.mesh.corners[3 * face + k]]);
+        if (normalize(normal)) mean = mean + normal;
+    }
+    return normalize(mean) ? dot(mean, toDouble(facts.surface.faces[face].normal)) : 0;
+}
+
+/// Whether turning triangles as `generate --mend-winding` does would leave no normal on the back of its own.
+bool areTrianglesToBlame(const PrimitiveFacts& facts) {
+    std::vector<std::uint8_t> turned(facts.surface.faces.size());
+    if (!mendWinding(facts.mesh.triangles(), {}, turned, facts.options.execution)) return false;
+    for (std::size_t f = 0; f < turned.size(); ++f) {
+        const double facing = facts.surface.faces[f].area == 0 ? 0 : facingOf(facts, f);
+        if ((turned[f] != 0 ? -facing : facing) < kLeastFacing) return false;
+    }
+    return true;
+}
+
+void checkWinding(PrimitiveFacts& facts) {
+    const TangentView& mesh = facts.mesh;
+    Tally against;
+    for (std::size_t f = 0; f < facts.surface.faces.size(); ++f) {
+        const SurfaceFrame& face = facts.surface.faces[f];
+        if (face.area == 0) continue;
+        ++against.total;
+        if (facingOf(facts, f) < kLeastFacing) against.add(mesh.corners[3 * f], face.area);
+    }
+    against.finish(facts.surface.area);
+    if (against.count == 0) return;
+    // Leaves and grass that show both sides often have the normals of the whole tree or ground, on purpose.
+    const double mostly = facts.primitive.is_double_sided ? kNearlyAll : kMostOfSurface;
+    const Severity severity = against.surface_share >= mostly         ? Severity::error
+                              : against.surface_share >= kSomeNormals ? Severity::warning
+                                                                      : Severity::note;
+    facts.add(FindingCode::normalsAgainstWinding, severity, against, "triangles",
+              "the normals of " + countText(against, "triangles") + " point to the back (" +
+                  shareText(against.surface_share) + " of the surface)");
+    if (areTrianglesToBlame(facts))
+        facts.findings.back().remedy =
+            "Turn those triangles round: tspace generate --mend-winding. Tangents that are there stay.";
+}
+
+/// Normals smoothed over hard edges, those of a whole tree on its leaves, or those of another shape. Some are meant, so the
+/// finding is a note.
+void checkFarNormals(PrimitiveFacts& facts) {
+    const TangentView& mesh = facts.mesh;
+    const EqualVertices equal = findEqualVertices(mesh, false);
+    std::vector<float> least(equal.class_count, 180);
+    for (std::size_t c = 0; c < mesh.corners.size(); ++c) {
+        const SurfaceFrame& face = facts.surface.faces[c / 3];
+        DVec3 normal = toDouble(mesh.normals[mesh.corners[c]]);
+        if (face.area == 0 || !normalize(normal)) continue;
+        float& angle = least[equal.class_of[mesh.corners[c]]];
+        angle = std::min(angle, static_cast<float>(angleBetween(normal, toDouble(face.normal)) * 180 / kPi));
+    }
+    Tally far;
+    const std::vector<bool> used = usedVertices(mesh);
+    for (std::uint32_t v = 0; v < used.size(); ++v) {
+        if (!used[v] || !isDirection(mesh.normals[v]) || facts.surface.vertex_areas[v] == 0) continue;
+        ++far.total;
+        // Normals that point to the back are another finding.
+        const double angle = least[equal.class_of[v]];
+        if (angle > kFarDeg && angle <= 90) far.add(v, facts.surface.vertex_areas[v], angle);
+    }
+    far.finish(facts.surface.area);
+    if (far.surface_share < kSomeFar) return;
+    facts.add(FindingCode::normalsFarFromFaces, Severity::note, far, "vertices",
+              "the normals of " + countText(far, "vertices") + " are more than " + decimalText(kFarDeg) +
+                  " and up to " + decimalText(far.worst_deg) + " degrees from every triangle around them (" +
+                  shareText(far.surface_share) + " of the surface)");
+}
+
+}  // namespace
+
+void checkPositions(PrimitiveFacts& facts) {
+    Tally bad;
+    const std::vector<bool> used = usedVertices(facts.mesh);
+    for (std::uint32_t v = 0; v < used.size(); ++v) {
+        if (!used[v]) continue;
+        ++bad.total;
+        if (!isFinite(facts.mesh.positions[v])) bad.add(v, 0);
+    }
+    if (bad.count == 0) return;
+    facts.add(FindingCode::positionsNotFinite, Severity::error, bad, "vertices",
+              "the positions of " + countText(bad, "vertices") + " are NaN or infinite");
+}
+
+/// Random offsets of positions, by the mesh alone: what the file has as normals may well be without them.
+void checkNoise(PrimitiveFacts& facts) {
+    const double noise = notedNoise(facts.mesh.triangles(), facts.mesh.position_step);
+    if (noise == 0) return;
+    Tally all{.count = facts.mesh.positions.size(), .total = facts.mesh.positions.size()};
+    facts.add(FindingCode::positionsNoisy, Severity::note, all, "vertices",
+              "its positions are noisy: they lie " + stepText(noise) +
+                  " of the length of an edge beside a smooth surface, in the mean square");
+}
+
+void checkNormals(PrimitiveFacts& facts) {
+    if (facts.mesh.normals.empty()) {
+        Tally all{.count = facts.mesh.positions.size(), .total = facts.mesh.positions.size()};
+        facts.add(FindingCode::normalsMissing, Severity::note, all, "vertices",
+                  facts.is_gltf ? "it has no normals, so it is shaded flat"
+                                : "not all faces have normals, so new ones are made for those without");
+        return;
+    }
+    const std::size_t first = facts.findings.size();
+    checkNormalValues(facts);
+    checkWinding(facts);
+    checkFarNormals(facts);
+    if (!facts.primitive.is_unlit) return;
+    for (Finding& finding : std::span(facts.findings).subspan(first)) {
+        finding.severity = Severity::note;
+        finding.message += "; its material is unlit, so nobody sees that";
+    }
+}
+
+// UVs as far as tangents need them.
+
+namespace {
+
+/// Shares of the surface from which triangles without UV area are more than a few slivers.
+constexpr double kSomeUvs = 0.01;
+
+bool isFinite(const Vec2& uv) { return std::isfinite(uv.x) && std::isfinite(uv.y); }
+
+std::string setName(std::size_t set) { return "TEXCOORD_" + std::to_string(set); }
+
+void checkUvsMissing(PrimitiveFacts& facts) {
+    std::set<std::size_t> reported;
+    for (const TangentUse& use : facts.primitive.uses) {
+        if (!use.has_texture) continue;
+        if (!plainReading(facts.primitive, use.uv_set).uvs.empty() || !reported.insert(use.uv_set).second) continue;
+        Tally all{.count = facts.mesh.positions.size(), .total = facts.mesh.positions.size()};
+        facts.add(FindingCode::uvsMissing, Severity::error, all, "vertices",
+                  facts.is_gltf ? use.needed_by + " is read with " + setName(use.uv_set) + ", which is not there"
+                                : "the material has a normal map, but the faces have no texture coordinates");
+    }
+}
+
+void checkFinite(PrimitiveFacts& facts) {
+    Tally bad;
+    for (std::uint32_t v = 0; v < facts.mesh.uvs.size(); ++v) {
+        ++bad.total;
+        if (!isFinite(facts.mesh.uvs[v])) bad.add(v, facts.surface.vertex_areas[v]);
+    }
+    bad.finish(facts.surface.area);
+    if (bad.count == 0) return;
+    facts.add(FindingCode::uvsNotFinite, onShare(Severity::error, bad.surface_share, facts.options), bad, "vertices",
+              setName(facts.reading.uv_set) + " is NaN or infinite at " + countText(bad, "vertices"));
+}
+
+void checkDegenerate(PrimitiveFacts& facts) {
+    Tally degenerate;
+    for (std::size_t f = 0; f < facts.surface.faces.size(); ++f) {
+        const SurfaceFrame& face = facts.surface.faces[f];
+        if (face.area == 0) continue;
+        ++degenerate.total;
+        if (face.orientation == 0) degenerate.add(facts.mesh.corners[3 * f], face.area);
+    }
+    degenerate.finish(facts.surface.area);
+    if (degenerate.count == 0) return;
+    const bool matters = !facts.primitive.uses.empty() && degenerate.surface_share >= kSomeUvs;
+    facts.add(FindingCode::uvsDegenerate, matters ? Severity::warning : Severity::note, degenerate, "triangles",
+              countText(degenerate, "triangles") + " have no area in " + setName(facts.reading.uv_set) + " (" +
+                  shareText(degenerate.surface_share) + " of the surface), so nothing says where their tangents point");
+}
+
+}  // namespace
+
+void checkUvs(PrimitiveFacts& facts) {
+    checkUvsMissing(facts);
+    // UVs that no tangents follow do not matter.
+    if (facts.mesh.uvs.empty() || (facts.primitive.uses.empty() && facts.mesh.tangents.empty())) return;
+    checkFinite(facts);
+    checkDegenerate(facts);
+}
+
+// Several textures of one primitive, which has only one tangent per vertex.
+
+namespace {
+
+/// Triangles on which two readings of the UVs give different frames.
+Tally compareReadings(const PrimitiveFacts& facts, const UvReading& reading) {
+    TangentView other = facts.mesh;
+    other.uvs = reading.uvs;
+    const Surface surface = describeSurface(other);
+    Tally different;
+    for (std::size_t f = 0; f < surface.faces.size(); ++f) {
+        const SurfaceFrame &a = facts.surface.faces[f], &b = surface.faces[f];
+        if (a.orientation == 0 || b.orientation == 0) continue;
+        ++different.total;
+        const double angle = angleBetween(toDouble(a.tangent), toDouble(b.tangent)) * 180 / kPi;
+        if (a.orientation != b.orientation || angle > facts.options.direction_deg) {
+            different.add(facts.mesh.corners[3 * f], a.area, angle);
+        }
+    }
+    different.finish(facts.surface.area);
+    return different;
+}
+
+bool readsTheSame(const TangentUse& a, const TangentUse& b) {
+    return a.uv_set == b.uv_set && a.transform.rotation == b.transform.rotation &&
+           a.transform.scale[0] == b.transform.scale[0] && a.transform.scale[1] == b.transform.scale[1];
+}
+
+}  // namespace
+
+void checkTextures(PrimitiveFacts& facts) {
+    const std::vector<TangentUse>& uses = facts.primitive.uses;
+    if (facts.mesh.uvs.empty()) return;
+    for (std::size_t i = 1; i < uses.size(); ++i) {
+        bool known = false;
+        for (std::size_t j = 0; j < i; ++j) known = known || readsTheSame(uses[j], uses[i]);
+        const UvReading reading = readingOf(facts.primitive, uses[i]);
+        if (known || reading.uvs.empty()) continue;
+        const Tally different = compareReadings(facts, reading);
+        if (different.count == 0) continue;
+        facts.add(FindingCode::texturesDisagree, Severity::warning, different, "triangles",
+                  uses[i].needed_by + " needs other tangents than " + uses[0].needed_by + " on " +
+                      countText(different, "triangles") + "; tangents can follow only the first of them");
+        facts.findings.back().place = uses[i].place;
+    }
+}
+
+// One primitive: the UVs that its tangents should follow, then the checks, family by family.
+
+void PrimitiveFacts::add(FindingCode code, Severity severity, const Tally& tally, const char* unit,
+                         std::string message) {
+    findings.push_back(makeFinding(code, severity, tally, unit, std::move(message)));
+}
+
+namespace {
+
+/// Share of the surface where UVs determine tangents, and positions are not too coarse for that.
+double comparedShare(const PrimitiveFacts& facts) {
+    const double most = sineCosine(facts.options.direction_deg * kPi / 180).sine;
+    double area = 0;
+    for (const SurfaceFrame& face : facts.surface.faces) {
+        if (face.orientation != 0 && face.tangent_error <= most) area += face.area;
+    }
+    return facts.surface.area > 0 ? area / facts.surface.area : 0;
+}
+
+/// Positions so coarse that triangles say neither where tangents point nor, reliably, where they face.
+void checkRounding(PrimitiveFacts& facts) {
+    PositionRounding rounding = facts.surface.rounding;
+    // Positions that were rounded on purpose matter only to tangents.
+    const bool has_readers = !facts.primitive.uses.empty() || !facts.primitive.tangents.empty();
+    if (rounding.was_before && !has_readers) {
+        const std::span<const std::uint32_t> corners = facts.mesh.corners;
+        rounding = roundingOf(facts.mesh.positions, {}, {&corners, 1}, facts.mesh.position_step);
+    }
+    const TurnedTriangles turned =
+        turnedBy(rounding, facts.mesh.positions, facts.mesh.corners, facts.options.direction_deg);
+    if (turned.share < kSomeTurned) return;
+    const Tally tally{.count = turned.count,
+                      .total = turned.total,
+                      .surface_share = turned.share,
+                      .worst_deg = turned.worst_deg,
+                      .vertices = {turned.first}};
+    facts.add(FindingCode::positionsRounded, Severity::warning, tally, "triangles",
+              "positions are rounded to steps of " + stepText(rounding.step) + " at up to " + stepText(rounding.far) +
+                  " from the origin, which turns " + countText(tally, "triangles") + " by " +
+                  decimalText(facts.options.direction_deg) + " degrees or more, up to " +
+                  decimalText(turned.worst_deg) + " (" + shareText(turned.share) +
+                  " of the surface); tangents are not blamed for it");
+    if (rounding.was_before) {
+        facts.findings.back().remedy =
+            "Take the model as it was before its positions were rounded, or round them finer, and keep the tangents "
+            "and "
+            "normals that were made then.";
+    }
+}
+
+}  // namespace
+
+Result<PrimitiveVerdict> judgePrimitive(const ScenePrimitive& primitive, const CheckOptions& options, bool is_gltf) {
+    PrimitiveFacts facts{.primitive = primitive, .options = options, .is_gltf = is_gltf};
+    if (primitive.corners.empty()) {
+        // glTF lights points and lines by their tangents where the material has a normal map.
+        if (!primitive.tangents.empty() && primitive.uses.empty()) {
+            Tally all{.count = 1, .total = 1};
+            facts.add(FindingCode::tangentsUnused, Severity::note, all, "primitives",
+                      "it has tangents, but draws " + primitive.mode);
+        }
+        return PrimitiveVerdict{.findings = std::move(facts.findings)};
+    }
+    facts.reading = primitive.uses.empty() ? plainReading(primitive, 0) : readingOf(primitive, primitive.uses.front());
+    facts.mesh = {.positions = primitive.positions.span(),
+                  .normals = primitive.normals.span(),
+                  .tangents = primitive.tangents.span(),
+                  .uvs = primitive.hasFreeTangents() ? std::span<const Vec2>{} : facts.reading.uvs,
+                  .corners = primitive.corners.span(),
+                  .position_step = primitive.position_step};
+    facts.surface = describeSurface(facts.mesh);
+    checkPositions(facts);
+    checkRounding(facts);
+    checkNormals(facts);
+    checkNoise(facts);
+    checkMorphValues(facts);
+    checkMorphNormals(facts);
+    checkUvs(facts);
+    checkTextures(facts);
+    if (const Result<Done> done = checkTangents(facts); !done) return done.error();
+    checkMorphTargets(facts);
+    const double compared = facts.looked_at_values ? comparedShare(facts) : 0;
+    return PrimitiveVerdict{std::move(facts.findings), std::move(facts.faults), facts.wrong_sign_share, compared};
+}
+
+Result<std::vector<Finding>> checkPrimitive(const ScenePrimitive& primitive, const CheckOptions& options,
+                                            bool is_gltf) {
+    Result<PrimitiveVerdict> verdict = judgePrimitive(primitive, options, is_gltf);
+    if (!verdict) return verdict.error();
+    return std::move(verdict->findings);
+}
+
+}  // namespace tspace

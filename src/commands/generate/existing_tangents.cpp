@@ -1,0 +1,467 @@
+// SPDX-License-Identifier: MIT
+// Tangents that a file has: which of them a repair leaves, whether a normal map makes up for their signs, and values that are
+// mended.
+#include <algorithm>
+#include <cstring>
+#include <map>
+#include <utility>
+
+#include "commands/check/findings.h"
+#include "commands/check/frame_health.h"
+#include "commands/check/scene_verdict.h"
+#include "commands/generate/generate_steps.h"
+#include "commands/shared/uv_reading.h"
+#include "core/base/sort.h"
+#include "core/mesh/pools/primitive.h"
+#include "core/mesh/pools/unit_lattice.h"
+#include "core/mesh/surface/surface.h"
+#include "model/gltf/apply_frames.h"
+#include "model/gltf/editor.h"
+#include "model/gltf/material_needs.h"
+#include "model/gltf/packed.h"
+#include "model/gltf/read_scene.h"
+#include "model/io/file_error.h"
+
+namespace tspace::gltf {
+
+// From the verdict of `check` to what is mended.
+
+namespace {
+
+/// What a finding asks to mend at the vertices that it counts; 0: it is not about tangents.
+std::uint8_t partsOf(FindingCode code) {
+    switch (code) {
+        case FindingCode::tangentsNotFinite:
+        case FindingCode::uvSeamAveraged:
+        case FindingCode::directionsWrong:
+        case FindingCode::uvSetWrong:
+            return mend::kWhole;
+        case FindingCode::tangentsNotUnit:
+        case FindingCode::signsNotOne:
+            return mend::kValues;
+        case FindingCode::tangentsNotOrthogonal:
+            return mend::kStraighten;
+        case FindingCode::signsWrong:
+        case FindingCode::signsInverted:
+            return mend::kTurnSign;
+        case FindingCode::signsMixed:
+        case FindingCode::mirroredSeamAveraged:
+            return mend::kSides;
+        case FindingCode::morphTangentsWrong:
+            return mend::kDeltas;
+        default:
+            return 0;
+    }
+}
+
+/// What is wrong with one primitive.
+struct Verdict {
+    Mends mends = {};
+    std::string why = {};   ///< empty: nothing
+    std::string kept = {};  ///< what was looked at, where nothing is wrong
+    bool is_free = false;   ///< no texture is read with its tangents
+};
+
+/// Whether vertices are mended that the finding counts. What the format forbids is, however little it matters.
+bool asksForMending(const Finding& finding) {
+    const std::uint8_t parts = partsOf(finding.code);
+    const bool is_of_values = parts == mend::kValues || finding.code == FindingCode::tangentsNotFinite;
+    return parts != 0 && (finding.severity == Severity::error || is_of_values);
+}
+
+/// Half a sentence about tangents that stay.
+std::string whyKept(const PrimitiveJudgement& judgement, bool is_free) {
+    constexpr double kNearlyAll = 0.99;
+    std::string warnings;
+    for (const Finding& finding : judgement.findings) {
+        const bool is_of_tangents = partsOf(finding.code) != 0 || finding.code == FindingCode::positionsRounded ||
+                                    finding.code == FindingCode::textureTransformIgnored ||
+                                    finding.code == FindingCode::splitFramesDiffer;
+        if (is_of_tangents) warnings += (warnings.empty() ? "" : "; and ") + finding.message;
+    }
+    if (is_free) {
+        return "its tangents stay: no texture is read with them, so their values alone were looked at" +
+               (warnings.empty() ? "" : "; " + warnings);
+    }
+    if (!warnings.empty()) return "its tangents stay, since nothing in them is surely wrong; but " + warnings;
+    if (judgement.compared_share == 0)
+        return "its tangents stay: its UVs have no area, so their values alone were looked at";
+    if (judgement.compared_share >= kNearlyAll) return "its tangents are good";
+    return "nothing wrong was found in its tangents; on " + shareText(1 - judgement.compared_share) +
+           " of the surface the UVs have no area, and their values alone were looked at";
+}
+
+Verdict verdictOf(const PrimitiveJudgement& judgement, bool is_free) {
+    Verdict verdict{.kept = whyKept(judgement, is_free), .is_free = is_free};
+    verdict.mends.inverted_signs = judgement.signs_stay;
+    std::vector<std::pair<std::uint32_t, std::uint8_t>> rules;  // bits of faults, and what they ask for
+    for (const Finding& finding : judgement.findings) {
+        if (!asksForMending(finding)) continue;
+        const bool is_inverted = finding.code == FindingCode::signsInverted;
+        rules.emplace_back(is_inverted ? faultBit(FindingCode::signsWrong) | kUndecidedSign : faultBit(finding.code),
+                           partsOf(finding.code));
+        // Where signs are turned no seam between them may be left, however short.
+        if (is_inverted) rules.emplace_back(faultBit(FindingCode::mirroredSeamAveraged), mend::kSides);
+        verdict.why += (verdict.why.empty() ? "" : "; and ") + finding.message;
+    }
+    // What was drawn is not computed anew: its values are mended on their own.
+    if (rules.empty() || !judgement.faults || is_free) return verdict;
+    for (const VertexFaults& faults : *judgement.faults) {
+        std::uint8_t parts = 0;
+        for (const auto& [bits, asked] : rules) parts |= (faults.bits & bits) != 0 ? asked : 0;
+        if (parts != 0) verdict.mends.vertices.push_back({faults.vertex, parts});
+    }
+    return verdict;
+}
+
+/// As `generate` was asked to read them.
+void readAsAsked(const GenerateOptions& options, Scene& scene) {
+    for (ScenePrimitive& primitive : scene.primitives) {
+        // As if something read these tangents.
+        if (primitive.uses.empty() && options.all) {
+            primitive.uses.push_back(
+                {.needed_by = "what was asked for", .has_texture = primitive.other_reader.empty()});
+        }
+        if (options.texture_transform == TextureTransform::apply) continue;
+        for (TangentUse& use : primitive.uses) use.transform = {};
+    }
+}
+
+/// The verdicts on all primitives. Memory for them is given back at the end; the scene stays with the model.
+std::vector<Verdict> judge(Model& model, const GenerateOptions& options) {
+    const Document& document = model.document();
+    Scene scene = model.scene();
+    const std::int64_t left = document.memory->left();
+    CheckOptions check;
+    check.convention = options.tangents.convention;
+    check.execution = options.execution;
+    check.execution.allocator = nullptr;
+    readAsAsked(options, scene);
+    std::vector<PrimitiveJudgement> judgements = judgePrimitives(scene, check, true);
+    if (waitForImages(judgements)) {
+        readImages(document, scene);
+        ImageFindings images = checkImages(scene, check);
+        weighImages(scene, check, images, judgements);
+    }
+    std::vector<Verdict> verdicts;
+    for (std::size_t i = 0; i < judgements.size(); ++i)
+        verdicts.push_back(verdictOf(judgements[i], scene.primitives[i].hasFreeTangents()));
+    document.memory->giveBack(left);
+    return verdicts;
+}
+
+void keep(const Verdict& verdict, PrimitiveReport& report) {
+    report.action = PrimitiveAction::kept;
+    report.reason = verdict.kept;
+    // They were not computed, and may follow the transform or not.
+    std::erase_if(report.notes, [](const std::string& note) { return note.rfind(kTransformNote, 0) == 0; });
+}
+
+/// It has tangents with normals, and they cannot be computed.
+bool hasOnlyItsOwn(const Primitive& primitive, const PrimitiveReport& report) {
+    return report.action == PrimitiveAction::impossible && primitive.find("TANGENT") && primitive.find("NORMAL");
+}
+
+/// The pool with some of its primitives, in groups that are mended alike. `mendsOf`: null for those to be left out.
+template <class MendsOf>
+Pool selected(const Pool& pool, std::span<const Primitive> primitives, const MendsOf& mendsOf) {
+    Pool result = pool;
+    result.geometries.clear();
+    result.primitives.clear();
+    result.corner_count = 0;
+    for (const PoolGeometry& geometry : pool.geometries) {
+        const std::size_t first = result.geometries.size();
+        for (const std::size_t number : geometry.primitives) {
+            const Mends* const mends = mendsOf(number);
+            if (mends == nullptr) continue;
+            result.primitives.push_back(number);
+            const auto same =
+                std::find_if(result.geometries.begin() + static_cast<std::ptrdiff_t>(first), result.geometries.end(),
+                             [&](const PoolGeometry& other) { return other.mends == *mends; });
+            if (same != result.geometries.end()) {
+                same->primitives.push_back(number);
+                continue;
+            }
+            result.geometries.push_back({.primitives = {number}, .mends = *mends});
+            result.corner_count += std::uint64_t{3} * primitives[number].triangleCount();
+        }
+    }
+    sortList(result.primitives.begin(), result.primitives.end());
+    return result;
+}
+
+}  // namespace
+
+void planRepair(Model& model, const GenerateOptions& options, GeneratePlan& plan) {
+    const std::span<const Primitive> primitives = model.primitives();
+    // Tangents of normals that are made anew are computed anew with them.
+    const auto isJudged = [](const Pool& pool) {
+        return pool.has_tangents && pool.makes_tangents && !pool.overwrites_normals;
+    };
+    bool is_needed = std::any_of(plan.pools.begin(), plan.pools.end(), isJudged);
+    for (std::size_t i = 0; i < primitives.size(); ++i)
+        is_needed = is_needed || hasOnlyItsOwn(primitives[i], plan.reports[i]);
+    if (!is_needed) return;
+    // All of them, since normal maps are weighed by what the whole file shows of them.
+    const std::vector<Verdict> verdicts = judge(model, options);
+    for (std::size_t i = 0; i < primitives.size(); ++i) {
+        if (verdicts[i].is_free && hasOnlyItsOwn(primitives[i], plan.reports[i])) keep(verdicts[i], plan.reports[i]);
+    }
+    std::vector<Pool> pools;
+    for (Pool& pool : plan.pools) {
+        if (!isJudged(pool)) {
+            pools.push_back(std::move(pool));
+            continue;
+        }
+        const auto verdictOn = [&](std::size_t number) -> const Verdict& { return verdicts[number]; };
+        static const Mends kNothing;
+        Pool wrong = selected(pool, primitives, [&](std::size_t number) {
+            const Verdict& verdict = verdictOn(number);
+            return verdict.mends.vertices.empty() ? nullptr : &verdict.mends;
+        });
+        Pool good = selected(pool, primitives, [&](std::size_t number) {
+            return verdictOn(number).mends.vertices.empty() ? &kNothing : nullptr;
+        });
+        for (const std::size_t number : good.primitives) keep(verdictOn(number), plan.reports[number]);
+        for (const std::size_t number : wrong.primitives) {
+            plan.reports[number].notes.push_back(kWrongNote + verdictOn(number).why);
+        }
+        if (!wrong.primitives.empty()) pools.push_back(std::move(wrong));
+        if (!good.primitives.empty() && (lacksDeltas(primitives[good.primitives[0]]) || !good.morph_normals.empty())) {
+            good.keeps_tangents = true;
+            pools.push_back(std::move(good));
+        }
+    }
+    plan.pools = std::move(pools);
+}
+
+namespace {
+
+/// By some triangles: whether most signs are the opposite of what the UVs ask for.
+bool looksInverted(const ScenePrimitive& primitive, const Convention& convention) {
+    constexpr std::size_t kTriangles = 1024;
+    if (primitive.tangents.empty() || primitive.uses.empty()) return false;
+    const UvReading reading = readingOf(primitive, primitive.uses.front());
+    if (reading.uvs.empty()) return false;
+    const std::size_t count = primitive.corners.size() / 3, step = count / kTriangles + 1;
+    std::int64_t inverted = 0;
+    for (std::size_t t = 0; t < count; t += step) {
+        std::array<Vec3, 3> positions;
+        std::array<Vec2, 3> uvs;
+        for (std::size_t k = 0; k < 3; ++k) {
+            positions[k] = primitive.positions[primitive.corners[3 * t + k]];
+            uvs[k] = reading.uvs[primitive.corners[3 * t + k]];
+        }
+        const auto expected = static_cast<float>(describeFace(positions, &uvs).orientation) * signFactor(convention);
+        const float sign = primitive.tangents[primitive.corners[3 * t]].w;
+        if (expected != 0) inverted += sign * expected < 0 ? 1 : -1;
+    }
+    return inverted > 0;
+}
+
+/// Numbers of the primitives whose tangents are replaced, and that show a normal map.
+std::vector<std::size_t> replacedPrimitives(Model& model, const GeneratePlan& plan) {
+    const std::span<const Primitive> primitives = model.primitives();
+    std::vector<bool> is_replaced(primitives.size());
+    for (const Pool& pool : plan.pools) {
+        for (const std::size_t number : pool.primitives) is_replaced[number] = pool.has_tangents;
+    }
+    std::vector<std::size_t> replaced;
+    for (std::size_t i = 0; i < primitives.size(); ++i) {
+        if (!is_replaced[i]) continue;
+        const std::vector<TangentUse> uses = tangentUses(model.document(), primitives[i]);
+        if (std::any_of(uses.begin(), uses.end(), [](const TangentUse& use) { return use.image.has_value(); }))
+            replaced.push_back(i);
+    }
+    return replaced;
+}
+
+bool showsFlipped(const ScenePrimitive& primitive, const MapFlips& flips) {
+    return std::any_of(primitive.uses.begin(), primitive.uses.end(), [&](const TangentUse& use) {
+        return use.image && std::any_of(flips.reports.begin(), flips.reports.end(), [&](const NormalMapReport& report) {
+                   return report.image == *use.image && report.flipped;
+               });
+    });
+}
+
+/// Primitives that rendered right with inverted signs, and those that may have.
+struct Cancelled {
+    std::uint64_t sure = 0, open = 0;
+};
+
+Cancelled countCancelled(Model& model, std::span<const std::size_t> primitives, const MapFlips& flips,
+                         const GenerateOptions& options) {
+    Cancelled cancelled;
+    Scene scene = model.sceneOf(primitives);
+    if (std::none_of(scene.primitives.begin(), scene.primitives.end(), [&](const ScenePrimitive& primitive) {
+            return looksInverted(primitive, options.tangents.convention);
+        })) {
+        return cancelled;
+    }
+    CheckOptions check;
+    check.convention = options.tangents.convention;
+    check.execution = options.execution;
+    check.execution.allocator = nullptr;
+    readImages(model.document(), scene);
+    std::vector<PrimitiveJudgement> judgements = judgePrimitives(scene, check);
+    ImageFindings images = checkImages(scene, check);
+    weighImages(scene, check, images, judgements);
+    for (std::size_t i = 0; i < judgements.size(); ++i) {
+        if (!judgements[i].signs_stay || showsFlipped(scene.primitives[i], flips)) continue;
+        (judgements[i].signs == SignVerdict::cancelled ? cancelled.sure : cancelled.open) += 1;
+    }
+    return cancelled;
+}
+
+std::string primitivesText(std::uint64_t count) {
+    return std::to_string(count) + (count == 1 ? " primitive" : " primitives");
+}
+
+}  // namespace
+
+std::string warnOfCancelledSigns(Model& model, const GeneratePlan& plan, const MapFlips& flips,
+                                 const GenerateOptions& options) {
+    if (options.existing != ExistingTangents::replace || options.convert_maps) return {};
+    const std::vector<std::size_t> replaced = replacedPrimitives(model, plan);
+    if (replaced.empty()) return {};
+    MemoryBudget& memory = *model.document().memory;
+    const std::int64_t left = memory.left();
+    Cancelled cancelled;
+    const std::optional<Error> failure = tryFile([&] { cancelled = countCancelled(model, replaced, flips, options); });
+    memory.giveBack(left);
+    if (failure && failure->code != ErrorCode::tooLarge) throw FileError{*failure};
+    if (failure) {
+        return "whether the signs that are replaced and green of the normal maps cancelled out was not looked at: that "
+               "takes more memory than the limit";
+    }
+    const std::string ways =
+        "invert green too (--overwrite together with --flip-green), or keep the tangents (without --overwrite)";
+    if (cancelled.sure > 0) {
+        return "the tangents of " + primitivesText(cancelled.sure) +
+               " had inverted signs, and green of their normal maps points down: the two cancelled out. With the new "
+               "tangents alone bumps are dents along v: " +
+               ways;
+    }
+    if (cancelled.open > 0) {
+        return "the tangents of " + primitivesText(cancelled.open) +
+               " had inverted signs, and whether green of their normal maps points down, which would have made up for "
+               "it, could not be seen. If they rendered right before, " +
+               ways;
+    }
+    return {};
+}
+
+namespace {
+
+/// The arrays of one primitive that mending looks at.
+struct Stored {
+    std::vector<Vec3> positions = {}, normals = {};
+    std::vector<std::uint32_t> corners = {};
+    std::vector<Vec4> tangents = {};
+
+    [[nodiscard]] TangentView view() const {
+        return {.positions = positions, .normals = normals, .tangents = tangents, .corners = corners};
+    }
+};
+
+bool isRead(const Document& document, const Primitive& primitive) {
+    return hasTriangles(primitive.mode) && primitive.find("NORMAL") && !tangentUses(document, primitive).empty();
+}
+
+/// The first whose tangents a material reads; without one the first.
+std::size_t judgeOf(const Document& document, std::span<const Primitive> primitives,
+                    const std::vector<std::size_t>& numbers) {
+    const auto read = std::find_if(numbers.begin(), numbers.end(),
+                                   [&](std::size_t number) { return isRead(document, primitives[number]); });
+    return read == numbers.end() ? numbers.front() : *read;
+}
+
+Stored readStored(const Document& document, const Primitive& primitive) {
+    Stored stored{.tangents = readTangents(document, primitive)};
+    if (primitive.find("NORMAL")) stored.normals = readVec3(document, primitive, "NORMAL");
+    if (!hasTriangles(primitive.mode) || !primitive.find("POSITION")) return stored;
+    stored.positions = readVec3(document, primitive, "POSITION");
+    stored.corners = readTriangleCorners(document, primitive);
+    return stored;
+}
+
+bool areBroken(Model& model, const Primitive& primitive) {
+    const SharedArray<Vec4> tangents = model.arrays().borrowTangents(primitive);
+    SharedArray<Vec3> normals;
+    if (isRead(model.document(), primitive)) normals = model.arrays().borrowVec3(primitive, "NORMAL");
+    for (std::size_t v = 0; v < tangents.size(); ++v) {
+        if (!hasSoundValues(tangents[v]) || (!normals.empty() && !hasDirection(tangents[v], normals[v]))) return true;
+    }
+    return false;
+}
+
+VectorFormat formatOf(const Accessor& accessor) {
+    return accessor.component == ComponentType::i8    ? VectorFormat::snorm8
+           : accessor.component == ComponentType::i16 ? VectorFormat::snorm16
+                                                      : VectorFormat::float32;
+}
+
+}  // namespace
+
+std::vector<std::vector<std::size_t>> findBrokenValues(Model& model, const GeneratePlan& plan) {
+    const Document& document = model.document();
+    const std::span<const Primitive> primitives = model.primitives();
+    std::vector<bool> is_computed(primitives.size(), false);
+    for (const Pool& pool : plan.pools) {
+        for (const std::size_t number : pool.primitives) is_computed[number] = !pool.keeps_tangents;
+    }
+    std::map<std::size_t, std::vector<std::size_t>> sharing;  // accessor -> primitives
+    for (std::size_t i = 0; i < primitives.size(); ++i) {
+        const auto accessor = primitives[i].find("TANGENT");
+        // Without positions there is nothing to draw, and no element to store new ones like.
+        if (!accessor || !primitives[i].find("POSITION") || is_computed[i]) continue;
+        if (plan.reports[i].action == PrimitiveAction::removed) continue;
+        if (hasData(document, readAccessor(document, *accessor))) sharing[*accessor].push_back(i);
+    }
+    std::vector<std::vector<std::size_t>> groups;
+    for (const auto& [accessor, numbers] : sharing) {
+        const Primitive& judge = primitives[judgeOf(document, primitives, numbers)];
+        document.memory->require((sizeof(Vec4) + sizeof(Vec3)) * judge.vertex_count, judge.place());
+        if (areBroken(model, judge)) groups.push_back(numbers);
+    }
+    return groups;
+}
+
+void mendBrokenValues(Editor& editor, const Document& document, std::span<const Primitive> primitives,
+                      std::span<const std::vector<std::size_t>> groups, std::span<PrimitiveReport> reports) {
+    for (const std::vector<std::size_t>& numbers : groups) {
+        const Primitive& judge = primitives[judgeOf(document, primitives, numbers)];
+        constexpr std::uint64_t kOfCorner = 48, kOfVertex = 128;
+        document.memory->require(kOfCorner * 3 * judge.triangleCount() + kOfVertex * judge.vertex_count, judge.place());
+        const Stored stored = readStored(document, judge);
+        std::vector<Vec4> mended = stored.tangents;
+        valueOrThrow(mendValues(stored.view(), !isRead(document, judge), mended));
+        const Accessor accessor = readAccessor(document, *judge.find("TANGENT"));
+        Bytes elements = copyElements(document, accessor);
+        std::size_t count = 0;
+        for (std::size_t v = 0; v < mended.size(); ++v) {
+            if (std::memcmp(&mended[v], &stored.tangents[v], sizeof(Vec4)) == 0) continue;
+            ++count;
+            const std::vector<std::uint8_t> bytes = packUnits(std::span<const Vec4>(&mended[v], 1), formatOf(accessor));
+            std::copy(bytes.begin(), bytes.end(), elements.data() + v * accessor.element_bytes);
+        }
+        setAttribute(editor, document, {.primitives = primitives, .numbers = numbers, .name = "TANGENT"},
+                     {.component = accessor.component,
+                      .type = accessor.type,
+                      .normalized = accessor.normalized,
+                      .count = accessor.count,
+                      .element_bytes = accessor.element_bytes,
+                      .bytes = std::move(elements)});
+        for (const std::size_t number : numbers) {
+            PrimitiveReport& report = reports[number];
+            report.mended_vertex_count = count;
+            if (report.action == PrimitiveAction::kept) report.action = PrimitiveAction::replaced;
+            report.notes.push_back(
+                "its tangents stay, but at " + std::to_string(count) + " of " + std::to_string(mended.size()) +
+                " vertices they were not finite, not unit, along the normal, or had a sign other than "
+                "+1 and -1: mended there");
+        }
+    }
+}
+
+}  // namespace tspace::gltf

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+// Steps of generate, in the order in which they run.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "commands/generate/flip_maps.h"
+#include "model/gltf/container.h"
+#include "model/gltf/editor.h"
+#include "model/gltf/generate_plan.h"
+#include "model/gltf/model.h"
+#include "model/obj/obj_reader.h"
+#include "model/scene/scene.h"
+#include "tspace/asset.h"
+
+namespace tspace {
+
+// GenerateOptions::mend_winding: the surfaces of a model, and which of their faces are turned.
+
+struct WindingPlan {
+    std::vector<MendedWindingReport> reports = {};
+    /// Of each primitive: one per triangle, 1 to turn it; or empty: none.
+    std::vector<std::vector<std::uint8_t>> turned = {};
+
+    [[nodiscard]] bool turnsAny() const;
+};
+
+/// Of a glTF model, mesh by mesh: where nodes put a mesh, and whether they mirror it, does not matter, since viewers look
+/// at the winding in the mesh's own coordinates. Changes nothing.
+WindingPlan planWinding(gltf::Model& model, const GenerateOptions& options);
+
+/// Fills winding_mended_count.
+void countTurned(const WindingPlan& plan, std::vector<PrimitiveReport>& primitives);
+
+/// Turns the faces of an OBJ file. Returns one per face: 1 if it was turned.
+std::vector<std::uint8_t> mendObjWinding(obj::Model& model, const GenerateOptions& options, GenerateReport& report);
+
+}  // namespace tspace
+
+namespace tspace::gltf {
+
+// ExistingTangents::repair: which tangents stay, and what of the others is mended.
+
+/// Judges the tangents that are there as `check` does, normal maps included. Primitives without an error leave the plan,
+/// and their reports say so; what is wrong in the others becomes the mends of their geometries and a note in their
+/// reports. Fails as reading the primitives' attributes does.
+void planRepair(Model& model, const GenerateOptions& options, GeneratePlan& plan);
+
+// ExistingTangents::replace gives right signs to what rendered right with inverted ones, because green of the normal map
+// points down.
+
+/// A warning where tangents are to be replaced whose signs a normal map makes up for, or may, and that map stays as it is;
+/// else empty. Judges as `check` does, but only where signs look inverted. Fails as reading the attributes does.
+std::string warnOfCancelledSigns(Model& model, const GeneratePlan& plan, const MapFlips& flips,
+                                 const GenerateOptions& options);
+
+// Tangents that stay: what the format forbids in them is mended, and nothing else.
+
+/// Primitives whose tangents stay and lie in one accessor, where these have values that no tangent may have
+/// (surface/tangent_values.h) at some vertex, used by triangles or not. Tangents along N count where a material reads
+/// them: elsewhere they may be normals for outlines.
+std::vector<std::vector<std::size_t>> findBrokenValues(Model& model, const GeneratePlan& plan);
+
+/// Mends them, in the format that they have, and says so in the reports. All other elements keep their bits.
+void mendBrokenValues(Editor& editor, const Document& document, std::span<const Primitive> primitives,
+                      std::span<const std::vector<std::size_t>> groups, std::span<PrimitiveReport> reports);
+
+// Normal maps of a glTF file that follow its tangents: what the model showed with the old ones, it shows with the new.
+
+class MapConversion {
+  public:
+    /// Takes what the model shows now: call it before anything in it is changed. Both must outlive it.
+    MapConversion(Model& model, const GenerateOptions& options);
+
+    /// Once the model has the new tangents, and wasEdited: puts new maps in where they bring the picture closer to the old one.
+    /// `reports`: of all primitives. Files beside the document are never changed: the output has new ones.
+    std::vector<ConvertedMapReport> run(Editor& editor, const OutputTarget& target,
+                                        std::span<const PrimitiveReport> reports);
+
+  private:
+    Model& model_;
+    const GenerateOptions& options_;
+    std::vector<std::size_t> numbers_ = {};     ///< primitives that show normal maps
+    Scene before_ = {};                         ///< these, in this order
+    std::map<std::size_t, Bytes> images_ = {};  ///< the files of their maps, by number of the image
+};
+
+}  // namespace tspace::gltf
+
+namespace tspace {
+
+// What a report says about the file as a whole.
+
+/// What options had to work on, where the report does not tell it.
+struct WorkedOn {
+    bool far_coordinates = false;     ///< an offset that was left in them
+    bool texture_transforms = false;  ///< of textures that computed or judged tangents follow
+    bool compression = false;         ///< geometry that was packed or unpacked
+};
+
+/// Adds to the warnings: triangles that are wound against their neighbours, new normals that point behind their triangles,
+/// and options that are not the default and had nothing to work on.
+void addWarnings(const GenerateOptions& options, const WorkedOn& worked_on, GenerateReport& report);
+
+}  // namespace tspace

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+// Islands by union-find over welded edges; matrices of texture transforms.
+#include "core/mesh/surface/uvs.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+#include "core/base/unique_index.h"
+#include "core/base/vec_math.h"
+
+namespace tspace {
+namespace {
+
+/// Per vertex the number of its position together with its UV.
+std::vector<std::uint32_t> weldVertices(std::span<const Vec3> positions, std::span<const Vec2> uvs) {
+    UniqueIndex<std::array<std::uint32_t, 5>> points(positions.size());
+    std::vector<std::uint32_t> welded(positions.size());
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+        welded[i] = points.indexOf({weldBits(positions[i].x), weldBits(positions[i].y), weldBits(positions[i].z),
+                                    weldBits(uvs[i].x), weldBits(uvs[i].y)});
+    }
+    return welded;
+}
+
+/// Sets of triangles, merged by size with path halving: near-linear, and no recursion.
+class TriangleSets {
+  public:
+    explicit TriangleSets(std::size_t count) : parent_(count), size_(count, 1) {
+        std::iota(parent_.begin(), parent_.end(), 0U);
+    }
+    std::uint32_t find(std::uint32_t triangle) {
+        while (parent_[triangle] != triangle) {
+            parent_[triangle] = parent_[parent_[triangle]];
+            triangle = parent_[triangle];
+        }
+        return triangle;
+    }
+    void merge(std::uint32_t a, std::uint32_t b) {
+        a = find(a);
+        b = find(b);
+        if (a == b) return;
+        if (size_[a] < size_[b]) std::swap(a, b);
+        parent_[b] = a;
+        size_[a] += size_[b];
+    }
+
+  private:
+    std::vector<std::uint32_t> parent_;
+    std::vector<std::uint32_t> size_;
+};
+
+TriangleSets joinIslands(std::span<const std::uint32_t> corners, const std::vector<std::uint32_t>& welded) {
+    TriangleSets islands(corners.size() / 3);
+    UniqueIndex<std::array<std::uint32_t, 2>> edges(corners.size());
+    std::vector<std::uint32_t> first_triangle;
+    for (std::size_t corner = 0; corner < corners.size(); ++corner) {
+        const auto triangle = static_cast<std::uint32_t>(corner / 3);
+        const std::size_t next = corner % 3 == 2 ? corner - 2 : corner + 1;
+        const auto [low, high] = std::minmax(welded[corners[corner]], welded[corners[next]]);
+        const std::uint32_t edge = edges.indexOf({low, high});
+        if (edge == first_triangle.size()) {
+            first_triangle.push_back(triangle);
+        } else {
+            islands.merge(first_triangle[edge], triangle);
+        }
+    }
+    return islands;
+}
+
+}  // namespace
+
+UvIslands findUvIslands(std::span<const std::uint32_t> corners, std::span<const Vec3> positions,
+                        std::span<const Vec2> uvs) {
+    TriangleSets sets = joinIslands(corners, weldVertices(positions, uvs));
+    UvIslands islands;
+    islands.island_of.resize(corners.size() / 3);
+    constexpr std::uint32_t kNew = 0xffffffffu;
+    std::vector<std::uint32_t> number_of(islands.island_of.size(), kNew);
+    for (std::size_t i = 0; i < islands.island_of.size(); ++i) {
+        std::uint32_t& number = number_of[sets.find(static_cast<std::uint32_t>(i))];
+        if (number == kNew) number = islands.count++;
+        islands.island_of[i] = number;
+    }
+    return islands;
+}
+
+double signedUvArea(const Vec2& a, const Vec2& b, const Vec2& c, bool v_runs_down) {
+    const double s1 = static_cast<double>(b.x) - a.x;
+    const double t1 = static_cast<double>(b.y) - a.y;
+    const double s2 = static_cast<double>(c.x) - a.x;
+    const double t2 = static_cast<double>(c.y) - a.y;
+    const double area = s1 * t2 - s2 * t1;
+    return v_runs_down ? -area : area;
+}
+
+// From a texture transform to the matrix that its frames need.
+
+namespace {
+
+/// Files write a quarter turn as a float, or with a few digits.
+double snapped(double value) {
+    constexpr double kClose = 1e-6;
+    if (std::fabs(value) < kClose) return 0;
+    if (std::fabs(value) > 1 - kClose * kClose) return value < 0 ? -1 : 1;
+    return value;
+}
+
+}  // namespace
+
+UvMatrix uvMatrix(double rotation, double scale_u, double scale_v) {
+    const SineCosine turn = sineCosine(rotation);
+    const double sine = snapped(turn.sine), cosine = snapped(turn.cosine);
+    if (scale_u == 0) scale_u = 1;
+    if (scale_v == 0) scale_v = 1;
+    if (sine == 0 || cosine == 0) {
+        scale_u = std::copysign(1.0, scale_u);
+        scale_v = std::copysign(1.0, scale_v);
+    } else {
+        const double common = std::max(std::fabs(scale_u), std::fabs(scale_v));
+        scale_u /= common;
+        scale_v /= common;
+    }
+    // + 0.0: no negative zeros, which would differ between equal matrices.
+    return {cosine * scale_u, sine * scale_v + 0.0, -sine * scale_u + 0.0, cosine * scale_v};
+}
+
+std::vector<Vec2> transformUvs(StridedSpan<const Vec2> uvs, const UvMatrix& matrix) {
+    std::vector<Vec2> result;
+    result.reserve(uvs.count);
+    for (std::size_t i = 0; i < uvs.count; ++i) {
+        const Vec2& uv = uvs[i];
+        result.push_back({static_cast<float>(matrix.uu * uv.x + matrix.uv * uv.y),
+                          static_cast<float>(matrix.vu * uv.x + matrix.vv * uv.y)});
+    }
+    return result;
+}
+
+}  // namespace tspace

@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: MIT
+// A plan, and what a pose makes of it: sums of groups, results, outputs.
+#pragma once
+
+#include <cfloat>
+#include <cmath>
+
+#include "core/base/border.h"
+#include "core/base/memory.h"
+#include "core/base/range_lists.h"
+#include "core/base/vec_math.h"
+#include "core/tangents/estimators/group_estimates.h"
+#include "core/tangents/method_kind.h"
+#include "core/tangents/mikktspace/corner_terms.h"
+#include "core/tangents/mikktspace/words.h"
+
+namespace tspace::mikk {
+
+// The plan of a grouping method: where the data of each corner are, which sum it adds to, and which result each corner of
+// the mesh takes. plan.cpp has a table of its lists.
+
+/// A group whose members do not all share one result (angular threshold).
+struct EvaluatedSplit {
+    std::uint32_t begin = 0, count = 0;  ///< its range in EvaluationPlan::members
+    std::size_t rows = 0;                ///< first word in split_rows: `count` rows of (count + 63) / 64 words
+    bool positive = false;
+};
+
+/// One of several results for a corner of the mesh, which are averaged where they differ.
+struct Conflict {
+    std::uint32_t corner = 0;
+    std::uint32_t source = 0;  ///< a group, or kTopBit | a place in EvaluationPlan::members
+};
+
+struct GroupSums;
+
+struct EvaluationPlan {
+    Method method = Method::mikktspace;
+    std::uint32_t refine = 0;  ///< steps of `best`
+    Convention convention;
+    std::size_t vertex_count = 0;
+    std::size_t corner_count = 0;
+    std::size_t triangle_count = 0;
+    std::uint32_t group_count = 0;  ///< those that split are counted, but no half-edge names them
+
+    /// One per half-edge: the vertex whose data stand for its corner. A plan that is kept has the corner's own vertex,
+    /// because vertices that are equal on the mesh may come apart in a pose. Some more valid vertices follow at the end, so
+    /// that kernels can read whole blocks.
+    Buffer<std::uint32_t> vertices;
+    /// One per half-edge: the group it belongs to, with kTopBit if it adds nothing to it; kNone without one,
+    /// and for members of groups that split.
+    Buffer<std::uint32_t> groups;
+    /// One per half-edge: its corner of the mesh, with kTopBit where that is among the conflicts. Empty: half-edges are corners.
+    Buffer<std::uint32_t> slots;
+    Buffer<std::uint32_t> triangles;      ///< numbers in the mesh, ascending; empty: the plan is of all nodes
+    Buffer<std::uint8_t> group_positive;  ///< one per group: its orientation
+    Buffer<Vec2> uvs;                     ///< one per vertex; empty in a plan that is used once
+    Buffer<CornerTerms> terms;            ///< in a plan that is used once: what its triangles add
+
+    Buffer<EvaluatedSplit> splits;
+    Buffer<std::uint32_t> members;     ///< half-edges of these groups
+    Buffer<std::uint64_t> split_rows;  ///< bit b of row a: member b counts for member a
+    std::uint32_t largest_split = 0;
+
+    Buffer<Conflict> conflicts;             ///< by corner, then in the order in which the reference writes them
+    Buffer<std::uint32_t> default_corners;  ///< corners that no group reaches
+    Buffer<std::uint32_t> skipped_corners;  ///< corners of faces that are ignored: all outputs are 0
+    Buffer<Copy> copies;                    ///< corners of degenerate triangles
+    TangentReport report;                   ///< what can be counted without a pose
+
+    [[nodiscard]] std::uint32_t slotOf(std::uint32_t half_edge) const {
+        if (!slots.empty()) return slots[half_edge];
+        return triangles.empty() ? half_edge : 3 * triangles[half_edge / 3] + half_edge % 3;
+    }
+    [[nodiscard]] std::size_t memoryBytes() const;
+};
+
+/// Plans a validated mesh with normals and UVs and at most kMaxHalfEdges, to be kept. Throws OutOfMemory.
+EvaluationPlan planGrouped(const MeshView& mesh, const Call<TangentOptions>& options, Parallel& parallel,
+                           PlanUse use = PlanUse::kept);
+
+/// Evaluates one pose into checked outputs and completes the plan's report. `uvs`: one per vertex. Scratch memory: 12
+/// bytes per group when only tangents are wanted, else 36, and core/base/range_lists.h where several threads sum. `estimates`: null, or the estimators' results for the groups
+/// (roomForSums), which are moved from. Throws OutOfMemory.
+TangentReport evaluateGroups(const EvaluationPlan& plan, const Pose& pose, const StridedSpan<const Vec2>& uvs,
+                             const TangentOutput& out, const Execution& execution, Parallel& parallel,
+                             GroupSums* estimates = nullptr);
+
+/// Equals planGrouped and evaluateGroups on the mesh's own pose, bit for bit, in one call. Throws OutOfMemory.
+TangentReport generateGrouped(const MeshView& mesh, const Call<TangentOptions>& options, const TangentOutput& out,
+                              Parallel& parallel);
+
+// Sums of a group, the result that they make, how several results of one corner are merged, and the outputs.
+
+// The reference's rules for "not zero" and for normalising, which decide bits for tiny, zero and non-finite vectors.
+
+/// Subnormal numbers, zero and NaN count as zero; infinity does not.
+inline bool notZero(float x) { return std::fabs(x) > FLT_MIN; }
+inline bool notZero(const Vec3& v) { return notZero(v.x) || notZero(v.y) || notZero(v.z); }
+
+/// v divided by its length; a vector that counts as zero comes back as it is.
+inline Vec3 unit(const Vec3& v) { return notZero(v) ? (1.0f / length(v)) * v : v; }
+
+/// The unit vector of v without its part along n. n is used as given, never normalised.
+inline Vec3 flatten(const Vec3& n, const Vec3& v) { return unit(v - dot(n, v) * n); }
+
+inline bool wantsTangentsOnly(const TangentOutput& out) {
+#ifdef TSPACE_MIKKTSPACE_ONLY
+    return true;
+#endif
+    return out.bitangents.empty() && out.magnitudes_s.empty() && out.magnitudes_t.empty();
+}
+
+/// Estimators sum on their own (estimators/); for `fast` and `best` these kernels write marks alone.
+inline Weighting weightingOf(Method method) {
+    switch (method) {
+        case Method::fast:
+        case Method::best:
+            return Weighting::none;
+        case Method::uniform:
+            return Weighting::one;
+        case Method::angle:
+            return Weighting::angle;
+        case Method::area:
+            return Weighting::area;
+        default:
+            return Weighting::projected_angle;
+    }
+}
+
+/// `uvs` has one entry per vertex of the pose, of which there is at least one.
+inline CornerSource cornerSource(const Pose& pose, const StridedSpan<const Vec2>& uvs, Method method,
+                                 bool tangents_only) {
+    return {vertexArrays(pose, uvs), weightingOf(method), tangents_only};
+}
+
+using estimators::GroupRest;
+
+inline Vec3 vectorOf(const float* row) { return {row[0], row[1], row[2]}; }
+inline Vec3 vectorOf(Float4 row) { return {row[0], row[1], row[2]}; }
+
+struct Tangents {
+    Vec3 s{1, 0, 0}, t{0, 1, 0};
+    float mag_s = 1, mag_t = 1;
+    bool positive = false;
+};
+
+/// A result without tangent and orientation, stored in the place of the sum.
+inline GroupRest restOf(const Tangents& r) { return {{r.t.x, r.t.y, r.t.z, r.mag_s}, r.mag_t}; }
+
+/// The result of a group whose members' rows (corner_terms.h) add up to s and `rest`.
+inline Tangents meanOf(const Vec3& s, const GroupRest& rest, float weight, bool positive) {
+    Tangents r{unit(s), unit(vectorOf(rest.t)), rest.t[3], rest.length_t, positive};
+    if (weight > 0) {
+        r.mag_s /= weight;
+        r.mag_t /= weight;
+    }
+    return r;
+}
+
+inline bool sameResult(const Tangents& a, const Tangents& b) {
+    return a.mag_s == b.mag_s && a.mag_t == b.mag_t && a.s == b.s && a.t == b.t;
+}
+
+/// The reference's rule for a corner that is written again: equal results stay (a NaN is never equal), others
+/// become the normalised mean. The orientation is the later one's.
+inline void merge(Tangents& first, const Tangents& second) {
+    first.positive = second.positive;
+    if (sameResult(first, second)) return;
+    first.mag_s = 0.5f * (first.mag_s + second.mag_s);
+    first.mag_t = 0.5f * (first.mag_t + second.mag_t);
+    first.s = unit(first.s + second.s);
+    first.t = unit(first.t + second.t);
+}
+
+/// Writes the outputs that are wanted.
+class Sink {
+  public:
+    /// The UV determinant speaks of the side that cross(P1-P0, P2-P0) points to; the sign must speak of N's side.
+    Sink(const TangentOutput& out, Convention convention)
+        : out_(out),
+          sign_factor_(signFactor(convention) * normalFactor(convention)),
+          bitangent_factor_(signFactor(convention)) {}
+
+    [[nodiscard]] float sign(bool positive) const { return positive ? sign_factor_ : -sign_factor_; }
+    void write(std::size_t corner, const Tangents& r) const {
+        out_.tangents[corner] = {r.s.x, r.s.y, r.s.z, sign(r.positive)};
+        writeRest(corner, restOf(r));
+    }
+    void writeRest(std::size_t corner, const GroupRest& rest) const {
+        if (!out_.bitangents.empty()) out_.bitangents[corner] = bitangent_factor_ * vectorOf(rest.t);
+        if (!out_.magnitudes_s.empty()) out_.magnitudes_s[corner] = rest.t[3];
+        if (!out_.magnitudes_t.empty()) out_.magnitudes_t[corner] = rest.length_t;
+    }
+    void clear(std::size_t corner) const {
+        out_.tangents[corner] = {};
+        if (!out_.bitangents.empty()) out_.bitangents[corner] = {};
+        if (!out_.magnitudes_s.empty()) out_.magnitudes_s[corner] = 0;
+        if (!out_.magnitudes_t.empty()) out_.magnitudes_t[corner] = 0;
+    }
+    void copy(const Copy& c) const {
+        out_.tangents[c.to] = out_.tangents[c.from];
+        if (!out_.bitangents.empty()) out_.bitangents[c.to] = out_.bitangents[c.from];
+        if (!out_.magnitudes_s.empty()) out_.magnitudes_s[c.to] = out_.magnitudes_s[c.from];
+        if (!out_.magnitudes_t.empty()) out_.magnitudes_t[c.to] = out_.magnitudes_t[c.from];
+    }
+    [[nodiscard]] bool isFinite(std::size_t corner) const { return tspace::isFinite(xyz(out_.tangents[corner])); }
+
+  private:
+    TangentOutput out_;
+    float sign_factor_, bitangent_factor_;
+};
+
+/// Adds corner k of triangle t.
+inline void addRest(GroupRest& sum, const CornerTerms& terms, std::size_t t, std::size_t k) {
+    storeFloat4(sum.t, loadFloat4(sum.t) + loadFloat4(terms.t[3 * t + k]));
+    sum.length_t += terms.lengths_t[k][t];
+}
+
+struct GroupSums {
+    Buffer<Vec3> groups;     ///< weighted tangents: most of the memory that evaluation takes
+    Buffer<GroupRest> rest;  ///< empty when tangents_only
+};
+
+/// Conflicts need bitangents and lengths too: whether two results of a corner are merged depends on all their parts.
+inline bool wantsOnlyTangents(const EvaluationPlan& plan, const TangentOutput& out) {
+    return wantsTangentsOnly(out) && plan.conflicts.empty();
+}
+
+/// Memory for the sums or estimates of a plan's groups.
+GroupSums roomForSums(const EvaluationPlan& plan, bool tangents_only, const Allocator* allocator);
+/// That memory as estimators write to it.
+estimators::GroupEstimates estimatesIn(GroupSums& sums);
+
+}  // namespace tspace::mikk
