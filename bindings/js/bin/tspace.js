@@ -10,8 +10,9 @@ import { toolWord } from "./paths.js";
 import { mostPages } from "./system.js";
 import { instanceOf, newTable, programEnd } from "./threads.js";
 
-// A command calls few of the functions: they are compiled when they are called.
+// A command calls few of the functions: they are looked at and compiled when they are called.
 setFlagsFromString("--wasm-lazy-compilation");
+setFlagsFromString("--wasm-lazy-validation");
 const here = (name) => fileURLToPath(new URL(name, import.meta.url));
 const module = new WebAssembly.Module(readFileSync(here("tspace.wasm")));
 const memory = newMemory();
