@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 // What the tool's C library asks the system for, by node's functions. Each thread has its own; numbers of files are those of the
 // system, so that threads share them. Errors are negative numbers, as in WASI.
-import { randomBytes } from "node:crypto";
 import * as fs from "node:fs";
+import { createRequire } from "node:module";
 import * as os from "node:os";
 import { isatty } from "node:tty";
 import { systemPath, toolPath } from "./paths.js";
 
+/** Loaded when it is needed: that takes 10 ms. */
+const randomBytes = (count) => createRequire(import.meta.url)("node:crypto").randomBytes(count);
 const onWindows = process.platform === "win32";
 const errors = new Map(
   ("SUCCESS 2BIG ACCES ADDRINUSE ADDRNOTAVAIL AFNOSUPPORT AGAIN ALREADY BADF BADMSG BUSY CANCELED CHILD CONNABORTED CONNREFUSED " +
@@ -38,6 +40,11 @@ const openFlags = [[1, constants.O_WRONLY], [2, constants.O_RDWR], [64, constant
   [1024, constants.O_APPEND], [2048, constants.O_NONBLOCK], [131072, constants.O_NOFOLLOW]];
 const directoryFlag = 65536;
 const kinds = [["isFile", 8], ["isDirectory", 4], ["isSymbolicLink", 10], ["isFIFO", 1], ["isCharacterDevice", 2], ["isBlockDevice", 6], ["isSocket", 12]];
+/** The last page of 4 GB stays out of use, so that no end is 2^32. */
+export const mostPages = 65535;
+const pageBytes = 65536;
+/** Of one call of node. */
+const mostBytes = 2 ** 30;
 const atCurrent = -100, noFollow = 0x100, removesFolder = 0x200;
 
 /**
@@ -57,6 +64,14 @@ export function systemOf({ memory, exports, program }) {
   const u32 = (at) => (see(at + 4), data.getUint32(at, true));
   const set32 = (at, value) => (see(at + 4), data.setUint32(at, value, true));
   const set64 = (at, value) => (see(at + 8), data.setBigInt64(at, value, true));
+
+  function grow(pages) {
+    try {
+      return memory.grow(pages) > 0;
+    } catch {
+      return false;
+    }
+  }
 
   function textBytes(at) {
     see(at + 1);
@@ -115,7 +130,7 @@ export function systemOf({ memory, exports, program }) {
     const file = files.get(number);
     let total = 0;
     for (let i = 0; i < count; ++i) {
-      const place = u32(parts + 8 * i), size = u32(parts + 8 * i + 4);
+      const place = u32(parts + 8 * i), size = Math.min(u32(parts + 8 * i + 4), mostBytes);
       if (size === 0) continue;
       see(place + size);
       const moved = patiently(() => transfer(place, size, file?.moved ? file.at : null));
@@ -341,17 +356,11 @@ export function systemOf({ memory, exports, program }) {
       see(Math.max(to >>> 0, from >>> 0) + size);
       bytes.copyWithin(to >>> 0, from >>> 0, (from >>> 0) + size);
     },
-    emscripten_get_heap_max: () => 0xffff0000,
+    emscripten_get_heap_max: () => mostPages * pageBytes,
     emscripten_resize_heap: (size) => {
-      const wanted = size >>> 0, page = 65536, step = 256;
-      try {
-        const missing = Math.ceil((wanted - memory.buffer.byteLength) / page);
-        // In steps of 16 MB: each makes all threads look anew.
-        if (missing > 0) memory.grow(Math.min(Math.ceil(missing / step) * step, page - memory.buffer.byteLength / page - 1));
-        return memory.buffer.byteLength >= wanted ? 1 : 0;
-      } catch {
-        return 0;
-      }
+      const missing = Math.ceil(((size >>> 0) - memory.buffer.byteLength) / pageBytes), step = 256;
+      // In steps of 16 MB: each makes all threads look anew.
+      return missing <= 0 || grow(Math.ceil(missing / step) * step) || grow(missing) ? 1 : 0;
     },
     emscripten_num_logical_cores: () => os.availableParallelism?.() ?? os.cpus().length,
     emscripten_check_blocking_allowed: () => {},

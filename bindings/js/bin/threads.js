@@ -6,7 +6,8 @@ import { Worker } from "node:worker_threads";
 import { systemOf } from "./system.js";
 
 const ended = 0, code = 1, workerCount = 2, firstWorker = 4, wordsOfWorker = 8, mostWorkers = 1024;
-const idle = 0, taken = 1, ready = 2;
+/** Of a worker; 0 until its first thread. */
+const idle = 1, taken = 2, ready = 3;
 
 export const newTable = () => new Int32Array(new SharedArrayBuffer(4 * (firstWorker + wordsOfWorker * mostWorkers)));
 
@@ -56,6 +57,7 @@ export function instanceOf({ module, memory, table, program, end }) {
       new Worker(new URL("thread.js", import.meta.url), { workerData: { module, memory, table, program, place: at(worker) }, trackUnmanagedFds: false });
       return 0;
     } catch {
+      Atomics.store(table, at(worker), taken);
       return 6;
     }
   };

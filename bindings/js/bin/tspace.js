@@ -7,14 +7,26 @@ import { constants } from "node:os";
 import { fileURLToPath } from "node:url";
 import { setFlagsFromString } from "node:v8";
 import { toolWord } from "./paths.js";
+import { mostPages } from "./system.js";
 import { instanceOf, newTable, programEnd } from "./threads.js";
 
-// A command calls few of the functions: they are compiled when they are called.
+// A command calls few of the functions: they are looked at and compiled when they are called.
 setFlagsFromString("--wasm-lazy-compilation");
+setFlagsFromString("--wasm-lazy-validation");
 const here = (name) => fileURLToPath(new URL(name, import.meta.url));
 const module = new WebAssembly.Module(readFileSync(here("tspace.wasm")));
-const memory = new WebAssembly.Memory({ initial: 256, maximum: 65536, shared: true });
+const memory = newMemory();
 const table = newTable();
+
+function newMemory() {
+  try {
+    return new WebAssembly.Memory({ initial: 256, maximum: mostPages, shared: true });
+  } catch (error) {
+    // The engine reserves more than 4 GB of address space, which ulimit -v may forbid.
+    process.stderr.write(`tspace: ${error.message}\n`);
+    process.exit(5);
+  }
+}
 
 /** Ends the process with a code, or as the signal that it stands for. */
 function leave(code) {

@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
-# Compiles the tool and the libraries that it reads files by into one WebAssembly module: build.sh OUT. OUT/bin is then what
-# package.json calls "bin". The libraries' sources are fetched from Debian, in the versions that are installed here.
+# Compiles the tool and the libraries that it reads files by into one WebAssembly module: build.sh OUT. OUT/bin and OUT/share, with
+# completions for shells, are then parts of the package. The libraries' sources are fetched from Debian, in the versions that are installed here.
 set -euo pipefail
 here=$(dirname "$(readlink -f "$0")")
 root=$(readlink -f "$here/../../..")
@@ -60,13 +60,21 @@ cmake_configure "$here/libraries" "$out/libraries" -DCMAKE_INSTALL_PREFIX="$out/
 cmake --build "$out/libraries" >"$out/libraries.log" 2>&1 || { tail -40 "$out/libraries.log" >&2; exit 1; }
 cmake --install "$out/libraries" >/dev/null
 cmake_configure "$root" "$out/build" -DTSPACE_BUILD_TESTS=OFF -DTSPACE_BUILD_EXAMPLES=OFF
-cmake --build "$out/build" --target tspace_tool >"$out/build.log" 2>&1 || { grep -a -A20 -m3 error: "$out/build.log" >&2; tail -5 "$out/build.log" >&2; exit 1; }
+cmake --build "$out/build" --target tspace_tool tspace_pages >"$out/build.log" 2>&1 || { grep -a -A20 -m3 error: "$out/build.log" >&2; tail -5 "$out/build.log" >&2; exit 1; }
 
 rm -rf "$out/bin"
 mkdir -p "$out/bin"
 cp "$root"/bindings/js/bin/*.js "$out/bin/"
 wasm-opt -O2 --enable-threads --enable-simd --enable-bulk-memory --enable-sign-ext --enable-mutable-globals \
     --enable-nontrapping-float-to-int --enable-exception-handling "$out/build/bin/tspace.wasm" -o "$out/bin/tspace.wasm"
+# Completions, by the program that makes them.
+rm -rf "$out/pages" "$out/share"
+mkdir -p "$out/pages/bin"
+cp "$root"/bindings/js/bin/*.js "$out/pages/bin/"
+cp "$out/build/tools/tspace/tspace_pages.wasm" "$out/pages/bin/tspace.wasm"
+echo '{ "type": "module" }' >"$out/pages/package.json"
+node "$out/pages/bin/tspace.js" "$out/pages/made" "$(date -u +%F)"
+cp -r "$out/pages/made/share" "$out/share"
 # Whoever passes programs on passes these texts on.
 {
     echo "tspace.wasm has parts of these libraries in it; tspace's own licence is beside package.json."

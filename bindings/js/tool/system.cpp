@@ -15,12 +15,16 @@
 #include <ctime>
 
 // What system.js writes.
-static_assert(offsetof(struct stat, st_dev) == 0 && offsetof(struct stat, st_mode) == 12 && offsetof(struct stat, st_nlink) == 16);
-static_assert(offsetof(struct stat, st_uid) == 20 && offsetof(struct stat, st_gid) == 24 && offsetof(struct stat, st_size) == 40);
+static_assert(offsetof(struct stat, st_dev) == 0 && offsetof(struct stat, st_mode) == 12 &&
+              offsetof(struct stat, st_nlink) == 16);
+static_assert(offsetof(struct stat, st_uid) == 20 && offsetof(struct stat, st_gid) == 24 &&
+              offsetof(struct stat, st_size) == 40);
 static_assert(offsetof(struct stat, st_mtim) == 64 && offsetof(struct stat, st_ino) == 80 && sizeof(struct stat) == 88);
 static_assert(sizeof(struct timespec) == 8 && sizeof(struct dirent) == 280);
-static_assert(offsetof(struct dirent, d_reclen) == 16 && offsetof(struct dirent, d_type) == 18 && offsetof(struct dirent, d_name) == 19);
-static_assert(O_CREAT == 64 && O_EXCL == 128 && O_TRUNC == 512 && O_APPEND == 1024 && O_DIRECTORY == 65536 && O_NOFOLLOW == 131072);
+static_assert(offsetof(struct dirent, d_reclen) == 16 && offsetof(struct dirent, d_type) == 18 &&
+              offsetof(struct dirent, d_name) == 19);
+static_assert(O_CREAT == 64 && O_EXCL == 128 && O_TRUNC == 512 && O_APPEND == 1024 && O_DIRECTORY == 65536 &&
+              O_NOFOLLOW == 131072);
 
 #define TSPACE_HOST(name) __attribute__((import_module("env"), import_name(#name)))
 #define TSPACE_EXPORT(name) __attribute__((export_name(#name)))
@@ -115,11 +119,21 @@ std::size_t strftime(char* to, std::size_t size, const char* format, const struc
                 number = time->tm_year + 1900;
                 digits = 4;
                 break;
-            case 'm': number = time->tm_mon + 1; break;
-            case 'd': number = time->tm_mday; break;
-            case 'H': number = time->tm_hour; break;
-            case 'M': number = time->tm_min; break;
-            default: number = time->tm_sec; break;
+            case 'm':
+                number = time->tm_mon + 1;
+                break;
+            case 'd':
+                number = time->tm_mday;
+                break;
+            case 'H':
+                number = time->tm_hour;
+                break;
+            case 'M':
+                number = time->tm_min;
+                break;
+            default:
+                number = time->tm_sec;
+                break;
         }
         int unit = 1;
         for (int i = 1; i < digits; ++i) unit *= 10;
