@@ -152,7 +152,8 @@ class PointComponents {
             const std::uint32_t found = previous.with(at_.next(slot));
             const std::uint32_t like = next.with(at_.next(slot)), behind = previous.with(at_.previous(slot));
             if ((like & (like - 1)) != 0 || (behind & (behind - 1)) != 0) return false;
-            follower[slot] = static_cast<std::uint8_t>(found != 0 ? std::countr_zero(found) : slot);
+            follower[slot] =
+                static_cast<std::uint8_t>(found != 0 ? static_cast<unsigned>(std::countr_zero(found)) : slot);
         }
         for (std::uint32_t slot = 0; slot < count_; ++slot) {
             if (follower[slot] != slot) joinTwo(slot, follower[slot], corner(slot));
