@@ -48,7 +48,7 @@ export class UvMapView {
       this.#look = look;
       void this.draw();
     });
-    const wire = checkbox("Edges", true, (on) => ((this.#isWire = on), void this.draw()));
+    const wire = checkbox("Triangles", true, (on) => ((this.#isWire = on), void this.draw()));
     const cover = el("input", { type: "range", min: "0", max: "100", value: String(100 * this.#cover), "aria-label": "How much the islands cover the image" });
     cover.addEventListener("input", () => ((this.#cover = Number(cover.value) / 100), void this.draw()));
     this.#rows.append(this.#part, this.#sets, looks.element, el("div", { class: "row" }, wire.element, el("label", { class: "select" }, el("span", {}, "Cover"), cover)),
