@@ -7,6 +7,7 @@
 // be several. Names of nodes come first, then those of meshes.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,24 @@ namespace tspace {
 
 /// Which file an error is about: bakeFile and mapErrorFile tell its number as Error::element, where it is about one.
 enum class BakeInput : std::uint32_t { low = 0, high = 1, cage = 2, map = 3, skew = 4 };
+
+/// How it is known which way green of a high poly's normal map points.
+enum class GreenSource : std::uint32_t {
+    assumed = 0,   ///< as its format says: up in glTF
+    told = 1,      ///< BakeFileOptions::high_green
+    declared = 2,  ///< the file says so
+    seen = 3,      ///< the slopes of the map say so
+};
+
+/// A normal map that the high poly shows itself, and that is baked through.
+struct BakedHighMap {
+    std::string image = {};     ///< its URI or name
+    std::string material = {};  ///< of the first primitive that shows it; may be empty
+    double scale = 1;           ///< of x and y
+    Green green = Green::up;
+    GreenSource green_is = GreenSource::assumed;
+    std::uint64_t triangle_count = 0;
+};
 
 struct BakeFileOptions {
     /// Its wrap modes are those of the low poly's textures. Its limit on memory is that of `file`, or 16 GB, where it is 0.
@@ -30,6 +49,10 @@ struct BakeFileOptions {
     /// Which objects look at which: "names"; "all": at everything; else a file with lines LOW = HIGH, names of nodes or
     /// meshes as they are. What has no partner sees everything, or is seen by everything, and a warning names it.
     std::string match = "names";
+    /// Without the normal maps that materials of the high poly have: its own normals alone are what is seen.
+    bool ignore_high_maps = false;
+    /// Which way green of these maps points. Nothing: as the file declares, or as their slopes show, or up.
+    std::optional<Green> high_green = {};
     std::string misses = {};  ///< where to write a picture of what each texel is; empty: nowhere
     std::string heat = {};    ///< where to write a picture of the error; empty: nowhere
     /// Where to write the low poly with the frames that were used and the maps as its normal textures: .glb (holds them) or
@@ -39,7 +62,11 @@ struct BakeFileOptions {
     /// Texels of length 1, for formats of two channels, from whose x and y readers make z (BC5, DXT5nm): what
     /// `map.reading.two_channels` says, whatever the reading.
     bool unit = false;
-    bool udim = false;  ///< a file per tile of UVs: NAME.1001.png. Without it textures go on outside of 0 to 1
+    bool udim = false;  ///< a file per tile of UVs: NAME.1001.png
+    /// Triangles whose UVs have their middle outside of 0 to 1 are baked too, where the texture shows them again. Without this,
+    /// and without `udim`, they have no say: so artists put copies of what shares texels aside. A material that has
+    /// no other triangles is baked so in any case.
+    bool wrap = false;
     Execution execution = {};
     Progress progress = {};
 };
@@ -58,6 +85,7 @@ struct BakedFile {
     std::string material = {};  ///< its name; may be empty
     std::uint32_t tile = 0;     ///< 1001 and on with `udim`, else 0
     std::uint64_t triangle_count = 0;
+    std::uint64_t outside_count = 0;  ///< triangles of the material that have no say: see BakeFileOptions::wrap
     UsedRays rays = {};
     BakedMap map = {};        ///< without texels
     double heat_top_deg = 0;  ///< what the brightest colour of the heat map stands for
@@ -65,8 +93,9 @@ struct BakedFile {
 
 struct BakeFileReport {
     std::vector<BakedFile> files = {};
-    bool frames_made = false;      ///< the low poly had no tangents, or no normals, in part at least
-    bool matched_by_name = false;  ///< objects of the low poly saw their own of the high poly alone
+    std::vector<BakedHighMap> high_maps = {};  ///< what was baked through
+    bool frames_made = false;                  ///< the low poly had no tangents, or no normals, in part at least
+    bool matched_by_name = false;              ///< objects of the low poly saw their own of the high poly alone
     std::uint64_t low_triangle_count = 0, high_triangle_count = 0;
     std::vector<std::string> output_files = {};  ///< everything that was written
     /// What makes maps useless, and why: rays that mostly met nothing, normals of the high poly that point inwards. Where no
@@ -88,6 +117,8 @@ struct MapErrorFileOptions {
     NormalOptions normals{.weighting = NormalWeighting::flat};
     FileOptions file = {};
     std::string cage = {}, skew = {}, match = "names";  ///< as BakeFileOptions
+    bool ignore_high_maps = false;                      ///< likewise
+    std::optional<Green> high_green = {};               ///< likewise
     bool two_channels = false;  ///< z is made from x and y: `map.reading.two_channels`, whatever the reading
     std::string material = {};  ///< only triangles of the material with this name; empty: all
     std::uint32_t tile = 0;     ///< only triangles of this UDIM tile, 1001 and on; 0: all
@@ -121,6 +152,7 @@ struct MapErrorFileReport {
     bool fits = false;                            ///< no other reading and no other rays are much better
     std::string verdict = {};                     ///< for an artist
     bool frames_made = false, matched_by_name = false;
+    std::vector<BakedHighMap> high_maps = {};  ///< maps of the high poly that are a part of the truth
     double heat_top_deg = 0;
     std::vector<std::string> warnings = {};
 };

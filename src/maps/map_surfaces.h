@@ -59,9 +59,11 @@ struct RayNeighbourhood {
 class MapSurfaces {
   public:
     /// Checked meshes, which must stay, and checked rays, whose image must stay. `reach`: 0 chooses. Errors:
-    /// unsupportedFile, outOfMemory, missingAttribute (meshes that are nowhere near each other).
+    /// unsupportedFile, outOfMemory, missingAttribute (meshes that are nowhere near each other). `surface`: that of the high
+    /// poly, where it is there already, or null.
     static Result<MapSurfaces> make(const LowPoly& low, const HighPoly& high, double reach, const RayOptions& rays,
-                                    Parallel& parallel, const Allocator* allocator);
+                                    Parallel& parallel, const Allocator* allocator,
+                                    std::shared_ptr<const RaySurface> surface = nullptr);
     /// The same meshes with other rays. `reach`: 0 is that of this one.
     [[nodiscard]] MapSurfaces withRays(const RayOptions& rays, double reach, Parallel& parallel,
                                        const Allocator* allocator) const;
@@ -72,6 +74,7 @@ class MapSurfaces {
     /// 0 with a cage of the low poly's own.
     [[nodiscard]] double cageOffset() const { return low_.cage.empty() ? cage_offset_ : 0; }
     [[nodiscard]] std::size_t triangleCount() const { return low_.positions.count / 3; }
+    [[nodiscard]] const std::shared_ptr<const RaySurface>& surface() const { return rays_; }
 
     /// The unit normal of the high poly, as shaded, where the ray of a point of the low poly meets it. `guess` as
     /// RaySurface::nearest; begin with 0. `around`: null, or where to say what else the ray meets. Threads may call at the
@@ -103,6 +106,8 @@ class MapSurfaces {
     [[nodiscard]] RayNeighbourhood around(const Ray& ray, const RayHit* hit) const;
     void aim(const RayOptions& rays, Parallel& parallel, const Allocator* allocator);
     DVec3 normalOf(const RayHit& hit) const;
+    /// The normal that the high poly's own map gives; zero where it shows none there.
+    [[nodiscard]] DVec3 mappedNormal(const RayHit& hit, const std::array<std::uint32_t, 3>& vertices) const;
 };
 
 /// The UVs of a low poly as a list of triangles.

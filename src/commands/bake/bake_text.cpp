@@ -46,7 +46,9 @@ void addFile(const BakedFile& file, Table& table) {
         table.addRow({map.conflict_count > 0 ? "warning" : "note",
                       fmt::format("{} shown by several triangles{}", counted(map.overlap_count, "texel"),
                                   map.conflict_count > 0
-                                      ? fmt::format(", which want different normals in {} of them", map.conflict_count)
+                                      ? fmt::format(", which want different normals in {} of them: {:.1f} degrees "
+                                                    "apart in the mean, {:.1f} at most (--overlap)",
+                                                    map.conflict_count, map.conflict_mean_deg, map.conflict_max_deg)
                                       : std::string())});
     if (map.degenerate_uv_count > 0)
         table.addRow({"note", fmt::format("{} without UV area", counted(map.degenerate_uv_count, "triangle"))});
@@ -54,12 +56,18 @@ void addFile(const BakedFile& file, Table& table) {
 
 }  // namespace
 
+std::string highMapText(const BakedHighMap& map) {
+    return fmt::format("{}, scale {:.4g}, green {} ({})", printable(map.image), map.scale,
+                       map.green == Green::down ? "down" : "up", greenSourceWord(map.green_is));
+}
+
 std::string bakeText(const Outcome<BakeFileReport>& outcome, const std::string& out_mesh) {
     const BakeFileReport& done = *outcome.result;
     Table table;
     for (const BakedFile& file : done.files) {
         if (file.map.hit_count > 0) addFile(file, table);
     }
+    for (const BakedHighMap& map : done.high_maps) table.addRow({"high map", highMapText(map)});
     for (const std::string& finding : done.findings) table.addRow({"finding", printable(finding)});
     if (!out_mesh.empty() && !done.output_files.empty())
         table.addRow({"model", fmt::format("{}, with its frames and maps", printable(out_mesh))});

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "commands/bake/high_maps.h"
 #include "images/float_image.h"
 #include "maps/map_surfaces.h"
 #include "maps/uv_coverage.h"
@@ -104,10 +105,22 @@ struct LowModel {
 struct HighModel {
     std::vector<Vec3> positions = {}, normals = {};
     std::vector<std::uint32_t> corners = {}, groups = {};
+    /// Where the high poly shows maps of its own; empty without.
+    std::vector<Vec4> tangents = {};
+    std::vector<Vec2> uvs = {};
+    std::vector<std::uint32_t> map_of = {};
+    HighMaps shown = {};
     std::vector<std::string> warnings = {};
 
     [[nodiscard]] HighPoly view() const {
-        return {.positions = positions, .normals = normals, .corners = corners, .groups = groups};
+        return {.positions = positions,
+                .normals = normals,
+                .corners = corners,
+                .groups = groups,
+                .maps = shown.maps,
+                .map_of = map_of,
+                .tangents = tangents,
+                .uvs = uvs};
     }
 };
 
@@ -130,7 +143,7 @@ struct BakeModels {
 /// tangents, which they follow. Null: the first UVs, as they are.
 const TangentUse* mapUse(const ScenePrimitive& primitive);
 
-/// An image, within the limit on memory; small ones whatever their files weigh. Throws FileError.
+/// An image that is an input of the call: readMapImage.
 FloatImage readFloatImage(const std::string& path, const FileOptions& options);
 
 /// Reads the models, makes the frames that the low poly lacks, and matches meshes by name. Throws FileError, which says as
