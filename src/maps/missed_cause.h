@@ -6,7 +6,7 @@
 
 #include "core/base/memory.h"
 #include "core/base/parallel.h"
-#include "tspace/map_bake.h"
+#include "tspace/map_layers.h"
 
 namespace tspace {
 
@@ -20,7 +20,7 @@ std::string causeOfMisses(const LowPoly& low, const HighPoly& high, double reach
 std::string otherPlaceOf(const LowPoly& low, const HighPoly& high, Parallel& parallel);
 
 /// bakeMap, but where nothing meets the high poly the result is a map without texels, and no error.
-Result<BakedMap> bakeEvenIfMissed(const LowPoly& low, const HighPoly& high, const BakeOptions& options,
-                                  const Execution& execution, const Progress& progress);
+Result<BakedMaps> bakeEvenIfMissed(const LowPoly& low, const HighPoly& high, const BakeOptions& options,
+                                   const LayerOptions& layers, const Execution& execution, const Progress& progress);
 
 }  // namespace tspace
