@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "tspace/asset.h"
-#include "tspace/map_bake.h"
+#include "tspace/map_layers.h"
 
 namespace tspace {
 
@@ -35,6 +35,13 @@ struct BakedHighMap {
     Green green = Green::up;
     GreenSource green_is = GreenSource::assumed;
     std::uint64_t triangle_count = 0;
+};
+
+/// What has a number of its own in MapLayer::id.
+enum class BakeIds : std::uint32_t {
+    material = 0,  ///< materials by their names
+    object = 1,    ///< nodes of the high poly by their names, or meshes where nodes have none
+    shell = 2      ///< what hangs together by its positions
 };
 
 struct BakeFileOptions {
@@ -67,6 +74,10 @@ struct BakeFileOptions {
     /// and without `udim`, they have no say: so artists put copies of what shares texels aside. A material that has
     /// no other triangles is baked so in any case.
     bool wrap = false;
+    /// Which maps. `ids`, `material` and the box of positions are set by the call. The normal map has the name of the output, the others
+    /// NAME_ao.png and so on; where both are made, red of `orm` is `ao`.
+    LayerOptions layers = {};
+    BakeIds ids = BakeIds::material;
     Execution execution = {};
     Progress progress = {};
 };
@@ -79,9 +90,27 @@ struct UsedRays {
     bool has_cage = false;  ///< a cage of the low poly's own said all of it
 };
 
-/// One image.
-struct BakedFile {
+/// What a colour of MapLayer::id stands for.
+struct BakedId {
+    std::string name = {};  ///< of the material or object; may be empty; shells have none
+    std::array<std::uint8_t, 3> color = {};
+};
+
+/// An image beside the normal map.
+struct BakedLayerFile {
+    MapLayer layer = MapLayer::ao;
     std::string path = {};
+    unsigned bits = 8;     ///< of a channel
+    bool is_srgb = false;  ///< its numbers have the sRGB curve
+    /// What black and white of each channel stand for, in units of the models.
+    std::array<double, 3> least = {0, 0, 0}, most = {1, 1, 1};
+    std::uint64_t id_count = 0;     ///< of MapLayer::id: how many the high poly has
+    std::vector<BakedId> ids = {};  ///< the first 256 of them
+};
+
+/// One image, and those beside it.
+struct BakedFile {
+    std::string path = {};      ///< of the normal map; empty where none was asked for
     std::string material = {};  ///< its name; may be empty
     std::uint32_t tile = 0;     ///< 1001 and on with `udim`, else 0
     std::uint64_t triangle_count = 0;
@@ -89,6 +118,7 @@ struct BakedFile {
     UsedRays rays = {};
     BakedMap map = {};        ///< without texels
     double heat_top_deg = 0;  ///< what the brightest colour of the heat map stands for
+    std::vector<BakedLayerFile> layers = {};
 };
 
 struct BakeFileReport {
@@ -104,7 +134,7 @@ struct BakeFileReport {
     std::vector<std::string> warnings = {};  ///< one sentence each
 };
 
-/// Bakes the normal map of `low` from `high` into `output`, a PNG. A low poly of several materials gives a file each:
+/// Bakes the maps of `low` from `high`; the normal map is `output`, a PNG. A low poly of several materials gives a file each:
 /// NAME.MATERIAL.png. All files appear at once or not at all. Errors: those of bakeMap, but for rays that meet nothing, which
 /// are findings; and cannotRead, invalidFile,
 /// unsupportedFile (also a build that writes no PNG), forbiddenPath, tooLarge, cannotWrite.

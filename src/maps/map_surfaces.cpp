@@ -221,8 +221,14 @@ DVec3 MapSurfaces::normalOf(const RayHit& hit) const {
         for (std::size_t i = 0; i < 3; ++i) sum = sum + hit.weights[i] * toDouble(high_.normals[vertices[i]]);
         if (normalize(sum)) return sum;
     }
-    const DVec3 first = toDouble(high_.positions[vertices[0]]);
-    DVec3 flat = cross(toDouble(high_.positions[vertices[1]]) - first, toDouble(high_.positions[vertices[2]]) - first);
+    return faceOf(hit.triangle);
+}
+
+DVec3 MapSurfaces::faceOf(std::uint32_t triangle) const {
+    const auto at = [&](std::size_t i) {
+        return toDouble(high_.positions[high_.corners[3 * std::size_t{triangle} + i]]);
+    };
+    DVec3 flat = cross(at(1) - at(0), at(2) - at(0));
     return normalize(flat) ? flat : DVec3{};
 }
 
@@ -289,6 +295,20 @@ bool MapSurfaces::truthAt(std::size_t triangle, const std::array<double, 3>& wei
     normal = normalOf(hit);
     if (around != nullptr) around->normal_is_inward = dot(normal, ray.outward) < 0;
     return dot(normal, normal) > 0;
+}
+
+bool MapSurfaces::hitAt(std::size_t triangle, const std::array<double, 3>& weights, double& guess,
+                        SurfaceHit& hit) const {
+    Ray ray;
+    RayHit met;
+    if (!rayAt(triangle, weights, ray) || !meet(ray, guess, met)) return false;
+    hit = {.triangle = met.triangle, .weights = met.weights, .height = met.distance};
+    for (std::size_t i = 0; i < 3; ++i)
+        hit.place =
+            hit.place + met.weights[i] * toDouble(high_.positions[high_.corners[3 * std::size_t{met.triangle} + i]]);
+    hit.normal = normalOf(met);
+    hit.face = faceOf(met.triangle);
+    return dot(hit.normal, hit.normal) > 0;
 }
 
 CornerFrames MapSurfaces::corners(std::size_t triangle, const StridedSpan<const Vec4>& tangents) const {

@@ -8,7 +8,7 @@
 #include "core/base/memory.h"
 #include "core/base/parallel.h"
 #include "maps/rays.h"
-#include "tspace/map_bake.h"
+#include "tspace/map_layers.h"
 
 namespace tspace {
 
@@ -27,9 +27,10 @@ std::string causeOfMisses(const LowPoly& low, const HighPoly& high, const RaySur
 /// where now less than half of it does. Empty where there are none.
 std::string otherPlaceOf(const LowPoly& low, const HighPoly& high, const RaySurface& surface);
 
-/// bakeMap, but where nothing meets the high poly the result is a map without texels, and no error. `shared`: of this high
+/// bakeMaps, but where nothing meets the high poly the result is a map without texels, and no error. `shared`: of this high
 /// poly; filled where it is empty.
-Result<BakedMap> bakeEvenIfMissed(const LowPoly& low, const HighPoly& high, const BakeOptions& options,
-                                  const Execution& execution, const Progress& progress, SharedRays& shared);
+Result<BakedMaps> bakeEvenIfMissed(const LowPoly& low, const HighPoly& high, const BakeOptions& options,
+                                   const LayerOptions& layers, const Execution& execution, const Progress& progress,
+                                   SharedRays& shared);
 
 }  // namespace tspace

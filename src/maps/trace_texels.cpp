@@ -51,23 +51,6 @@ FitSample sampleOf(const BakeOptions& options, const Vec3& wanted) {
     return acrossSample(wanted, options.bits == 8 ? 0.0F : kAlong, kWantedLength);
 }
 
-/// A column or row of a grid of n points a texel, as a part of the way from the centre of a texel to the next.
-struct BetweenTexels {
-    std::uint32_t texel = 0;
-    float part = 0;
-};
-
-BetweenTexels betweenTexels(std::uint32_t at, std::uint32_t n, std::uint32_t size, TextureWrap wrap) {
-    const std::uint32_t shift = n / 2;
-    const bool repeats = wrap == TextureWrap::repeat;
-    // Points before the first centre belong to the last texel of an image that repeats; others show the first alone there.
-    if (at < shift && !repeats) return {};
-    const std::uint32_t from_centre = at < shift ? at + size * n - shift : at - shift, texel = from_centre / n;
-    if (texel + 1 == size && !repeats) return {texel, 0};
-    const float first = n % 2 == 0 ? 0.5F / static_cast<float>(n) : 0.0F;
-    return {texel, first + static_cast<float>(from_centre % n) / static_cast<float>(n)};
-}
-
 class Tracing {
   public:
     Tracing(const MapSurfaces& surfaces, const TexelTriangles& triangles, const BakeOptions& options,

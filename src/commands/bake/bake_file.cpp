@@ -8,6 +8,7 @@
 #include <map>
 #include <set>
 
+#include "commands/bake/all_maps.h"
 #include "commands/bake/bake_report.h"
 #include "commands/bake/model_surfaces.h"
 #include "images/float_image.h"
@@ -47,6 +48,12 @@ std::string withWord(const std::string& path, const std::string& word) {
     return path.substr(0, at) + "." + word + path.substr(at);
 }
 
+/// "dir/name_WORD.png" of "dir/name.png", whose end is .png.
+std::string withLayer(const std::string& path, const char* word) {
+    const std::size_t dot = path.find_last_of('.');
+    return path.substr(0, dot) + "_" + word + path.substr(dot);
+}
+
 class FileBaking {
   public:
     FileBaking(const std::string& output, const BakeFileOptions& options) : output_(output), options_(options) {
@@ -64,6 +71,8 @@ class FileBaking {
         if (lowerExtension(output_) != ".png")
             failFile(ErrorCode::unsupportedFile, "the output " + pathInQuotes(output_) + " does not end in .png");
         checkOutMesh();
+        if (!options_.layers.has_normal && !options_.heat.empty())
+            failFile(ErrorCode::invalidOption, "a picture of the error needs the normal map");
         if (Error error = checkBakeOptions(options_.map, 0, 0); error.code != ErrorCode::ok) throw FileError{error};
         models_ = readBakeModels(low, high, options_);
         report_.frames_made = models_.low.frames_made;
@@ -74,6 +83,9 @@ class FileBaking {
         report_.warnings.insert(report_.warnings.end(), models_.high.warnings.begin(), models_.high.warnings.end());
         report_.high_maps = models_.high.shown.reports;
         options_.map.reach = models_.reach(options_.map.reach);
+        aboutInput(BakeInput::high, [&] { return &detail_.emplace(models_, high, options_); });
+        const std::vector<std::string>& seen = detail_->warnings();
+        report_.warnings.insert(report_.warnings.end(), seen.begin(), seen.end());
         for (const LowModel::Image& image : models_.low.images) {
             const std::string word = models_.low.images.size() > 1 ? freshWord(fileWord(image.material)) : "";
             bakeTiles(image, word);
@@ -216,17 +228,18 @@ class FileBaking {
             options.wrap_v = image.wrap_v;
         }
         options.rays = models_.rays(options.rays, options.wrap_u, options.wrap_v);
-        BakedFile file{.path = withWord(output_, word),
+        BakedMaps maps = aboutInput(BakeInput::low, [&] {
+            return valueOrThrow(bakeEvenIfMissed(part.view(), models_.high.view(), options, detail_->layers(),
+                                                 options_.execution, options_.progress, shared_));
+        });
+        BakedFile file{.path = options_.layers.has_normal ? withWord(output_, word) : "",
                        .material = image.material,
                        .tile = tile,
                        .triangle_count = part.triangleCount(),
                        .outside_count = outside,
                        .rays = {options.rays.target, options.rays.directions, !options.rays.skew.texels.empty(),
                                 !part.cage.empty()},
-                       .map = aboutInput(BakeInput::low, [&] {
-                           return valueOrThrow(bakeEvenIfMissed(part.view(), models_.high.view(), options,
-                                                                options_.execution, options_.progress, shared_));
-                       })};
+                       .map = std::move(maps.normal)};
         BakedMap& map = file.map;
         findCause(file, part);
         if (map.hit_count == 0) {
@@ -236,14 +249,10 @@ class FileBaking {
             report_.files.push_back(std::move(file));
             return;
         }
-        std::vector<std::uint8_t> png = pngOf(map.width, map.height, std::exchange(map.texels, {}), map.bits);
-        // Baking again writes over the map that the low poly shows.
-        inputs_.letOff(file.path);
-        if (options_.out_mesh.empty()) {
-            files_.add(file.path, png);
-        } else {
-            maps_.push_back({file.path, Bytes(png.begin(), png.end()), image.primitives, image.wrap_u, image.wrap_v});
-        }
+        if (options_.layers.has_normal)
+            addMap(file.path, pngOf(map.width, map.height, std::exchange(map.texels, {}), map.bits), MapSlot::normal,
+                   image);
+        addLayers(image, word, maps.layers, file);
         if (!options_.misses.empty())
             files_.add(withWord(options_.misses, word), pngOf(map.width, map.height, pictureOfOrigins(map), 8));
         if (!options_.heat.empty()) {
@@ -256,6 +265,49 @@ class FileBaking {
         map.error.heat = {};
         warnOfRays(file);
         report_.files.push_back(std::move(file));
+    }
+
+    /// Adds a map to the outputs, or to the model that is written with it.
+    void addMap(const std::string& path, const std::vector<std::uint8_t>& png, std::optional<MapSlot> slot,
+                const LowModel::Image& image) {
+        // Baking again writes over the map that the low poly shows.
+        inputs_.letOff(path);
+        if (options_.out_mesh.empty() || !slot) {
+            files_.add(path, png);
+        } else {
+            maps_.push_back({path, Bytes(png.begin(), png.end()), image.primitives, image.wrap_u, image.wrap_v, *slot});
+        }
+    }
+
+    void addLayers(const LowModel::Image& image, const std::string& word, std::vector<BakedLayer>& layers,
+                   BakedFile& file) {
+        for (BakedLayer& layer : layers) {
+            BakedLayerFile made{.path = withWord(withLayer(output_, layerName(layer.layer)), word)};
+            const std::vector<std::uint8_t> png =
+                layerPng(layer, file.map, options_.map.bits, models_.low.origin, made);
+            if (layer.layer == MapLayer::id) {
+                made.id_count = detail_->idCount();
+                made.ids = detail_->ids();
+            }
+            addMap(made.path, png, slotOf(layer.layer), image);
+            file.layers.push_back(std::move(made));
+        }
+    }
+
+    /// What of a glTF material shows a layer. Red of `orm` is `ao` where both are made: then one image is both.
+    [[nodiscard]] std::optional<MapSlot> slotOf(MapLayer layer) const {
+        switch (layer) {
+            case MapLayer::ao:
+                return shows(options_.layers, MapLayer::orm) ? std::nullopt : std::optional(MapSlot::occlusion);
+            case MapLayer::orm:
+                return shows(options_.layers, MapLayer::ao) ? MapSlot::occlusion_and_metal : MapSlot::metal;
+            case MapLayer::color:
+                return MapSlot::color;
+            case MapLayer::emission:
+                return MapSlot::emission;
+            default:
+                return {};
+        }
     }
 
     /// What makes the map useless.
@@ -299,6 +351,7 @@ class FileBaking {
     BakeFileOptions options_;
     BakeModels models_ = {};
     SharedRays shared_ = {};  ///< of the high poly, for all images
+    std::optional<HighDetail> detail_ = {};  ///< refers to the models
     AtomicOutput files_{{.sync = options_.file.sync, .inputs = &inputs_}};
     std::vector<ModelMap> maps_ = {};
     std::set<std::string> words_ = {};
@@ -436,9 +489,10 @@ Json bakedFileJson(const BakedFile& file) {
             {"directions", directionsWord(file.rays)},
             {"reach", map.error.reach},
             {"cageOffset", map.error.cage_offset},
-            {"error", errorOfMapJson(map.error)},
+            {"error", file.path.empty() ? Json() : errorOfMapJson(map.error)},
             {"ownError", map.own_error.point_count > 0 ? errorOfMapJson(map.own_error) : Json()},
-            {"heatTopDeg", file.heat_top_deg}};
+            {"heatTopDeg", file.heat_top_deg},
+            {"maps", listJson(file.layers, layerJson)}};
 }
 
 }  // namespace

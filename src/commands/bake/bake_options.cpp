@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // How normal maps are baked and measured.
+#include <algorithm>
 #include <cmath>
 
 #include "commands/shared/file_options.h"
@@ -16,6 +17,9 @@ constexpr Named<RayDirections> kDirections[] = {
 constexpr Named<MapOverlap> kOverlaps[] = {
     {"mean", MapOverlap::mean}, {"first", MapOverlap::first}, {"larger", MapOverlap::larger}};
 constexpr Named<unsigned> kMapBits[] = {{"8", 8}, {"16", 16}};
+
+constexpr Named<BakeIds> kIds[] = {
+    {"material", BakeIds::material}, {"object", BakeIds::object}, {"shell", BakeIds::shell}};
 
 constexpr unsigned kMostPadding = 256, kMostSide = 16384;
 
@@ -45,6 +49,70 @@ Option mapSizeOption(BakeOptions& map) {
         option("--size", "TEXELS", take, "Width and height of the map, 1 to 16384: one number, or two as 2048x1024.");
     size.default_text = std::to_string(map.width);
     return size;
+}
+
+Option mapsOption(LayerOptions& layers) {
+    // The first name that is given takes the place of the default, which is the normal map alone.
+    const auto take = [&layers, is_first = true](const std::string& name) mutable -> std::string {
+        const bool is_normal = name == "normal";
+        layers.has_normal = is_normal || (layers.has_normal && !is_first);
+        is_first = false;
+        for (std::uint32_t i = 0; i < kMapLayerCount; ++i) {
+            const auto layer = static_cast<MapLayer>(i);
+            const bool is_new = std::find(layers.layers.begin(), layers.layers.end(), layer) == layers.layers.end();
+            if (name == layerName(layer) && is_new) layers.layers.push_back(layer);
+        }
+        return {};
+    };
+    Option maps =
+        option("--maps", "LIST", take,
+               "Which maps, with commas between them. normal is the output itself, the others stand beside it: "
+               "OUT_ao.png. color, orm (occlusion, roughness, metal) and emission are what the high poly's "
+               "materials show.");
+    maps.choices.emplace_back("normal");
+    for (std::uint32_t i = 0; i < kMapLayerCount; ++i) maps.choices.emplace_back(layerName(static_cast<MapLayer>(i)));
+    maps.default_text = "normal";
+    maps.is_list = true;
+    return maps;
+}
+
+Option samplesOption(std::uint32_t& target) {
+    const auto take = [&target](const std::string& text) -> std::string {
+        std::uint64_t count = 0;
+        if (!parseNumber(text, count) || count == 0 || count > kMostLayerRays)
+            return "must be a whole number from 1 to 4096";
+        target = static_cast<std::uint32_t>(count);
+        return {};
+    };
+    Option samples = option("--samples", "RAYS", take, "Rays from each texel for ao, bent and thickness: 1 to 4096.");
+    samples.default_text = std::to_string(target);
+    return samples;
+}
+
+void addLayerOptions(OptionList& list, LayerOptions& layers, BakeIds& ids) {
+    const char* group = "Maps";
+    add(list, group, mapsOption(layers));
+    add(list, group, samplesOption(layers.ray_count));
+    add(list, group,
+        lengthOption("--ao-distance", layers.sky_distance,
+                     "What is further away hides nothing, in units of the models. Default: everything does."));
+    add(list, group,
+        lengthOption("--height-range", layers.height_range,
+                     "The height that white stands for, in units of the models; black is as far below. Default: the "
+                     "largest that is met; the report says how much."));
+    add(list, group,
+        lengthOption("--curvature-range", layers.curvature_range,
+                     "The mean curvature that white stands for, 1 / radius in units of the models; black is as much "
+                     "inwards. Default: what 99 % of the texels are below; the report says how much."));
+    add(list, group,
+        lengthOption("--thickness-range", layers.thickness_range,
+                     "The thickness that white stands for, in units of the models. Default: the largest that is met; "
+                     "the report says how much."));
+    add(list, group,
+        choice(
+            "--id", "BY", kIds, ids,
+            "What has a colour of its own in the map of ids: material, object (nodes by their names), or shell (what "
+            "hangs together by its positions)."));
 }
 
 Option fileOption(const char* name, const char* value, std::string& target, const char* help) {
@@ -173,6 +241,7 @@ OptionList bakeOptions(BakeFileOptions& options) {
                    "A picture of the error: from black over red to white, which is the 99th percentile."));
     add(list, kInputAndOutput, matchOption(options.match));
     addAllowExternal(list, options.file);
+    addLayerOptions(list, options.layers, options.ids);
     addBakedMapOptions(list, options);
     addHighMapOptions(list, options.ignore_high_maps, options.high_green);
     addRayOptions(list, options.map.reach, options.map.rays, options.cage, options.skew);

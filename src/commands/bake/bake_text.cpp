@@ -20,13 +20,39 @@ std::string raysText(const BakedFile& file) {
                        error.reach, directions);
 }
 
+/// What black and white stand for, where that is not said by the name.
+std::string rangeText(const BakedLayerFile& layer) {
+    const auto& least = layer.least;
+    const auto& most = layer.most;
+    switch (layer.layer) {
+        case MapLayer::height:
+        case MapLayer::thickness:
+            return fmt::format(", {:.4g} to {:.4g}", least[0], most[0]);
+        case MapLayer::curvature:
+            return fmt::format(", {:.4g} to {:.4g} / length", least[0], most[0]);
+        case MapLayer::position:
+            return fmt::format(", from ({:.4g}, {:.4g}, {:.4g}) to ({:.4g}, {:.4g}, {:.4g})", least[0], least[1],
+                               least[2], most[0], most[1], most[2]);
+        case MapLayer::id:
+            return fmt::format(", {}", counted(layer.id_count, "id"));
+        default:
+            return layer.is_srgb ? ", sRGB" : "";
+    }
+}
+
 void addFile(const BakedFile& file, Table& table) {
     const BakedMap& map = file.map;
-    table.addRow({"map", fmt::format("{}, {} x {}, {} bits", printable(file.path), map.width, map.height, map.bits)});
+    if (!file.path.empty())
+        table.addRow(
+            {"map", fmt::format("{}, {} x {}, {} bits", printable(file.path), map.width, map.height, map.bits)});
+    for (const BakedLayerFile& layer : file.layers)
+        table.addRow({layerName(layer.layer), fmt::format("{}, {} x {}, {} bits{}", printable(layer.path), map.width,
+                                                          map.height, layer.bits, rangeText(layer))});
     table.addRow({"texels", fmt::format("{} baked, {} around them", map.hit_count, map.padding_count)});
-    table.addRow({"error", fmt::format("mean {} degrees, 99 % below {}, largest {}; at seams {} in the mean",
-                                       degreesText(map.error.mean_deg), degreesText(map.error.p99_deg),
-                                       degreesText(map.error.max_deg), degreesText(map.error.seam_mean_deg))});
+    if (!file.path.empty())
+        table.addRow({"error", fmt::format("mean {} degrees, 99 % below {}, largest {}; at seams {} in the mean",
+                                           degreesText(map.error.mean_deg), degreesText(map.error.p99_deg),
+                                           degreesText(map.error.max_deg), degreesText(map.error.seam_mean_deg))});
     if (map.own_error.point_count > 0)
         table.addRow(
             {"", fmt::format("mean {} degrees against what its own rays met", degreesText(map.own_error.mean_deg))});

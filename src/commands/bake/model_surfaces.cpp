@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "commands/bake/all_maps.h"
 #include "commands/generate/generate_model.h"
 #include "commands/shared/map_image_file.h"
 #include "commands/shared/uv_reading.h"
@@ -28,6 +29,12 @@
 #include "tspace/map_error.h"
 
 namespace tspace {
+
+std::size_t placedCorner(const Affine& place, std::size_t i) {
+    constexpr std::size_t kMirrored[3] = {0, 2, 1};
+    return place.determinant() < 0 ? i - i % 3 + kMirrored[i % 3] : i;
+}
+
 namespace {
 
 // Which meshes of a low poly look at which meshes of a high poly.
@@ -287,12 +294,6 @@ DrawnScene readWithFrames(const std::string& low, const BakeFileOptions& options
     return gltf::generateModel(std::move(model), generate, false).model.drawnScene(false);
 }
 
-/// The order of the corners of a triangle at a place, which may mirror.
-std::size_t placedCorner(const Affine& place, std::size_t i) {
-    constexpr std::size_t kMirrored[3] = {0, 2, 1};
-    return place.determinant() < 0 ? i - i % 3 + kMirrored[i % 3] : i;
-}
-
 /// Where a primitive stands first.
 Affine firstPlace(const DrawnScene& drawn, std::size_t primitive) {
     for (const ScenePlacement& placement : drawn.placements) {
@@ -456,6 +457,7 @@ HighModel highModel(const DrawnScene& drawn, const MeshMatch* match, const std::
         const ScenePrimitive& primitive = drawn.scene.primitives[placement.primitive];
         const Affine& place = placement.to_world;
         if (primitive.corners.empty()) continue;
+        model.parts.push_back({static_cast<std::uint32_t>(model.corners.size() / 3), i});
         // Those of STL say where the triangles look, and not how they are shaded.
         if (const TangentUse* const use = maps.find(primitive)) {
             addMapped(primitive, *use, place, maps.numberOf(primitive, *use, primitive.corners.size() / 3), options,
@@ -571,8 +573,10 @@ BakeModels readBakeModels(const std::string& low, const std::string& high, const
             return read;
         });
     }
-    DrawnScene high_scene =
-        aboutInput(BakeInput::high, [&] { return readDrawnScene(high, options.file, !options.ignore_high_maps); });
+    DrawnScene high_scene = aboutInput(BakeInput::high, [&] {
+        return showsMaterials(options.layers) ? readMaterialScene(high, options.file, !options.ignore_high_maps)
+                                              : readDrawnScene(high, options.file, !options.ignore_high_maps);
+    });
     const DVec3 of_high = farPlace(high_scene);
     const DVec3 origin = length(of_high) > 0 ? of_high : farPlace(low_scene);
     for (DrawnScene* const scene : {&low_scene, &cage_scene, &high_scene}) moveBy(origin, *scene);
@@ -584,6 +588,7 @@ BakeModels readBakeModels(const std::string& low, const std::string& high, const
     models.low.frames_made = frames_made;
     models.low.origin = origin;
     models.high = aboutInput(BakeInput::high, [&] { return highModel(high_scene, used, high, options); });
+    if (shows_materials || shows(options.layers, MapLayer::id)) models.high_scene = std::move(high_scene);
     if (!options.skew.empty())
         models.skew = aboutInput(BakeInput::skew, [&] { return readFloatImage(options.skew, options.file); });
     models.high.warnings.insert(models.high.warnings.end(), match.warnings.begin(), match.warnings.end());
