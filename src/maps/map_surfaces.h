@@ -79,7 +79,6 @@ class MapSurfaces {
 
     [[nodiscard]] const LowPoly& low() const { return low_; }
     [[nodiscard]] const HighPoly& high() const { return high_; }
-    [[nodiscard]] const RaySurface& surface() const { return *rays_; }
     [[nodiscard]] const RayOptions& rays() const { return options_; }
     [[nodiscard]] double reach() const { return reach_; }
     /// 0 with a cage of the low poly's own.

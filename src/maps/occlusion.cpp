@@ -19,7 +19,7 @@ DVec3 turned(const PlaneAxes& axes, const DVec3& normal, const DVec3& direction)
 
 Surroundings lookAround(const MapSurfaces& surfaces, const SurfaceHit& hit, const SurroundingsOptions& options,
                         std::uint32_t x, std::uint32_t y) {
-    const RaySurface& rays = surfaces.surface();
+    const RaySurface& rays = *surfaces.surface();
     const double begin = kBegin * rays.size(), far = 4 * rays.size();
     const double sky = options.sky_distance > 0 ? std::min(options.sky_distance, far) : far;
     const DVec3 normal = dot(hit.normal, hit.face) > 0 ? hit.normal : hit.face;

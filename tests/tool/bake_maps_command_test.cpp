@@ -99,7 +99,9 @@ TEST_F(BakeMaps, MaterialsAndObjectsAndShellsHaveColoursThatTheReportNames) {
             EXPECT_EQ(map["ids"][0]["name"], "red");
             EXPECT_EQ(map["ids"][1]["color"], "#008000");
         }
-        if (by == "object") EXPECT_EQ(map["ids"][1]["name"], "part1");
+        if (by == "object") {
+            EXPECT_EQ(map["ids"][1]["name"], "part1");
+        }
     }
 }
 
