@@ -350,7 +350,7 @@ class FileBaking {
     InputFiles inputs_ = {};
     BakeFileOptions options_;
     BakeModels models_ = {};
-    SharedRays shared_ = {};  ///< of the high poly, for all images
+    SharedRays shared_ = {};                 ///< of the high poly, for all images
     std::optional<HighDetail> detail_ = {};  ///< refers to the models
     AtomicOutput files_{{.sync = options_.file.sync, .inputs = &inputs_}};
     std::vector<ModelMap> maps_ = {};

@@ -588,7 +588,8 @@ BakeModels readBakeModels(const std::string& low, const std::string& high, const
     models.low.frames_made = frames_made;
     models.low.origin = origin;
     models.high = aboutInput(BakeInput::high, [&] { return highModel(high_scene, used, high, options); });
-    if (showsMaterials(options.layers) || shows(options.layers, MapLayer::id)) models.high_scene = std::move(high_scene);
+    if (showsMaterials(options.layers) || shows(options.layers, MapLayer::id))
+        models.high_scene = std::move(high_scene);
     if (!options.skew.empty())
         models.skew = aboutInput(BakeInput::skew, [&] { return readFloatImage(options.skew, options.file); });
     models.high.warnings.insert(models.high.warnings.end(), match.warnings.begin(), match.warnings.end());
