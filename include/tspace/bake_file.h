@@ -160,7 +160,8 @@ struct MapErrorFileOptions {
 /// One way to read a map, and the error that it has then.
 struct ExplainedReading {
     std::string frames =
-        {};  ///< "file", a method, "quads" (mikktspace on quads), or "object" (no frames: object space)
+        {};             ///< "file", a method, "quads" (mikktspace on quads), or "object" (no frames: object space)
+    MapAxes axes = {};  ///< of object space
     MapReading reading = {};
     MapError error = {};
 };

@@ -30,6 +30,7 @@ struct BakeOptions {
     std::uint32_t width = 1024, height = 1024;  ///< 1 to 16384
     unsigned bits = 16;                         ///< of a channel: 8 or 16
     MapSpace space = MapSpace::tangent;         ///< what its vectors are told in; the default is glTF's
+    MapAxes axes = {};                          ///< with MapSpace::object: unit, and at right angles
     MapReading reading = {};  ///< what the map is made for. With two channels all texels have length 1
     /// How the texture goes on outside of 0 to 1. What reaches beyond the edge of a clamped one has no say.
     TextureWrap wrap_u = TextureWrap::repeat, wrap_v = TextureWrap::repeat;

@@ -8,17 +8,13 @@
 
 #include "tspace/callbacks.h"
 #include "tspace/execution.h"
+#include "tspace/map_axes.h"
 #include "tspace/map_image.h"
 #include "tspace/map_reading.h"
 #include "tspace/result.h"
 #include "tspace/span.h"
 
 namespace tspace {
-
-/// Where x, y and z of a map in object space point.
-struct MapAxes {
-    Vec3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
-};
 
 /// One side of a conversion: what a map is read with. Spans have three entries per triangle, one for each corner.
 struct MapSide {

@@ -2,6 +2,7 @@
 // Conversion of normal maps (map_convert.h) from file to file, with the frames of model files. CMake target tspace::asset.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,9 @@ struct ConvertMapFileOptions {
     std::uint32_t tile = 0;  ///< takes the triangles of this UDIM tile, whose file the map is: 1001 and on; 0: all
     MapFileSpace from = MapFileSpace::tangent, to = MapFileSpace::tangent;
     MapReading from_reading = {}, to_reading = {};
+    /// Of the side that is in object or world space, where the other is in tangent space. Nothing: those of the mesh, or, where a
+    /// map that is read looks as if z pointed up in it, those of Blender (a warning says so).
+    std::optional<MapAxes> axes = {};
     /// Where `input` keeps its vectors: it is read by this first. The output always has x, y and z in red, green and blue,
     /// and alpha only where that was none of them.
     MapLayout layout = {};

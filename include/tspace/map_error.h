@@ -14,6 +14,7 @@
 
 #include "tspace/callbacks.h"
 #include "tspace/execution.h"
+#include "tspace/map_axes.h"
 #include "tspace/map_image.h"
 #include "tspace/map_rays.h"
 #include "tspace/map_reading.h"
@@ -68,6 +69,7 @@ struct HighPoly {
 struct MapErrorOptions {
     MapSpace space = MapSpace::tangent;  ///< what the map is taken for; the default is glTF's
     MapReading reading = {};             ///< how it is taken to be read; the default is glTF's
+    MapAxes axes = {};                   ///< with MapSpace::object
     /// How far rays go from the surface, inwards and outwards; with a cage, how far beyond the surface. 0: chosen from the
     /// sizes of both meshes (chosenReach).
     double reach = 0;
@@ -117,7 +119,8 @@ struct MapCandidate {
     StridedSpan<const Vec4> tangents = {};  ///< three per triangle; empty: the low poly's
     /// Which rays say the truth; null: those of the options. Must stay.
     const RayOptions* rays = nullptr;
-    double reach = 0;  ///< with `rays`; 0: that of the options
+    double reach = 0;   ///< with `rays`; 0: that of the options
+    MapAxes axes = {};  ///< with MapSpace::object
 };
 
 /// measureMap for each of several readings, at equal points, without `heat`. Errors as measureMap.

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "tspace/flip_green.h"
+#include "tspace/map_axes.h"
 #include "tspace/map_bake.h"
 #include "tspace/map_convert.h"
 #include "tspace/map_error.h"

@@ -2,6 +2,7 @@
 #include "tspace/map_bake.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "core/base/border.h"
@@ -181,7 +182,7 @@ class Baking {
     MapError errorAgainst(const MapSurfaces& surfaces, bool heat) {
         const MeasurePoints points = MeasurePoints::spread(surfaces, MapErrorOptions{}.point_count, work_);
         const MapImage image{map_.width, map_.height, map_.texels, options_.wrap_u, options_.wrap_v};
-        const MapCandidate candidate{.space = options_.space, .reading = options_.reading};
+        const MapCandidate candidate{.space = options_.space, .reading = options_.reading, .axes = options_.axes};
         MapError error = points.measure(image, surfaces, candidate, parallel_);
         if (heat) error.heat = heatOf(image, surfaces, candidate, work_);
         return error;
@@ -201,6 +202,21 @@ class Baking {
 
 }  // namespace
 
+namespace {
+
+/// With some room for rounding. Not where one of them is not finite.
+bool areAxes(const MapAxes& axes) {
+    constexpr double kSame = 1e-4;
+    const DVec3 all[3] = {toDouble(axes.x), toDouble(axes.y), toDouble(axes.z)};
+    for (std::size_t i = 0; i < 3; ++i) {
+        if (!(std::fabs(dot(all[i], all[i]) - 1) < kSame) || !(std::fabs(dot(all[i], all[(i + 1) % 3])) < kSame))
+            return false;
+    }
+    return true;
+}
+
+}  // namespace
+
 Error checkBakeOptions(const BakeOptions& options, std::size_t low_triangles, std::size_t high_triangles) {
     const auto wrong = [](const char* what) { return makeError(ErrorCode::invalidOption, kNoElement, "%s", what); };
     if (options.width == 0 || options.height == 0 || options.width > kMostSide || options.height > kMostSide)
@@ -209,6 +225,7 @@ Error checkBakeOptions(const BakeOptions& options, std::size_t low_triangles, st
     if (options.bits != 8 && options.bits != 16) return wrong("a channel has 8 or 16 bits");
     if (options.padding > kMostPadding) return wrong("the padding is at most 256 texels");
     if (options.reading.scale != 1) return wrong("maps are baked for a scale of 1");
+    if (!areAxes(options.axes)) return wrong("the axes of a map are unit and at right angles");
     if (options.space == MapSpace::object && options.reading.two_channels)
         return wrong("normals of the object need three channels");
     if (Error error = checkRays(options.rays, options.reach); error.code != ErrorCode::ok) return error;

@@ -71,7 +71,7 @@ Result<std::vector<MapError>> measureAll(const MapImage& map, const LowPoly& low
 Result<MapError> measureMap(const MapImage& map, const LowPoly& low, const HighPoly& high,
                             const MapErrorOptions& options, const Execution& execution, const Progress& progress) {
     return atBorder([&]() -> Result<MapError> {
-        const MapCandidate candidate{options.space, options.reading, {}};
+        const MapCandidate candidate{.space = options.space, .reading = options.reading, .axes = options.axes};
         Result<std::vector<MapError>> errors =
             measureAll(map, low, high, {&candidate, 1}, options, execution, progress);
         if (!errors) return std::move(errors).error();

@@ -51,7 +51,10 @@ DVec3 shadedAt(const MapImage& map, const MapCandidate& candidate, const CornerF
                const std::array<double, 3>& weights, const Vec2& uv) {
     const TextureShape shape{map.width, map.height, map.wrap_u, map.wrap_v};
     DVec3 vector = decodeTexel(sampleBilinear(shape, map.texels, uv), candidate.reading);
-    if (candidate.space == MapSpace::object) return normalize(vector) ? vector : DVec3{};
+    if (candidate.space == MapSpace::object) {
+        vector = fromAxes(candidate.axes, vector);
+        return normalize(vector) ? vector : DVec3{};
+    }
     return shadedNormal(shadingFrame(corners, weights, candidate.reading), vector);
 }
 

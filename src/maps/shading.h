@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/base/vec_math.h"
+#include "tspace/map_axes.h"
 #include "tspace/map_reading.h"
 
 namespace tspace {
@@ -32,6 +33,14 @@ DVec3 decodeTexel(const Vec3& texel, const MapReading& reading);
 /// The texel that is decoded to the vector, or nearly: channels beyond 0 to 1 are not clamped. With two channels the vector
 /// is made unit, and its z must not be negative.
 DVec3 encodeTexel(const DVec3& vector, const MapReading& reading);
+
+/// A direction in the coordinates of the meshes along the axes of a map, and back.
+inline DVec3 alongAxes(const MapAxes& axes, const DVec3& direction) {
+    return {dot(toDouble(axes.x), direction), dot(toDouble(axes.y), direction), dot(toDouble(axes.z), direction)};
+}
+inline DVec3 fromAxes(const MapAxes& axes, const DVec3& vector) {
+    return vector.x * toDouble(axes.x) + vector.y * toDouble(axes.y) + vector.z * toDouble(axes.z);
+}
 
 /// unit(x T + y B + z N); zero where that has no direction.
 DVec3 shadedNormal(const ShadingFrame& frame, const DVec3& vector);

@@ -33,6 +33,8 @@ class WantedVectors {
         if (!surfaces_.truthAt(triangle, weights, guess_, normal)) return false;
         if (options_.space == MapSpace::tangent)
             normal = vectorFor(shadingFrame(corners_, weights, options_.reading), normal);
+        else
+            normal = alongAxes(options_.axes, normal);
         wanted = toFloat(normal);
         return isDirection(wanted);
     }

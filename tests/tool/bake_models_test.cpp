@@ -196,6 +196,33 @@ TEST_F(BakeModels, OverlapSaysWhichOfTwoPiecesCounts) {
     EXPECT_GT(degreesBetween(middleOf("larger.png"), middleOf("alone.png")), 2);
 }
 
+TEST_F(BakeModels, AMapInObjectSpaceMayHaveZUp) {
+    static_cast<void>(bake("low.obj --high high.obj --size 32 --space object", "y.png"));
+    static_cast<void>(bake("low.obj --high high.obj --size 32 --space object --axes z-up", "z.png"));
+    static_cast<void>(bake("low.obj --high high.obj --size 32 --space object --axes x,-z,y", "same.png"));
+    EXPECT_EQ(folder.read("z.png"), folder.read("same.png"));
+    const DVec3 y = middleOf("y.png"), z = middleOf("z.png");
+    EXPECT_LT(degreesBetween(z, {y.x, -y.z, y.y}), 0.02);
+    // Such a map is recognised, and both ways give one map in tangent space.
+    const ToolRun run = runTool(folder, "map-error z.png low.obj --high high.obj --json");
+    const json measured = json::parse(run.out);
+    EXPECT_EQ(measured["readings"][0]["frames"], "object");
+    EXPECT_EQ(measured["readings"][0]["axes"], "z-up");
+    EXPECT_NE(measured["verdict"].get<std::string>().find("z up"), std::string::npos) << measured["verdict"];
+    for (const std::string options : {"y.png", "z.png", "z.png --axes z-up"}) {
+        const ToolRun converted =
+            runTool(folder, "convert-map " + options + " --from object --mesh low.obj -o t.png --json");
+        ASSERT_EQ(converted.exit_code, 0) << converted.err;
+        EXPECT_EQ(warns(json::parse(converted.out), "z points up"), options == "z.png") << options;
+        EXPECT_LT(degreesBetween(middleOf("t.png"), y), 0.05) << "the sheet lies in the plane of x and y";
+    }
+    ASSERT_EQ(runTool(folder, "convert-map t.png --to object --mesh low.obj --axes z-up -o back.png").exit_code, 0);
+    EXPECT_LT(degreesBetween(middleOf("back.png"), z), 0.05);
+    for (const std::string axes : {"x,y", "x,y,y", "x,y,w", "up", "x,y,z,x"})
+        EXPECT_EQ(runTool(folder, "bake low.obj --high high.obj -o o.png --space object --axes " + axes).exit_code, 2)
+            << axes;
+}
+
 TEST_F(BakeModels, ASizeMayBeWiderThanHigh) {
     const json report = bake("low.obj --high high.obj --size 64x32");
     EXPECT_EQ(report["files"][0]["width"], 64);

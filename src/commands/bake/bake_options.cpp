@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "commands/shared/axes_option.h"
 #include "commands/shared/file_options.h"
 #include "commands/shared/request.h"
 
@@ -163,6 +164,7 @@ void addBakedMapOptions(OptionList& list, BakeFileOptions& options) {
         choice("--space", "SPACE", kMapSpaces, map.space,
                "What the map is told in. tangent: along the frames of the low poly; object: along the axes of the "
                "scene."));
+    add(list, group, axesOption([&map](const MapAxes& axes) { map.axes = axes; })).default_text = "y-up";
     add(list, group,
         readingOption(
             "--convention", map.reading,
@@ -273,6 +275,7 @@ OptionList mapErrorOptions(MapErrorFileOptions& options) {
         choice("--space", "SPACE", kMapSpaces, options.map.space,
                "What the map is taken for: tangent, along the frames of the low poly; object, along the axes of the "
                "scene."));
+    add(list, group, axesOption([&options](const MapAxes& axes) { options.map.axes = axes; })).default_text = "y-up";
     add(list, group, readingOption("--convention", options.map.reading, "Whose shader the map is taken to be for."));
     add(list, group,
         flag("--two-channels", options.two_channels,

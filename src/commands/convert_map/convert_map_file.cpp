@@ -5,10 +5,12 @@
 #include <string_view>
 
 #include "commands/convert_map/convert_map_report.h"
+#include "commands/shared/axes_option.h"
 #include "commands/shared/file_options.h"
 #include "commands/shared/map_image_file.h"
 #include "commands/shared/request.h"
 #include "maps/shading.h"
+#include "maps/texture_sample.h"
 #include "model/io/atomic_output.h"
 #include "model/io/file_error.h"
 #include "model/io/file_io.h"
@@ -65,13 +67,56 @@ struct MapSides {
     MapSide from, to;
 };
 
-MapSides sidesOf(const Meshes& meshes, const ConvertMapFileOptions& options) {
+/// Whether directions along these axes go with the normals of the mesh, in the mean over its triangles.
+double agreementOf(const FloatImage& image, const MapMesh& mesh, const MapReading& reading, const MapAxes& axes) {
+    const TextureShape shape{image.width, image.height, mesh.wrap_u, mesh.wrap_v};
+    double sum = 0;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < mesh.uvs.size(); i += 3) {
+        const Vec2 middle{(mesh.uvs[i].x + mesh.uvs[i + 1].x + mesh.uvs[i + 2].x) / 3,
+                          (mesh.uvs[i].y + mesh.uvs[i + 1].y + mesh.uvs[i + 2].y) / 3};
+        DVec3 direction = fromAxes(axes, decodeTexel(sampleBilinear(shape, image.texels, middle), reading)), normal{};
+        for (std::size_t k = 0; k < 3; ++k) normal = normal + toDouble(mesh.normals[i + k]);
+        if (!normalize(direction) || !normalize(normal)) continue;
+        sum += dot(direction, normal);
+        ++count;
+    }
+    return count == 0 ? 0 : sum / static_cast<double>(count);
+}
+
+/// The axes of the side that is not in tangent space. `warnings`: gets a sentence where they were found by the image.
+MapAxes axesOf(const FloatImage& image, const Meshes& meshes, const ConvertMapFileOptions& options,
+               std::vector<std::string>& warnings) {
+    const bool from_tangent = options.from == MapFileSpace::tangent, to_tangent = options.to == MapFileSpace::tangent;
+    if (options.axes) {
+        if (from_tangent == to_tangent)
+            failFile(ErrorCode::invalidOption,
+                     "axes are told for conversions between tangent space and object or world space");
+        return *options.axes;
+    }
+    if (from_tangent || !to_tangent) return {};
+    const MapMesh* const mesh = meshes.to ? &*meshes.to : meshes.from ? &*meshes.from : nullptr;
+    if (mesh == nullptr || mesh->normals.size() != mesh->uvs.size()) return {};
+    constexpr double kFits = 0.5, kBetter = 0.2;
+    const MapReading reading{.green = options.from_reading.green};
+    const double up_y = agreementOf(image, *mesh, reading, {}), up_z = agreementOf(image, *mesh, reading, kMapAxesZUp);
+    if (!(up_z > kFits && up_z > up_y + kBetter)) return {};
+    warnings.push_back(
+        "z points up in the map, as in those of Blender, and it is read so; --axes y-up reads it by the "
+        "axes of the model");
+    return kMapAxesZUp;
+}
+
+/// `axes`: one per triangle, where they are not those of the mesh.
+MapSides sidesOf(const Meshes& meshes, const ConvertMapFileOptions& options, std::span<const MapAxes> axes) {
     const MapMesh* const from = meshes.from ? &*meshes.from : nullptr;
     const MapMesh* const to = meshes.to ? &*meshes.to : nullptr;
     const MapMesh* const any = from != nullptr ? from : to;
     MapSides sides{mapSideOf(any, from != nullptr, options.from, options.from_reading),
                    mapSideOf(to != nullptr ? to : any, to != nullptr, options.to, options.to_reading)};
     if (any == nullptr) return sides;
+    if (options.from == MapFileSpace::tangent) sides.to.axes = axes;
+    if (options.to == MapFileSpace::tangent) sides.from.axes = axes;
     // Between object and world space the axes of the mesh lie in the world.
     if (options.from == MapFileSpace::object && options.to == MapFileSpace::world) sides.from.axes = any->axes;
     if (options.from == MapFileSpace::world && options.to == MapFileSpace::object) sides.to.axes = any->axes;
@@ -207,7 +252,9 @@ ConvertMapFileReport convert(const std::string& input, const std::string& output
                        .wrap_u = any == nullptr ? TextureWrap::repeat : any->wrap_u,
                        .wrap_v = any == nullptr ? TextureWrap::repeat : any->wrap_v};
     const ConvertMapOptions chosen{.bits = format == ImageFormat::png ? bits : 32, .padding = options.padding};
-    const MapSides sides = sidesOf(meshes, options);
+    const MapAxes axes = axesOf(image, meshes, options, report.warnings);
+    const std::vector<MapAxes> of_triangles(any == nullptr || axes == MapAxes{} ? 0 : any->uvs.size() / 3, axes);
+    const MapSides sides = sidesOf(meshes, options, of_triangles);
     report.texels =
         valueOrThrow(convertMap(map, sides.from, sides.to, chosen, image.texels, options.execution, options.progress));
     checkConversion(report.texels);
@@ -320,6 +367,7 @@ OptionList convertMapOptions(ConvertMapFileOptions& options) {
                "What the map's vectors are told in. object: the coordinates of the mesh; world: those of the scene, as "
                "the mesh's node turns it."));
     add(list, group, choice("--to", "SPACE", kSpaces, options.to, "What those of the output are to be told in."));
+    add(list, group, axesOption([&options](const MapAxes& axes) { options.axes = axes; }));
     add(list, group,
         readingOption("--from-convention", options.from_reading, "The program that the map was made for."));
     add(list, group, readingOption("--to-convention", options.to_reading, "The program that will show the output."));

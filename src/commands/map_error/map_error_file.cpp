@@ -159,10 +159,11 @@ class FileMeasuring {
     void listReadings() {
         const auto add = [&](const std::string& frames, const MapCandidate& candidate) {
             candidates_.push_back(candidate);
-            report_.readings.push_back({.frames = frames, .reading = candidate.reading});
+            report_.readings.push_back({.frames = frames, .axes = candidate.axes, .reading = candidate.reading});
         };
         const bool in_object = options_.map.space == MapSpace::object;
-        add(in_object ? "object" : "file", {options_.map.space, options_.map.reading, {}});
+        add(in_object ? "object" : "file",
+            {.space = options_.map.space, .reading = options_.map.reading, .axes = options_.map.axes});
         const MapReading& asked = options_.map.reading;
         for (const TriedFrames& frames : frames_) {
             for (const Green green : {Green::up, Green::down}) {
@@ -184,7 +185,9 @@ class FileMeasuring {
             reading.two_channels = !asked.two_channels;
             add("file", {MapSpace::tangent, reading, {}});
         }
-        if (!in_object) add("object", {MapSpace::object, {}, {}});
+        for (const MapAxes& axes : {MapAxes{}, kMapAxesZUp}) {
+            if (!in_object || !(axes == options_.map.axes)) add("object", {.space = MapSpace::object, .axes = axes});
+        }
     }
 
     void takeErrors(const std::vector<MapError>& errors) {
@@ -269,7 +272,8 @@ class FileMeasuring {
         // Among readings with indistinguishable errors, the one nearest to the asked one.
         constexpr double kTie = 1.02;
         const auto differences = [&](const ExplainedReading& reading) {
-            return (reading.frames != asked.frames ? 1 : 0) + (reading.reading.green != asked.reading.green ? 1 : 0) +
+            return (reading.frames != asked.frames ? 1 : 0) + (reading.axes == asked.axes ? 0 : 1) +
+                   (reading.reading.green != asked.reading.green ? 1 : 0) +
                    (reading.reading.bitangent != asked.reading.bitangent ? 1 : 0) +
                    (reading.reading.two_channels != asked.reading.two_channels ? 1 : 0);
         };
@@ -341,7 +345,11 @@ class FileMeasuring {
 
     /// What the map was made for, and this model is not.
     static std::string difference(const ExplainedReading& asked, const ExplainedReading& best) {
-        if (best.frames == "object") return "object space";
+        if (best.frames == "object")
+            return best.axes == kMapAxesZUp
+                       ? "object space with z up, as Blender has it (convert-map --from object --axes "
+                         "z-up takes it to tangent space)"
+                       : "object space";
         std::string words;
         const auto add = [&](const std::string& word) { words += (words.empty() ? "" : ", and ") + word; };
         if (best.reading.green != asked.reading.green)
@@ -427,6 +435,9 @@ std::string mapErrorJson(const Outcome<MapErrorFileReport>& outcome, const std::
     });
     json["readings"] = listJson(result->readings, [](const ExplainedReading& reading) -> Json {
         return {{"frames", reading.frames},
+                {"axes", reading.axes == MapAxes{}     ? "y-up"
+                         : reading.axes == kMapAxesZUp ? "z-up"
+                                                       : "other"},
                 {"green", reading.reading.green == Green::up ? "up" : "down"},
                 {"bitangent", reading.reading.bitangent == BitangentPlace::perPixel ? "pixel" : "vertex"},
                 {"unitVectors", reading.reading.unit_vectors},

@@ -12,7 +12,10 @@ namespace tspace::report {
 namespace {
 
 std::string readingText(const ExplainedReading& reading) {
-    if (reading.frames == "object") return "object space";
+    if (reading.frames == "object")
+        return reading.axes == MapAxes{}     ? "object space"
+               : reading.axes == kMapAxesZUp ? "object space, z up"
+                                             : "object space, other axes";
     const std::string frames = reading.frames == "file"    ? "tangents of the file"
                                : reading.frames == "quads" ? "mikktspace on quads"
                                                            : reading.frames;
