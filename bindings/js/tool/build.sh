@@ -60,21 +60,15 @@ cmake_configure "$here/libraries" "$out/libraries" -DCMAKE_INSTALL_PREFIX="$out/
 cmake --build "$out/libraries" >"$out/libraries.log" 2>&1 || { tail -40 "$out/libraries.log" >&2; exit 1; }
 cmake --install "$out/libraries" >/dev/null
 cmake_configure "$root" "$out/build" -DTSPACE_BUILD_TESTS=OFF -DTSPACE_BUILD_EXAMPLES=OFF
-cmake --build "$out/build" --target tspace_tool tspace_pages >"$out/build.log" 2>&1 || { grep -a -A20 -m3 error: "$out/build.log" >&2; tail -5 "$out/build.log" >&2; exit 1; }
+cmake --build "$out/build" --target tspace_tool tspace_made_pages >"$out/build.log" 2>&1 || { grep -a -A20 -m3 error: "$out/build.log" >&2; tail -5 "$out/build.log" >&2; exit 1; }
 
 rm -rf "$out/bin"
 mkdir -p "$out/bin"
 cp "$root"/bindings/js/bin/*.js "$out/bin/"
 wasm-opt -O2 --enable-threads --enable-simd --enable-bulk-memory --enable-sign-ext --enable-mutable-globals \
     --enable-nontrapping-float-to-int --enable-exception-handling "$out/build/bin/tspace.wasm" -o "$out/bin/tspace.wasm"
-# Completions, by the program that makes them.
-rm -rf "$out/pages" "$out/share"
-mkdir -p "$out/pages/bin"
-cp "$root"/bindings/js/bin/*.js "$out/pages/bin/"
-cp "$out/build/tools/tspace/tspace_pages.wasm" "$out/pages/bin/tspace.wasm"
-echo '{ "type": "module" }' >"$out/pages/package.json"
-node "$out/pages/bin/tspace.js" "$out/pages/made" "$(date -u +%F)"
-cp -r "$out/pages/made/share" "$out/share"
+rm -rf "$out/share"
+cp -r "$out/build/tools/tspace/made/share" "$out/share" # completions
 # Whoever passes programs on passes these texts on.
 {
     echo "tspace.wasm has parts of these libraries in it; tspace's own licence is beside package.json."
