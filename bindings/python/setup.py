@@ -122,7 +122,7 @@ setup(
     version=version(),
     package_dir={"": "src"},
     packages=["tspace"],
-    package_data={"tspace": ["py.typed"]},
+    package_data={"tspace": ["py.typed", "*.pyi"]},
     distclass=Compiled,
     cmdclass={"build_py": BuildWithLibraries, "bdist_wheel": WheelForAllPythons, "sdist": SourcesWithCpp},
     options={"build": {"build_base": str(WORK / "setuptools")}, "egg_info": {"egg_base": str(WORK)}},

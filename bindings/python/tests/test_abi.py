@@ -63,7 +63,7 @@ class Names(unittest.TestCase):
     def test_options_of_files_are_those_that_the_library_knows(self):
         """Every function is asked, past the check of names, for every option that any has."""
         names = set()
-        for path in OPTIONS.rglob("*_options.cpp"):
+        for path in OPTIONS.rglob("*.cpp"):
             names.update(name.replace("-", "_") for name in re.findall(r'"--([a-z-]+)"', path.read_text()))
         self.assertGreater(len(names), 40)
         for verb, known in _files._OPTIONS.items():

@@ -157,6 +157,17 @@ class Look(Files):
         report = tspace.check(self.framed)
         self.assertEqual([finding for finding in report if finding.severity != "note"], [])
 
+    def test_bytes_of_an_obj_without_a_name_say_what_to_do(self):
+        obj = b"# a triangle\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
+        for name in (None, "model", "model.glb"):
+            with self.assertRaisesRegex(tspace.FileError, 'name="model.obj"'):
+                tspace.check(obj, name=name)
+        self.assertTrue(tspace.inspect(obj, name="a.obj").ok)
+        for other in (b"hello", b""):
+            with self.assertRaises(tspace.FileError) as failed:
+                tspace.check(other)
+            self.assertNotIn("name=", str(failed.exception))
+
     def test_check_gives_findings_as_objects(self):
         made = by_library(self.shape)
         arrays = [array[made.source_vertices] for array in (self.shape.positions, self.shape.normals, self.shape.uvs)]
@@ -228,6 +239,7 @@ class Refused(Files):
             self.refuses(TypeError, "data must be bytes", tspace.generate_bytes, value)
         self.refuses(TypeError, "data must be bytes", tspace.generate_bytes, "chair.glb")
         self.refuses(TypeError, "both", tspace.diff, "a.glb", self.plain)
+        self.refuses(tspace.InputError, "^angle 900: ", tspace.check, self.plain, angle=900)
         self.refuses(TypeError, "in memory", tspace.check, "a.glb", name="b.glb")
         self.refuses(ValueError, "input", tspace.generate_file, "a\0b.glb", "out.glb")
         self.refuses(TypeError, "name", tspace.check, self.plain, name=b"a")

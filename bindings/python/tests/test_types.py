@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT
 """What type checkers are told. Run where mypy is installed."""
 
+import ast
+import inspect
 import shutil
 import subprocess
 import tempfile
@@ -24,20 +26,38 @@ reveal_type(tspace.generate_bytes(b"").report.totals.actions.generated)
 reveal_type(tspace.inspect("a.glb").primitives[0].tangent_uses)
 reveal_type(tspace.diff("a.glb", "b.glb").primitives[0].a)
 open("a.glb", "wb").write(tspace.generate_bytes(b""))
+reveal_type(tspace.pack_frames(a, a))
+tspace.tangents(a.tolist(), a, [[1.0, 2.0]], [[0, 1, 2]], convention="gltf", threads="all")
+tspace.normals(a, range(3), crease="auto")
+tspace.check("a.glb", fail_on="warning", ignore=["tangentsUnused"])
+"""
+WRONG = """
 tspace.tangents(a, a, a)
 tspace.tangents(a, a, a, convention="gltf", colour=1)
+tspace.tangents(a, a, a, convention="gltf", method="mikk")
+tspace.tangents(a, a, a, convention="gtlf")
+tspace.tangents(a, a, a, convention="gltf", threads="two")
+tspace.normals("model.obj")
+tspace.split([0, 1, 2], 3, a)
+tspace.pack_frames(a, a, "frame31")
+tspace.check("a.glb", fail_onn="error")
+tspace.generate_file("a.glb", "b.glb", crease="60")
 """
+# As numpy 1 and 2 have them, whose names for bits differ.
+FLOATS = "numpy.ndarray[Any, numpy.dtype[numpy.floating[numpy._typing._32Bit]]]"
+NUMBERS = "numpy.ndarray[Any, numpy.dtype[numpy.unsignedinteger[numpy._typing._{}Bit]]]"
 REVEALED = [
-    "numpy.ndarray[Any, Any]",
+    FLOATS,
     "builtins.int",
     "builtins.int",
-    "numpy.ndarray[Any, Any]",
-    "numpy.ndarray[Any, Any]",
+    FLOATS,
+    NUMBERS.format(32),
     "builtins.str",
     "builtins.dict[builtins.str, Any]",
     "builtins.int",
     "builtins.list[tspace._file_reports.TangentUse]",
     "Union[tspace._file_reports.DiffedSide, None]",
+    NUMBERS.format(8),
 ]
 
 
@@ -46,14 +66,32 @@ class Types(unittest.TestCase):
     def test_the_package_agrees_and_wrong_calls_are_found(self):
         with tempfile.TemporaryDirectory() as folder:
             program = Path(folder) / "uses.py"
-            program.write_text(USES)
+            program.write_text(USES + WRONG)
             command = ["mypy", "--cache-dir", folder, "--no-error-summary", "--ignore-missing-imports"]
             command += [Path(tspace.__file__).parent, program]
             lines = subprocess.run(command, capture_output=True, text=True).stdout.splitlines()
         revealed = [line.split('"')[1] for line in lines if "Revealed type" in line]
         self.assertEqual(revealed, REVEALED, lines)
-        wrong = [line for line in lines if ": error:" in line]
-        self.assertEqual([Path(line.split(":")[0]).name for line in wrong], ["uses.py"] * 2, wrong)
+        wrong = [line.split(":")[:2] for line in lines if ": error:" in line]
+        first = len(USES.splitlines())
+        expected = [[str(program), str(first + i)] for i, line in enumerate(WRONG.splitlines(), 1) if line]
+        self.assertEqual(wrong, expected, lines)
+
+
+class FileCalls(unittest.TestCase):
+    def test_type_checkers_know_the_options_of_files(self):
+        verbs = {"generate_file": "generate", "generate_bytes": "generate", "flip_green_file": "flipGreen"}
+        verbs.update({"flip_green_bytes": "flipGreen", "height_to_normal_file": "heightToNormal"})
+        verbs.update({name: name for name in ("check", "identify", "inspect", "diff")})
+        tree = ast.parse((Path(tspace.__file__).parent / "_file_calls.pyi").read_text())
+        functions = {node.name: node for node in tree.body if isinstance(node, ast.FunctionDef)}
+        self.assertEqual(set(functions), set(verbs))
+        for name, node in functions.items():
+            with self.subTest(name):
+                has = [argument.arg for argument in node.args.args + node.args.kwonlyargs]
+                signature = inspect.signature(getattr(tspace, name)).parameters.values()
+                takes = [argument.name for argument in signature if argument.kind is not argument.VAR_KEYWORD]
+                self.assertEqual(sorted(has), sorted(takes + tspace._files._OPTIONS[verbs[name]].split()))
 
 
 if __name__ == "__main__":

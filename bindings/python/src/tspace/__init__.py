@@ -72,6 +72,8 @@ Threads
     uses one thread unless `threads` says more; the bits are the same for any number.
 """
 
+from typing import TYPE_CHECKING as _TYPE_CHECKING
+
 from ._abi import library as _library
 from ._errors import Error, FileError, IndexRangeError, InputError, ReadWriteError, UnknownOptionError
 from ._files import (
@@ -85,15 +87,6 @@ from ._files import (
     IdentifyReport,
     InspectReport,
     Report,
-    check,
-    diff,
-    flip_green_bytes,
-    flip_green_file,
-    generate_bytes,
-    generate_file,
-    height_to_normal_file,
-    identify,
-    inspect,
 )
 from ._indexed import IndexedFrames, IndexedFramesReport, make_indexed_frames
 from ._normals import NormalResult, normals, position_noise
@@ -104,6 +97,32 @@ from ._sanitize import SanitizeResult, sanitize
 from ._split import Split, Triangles, split, triangulate
 from ._tangents import Plan, TangentResult, tangents
 from ._winding import WindingResult, mend_winding
+
+# Type checkers see each option of the functions of files; at run time an unknown one is an error that lists them.
+if _TYPE_CHECKING:
+    from ._file_calls import (
+        check,
+        diff,
+        flip_green_bytes,
+        flip_green_file,
+        generate_bytes,
+        generate_file,
+        height_to_normal_file,
+        identify,
+        inspect,
+    )
+else:
+    from ._files import (
+        check,
+        diff,
+        flip_green_bytes,
+        flip_green_file,
+        generate_bytes,
+        generate_file,
+        height_to_normal_file,
+        identify,
+        inspect,
+    )
 
 _number = _library.tspace_version()
 __version__ = f"{_number // 10000}.{_number // 100 % 100}.{_number % 100}"

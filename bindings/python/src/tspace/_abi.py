@@ -5,6 +5,7 @@ ctypes lets go of the interpreter's lock for the time of each call.
 """
 
 import ctypes
+import sys
 from ctypes import POINTER, Structure, c_char, c_char_p, c_double, c_float, c_size_t, c_uint32, c_uint64, c_void_p
 from pathlib import Path
 
@@ -307,8 +308,16 @@ class PackReport(Structure):
     ]
 
 
+def file_name(name):
+    """The file of a library on this system."""
+    if sys.platform == "win32":
+        return f"{name}.dll"
+    return f"lib{name}.dylib" if sys.platform == "darwin" else f"lib{name}.so.0"
+
+
 def load(name):
     """The shared library of this name: the one in the package, or else the system's."""
+    name = file_name(name)
     bundled = Path(__file__).parent / "_lib" / name
     return ctypes.CDLL(str(bundled) if bundled.exists() else name)
 
@@ -321,7 +330,7 @@ def declare(library, signatures):
         function.argtypes = arguments
 
 
-library = load("libtspace.so.0")
+library = load("tspace")
 declare(
     library,
     {

@@ -99,6 +99,8 @@ def shown(value: Any) -> str:
 # How messages of the C API begin, and how they begin with the name of the argument here.
 _IN_PYTHON = (
     (r"^crease_angle_deg ", "crease "),
+    (r"\b(crease|denoise)_auto\b", '"auto"'),
+    (r"^angular_threshold_deg ", "threshold "),
     (r"^face sizes ", "face_sizes "),
     (r"^(\d+ corners are not a whole number of faces)", r"face_sizes, indices: \1"),
     (r"^index (\d+) of corner", r"indices: index \1 of corner"),
@@ -115,6 +117,8 @@ def raise_error(error: _abi.Error, paths: Sequence[bytes] = (), outputs: Sequenc
     message = error.message.decode("utf-8", "replace")
     for pattern, words in _IN_PYTHON:
         message = re.sub(pattern, words, message)
+    # Options of files have the tool's names.
+    message = re.sub(r"^--([a-z]+(?:-[a-z]+)*)", lambda found: found[1].replace("-", "_"), message)
     if error.code == _OUT_OF_MEMORY:
         raise MemoryError(message)
     code = _abi.library.tspace_errorName(error.code).decode()

@@ -21,7 +21,9 @@ BytesLike = Union[bytes, bytearray, memoryview]
 AnyReport = TypeVar("AnyReport", bound=Report)
 FindFile = Union[Callable[[str], Optional[bytes]], Mapping[str, bytes]]
 
-_INTERNAL, _CANNOT_READ = 11, 103
+_INTERNAL, _INVALID_FILE, _CANNOT_READ = 11, 100, 103
+_OBJ_LINE = re.compile(rb"(?m)^(v|vn|vt|f|usemtl) +[-0-9.\w]")
+_NAME_IT = b'. An OBJ is told by its name: name="model.obj"'
 
 # What each function takes, by the name in its C functions.
 _LIMITS = "allow_external memory_limit import_seconds"
@@ -77,6 +79,7 @@ class _Call:
         self.library = _files_abi.library()
         self.keep: List[Any] = []
         self.raised: Optional[BaseException] = None
+        self.looks_like_obj = False
         self.paths: List[bytes] = []
         self.outputs: List[bytes] = []
 
@@ -107,11 +110,17 @@ class _Call:
         if file_name is not None and (not isinstance(file_name, str) or "\0" in file_name):
             raise TypeError(f"name must be text, not {shown(file_name)}")
         encoded = None if file_name is None else os.fsencode(file_name)
+        if not (file_name or "").lower().endswith(".obj") and _OBJ_LINE.search(data[:65536].tobytes()):
+            self.looks_like_obj = True
         callback = _files_abi.FindFile(0) if find_file is None else self.callback(find_file)
         self.keep += [encoded, callback]
         return _files_abi.Model(
             ctypes.sizeof(_files_abi.Model), 0, data.ctypes.data, data.size, encoded, callback, None
         )
+
+    def hint(self, code: int) -> bytes:
+        """What to do about bytes that are no glTF, but look like an OBJ, which is told by its name."""
+        return _NAME_IT if code == _INVALID_FILE and self.looks_like_obj else b""
 
     def callback(self, find_file: FindFile) -> Any:
         """The C function that asks `find_file`. What it raises is raised when the call is over."""
@@ -146,6 +155,7 @@ class _Call:
             if self.raised is not None:
                 raise self.raised
             if failed:
+                error.message = (error.message + self.hint(error.code))[:239]
                 raise_error(error, self.paths, self.outputs)
             values = [ctypes.string_at(back.data, back.size) if back.size else b"" for back in backs]
         finally:

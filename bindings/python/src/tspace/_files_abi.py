@@ -5,7 +5,12 @@ import ctypes
 import functools
 from ctypes import CFUNCTYPE, POINTER, Structure, c_char_p, c_size_t, c_uint32, c_void_p
 
-from ._abi import Error, declare, load
+from ._abi import Error as ErrorStruct
+from ._abi import declare, load
+from ._errors import Error
+
+# Wheels that were compiled for another system than that of their build have arrays alone.
+NO_FILES = "this package has no library for model files, only for arrays: take the one that scripts/python builds on your system"
 
 
 class Bytes(Structure):
@@ -28,7 +33,7 @@ class Model(Structure):
 
 
 # A path, a model, options as JSON, and what comes back.
-_PATH, _MODEL, _OPTIONS, _BACK = c_char_p, POINTER(Model), c_char_p, (POINTER(Bytes), POINTER(Error))
+_PATH, _MODEL, _OPTIONS, _BACK = c_char_p, POINTER(Model), c_char_p, (POINTER(Bytes), POINTER(ErrorStruct))
 SIGNATURES = {
     "tspace_destroyBytes": (None, POINTER(Bytes)),
     "tspace_generateFile": (c_uint32, _PATH, _PATH, _OPTIONS, *_BACK),
@@ -50,6 +55,9 @@ SIGNATURES = {
 @functools.lru_cache(maxsize=None)
 def library() -> ctypes.CDLL:
     """libtspace-files.so.0, with its functions declared."""
-    loaded = load("libtspace-files.so.0")
+    try:
+        loaded = load("tspace-files")
+    except OSError as error:
+        raise Error(f"{NO_FILES} ({error})", "unsupported") from error
     declare(loaded, SIGNATURES)
     return loaded

@@ -15,6 +15,21 @@ from ._options import ConventionLike, execution
 from ._reports import NormalReport, SanitizeReport, TangentReport, report
 from ._split import corner_attributes
 from ._tangents import tangent_options
+from ._types import (
+    AttributeIndices,
+    DegreesOrAuto,
+    FaceSizes,
+    FloatArray,
+    FrameName,
+    IndexArray,
+    MethodName,
+    NgonsName,
+    Numbers,
+    PairingName,
+    Rows,
+    Threads,
+    WeightingName,
+)
 
 _library = _abi.library
 
@@ -30,41 +45,41 @@ class IndexedFramesReport(NamedTuple):
 class IndexedFrames(NamedTuple):
     """A mesh with the faces of the given one, whose corners share a vertex only where they agree."""
 
-    indices: numpy.ndarray  #: (corners,) uint32: the new vertex of each corner
-    source_vertices: numpy.ndarray  #: (new vertices,) uint32: the row of positions that each copies
-    source_corners: numpy.ndarray  #: (new vertices,) uint32: the first corner that uses each; 0xffffffff: none does
-    normals: numpy.ndarray  #: (new vertices, 3) float32: those of the mesh, bit for bit, or the ones made
-    tangents: numpy.ndarray  #: (new vertices, 4) float32: unit tangent, and the sign
+    indices: IndexArray  #: (corners,) uint32: the new vertex of each corner
+    source_vertices: IndexArray  #: (new vertices,) uint32: the row of positions that each copies
+    source_corners: IndexArray  #: (new vertices,) uint32: the first corner that uses each; 0xffffffff: none does
+    normals: FloatArray  #: (new vertices, 3) float32: those of the mesh, bit for bit, or the ones made
+    tangents: FloatArray  #: (new vertices, 4) float32: unit tangent, and the sign
     report: IndexedFramesReport
 
 
 def make_indexed_frames(
-    positions: Any,
-    normals: Any = None,
-    uvs: Any = None,
-    indices: Any = None,
+    positions: Rows,
+    normals: Optional[Rows] = None,
+    uvs: Optional[Rows] = None,
+    indices: Optional[Numbers] = None,
     *,
-    face_sizes: Any = None,
-    normal_indices: Any = None,
-    uv_indices: Any = None,
-    method: str = "mikktspace",
+    face_sizes: FaceSizes = None,
+    normal_indices: AttributeIndices = None,
+    uv_indices: AttributeIndices = None,
+    method: MethodName = "mikktspace",
     convention: ConventionLike,
     threshold: float = 180.0,
-    pairing: str = "reference",
-    ngons: str = "triangulate",
-    frame: str = "gram_schmidt",
+    pairing: PairingName = "reference",
+    ngons: NgonsName = "triangulate",
+    frame: FrameName = "gram_schmidt",
     refine: Optional[int] = None,
     make_normals: bool = False,
-    weighting: str = "angle",
-    crease: Union[float, str] = 180.0,
-    denoise: Union[float, str] = 0,
-    smoothing_groups: Any = None,
+    weighting: WeightingName = "angle",
+    crease: DegreesOrAuto = 180.0,
+    denoise: DegreesOrAuto = 0,
+    smoothing_groups: Optional[Numbers] = None,
     smoothing_masks: bool = False,
     weld_positions: bool = True,
     sanitize: bool = True,
     orthogonalize_all: bool = False,
-    keep_apart: Sequence[Any] = (),
-    threads: Union[int, str] = 1,
+    keep_apart: Sequence[Rows] = (),
+    threads: Threads = 1,
 ) -> IndexedFrames:
     """Makes an indexed mesh with normals and tangents: the usual case in one call.
 

@@ -12,12 +12,13 @@ from ._arrays import check_apart, output_array, uint32_array, write_span
 from ._mesh import Mesh
 from ._options import ConventionLike, convention_struct, execution, named, real_or_auto, small_number
 from ._reports import NormalReport, PositionNoise, report
+from ._types import DegreesOrAuto, FaceSizes, FloatArray, Numbers, Rows, Threads, WeightingName
 
 
 class NormalResult(NamedTuple):
     """Normals, and what was met."""
 
-    normals: numpy.ndarray  #: (corners, 3) float32
+    normals: FloatArray  #: (corners, 3) float32
     report: NormalReport
 
 
@@ -32,10 +33,13 @@ def normal_options(
     denoise: Any,
 ) -> _abi.NormalOptions:
     """The struct of the C API, which points into `groups`."""
+    # The C API refuses all of 0 as forgotten; flat, which is 0, looks at none of the others.
+    if refine == 0 and weighting == "flat":
+        refine = 1
     return _abi.NormalOptions(
         ctypes.sizeof(_abi.NormalOptions),
         named("weighting", weighting, _abi.WEIGHTINGS),
-        _abi.Convention() if convention is None else convention_struct(convention),
+        convention_struct("gltf" if convention is None else convention),
         real_or_auto("crease", crease),
         None if groups is None else groups.ctypes.data,
         0 if groups is None else groups.size,
@@ -49,40 +53,40 @@ def normal_options(
 
 @overload
 def normals(
-    positions: Any,
-    indices: Any = ...,
+    positions: Rows,
+    indices: Optional[Numbers] = ...,
     *,
-    face_sizes: Any = ...,
-    weighting: str = ...,
-    crease: Union[float, str] = ...,
-    smoothing_groups: Any = ...,
+    face_sizes: FaceSizes = ...,
+    weighting: WeightingName = ...,
+    crease: DegreesOrAuto = ...,
+    smoothing_groups: Optional[Numbers] = ...,
     smoothing_masks: bool = ...,
     weld_positions: bool = ...,
     convention: Optional[ConventionLike] = ...,
     refine: int = ...,
-    denoise: Union[float, str] = ...,
-    threads: Union[int, str] = ...,
+    denoise: DegreesOrAuto = ...,
+    threads: Threads = ...,
     out: Optional[numpy.ndarray] = ...,
     full: Literal[False] = ...,
-) -> numpy.ndarray:
+) -> FloatArray:
     ...
 
 
 @overload
 def normals(
-    positions: Any,
-    indices: Any = ...,
+    positions: Rows,
+    indices: Optional[Numbers] = ...,
     *,
-    face_sizes: Any = ...,
-    weighting: str = ...,
-    crease: Union[float, str] = ...,
-    smoothing_groups: Any = ...,
+    face_sizes: FaceSizes = ...,
+    weighting: WeightingName = ...,
+    crease: DegreesOrAuto = ...,
+    smoothing_groups: Optional[Numbers] = ...,
     smoothing_masks: bool = ...,
     weld_positions: bool = ...,
     convention: Optional[ConventionLike] = ...,
     refine: int = ...,
-    denoise: Union[float, str] = ...,
-    threads: Union[int, str] = ...,
+    denoise: DegreesOrAuto = ...,
+    threads: Threads = ...,
     out: Optional[numpy.ndarray] = ...,
     full: Literal[True],
 ) -> NormalResult:
@@ -90,22 +94,22 @@ def normals(
 
 
 def normals(
-    positions: Any,
-    indices: Any = None,
+    positions: Rows,
+    indices: Optional[Numbers] = None,
     *,
-    face_sizes: Any = None,
-    weighting: str = "angle",
-    crease: Union[float, str] = 180.0,
-    smoothing_groups: Any = None,
+    face_sizes: FaceSizes = None,
+    weighting: WeightingName = "angle",
+    crease: DegreesOrAuto = 180.0,
+    smoothing_groups: Optional[Numbers] = None,
     smoothing_masks: bool = False,
     weld_positions: bool = True,
     convention: Optional[ConventionLike] = None,
     refine: int = 2,
-    denoise: Union[float, str] = 0,
-    threads: Union[int, str] = 1,
+    denoise: DegreesOrAuto = 0,
+    threads: Threads = 1,
     out: Optional[numpy.ndarray] = None,
     full: bool = False,
-) -> Union[numpy.ndarray, NormalResult]:
+) -> Union[FloatArray, NormalResult]:
     """Computes one unit normal per corner: (corners, 3) float32.
 
     Without hard edges all corners of a vertex get one normal, so that
@@ -147,7 +151,7 @@ def normals(
 
 
 def position_noise(
-    positions: Any, indices: Any = None, *, face_sizes: Any = None, threads: Union[int, str] = 1
+    positions: Rows, indices: Optional[Numbers] = None, *, face_sizes: FaceSizes = None, threads: Threads = 1
 ) -> PositionNoise:
     """Measures the noise in the positions of a mesh: `noise` is what `normals(..., denoise="auto")` removes.
 

@@ -11,6 +11,7 @@ from typing import Any, Dict, Union
 
 from . import _abi
 from ._errors import InputError, raise_error, shown
+from ._types import PresetName, Threads
 
 
 def named(option: str, name: Any, table: Dict[str, int]) -> int:
@@ -44,7 +45,7 @@ class Convention:
     winding: str = "counter_clockwise"
 
     @staticmethod
-    def preset(name: str) -> "Convention":
+    def preset(name: PresetName) -> "Convention":
         """The preset of this name."""
         found = convention_struct(name)
         values = []
@@ -55,11 +56,11 @@ class Convention:
 
 _CONVENTION_TABLES = (_abi.V_AXES, _abi.GREENS, _abi.STORED_SIGNS, _abi.HANDEDNESSES, _abi.WINDINGS)
 _PRESETS = ", ".join(map(repr, _abi.CONVENTIONS))
-ConventionLike = Union[str, Convention]
+ConventionLike = Union[PresetName, Convention]
 
 
 @functools.lru_cache(maxsize=64)
-def _convention_struct(convention: ConventionLike) -> _abi.Convention:
+def _convention_struct(convention: Any) -> _abi.Convention:
     struct = _abi.Convention()
     if isinstance(convention, Convention):
         for (field, _), table in zip(struct._fields_, _CONVENTION_TABLES):
@@ -73,14 +74,14 @@ def _convention_struct(convention: ConventionLike) -> _abi.Convention:
     return struct
 
 
-def convention_struct(convention: ConventionLike) -> _abi.Convention:
+def convention_struct(convention: Any) -> _abi.Convention:
     """The struct of the C API; it is shared, so nobody may write it."""
     if not isinstance(convention, (str, Convention)):
         raise TypeError(f"convention must be a tspace.Convention or one of {_PRESETS}, not {shown(convention)}")
     return _convention_struct(convention)
 
 
-def thread_count(threads: Union[int, str]) -> int:
+def thread_count(threads: Threads) -> int:
     """The number of the C API: `threads` is a number from 1 on, or "all"."""
     if type(threads) is int and threads == 1:
         return 1
@@ -92,7 +93,7 @@ def thread_count(threads: Union[int, str]) -> int:
     return count
 
 
-def execution(threads: Union[int, str]) -> _abi.Execution:
+def execution(threads: Threads) -> _abi.Execution:
     return _abi.Execution(ctypes.sizeof(_abi.Execution), thread_count(threads))
 
 

@@ -12,6 +12,7 @@ from ._arrays import FLOAT32, float_array, read_span, write_span
 from ._errors import InputError, raise_error
 from ._options import named
 from ._reports import PackReport, report
+from ._types import ByteArray, FloatArray, FormatName, Rows
 
 _library = _abi.library
 
@@ -19,23 +20,23 @@ _library = _abi.library
 class PackResult(NamedTuple):
     """Packed frames, and what was mended before."""
 
-    frames: numpy.ndarray  #: (frames, bytes) uint8
+    frames: ByteArray  #: (frames, bytes) uint8
     report: PackReport
 
 
 @overload
-def pack_frames(normals: Any, tangents: Any, format: str = ..., *, full: Literal[False] = ...) -> numpy.ndarray:
+def pack_frames(normals: Rows, tangents: Rows, format: FormatName = ..., *, full: Literal[False] = ...) -> ByteArray:
     ...
 
 
 @overload
-def pack_frames(normals: Any, tangents: Any, format: str = ..., *, full: Literal[True]) -> PackResult:
+def pack_frames(normals: Rows, tangents: Rows, format: FormatName = ..., *, full: Literal[True]) -> PackResult:
     ...
 
 
 def pack_frames(
-    normals: Any, tangents: Any, format: str = "frame32", *, full: bool = False
-) -> Union[numpy.ndarray, PackResult]:
+    normals: Rows, tangents: Rows, format: FormatName = "frame32", *, full: bool = False
+) -> Union[ByteArray, PackResult]:
     """Packs whole frames (N, T and the sign) into 4 to 16 bytes each: (frames, bytes) uint8.
 
     normals:  (frames, 3), unit
@@ -64,7 +65,9 @@ def pack_frames(
     return PackResult(frames, report(PackReport, counts)) if full else frames
 
 
-def unpack_frames(frames: Any, format: str = "frame32") -> Tuple[numpy.ndarray, numpy.ndarray]:
+def unpack_frames(
+    frames: Union[bytes, bytearray, memoryview, ByteArray], format: FormatName = "frame32"
+) -> Tuple[FloatArray, FloatArray]:
     """Unpacks frames: normals (frames, 3) and tangents (frames, 4), float32.
 
     frames: bytes, or an array of uint8 of any shape that holds whole frames

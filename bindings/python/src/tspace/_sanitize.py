@@ -13,6 +13,7 @@ from ._errors import InputError
 from ._mesh import Mesh
 from ._options import execution
 from ._reports import SanitizeReport, report
+from ._types import AttributeIndices, FaceSizes, FloatArray, Numbers, Rows, Threads
 
 _library = _abi.library
 
@@ -20,38 +21,38 @@ _library = _abi.library
 class SanitizeResult(NamedTuple):
     """Mended tangents, and what was mended."""
 
-    tangents: numpy.ndarray  #: (corners, 4) float32
+    tangents: FloatArray  #: (corners, 4) float32
     report: SanitizeReport
 
 
 @overload
 def sanitize(
-    tangents: Any,
-    positions: Any,
-    normals: Any,
-    indices: Any = ...,
+    tangents: Rows,
+    positions: Rows,
+    normals: Rows,
+    indices: Optional[Numbers] = ...,
     *,
-    face_sizes: Any = ...,
-    normal_indices: Any = ...,
+    face_sizes: FaceSizes = ...,
+    normal_indices: AttributeIndices = ...,
     orthogonalize_all: bool = ...,
-    threads: Union[int, str] = ...,
+    threads: Threads = ...,
     out: Optional[numpy.ndarray] = ...,
     full: Literal[False] = ...,
-) -> numpy.ndarray:
+) -> FloatArray:
     ...
 
 
 @overload
 def sanitize(
-    tangents: Any,
-    positions: Any,
-    normals: Any,
-    indices: Any = ...,
+    tangents: Rows,
+    positions: Rows,
+    normals: Rows,
+    indices: Optional[Numbers] = ...,
     *,
-    face_sizes: Any = ...,
-    normal_indices: Any = ...,
+    face_sizes: FaceSizes = ...,
+    normal_indices: AttributeIndices = ...,
     orthogonalize_all: bool = ...,
-    threads: Union[int, str] = ...,
+    threads: Threads = ...,
     out: Optional[numpy.ndarray] = ...,
     full: Literal[True],
 ) -> SanitizeResult:
@@ -59,18 +60,18 @@ def sanitize(
 
 
 def sanitize(
-    tangents: Any,
-    positions: Any,
-    normals: Any,
-    indices: Any = None,
+    tangents: Rows,
+    positions: Rows,
+    normals: Rows,
+    indices: Optional[Numbers] = None,
     *,
-    face_sizes: Any = None,
-    normal_indices: Any = None,
+    face_sizes: FaceSizes = None,
+    normal_indices: AttributeIndices = None,
     orthogonalize_all: bool = False,
-    threads: Union[int, str] = 1,
+    threads: Threads = 1,
     out: Optional[numpy.ndarray] = None,
     full: bool = False,
-) -> Union[numpy.ndarray, SanitizeResult]:
+) -> Union[FloatArray, SanitizeResult]:
     """Mends tangents that are not finite, zero, not unit, parallel to N, or of mixed sign in a face: (corners, 4) float32.
 
     Sound tangents keep every bit. What is written is unit and orthogonal to the corner's N.

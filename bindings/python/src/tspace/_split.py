@@ -4,7 +4,7 @@
 import ctypes
 import math
 from ctypes import POINTER, byref
-from typing import Any, Iterable, List, NamedTuple, Sequence, Tuple, Union
+from typing import Any, Iterable, List, NamedTuple, Optional, Sequence, Tuple
 
 import numpy
 
@@ -23,6 +23,7 @@ from ._arrays import (
 from ._errors import InputError, shown
 from ._mesh import Mesh
 from ._options import execution, real
+from ._types import FaceSizes, IndexArray, Numbers, Rows, Threads
 
 _library = _abi.library
 _MOST_COLUMNS = 16
@@ -57,18 +58,18 @@ def corner_attributes(
 class Split(NamedTuple):
     """A new index list, and where each new vertex comes from. Old vertices keep their place, copies are appended."""
 
-    indices: numpy.ndarray  #: (corners,) uint32: the new vertex of each corner
-    source_vertices: numpy.ndarray  #: (new vertices,) uint32: the old vertex that each copies. Gather by it
-    source_corners: numpy.ndarray  #: (new vertices,) uint32: a corner whose values each has; 0xffffffff: no corner uses it
+    indices: IndexArray  #: (corners,) uint32: the new vertex of each corner
+    source_vertices: IndexArray  #: (new vertices,) uint32: the old vertex that each copies. Gather by it
+    source_corners: IndexArray  #: (new vertices,) uint32: a corner whose values each has; 0xffffffff: no corner uses it
 
 
 def split(
-    indices: Any,
+    indices: Optional[Numbers],
     vertex_count: int,
-    attributes: Sequence[Any],
+    attributes: Sequence[Rows],
     *,
     tolerance: float = 0.0,
-    threads: Union[int, str] = 1,
+    threads: Threads = 1,
 ) -> Split:
     """Splits vertices whose corners disagree in any attribute, which makes an indexed mesh of results per corner.
 
@@ -123,11 +124,13 @@ def split(
 class Triangles(NamedTuple):
     """Triangles of a polygon mesh."""
 
-    corners: numpy.ndarray  #: (triangles, 3) uint32: corners of the mesh (not vertices), winding kept
-    faces: numpy.ndarray  #: (triangles,) uint32: the face that each was cut from
+    corners: IndexArray  #: (triangles, 3) uint32: corners of the mesh (not vertices), winding kept
+    faces: IndexArray  #: (triangles,) uint32: the face that each was cut from
 
 
-def triangulate(positions: Any, indices: Any = None, *, face_sizes: Any = None, uvs: Any = None) -> Triangles:
+def triangulate(
+    positions: Rows, indices: Optional[Numbers] = None, *, face_sizes: FaceSizes = None, uvs: Optional[Rows] = None
+) -> Triangles:
     """Cuts faces of 4 and more corners into triangles.
 
     Quads are cut along the diagonal that MikkTSpace takes, for which it looks at `uvs` too, where they are given; n-gons by

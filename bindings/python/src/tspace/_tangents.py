@@ -15,6 +15,19 @@ from ._errors import InputError, raise_error
 from ._mesh import Mesh
 from ._options import ConventionLike, convention_struct, execution, named, real, small_number
 from ._reports import TangentReport, report
+from ._types import (
+    AttributeIndices,
+    DomainName,
+    FaceSizes,
+    FloatArray,
+    FrameName,
+    MethodName,
+    NgonsName,
+    Numbers,
+    PairingName,
+    Rows,
+    Threads,
+)
 
 _library = _abi.library
 _OUTPUT_SIZE = ctypes.sizeof(_abi.TangentOutput)
@@ -24,10 +37,10 @@ _METHOD_NAMES = {number: name for name, number in _abi.METHODS.items()}
 class TangentResult(NamedTuple):
     """All outputs of a method, one entry per corner (or per vertex: domain="vertex")."""
 
-    tangents: numpy.ndarray  #: (n, 4) float32: unit tangent, and the sign
-    bitangents: numpy.ndarray  #: (n, 3) float32: unit direction of dP/dv; in general not cross(N, T)
-    magnitudes_s: numpy.ndarray  #: (n,) float32: mean length of dP/du; 1 for methods without
-    magnitudes_t: numpy.ndarray  #: (n,) float32: mean length of dP/dv; 1 for methods without
+    tangents: FloatArray  #: (n, 4) float32: unit tangent, and the sign
+    bitangents: FloatArray  #: (n, 3) float32: unit direction of dP/dv; in general not cross(N, T)
+    magnitudes_s: FloatArray  #: (n,) float32: mean length of dP/du; 1 for methods without
+    magnitudes_t: FloatArray  #: (n,) float32: mean length of dP/dv; 1 for methods without
     report: TangentReport
 
 
@@ -61,6 +74,10 @@ def _tangent_options(
     frame: Any,
     refine: Any,
 ) -> _abi.TangentOptions:
+    degrees, steps = real("threshold", threshold), small_number("refine", refine)
+    # The C API refuses both of 0 as forgotten; no method looks at both.
+    if degrees == 0 and steps == 0:
+        degrees, steps = (180.0, 0) if method == "best" else (0.0, 1)
     return _abi.TangentOptions(
         ctypes.sizeof(_abi.TangentOptions),
         named("method", method, _abi.METHODS),
@@ -68,9 +85,9 @@ def _tangent_options(
         named("ngons", ngons, _abi.NGONS),
         named("domain", domain, _abi.DOMAINS),
         named("frame", frame, _abi.FRAME_SHAPES),
-        real("threshold", threshold),
+        degrees,
         named("pairing", pairing, _abi.PAIRINGS),
-        small_number("refine", refine),
+        steps,
     )
 
 
@@ -97,48 +114,48 @@ def _full(arrays: Tuple[numpy.ndarray, ...], counts: _abi.TangentReport) -> Tang
 
 @overload
 def tangents(
-    positions: Any,
-    normals: Any,
-    uvs: Any,
-    indices: Any = ...,
+    positions: Rows,
+    normals: Rows,
+    uvs: Optional[Rows],
+    indices: Optional[Numbers] = ...,
     *,
-    face_sizes: Any = ...,
-    normal_indices: Any = ...,
-    uv_indices: Any = ...,
-    method: str = ...,
+    face_sizes: FaceSizes = ...,
+    normal_indices: AttributeIndices = ...,
+    uv_indices: AttributeIndices = ...,
+    method: MethodName = ...,
     convention: ConventionLike,
     threshold: float = ...,
-    pairing: str = ...,
-    ngons: str = ...,
-    domain: str = ...,
-    frame: str = ...,
+    pairing: PairingName = ...,
+    ngons: NgonsName = ...,
+    domain: DomainName = ...,
+    frame: FrameName = ...,
     refine: int = ...,
-    threads: Union[int, str] = ...,
+    threads: Threads = ...,
     out: Optional[numpy.ndarray] = ...,
     full: Literal[False] = ...,
-) -> numpy.ndarray:
+) -> FloatArray:
     ...
 
 
 @overload
 def tangents(
-    positions: Any,
-    normals: Any,
-    uvs: Any,
-    indices: Any = ...,
+    positions: Rows,
+    normals: Rows,
+    uvs: Optional[Rows],
+    indices: Optional[Numbers] = ...,
     *,
-    face_sizes: Any = ...,
-    normal_indices: Any = ...,
-    uv_indices: Any = ...,
-    method: str = ...,
+    face_sizes: FaceSizes = ...,
+    normal_indices: AttributeIndices = ...,
+    uv_indices: AttributeIndices = ...,
+    method: MethodName = ...,
     convention: ConventionLike,
     threshold: float = ...,
-    pairing: str = ...,
-    ngons: str = ...,
-    domain: str = ...,
-    frame: str = ...,
+    pairing: PairingName = ...,
+    ngons: NgonsName = ...,
+    domain: DomainName = ...,
+    frame: FrameName = ...,
     refine: int = ...,
-    threads: Union[int, str] = ...,
+    threads: Threads = ...,
     out: Optional[numpy.ndarray] = ...,
     full: Literal[True],
 ) -> TangentResult:
@@ -146,26 +163,26 @@ def tangents(
 
 
 def tangents(
-    positions: Any,
-    normals: Any,
-    uvs: Any,
-    indices: Any = None,
+    positions: Rows,
+    normals: Rows,
+    uvs: Optional[Rows],
+    indices: Optional[Numbers] = None,
     *,
-    face_sizes: Any = None,
-    normal_indices: Any = None,
-    uv_indices: Any = None,
-    method: str = "mikktspace",
+    face_sizes: FaceSizes = None,
+    normal_indices: AttributeIndices = None,
+    uv_indices: AttributeIndices = None,
+    method: MethodName = "mikktspace",
     convention: ConventionLike,
     threshold: float = 180.0,
-    pairing: str = "reference",
-    ngons: str = "triangulate",
-    domain: str = "corner",
-    frame: str = "gram_schmidt",
+    pairing: PairingName = "reference",
+    ngons: NgonsName = "triangulate",
+    domain: DomainName = "corner",
+    frame: FrameName = "gram_schmidt",
     refine: int = 1,
-    threads: Union[int, str] = 1,
+    threads: Threads = 1,
     out: Optional[numpy.ndarray] = None,
     full: bool = False,
-) -> Union[numpy.ndarray, TangentResult]:
+) -> Union[FloatArray, TangentResult]:
     """Computes one tangent per corner, with its sign: (corners, 4) float32.
 
     The first three numbers of a row are the unit tangent T, the fourth is the sign (+1 or -1): B = sign * cross(N, T). One
@@ -230,23 +247,23 @@ class Plan:
 
     def __init__(
         self,
-        positions: Any,
-        normals: Any,
-        uvs: Any,
-        indices: Any = None,
+        positions: Rows,
+        normals: Rows,
+        uvs: Optional[Rows],
+        indices: Optional[Numbers] = None,
         *,
-        face_sizes: Any = None,
-        normal_indices: Any = None,
-        uv_indices: Any = None,
-        method: str = "mikktspace",
+        face_sizes: FaceSizes = None,
+        normal_indices: AttributeIndices = None,
+        uv_indices: AttributeIndices = None,
+        method: MethodName = "mikktspace",
         convention: ConventionLike,
         threshold: float = 180.0,
-        pairing: str = "reference",
-        ngons: str = "triangulate",
-        domain: str = "corner",
-        frame: str = "gram_schmidt",
+        pairing: PairingName = "reference",
+        ngons: NgonsName = "triangulate",
+        domain: DomainName = "corner",
+        frame: FrameName = "gram_schmidt",
         refine: int = 1,
-        threads: Union[int, str] = 1,
+        threads: Threads = 1,
     ):
         """Makes a plan; arguments as those of `tangents`."""
         options = tangent_options(method, convention, threshold, pairing, ngons, domain, frame, refine)
@@ -268,22 +285,22 @@ class Plan:
     @overload
     def evaluate(
         self,
-        positions: Any,
-        normals: Any,
+        positions: Rows,
+        normals: Rows,
         *,
-        threads: Union[int, str] = ...,
+        threads: Threads = ...,
         out: Optional[numpy.ndarray] = ...,
         full: Literal[False] = ...,
-    ) -> numpy.ndarray:
+    ) -> FloatArray:
         ...
 
     @overload
     def evaluate(
         self,
-        positions: Any,
-        normals: Any,
+        positions: Rows,
+        normals: Rows,
         *,
-        threads: Union[int, str] = ...,
+        threads: Threads = ...,
         out: Optional[numpy.ndarray] = ...,
         full: Literal[True],
     ) -> TangentResult:
@@ -291,13 +308,13 @@ class Plan:
 
     def evaluate(
         self,
-        positions: Any,
-        normals: Any,
+        positions: Rows,
+        normals: Rows,
         *,
-        threads: Union[int, str] = 1,
+        threads: Threads = 1,
         out: Optional[numpy.ndarray] = None,
         full: bool = False,
-    ) -> Union[numpy.ndarray, TangentResult]:
+    ) -> Union[FloatArray, TangentResult]:
         """The tangents of a pose, with the plan's groups and splits: (corners, 4) float32.
 
         On the pose that the plan was made from, the result is bit for bit that of `tangents`.

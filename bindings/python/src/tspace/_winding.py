@@ -11,12 +11,13 @@ from . import _abi
 from ._mesh import Mesh
 from ._options import ConventionLike, convention_struct, execution
 from ._reports import WindingReport, report
+from ._types import FaceSizes, IndexArray, Numbers, Rows, Threads
 
 
 class WindingResult(NamedTuple):
     """Indices with the right winding, and what was done."""
 
-    indices: numpy.ndarray  #: as they were given, but for the order of corners in faces that were turned
+    indices: IndexArray  #: as they were given, but for the order of corners in faces that were turned
     report: WindingReport
     turned: numpy.ndarray  #: (faces,) bool: the faces that were turned
 
@@ -29,14 +30,14 @@ def _face_sizes(mesh: Mesh, face_sizes: Any) -> numpy.ndarray:
 
 
 def mend_winding(
-    positions: Any,
-    indices: Any = None,
+    positions: Rows,
+    indices: Optional[Numbers] = None,
     *,
-    face_sizes: Any = None,
-    normals: Any = None,
+    face_sizes: FaceSizes = None,
+    normals: Optional[Rows] = None,
     weld_positions: bool = True,
     convention: Optional[ConventionLike] = None,
-    threads: Union[int, str] = 1,
+    threads: Threads = 1,
 ) -> WindingResult:
     """Turns faces that are wound against their neighbours, and whole parts that are inside out.
 
@@ -55,7 +56,7 @@ def mend_winding(
     run = execution(threads)
     options = _abi.WindingOptions(
         ctypes.sizeof(_abi.WindingOptions),
-        _abi.Convention() if convention is None else convention_struct(convention),
+        convention_struct("gltf" if convention is None else convention),
         normals is not None,
         bool(weld_positions),
     )

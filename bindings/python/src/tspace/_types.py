@@ -1,0 +1,47 @@
+# SPDX-License-Identifier: MIT
+"""What type checkers are told: names of options, and arrays."""
+
+from typing import TYPE_CHECKING, Any, Sequence, Union
+
+import numpy
+
+try:
+    from typing import Literal, Protocol
+except ImportError:  # pragma: no cover
+    from typing_extensions import Literal, Protocol  # type: ignore
+
+MethodName = Literal["mikktspace", "lengyel", "uniform", "angle", "area", "flat", "basis", "fast", "best"]
+PairingName = Literal["reference", "corrected"]
+NgonsName = Literal["triangulate", "skip"]
+DomainName = Literal["corner", "vertex"]
+FrameName = Literal["gram_schmidt", "symmetric"]
+WeightingName = Literal["flat", "uniform", "area", "angle", "angle_area", "max", "best"]
+FormatName = Literal[
+    "frame32", "frame48", "frame64", "oct32", "qtangent64", "snorm8_pair", "snorm16_pair", "gltf_snorm8", "gltf_snorm16"
+]
+PresetName = Literal["gltf", "opengl", "directx", "unreal", "unity", "blender", "godot"]
+Threads = Union[int, Literal["all"]]
+DegreesOrAuto = Union[float, Literal["auto"]]
+
+
+class HasArray(Protocol):
+    """What numpy makes an array of: arrays of other libraries."""
+
+    def __array__(self, *arguments: Any, **options: Any) -> Any:
+        """As numpy asks."""
+
+
+# What is no array of numbers, such as text, is found before the program runs.
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    FloatArray = NDArray[numpy.float32]
+    IndexArray = NDArray[numpy.uint32]
+    ByteArray = NDArray[numpy.uint8]
+    Rows = Union["NDArray[Any]", HasArray, memoryview, Sequence[Sequence[float]], Sequence["NDArray[Any]"]]
+    Numbers = Union["NDArray[Any]", HasArray, memoryview, range, Sequence[int], Sequence[Sequence[int]]]
+else:
+    FloatArray = IndexArray = ByteArray = numpy.ndarray
+    Rows = Numbers = Any
+FaceSizes = Union[None, int, Numbers]
+AttributeIndices = Union[None, Literal["corners"], Numbers]
