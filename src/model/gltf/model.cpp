@@ -176,6 +176,8 @@ DrawnScene Model::drawnScene(bool with_images) {
 
 DrawnScene Model::materialScene() {
     DrawnScene drawn = drawnScene(false);
+    for (std::size_t i = 0; i < drawn.looks.size(); ++i)
+        readMetalAndEmission(*document_, primitives()[i], drawn.looks[i]);
     readImages(*document_, materialImagesOf(drawn.looks), drawn.scene);
     for (const Primitive& primitive : primitives()) {
         SharedArray<Vec4>& colors = drawn.colors.emplace_back();
