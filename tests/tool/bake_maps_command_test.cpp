@@ -107,19 +107,22 @@ TEST_F(BakeMaps, MaterialsAndObjectsAndShellsHaveColoursThatTheReportNames) {
 
 TEST_F(BakeMaps, ColoursMetalAndEmissionAreThoseOfTheMaterials) {
     writeTwoSheets();
-    const ToolRun run =
-        runTool(folder, "bake low.obj --high two.obj --size 16 -q --fit texel -o n.png --maps color,orm,emission");
-    ASSERT_EQ(run.exit_code, 0) << run.err;
-    const FloatImage color = imageOf(folder, "n_color.png"), orm = imageOf(folder, "n_orm.png"),
-                     emission = imageOf(folder, "n_emission.png");
-    EXPECT_EQ(color.texels[0], (Vec3{1, 0, 0}));
-    EXPECT_EQ(color.texels[15], (Vec3{0, 1, 0}));
-    EXPECT_NEAR(orm.texels[0].y, 0.25, 0.002);
-    EXPECT_EQ(orm.texels[0].z, 1);
-    EXPECT_NEAR(orm.texels[15].y, 0.75, 0.002);
-    EXPECT_EQ(orm.texels[15].z, 0);
-    EXPECT_EQ(emission.texels[0], (Vec3{0, 0, 1}));
-    EXPECT_EQ(emission.texels[15], (Vec3{0, 0, 0}));
+    ASSERT_EQ(runTool(folder, "generate -q two.obj -o two.glb").exit_code, 0);
+    for (const std::string high : {"two.obj", "two.glb"}) {
+        const ToolRun run = runTool(
+            folder, "bake low.obj --high " + high + " --size 16 -q --fit texel -o n.png --maps color,orm,emission");
+        ASSERT_EQ(run.exit_code, 0) << run.err;
+        const FloatImage color = imageOf(folder, "n_color.png"), orm = imageOf(folder, "n_orm.png"),
+                         emission = imageOf(folder, "n_emission.png");
+        EXPECT_EQ(color.texels[0], (Vec3{1, 0, 0})) << high;
+        EXPECT_EQ(color.texels[15], (Vec3{0, 1, 0})) << high;
+        EXPECT_NEAR(orm.texels[0].y, 0.25, 0.002) << high;
+        EXPECT_EQ(orm.texels[0].z, 1) << high;
+        EXPECT_NEAR(orm.texels[15].y, 0.75, 0.002) << high;
+        EXPECT_EQ(orm.texels[15].z, 0) << high;
+        EXPECT_EQ(emission.texels[0], (Vec3{0, 0, 1})) << high;
+        EXPECT_EQ(emission.texels[15], (Vec3{0, 0, 0})) << high;
+    }
 }
 
 TEST_F(BakeMaps, TheModelShowsAllOfThem) {

@@ -176,6 +176,8 @@ DrawnScene Model::drawnScene(bool with_images) {
 
 DrawnScene Model::materialScene(bool with_normal_maps) {
     DrawnScene drawn = drawnScene(false);
+    for (std::size_t i = 0; i < drawn.looks.size(); ++i)
+        readMetalAndEmission(*document_, primitives()[i], drawn.looks[i]);
     std::set<std::size_t> images = materialImagesOf(drawn.looks);
     if (with_normal_maps) images.merge(imagesOf(drawn.looks));
     readImages(*document_, images, drawn.scene);

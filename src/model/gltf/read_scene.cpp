@@ -147,14 +147,7 @@ SurfaceLook readLook(const Document& document, const Primitive& primitive) {
         readNumbers(*metal, "baseColorFactor", metal_place, color);
         for (std::size_t i = 0; i < 4; ++i) look.base_color[i] = static_cast<float>(std::clamp(color[i], 0.0, 1.0));
         look.base_texture = readOwnTexture(document, *metal, "baseColorTexture", metal_place);
-        look.metalness = readNumber(*metal, "metallicFactor", metal_place, 1);
-        look.roughness = readNumber(*metal, "roughnessFactor", metal_place, 1);
-        look.metal_texture = readOwnTexture(document, *metal, "metallicRoughnessTexture", metal_place);
-    } else {
-        look.metalness = 1;
     }
-    readNumbers(material, "emissiveFactor", place, look.emission);
-    look.emission_texture = readOwnTexture(document, material, "emissiveTexture", place);
     look.normal_texture = readOwnTexture(document, material, "normalTexture", place);
     if (look.normal_texture)
         look.normal_scale = readNumber(material["normalTexture"], "scale", join(place, "normalTexture"), 1);
@@ -163,6 +156,21 @@ SurfaceLook readLook(const Document& document, const Primitive& primitive) {
     look.is_double_sided = readBool(material, "doubleSided", place, false);
     look.is_unlit = findExtension(material, "KHR_materials_unlit") != nullptr;
     return look;
+}
+
+void readMetalAndEmission(const Document& document, const Primitive& primitive, SurfaceLook& look) {
+    if (!primitive.material) return;
+    const Json& material = rootArray(document, "materials")[*primitive.material];
+    const std::string place = join("/materials", *primitive.material);
+    look.metalness = 1;
+    if (const Json* metal = readObject(material, "pbrMetallicRoughness", place)) {
+        const std::string metal_place = join(place, "pbrMetallicRoughness");
+        look.metalness = readNumber(*metal, "metallicFactor", metal_place, 1);
+        look.roughness = readNumber(*metal, "roughnessFactor", metal_place, 1);
+        look.metal_texture = readOwnTexture(document, *metal, "metallicRoughnessTexture", metal_place);
+    }
+    readNumbers(material, "emissiveFactor", place, look.emission);
+    look.emission_texture = readOwnTexture(document, material, "emissiveTexture", place);
 }
 
 std::vector<ScenePlacement> readPlacements(const Document& document, std::span<const Primitive> primitives) {

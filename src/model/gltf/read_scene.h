@@ -17,6 +17,8 @@ namespace tspace::gltf {
 
 /// Of the primitive's own material. Fails with invalidFile.
 SurfaceLook readLook(const Document& document, const Primitive& primitive);
+/// What readLook leaves out: metalness, roughness and emission. Fails with invalidFile.
+void readMetalAndEmission(const Document& document, const Primitive& primitive, SurfaceLook& look);
 
 /// Every primitive at each node that draws it, in the default scene, else the first scene, else all nodes. Where those
 /// draw nothing: all primitives, without a transform. A skinned mesh stands where the first joint of its skin puts it,
