@@ -10,6 +10,8 @@
 
 #include "commands/bake/bake_report.h"
 #include "commands/bake/model_surfaces.h"
+#include "commands/shared/noted_noise.h"
+#include "core/base/numbers.h"
 #include "images/float_image.h"
 #include "maps/map_surfaces.h"
 #include "maps/missed_cause.h"
@@ -72,6 +74,7 @@ class FileBaking {
         report_.high_triangle_count = models_.high.corners.size() / 3;
         report_.warnings = models_.low.warnings;
         report_.warnings.insert(report_.warnings.end(), models_.high.warnings.begin(), models_.high.warnings.end());
+        if (options_.denoise == 0) noteNoise();
         options_.map.reach = models_.reach(options_.map.reach);
         for (const LowModel::Image& image : models_.low.images) {
             const std::string word = models_.low.images.size() > 1 ? freshWord(fileWord(image.material)) : "";
@@ -92,6 +95,16 @@ class FileBaking {
     }
 
   private:
+    void noteNoise() {
+        const HighPoly high = models_.high.view();
+        MeshView mesh;
+        mesh.positions = high.positions;
+        mesh.indices = high.corners;
+        if (const double noise = notedNoise(mesh, models_.high.position_step); noise > 0)
+            report_.warnings.push_back("the positions of the high poly are noisy, by " + shortNumber(noise) +
+                                       " of an edge, and the map shows it: --denoise auto bakes normals without that");
+    }
+
     /// A model that is written reads the map as glTF says.
     void checkOutMesh() const {
         if (options_.out_mesh.empty()) return;

@@ -16,6 +16,7 @@
 
 #include "commands/generate/generate_model.h"
 #include "commands/shared/uv_reading.h"
+#include "core/base/numbers.h"
 #include "core/base/vec_math.h"
 #include "core/mesh/surface/float_loss.h"
 #include "maps/map_surfaces.h"
@@ -423,10 +424,31 @@ std::vector<Vec3> smoothNormals(const ScenePrimitive& primitive, const BakeFileO
     return normals;
 }
 
+/// BakeFileOptions::denoise: one per vertex, where positions are noisy; else nothing.
+std::vector<Vec3> denoisedNormals(const ScenePrimitive& primitive, const BakeFileOptions& options, double& most_noise) {
+    const MeshView mesh{.positions = primitive.positions.span(), .indices = {primitive.corners.span()}};
+    std::vector<Vec3> of_corners(primitive.corners.size());
+    const NormalOptions how{
+        .weighting = NormalWeighting::best, .convention = conventions::gltf, .denoise = options.denoise};
+    const NormalReport report = valueOrThrow(generateNormals(mesh, how, of_corners, options.execution));
+    if (!(report.noise > 0)) return {};
+    most_noise = std::max(most_noise, double{report.noise});
+    std::vector<Vec3> normals(primitive.positions.size());
+    for (std::size_t i = 0; i < of_corners.size(); ++i) normals[primitive.corners[i]] = of_corners[i];
+    return normals;
+}
+
+std::string denoisedText(double noise) {
+    if (noise == 0) return "--denoise has no effect: no positions of the high poly are noisy";
+    return "positions of the high poly are noisy, by " + shortNumber(noise) +
+           " of an edge: its normals were made without that (--denoise)";
+}
+
 HighModel highModel(const DrawnScene& drawn, const MeshMatch* match, const std::string& path,
                     const BakeFileOptions& options) {
     HighModel model;
     std::size_t made = 0;
+    double noise = 0;
     // What glTF and OBJ leave out is flat; meshes of scanners and sculptors are meant to be smooth.
     const std::string extension = lowerExtension(path);
     const bool is_flat = isGltfName(path) || extension == ".obj";
@@ -435,8 +457,14 @@ HighModel highModel(const DrawnScene& drawn, const MeshMatch* match, const std::
         const ScenePrimitive& primitive = drawn.scene.primitives[placement.primitive];
         const Affine& place = placement.to_world;
         if (primitive.corners.empty()) continue;
+        const double scale = std::max({length(place.x), length(place.y), length(place.z)});
+        model.position_step = std::max(model.position_step, scale * primitive.position_step);
+        std::vector<Vec3> denoised;
+        if (options.denoise != 0) denoised = denoisedNormals(primitive, options, noise);
         // Those of STL say where the triangles look, and not how they are shaded.
-        if (!primitive.normals.empty() && extension != ".stl") {
+        if (!denoised.empty()) {
+            addSmooth(primitive, denoised, place, model);
+        } else if (!primitive.normals.empty() && extension != ".stl") {
             addSmooth(primitive, primitive.normals.span(), place, model);
         } else {
             ++made;
@@ -449,6 +477,7 @@ HighModel highModel(const DrawnScene& drawn, const MeshMatch* match, const std::
         if (match != nullptr) model.groups.insert(model.groups.end(), primitive.corners.size() / 3, match->high[i]);
     }
     if (model.corners.empty()) failFile(ErrorCode::missingAttribute, "the high poly has no triangles");
+    if (options.denoise != 0) model.warnings.push_back(denoisedText(noise));
     if (made > 0)
         model.warnings.push_back(std::string("the high poly has no normals; its triangles are taken as ") +
                                  (is_flat ? "flat, as glTF says" : "smooth"));

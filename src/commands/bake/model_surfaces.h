@@ -105,6 +105,8 @@ struct HighModel {
     std::vector<Vec3> positions = {}, normals = {};
     std::vector<std::uint32_t> corners = {}, groups = {};
     std::vector<std::string> warnings = {};
+    double position_step =
+        0;  ///< the largest of its primitives', as they are placed: of positions that are whole numbers
 
     [[nodiscard]] HighPoly view() const {
         return {.positions = positions, .normals = normals, .corners = corners, .groups = groups};

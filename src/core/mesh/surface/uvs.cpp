@@ -26,7 +26,8 @@ std::vector<std::uint32_t> weldVertices(std::span<const Vec3> positions, std::sp
 }
 
 /// Parents of triangles (disjoint_sets.h).
-std::vector<std::uint32_t> joinIslands(std::span<const std::uint32_t> corners, const std::vector<std::uint32_t>& welded) {
+std::vector<std::uint32_t> joinIslands(std::span<const std::uint32_t> corners,
+                                       const std::vector<std::uint32_t>& welded) {
     std::vector<std::uint32_t> islands(corners.size() / 3);
     std::iota(islands.begin(), islands.end(), 0U);
     UniqueIndex<std::array<std::uint32_t, 2>> edges(corners.size());
