@@ -224,6 +224,14 @@ enum class PrimitiveAction : std::uint32_t {
 /// Stable lowerCamelCase name, for JSON.
 const char* actionName(PrimitiveAction action);
 
+/// Faces that follow one another.
+struct FaceRange {
+    std::uint64_t first = 0, count = 0;
+};
+
+/// The most ranges that a report lists of a primitive; its counts are of all.
+inline constexpr std::size_t kMostMendedRanges = 256;
+
 struct PrimitiveReport {
     std::uint32_t mesh = 0;
     std::uint32_t primitive = 0;
@@ -259,6 +267,9 @@ struct PrimitiveReport {
     /// Triangles of sheets with two sides: others with the same positions are wound the other way.
     std::uint64_t two_sided_triangle_count = 0;
     std::uint64_t winding_mended_count = 0;  ///< faces that were turned (mend_winding)
+    /// Which these are: ascending ranges, the first kMostMendedRanges of them. Triangles of the primitive, numbered from 0;
+    /// from OBJ faces, numbered through the file.
+    std::vector<FaceRange> winding_mended = {};
     TangentReport tangents = {};
     SanitizeReport sanitize = {};
     PackReport packing = {};         ///< frames that were mended before they were packed

@@ -50,6 +50,9 @@ struct BakeFileOptions {
     /// Frames that the low poly lacks: as GenerateOptions has them.
     TangentOptions tangents{.convention = conventions::gltf};
     NormalOptions normals{.weighting = NormalWeighting::flat};
+    /// For high polys with noisy positions, such as scans: as NormalOptions::denoise. Normals of what is noisy are made anew, by
+    /// `best`, without hard edges.
+    float denoise = 0;
     FileOptions file = {};
     std::string cage = {};  ///< a model with the low poly's triangles, moved to where rays begin; empty: none
     std::string skew = {};  ///< an image for `map.rays.skew`; empty: none

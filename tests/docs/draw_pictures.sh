@@ -32,3 +32,18 @@ draw crate tangents
 draw crate sign
 draw flat error
 draw crate uv
+
+# docs/normals.md: kinds of meshes, each with usual normals and with those that suit it.
+python3 "$(dirname "$0")/normal_kinds.py" "$work"
+normals() {
+    "$programs/tspace" generate -q --all --method basis "$work/$1.obj" -o "$work/kind.glb" "${@:3}"
+    "$programs/tspace" render -q "$work/kind.glb" -o "$images/normals-$1-$2.png" --size 200 --samples 3 --view 30,25 --fov 20 --light=-0.6,0.7,0.5
+}
+normals grid usual --normals angle
+normals grid right --normals best --denoise auto
+normals scan usual --normals angle --crease 30
+normals scan right --normals best --denoise auto --crease auto
+normals bevel usual --normals angle
+normals bevel right --normals best
+normals turned usual --normals angle
+normals turned right --normals angle --mend-winding

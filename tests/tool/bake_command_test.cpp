@@ -36,6 +36,47 @@ TEST_F(BakeCommand, WritesAMapThatShowsTheHighPoly) {
     EXPECT_EQ(imageOf(folder, "heat.png").width, 64U);
 }
 
+/// A flat sheet whose vertices are off by chance, evenly up to a fifth of a cell up or down.
+std::string noisySheet(int cells) {
+    std::uint32_t state = 1;
+    std::string text;
+    for (int i = 0; i < (cells + 1) * (cells + 1); ++i) {
+        state = state * 1664525u + 1013904223u;
+        const double off = 0.4 * ((state >> 8) * (1.0 / (1 << 24)) - 0.5) / cells;
+        text += "v " + std::to_string(static_cast<double>(i % (cells + 1)) / cells) + " " +
+                std::to_string(static_cast<double>(i / (cells + 1)) / cells) + " " + std::to_string(off) + "\n";
+    }
+    const std::string flat = sheet(cells, 0, false);
+    return text + flat.substr(flat.find("s 1\n"));
+}
+
+/// The mean square of what texels lean, of a map of something flat.
+double leanOf(const FloatImage& map) {
+    double sum = 0;
+    for (const Vec3& texel : map.texels) {
+        const double x = 2.0 * texel.x - 1, y = 2.0 * texel.y - 1;
+        sum += x * x + y * y;
+    }
+    return sum / static_cast<double>(map.texels.size());
+}
+
+TEST_F(BakeCommand, BakesNoNoiseOfPositionsWhereItIsAskedTo) {
+    folder.write("high.obj", noisySheet(80));
+    const std::string common = "bake low.obj --high high.obj --size 64 --report r.json -q -o ";
+    ASSERT_EQ(runTool(folder, common + "noisy.png").exit_code, 0);
+    EXPECT_NE(folder.read("r.json").find("--denoise auto bakes normals without that"), std::string::npos);
+    ASSERT_EQ(runTool(folder, common + "smooth.png --denoise auto").exit_code, 0);
+    EXPECT_NE(folder.read("r.json").find("its normals were made without that (--denoise)"), std::string::npos);
+    EXPECT_LT(leanOf(imageOf(folder, "smooth.png")), 0.2 * leanOf(imageOf(folder, "noisy.png")));
+}
+
+TEST_F(BakeCommand, SaysNothingOfNoiseWhereThereIsNone) {
+    ASSERT_EQ(runTool(folder, "bake low.obj --high high.obj --size 32 --report r.json -q -o a.png").exit_code, 0);
+    EXPECT_EQ(folder.read("r.json").find("noisy"), std::string::npos);
+    ASSERT_EQ(runTool(folder, "bake low.obj --high high.obj --size 32 -q -o b.png --denoise auto").exit_code, 0);
+    EXPECT_EQ(folder.read("a.png"), folder.read("b.png"));
+}
+
 TEST_F(BakeCommand, GivesTheSameBytesForAnyNumberOfThreads) {
     for (const std::string bits : {"8", "16"}) {
         const std::string common = "bake low.obj --high high.obj -q --size 40 --bits " + bits;

@@ -70,9 +70,13 @@ void expectMended(const Json& report, int turned, int components = 1) {
     EXPECT_EQ(turned, winding["turned"].get<int>());
     EXPECT_EQ(0, winding["conflictsAfter"].get<int>());
     EXPECT_EQ(components, winding["components"].get<int>());
-    int in_primitives = 0;
-    for (const Json& primitive : report["primitives"]) in_primitives += primitive["windingMended"].get<int>();
+    int in_primitives = 0, in_ranges = 0;
+    for (const Json& primitive : report["primitives"]) {
+        in_primitives += primitive["windingMended"].get<int>();
+        for (const Json& range : primitive["windingMendedRanges"]) in_ranges += range["count"].get<int>();
+    }
     EXPECT_EQ(turned, in_primitives);
+    EXPECT_EQ(turned, in_ranges);
 }
 
 bool findsNormalsAgainstWinding(const TempFolder& folder, const std::string& file) {

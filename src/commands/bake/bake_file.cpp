@@ -11,6 +11,8 @@
 #include "commands/bake/all_maps.h"
 #include "commands/bake/bake_report.h"
 #include "commands/bake/model_surfaces.h"
+#include "commands/shared/noted_noise.h"
+#include "core/base/numbers.h"
 #include "images/float_image.h"
 #include "maps/map_surfaces.h"
 #include "maps/missed_cause.h"
@@ -82,6 +84,7 @@ class FileBaking {
         report_.warnings = models_.low.warnings;
         report_.warnings.insert(report_.warnings.end(), models_.high.warnings.begin(), models_.high.warnings.end());
         report_.high_maps = models_.high.shown.reports;
+        if (options_.denoise == 0) noteNoise();
         options_.map.reach = models_.reach(options_.map.reach);
         aboutInput(BakeInput::high, [&] { return &detail_.emplace(models_, high, options_); });
         const std::vector<std::string>& seen = detail_->warnings();
@@ -100,6 +103,16 @@ class FileBaking {
     }
 
   private:
+    void noteNoise() {
+        const HighPoly high = models_.high.view();
+        MeshView mesh;
+        mesh.positions = high.positions;
+        mesh.indices = high.corners;
+        if (const double noise = notedNoise(mesh, models_.high.position_step); noise > 0)
+            report_.warnings.push_back("the positions of the high poly are noisy, by " + shortNumber(noise) +
+                                       " of an edge, and the map shows it: --denoise auto bakes normals without that");
+    }
+
     /// A model that is written reads the map as glTF says.
     void checkOutMesh() const {
         if (options_.out_mesh.empty()) return;

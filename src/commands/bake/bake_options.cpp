@@ -251,6 +251,11 @@ OptionList bakeOptions(BakeFileOptions& options) {
         choice("--method", "NAME", kMethods, options.tangents.method,
                "How tangents are made for a low poly that has none, as generate makes them. Those that are in the file "
                "stay."));
+    add(list, "High poly",
+        numberOrAuto("--denoise", "FACTOR", "a number", options.denoise, NormalOptions::denoise_auto, 4,
+                     "For a high poly with noisy positions, such as a scan: its normals are made anew by more of the "
+                     "surface around, so that noise is not baked. auto: as much as is measured, and nothing where that "
+                     "is shape; 0 to 4: so many times the noise that is measured, also where it looks like shape."));
     addThreads(list, options.execution,
                "Number of threads; 0: as many as there are cores. Changes no bit of the result.");
     addLimits(list, options.file);

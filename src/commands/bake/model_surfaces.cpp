@@ -18,6 +18,7 @@
 #include "commands/generate/generate_model.h"
 #include "commands/shared/map_image_file.h"
 #include "commands/shared/uv_reading.h"
+#include "core/base/numbers.h"
 #include "core/base/vec_math.h"
 #include "core/mesh/surface/float_loss.h"
 #include "maps/map_surfaces.h"
@@ -444,10 +445,34 @@ void addMapped(const ScenePrimitive& primitive, const TangentUse& use, const Aff
     model.map_of.resize(model.corners.size() / 3, map);
 }
 
+/// BakeFileOptions::denoise: one per vertex, where positions are noisy; else nothing.
+std::vector<Vec3> denoisedNormals(const ScenePrimitive& primitive, const BakeFileOptions& options, double& most_noise) {
+    const MeshView mesh{.positions = primitive.positions.span(), .indices = {primitive.corners.span()}};
+    std::vector<Vec3> of_corners(primitive.corners.size());
+    const NormalOptions how{
+        .weighting = NormalWeighting::best, .convention = conventions::gltf, .denoise = options.denoise};
+    const NormalReport report = valueOrThrow(generateNormals(mesh, how, of_corners, options.execution));
+    if (!(report.noise > 0)) return {};
+    most_noise = std::max(most_noise, double{report.noise});
+    std::vector<Vec3> normals(primitive.positions.size());
+    for (std::size_t i = 0; i < of_corners.size(); ++i) normals[primitive.corners[i]] = of_corners[i];
+    return normals;
+}
+
+std::string denoisedText(double noise, bool has_maps) {
+    const std::string left = has_maps ? "; what shows a normal map of its own keeps the normals that this is made for" : "";
+    if (noise == 0)
+        return "--denoise has no effect: no positions of the high poly are noisy" +
+               std::string(has_maps ? " where it shows no normal map of its own" : "");
+    return "positions of the high poly are noisy, by " + shortNumber(noise) +
+           " of an edge: its normals were made without that (--denoise)" + left;
+}
+
 HighModel highModel(const DrawnScene& drawn, const MeshMatch* match, const std::string& path,
                     const BakeFileOptions& options) {
     HighModel model;
     std::size_t made = 0;
+    double noise = 0;
     // What glTF and OBJ leave out is flat; meshes of scanners and sculptors are meant to be smooth.
     const std::string extension = lowerExtension(path);
     const bool is_flat = isGltfName(path) || extension == ".obj";
@@ -458,10 +483,17 @@ HighModel highModel(const DrawnScene& drawn, const MeshMatch* match, const std::
         const Affine& place = placement.to_world;
         if (primitive.corners.empty()) continue;
         model.parts.push_back({static_cast<std::uint32_t>(model.corners.size() / 3), i});
+        const double scale = std::max({length(place.x), length(place.y), length(place.z)});
+        model.position_step = std::max(model.position_step, scale * primitive.position_step);
+        const TangentUse* const use = maps.find(primitive);
+        std::vector<Vec3> denoised;
+        if (options.denoise != 0 && use == nullptr) denoised = denoisedNormals(primitive, options, noise);
         // Those of STL say where the triangles look, and not how they are shaded.
-        if (const TangentUse* const use = maps.find(primitive)) {
+        if (use != nullptr) {
             addMapped(primitive, *use, place, maps.numberOf(primitive, *use, primitive.corners.size() / 3), options,
                       model);
+        } else if (!denoised.empty()) {
+            addSmooth(primitive, denoised, place, model);
         } else if (!primitive.normals.empty() && extension != ".stl") {
             addSmooth(primitive, primitive.normals.span(), place, model);
         } else {
@@ -482,6 +514,7 @@ HighModel highModel(const DrawnScene& drawn, const MeshMatch* match, const std::
         model.uvs.resize(model.positions.size());
         model.map_of.resize(model.corners.size() / 3, kNoHighMap);
     }
+    if (options.denoise != 0) model.warnings.push_back(denoisedText(noise, !model.shown.maps.empty()));
     if (made > 0)
         model.warnings.push_back(std::string("the high poly has no normals; its triangles are taken as ") +
                                  (is_flat ? "flat, as glTF says" : "smooth"));

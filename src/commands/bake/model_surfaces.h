@@ -122,6 +122,8 @@ struct HighModel {
     std::vector<std::uint32_t> map_of = {};
     HighMaps shown = {};
     std::vector<std::string> warnings = {};
+    double position_step =
+        0;  ///< the largest of its primitives', as they are placed: of positions that are whole numbers
 
     [[nodiscard]] HighPoly view() const {
         return {.positions = positions,

@@ -121,6 +121,8 @@ Json sanitizeJson(const SanitizeReport& report) {
     return json;
 }
 
+Json faceRangeJson(const FaceRange& range) { return Json::object({{"first", range.first}, {"count", range.count}}); }
+
 Json generatedPrimitiveJson(const PrimitiveReport& primitive) {
     const TangentReport& tangents = primitive.tangents;
     return Json::object({
@@ -145,6 +147,7 @@ Json generatedPrimitiveJson(const PrimitiveReport& primitive) {
         {"turnedTriangles", primitive.turned_triangle_count},
         {"twoSidedTriangles", primitive.two_sided_triangle_count},
         {"windingMended", primitive.winding_mended_count},
+        {"windingMendedRanges", listJson(primitive.winding_mended, faceRangeJson)},
         {"bitangentsGenerated", primitive.bitangents_generated},
         {"packed", primitive.frames_packed},
         {"packedMended", primitive.packing.mendedCount()},

@@ -258,8 +258,9 @@ GenerateReport generate(const std::string& input, const std::string& output, con
         PrimitiveReport& entry = report.primitives.emplace_back();
         const bool replaced = options.overwrite_normals && had_normals[finished.size()];
         finished.push_back(finish(model, primitive, replaced, options, entry));
-        for (const std::uint32_t face : primitive.faces)
-            entry.winding_mended_count += !turned.empty() && turned[face] != 0 ? 1U : 0U;
+        for (const std::uint32_t face : primitive.faces) {
+            if (!turned.empty() && turned[face] != 0) listTurned(face, entry);
+        }
         entry.primitive = next_in_mesh[primitive.shape]++;
         // Normals are made for the whole file at once: the counts stand with the first primitive that got
         // some.

@@ -185,26 +185,6 @@ void addMapOptions(OptionList& list, GenerateOptions& options) {
         .excludes = {"--flip-green", "--flip-green-all", "--mend-maps", "--repair"};
 }
 
-/// A number from 0 to `most`, or "auto". `noun`: "a number", for messages
-Option numberOrAuto(const char* names, const char* value_name, const char* noun, float& target, float automatic,
-                    int most, HelpText help) {
-    const double default_value = target;
-    const auto take = [&target, noun, automatic, most](const std::string& given) -> std::string {
-        double number = 0;
-        if (given == "auto") {
-            target = automatic;
-        } else if (parseReal(given, number) && number >= 0 && number <= most) {
-            target = static_cast<float>(number);
-        } else {
-            return std::string("must be ") + noun + " from 0 to " + std::to_string(most) + ", or auto";
-        }
-        return {};
-    };
-    Option made = option(names, value_name, take, std::move(help));
-    made.default_text = std::to_string(static_cast<int>(default_value));
-    return made;
-}
-
 void addOtherOptions(OptionList& list, GenerateOptions& options) {
     Option& weighting =
         add(list, "Normals",

@@ -33,7 +33,10 @@ struct WindingPlan {
 /// at the winding in the mesh's own coordinates. Changes nothing.
 WindingPlan planWinding(gltf::Model& model, const GenerateOptions& options);
 
-/// Fills winding_mended_count.
+/// One more face that was turned, behind those before it.
+void listTurned(std::uint64_t face, PrimitiveReport& report);
+
+/// Counts and lists the faces that were turned.
 void countTurned(const WindingPlan& plan, std::vector<PrimitiveReport>& primitives);
 
 /// Turns the faces of an OBJ file. Returns one per face: 1 if it was turned.
@@ -61,7 +64,7 @@ std::string warnOfCancelledSigns(Model& model, const GeneratePlan& plan, const M
 // Tangents that stay: what the format forbids in them is mended, and nothing else.
 
 /// Primitives whose tangents stay and lie in one accessor, where these have values that no tangent may have
-/// (surface/tangent_values.h) at some vertex, used by triangles or not. Tangents along N count where a material reads
+/// (hasSoundValues) at some vertex, used by triangles or not. Tangents along N count where a material reads
 /// them: elsewhere they may be normals for outlines.
 std::vector<std::vector<std::size_t>> findBrokenValues(Model& model, const GeneratePlan& plan);
 

@@ -106,10 +106,21 @@ WindingPlan planWinding(gltf::Model& model, const GenerateOptions& options) {
     return plan;
 }
 
+void listTurned(std::uint64_t face, PrimitiveReport& report) {
+    ++report.winding_mended_count;
+    std::vector<FaceRange>& ranges = report.winding_mended;
+    if (!ranges.empty() && ranges.back().first + ranges.back().count == face)
+        ++ranges.back().count;
+    else if (ranges.size() < kMostMendedRanges)
+        ranges.push_back({face, 1});
+}
+
 void countTurned(const WindingPlan& plan, std::vector<PrimitiveReport>& primitives) {
-    for (std::size_t i = 0; i < plan.turned.size(); ++i)
-        primitives[i].winding_mended_count =
-            static_cast<std::uint64_t>(std::count(plan.turned[i].begin(), plan.turned[i].end(), 1));
+    for (std::size_t i = 0; i < plan.turned.size(); ++i) {
+        for (std::size_t face = 0; face < plan.turned[i].size(); ++face) {
+            if (plan.turned[i][face] != 0) listTurned(face, primitives[i]);
+        }
+    }
 }
 
 std::vector<std::uint8_t> mendObjWinding(obj::Model& model, const GenerateOptions& options, GenerateReport& report) {

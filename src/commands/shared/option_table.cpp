@@ -132,6 +132,25 @@ Option option(const char* names, const char* value_name, Take take, HelpText hel
     return made;
 }
 
+Option numberOrAuto(const char* names, const char* value_name, const char* noun, float& target, float automatic,
+                    int most, HelpText help) {
+    const double default_value = target;
+    const auto take = [&target, noun, automatic, most](const std::string& given) -> std::string {
+        double number = 0;
+        if (given == "auto") {
+            target = automatic;
+        } else if (parseReal(given, number) && number >= 0 && number <= most) {
+            target = static_cast<float>(number);
+        } else {
+            return std::string("must be ") + noun + " from 0 to " + std::to_string(most) + ", or auto";
+        }
+        return {};
+    };
+    Option made = option(names, value_name, take, std::move(help));
+    made.default_text = std::to_string(static_cast<int>(default_value));
+    return made;
+}
+
 Option text(const char* names, const char* value_name, std::string& target, HelpText help) {
     const auto take = [&target](const std::string& given) {
         target = given;

@@ -115,6 +115,10 @@ Option degrees(const char* names, Float& target, int most, HelpText help) {
     return degreesOption(names, static_cast<double>(target), most, store, std::move(help));
 }
 
+/// A number from 0 to `most`, or "auto". `noun`: "a number", for messages
+Option numberOrAuto(const char* names, const char* value_name, const char* noun, float& target, float automatic,
+                    int most, HelpText help);
+
 /// One of the names of a table. The default is the name of what `target` holds.
 template <class Value, std::size_t count>
 Option choice(const char* names, const char* value_name, const Named<Value> (&table)[count], Value& target,

@@ -310,6 +310,9 @@ double measureNoise(const NormalGroups& groups, const Allocator* allocator, Posi
 /// The same of a call without normals: of the mesh, which its hard edges will be found on.
 double roughnessOf(const NormalsCall& call);
 
+/// As measurePositionNoise, but where edges alone show that nothing is noise, `sigma` stays 0.
+Result<PositionNoise> measureSureNoise(const MeshView& mesh, const Execution& execution);
+
 /// Of a mesh, without hard edges. `wants_sigma`: also where edges alone show that nothing is noise.
 PositionNoise noiseOf(const MeshView& mesh, const Execution& execution, Parallel& parallel, bool wants_sigma);
 

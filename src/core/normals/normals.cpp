@@ -94,14 +94,22 @@ Result<NormalReport> checkAndGenerate(const MeshView& mesh, const MeshView& pose
     return report;
 }
 
-}  // namespace
-
-Result<PositionNoise> measurePositionNoise(const MeshView& mesh, const Execution& execution) {
+Result<PositionNoise> measured(const MeshView& mesh, const Execution& execution, bool wants_sigma) {
     return atBorder([&]() -> Result<PositionNoise> {
         Parallel parallel(execution, kSlow * mesh.cornerCount());
         if (Error e = checkMesh(mesh, &parallel); e.code != ErrorCode::ok) return e;
-        return noiseOf(mesh, execution, parallel, true);
+        return noiseOf(mesh, execution, parallel, wants_sigma);
     });
+}
+
+}  // namespace
+
+Result<PositionNoise> measurePositionNoise(const MeshView& mesh, const Execution& execution) {
+    return measured(mesh, execution, true);
+}
+
+Result<PositionNoise> measureSureNoise(const MeshView& mesh, const Execution& execution) {
+    return measured(mesh, execution, false);
 }
 
 Result<NormalReport> generateNormals(const MeshView& mesh, const NormalOptions& options, StridedSpan<Vec3> out,

@@ -1,0 +1,177 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""usage: normal_kinds.py FOLDER
+
+Writes the meshes of the pictures in docs/normals.md into FOLDER, as OBJ without normals: grid (surface nets of a field with
+noise), scan (points of a part with sharp edges, with noise), bevel (a box with narrow bevels) and turned (a torus of which some
+triangles are wound the wrong way).
+"""
+import os
+import sys
+
+
+class Random:
+    """The same numbers on every machine."""
+
+    def __init__(self):
+        self.state = 1
+
+    def unit(self):
+        self.state = (self.state * 1664525 + 1013904223) % 2**32
+        return self.state / 2**32
+
+    def normal(self):
+        return sum(self.unit() for _ in range(12)) - 6
+
+
+def length(p):
+    return sum(x * x for x in p) ** 0.5
+
+
+def box(p, half):
+    q = [abs(x) - h for x, h in zip(p, half)]
+    return length([max(x, 0) for x in q]) + min(max(q), 0)
+
+
+def blend(a, b, width):
+    h = max(width - abs(a - b), 0) / width
+    return min(a, b) - h * h * width / 4
+
+
+def blob(p):
+    a = length([p[0] - 0.3, p[1] - 0.15, p[2]]) - 0.45
+    b = length([p[0] + 0.35, p[1] - 0.2, p[2] - 0.1]) - 0.36
+    c = length([p[0], p[1] + 0.4, p[2] + 0.2]) - 0.4
+    return blend(blend(a, b, 0.25), c, 0.3)
+
+
+def part(p):
+    hole = 0.28 - (p[0] * p[0] + p[1] * p[1]) ** 0.5
+    return max(box(p, [0.6, 0.45, 0.3]), hole, -box([p[0] - 0.6, p[1], p[2] - 0.3], [0.25, 0.6, 0.15]))
+
+
+def nets(distance, cells, noise):
+    """Surface nets in the cube from -1 to 1; noise in cells, on the field."""
+    random, step = Random(), 2 / cells
+    side = cells + 1
+    values = {}
+    for z in range(side):
+        for y in range(side):
+            for x in range(side):
+                at = distance([-1 + step * x, -1 + step * y, -1 + step * z])
+                values[x, y, z] = at + (noise * step * random.normal() if noise and abs(at) < 4 * step else 0)
+    points, numbers, faces = [], {}, []
+    corners = [(i & 1, i >> 1 & 1, i >> 2) for i in range(8)]
+    edges = [(a, b) for a in corners for b in corners if a < b and sum(x != y for x, y in zip(a, b)) == 1]
+    for z in range(cells):
+        for y in range(cells):
+            for x in range(cells):
+                crossings = []
+                for a, b in edges:
+                    at_a, at_b = (values[x + c[0], y + c[1], z + c[2]] for c in (a, b))
+                    if (at_a < 0) != (at_b < 0):
+                        t = at_a / (at_a - at_b)
+                        crossings.append([p + t * (q - p) for p, q in zip(a, b)])
+                if crossings:
+                    mean = [sum(c[k] for c in crossings) / len(crossings) for k in range(3)]
+                    numbers[x, y, z] = len(points)
+                    points.append([-1 + step * (o + m) for o, m in zip((x, y, z), mean)])
+    for (x, y, z), at in values.items():
+        for axis in range(3):
+            end = tuple(v + (k == axis) for k, v in enumerate((x, y, z)))
+            if end not in values or (at < 0) == (values[end] < 0):
+                continue
+            u, v = ([int(k == (axis + i) % 3) for k in range(3)] for i in (1, 2))
+            around = [tuple(o - i * a - j * b for o, a, b in zip((x, y, z), u, v)) for i, j in ((1, 1), (0, 1), (0, 0), (1, 0))]
+            quad = [numbers[cell] for cell in around]
+            faces.append(quad if at < 0 else quad[::-1])
+    return points, faces
+
+
+def scan(distance, cells, noise):
+    """Points of surface nets, put onto the surface and then moved by chance; noise in cells."""
+    random, step = Random(), 2 / cells
+    points, faces = nets(distance, cells, 0)
+    for p in points:
+        for _ in range(2):
+            small = 1e-4
+            slope = [(distance([x + small * (k == axis) for k, x in enumerate(p)]) - distance(p)) / small for axis in range(3)]
+            at, size = distance(p), max(length(slope), 0.1)
+            p[:] = [x - at * s / size / size for x, s in zip(p, slope)]
+        p[:] = [x + noise * step * random.normal() for x in p]
+    return points, faces
+
+
+def bevelled_box():
+    """Faces of a box with one row of quads around each, and triangles at the corners."""
+    half, width = (0.8, 0.5, 0.6), 0.06
+    points, numbers, faces = [], {}, []
+    signs = [(x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]
+    for s in signs:
+        for axis in range(3):
+            numbers[s, axis] = len(points)
+            points.append([s[k] * (half[k] - (0 if k == axis else width)) for k in range(3)])
+
+    def add(face):
+        a, b, c = (points[i] for i in face[:3])
+        e, f = [y - x for x, y in zip(a, b)], [y - x for x, y in zip(a, c)]
+        across = [e[1] * f[2] - e[2] * f[1], e[2] * f[0] - e[0] * f[2], e[0] * f[1] - e[1] * f[0]]
+        middle = [sum(points[i][k] for i in face) for k in range(3)]
+        faces.append(face if sum(x * y for x, y in zip(across, middle)) > 0 else face[::-1])
+
+    for s in signs:
+        add([numbers[s, axis] for axis in range(3)])
+        for axis in range(3):
+            u, v = (axis + 1) % 3, (axis + 2) % 3
+            if s[u] < 0 and s[v] < 0:
+                ring = [tuple({axis: s[axis], u: a, v: b}[k] for k in range(3)) for a, b in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
+                add([numbers[corner, axis] for corner in ring])
+            if s[axis] < 0:
+                end = tuple(-x if k == axis else x for k, x in enumerate(s))
+                add([numbers[s, u], numbers[end, u], numbers[end, v], numbers[s, v]])
+    return points, faces
+
+
+def turned_torus():
+    """Triangles, of which those in some spots are wound the wrong way."""
+    columns, rows = 64, 28
+
+    def circle(i, count):  # a point of the unit circle, by the half angle's tangent in each quarter
+        quarter, t = divmod(4 * i, count)
+        t = t / count * (1 + 0.05 * (1 - t / count))
+        c, s = (1 - t * t) / (1 + t * t), 2 * t / (1 + t * t)
+        return [(c, s), (-s, c), (-c, -s), (s, -c)][quarter]
+
+    points, faces = [], []
+    for i in range(columns):
+        for j in range(rows):
+            (c, s), (d, e) = circle(i, columns), circle(j, rows)
+            points.append([(0.65 + 0.3 * d) * c, 0.3 * e, -(0.65 + 0.3 * d) * s])
+    for i in range(columns):
+        for j in range(rows):
+            a, b = i * rows + j, i * rows + (j + 1) % rows
+            c, d = (i + 1) % columns * rows + j, (i + 1) % columns * rows + (j + 1) % rows
+            for face in ([a, c, d], [a, d, b]):
+                middle = [sum(points[k][axis] for k in face) / 3 for axis in range(3)]
+                spots = ((0.2, 0.25, 0.65), (-0.6, 0.25, -0.1), (0.75, 0.2, -0.2), (0.6, 0.2, 0.5))
+                is_wrong = any(length([x - y for x, y in zip(middle, spot)]) < 0.22 for spot in spots)
+                faces.append(face[::-1] if is_wrong else face)
+    return points, faces
+
+
+def write(path, mesh):
+    points, faces = mesh
+    with open(path, "w", encoding="utf-8") as file:
+        file.writelines("v " + " ".join(f"{x:.5f}" for x in point) + "\n" for point in points)
+        file.writelines("f " + " ".join(str(i + 1) for i in face) + "\n" for face in faces)
+
+
+def main():
+    folder = sys.argv[1]
+    write(os.path.join(folder, "grid.obj"), nets(blob, 40, 0.2))
+    write(os.path.join(folder, "scan.obj"), scan(part, 48, 0.1))
+    write(os.path.join(folder, "bevel.obj"), bevelled_box())
+    write(os.path.join(folder, "turned.obj"), turned_torus())
+
+
+main()
