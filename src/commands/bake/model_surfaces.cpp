@@ -248,20 +248,14 @@ GenerateOptions allFrames(const BakeFileOptions& options, ExistingTangents exist
     return generate;
 }
 
-/// The low poly as the GLB that is written with its maps later. What is written is what is baked for.
-DrawnScene readFromGlb(const std::string& low, const BakeFileOptions& options, BakeModels& models) {
-    GenerateOptions generate = allFrames(options, ExistingTangents::keep, Faces::triangles);
-    generate.sink = [&](std::span<const std::uint8_t> bytes) {
-        models.low_glb.insert(models.low_glb.end(), bytes.begin(), bytes.end());
-        return true;
-    };
-    const GenerateReport report = valueOrThrow(generateFile(low, "low.glb", generate));
+/// The low poly as it is written with its maps later, for which the model stays. What is written is what is baked for.
+DrawnScene readToWrite(const std::string& low, const BakeFileOptions& options, BakeModels& models) {
+    gltf::GeneratedModel made = generateModel(low, allFrames(options, ExistingTangents::keep, Faces::triangles), true);
     models.low.frames_made =
-        std::any_of(report.primitives.begin(), report.primitives.end(),
+        std::any_of(made.report.primitives.begin(), made.report.primitives.end(),
                     [](const PrimitiveReport& primitive) { return primitive.action == PrimitiveAction::generated; });
-    FileOptions in_memory = options.file;
-    in_memory.content = models.low_glb;
-    return readDrawnScene("low.glb", in_memory, false);
+    models.low_model = std::move(made.model);
+    return models.low_model->drawnScene(false);
 }
 
 /// OBJ has no tangents, and reading it gives normals that it lacks.
@@ -275,7 +269,7 @@ DrawnScene readObjWithFrames(const std::string& low, const GenerateOptions& gene
 }
 
 DrawnScene readWithFrames(const std::string& low, const BakeFileOptions& options, BakeModels& models) {
-    if (!options.out_mesh.empty()) return readFromGlb(low, options, models);
+    if (!options.out_mesh.empty()) return readToWrite(low, options, models);
     const GenerateOptions generate = allFrames(options, ExistingTangents::keep, Faces::triangles);
     if (lowerExtension(low) == ".obj") return readObjWithFrames(low, generate, models.low.frames_made);
     gltf::Document document = gltf::loadDocument(low, options.file, options.execution, options.progress);
