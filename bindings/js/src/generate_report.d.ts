@@ -176,6 +176,9 @@ export interface GeneratedPrimitive {
   twoSidedTriangles: number;
   /** Faces that were turned ("--mend-winding"). */
   windingMended: number;
+  /** Which these are, in ascending order: the first 256 ranges of triangles of the primitive; from OBJ of faces, numbered
+   * through the file. */
+  windingMendedRanges: FaceRange[];
   /** "_BITANGENT" was computed ("--bitangents"). */
   bitangentsGenerated: boolean;
   /** "--pack": its frames are packed; where they are not, a note says why. */
@@ -220,6 +223,13 @@ export interface ActionCounts {
   impossible: number;
   /** No material needs the tangents, and they were taken away. */
   removed: number;
+}
+
+export interface FaceRange {
+  /** Number of the first face, from 0. */
+  first: number;
+  /** How many follow one another. */
+  count: number;
 }
 
 export interface GeneratedNormals {

@@ -94,8 +94,8 @@ class FileBaking {
             bakeTiles(image, word);
         }
         if (!options_.out_mesh.empty() && !is_without_map_)
-            addModelWithMaps({low, std::move(models_.low_glb), options_.out_mesh, std::move(maps_)}, options_.file,
-                             files_, report_.warnings);
+            addModelWithMaps({*std::move(models_.low_model), options_.out_mesh, std::move(maps_)}, files_,
+                             report_.warnings);
         if (is_without_map_) return std::move(report_);
         report_.output_files = files_.files();
         files_.commit();

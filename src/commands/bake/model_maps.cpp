@@ -268,11 +268,8 @@ class MapPlacing {
 
 }  // namespace
 
-void addModelWithMaps(ModelWithMaps&& model, const FileOptions& options, AtomicOutput& files,
-                      std::vector<std::string>& warnings) {
-    FileOptions on_disk = options;
-    on_disk.content = {};
-    Document document = gltf::parseDocument(std::move(model.glb), model.source, on_disk);
+void addModelWithMaps(ModelWithMaps&& model, AtomicOutput& files, std::vector<std::string>& warnings) {
+    Document& document = model.model.document();
     const gltf::OutputTarget target = gltf::outputTarget(document, model.output, false);
     gltf::convertContainer(document, target, true, warnings);
     Editor editor(document, gltf::freeFileName(document, target, ".tspace.bin"));

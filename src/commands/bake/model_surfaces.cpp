@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Model files as the arrays that baking takes, and which meshes of a low poly look at which of a high poly.
+// Model files as the arrays that baking takes.
 #include "commands/bake/model_surfaces.h"
 
 #include <algorithm>
@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "commands/bake/all_maps.h"
+#include "commands/bake/match_meshes.h"
 #include "commands/generate/generate_model.h"
 #include "commands/shared/map_image_file.h"
 #include "commands/shared/uv_reading.h"
@@ -37,194 +38,6 @@ std::size_t placedCorner(const Affine& place, std::size_t i) {
 }
 
 namespace {
-
-// Which meshes of a low poly look at which meshes of a high poly.
-
-/// Numbers as LowPoly::groups and HighPoly::groups have them.
-struct MeshMatch {
-    bool is_used = false;                    ///< else all look at all
-    std::vector<std::uint32_t> low = {};     ///< one per primitive
-    std::vector<std::uint32_t> high = {};    ///< one per placement
-    std::vector<std::string> warnings = {};  ///< one sentence each: what has no partner
-};
-
-bool isSeparator(char letter) { return letter == '_' || letter == '-' || letter == '.' || letter == ' '; }
-
-bool isDigits(std::string_view text) {
-    return std::all_of(text.begin(), text.end(), [](char letter) { return letter >= '0' && letter <= '9'; });
-}
-
-/// "body" of "Body_low", "BODY_HP", "Body_high_001", "Body_high_buckle" and so on. Behind "low" numbers alone may stand: what
-/// follows may tell two low polys apart, and high polys of one low poly may be several.
-std::string nameStem(std::string name) {
-    std::transform(name.begin(), name.end(), name.begin(),
-                   [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
-    for (const std::string_view mark : {"low", "lp", "high", "hp"}) {
-        const std::size_t at = name.rfind(mark);
-        if (at == std::string::npos || at < 2 || !isSeparator(name[at - 1])) continue;
-        const std::string_view rest = std::string_view(name).substr(at + mark.size());
-        const bool is_low = mark[0] == 'l';
-        if (rest.empty() || (isSeparator(rest[0]) && (!is_low || isDigits(rest.substr(1)))))
-            return name.substr(0, at - 1);
-    }
-    return name;
-}
-
-struct Names {
-    std::string node = {}, mesh = {};
-
-    [[nodiscard]] const std::string& shown() const { return node.empty() ? mesh : node; }
-};
-
-Names namesOf(const DrawnScene& drawn, std::size_t placement) {
-    const ScenePlacement& at = drawn.placements[placement];
-    return {at.node_name, drawn.scene.primitives[at.primitive].mesh_name};
-}
-
-/// Names of each primitive where it stands first.
-std::vector<Names> firstNames(const DrawnScene& drawn) {
-    std::vector<std::optional<Names>> names(drawn.scene.primitives.size());
-    for (std::size_t i = 0; i < drawn.placements.size(); ++i) {
-        auto& of_primitive = names[drawn.placements[i].primitive];
-        if (!of_primitive) of_primitive = namesOf(drawn, i);
-    }
-    std::vector<Names> result;
-    for (std::size_t i = 0; i < names.size(); ++i)
-        result.push_back(names[i].value_or(Names{{}, drawn.scene.primitives[i].mesh_name}));
-    return result;
-}
-
-using Pairs = std::map<std::string, std::string>;  ///< a name of the high poly, and that of its low poly
-
-/// Lines "LOW = HIGH"; empty ones and those that begin with # are left out.
-Pairs readPairs(const std::string& path, const FileOptions& file) {
-    if (file.opened) file.opened(path);
-    const Bytes bytes = readFile(path);
-    const auto trimmed = [](std::string_view text) {
-        const auto isBlank = [](char letter) { return letter == ' ' || letter == '\t' || letter == '\r'; };
-        while (!text.empty() && isBlank(text.front())) text.remove_prefix(1);
-        while (!text.empty() && isBlank(text.back())) text.remove_suffix(1);
-        return text;
-    };
-    Pairs pairs;
-    std::string_view rest(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    for (std::size_t number = 1; !rest.empty(); ++number) {
-        const std::size_t end = std::min(rest.find('\n'), rest.size());
-        const std::string_view line = trimmed(rest.substr(0, end));
-        rest.remove_prefix(std::min(end + 1, rest.size()));
-        if (line.empty() || line[0] == '#') continue;
-        const std::size_t equals = line.find('=');
-        const std::string_view low = trimmed(line.substr(0, std::min(equals, line.size())));
-        const std::string_view high = equals < line.size() ? trimmed(line.substr(equals + 1)) : std::string_view();
-        if (low.empty() || high.empty())
-            failFile(ErrorCode::invalidFile,
-                     pathInQuotes(path) + ", line " + std::to_string(number) + ": this is no LOW = HIGH");
-        pairs[std::string(high)] = std::string(low);
-    }
-    return pairs;
-}
-
-/// "'a', 'b' and 3 more".
-std::string listOf(const std::set<std::string>& names) {
-    constexpr std::size_t kShown = 5;
-    std::string text;
-    std::size_t count = 0;
-    for (const std::string& name : names) {
-        if (++count > kShown) break;
-        text += (text.empty() ? "" : ", ") + inQuotes(name);
-    }
-    if (names.size() > kShown) text += " and " + std::to_string(names.size() - kShown) + " more";
-    return text;
-}
-
-class Matching {
-  public:
-    Matching(const DrawnScene& low, const DrawnScene& high, const Pairs* pairs)
-        : low_(low), high_(high), pairs_(pairs), low_names_(firstNames(low)) {}
-
-    MeshMatch run() {
-        numberLow();
-        std::set<std::uint32_t> met;
-        for (std::size_t i = 0; i < high_.placements.size(); ++i) {
-            match_.high.push_back(groupOf(namesOf(high_, i)));
-            if (isDrawn(high_, high_.placements[i].primitive) && match_.high.back() != kEveryGroup)
-                met.insert(match_.high.back());
-        }
-        match_.is_used = !met.empty() && (by_node_.size() > 1 || pairs_ != nullptr);
-        if (!match_.is_used) return std::move(match_);
-        std::set<std::string> lonely_low, lonely_high;
-        for (std::size_t i = 0; i < match_.low.size(); ++i) {
-            if (met.count(match_.low[i]) != 0) continue;
-            match_.low[i] = kEveryGroup;
-            if (isDrawn(low_, i)) lonely_low.insert(low_names_[i].shown());
-        }
-        for (std::size_t i = 0; i < match_.high.size(); ++i) {
-            if (match_.high[i] == kEveryGroup && isDrawn(high_, high_.placements[i].primitive))
-                lonely_high.insert(namesOf(high_, i).shown());
-        }
-        if (!lonely_low.empty())
-            match_.warnings.push_back("nothing of the high poly has the name of " + listOf(lonely_low) +
-                                      ": there everything is looked at");
-        if (!lonely_high.empty())
-            match_.warnings.push_back("nothing of the low poly has the name of " + listOf(lonely_high) +
-                                      " of the high poly: everything looks at it");
-        return std::move(match_);
-    }
-
-  private:
-    static bool isDrawn(const DrawnScene& drawn, std::size_t primitive) {
-        return !drawn.scene.primitives[primitive].corners.empty();
-    }
-
-    [[nodiscard]] std::string keyOf(const std::string& name) const { return pairs_ != nullptr ? name : nameStem(name); }
-
-    /// What has one name by its nodes, or its meshes where these have none, is one.
-    void numberLow() {
-        for (std::size_t i = 0; i < low_names_.size(); ++i) {
-            const std::string key = keyOf(low_names_[i].shown());
-            if (!isDrawn(low_, i)) {
-                match_.low.push_back(kEveryGroup);
-                continue;
-            }
-            const auto number = static_cast<std::uint32_t>(by_node_.size());
-            match_.low.push_back(by_node_.emplace(key, number).first->second);
-            const auto [of_mesh, is_new] = by_mesh_.emplace(keyOf(low_names_[i].mesh), match_.low.back());
-            // A mesh at several objects says nothing about them.
-            if (!is_new && of_mesh->second != match_.low.back()) of_mesh->second = kEveryGroup;
-        }
-    }
-
-    /// Of something of the high poly.
-    [[nodiscard]] std::uint32_t groupOf(const Names& names) const {
-        for (const std::string& name : {names.node, names.mesh}) {
-            if (name.empty()) continue;
-            std::string key = keyOf(name);
-            if (pairs_ != nullptr) {
-                const auto pair = pairs_->find(name);
-                if (pair == pairs_->end()) continue;
-                key = pair->second;
-            }
-            if (const auto found = by_node_.find(key); found != by_node_.end()) return found->second;
-            if (const auto found = by_mesh_.find(key); found != by_mesh_.end()) return found->second;
-        }
-        return kEveryGroup;
-    }
-
-    const DrawnScene &low_, &high_;
-    const Pairs* pairs_;
-    std::vector<Names> low_names_;
-    std::map<std::string, std::uint32_t> by_node_ = {}, by_mesh_ = {};
-    MeshMatch match_ = {};
-};
-
-/// `how`: BakeFileOptions::match. By the names of nodes, and where one has no partner by those of meshes. Throws FileError for
-/// a file of pairs that cannot be read.
-MeshMatch matchMeshes(const DrawnScene& low, const DrawnScene& high, const std::string& how, const FileOptions& file) {
-    if (how == "all") return {};
-    if (how.empty() || how == "names") return Matching(low, high, nullptr).run();
-    const Pairs pairs = readPairs(how, file);
-    return Matching(low, high, &pairs).run();
-}
 
 /// The UVs that the map is read with: those of the normal map that is there, or of the first thing that needs tangents.
 std::vector<Vec2> mapUvs(const ScenePrimitive& primitive) {
@@ -257,20 +70,14 @@ GenerateOptions allFrames(const BakeFileOptions& options, ExistingTangents exist
     return generate;
 }
 
-/// The low poly as the GLB that is written with its maps later. What is written is what is baked for.
-DrawnScene readFromGlb(const std::string& low, const BakeFileOptions& options, BakeModels& models) {
-    GenerateOptions generate = allFrames(options, ExistingTangents::keep, Faces::triangles);
-    generate.sink = [&](std::span<const std::uint8_t> bytes) {
-        models.low_glb.insert(models.low_glb.end(), bytes.begin(), bytes.end());
-        return true;
-    };
-    const GenerateReport report = valueOrThrow(generateFile(low, "low.glb", generate));
+/// The low poly as it is written with its maps later, for which the model stays. What is written is what is baked for.
+DrawnScene readToWrite(const std::string& low, const BakeFileOptions& options, BakeModels& models) {
+    gltf::GeneratedModel made = generateModel(low, allFrames(options, ExistingTangents::keep, Faces::triangles), true);
     models.low.frames_made =
-        std::any_of(report.primitives.begin(), report.primitives.end(),
+        std::any_of(made.report.primitives.begin(), made.report.primitives.end(),
                     [](const PrimitiveReport& primitive) { return primitive.action == PrimitiveAction::generated; });
-    FileOptions in_memory = options.file;
-    in_memory.content = models.low_glb;
-    return readDrawnScene("low.glb", in_memory, false);
+    models.low_model = std::move(made.model);
+    return models.low_model->drawnScene(false);
 }
 
 /// OBJ has no tangents, and reading it gives normals that it lacks.
@@ -284,7 +91,7 @@ DrawnScene readObjWithFrames(const std::string& low, const GenerateOptions& gene
 }
 
 DrawnScene readWithFrames(const std::string& low, const BakeFileOptions& options, BakeModels& models) {
-    if (!options.out_mesh.empty()) return readFromGlb(low, options, models);
+    if (!options.out_mesh.empty()) return readToWrite(low, options, models);
     const GenerateOptions generate = allFrames(options, ExistingTangents::keep, Faces::triangles);
     if (lowerExtension(low) == ".obj") return readObjWithFrames(low, generate, models.low.frames_made);
     gltf::Document document = gltf::loadDocument(low, options.file, options.execution, options.progress);
@@ -460,7 +267,8 @@ std::vector<Vec3> denoisedNormals(const ScenePrimitive& primitive, const BakeFil
 }
 
 std::string denoisedText(double noise, bool has_maps) {
-    const std::string left = has_maps ? "; what shows a normal map of its own keeps the normals that this is made for" : "";
+    const std::string left =
+        has_maps ? "; what shows a normal map of its own keeps the normals that this is made for" : "";
     if (noise == 0)
         return "--denoise has no effect: no positions of the high poly are noisy" +
                std::string(has_maps ? " where it shows no normal map of its own" : "");

@@ -11,6 +11,7 @@
 #include "images/float_image.h"
 #include "maps/map_surfaces.h"
 #include "maps/uv_coverage.h"
+#include "model/gltf/model.h"
 #include "model/io/atomic_output.h"
 #include "model/io/file_error.h"
 #include "model/io/file_io.h"
@@ -43,16 +44,14 @@ struct ModelMap {
 };
 
 struct ModelWithMaps {
-    std::string source = {};  ///< what the model was read from: the files that it names lie beside it
-    Bytes glb = {};           ///< the model with the frames that were baked for
+    gltf::Model model;        ///< with the frames that were baked for
     std::string output = {};  ///< .glb or .gltf
     std::vector<ModelMap> maps = {};
 };
 
 /// Adds the model with its maps, and the maps themselves, to `files`. A GLB holds them; a .gltf names them where they lie in
 /// its folder or below, and holds them otherwise. Maps that were there go where nothing else shows them. Throws FileError.
-void addModelWithMaps(ModelWithMaps&& model, const FileOptions& options, AtomicOutput& files,
-                      std::vector<std::string>& warnings);
+void addModelWithMaps(ModelWithMaps&& model, AtomicOutput& files, std::vector<std::string>& warnings);
 
 /// What `body` returns; where it fails, the error says that it is about this file.
 template <class Body>
@@ -141,8 +140,8 @@ struct HighModel {
 struct BakeModels {
     LowModel low = {};
     HighModel high = {};
-    DrawnScene high_scene = {};  ///< where maps show its materials or names; else empty
-    Bytes low_glb = {};          ///< the low poly with its frames, where `out_mesh` asks for it
+    DrawnScene high_scene = {};                 ///< where maps show its materials or names; else empty
+    std::optional<gltf::Model> low_model = {};  ///< the low poly with its frames, where `out_mesh` asks for it
     bool matched_by_name = false;
 
     FloatImage skew = {};  ///< without texels where there is none

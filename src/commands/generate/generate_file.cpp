@@ -40,20 +40,6 @@ void checkOptions(const std::string& input, const GenerateOptions& options) {
 /// An OBJ file has no magic word, so only its name tells it; everything else is read as glTF and refused there.
 bool isObj(const std::string& input) { return lowerExtension(input) == ".obj"; }
 
-/// What is made of OBJ is a file first: its writer makes no document.
-gltf::GeneratedModel generateFromObj(const std::string& input, GenerateOptions options) {
-    Bytes glb;
-    options.sink = [&](std::span<const std::uint8_t> bytes) {
-        glb.insert(glb.end(), bytes.begin(), bytes.end());
-        return true;
-    };
-    GenerateReport report = valueOrThrow(generateObj(input, "model.glb", options));
-    report.input_files.clear();
-    report.output_files.clear();
-    report.output_bytes = 0;
-    return {gltf::Model(gltf::parseDocument(std::move(glb), input, options.file)), std::move(report)};
-}
-
 }  // namespace
 
 Result<GenerateReport> generateFile(const std::string& input, const std::string& output,
@@ -66,7 +52,7 @@ Result<GenerateReport> generateFile(const std::string& input, const std::string&
 
 gltf::GeneratedModel generateModel(const std::string& input, const GenerateOptions& options, bool with_images) {
     checkOptions(input, options);
-    if (isObj(input)) return generateFromObj(input, options);
+    if (isObj(input)) return generateObjModel(input, options);
     gltf::Model model(gltf::loadDocument(input, options.file, options.execution, options.progress));
     return gltf::generateModel(std::move(model), options, with_images);
 }

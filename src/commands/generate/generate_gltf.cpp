@@ -246,28 +246,33 @@ GenerateReport generateToFile(const std::string& path, const std::string& output
     tell(options, "reading", 0, 1);
     Input input = toInput(Model(loadDocument(path, options.file, options.execution, options.progress)), output,
                           options.sink != nullptr, options);
-    Document& document = input.model.document();
     const WorkedOn worked_on = generate(input, true, report);
-    AtomicOutput files({.sink = options.sink,
-                        .is_dry_run = options.dry_run,
-                        .sync = options.file.sync,
-                        .inputs = &inputs,
-                        .replaces_inputs = input.target.in_place});
-    tell(options, "writing", 0, 1);
-    if (report.changed) {
-        writeDocument(document, input.target, files, report.warnings, options.execution);
-    } else {
-        writeUnchanged(document, input.target, files, report.warnings);
-    }
-    tellFiles(path, document, files, report);
-    addWarnings(requested, worked_on, report);
-    tell(options, "writing", 1, 1);
-    // Nothing that can fail comes after it.
-    files.commit();
+    writeGenerated(path, input.model.document(), input.target, requested, worked_on, inputs, report);
     return report;
 }
 
 }  // namespace
+
+void writeGenerated(const std::string& input, Document& document, const OutputTarget& target,
+                    const GenerateOptions& options, const WorkedOn& worked_on, const InputFiles& inputs,
+                    GenerateReport& report) {
+    AtomicOutput files({.sink = options.sink,
+                        .is_dry_run = options.dry_run,
+                        .sync = options.file.sync,
+                        .inputs = &inputs,
+                        .replaces_inputs = target.in_place});
+    tell(options, "writing", 0, 1);
+    if (report.changed) {
+        writeDocument(document, target, files, report.warnings, options.execution);
+    } else {
+        writeUnchanged(document, target, files, report.warnings);
+    }
+    tellFiles(input, document, files, report);
+    addWarnings(options, worked_on, report);
+    tell(options, "writing", 1, 1);
+    // Nothing that can fail comes after it.
+    files.commit();
+}
 
 GeneratedModel generateModel(Model&& model, const GenerateOptions& options, bool with_images) {
     Input input = toInput(std::move(model), "model.glb", true, options);

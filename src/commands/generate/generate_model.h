@@ -32,5 +32,7 @@ gltf::GeneratedModel generateModel(const std::string& input, const GenerateOptio
 
 /// generateFile for an OBJ input; `output` is a .glb or .gltf.
 Result<GenerateReport> generateObj(const std::string& input, const std::string& output, const GenerateOptions& options);
+/// generateModel for an OBJ input. Throws FileError.
+gltf::GeneratedModel generateObjModel(const std::string& input, const GenerateOptions& options);
 
 }  // namespace tspace

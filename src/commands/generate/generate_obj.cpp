@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The OBJ path from file to file, with its normal maps.
+// From an OBJ file, with its normal maps, to the glTF document that is made of it.
 #include <algorithm>
 #include <span>
 #include <utility>
@@ -226,19 +226,21 @@ void tell(const GenerateOptions& options, const char* what, std::uint64_t done, 
     if (options.progress) options.progress(what, done, total);
 }
 
-GenerateReport generate(const std::string& input, const std::string& output, const GenerateOptions& options) {
-    checkOutput(output);
-    if (options.sink && !isGlbName(output)) failFile(ErrorCode::invalidOption, "only a GLB is one stream of bytes");
+/// What is made of an OBJ file, and what only the writer needs of how.
+struct Made {
+    gltf::Document document = {};
+    WorkedOn worked_on = {};
+};
+
+/// Fills the report but for what writing tells.
+Made generate(const std::string& input, const std::string& output, const GenerateOptions& options,
+              GenerateReport& report) {
     if (options.compression == Compression::meshopt || options.compression == Compression::draco) {
         failFile(ErrorCode::invalidOption,
                  "what is made from OBJ is not compressed in the same run; compress the result in a second one");
     }
     tell(options, "reading", 0, 0);
-    InputFiles inputs;
-    FileOptions file_options = options.file;
-    inputs.watch(file_options);
-    Model model = readModel(input, file_options);
-    GenerateReport report;
+    Model model = readModel(input, options.file);
     std::vector<std::uint8_t> turned;
     if (options.mend_winding) turned = mendObjWinding(model, options, report);
     std::vector<ObjPrimitive> primitives = collectPrimitives(model);
@@ -266,23 +268,30 @@ GenerateReport generate(const std::string& input, const std::string& output, con
         // some.
         if (primitive.normals_generated) entry.normals = std::exchange(normals, {});
     }
-    tell(options, "writing", 0, 0);
     report.changed = true;
     report.input_bytes = model.input_bytes;
     report.warnings = model.warnings;
     report.coordinate_offset[0] = model.offset.x;
     report.coordinate_offset[1] = model.offset.y;
     report.coordinate_offset[2] = model.offset.z;
-    addWarnings(options, {.far_coordinates = model.keeps_offset}, report);
-    AtomicOutput files(
-        {.sink = options.sink, .is_dry_run = options.dry_run, .sync = options.file.sync, .inputs = &inputs});
-    writeScene(model, finished, output, files, report.warnings);
-    report.input_files = std::move(model.input_files);
-    report.input_files.insert(report.input_files.end(), files.sources().begin(), files.sources().end());
-    report.output_files = files.files();
-    report.output_bytes = files.byteCount();
-    // Nothing that can fail comes after it.
-    files.commit();
+    const bool keeps_offset = model.keeps_offset;
+    Made made{toDocument(std::move(model), finished, output, report.warnings), {.far_coordinates = keeps_offset}};
+    made.document.path = input;
+    made.document.options = options.file;
+    return made;
+}
+
+GenerateReport generateToFile(const std::string& input, const std::string& output, const GenerateOptions& requested) {
+    checkOutput(output);
+    if (requested.sink && !isGlbName(output)) failFile(ErrorCode::invalidOption, "only a GLB is one stream of bytes");
+    GenerateReport report;
+    InputFiles inputs;
+    GenerateOptions options = requested;
+    inputs.watch(options.file);
+    Made made = generate(input, output, options, report);
+    // All files that it names lie where it goes to, and none is copied.
+    const gltf::OutputTarget target{.path = output, .container = made.document.container, .same_folder = true};
+    gltf::writeGenerated(input, made.document, target, requested, made.worked_on, inputs, report);
     return report;
 }
 
@@ -290,7 +299,14 @@ GenerateReport generate(const std::string& input, const std::string& output, con
 
 Result<GenerateReport> generateObj(const std::string& input, const std::string& output,
                                    const GenerateOptions& options) {
-    return atFileBorder([&]() -> Result<GenerateReport> { return generate(input, output, options); });
+    return atFileBorder([&]() -> Result<GenerateReport> { return generateToFile(input, output, options); });
+}
+
+gltf::GeneratedModel generateObjModel(const std::string& input, const GenerateOptions& options) {
+    GenerateReport report;
+    gltf::Model model(generate(input, "model.glb", options, report).document);
+    model.readAnew();
+    return {std::move(model), std::move(report)};
 }
 
 }  // namespace tspace

@@ -13,6 +13,7 @@
 #include "model/gltf/editor.h"
 #include "model/gltf/generate_plan.h"
 #include "model/gltf/model.h"
+#include "model/io/atomic_output.h"
 #include "model/obj/obj_reader.h"
 #include "model/scene/scene.h"
 #include "tspace/asset.h"
@@ -109,4 +110,13 @@ struct WorkedOn {
 /// and options that are not the default and had nothing to work on.
 void addWarnings(const GenerateOptions& options, const WorkedOn& worked_on, GenerateReport& report);
 
+namespace gltf {
+
+/// Writes a document that was generated, completes the report by what only that tells, and so ends the call: nothing that can
+/// fail comes after it. `inputs`: what the call read.
+void writeGenerated(const std::string& input, Document& document, const OutputTarget& target,
+                    const GenerateOptions& options, const WorkedOn& worked_on, const InputFiles& inputs,
+                    GenerateReport& report);
+
+}  // namespace gltf
 }  // namespace tspace

@@ -263,6 +263,11 @@ void embedImages(Document& document, std::vector<std::string>& warnings) {
     }
 }
 
+/// A path from the folder of the output; where that is named without a folder, so are the others.
+Path besideTarget(const OutputTarget& target, const Path& name) {
+    return fs::path(target.path).parent_path() / fs::path(name);
+}
+
 /// Copies one file that the model names to the same relative place in the output's folder.
 void copyNamedFile(const Document& document, const OutputTarget& target, const std::string& uri,
                    const std::string& place, AtomicOutput& output, std::vector<std::string>& warnings) {
@@ -287,7 +292,7 @@ void copyNamedFile(const Document& document, const OutputTarget& target, const s
         return;
     }
     output.addSource(from);
-    const Path to = fs::path(folderOf(target.path)) / relative;
+    const Path to = besideTarget(target, relative);
     const std::vector<std::string> planned = output.files();
     if (std::find(planned.begin(), planned.end(), to.string()) != planned.end()) return;
     if (isThere(to)) {
@@ -303,7 +308,7 @@ void copyNamedFile(const Document& document, const OutputTarget& target, const s
 
 void copyNamedFiles(const Document& document, const OutputTarget& target, AtomicOutput& output,
                     std::vector<std::string>& warnings) {
-    for (const auto& [path, bytes] : document.new_files) output.add(folderOf(target.path) / path, bytes);
+    for (const auto& [path, bytes] : document.new_files) output.add(besideTarget(target, path), bytes);
     if (target.same_folder) return;
     const Json& buffers = rootArray(document, "buffers");
     for (std::size_t i = 0; i < buffers.size(); ++i) {
@@ -424,7 +429,7 @@ void writeDocument(Document& document, const OutputTarget& target, AtomicOutput&
         output.add(target.path, bytesOf(writeJson(document.json, document.style)));
         for (const Buffer& buffer : document.buffers) {
             if (buffer.source == BufferSource::file && buffer.own && (buffer.edited || !target.in_place)) {
-                output.add(folderOf(target.path) / buffer.path.string(), buffer.bytes.pieces(), execution);
+                output.add(besideTarget(target, buffer.path), buffer.bytes.pieces(), execution);
             }
         }
     }
@@ -437,7 +442,7 @@ void writeUnchanged(const Document& document, const OutputTarget& target, Atomic
     output.add(target.path, document.file_bytes);
     for (const Buffer& buffer : document.buffers) {
         if (buffer.source == BufferSource::file && buffer.own && !target.same_folder) {
-            output.add(folderOf(target.path) / buffer.path.string(), buffer.bytes.pieces());
+            output.add(besideTarget(target, buffer.path), buffer.bytes.pieces());
         }
     }
     copyNamedFiles(document, target, output, warnings);

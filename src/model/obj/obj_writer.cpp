@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Writes a model as glTF 2.0.
+// An OBJ model as a document of glTF 2.0.
 #include "model/obj/obj_writer.h"
 
 #include <algorithm>
@@ -105,9 +105,9 @@ class BufferBuilder {
 
     /// Whether KHR_mesh_quantization is needed.
     [[nodiscard]] bool hasIntegers() const { return has_integers_; }
-    [[nodiscard]] const Bytes& bytes() const { return bytes_; }
-    [[nodiscard]] const Json& views() const { return views_; }
-    [[nodiscard]] const Json& accessors() const { return accessors_; }
+    Bytes takeBytes() { return std::move(bytes_); }
+    Json takeViews() { return std::move(views_); }
+    Json takeAccessors() { return std::move(accessors_); }
 
   private:
     /// `count` elements of a few bytes each, which start at multiples of 4 bytes.
@@ -135,13 +135,13 @@ class BufferBuilder {
 /// Images and textures, one per file however often it is used.
 class ImageBuilder {
   public:
-    ImageBuilder(const Model& model, const Path& output, BufferBuilder& buffer, AtomicOutput& files,
+    ImageBuilder(const Model& model, const Path& output, BufferBuilder& buffer, std::vector<std::string>& sources,
                  std::vector<std::string>& warnings)
         : names_by_uri_(!model.files.areInMemory() && isSameFile(folderOf(output), model.files.folder())),
           flipped_maps_(model.flipped_maps),
           named_(model.files),
           buffer_(buffer),
-          files_(files),
+          sources_(sources),
           warnings_(warnings) {}
 
     /// Sets material[key] to a reference to the texture; does nothing where the image cannot be read.
@@ -170,7 +170,7 @@ class ImageBuilder {
         const std::optional<Error> failure = tryFile([&] {
             const Path path = named_.resolve(texture.folder, percentEncode(texture.file), "material");
             const Bytes bytes = named_.read(path);
-            files_.addSource(path);
+            sources_.push_back(path.string());
             // Told by content, because names can be wrong. Core glTF allows no other formats.
             const ImageFormat format = imageFormat(bytes);
             if (format != ImageFormat::png && format != ImageFormat::jpeg) {
@@ -208,7 +208,7 @@ class ImageBuilder {
     const std::map<std::string, Bytes>& flipped_maps_;
     const NamedFiles& named_;
     BufferBuilder& buffer_;
-    AtomicOutput& files_;
+    std::vector<std::string>& sources_;
     std::vector<std::string>& warnings_;
     std::map<std::pair<std::string, bool>, int> textures_by_file_ = {};  ///< by path, and whether green is inverted
     Json images_ = Json::array();
@@ -341,38 +341,45 @@ void addTextures(const ImageBuilder& images, Json& root) {
     root["images"] = images.images();
 }
 
-void writeFiles(Json& root, const Bytes& bytes, const fs::path& output, AtomicOutput& files) {
-    root["buffers"] = {{{"byteLength", bytes.size()}}};
-    const bool is_glb = isGlbOutput(output);
-    fs::path bin = output;
-    bin.replace_extension(".bin");
-    if (!is_glb) root["buffers"][0]["uri"] = percentEncode(Path(bin.filename()).string());
-    const std::string json = root.dump(is_glb ? -1 : 2, ' ', BadUtf8::replace);
-    if (is_glb) {
-        const gltf::GlbFrame frame = gltf::frameGlb(json, bytes.size(), {});
-        files.add(output, {frame.head, bytes, frame.tail});
+/// The document's only buffer: the BIN of a GLB, or a file beside a .gltf.
+void addBuffer(Bytes&& bytes, const Path& output, gltf::Document& document) {
+    Json entry = {{"byteLength", bytes.size()}};
+    gltf::Buffer& buffer = document.buffers.emplace_back();
+    buffer.bytes = gltf::BufferBytes(std::move(bytes));
+    buffer.own = buffer.edited = true;
+    if (document.container == gltf::Container::glb) {
+        buffer.source = gltf::BufferSource::bin;
     } else {
-        const Bytes text(json.begin(), json.end());
-        files.add(output, text);
-        files.add(bin, bytes);
+        buffer.source = gltf::BufferSource::file;
+        buffer.path = stemOf(output) + ".bin";
+        entry["uri"] = percentEncode(buffer.path.string());
+        document.style.indent = 2;
     }
+    document.json["buffers"] = Json::array({std::move(entry)});
 }
 
 }  // namespace
 
-void writeScene(const Model& model, const std::vector<FinishedPrimitive>& primitives, const Path& output,
-                AtomicOutput& files, std::vector<std::string>& warnings) {
+gltf::Document toDocument(Model&& model, const std::vector<FinishedPrimitive>& primitives, const Path& output,
+                          std::vector<std::string>& warnings) {
+    gltf::Document document;
+    document.container = isGlbOutput(output) ? gltf::Container::glb : gltf::Container::gltf;
+    document.input_bytes = model.input_bytes;
+    document.input_files = std::move(model.input_files);
+    document.memory = model.memory;
     BufferBuilder buffer;
-    ImageBuilder images(model, output, buffer, files, warnings);
-    Json root = {{"asset", {{"version", "2.0"}, {"generator", "tspace"}}}};
+    ImageBuilder images(model, output, buffer, document.input_files, warnings);
+    Json& root = document.json = {{"asset", {{"version", "2.0"}, {"generator", "tspace"}}}};
     const MaterialNumbers materials(model, primitives, images, warnings);
     addMeshes(model, primitives, materials, buffer, root);
     if (!materials.materials().empty()) root["materials"] = materials.materials();
     addTextures(images, root);
-    root["accessors"] = buffer.accessors();
-    root["bufferViews"] = buffer.views();
+    root["accessors"] = buffer.takeAccessors();
+    root["bufferViews"] = buffer.takeViews();
     if (buffer.hasIntegers()) root["extensionsUsed"] = root["extensionsRequired"] = {"KHR_mesh_quantization"};
-    writeFiles(root, buffer.bytes(), output, files);
+    addBuffer(buffer.takeBytes(), output, document);
+    document.files = std::move(model.files);
+    return document;
 }
 
 }  // namespace tspace::obj

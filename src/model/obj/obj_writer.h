@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Writes a new glTF scene: meshes, materials, images, and the buffer that holds them.
+// A new glTF document: meshes, materials, images, and the buffer that holds them.
 #pragma once
 
 #include <string>
@@ -7,7 +7,6 @@
 
 #include "model/gltf/document.h"
 #include "model/gltf/packed.h"
-#include "model/io/atomic_output.h"
 #include "model/io/path.h"
 #include "model/obj/obj_reader.h"
 
@@ -33,10 +32,10 @@ struct FinishedPrimitive {
     VectorFormat normal_format = VectorFormat::float32, tangent_format = VectorFormat::float32;
 };
 
-/// Writes to `output` (.glb, else .gltf with a .bin beside it). Images that lie in the output's own folder
-/// are named by URI, others go into the file. Textures that are missing, forbidden or neither PNG nor JPEG
-/// are left out with a warning. Throws FileError.
-void writeScene(const Model& model, const std::vector<FinishedPrimitive>& primitives, const Path& output,
-                AtomicOutput& files, std::vector<std::string>& warnings);
+/// A document of the model, to be written to `output` (.glb, else .gltf with a .bin beside it), whose folder is the only one
+/// that it names files in: images that lie there are named by URI, others go into its buffer. Textures that are missing,
+/// forbidden or neither PNG nor JPEG are left out with a warning. Throws FileError.
+gltf::Document toDocument(Model&& model, const std::vector<FinishedPrimitive>& primitives, const Path& output,
+                          std::vector<std::string>& warnings);
 
 }  // namespace tspace::obj

@@ -183,6 +183,9 @@ class GeneratedPrimitive(Report):
     two_sided_triangles: int
     #: Faces that were turned ("--mend-winding").
     winding_mended: int
+    #: Which these are, in ascending order: the first 256 ranges of triangles of the primitive; from OBJ of faces,
+    #: numbered through the file.
+    winding_mended_ranges: List[FaceRange]
     #: "_BITANGENT" was computed ("--bitangents").
     bitangents_generated: bool
     #: "--pack": its frames are packed; where they are not, a note says why.
@@ -227,6 +230,13 @@ class ActionCounts(Report):
     impossible: int
     #: No material needs the tangents, and they were taken away.
     removed: int
+
+
+class FaceRange(Report):
+    #: Number of the first face, from 0.
+    first: int
+    #: How many follow one another.
+    count: int
 
 
 class GeneratedNormals(Report):

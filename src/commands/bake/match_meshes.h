@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+// Which meshes of a low poly look at which meshes of a high poly.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "model/scene/scene.h"
+#include "tspace/asset.h"
+
+namespace tspace {
+
+/// Numbers as LowPoly::groups and HighPoly::groups have them.
+struct MeshMatch {
+    bool is_used = false;                    ///< else all look at all
+    std::vector<std::uint32_t> low = {};     ///< one per primitive
+    std::vector<std::uint32_t> high = {};    ///< one per placement
+    std::vector<std::string> warnings = {};  ///< one sentence each: what has no partner
+};
+
+/// `how`: BakeFileOptions::match. By the names of nodes, and where one has no partner by those of meshes. Throws FileError for
+/// a file of pairs that cannot be read.
+MeshMatch matchMeshes(const DrawnScene& low, const DrawnScene& high, const std::string& how, const FileOptions& file);
+
+}  // namespace tspace
