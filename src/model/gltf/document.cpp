@@ -84,7 +84,7 @@ ParsedJson parseJson(std::span<const std::uint8_t> bytes, MemoryBudget* budget) 
 }
 
 std::string writeJson(const Json& root, const JsonStyle& style) {
-    std::string text = root.dump(style.indent, style.indent_char);
+    std::string text = root.dump(style.indent, style.indent_char, BadUtf8::replace);
     if (style.final_newline) text += '\n';
     return text;
 }

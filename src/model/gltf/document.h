@@ -45,6 +45,7 @@ struct ParsedJson {
 /// asked for in `budget`, which may be null.
 ParsedJson parseJson(std::span<const std::uint8_t> text, MemoryBudget* budget = nullptr);
 
+/// Bytes that are not UTF-8, as names of OBJ may have, become U+FFFD.
 std::string writeJson(const Json& root, const JsonStyle& style);
 
 // Access. `place` is the JSON pointer of `object`. All fail with invalidFile at the member's own pointer when

@@ -24,13 +24,13 @@ namespace {
 namespace fs = std::filesystem;
 using gltf::Json;
 
-constexpr int kArrayBuffer = 34962;
-constexpr int kElementArrayBuffer = 34963;
-constexpr int kByte = 5120;
-constexpr int kShort = 5122;
-constexpr int kUnsignedShort = 5123;
-constexpr int kUnsignedInt = 5125;
-constexpr int kFloat = 5126;
+constexpr unsigned kArrayBuffer = 34962;
+constexpr unsigned kElementArrayBuffer = 34963;
+constexpr unsigned kByte = 5120;
+constexpr unsigned kShort = 5122;
+constexpr unsigned kUnsignedShort = 5123;
+constexpr unsigned kUnsignedInt = 5125;
+constexpr unsigned kFloat = 5126;
 
 /// The buffer, and the views and accessors into it.
 class BufferBuilder {
@@ -92,9 +92,9 @@ class BufferBuilder {
     }
 
     /// Adds a view of numbers, which are turned to little-endian. `target` 0: none.
-    std::size_t addView(const void* data, std::size_t byte_count, std::size_t number_bytes, int target) {
+    std::size_t addView(const void* data, std::size_t byte_count, std::size_t number_bytes, unsigned target) {
         bytes_.resize((bytes_.size() + 3) / 4 * 4, 0);
-        Json view = {{"buffer", 0}, {"byteOffset", bytes_.size()}, {"byteLength", byte_count}};
+        Json view = {{"buffer", 0U}, {"byteOffset", bytes_.size()}, {"byteLength", byte_count}};
         if (target != 0) view["target"] = target;
         const auto* first = static_cast<const std::uint8_t*>(data);
         bytes_.insert(bytes_.end(), first, first + byte_count);
@@ -152,7 +152,7 @@ class ImageBuilder {
         const bool is_flipped = flipped != flipped_maps_.end() && std::string_view(key) == "normalTexture";
         const auto [entry, is_new] = textures_by_file_.emplace(std::pair(name, is_flipped), -1);
         if (is_new) entry->second = addTexture(texture, is_flipped ? &flipped->second : nullptr);
-        if (entry->second >= 0) material[key] = {{"index", entry->second}};
+        if (entry->second >= 0) material[key] = {{"index", static_cast<unsigned>(entry->second)}};
     }
 
     /// reference() for an image in memory.
@@ -302,7 +302,7 @@ Json primitiveJson(const FinishedPrimitive& primitive, int material, BufferBuild
     if (!primitive.uvs.empty()) attributes["TEXCOORD_0"] = buffer.addVertices(primitive.uvs, "VEC2");
     Json json = {{"attributes", std::move(attributes)},
                  {"indices", buffer.addIndices(primitive.indices, primitive.positions.size())}};
-    if (material >= 0) json["material"] = material;
+    if (material >= 0) json["material"] = static_cast<unsigned>(material);
     return json;
 }
 
@@ -327,7 +327,7 @@ void addMeshes(const Model& model, const std::vector<FinishedPrimitive>& primiti
     for (const FinishedPrimitive& primitive : primitives) {
         meshes[primitive.shape]["primitives"].push_back(primitiveJson(primitive, materials.of(primitive), buffer));
     }
-    root["scene"] = 0;
+    root["scene"] = 0U;
     root["scenes"] = {{{"nodes", std::move(roots)}}};
     root["nodes"] = std::move(nodes);
     root["meshes"] = std::move(meshes);
