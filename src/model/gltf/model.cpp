@@ -174,6 +174,34 @@ DrawnScene Model::drawnScene(bool with_images) {
     return drawn;
 }
 
+DrawnScene Model::materialScene() {
+    DrawnScene drawn = drawnScene(false);
+    readImages(*document_, materialImagesOf(drawn.looks), drawn.scene);
+    for (const Primitive& primitive : primitives()) {
+        SharedArray<Vec4>& colors = drawn.colors.emplace_back();
+        const auto accessor = primitive.find("COLOR_0");
+        if (!accessor || primitive.vertex_count == 0) continue;
+        const std::string place = join(join(primitive.place(), "attributes"), "COLOR_0");
+        if (readAccessor(*document_, *accessor).component_count == 4) {
+            colors = arrays_->vec4(*accessor, place);
+            continue;
+        }
+        const SharedArray<Vec3> opaque = arrays_->vec3(*accessor, place);
+        document_->memory->take(opaque.size() * sizeof(Vec4), place);
+        std::vector<Vec4> values;
+        for (const Vec3& color : opaque) values.push_back({color.x, color.y, color.z, 1});
+        colors = SharedArray<Vec4>(std::move(values));
+    }
+    return drawn;
+}
+
+PosedScene Model::posedScene(bool with_images) {
+    PosedScene posed{.drawn = materialScene()};
+    if (with_images) readImages(*document_, imagesOf(posed.drawn.looks), posed.drawn.scene);
+    posed.poses = readPoses(*document_, *arrays_, primitives(), posed.drawn.scene);
+    return posed;
+}
+
 void Model::wasEdited() {
     dropScene();
     arrays_->forget();

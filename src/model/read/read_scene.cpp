@@ -55,14 +55,32 @@ Scene readScene(const std::string& input, const FileOptions& options, bool with_
     return scene;
 }
 
+namespace {
+
+DrawnScene readObjScene(const std::string& input, const FileOptions& options, bool with_images) {
+    obj::Model model = obj::readModel(input, options);
+    std::vector<obj::ObjPrimitive> primitives = obj::collectPrimitives(model);
+    valueOrThrow(obj::completeNormals(model, primitives, {}));
+    return obj::drawnSceneOf(model, primitives, with_images);
+}
+
+}  // namespace
+
 DrawnScene readDrawnScene(const std::string& input, const FileOptions& options, bool with_images) {
-    if (lowerExtension(input) == ".obj") {
-        obj::Model model = obj::readModel(input, options);
-        std::vector<obj::ObjPrimitive> primitives = obj::collectPrimitives(model);
-        valueOrThrow(obj::completeNormals(model, primitives, {}));
-        return obj::drawnSceneOf(model, primitives, with_images);
-    }
+    if (lowerExtension(input) == ".obj") return readObjScene(input, options, with_images);
     return readModel(input, options).drawnScene(with_images);
+}
+
+DrawnScene readMaterialScene(const std::string& input, const FileOptions& options) {
+    if (lowerExtension(input) == ".obj") return readObjScene(input, options, true);
+    return readModel(input, options).materialScene();
+}
+
+PosedScene readPosedScene(const std::string& input, const FileOptions& options, bool with_images) {
+    if (lowerExtension(input) != ".obj") return readModel(input, options).posedScene(with_images);
+    PosedScene posed{.drawn = readObjScene(input, options, with_images)};
+    posed.poses.resize(posed.drawn.placements.size());
+    return posed;
 }
 
 }  // namespace tspace

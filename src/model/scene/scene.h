@@ -186,10 +186,15 @@ struct SurfaceLook {
     std::optional<TextureReading> base_texture = {};
     std::optional<TextureReading> normal_texture = {};
     double normal_scale = 1;
+    double metalness = 0, roughness = 1;
+    std::optional<TextureReading> metal_texture = {};  ///< green: roughness; blue: metalness
+    std::array<double, 3> emission = {0, 0, 0};        ///< linear
+    std::optional<TextureReading> emission_texture = {};
     /// Where alpha is smaller the surface is not there; 0: it is there everywhere.
     double alpha_cutoff = 0;
     bool is_double_sided = false;
     bool is_unlit = false;
+    bool is_blended = false;  ///< what lies behind shines through, by alpha
 };
 
 /// A primitive at one of its places.
@@ -203,6 +208,25 @@ struct DrawnScene {
     Scene scene = {};
     std::vector<SurfaceLook> looks = {};          ///< one per primitive
     std::vector<ScenePlacement> placements = {};  ///< in the order of nodes; never empty where there are primitives
+    /// COLOR_0 as stored, one list per primitive, empty where it has none; no lists where they were not asked for.
+    std::vector<SharedArray<Vec4>> colors = {};
+};
+
+/// Where bones and morph weights put the vertices of a primitive at one of its places.
+struct ScenePose {
+    std::vector<Affine> bones = {};  ///< one per vertex, into the world; empty: no skin
+    /// What morph targets add at their weights, one per vertex; empty: nothing.
+    std::vector<Vec3> positions = {}, normals = {}, tangents = {};
+
+    [[nodiscard]] bool empty() const {
+        return bones.empty() && positions.empty() && normals.empty() && tangents.empty();
+    }
+};
+
+/// A scene as the file poses it.
+struct PosedScene {
+    DrawnScene drawn = {};
+    std::vector<ScenePose> poses = {};  ///< one per placement
 };
 
 }  // namespace tspace
