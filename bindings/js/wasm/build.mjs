@@ -33,7 +33,7 @@ const notHere = new Set([
   "images/exr.cpp", "images/float_image.cpp", "images/jpeg.cpp", "images/png.cpp", "images/webp.cpp", "maps/rays.cpp",
   "commands/generate/convert_maps.cpp", "commands/generate/mend_maps.cpp", "commands/diff/diff_words.cpp",
   "commands/shared/map_image_file.cpp", "commands/flip_green/texture_png.cpp",
-  ...["bake/bake_file", "bake/model_maps", "bake/model_surfaces", "convert_map/convert_map_file",
+  ...["bake/bake_file", "bake/high_maps", "bake/model_maps", "bake/model_surfaces", "convert_map/convert_map_file",
     "height_to_normal/height_to_normal_file", "render/model_picture", "render/render_file"]
     .map((name) => `commands/${name}.cpp`),
   ...["posix", "windows"].map((system) => `model/io/system_files_${system}.cpp`),

@@ -174,9 +174,11 @@ DrawnScene Model::drawnScene(bool with_images) {
     return drawn;
 }
 
-DrawnScene Model::materialScene() {
+DrawnScene Model::materialScene(bool with_normal_maps) {
     DrawnScene drawn = drawnScene(false);
-    readImages(*document_, materialImagesOf(drawn.looks), drawn.scene);
+    std::set<std::size_t> images = materialImagesOf(drawn.looks);
+    if (with_normal_maps) images.merge(imagesOf(drawn.looks));
+    readImages(*document_, images, drawn.scene);
     for (const Primitive& primitive : primitives()) {
         SharedArray<Vec4>& colors = drawn.colors.emplace_back();
         const auto accessor = primitive.find("COLOR_0");
@@ -196,8 +198,7 @@ DrawnScene Model::materialScene() {
 }
 
 PosedScene Model::posedScene(bool with_images) {
-    PosedScene posed{.drawn = materialScene()};
-    if (with_images) readImages(*document_, imagesOf(posed.drawn.looks), posed.drawn.scene);
+    PosedScene posed{.drawn = with_images ? materialScene(true) : drawnScene(false)};
     posed.poses = readPoses(*document_, *arrays_, primitives(), posed.drawn.scene);
     return posed;
 }

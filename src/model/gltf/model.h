@@ -101,8 +101,8 @@ class Model {
     [[nodiscard]] DrawnScene drawnScene(bool with_images);
     /// The same with all that materials show: the bytes of the images of colours, metal and emission, and the colours of
     /// vertices.
-    [[nodiscard]] DrawnScene materialScene();
-    /// The same with normal maps, as nodes pose it; `with_images`: the bytes of all those images.
+    [[nodiscard]] DrawnScene materialScene(bool with_normal_maps);
+    /// The same as nodes pose it; `with_images`: with the bytes of all images and the colours of vertices.
     [[nodiscard]] PosedScene posedScene(bool with_images);
 
     /// Primitives and scene are made anew when they are next asked for, and their old memory is free again.

@@ -71,9 +71,9 @@ DrawnScene readDrawnScene(const std::string& input, const FileOptions& options, 
     return readModel(input, options).drawnScene(with_images);
 }
 
-DrawnScene readMaterialScene(const std::string& input, const FileOptions& options) {
+DrawnScene readMaterialScene(const std::string& input, const FileOptions& options, bool with_normal_maps) {
     if (lowerExtension(input) == ".obj") return readObjScene(input, options, true);
-    return readModel(input, options).materialScene();
+    return readModel(input, options).materialScene(with_normal_maps);
 }
 
 PosedScene readPosedScene(const std::string& input, const FileOptions& options, bool with_images) {

@@ -34,8 +34,8 @@ Scene readScene(const std::string& input, const FileOptions& options, bool with_
 DrawnScene readDrawnScene(const std::string& input, const FileOptions& options, bool with_images);
 
 /// The same with all that materials show: images of colours, metal and emission, and colours of vertices, as they are stored.
-/// OBJ has none of those, and images of colours alone.
-DrawnScene readMaterialScene(const std::string& input, const FileOptions& options);
+/// `with_normal_maps`: those images too. OBJ has none of those, and images of colours alone.
+DrawnScene readMaterialScene(const std::string& input, const FileOptions& options, bool with_normal_maps);
 
 /// readDrawnScene with all that materials show, as the file poses it.
 PosedScene readPosedScene(const std::string& input, const FileOptions& options, bool with_images);
