@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A picture of a model: as its frames shade it, or of the frames themselves. CMake target tspace::asset. This is the
-// shading reference made visible, no renderer: no shadows, no reflections, no transparency. docs/render.md shows every view.
+// shading reference made visible, no renderer: no shadows, no objects in reflections. docs/render.md shows every view.
 #pragma once
 
 #include <cstdint>
@@ -23,9 +23,11 @@ enum class RenderShow : std::uint32_t {
     tangents = 2,  ///< T, likewise
     sign =
         3,  ///< w: blue +1, orange -1, magenta neither; stripes where the UV map is mirrored, red where both disagree
-    error = 4,   ///< the angle between the stored frames and those of a method, as a heat map with a scale
-    uv = 5,      ///< the UV map: its islands in colours, mirrored ones with stripes
-    mapped = 6,  ///< the normal that `lit` shades, in the colours of `normals`
+    error = 4,    ///< the angle between the stored frames and those of a method, as a heat map with a scale
+    uv = 5,       ///< the UV map: its islands in colours, mirrored ones with stripes
+    mapped = 6,   ///< the normal that `lit` shades, in the colours of `normals`
+    surface = 7,  ///< metal and roughness in a grey room with three lamps, emission, and the lamp of `to_light`
+    both = 8,     ///< `surface`, left of a line with the stored frames, right of it with those of a method
 };
 /// "lit", "normals", ...: the name of the enumerator.
 const char* renderShowName(RenderShow show);
@@ -56,6 +58,11 @@ struct RenderOptions {
     /// How texels of normal maps become normals; its scale is multiplied with that of the material.
     MapReading reading = {};
     bool textures = true;  ///< false: surfaces in their plain colour, without normal maps
+    bool pose = true;      ///< false: skins as they were bound, without morph targets
+    bool legend = false;   ///< under the picture what its colours mean; `error` has its scale in any case
+    /// Pictures of a turn about the vertical axis, each as far on as the others: 1 to 999. With more than one, OUT.png is
+    /// written as OUT_000.png and so on, and the distance of the camera is the same in all.
+    std::uint32_t turntable = 1;
     /// Images of more pixels are not shown. The default is 8192 x 8192.
     std::uint64_t most_pixels = std::uint64_t{1} << 26;
     FileOptions file = {};
@@ -67,6 +74,7 @@ struct RenderOptions {
 struct RenderReport {
     RenderShow show = RenderShow::lit;
     std::uint32_t width = 0, height = 0;
+    std::uint32_t picture_count = 1;    ///< of `turntable`
     std::uint64_t triangle_count = 0;   ///< drawn, each primitive as often as nodes draw it
     std::uint64_t primitive_count = 0;  ///< in the file
     std::uint64_t without_tangents_count =
@@ -81,9 +89,10 @@ struct RenderReport {
 
 /// Draws the model into a PNG of 8 bits. Pixels have the same bytes on every machine and for any number of threads.
 ///
-/// Surfaces are drawn where the nodes of the file's scene put them; skins as they were bound, morph targets not at all.
-/// Materials: baseColorFactor and baseColorTexture, normalTexture with its scale, doubleSided, alphaMode MASK,
-/// KHR_texture_transform, KHR_materials_unlit. Back faces of other materials than double-sided ones are not drawn. Textures
+/// Surfaces are drawn where the nodes of the file's scene put them, as its joints and the weights of its morph targets pose
+/// them. Materials: baseColorFactor and baseColorTexture, COLOR_0, normalTexture with its scale, doubleSided, alphaMode MASK and BLEND (eight layers, in
+/// `lit` and `surface`), KHR_texture_transform, KHR_materials_unlit; in `surface` metal, roughness and emission with their textures,
+/// KHR_materials_emissive_strength. Back faces of other materials than double-sided ones are not drawn. Textures
 /// are read bilinearly, without mipmaps. Errors: those of generateFile for reading; invalidOption (a size, angle or
 /// direction out of range); tooLarge (also where nodes draw triangles without
 /// end, or these cover the picture a hundred times over); unsupportedFile

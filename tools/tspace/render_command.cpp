@@ -58,11 +58,14 @@ Command renderCommand() {
             "Draws a PNG: the model in the light of one lamp, as its normal maps and tangents say, or these "
             "themselves: normals, tangents, signs, how far the tangents are from those of a method, the UV map. "
             "Without a display and the same bytes everywhere. It is the shading reference made visible, no renderer: "
-            "no shadows, no reflections.",
+            "no shadows. surface shows metal and roughness in a grey room.",
         .examples = {"tspace render helmet.glb -o helmet.png", "tspace render helmet.glb -o signs.png --show sign",
                      "tspace render helmet.glb -o error.png --show error --view front --size 512",
                      "tspace render helmet.glb -o right.png --frames computed"},
         .finish = [&arguments](const Given&) -> std::string {
+            if (arguments.options.turntable == 0) return "--turntable must be 1 to 999";
+            if (arguments.options.turntable > 1 && arguments.output == "-")
+                return "--turntable writes several files, which stdout cannot be";
             return arguments.options.samples == 0 ? "--samples must be 1 to 4" : "";
         },
     };

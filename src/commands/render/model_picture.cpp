@@ -22,14 +22,12 @@ namespace tspace {
 namespace {
 
 /// One unit normal per corner; zero where the triangle has no area.
-std::vector<Vec3> flatNormals(const ScenePrimitive& primitive) {
+std::vector<Vec3> flatNormals(std::span<const Vec3> positions, std::span<const std::uint32_t> corners) {
     std::vector<Vec3> normals;
-    normals.reserve(primitive.corners.size());
-    for (std::size_t i = 0; i + 2 < primitive.corners.size(); i += 3) {
-        const std::array<Vec3, 3> positions = {primitive.positions[primitive.corners[i]],
-                                               primitive.positions[primitive.corners[i + 1]],
-                                               primitive.positions[primitive.corners[i + 2]]};
-        normals.insert(normals.end(), 3, describeFace(positions, nullptr).normal);
+    normals.reserve(corners.size());
+    for (std::size_t i = 0; i + 2 < corners.size(); i += 3) {
+        const std::array<Vec3, 3> face = {positions[corners[i]], positions[corners[i + 1]], positions[corners[i + 2]]};
+        normals.insert(normals.end(), 3, describeFace(face, nullptr).normal);
     }
     return normals;
 }
@@ -169,8 +167,8 @@ std::optional<PictureTexture> ModelTextures::decode(const Wanted& wanted) {
 }
 
 ModelPicture::ModelPicture(const DrawnScene& drawn, RenderShow show, const FrameChoice& choice,
-                           const MapReading& reading, ModelTextures* textures)
-    : drawn_(drawn), show_(show), choice_(choice), reading_(reading), textures_(textures) {
+                           const MapReading& reading, ModelTextures* textures, std::span<const ScenePose> poses)
+    : drawn_(drawn), show_(show), choice_(choice), reading_(reading), textures_(textures), poses_(poses) {
     surfaces_.resize(drawn.scene.primitives.size());
     for (std::size_t i = 0; i < surfaces_.size(); ++i) {
         if (!drawn.scene.primitives[i].corners.empty()) prepare(i);
@@ -193,13 +191,19 @@ void ModelPicture::prepare(std::size_t primitive) {
         drawn_.scene.memory->take(kCornerBytes * source.corners.size() + 40 * source.positions.size(), source.place);
     }
     shown.corners = source.corners.span();
-    if (source.normals.empty()) surface.flat_normals = flatNormals(source);
+    if (source.normals.empty()) surface.flat_normals = flatNormals(source.positions.span(), source.corners.span());
     shown.normals = source.normals.empty() ? CornerValues<Vec3>{surface.flat_normals, true}
                                            : CornerValues<Vec3>{source.normals.span(), false};
     const SurfaceLook& look = drawn_.looks[primitive];
     shown.base_color = look.base_color;
     shown.alpha_cutoff = static_cast<float>(look.alpha_cutoff);
     shown.is_unlit = look.is_unlit;
+    shown.is_blended = look.is_blended;
+    shown.metalness = static_cast<float>(std::clamp(look.metalness, 0.0, 1.0));
+    shown.roughness = static_cast<float>(std::clamp(look.roughness, 0.0, 1.0));
+    shown.emission = toFloat({look.emission[0], look.emission[1], look.emission[2]});
+    if (primitive < drawn_.colors.size() && drawn_.colors[primitive].size() == source.positions.size())
+        shown.colors = drawn_.colors[primitive].span();
     shown.reading = reading_;
     shown.reading.scale *= static_cast<float>(look.normal_scale);
     if (textures_ != nullptr) prepareTextures(primitive);
@@ -223,10 +227,14 @@ void ModelPicture::prepareTextures(std::size_t primitive) {
         result.shape = {result.image->width, result.image->height, texture->wrap_u, texture->wrap_v};
         return result;
     };
-    const bool is_masked = look.alpha_cutoff > 0;
-    if (show_ == RenderShow::lit || is_masked)
-        surface.shown.base = placed(look.base_texture, true, is_masked, surface.base_uvs);
-    const bool reads_map = (show_ == RenderShow::lit && !look.is_unlit) || show_ == RenderShow::mapped;
+    const bool is_surface = show_ == RenderShow::surface, is_light = is_surface || show_ == RenderShow::lit;
+    const bool is_masked = look.alpha_cutoff > 0, reads_alpha = is_masked || (is_light && look.is_blended);
+    if (is_light || is_masked) surface.shown.base = placed(look.base_texture, true, reads_alpha, surface.base_uvs);
+    if (is_surface && !look.is_unlit) {
+        surface.shown.metal = placed(look.metal_texture, false, false, surface.metal_uvs);
+        surface.shown.emission_map = placed(look.emission_texture, true, false, surface.emission_uvs);
+    }
+    const bool reads_map = (is_light && !look.is_unlit) || show_ == RenderShow::mapped;
     if (reads_map) surface.shown.normal_map = placed(look.normal_texture, false, false, surface.normal_uvs);
 }
 
@@ -263,8 +271,8 @@ void ModelPicture::prepareFrames(std::size_t primitive) {
 }
 
 void ModelPicture::place() {
-    const auto add = [&](std::size_t primitive, std::span<const Vec3> positions, const Affine& to_world) {
-        const ShownSurface& shown = surfaces_[primitive].shown;
+    const auto addShown = [&](std::size_t primitive, const ShownSurface& shown, std::span<const Vec3> positions,
+                              const Affine& to_world) {
         if (shown.corners.empty() || positions.empty()) return;
         DrawnMesh mesh{.positions = positions,
                        .corners = shown.corners,
@@ -278,16 +286,100 @@ void ModelPicture::place() {
         meshes_.push_back(std::move(mesh));
         shown_.push_back(&shown);
     };
+    const auto add = [&](std::size_t primitive, std::span<const Vec3> positions, const Affine& to_world) {
+        addShown(primitive, surfaces_[primitive].shown, positions, to_world);
+    };
     if (show_ == RenderShow::uv) {
         for (std::size_t i = 0; i < surfaces_.size(); ++i) add(i, surfaces_[i].uv_positions, {});
         return;
     }
-    for (const ScenePlacement& placement : drawn_.placements) {
-        add(placement.primitive, drawn_.scene.primitives[placement.primitive].positions.span(), placement.to_world);
+    for (std::size_t i = 0; i < drawn_.placements.size(); ++i) {
+        const ScenePlacement& placement = drawn_.placements[i];
+        const std::size_t primitive = placement.primitive;
+        const ScenePose* const posed = i < poses_.size() && !poses_[i].empty() ? &poses_[i] : nullptr;
+        if (posed == nullptr || surfaces_[primitive].shown.corners.empty()) {
+            add(primitive, drawn_.scene.primitives[primitive].positions.span(), placement.to_world);
+            continue;
+        }
+        const PosedSurface& surface = pose(primitive, *posed);
+        // Bones lead into the world; the node of the mesh has no part in that.
+        addShown(primitive, surface.shown, surface.positions, posed->bones.empty() ? placement.to_world : Affine{});
     }
 }
 
+const PosedSurface& ModelPicture::pose(std::size_t primitive, const ScenePose& pose) {
+    const ScenePrimitive& source = drawn_.scene.primitives[primitive];
+    const ShownSurface& rest = surfaces_[primitive].shown;
+    if (drawn_.scene.memory) {
+        constexpr std::uint64_t kCornerBytes = sizeof(Vec3) + 2 * sizeof(Vec4),
+                                kVertexBytes = 2 * sizeof(Vec3) + sizeof(Vec4);
+        drawn_.scene.memory->take(kCornerBytes * rest.corners.size() + kVertexBytes * source.positions.size(),
+                                  source.place);
+    }
+    const auto added = [](const Vec3& to, std::span<const Vec3> offsets, std::size_t vertex) {
+        return offsets.empty() ? to : toFloat(toDouble(to) + toDouble(offsets[vertex]));
+    };
+    PosedSurface& result = posed_.emplace_back();
+    result.shown = rest;
+    for (std::size_t v = 0; v < source.positions.size(); ++v) {
+        const Vec3 at = added(source.positions[v], pose.positions, v);
+        result.positions.push_back(pose.bones.empty() ? at : toFloat(pose.bones[v].point(toDouble(at))));
+    }
+    if (source.normals.empty()) {
+        result.normals = flatNormals(result.positions, rest.corners);
+    } else {
+        for (std::size_t v = 0; v < source.normals.size(); ++v) {
+            const Vec3 normal = added(source.normals[v], pose.normals, v);
+            result.normals.push_back(pose.bones.empty() ? normal : normalAt(pose.bones[v], normal));
+        }
+    }
+    result.shown.normals = {result.normals, source.normals.empty()};
+    const auto turned = [&](const CornerValues<Vec4>& values, std::vector<Vec4>& to) {
+        if (values.empty()) return values;
+        for (std::size_t i = 0; i < values.values.size(); ++i) {
+            const std::size_t v = values.is_per_corner ? rest.corners[i] : i;
+            const Vec4& before = values.values[i];
+            const Vec3 moved = added(xyz(before), pose.tangents, v);
+            const Vec4 tangent{moved.x, moved.y, moved.z, before.w};
+            to.push_back(pose.bones.empty() ? tangent : tangentAt(pose.bones[v], tangent));
+        }
+        return CornerValues<Vec4>{to, values.is_per_corner};
+    };
+    result.shown.tangents = turned(rest.tangents, result.tangents);
+    result.shown.expected = turned(rest.expected, result.expected);
+    return result;
+}
+
 namespace {
+
+/// For turns about the vertical axis: a cylinder around all points, which every picture sees alike.
+void visitCylinder(const ModelPicture& model, Effort& effort, double yaw_deg,
+                   const std::function<void(const DVec3&)>& visit) {
+    DVec3 low{HUGE_VAL, HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+    const auto forPoints = [&](const auto& take) {
+        for (const DrawnMesh& mesh : model.meshes()) {
+            effort.spend(1 + mesh.corners.size());
+            for (const std::uint32_t vertex : mesh.corners) {
+                const DVec3 point = mesh.to_world.point(toDouble(mesh.positions[vertex]));
+                if (std::isfinite(point.x + point.y + point.z)) take(point);
+            }
+        }
+    };
+    forPoints([&](const DVec3& p) {
+        low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+        high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+    });
+    if (low.x > high.x) return;
+    const double x = (low.x + high.x) / 2, z = (low.z + high.z) / 2;
+    double radius = 0;
+    forPoints(
+        [&](const DVec3& p) { radius = std::max(radius, std::sqrt((p.x - x) * (p.x - x) + (p.z - z) * (p.z - z))); });
+    constexpr int kSides = 48;
+    for (int i = 0; i < kSides; ++i) {
+        const SineCosine turn = sineCosine((yaw_deg + i * (360.0 / kSides)) * (kPi / 180));
+        for (const double y : {low.y, high.y}) visit({x + radius * turn.sine, y, z + radius * turn.cosine});
+    }
+}
 
 /// Twice: for the camera's direction, and for its distance.
 void visitPoints(const ModelPicture& model, Effort& effort, bool is_uv,
@@ -306,15 +398,23 @@ void visitPoints(const ModelPicture& model, Effort& effort, bool is_uv,
 SurfacePicture drawModel(const ModelPicture& model, const RenderOptions& options) {
     const bool is_uv = options.show == RenderShow::uv;
     // Under the heat map stands its scale.
-    const std::uint32_t scale_rows = options.show == RenderShow::error ? heatScaleRows(options.width) : 0;
+    const bool has_scale = options.show == RenderShow::error;
+    const std::uint32_t scale_rows = has_scale        ? heatScaleRows(options.width)
+                                     : options.legend ? legendRows(options.show, options.width)
+                                                      : 0;
     const std::uint32_t height = scale_rows + 16 <= options.height ? options.height - scale_rows : options.height;
     const std::uint64_t samples = std::uint64_t{options.width} * options.samples * options.height * options.samples;
     constexpr std::uint64_t kSteps = std::uint64_t{1} << 28, kMostLayers = 100, kCornerSteps = 64;
     Effort effort(kSteps + kMostLayers * samples + kCornerSteps * model.cornerCount());
     const ViewAngles angles = is_uv ? ViewAngles{} : ViewAngles{options.yaw_deg, options.pitch_deg};
     const Camera camera = Camera::around(
-        [&](const std::function<void(const DVec3&)>& visit) { visitPoints(model, effort, is_uv, visit); }, angles,
-        is_uv ? 0 : options.field_of_view_deg, options.width * options.samples, height * options.samples);
+        [&](const std::function<void(const DVec3&)>& visit) {
+            if (options.turntable > 1 && !is_uv)
+                visitCylinder(model, effort, options.yaw_deg, visit);
+            else
+                visitPoints(model, effort, is_uv, visit);
+        },
+        angles, is_uv ? 0 : options.field_of_view_deg, options.width * options.samples, height * options.samples);
     const DVec3 light = toDouble(options.to_light);
     DVec3 to_light = light.x * camera.right() + light.y * camera.up() + light.z * camera.back();
     normalize(to_light);
@@ -324,10 +424,22 @@ SurfacePicture drawModel(const ModelPicture& model, const RenderOptions& options
     if (height != options.height) {
         picture.image.height = options.height;
         picture.image.rgb.resize(std::size_t{3} * options.width * options.height);
-        drawHeatScale(picture.image);
+        if (has_scale)
+            drawHeatScale(picture.image);
+        else
+            drawLegend(picture.image, options.show);
     }
     if (is_uv) drawUvSquare(picture.image, camera, options.samples);
     return picture;
+}
+
+RgbImage besideEachOther(const RgbImage& left, const RgbImage& right) {
+    RgbImage image = left;
+    const std::size_t row = std::size_t{3} * image.width, middle = std::size_t{3} * (image.width / 2);
+    for (std::size_t y = 0; y < image.height; ++y)
+        std::copy_n(right.rgb.data() + y * row + middle, row - middle, image.rgb.data() + y * row + middle);
+    drawDividingLine(image);
+    return image;
 }
 
 std::vector<std::uint8_t> encodePicture(const RgbImage& image) {

@@ -69,19 +69,27 @@ class ModelTextures {
 struct ModelSurface {
     std::vector<Vec3> flat_normals = {};  ///< one per corner, where the file has none
     std::vector<Vec4> computed = {};      ///< one per corner
-    std::vector<Vec2> base_uvs = {}, normal_uvs = {};
+    std::vector<Vec2> base_uvs = {}, normal_uvs = {}, metal_uvs = {}, emission_uvs = {};
     std::vector<UvSide> sides = {};
     std::vector<std::uint32_t> islands = {};
     std::vector<Vec3> uv_positions = {};  ///< (u, -v, 0)
     ShownSurface shown = {};
 };
 
+/// A primitive as one of its nodes poses it.
+struct PosedSurface {
+    std::vector<Vec3> positions = {};
+    std::vector<Vec3> normals = {};                  ///< one per vertex, or per corner where the file has none
+    std::vector<Vec4> tangents = {}, expected = {};  ///< as those at rest
+    ShownSurface shown = {};
+};
+
 /// Keeps a reference to the scene and the textures.
 class ModelPicture {
   public:
-    /// Prepares all primitives that have triangles. Throws FileError.
+    /// Prepares all primitives that have triangles. `poses`: one per placement, or none. Throws FileError.
     ModelPicture(const DrawnScene& drawn, RenderShow show, const FrameChoice& choice, const MapReading& reading,
-                 ModelTextures* textures);
+                 ModelTextures* textures, std::span<const ScenePose> poses = {});
 
     [[nodiscard]] std::span<const DrawnMesh> meshes() const { return meshes_; }
     /// One per mesh.
@@ -95,13 +103,16 @@ class ModelPicture {
     void prepareTextures(std::size_t primitive);
     void prepareFrames(std::size_t primitive);
     void place();
+    const PosedSurface& pose(std::size_t primitive, const ScenePose& pose);
 
     const DrawnScene& drawn_;
     RenderShow show_;
     FrameChoice choice_;
     MapReading reading_;
     ModelTextures* textures_;
+    std::span<const ScenePose> poses_;
     std::deque<ModelSurface> surfaces_ = {};  ///< one per primitive
+    std::deque<PosedSurface> posed_ = {};
     std::vector<DrawnMesh> meshes_ = {};
     std::vector<const ShownSurface*> shown_ = {};
 };
@@ -111,6 +122,9 @@ class ModelPicture {
 /// Size, camera, light and execution are those of `options`; options.show is what `model` was made for. Under a heat map
 /// stands its scale. Throws FileError (tooLarge).
 SurfacePicture drawModel(const ModelPicture& model, const RenderOptions& options);
+
+/// The first picture left of a line, the second right of it. Both are of one size.
+RgbImage besideEachOther(const RgbImage& left, const RgbImage& right);
 
 /// A PNG of 8 bits. Throws FileError (unsupportedFile) where this build writes none.
 std::vector<std::uint8_t> encodePicture(const RgbImage& image);

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 // renderFile: reads a model, draws it, writes the picture; its report as JSON.
+#include <algorithm>
 #include <cmath>
+#include <deque>
 
 #include "commands/render/model_picture.h"
 #include "commands/render/render_report.h"
+#include "commands/shared/picture/colors.h"
 #include "core/base/vec_math.h"
 #include "model/io/atomic_output.h"
 #include "model/io/file_error.h"
@@ -30,6 +33,8 @@ void checkRenderOptions(const RenderOptions& options) {
         failFile(ErrorCode::invalidOption, "the field of view is not from 0 to 120 degrees");
     DVec3 light = toDouble(options.to_light);
     if (!normalize(light)) failFile(ErrorCode::invalidOption, "the direction to the light has no length");
+    if (options.turntable < 1 || options.turntable > 999)
+        failFile(ErrorCode::invalidOption, "a turn has 1 to 999 pictures");
     if (!std::isfinite(options.reading.scale))
         failFile(ErrorCode::invalidOption, "the scale of the normal map is not a number");
 }
@@ -38,44 +43,100 @@ bool showsTangents(RenderShow show) {
     return show == RenderShow::tangents || show == RenderShow::sign || show == RenderShow::error;
 }
 
+/// The pictures of one model: its surfaces by each choice of frames that the view needs.
+class ModelPictures {
+  public:
+    ModelPictures(const PosedScene& posed, ModelTextures* textures, const RenderOptions& options) : options_(options) {
+        const std::span<const ScenePose> poses =
+            options.pose ? std::span<const ScenePose>(posed.poses) : std::span<const ScenePose>();
+        const bool compares = options.show == RenderShow::error;
+        const auto add = [&](RenderShow show, RenderFrames frames) {
+            const FrameChoice choice{.frames = frames,
+                                     .method = options.method,
+                                     .always = showsTangents(options.show),
+                                     .compare = compares,
+                                     .execution = options.execution};
+            models_.emplace_back(posed.drawn, show, choice, options.reading, textures, poses);
+        };
+        if (options.show == RenderShow::both) {
+            add(RenderShow::surface, RenderFrames::stored);
+            add(RenderShow::surface, RenderFrames::computed);
+        } else {
+            add(options.show, compares ? RenderFrames::stored : options.frames);
+        }
+    }
+
+    /// The one whose frames the report counts.
+    [[nodiscard]] const ModelPicture& counted() const { return models_.back(); }
+
+    /// The picture of a turn by `yaw_deg`.
+    [[nodiscard]] SurfacePicture draw(double yaw_deg) const {
+        RenderOptions options = options_;
+        options.yaw_deg = yaw_deg;
+        if (models_.size() == 1) return drawModel(models_.front(), options);
+        const std::uint32_t rows = options.legend ? legendRows(RenderShow::both, options.width) : 0;
+        options.show = RenderShow::surface;
+        options.height = rows + 16 <= options.height ? options.height - rows : options.height;
+        SurfacePicture picture{
+            .image = besideEachOther(drawModel(models_[0], options).image, drawModel(models_[1], options).image)};
+        picture.image.rgb.resize(std::size_t{3} * options_.width * options_.height);
+        picture.image.height = options_.height;
+        if (options.height != options_.height) drawLegend(picture.image, RenderShow::both);
+        return picture;
+    }
+
+  private:
+    const RenderOptions& options_;
+    std::deque<ModelPicture> models_ = {};
+};
+
+/// "turn.png" as "turn_007.png".
+std::string numbered(const std::string& output, std::uint32_t number) {
+    const std::size_t dot = output.rfind('.');
+    std::string digits = std::to_string(number);
+    digits.insert(0, 3 - std::min<std::size_t>(3, digits.size()), '0');
+    return dot == std::string::npos ? output + "_" + digits : output.substr(0, dot) + "_" + digits + output.substr(dot);
+}
+
 RenderReport renderModel(const std::string& input, const std::string& output, const RenderOptions& options) {
     checkRenderOptions(options);
     InputFiles inputs;
     FileOptions file_options = options.file;
     inputs.watch(file_options);
-    DrawnScene drawn = readDrawnScene(input, file_options, options.textures);
+    PosedScene posed = readPosedScene(input, file_options, options.textures);
+    DrawnScene& drawn = posed.drawn;
     std::vector<std::string> height_warnings;
     if (options.textures && options.show != RenderShow::uv)
         height_warnings = showHeights(options.method, options.execution, drawn);
     ModelTextures textures(drawn.scene, options.most_pixels);
-    const bool compares = options.show == RenderShow::error;
-    const FrameChoice choice{.frames = compares ? RenderFrames::stored : options.frames,
-                             .method = options.method,
-                             .always = showsTangents(options.show),
-                             .compare = compares,
-                             .execution = options.execution};
-    const ModelPicture model(drawn, options.show, choice, options.reading, options.textures ? &textures : nullptr);
+    const ModelPictures pictures(posed, options.textures ? &textures : nullptr, options);
+    const ModelPicture& model = pictures.counted();
     RenderReport report{.show = options.show, .width = options.width, .height = options.height};
+    report.picture_count = options.turntable;
     report.primitive_count = drawn.scene.primitives.size();
     report.warnings = drawn.scene.warnings;
-    const SurfacePicture picture = drawModel(model, options);
-    report.error_sample_count = picture.errors.count;
-    report.max_error_deg = picture.errors.max_deg;
-    if (picture.errors.count > 0)
-        report.mean_error_deg = picture.errors.sum_deg / static_cast<double>(picture.errors.count);
     for (const DrawnMesh& mesh : model.meshes()) report.triangle_count += mesh.corners.size() / 3;
     for (std::size_t i = 0; i < drawn.scene.primitives.size(); ++i) {
         const ModelSurface& surface = model.surfaceOf(i);
         report.computed_count += !surface.computed.empty();
         report.without_tangents_count +=
-            !drawn.scene.primitives[i].corners.empty() && choice.always && surface.shown.tangents.empty();
+            !drawn.scene.primitives[i].corners.empty() && showsTangents(options.show) && surface.shown.tangents.empty();
     }
-    report.warnings.insert(report.warnings.end(), height_warnings.begin(), height_warnings.end());
-    report.warnings.insert(report.warnings.end(), textures.warnings.begin(), textures.warnings.end());
-    const std::vector<std::uint8_t> png = encodePicture(picture.image);
     AtomicOutput files(
         {.sink = options.sink, .is_dry_run = options.dry_run, .sync = options.file.sync, .inputs = &inputs});
-    files.add(output, std::span<const std::uint8_t>(png));
+    ErrorStatistics errors;
+    std::deque<std::vector<std::uint8_t>> pngs;
+    for (std::uint32_t i = 0; i < options.turntable; ++i) {
+        const SurfacePicture picture = pictures.draw(options.yaw_deg + 360.0 * i / options.turntable);
+        errors.add(picture.errors);
+        pngs.push_back(encodePicture(picture.image));
+        files.add(options.turntable == 1 ? output : numbered(output, i), std::span<const std::uint8_t>(pngs.back()));
+    }
+    report.error_sample_count = errors.count;
+    report.max_error_deg = errors.max_deg;
+    if (errors.count > 0) report.mean_error_deg = errors.sum_deg / static_cast<double>(errors.count);
+    report.warnings.insert(report.warnings.end(), height_warnings.begin(), height_warnings.end());
+    report.warnings.insert(report.warnings.end(), textures.warnings.begin(), textures.warnings.end());
     files.commit();
     return report;
 }
@@ -83,7 +144,7 @@ RenderReport renderModel(const std::string& input, const std::string& output, co
 }  // namespace
 
 const char* renderShowName(RenderShow show) {
-    constexpr const char* kNames[] = {"lit", "normals", "tangents", "sign", "error", "uv", "mapped"};
+    constexpr const char* kNames[] = {"lit", "normals", "tangents", "sign", "error", "uv", "mapped", "surface", "both"};
     const auto number = static_cast<std::size_t>(show);
     return number < std::size(kNames) ? kNames[number] : "";
 }
@@ -103,6 +164,7 @@ std::string renderJson(const Outcome<RenderReport>& outcome, ExitCode exit_code)
     json["show"] = renderShowName(result->show);
     json["width"] = result->width;
     json["height"] = result->height;
+    json["pictures"] = result->picture_count;
     json["primitives"] = result->primitive_count;
     json["triangles"] = result->triangle_count;
     json["primitivesComputed"] = result->computed_count;

@@ -13,7 +13,7 @@ namespace {
 constexpr Named<RenderShow> kShows[] = {
     {"lit", RenderShow::lit},       {"normals", RenderShow::normals}, {"tangents", RenderShow::tangents},
     {"sign", RenderShow::sign},     {"error", RenderShow::error},     {"uv", RenderShow::uv},
-    {"mapped", RenderShow::mapped},
+    {"mapped", RenderShow::mapped}, {"surface", RenderShow::surface}, {"both", RenderShow::both},
 };
 constexpr Named<RenderFrames> kShownFrames[] = {
     {"auto", RenderFrames::automatic},
@@ -136,7 +136,10 @@ OptionList renderOptions(RenderOptions& options) {
         choice("--show", "WHAT", kShows, options.show,
                "lit: the model in the light of one lamp, with its normal maps; normals, tangents: N and T as colours; "
                "sign: w, and mirrored parts of the UV map; error: how far the tangents are from those of --method; uv: "
-               "the UV map and its islands; mapped: the normals that lit shades, as colours."));
+               "the UV map and its islands; mapped: the normals that lit shades, as colours; surface: metal, roughness "
+               "and "
+               "emission, in a grey room; both: surface, with the file's tangents left of a line and those of --method "
+               "right of it."));
     add(list, picture, viewOption(options));
     add(list, picture, lightOption(options));
     add(list, picture, sizeOption(options));
@@ -147,6 +150,13 @@ OptionList renderOptions(RenderOptions& options) {
         number("--samples", options.samples, 4,
                "Points that are looked at along each side of a pixel: 1 to 4. 1: its centre alone, so that colours are "
                "exact."));
+    add(list, picture,
+        number("--turntable", options.turntable, 999,
+               "Write N pictures of a turn about the vertical axis, as OUT_000.png, OUT_001.png and so on; the camera "
+               "keeps its distance."));
+    add(list, picture, flag("--legend", options.legend, "Say under the picture what its colours mean."));
+    add(list, picture,
+        setting("--no-pose", options.pose, false, "Leave out bones and morph targets: the model as it was bound."));
     const char* frames = "Frames";
     add(list, frames,
         choice("--frames", "WHOSE", kShownFrames, options.frames,

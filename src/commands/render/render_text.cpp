@@ -10,7 +10,8 @@ namespace tspace::report {
 std::string renderText(const Outcome<RenderReport>& outcome, Method method) {
     const RenderReport& done = *outcome.result;
     Table table;
-    table.addRow({"picture", fmt::format("{}, {} x {}, {}", renderShowName(done.show), done.width, done.height,
+    const std::string turn = done.picture_count > 1 ? fmt::format(", {} of a turn", done.picture_count) : "";
+    table.addRow({"picture", fmt::format("{}, {} x {}{}, {}", renderShowName(done.show), done.width, done.height, turn,
                                          counted(done.triangle_count, "triangle"))});
     if (done.computed_count > 0 && done.show != RenderShow::error) {
         table.addRow({"tangents", fmt::format("computed for {} by {}", counted(done.computed_count, "primitive"),

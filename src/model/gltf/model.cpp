@@ -199,6 +199,12 @@ DrawnScene Model::materialScene(bool with_normal_maps) {
     return drawn;
 }
 
+PosedScene Model::posedScene(bool with_images) {
+    PosedScene posed{.drawn = with_images ? materialScene(true) : drawnScene(false)};
+    posed.poses = readPoses(*document_, *arrays_, primitives(), posed.drawn.scene);
+    return posed;
+}
+
 void Model::wasEdited() {
     dropScene();
     arrays_->forget();

@@ -102,6 +102,8 @@ class Model {
     /// The same with all that materials show: the bytes of the images of colours, metal and emission, and the colours of
     /// vertices.
     [[nodiscard]] DrawnScene materialScene(bool with_normal_maps);
+    /// The same as nodes pose it; `with_images`: with the bytes of all images and the colours of vertices.
+    [[nodiscard]] PosedScene posedScene(bool with_images);
 
     /// Primitives and scene are made anew when they are next asked for, and their old memory is free again.
     void wasEdited();

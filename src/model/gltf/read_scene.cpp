@@ -155,6 +155,11 @@ SurfaceLook readLook(const Document& document, const Primitive& primitive) {
         look.alpha_cutoff = readNumber(material, "alphaCutoff", place, 0.5);
     look.is_double_sided = readBool(material, "doubleSided", place, false);
     look.is_unlit = findExtension(material, "KHR_materials_unlit") != nullptr;
+    look.is_blended = readString(material, "alphaMode", place) == "BLEND";
+    if (const Json* strength = findExtension(material, "KHR_materials_emissive_strength")) {
+        const double factor = readNumber(*strength, "emissiveStrength", join(place, "extensions"), 1);
+        for (double& part : look.emission) part *= std::max(0.0, factor);
+    }
     return look;
 }
 
@@ -193,6 +198,123 @@ std::vector<ScenePlacement> readPlacements(const Document& document, std::span<c
         for (std::size_t i = 0; i < primitives.size(); ++i) placements.push_back({i, {}, {}});
     }
     return placements;
+}
+
+namespace {
+
+/// Adds weighted offsets of morph targets: those of one attribute.
+void addOffsets(const ScenePrimitive& primitive, std::span<const double> weights,
+                SharedArray<Vec3> SceneMorphTarget::*attribute, std::vector<Vec3>& sums) {
+    for (std::size_t i = 0; i < primitive.morph_targets.size() && i < weights.size(); ++i) {
+        const SharedArray<Vec3>& offsets = primitive.morph_targets[i].*attribute;
+        if (weights[i] == 0 || offsets.size() != primitive.positions.size()) continue;
+        sums.resize(primitive.positions.size());
+        for (std::size_t v = 0; v < sums.size(); ++v)
+            sums[v] = toFloat(toDouble(sums[v]) + weights[i] * toDouble(offsets[v]));
+    }
+}
+
+/// Weights of a node's morph targets, else those of its mesh.
+std::vector<double> morphWeights(const Json& node, const std::string& node_place, const Json& mesh,
+                                 const std::string& mesh_place) {
+    const bool is_own = findMember(node, "weights") != nullptr;
+    std::vector<double> weights;
+    for (const Json& weight : readArray(is_own ? node : mesh, "weights", is_own ? node_place : mesh_place, false))
+        weights.push_back(weight.is_number() ? weight.get<double>() : 0.0);
+    return weights;
+}
+
+/// The matrices of a skin's joints, from the mesh at rest into the world; none where they cannot be read.
+std::vector<Affine> jointMatrices(const Document& document, const Nodes& nodes, const Json& skin,
+                                  const std::string& place) {
+    const std::size_t node_count = rootArray(document, "nodes").size();
+    const Json& joints = readArray(skin, "joints", place, false);
+    std::vector<Affine> matrices;
+    for (std::size_t i = 0; i < joints.size(); ++i)
+        matrices.push_back(nodes.world(toIndex(joints[i], join(join(place, "joints"), i), node_count, "node")));
+    const auto index =
+        readIndex(skin, "inverseBindMatrices", place, rootArray(document, "accessors").size(), "accessor");
+    if (!index) return matrices;
+    const Accessor accessor = readAccessor(document, *index);
+    if (accessor.component != ComponentType::f32 || accessor.component_count != 16 ||
+        accessor.count < matrices.size() || !hasData(document, accessor))
+        return {};
+    const Bytes elements = copyElements(document, accessor);
+    for (std::size_t i = 0; i < matrices.size(); ++i) {
+        float m[16];
+        for (std::size_t k = 0; k < 16; ++k)
+            m[k] = loadLittleEndian<float>(elements.data() + i * accessor.element_bytes + k * sizeof(float));
+        matrices[i] =
+            compose(matrices[i], {{m[0], m[1], m[2]}, {m[4], m[5], m[6]}, {m[8], m[9], m[10]}, {m[12], m[13], m[14]}});
+    }
+    return matrices;
+}
+
+/// Of each vertex the matrices of its joints by their weights; none where the primitive has no joints.
+std::vector<Affine> blendedBones(DecodedArrays& arrays, const Primitive& primitive, std::span<const Affine> joints) {
+    const auto joints_at = primitive.find("JOINTS_0"), weights_at = primitive.find("WEIGHTS_0");
+    if (!joints_at || !weights_at || joints.empty()) return {};
+    const std::string place = join(primitive.place(), "attributes");
+    const SharedArray<Vec4> numbers = arrays.vec4(*joints_at, join(place, "JOINTS_0"));
+    const SharedArray<Vec4> weights = arrays.vec4(*weights_at, join(place, "WEIGHTS_0"));
+    if (numbers.size() != primitive.vertex_count || weights.size() != numbers.size()) return {};
+    std::vector<Affine> result(numbers.size(), Affine{{}, {}, {}, {}});
+    for (std::size_t v = 0; v < result.size(); ++v) {
+        const float number[4] = {numbers[v].x, numbers[v].y, numbers[v].z, numbers[v].w};
+        double weight[4] = {weights[v].x, weights[v].y, weights[v].z, weights[v].w};
+        // CesiumMan has sums down to 0.18, where renderers make them 1.
+        const double all = weight[0] + weight[1] + weight[2] + weight[3];
+        for (double& part : weight) part = all > 0 ? part / all : 0;
+        if (!(all > 0)) weight[0] = 1;
+        for (std::size_t k = 0; k < 4; ++k) {
+            if (weight[k] == 0 || !(number[k] >= 0 && number[k] < static_cast<float>(joints.size()))) continue;
+            const Affine& joint = joints[static_cast<std::size_t>(number[k])];
+            Affine& sum = result[v];
+            sum.x = sum.x + weight[k] * joint.x;
+            sum.y = sum.y + weight[k] * joint.y;
+            sum.z = sum.z + weight[k] * joint.z;
+            sum.origin = sum.origin + weight[k] * joint.origin;
+        }
+    }
+    return result;
+}
+
+}  // namespace
+
+std::vector<ScenePose> readPoses(const Document& document, DecodedArrays& arrays, std::span<const Primitive> primitives,
+                                 const Scene& scene) {
+    const Json& meshes = rootArray(document, "meshes");
+    const Json& skins = rootArray(document, "skins");
+    std::vector<std::vector<std::size_t>> of_mesh(meshes.size());
+    for (std::size_t i = 0; i < primitives.size(); ++i) of_mesh[primitives[i].mesh].push_back(i);
+    Nodes nodes(document);
+    std::vector<ScenePose> poses;
+    for (const std::size_t node : nodes.shown()) {
+        const std::string node_place = join("/nodes", node);
+        const auto mesh = readIndex(nodes[node], "mesh", node_place, meshes.size(), "mesh");
+        if (!mesh) continue;
+        const auto skin = readIndex(nodes[node], "skin", node_place, skins.size(), "skin");
+        const std::vector<double> weights =
+            morphWeights(nodes[node], node_place, meshes[*mesh], join("/meshes", *mesh));
+        const std::vector<Affine> joints =
+            skin ? jointMatrices(document, nodes, skins[*skin], join("/skins", *skin)) : std::vector<Affine>();
+        for (const std::size_t i : of_mesh[*mesh]) {
+            const ScenePrimitive& primitive = scene.primitives[i];
+            const bool is_moved = !joints.empty() || std::any_of(weights.begin(), weights.end(),
+                                                                 [](double weight) { return weight != 0; });
+            constexpr std::uint64_t kVertexBytes = sizeof(Affine) + 3 * sizeof(Vec3);
+            document.memory->take(sizeof(ScenePose) + (is_moved ? kVertexBytes * primitive.positions.size() : 0),
+                                  primitive.place);
+            ScenePose& pose = poses.emplace_back();
+            if (!is_moved) continue;
+            addOffsets(primitive, weights, &SceneMorphTarget::positions, pose.positions);
+            addOffsets(primitive, weights, &SceneMorphTarget::normals, pose.normals);
+            addOffsets(primitive, weights, &SceneMorphTarget::tangents, pose.tangents);
+            pose.bones = blendedBones(arrays, primitives[i], joints);
+        }
+    }
+    if (poses.empty()) poses.resize(primitives.size());
+    return poses;
 }
 
 void tellPlaces(const Document& document, std::span<const Primitive> primitives, Scene& scene) {

@@ -76,4 +76,11 @@ DrawnScene readMaterialScene(const std::string& input, const FileOptions& option
     return readModel(input, options).materialScene(with_normal_maps);
 }
 
+PosedScene readPosedScene(const std::string& input, const FileOptions& options, bool with_images) {
+    if (lowerExtension(input) != ".obj") return readModel(input, options).posedScene(with_images);
+    PosedScene posed{.drawn = readObjScene(input, options, with_images)};
+    posed.poses.resize(posed.drawn.placements.size());
+    return posed;
+}
+
 }  // namespace tspace

@@ -37,4 +37,7 @@ DrawnScene readDrawnScene(const std::string& input, const FileOptions& options, 
 /// `with_normal_maps`: those images too. OBJ has none of those, and images of colours alone.
 DrawnScene readMaterialScene(const std::string& input, const FileOptions& options, bool with_normal_maps);
 
+/// readDrawnScene with all that materials show, as the file poses it.
+PosedScene readPosedScene(const std::string& input, const FileOptions& options, bool with_images);
+
 }  // namespace tspace

@@ -194,6 +194,7 @@ struct SurfaceLook {
     double alpha_cutoff = 0;
     bool is_double_sided = false;
     bool is_unlit = false;
+    bool is_blended = false;  ///< what lies behind shines through, by alpha
 };
 
 /// A primitive at one of its places.
@@ -209,6 +210,23 @@ struct DrawnScene {
     std::vector<ScenePlacement> placements = {};  ///< in the order of nodes; never empty where there are primitives
     /// COLOR_0 as stored, one list per primitive, empty where it has none; no lists where they were not asked for.
     std::vector<SharedArray<Vec4>> colors = {};
+};
+
+/// Where bones and morph weights put the vertices of a primitive at one of its places.
+struct ScenePose {
+    std::vector<Affine> bones = {};  ///< one per vertex, into the world; empty: no skin
+    /// What morph targets add at their weights, one per vertex; empty: nothing.
+    std::vector<Vec3> positions = {}, normals = {}, tangents = {};
+
+    [[nodiscard]] bool empty() const {
+        return bones.empty() && positions.empty() && normals.empty() && tangents.empty();
+    }
+};
+
+/// A scene as the file poses it.
+struct PosedScene {
+    DrawnScene drawn = {};
+    std::vector<ScenePose> poses = {};  ///< one per placement
 };
 
 }  // namespace tspace

@@ -14,6 +14,7 @@
 #include "commands/shared/report.h"
 #include "commands/shared/request.h"
 #include "model/io/file_error.h"
+#include "tspace/version.h"
 
 namespace tspace {
 namespace {
@@ -257,10 +258,10 @@ std::string overviewHtml(const std::vector<report::CheckOutcome>& outcomes) {
 std::string checkPage(const std::vector<report::CheckOutcome>& outcomes, const FileOptions& file) {
     std::string html = pageHead("tspace check");
     html += "<h1>Frames of " + counted(outcomes.size(), "file") + "</h1>\n";
-    html +=
-        "<p class=\"dim\">Found by tspace check. An error surely renders wrong; a warning renders wrong in some "
-        "renderers, in a small part, or only perhaps; a note is worth knowing. Triangles of a finding are "
-        "outlined.</p>\n";
+    html += "<p class=\"dim\">Found by tspace check, version " TSPACE_VERSION_STRING
+            ". An error surely renders wrong; a warning renders wrong in some "
+            "renderers, in a small part, or only perhaps; a note is worth knowing. Triangles of a finding are "
+            "outlined.</p>\n";
     if (outcomes.size() > 1) html += overviewHtml(outcomes);
     for (std::size_t i = 0; i < outcomes.size(); ++i) {
         const std::size_t left = html.size() < kMostPageBytes ? kMostPageBytes - html.size() : 0;

@@ -9,6 +9,7 @@
 
 #include "commands/shared/picture/visible_triangles.h"
 #include "images/image.h"
+#include "tspace/render.h"
 #include "tspace/vec.h"
 
 namespace tspace {
@@ -24,6 +25,10 @@ std::uint8_t storedByte(float value);
 
 /// The background.
 inline constexpr Vec3 kBackground{0.925f, 0.933f, 0.945f};
+
+/// The colours of `sign`.
+inline constexpr Vec3 kSignPlus{0.42f, 0.60f, 0.86f}, kSignMinus{0.95f, 0.66f, 0.33f},
+    kSignNeither{0.90f, 0.20f, 0.80f}, kSignWrong{0.80f, 0.08f, 0.10f}, kSignStripes{0.20f, 0.20f, 0.24f};
 
 /// A vector with components from -1 to 1 as a colour: 0.5 v + 0.5.
 inline Vec3 vectorColor(const Vec3& v) { return {0.5f * v.x + 0.5f, 0.5f * v.y + 0.5f, 0.5f * v.z + 0.5f}; }
@@ -49,7 +54,7 @@ Vec3 heatColor(float degrees);
 void fillRect(RgbImage& image, std::int64_t left, std::int64_t top, std::int64_t width, std::int64_t height,
               const Vec3& color);
 
-/// Digits, and spaces, each 5 x 7 dots of `dot` x `dot` pixels, one dot apart. Other characters count as spaces.
+/// Digits, capital letters, + - = and spaces, each 5 x 7 dots of `dot` x `dot` pixels, one dot apart. Other characters count as spaces.
 void drawDigits(RgbImage& image, std::int64_t left, std::int64_t top, std::int64_t dot, std::string_view text,
                 const Vec3& color);
 
@@ -60,5 +65,13 @@ void drawUvSquare(RgbImage& image, const Camera& camera, std::uint32_t samples);
 std::uint32_t heatScaleRows(std::uint32_t width);
 /// The scale in the last heatScaleRows of a picture: a bar, and degrees under it.
 void drawHeatScale(RgbImage& image);
+
+/// Rows that the legend of a view takes in a picture of this width; 0: it has none, or there is no room for it.
+std::uint32_t legendRows(RenderShow show, std::uint32_t width);
+/// In the last legendRows of a picture: what its colours mean.
+void drawLegend(RgbImage& image, RenderShow show);
+
+/// A white line with dark borders down the middle.
+void drawDividingLine(RgbImage& image);
 
 }  // namespace tspace

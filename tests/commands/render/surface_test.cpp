@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: MIT
+// Materials, poses and series of pictures.
+#include "commands/render/drawn.h"
+#include "support/temp_folder.h"
+
+namespace tspace::test {
+namespace {
+
+bool isNear(const Pixel& a, const Pixel& b, int most) {
+    return std::abs(a[0] - b[0]) <= most && std::abs(a[1] - b[1]) <= most && std::abs(a[2] - b[2]) <= most;
+}
+
+GltfBuilder unlitSquare(const std::vector<double>& color) {
+    GltfBuilder builder = SquareModel().build();
+    Json& material = builder.json()["materials"][0];
+    material["extensions"]["KHR_materials_unlit"] = Json::object();
+    material["pbrMetallicRoughness"]["baseColorFactor"] = color;
+    return builder;
+}
+
+TEST(RenderSurface, ColoursOfVerticesAreMultipliedWithThatOfTheMaterial) {
+    GltfBuilder builder = unlitSquare({1, 1, 0.2158605, 1});
+    const std::size_t colors = builder.addFloats(std::vector<float>{1, 0, 1, 1, 1, 0, 1, 1, 1, 0, 1, 1, 1, 0, 1, 1}, 4);
+    builder.json()["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"] = colors;
+    for (const RenderShow show : {RenderShow::lit, RenderShow::surface})
+        EXPECT_TRUE(isNear(draw(builder, plainView(show)).centre(), {255, 0, 128}, 1));
+}
+
+/// Two squares, of these colours; the second is nearer to the camera.
+GltfBuilder twoSquares(const std::vector<double>& far, const std::vector<double>& near, bool is_near_first) {
+    GltfBuilder builder = unlitSquare(far);
+    Json& json = builder.json();
+    json["materials"].push_back(json["materials"][0]);
+    json["materials"][1]["pbrMetallicRoughness"]["baseColorFactor"] = near;
+    json["materials"][1]["alphaMode"] = "BLEND";
+    json["meshes"].push_back(json["meshes"][0]);
+    json["meshes"][1]["primitives"][0]["material"] = 1;
+    json["nodes"] = Json::parse(R"([{"mesh":0},{"mesh":1,"translation":[0,0,0.5]}])");
+    json["scenes"] = Json::array({Json{{"nodes", is_near_first ? Json::parse("[1,0]") : Json::parse("[0,1]")}}});
+    return builder;
+}
+
+TEST(RenderSurface, WhatIsBlendedShowsWhatLiesBehindInWhateverOrderTheFileHasIt) {
+    for (const bool is_near_first : {false, true}) {
+        const GltfBuilder builder = twoSquares({0, 1, 0, 1}, {1, 0, 0, 0.25}, is_near_first);
+        // A quarter of light is 137 in sRGB, three quarters are 225.
+        EXPECT_TRUE(isNear(draw(builder, plainView(RenderShow::lit)).centre(), {137, 225, 0}, 1)) << is_near_first;
+        EXPECT_TRUE(isNear(draw(builder, plainView(RenderShow::normals)).centre(), {128, 128, 255}, 1));
+    }
+    // Through two of them.
+    GltfBuilder builder = twoSquares({0, 1, 0, 0.5}, {1, 0, 0, 0.25}, true);
+    builder.json()["materials"][0]["alphaMode"] = "BLEND";
+    // Red 1/4, green 3/8, and 3/8 of the background, whose light is 0.838, 0.855, 0.880.
+    EXPECT_TRUE(isNear(draw(builder, plainView(RenderShow::lit)).centre(), {196, 218, 156}, 2));
+}
+
+TEST(RenderSurface, AnOpaqueModelHasTheBytesThatItHadWithoutLayers) {
+    const GltfBuilder opaque = twoSquares({0, 1, 0, 1}, {1, 0, 0, 1}, false);
+    GltfBuilder plain = opaque;
+    plain.json()["materials"][1].erase("alphaMode");
+    RenderOptions options = plainView(RenderShow::lit);
+    options.samples = 2;
+    options.yaw_deg = 30;
+    EXPECT_EQ(draw(opaque, options).image.rgb, draw(plain, options).image.rgb);
+}
+
+TEST(RenderSurface, EmissionIsAddedAndMetalMirrorsTheRoom) {
+    GltfBuilder builder = SquareModel().build();
+    Json& material = builder.json()["materials"][0];
+    material["pbrMetallicRoughness"] = {
+        {"baseColorFactor", {0, 0, 0, 1}}, {"metallicFactor", 0}, {"roughnessFactor", 1}};
+    RenderOptions options = plainView(RenderShow::surface);
+    const Pixel dark = draw(builder, options).centre();
+    EXPECT_LT(dark[0], 110) << "a black surface mirrors little";
+    material["emissiveFactor"] = {0, 0.5, 0};
+    const Pixel green = draw(builder, options).centre();
+    EXPECT_GT(green[1], dark[1] + 60);
+    EXPECT_LE(std::abs(green[0] - dark[0]), 3);
+    material["extensions"]["KHR_materials_emissive_strength"]["emissiveStrength"] = 0;
+    EXPECT_EQ(draw(builder, options).centre(), dark);
+    // The background of the room is grey, so gold looks golden by its own colour alone.
+    material["pbrMetallicRoughness"] = {
+        {"baseColorFactor", {1, 0.6, 0.1, 1}}, {"metallicFactor", 1}, {"roughnessFactor", 0.3}};
+    const Pixel gold = draw(builder, options).centre();
+    EXPECT_GT(gold[0], gold[1] + 20);
+    EXPECT_GT(gold[1], gold[2] + 40);
+}
+
+TEST(RenderSurface, RoughnessAndMetalComeFromTheChannelsOfTheirTexture) {
+    const auto picture = [](const RgbImage& image, double metal, double rough) {
+        GltfBuilder builder = SquareModel().build();
+        const std::size_t map = addTexture(builder, image);
+        builder.json()["materials"][0]["pbrMetallicRoughness"] = {{"baseColorFactor", {1, 0.5, 0.2, 1}},
+                                                                  {"metallicFactor", metal},
+                                                                  {"roughnessFactor", rough},
+                                                                  {"metallicRoughnessTexture", {{"index", map}}}};
+        return draw(builder, plainView(RenderShow::surface)).centre();
+    };
+    EXPECT_EQ(picture(plainImage(9, 102, 51), 1, 1), picture(plainImage(200, 255, 255), 0.2, 0.4));
+    EXPECT_NE(picture(plainImage(0, 255, 0), 1, 1), picture(plainImage(0, 255, 255), 1, 1));
+}
+
+TEST(RenderSurface, WeightsOfMorphTargetsMoveTheSurface) {
+    GltfBuilder builder = SquareModel().build();
+    Json& mesh = builder.json()["meshes"][0];
+    // The square turned by a quarter about y, where N is +x: halfway it leans by 45 degrees.
+    const std::size_t normals = builder.addFloats(std::vector<float>{1, 0, -1, 1, 0, -1, 1, 0, -1, 1, 0, -1}, 3);
+    mesh["primitives"][0]["targets"] = Json::array({Json{{"NORMAL", normals}}});
+    mesh["weights"] = Json::array({0});
+    builder.json()["nodes"] = Json::parse(R"([{"mesh":0}])");
+    builder.json()["scenes"] = Json::parse(R"([{"nodes":[0]}])");
+    const RenderOptions options = plainView(RenderShow::normals);
+    EXPECT_TRUE(isNear(draw(builder, options).centre(), {128, 128, 255}, 1));
+    mesh["weights"] = Json::array({0.5});
+    EXPECT_TRUE(isNear(draw(builder, options).centre(), {218, 128, 218}, 1));
+    // A node's own weights go first.
+    builder.json()["nodes"][0]["weights"] = Json::array({0});
+    EXPECT_TRUE(isNear(draw(builder, options).centre(), {128, 128, 255}, 1));
+}
+
+TEST(RenderSurface, BonesTurnFramesAndTheNodeOfASkinnedMeshHasNoPartInIt) {
+    GltfBuilder builder = SquareModel().build();
+    Json& attributes = builder.json()["meshes"][0]["primitives"][0]["attributes"];
+    attributes["JOINTS_0"] = builder.addAccessor(
+        std::vector<std::uint16_t>{1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, 5123, "VEC4", 4);
+    attributes["WEIGHTS_0"] =
+        builder.addFloats(std::vector<float>{1, 0, 0, 0, 0.5f, 0, 0, 0, 0.5f, 0, 0, 0, 1, 0, 0, 0}, 4);
+    // The second joint turns x to y. Weights count as if their sum were 1.
+    builder.json()["nodes"] = Json::parse(
+        R"([{"mesh":0,"skin":0,"scale":[1,1,-1],"translation":[9,0,0]},{},{"rotation":[0,0,0.70710678,0.70710678]}])");
+    builder.json()["skins"] = Json::array({Json{{"joints", {1, 2}}}});
+    builder.json()["scenes"] = Json::parse(R"([{"nodes":[0,1,2]}])");
+    RenderOptions options = plainView(RenderShow::tangents);
+    const Drawn posed = draw(builder, options);
+    EXPECT_TRUE(isNear(posed.centre(), {128, 255, 128}, 1));
+    for (const std::uint32_t corner : {8U, 56U}) EXPECT_TRUE(isNear(posed.at(corner, corner), {128, 255, 128}, 1));
+    options.pose = false;
+    EXPECT_TRUE(isNear(draw(builder, options).centre(), {255, 128, 128}, 1)) << "where the first joint puts it";
+}
+
+TEST(RenderSurface, BothSidesAreThePicturesOfTheStoredAndTheComputedFrames) {
+    SquareModel square;
+    for (std::size_t i = 3; i < square.tangents.size(); i += 4) square.tangents[i] = -1;  // wrong
+    GltfBuilder builder = square.build();
+    const std::size_t map = addTexture(builder, plainImage(128, 218, 218));
+    builder.json()["materials"][0]["normalTexture"] = {{"index", map}};
+    RenderOptions options = plainView(RenderShow::both);
+    const Drawn both = draw(builder, options);
+    options.show = RenderShow::surface;
+    options.frames = RenderFrames::stored;
+    const Drawn stored = draw(builder, options);
+    options.frames = RenderFrames::computed;
+    const Drawn computed = draw(builder, options);
+    for (std::uint32_t y = 0; y < 64; y += 9) {
+        for (std::uint32_t x = 0; x < 64; ++x) {
+            if (x < 30) {
+                EXPECT_EQ(both.at(x, y), stored.at(x, y));
+            }
+            if (x >= 34) {
+                EXPECT_EQ(both.at(x, y), computed.at(x, y));
+            }
+        }
+    }
+    EXPECT_NE(both.at(20, 32), both.at(44, 32)) << "the wrong sign is seen";
+    EXPECT_EQ(both.report.computed_count, 1U);
+}
+
+TEST(RenderSurface, ATurntableWritesNumberedPicturesFromOneDistance) {
+    const TempFolder folder;
+    const GltfBuilder builder = SquareModel().build();
+    const Bytes file = builder.glb();
+    RenderOptions options = plainView(RenderShow::normals, 32);
+    options.turntable = 4;
+    options.file.content = file;
+    const Result<RenderReport> report = renderFile("model.glb", (folder.path() / "turn.png").string(), options);
+    ASSERT_TRUE(report.ok()) << report.error().message;
+    EXPECT_EQ(report->picture_count, 4U);
+    for (const char* name : {"turn_000.png", "turn_001.png", "turn_002.png", "turn_003.png"})
+        EXPECT_TRUE(std::filesystem::exists(folder.path() / name)) << name;
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "turn.png"));
+    options.turntable = 1000;
+    EXPECT_EQ(renderFile("model.glb", (folder.path() / "turn.png").string(), options).error().code,
+              ErrorCode::invalidOption);
+}
+
+TEST(RenderSurface, ALegendLiesUnderThePictureAndTakesItsRowsFromIt) {
+    RenderOptions options = plainView(RenderShow::sign, 512);
+    const Drawn without = draw(SquareModel().build(), options);
+    options.legend = true;
+    const Drawn with = draw(SquareModel().build(), options);
+    EXPECT_EQ(with.image.height, without.image.height);
+    int inked = 0;
+    for (std::uint32_t y = 497; y < 512; ++y) {
+        for (std::uint32_t x = 0; x < 512; ++x) inked += with.at(x, y) != Pixel{236, 238, 241};
+    }
+    EXPECT_GT(inked, 300);
+    // The picture itself has no legend where nothing needs one.
+    options.show = RenderShow::lit;
+    options.legend = false;
+    const Drawn lit = draw(SquareModel().build(), options);
+    options.legend = true;
+    EXPECT_EQ(draw(SquareModel().build(), options).image.rgb, lit.image.rgb);
+}
+
+TEST(RenderSurface, PicturesHaveTheSameBytesForAnyNumberOfThreads) {
+    GltfBuilder builder = twoSquares({0, 1, 0, 0.5}, {1, 0, 0, 0.25}, true);
+    builder.json()["materials"][0]["alphaMode"] = "BLEND";
+    builder.json()["materials"][0].erase("extensions");
+    RenderOptions options = plainView(RenderShow::surface, 200);
+    options.samples = 2;
+    options.yaw_deg = 40;
+    options.field_of_view_deg = 30;
+    options.execution.thread_count = 1;
+    const Drawn one = draw(builder, options);
+    options.execution.thread_count = 5;
+    EXPECT_EQ(draw(builder, options).image.rgb, one.image.rgb);
+}
+
+}  // namespace
+}  // namespace tspace::test
