@@ -20,7 +20,7 @@ enum class TextureFormat : std::uint32_t {
 enum class TextureQuality : std::uint32_t {
     fast = 0,  ///< blocks with the least error as it is filtered, two rounds
     best = 1,  ///< three rounds, and more palettes: about 1 % nearer, and 2.5 times as long
-    quick = 2  ///< each channel of a block by itself: about 18 % farther off, and a quarter of the time
+    quick = 2  ///< each channel of a block by itself: about a fifth farther off, and a quarter of the time
 };
 
 struct CompressMapFileOptions {

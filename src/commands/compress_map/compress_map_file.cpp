@@ -351,7 +351,7 @@ OptionList compressMapOptions(CompressMapFileOptions& options) {
     add(list, "Texture",
         choice("--quality", "QUALITY", kQualities, options.quality,
                "fast: blocks with the least error as it is filtered. best: 1 % nearer, 2.5 times as long. quick: each "
-               "channel by itself, 18 % farther off, a quarter of the time."));
+               "channel by itself, a fifth farther off, a quarter of the time."));
     add(list, "Texture",
         flag("--signed", options.is_signed,
              "Write numbers with a sign (SNORM). Flat parts of maps of more than 8 bits are then exact; engines must "
