@@ -174,6 +174,19 @@ TEST(MapErrorCommand, SaysOfATextureBesideItsSourceWhatCompressMapSaid) {
         EXPECT_NE(runTool(folder, "map-error " + arguments).exit_code, 0) << arguments;
 }
 
+TEST(ConvertMapCommand, WritesTheSameBlocksAsCompressMapDoes) {
+    const TempFolder folder;
+    writeWaves(folder);
+    const double made = reportOf(folder, "n16.png -o n.dds")["meanErrorDeg"];
+    for (const std::string output : {"c.ktx2", "c.dds"}) {
+        ASSERT_EQ(runTool(folder, "convert-map n16.png --flip-green -o " + output).exit_code, 0);
+        ASSERT_EQ(runTool(folder, "flip-green " + output + " -o turned-" + output).exit_code, 0);
+        const ToolRun run = runTool(folder, "map-error --json turned-" + output + " --source n16.png");
+        EXPECT_NEAR(Json::parse(run.out)["meanErrorDeg"].get<double>(), made, 0.02 * made);
+    }
+    EXPECT_NE(runTool(folder, "convert-map n16.png --from object --to object -o c.dds").exit_code, 0);
+}
+
 TEST(CompressMapCommand, PacksLevelsOnceMore) {
     const TempFolder folder;
     writeWaves(folder);

@@ -10,6 +10,7 @@
 
 #include "commands/bake/bake_report.h"
 #include "commands/bake/model_surfaces.h"
+#include "commands/compress_map/pack_texture.h"
 #include "images/float_image.h"
 #include "maps/map_surfaces.h"
 #include "maps/missed_cause.h"
@@ -61,8 +62,7 @@ class FileBaking {
 
     BakeFileReport run(const std::string& low, const std::string& high) {
         high_ = high;
-        if (lowerExtension(output_) != ".png")
-            failFile(ErrorCode::unsupportedFile, "the output " + pathInQuotes(output_) + " does not end in .png");
+        checkOutput();
         checkOutMesh();
         if (Error error = checkBakeOptions(options_.map, 0, 0); error.code != ErrorCode::ok) throw FileError{error};
         models_ = readBakeModels(low, high, options_);
@@ -93,6 +93,26 @@ class FileBaking {
 
   private:
     /// A model that is written reads the map as glTF says.
+    /// A .png; or a texture, whose blocks are fitted to what the texels of 16 bits are filtered to.
+    void checkOutput() {
+        if (lowerExtension(output_) == ".png") return;
+        if (!isTextureName(output_))
+            failFile(ErrorCode::unsupportedFile,
+                     "the output " + pathInQuotes(output_) + " ends in none of .png, .ktx2 and .dds");
+        if (!options_.out_mesh.empty())
+            failFile(ErrorCode::invalidOption, "a glTF model holds no texture of two channels; bake a .png for it");
+        if (options_.map.space == MapSpace::object)
+            failFile(ErrorCode::invalidOption, "textures of two channels hold tangent space alone; bake a .png");
+        options_.map.bits = 16;
+    }
+
+    /// The file of a normal map, and no texels any more.
+    std::vector<std::uint8_t> takeNormalFile(BakedMap& map) const {
+        std::vector<Vec3> texels = std::exchange(map.texels, {});
+        if (isTextureName(output_)) return packTexture(output_, map.width, map.height, texels, options_.execution);
+        return pngOf(map.width, map.height, std::move(texels), map.bits);
+    }
+
     void checkOutMesh() const {
         if (options_.out_mesh.empty()) return;
         if (!isGltfName(options_.out_mesh))
@@ -196,7 +216,7 @@ class FileBaking {
             report_.files.push_back(std::move(file));
             return;
         }
-        std::vector<std::uint8_t> png = pngOf(map.width, map.height, std::exchange(map.texels, {}), map.bits);
+        std::vector<std::uint8_t> png = takeNormalFile(map);
         // Baking again writes over the map that the low poly shows.
         inputs_.letOff(file.path);
         if (options_.out_mesh.empty()) {

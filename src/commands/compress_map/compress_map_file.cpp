@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "commands/compress_map/compress_map_report.h"
+#include "commands/compress_map/pack_texture.h"
 #include "commands/shared/file_options.h"
 #include "commands/shared/map_image_file.h"
 #include "commands/shared/request.h"
@@ -292,6 +293,26 @@ class MapCompression {
 };
 
 }  // namespace
+
+bool isTextureName(const std::string& path) {
+    const std::string extension = lowerExtension(path);
+    return extension == ".ktx2" || extension == ".dds";
+}
+
+std::vector<std::uint8_t> packTexture(const std::string& name, std::uint32_t width, std::uint32_t height,
+                                      std::span<const Vec3> texels, const Execution& execution) {
+    NormalLevel first{width, height, {}, {}};
+    first.normals.reserve(texels.size());
+    for (const Vec3& texel : texels) first.normals.push_back(toFloat(decodeTexel(texel, {})));
+    Parallel parallel(execution);
+    Texture texture{.width = width, .height = height, .kind = TexelKind::bc5, .levels = {}};
+    for (const NormalLevel& level : makeNormalLevels(std::move(first), parallel))
+        texture.levels.push_back(packLevel(level, {}, parallel).bytes);
+    if (lowerExtension(name) == ".dds") return writeDds(texture);
+    std::optional<std::vector<std::uint8_t>> file = writeKtx2(texture);
+    if (!file) failFile(ErrorCode::outOfMemory, "the levels cannot be packed");
+    return *std::move(file);
+}
 
 Result<CompressMapFileReport> compressMapFile(const std::string& input, const std::string& output,
                                               const CompressMapFileOptions& options) {
