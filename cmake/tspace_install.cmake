@@ -1,5 +1,6 @@
 # Installation and packages. Component tspace_core is the core library and needs nothing else; tspace_asset is there when
-# it is part of the build; tspace_tool the programs. Consumers: find_package(tspace [COMPONENTS core asset]) and pkg-config.
+# it is part of the build; tspace_tool the programs. Consumers: find_package(tspace [COMPONENTS core asset shared]) and
+# pkg-config.
 include(CMakePackageConfigHelpers)
 
 tspace_install_built(tspace tspace_core EXPORT tspace_core ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
@@ -49,6 +50,20 @@ foreach(runtime stdc++ c++)
     endif()
 endforeach()
 
+# Why a component is not there, which find_package says.
+set(TSPACE_WITHOUT_ASSET "which had not been built")
+set(TSPACE_WITHOUT_SHARED "which had not been built")
+if(NOT TSPACE_BUILD_ASSET)
+    set(TSPACE_WITHOUT_ASSET "since TSPACE_BUILD_ASSET was OFF")
+    if(TSPACE_ASSET_NEEDED)
+        string(REPLACE ";" " " needed "${TSPACE_ASSET_NEEDED}")
+        set(TSPACE_WITHOUT_ASSET "since libraries were not found, as Debian packages: ${needed}")
+    endif()
+endif()
+if(NOT TSPACE_BUILD_SHARED)
+    set(TSPACE_WITHOUT_SHARED "since TSPACE_BUILD_SHARED was OFF")
+endif()
+
 configure_package_config_file("${CMAKE_CURRENT_LIST_DIR}/tspaceConfig.cmake.in"
                               "${PROJECT_BINARY_DIR}/package/tspaceConfig.cmake"
                               INSTALL_DESTINATION "${TSPACE_CMAKE_DIR}")
@@ -76,6 +91,14 @@ function(tspace_pkg_config TSPACE_PC_NAME target component TSPACE_PC_DESCRIPTION
     tspace_install_file_of(${target} ${component} "${CMAKE_INSTALL_LIBDIR}/pkgconfig" "${PROJECT_BINARY_DIR}/package/${TSPACE_PC_NAME}.pc")
 endfunction()
 tspace_pkg_config(tspace tspace tspace_core "${PROJECT_DESCRIPTION}" "-ltspace ${TSPACE_PC_CXX_RUNTIME} -lm -pthread")
+# The C++ functions are in the static library alone, which -ltspace does not take where a shared one lies beside it.
+# So it has a second name, a link.
+tspace_installed_folder(folder "${CMAKE_INSTALL_LIBDIR}")
+set(link "${CMAKE_STATIC_LIBRARY_PREFIX}tspace-cpp${CMAKE_STATIC_LIBRARY_SUFFIX}")
+install(CODE "if(EXISTS \"$<TARGET_FILE:tspace>\")
+    file(CREATE_LINK \"$<TARGET_FILE_NAME:tspace>\" \"\$ENV{DESTDIR}${folder}/${link}\" SYMBOLIC)
+endif()" COMPONENT tspace_core)
+tspace_pkg_config(tspace-cpp tspace tspace_core "${PROJECT_DESCRIPTION}, in C++" "-ltspace-cpp -lm -pthread")
 # The static library of files needs other libraries, which this one has found already.
 if(TARGET tspace_files_shared)
     tspace_pkg_config(tspace-files tspace_files_shared tspace_files_shared_link "${PROJECT_DESCRIPTION}: model files, in C" "-ltspace-files")

@@ -1,18 +1,22 @@
 # Shared libraries with the C ABI alone, beside the static ones and from the same objects.
 include_guard(GLOBAL)
 
-# tspace_shared_library(TARGET OUTPUT_NAME STATIC_TARGET...): libOUTPUT_NAME.so.0 of all objects of these libraries.
-function(tspace_shared_library target output_name)
+# tspace_shared_library(TARGET NAME OUTPUT_NAME STATIC_TARGET...): tspace::NAME, libOUTPUT_NAME.so.0 of all objects of these
+# libraries.
+function(tspace_shared_library target name output_name)
     set(objects "")
     foreach(library ${ARGN})
         list(APPEND objects $<TARGET_OBJECTS:${library}>)
     endforeach()
     add_library(${target} SHARED ${objects})
+    add_library(tspace::${name} ALIAS ${target})
     # SOVERSION is the number of the ABI: it grows when an old program could no longer run.
     set_target_properties(${target} PROPERTIES OUTPUT_NAME ${output_name} VERSION ${PROJECT_VERSION} SOVERSION 0
-                          LINKER_LANGUAGE CXX LIBRARY_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}"
+                          LINKER_LANGUAGE CXX EXPORT_NAME ${name} LIBRARY_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}"
                           LINK_DEPENDS "${PROJECT_SOURCE_DIR}/cmake/exported.map")
-    target_include_directories(${target} INTERFACE "${PROJECT_SOURCE_DIR}/include" "${PROJECT_BINARY_DIR}/include")
+    target_include_directories(${target} INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>
+                                                   $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/include>
+                                                   $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
     target_link_options(${target} PRIVATE "-Wl,--version-script=${PROJECT_SOURCE_DIR}/cmake/exported.map")
     if(TSPACE_SANITIZE)
         target_link_options(${target} PRIVATE -fsanitize=${TSPACE_SANITIZE})
@@ -20,16 +24,11 @@ function(tspace_shared_library target output_name)
         target_link_options(${target} PRIVATE -Wl,-z,defs)
     endif()
     target_link_libraries(${target} PRIVATE Threads::Threads)
-    # Beside a static library of its name, what linkers look for is a script: the C functions come from the shared library,
-    # and what C++ programs call, which that does not export, from the static one.
-    if(TARGET ${output_name})
-        set(script "${PROJECT_BINARY_DIR}/package/lib${output_name}.so")
-        file(WRITE "${script}" "GROUP ( AS_NEEDED ( lib${output_name}.so.0 ) lib${output_name}.a )\n")
-        tspace_install_file_of(${target} ${target}_link "${CMAKE_INSTALL_LIBDIR}" "${script}")
-        set(namelink NAMELINK_SKIP)
+    if(TSPACE_INSTALL)
+        tspace_install_built(${target} ${target} EXPORT tspace_${name} LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}"
+                             NAMELINK_COMPONENT ${target}_link)
+        tspace_install_export(${name} ${target}_link ${target})
     endif()
-    tspace_install_built(${target} ${target} LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}" NAMELINK_COMPONENT ${target}_link
-                         ${namelink})
 endfunction()
 
 # tspace_link_needs(TARGET LIBRARY...): links what these libraries need from outside.

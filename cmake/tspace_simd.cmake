@@ -1,5 +1,5 @@
 # Kernels that are compiled once per CPU and chosen at run time (src/core/simd): several for x86-64, one for 64-bit ARM
-# (little-endian), and the scalar ones for every CPU. The compiler is asked what it compiles for, so that cross compilers
+# (little-endian) and for WebAssembly, and the scalar ones for every CPU. The compiler is asked what it compiles for, so that cross compilers
 # need not be told.
 include_guard(GLOBAL)
 include(CheckCXXSourceCompiles)
@@ -14,10 +14,17 @@ check_cxx_source_compiles("
     #error
     #endif
     int main() { return 0; }" TSPACE_SIMD_ARM64)
+check_cxx_source_compiles("
+    #if !defined(__wasm_simd128__)
+    #error
+    #endif
+    int main() { return 0; }" TSPACE_SIMD_WASM)
 if(TSPACE_SIMD_X86)
     set(tspace_simd_cpus sse2 avx2 avx512)
 elseif(TSPACE_SIMD_ARM64)
     set(tspace_simd_cpus neon)
+elseif(TSPACE_SIMD_WASM)
+    set(tspace_simd_cpus wasm)
 else()
     set(tspace_simd_cpus)
 endif()
@@ -30,7 +37,7 @@ function(tspace_simd_flags sources)
         list(APPEND options_avx512 -Wno-uninitialized -Wno-maybe-uninitialized)  # GCC 12 warns about its own header
     endif()
     foreach(source ${sources})
-        if(source MATCHES "_(scalar|sse2|avx2|avx512|neon)\\.cpp$")
+        if(source MATCHES "_(scalar|sse2|avx2|avx512|neon|wasm)\\.cpp$")
             set_source_files_properties("${source}" PROPERTIES
                 COMPILE_OPTIONS "${options_${CMAKE_MATCH_1}}" SKIP_UNITY_BUILD_INCLUSION ON)
         endif()

@@ -68,7 +68,7 @@ endfunction()
 function(tspace_configure_core target)
     target_compile_options(${target} PRIVATE -fno-fast-math -fno-math-errno -fno-trapping-math -ffunction-sections
                                              $<$<CONFIG:Release>:-O2>)
-    foreach(kind X86 ARM64)
+    foreach(kind X86 ARM64 WASM)
         if(TSPACE_SIMD_${kind})
             target_compile_definitions(${target} PRIVATE TSPACE_SIMD_${kind})
         endif()

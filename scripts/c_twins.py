@@ -24,6 +24,7 @@ TWINS = {
 
 # Only in C (regular expressions; a type stands for its fields) -> why.
 C_ALONE = {
+    r"tspace_init\w+": "constructors",
     r"tspace_version": "C++ programs read version.h: they are linked with the library that they were compiled with",
     r"\w+\.(struct_size|reserved(_end)?)": "old programs with newer libraries",
     r"tspace_Span": "a StridedSpan of what is not const",

@@ -21,8 +21,8 @@ fresh() {
     mkdir -p "$folder"/{docs,scripts,bindings/js/src,bindings/python/src/tspace}
     cp -r docs/schema docs/json.md "$folder/docs"
     cp scripts/schema "$folder/scripts"
-    cp bindings/js/src/reports.d.ts "$folder/bindings/js/src"
-    cp bindings/python/src/tspace/_file_reports.py "$folder/bindings/python/src/tspace"
+    cp bindings/js/src/{generate_report,reports}.d.ts "$folder/bindings/js/src"
+    cp bindings/python/src/tspace/_{generate_report,file_reports}.py "$folder/bindings/python/src/tspace"
 }
 
 # must_find FILE OLD NEW WORDS: with this change in the file, --check prints the words.
@@ -54,9 +54,9 @@ must_find $check '"const": "tspace.check/1"' '"const": "tspace.check/2"' 'anothe
 # Without --check it writes.
 "$folder/scripts/schema" >/dev/null 2>&1 && fail "a wrong schema is no error"
 fresh
-rm "$folder/bindings/js/src/reports.d.ts"
+rm "$folder"/bindings/js/src/*.d.ts
 "$folder/scripts/schema"
-cmp "$folder/bindings/js/src/reports.d.ts" bindings/js/src/reports.d.ts
+for name in generate_report reports; do cmp "$folder/bindings/js/src/$name.d.ts" "bindings/js/src/$name.d.ts"; done
 for wrong in --nonsense "--check more"; do
     # shellcheck disable=SC2086 # two words
     "$folder/scripts/schema" $wrong 2>/dev/null && fail "$wrong is no error"

@@ -6,16 +6,16 @@ import { resolve } from "node:path";
 import { gzipSync } from "node:zlib";
 import { defineConfig, type Plugin } from "vite";
 
-/** What the page may do: run its own script and worker, and read what it holds itself. No server is named anywhere. */
-function policy(script: string): string {
-  const hash = createHash("sha256").update(script).digest("base64");
+/** What the page may do: run its own scripts and worker, and read what it holds itself. The first script, where there is one, says which server it may ask. */
+function policy(scripts: string[]): string {
+  const hashes = scripts.map((script) => `'sha256-${createHash("sha256").update(script).digest("base64")}'`);
   return [
     "default-src 'none'",
-    `script-src 'sha256-${hash}' 'wasm-unsafe-eval' blob:`,
+    `script-src ${hashes.join(" ")} 'wasm-unsafe-eval' blob:`,
     "worker-src blob:",
     "style-src 'unsafe-inline'",
     "img-src data: blob:",
-    "connect-src data: blob:",
+    `connect-src data: blob:${scripts.length > 1 ? " https: http:" : ""}`,
     "base-uri 'none'",
     "form-action 'none'",
   ].join("; ");
@@ -77,10 +77,12 @@ function oneFile(): Plugin {
       // "</script" inside of a string would end the script.
       const code = script.code.replaceAll("</script", "<\\/script");
       const css = style?.type === "asset" ? String(style.source) : "";
-      const head = `<meta http-equiv="Content-Security-Policy" content="${policy(code)}" />\n    <style>${css}</style>`;
+      // Of the page, not of the lesson: narrows the policy to no server, or to the one that its address names.
+      const guard = String(page.source).includes("<!-- guard -->") ? readFileSync(resolve(import.meta.dirname, "src/guard.js"), "utf8") : null;
+      const head = `<meta http-equiv="Content-Security-Policy" content="${policy(guard ? [guard, code] : [code])}" />${guard ? `\n    <script>${guard}</script>` : ""}\n    <style>${css}</style>`;
       const html = String(page.source)
         .replace(/<script type="module"[^>]*><\/script>/, "")
-        .replace(/<link rel="stylesheet"[^>]*>/, "")
+        .replace(/<link rel="stylesheet"[^>]*>|<!-- guard -->\s*/g, "")
         .replace('<meta charset="utf-8" />', () => `<meta charset="utf-8" />\n    ${head}`)
         .replace("</body>", () => `<!-- model -->\n    <script type="module">${code}</script>\n  </body>`);
       page.source = html;

@@ -7,16 +7,42 @@
 // be several. Names of nodes come first, then those of meshes.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "tspace/asset.h"
-#include "tspace/map_bake.h"
+#include "tspace/map_layers.h"
 
 namespace tspace {
 
 /// Which file an error is about: bakeFile and mapErrorFile tell its number as Error::element, where it is about one.
 enum class BakeInput : std::uint32_t { low = 0, high = 1, cage = 2, map = 3, skew = 4 };
+
+/// How it is known which way green of a high poly's normal map points.
+enum class GreenSource : std::uint32_t {
+    assumed = 0,   ///< as its format says: up in glTF
+    told = 1,      ///< BakeFileOptions::high_green
+    declared = 2,  ///< the file says so
+    seen = 3,      ///< the slopes of the map say so
+};
+
+/// A normal map that the high poly shows itself, and that is baked through.
+struct BakedHighMap {
+    std::string image = {};     ///< its URI or name
+    std::string material = {};  ///< of the first primitive that shows it; may be empty
+    double scale = 1;           ///< of x and y
+    Green green = Green::up;
+    GreenSource green_is = GreenSource::assumed;
+    std::uint64_t triangle_count = 0;
+};
+
+/// What has a number of its own in MapLayer::id.
+enum class BakeIds : std::uint32_t {
+    material = 0,  ///< materials by their names
+    object = 1,    ///< nodes of the high poly by their names, or meshes where nodes have none
+    shell = 2      ///< what hangs together by its positions
+};
 
 struct BakeFileOptions {
     /// Its wrap modes are those of the low poly's textures. Its limit on memory is that of `file`, or 16 GB, where it is 0.
@@ -30,6 +56,10 @@ struct BakeFileOptions {
     /// Which objects look at which: "names"; "all": at everything; else a file with lines LOW = HIGH, names of nodes or
     /// meshes as they are. What has no partner sees everything, or is seen by everything, and a warning names it.
     std::string match = "names";
+    /// Without the normal maps that materials of the high poly have: its own normals alone are what is seen.
+    bool ignore_high_maps = false;
+    /// Which way green of these maps points. Nothing: as the file declares, or as their slopes show, or up.
+    std::optional<Green> high_green = {};
     std::string misses = {};  ///< where to write a picture of what each texel is; empty: nowhere
     std::string heat = {};    ///< where to write a picture of the error; empty: nowhere
     /// Where to write the low poly with the frames that were used and the maps as its normal textures: .glb (holds them) or
@@ -39,7 +69,15 @@ struct BakeFileOptions {
     /// Texels of length 1, for formats of two channels, from whose x and y readers make z (BC5, DXT5nm): what
     /// `map.reading.two_channels` says, whatever the reading.
     bool unit = false;
-    bool udim = false;  ///< a file per tile of UVs: NAME.1001.png. Without it textures go on outside of 0 to 1
+    bool udim = false;  ///< a file per tile of UVs: NAME.1001.png
+    /// Triangles whose UVs have their middle outside of 0 to 1 are baked too, where the texture shows them again. Without this,
+    /// and without `udim`, they have no say: so artists put copies of what shares texels aside. A material that has
+    /// no other triangles is baked so in any case.
+    bool wrap = false;
+    /// Which maps. `ids`, `material` and the box of positions are set by the call. The normal map has the name of the output, the others
+    /// NAME_ao.png and so on; where both are made, red of `orm` is `ao`.
+    LayerOptions layers = {};
+    BakeIds ids = BakeIds::material;
     Execution execution = {};
     Progress progress = {};
 };
@@ -52,21 +90,42 @@ struct UsedRays {
     bool has_cage = false;  ///< a cage of the low poly's own said all of it
 };
 
-/// One image.
-struct BakedFile {
+/// What a colour of MapLayer::id stands for.
+struct BakedId {
+    std::string name = {};  ///< of the material or object; may be empty; shells have none
+    std::array<std::uint8_t, 3> color = {};
+};
+
+/// An image beside the normal map.
+struct BakedLayerFile {
+    MapLayer layer = MapLayer::ao;
     std::string path = {};
+    unsigned bits = 8;     ///< of a channel
+    bool is_srgb = false;  ///< its numbers have the sRGB curve
+    /// What black and white of each channel stand for, in units of the models.
+    std::array<double, 3> least = {0, 0, 0}, most = {1, 1, 1};
+    std::uint64_t id_count = 0;     ///< of MapLayer::id: how many the high poly has
+    std::vector<BakedId> ids = {};  ///< the first 256 of them
+};
+
+/// One image, and those beside it.
+struct BakedFile {
+    std::string path = {};      ///< of the normal map; empty where none was asked for
     std::string material = {};  ///< its name; may be empty
     std::uint32_t tile = 0;     ///< 1001 and on with `udim`, else 0
     std::uint64_t triangle_count = 0;
+    std::uint64_t outside_count = 0;  ///< triangles of the material that have no say: see BakeFileOptions::wrap
     UsedRays rays = {};
     BakedMap map = {};        ///< without texels
     double heat_top_deg = 0;  ///< what the brightest colour of the heat map stands for
+    std::vector<BakedLayerFile> layers = {};
 };
 
 struct BakeFileReport {
     std::vector<BakedFile> files = {};
-    bool frames_made = false;      ///< the low poly had no tangents, or no normals, in part at least
-    bool matched_by_name = false;  ///< objects of the low poly saw their own of the high poly alone
+    std::vector<BakedHighMap> high_maps = {};  ///< what was baked through
+    bool frames_made = false;                  ///< the low poly had no tangents, or no normals, in part at least
+    bool matched_by_name = false;              ///< objects of the low poly saw their own of the high poly alone
     std::uint64_t low_triangle_count = 0, high_triangle_count = 0;
     std::vector<std::string> output_files = {};  ///< everything that was written
     /// What makes maps useless, and why: rays that mostly met nothing, normals of the high poly that point inwards. Where no
@@ -75,7 +134,7 @@ struct BakeFileReport {
     std::vector<std::string> warnings = {};  ///< one sentence each
 };
 
-/// Bakes the normal map of `low` from `high` into `output`, a PNG. A low poly of several materials gives a file each:
+/// Bakes the maps of `low` from `high`; the normal map is `output`, a PNG. A low poly of several materials gives a file each:
 /// NAME.MATERIAL.png. All files appear at once or not at all. Errors: those of bakeMap, but for rays that meet nothing, which
 /// are findings; and cannotRead, invalidFile,
 /// unsupportedFile (also a build that writes no PNG), forbiddenPath, tooLarge, cannotWrite.
@@ -88,6 +147,8 @@ struct MapErrorFileOptions {
     NormalOptions normals{.weighting = NormalWeighting::flat};
     FileOptions file = {};
     std::string cage = {}, skew = {}, match = "names";  ///< as BakeFileOptions
+    bool ignore_high_maps = false;                      ///< likewise
+    std::optional<Green> high_green = {};               ///< likewise
     bool two_channels = false;  ///< z is made from x and y: `map.reading.two_channels`, whatever the reading
     std::string material = {};  ///< only triangles of the material with this name; empty: all
     std::uint32_t tile = 0;     ///< only triangles of this UDIM tile, 1001 and on; 0: all
@@ -121,6 +182,7 @@ struct MapErrorFileReport {
     bool fits = false;                            ///< no other reading and no other rays are much better
     std::string verdict = {};                     ///< for an artist
     bool frames_made = false, matched_by_name = false;
+    std::vector<BakedHighMap> high_maps = {};  ///< maps of the high poly that are a part of the truth
     double heat_top_deg = 0;
     std::vector<std::string> warnings = {};
 };

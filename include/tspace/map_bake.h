@@ -18,6 +18,14 @@ enum class MapFit : std::uint32_t {
     texel = 1,  ///< each alone: right at its centre
 };
 
+/// Whose normals count where triangles share texels and want different ones, as mirrored halves of a surface that is not
+/// symmetric do. Pieces of the UV map are triangles that join in UVs and in space and turn one way.
+enum class MapOverlap : std::uint32_t {
+    mean = 0,    ///< the mean of all: equally wrong on each
+    first = 1,   ///< those of the piece whose triangles come first in the mesh
+    larger = 2,  ///< those of the piece with the larger surface
+};
+
 struct BakeOptions {
     std::uint32_t width = 1024, height = 1024;  ///< 1 to 16384
     unsigned bits = 16;                         ///< of a channel: 8 or 16
@@ -26,6 +34,7 @@ struct BakeOptions {
     /// How the texture goes on outside of 0 to 1. What reaches beyond the edge of a clamped one has no say.
     TextureWrap wrap_u = TextureWrap::repeat, wrap_v = TextureWrap::repeat;
     MapFit fit = MapFit::solve;
+    MapOverlap overlap = MapOverlap::mean;
     std::uint32_t padding = 16;  ///< texels around the triangles that continue them; 0 to 256
     double reach = 0;            ///< as MapErrorOptions::reach
     RayOptions rays = {};
@@ -50,8 +59,10 @@ struct BakedMap {
     std::vector<bool> overlaps = {};        ///< one per texel: its centre lies inside of several triangles
     std::uint64_t hit_count = 0, missed_count = 0, padding_count = 0;  ///< texels
     std::uint64_t overlap_count = 0;  ///< texels whose centre lies inside of several triangles
-    std::uint64_t conflict_count =
-        0;  ///< those of them that the triangles want over 2 degrees apart; they get the mean
+    /// Those of them whose triangles want normals over 2 degrees apart; MapOverlap says which they get. And how far apart
+    /// these are: two that share a texel, or the piece that counts and the mean of the others.
+    std::uint64_t conflict_count = 0;
+    double conflict_mean_deg = 0, conflict_max_deg = 0;
     std::uint64_t degenerate_uv_count = 0;  ///< triangles without UV area, or whose UVs are not finite: nothing drawn
     /// Against the outermost front of the high poly, as shaded, whatever the map's own rays look for: what is seen.
     MapError error = {};

@@ -52,10 +52,16 @@ struct ConvertMapReport {
     std::uint64_t without_frame = 0;
     std::uint64_t below_horizon = 0;  ///< would need z < 0, which two channels cannot say; they get z = 0
     std::uint64_t overlapping = 0;    ///< texels that several triangles show; the first decides
+    /// From tangent to object space: those of them for whose triangles the map means directions over 2 degrees apart, as it does
+    /// for mirrored halves. One direction alone can be stored.
+    std::uint64_t conflicting = 0;
     // Triangles that are left out:
     std::uint64_t degenerate_uv_count = 0;  ///< without UV area
     std::uint64_t bad_uv_count = 0;         ///< UVs not finite, or more than 64 images large
     std::uint64_t unmatched = 0;            ///< texels of the source's triangles where the other side has none: left
+    /// Texels where the triangles of both sides are no corner for corner the same, and lie over a fiftieth of the mesh's size
+    /// apart in space, where both have positions: the sides are not one surface with one UV map.
+    std::uint64_t apart = 0;
     /// Angles between what a texel shows after and what it would have shown unconverted on the new side, over `converted`.
     double mean_change_deg = 0, max_change_deg = 0;
     double half_step_deg = 0;  ///< half a step of the output's integers as an angle; 0 with 32 bits

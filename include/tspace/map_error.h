@@ -42,12 +42,27 @@ struct LowPoly {
     StridedSpan<const Vec3> rest_positions = {}, rest_normals = {};
 };
 
+/// A normal map that a high poly shows itself, and how its material reads it.
+struct HighMap {
+    MapImage image = {};  ///< in tangent space
+    MapReading reading = {};
+};
+
+/// In HighPoly::map_of: this triangle shows no map.
+inline constexpr std::uint32_t kNoHighMap = 0xffffffff;
+
 /// The mesh with the detail, in the same coordinates.
 struct HighPoly {
     StridedSpan<const Vec3> positions = {};       ///< one per vertex
     StridedSpan<const Vec3> normals = {};         ///< one per vertex, or empty: each triangle is flat
     std::span<const std::uint32_t> corners = {};  ///< three per triangle; counter-clockwise is outside
     std::span<const std::uint32_t> groups = {};   ///< one per triangle, or empty
+    /// Its own normal maps. Where a triangle shows one, the normal that the map gives there is the truth. Empty: none.
+    std::span<const HighMap> maps = {};
+    std::span<const std::uint32_t> map_of = {};  ///< with `maps`, one per triangle: a number into them, or kNoHighMap
+    /// With `maps`, one per vertex; only those of triangles that show one count. `normals` are needed then.
+    StridedSpan<const Vec4> tangents = {};
+    StridedSpan<const Vec2> uvs = {};
 };
 
 struct MapErrorOptions {

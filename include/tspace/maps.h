@@ -8,6 +8,7 @@
 #include "tspace/map_error.h"
 #include "tspace/map_height.h"
 #include "tspace/map_image.h"
+#include "tspace/map_layers.h"
 #include "tspace/map_layout.h"
 #include "tspace/map_rays.h"
 #include "tspace/map_reading.h"

@@ -12,6 +12,9 @@
  *   has no other default is zero. Fields are only ever added at the end, and the size says which a program knows: one
  *   that was compiled with any older header works with a newer library, and gets the defaults of newer fields. A size
  *   that this version does not know is TSPACE_ERROR_INVALID_OPTION.
+ * - Languages without the macro prepare options by tspace_init..., and fill all other sized structs with zeros and the
+ *   size. Options of zeros are other ones than the defaults: they are refused where they look forgotten, which is said
+ *   at each of these functions.
  * - Structs without `struct_size` that a program fills never change. tspace_Convention stands in the middle of others:
  *   what a later version adds to it is a field at the end of each struct that holds one.
  * - Arguments come in one order: inputs, options, outputs that the caller owns, execution, then what C++ returns (a
@@ -223,6 +226,13 @@ typedef struct tspace_Execution {
     uint32_t reserved;
 } tspace_Execution;
 
+/* In C: prepares it as TSPACE_INIT does, for languages that have no macros. Zeros, but for the size, are the defaults.
+ * struct_size  bytes of the struct as the caller declares it. One that this version does not know is INVALID_OPTION,
+ *              and nothing is written.
+ * Errors: NULL_DATA, INVALID_OPTION. */
+tspace_ErrorCode tspace_initExecution(tspace_Execution* execution, uint32_t struct_size,
+                                      tspace_Error* error) TSPACE_NOEXCEPT;
+
 /* Scratch memory for calls that follow each other. Pass tspace_arenaAllocator in tspace_Execution.allocator; the
  * memory of plans may come from it as well. A call on an arena that another one like it has used takes nothing from
  * the system.
@@ -398,6 +408,15 @@ typedef struct tspace_TangentOptions {
      * 0: the fit alone. Default: 1. */
     uint32_t refine;
 } tspace_TangentOptions;
+
+/* In C: prepares options as TSPACE_INIT does, for languages that have no macros.
+ * struct_size  bytes of the struct as the caller declares it. One that this version does not know is INVALID_OPTION, and
+ *              nothing is written.
+ * Zeros are refused: without a convention, and with one where angular_threshold_deg and refine are both 0 (INVALID_OPTION
+ * of whatever takes the options). Either may be 0 alone, and no method looks at both.
+ * Errors: NULL_DATA, INVALID_OPTION. */
+tspace_ErrorCode tspace_initTangentOptions(tspace_TangentOptions* options, uint32_t struct_size,
+                                           tspace_Error* error) TSPACE_NOEXCEPT;
 
 /* Counts of triangles, groups and defects of the input. Broken input never makes a call fail. */
 typedef struct tspace_TangentReport {

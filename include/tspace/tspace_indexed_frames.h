@@ -22,6 +22,14 @@ typedef struct tspace_SanitizeOptions {
     uint32_t orthogonalize_all;
 } tspace_SanitizeOptions;
 
+/* In C: prepares options as TSPACE_INIT does, for languages that have no macros.
+ * struct_size  bytes of the struct as the caller declares it. One that this version does not know is INVALID_OPTION, and
+ *              nothing is written.
+ * Zeros, but for the size, are the defaults.
+ * Errors: NULL_DATA, INVALID_OPTION. */
+tspace_ErrorCode tspace_initSanitizeOptions(tspace_SanitizeOptions* options, uint32_t struct_size,
+                                            tspace_Error* error) TSPACE_NOEXCEPT;
+
 /* Corners mended, by cause (the first that applies, in this order) and by cure. */
 typedef struct tspace_SanitizeReport {
     uint32_t struct_size;
@@ -137,6 +145,14 @@ typedef struct tspace_IndexedFramesOptions {
     const tspace_CornerAttribute* keep_apart;
     size_t keep_apart_count;
 } tspace_IndexedFramesOptions;
+
+/* In C: prepares options as TSPACE_INIT does, for languages that have no macros.
+ * struct_size  bytes of the struct as the caller declares it. One that this version does not know is INVALID_OPTION, and
+ *              nothing is written.
+ * Zeros are refused, since `tangents` has no convention then; with options there, they mean that nothing is mended.
+ * Errors: NULL_DATA, INVALID_OPTION. */
+tspace_ErrorCode tspace_initIndexedFramesOptions(tspace_IndexedFramesOptions* options, uint32_t struct_size,
+                                                 tspace_Error* error) TSPACE_NOEXCEPT;
 
 /* A mesh with the faces of the given one. Gather every other vertex attribute, skin weight and morph target through
  * source_vertices, and attributes that have an index list of their own through the corner:

@@ -67,6 +67,15 @@ typedef struct tspace_NormalOptions {
     uint32_t reserved_end;
 } tspace_NormalOptions;
 
+/* In C: prepares options as TSPACE_INIT does, for languages that have no macros.
+ * struct_size  bytes of the struct as the caller declares it. One that this version does not know is INVALID_OPTION, and
+ *              nothing is written.
+ * Zeros are refused (INVALID_OPTION of whatever takes the options): weighting, crease_angle_deg, weld_positions and refine
+ * all 0. TSPACE_NORMAL_WEIGHTING_FLAT, which is 0, looks at none of the others.
+ * Errors: NULL_DATA, INVALID_OPTION. */
+tspace_ErrorCode tspace_initNormalOptions(tspace_NormalOptions* options, uint32_t struct_size,
+                                          tspace_Error* error) TSPACE_NOEXCEPT;
+
 /* Counts of faces and defects of the input. Broken input never makes the call fail. */
 typedef struct tspace_NormalReport {
     uint32_t struct_size;

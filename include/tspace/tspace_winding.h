@@ -25,6 +25,15 @@ typedef struct tspace_WindingOptions {
     uint32_t weld_positions;
 } tspace_WindingOptions;
 
+/* In C: prepares options as TSPACE_INIT does, for languages that have no macros.
+ * struct_size  bytes of the struct as the caller declares it. One that this version does not know is INVALID_OPTION, and
+ *              nothing is written.
+ * Zeros, the convention's too, are refused (INVALID_OPTION of whatever takes the options). For use_normals and
+ * weld_positions both 0 set a convention, by tspace_findConvention.
+ * Errors: NULL_DATA, INVALID_OPTION. */
+tspace_ErrorCode tspace_initWindingOptions(tspace_WindingOptions* options, uint32_t struct_size,
+                                           tspace_Error* error) TSPACE_NOEXCEPT;
+
 /* What was found and done. A *component* is what hangs together over pairs of faces at edges. A pair is in
  * *conflict* where both faces run through their edge in the same direction. */
 typedef struct tspace_WindingReport {

@@ -12,6 +12,7 @@
 #include "core/base/unique_index.h"
 #include "core/base/vec_math.h"
 #include "maps/convert_texel.h"
+#include "maps/map_surfaces.h"
 #include "maps/solve_texels.h"
 #include "maps/texel_triangles.h"
 #include "tspace/map_convert.h"
@@ -31,7 +32,8 @@ bool hasFrames(const MapSide& side) { return side.space == MapSpace::tangent && 
 
 /// Sums of some texels, in their order.
 struct Sums {
-    std::uint64_t converted = 0, changed = 0, background = 0, without_frame = 0, below_horizon = 0, unmatched = 0;
+    std::uint64_t converted = 0, changed = 0, background = 0, without_frame = 0, below_horizon = 0, unmatched = 0,
+                  apart = 0;
     double change = 0, most_change = 0;
 
     void add(const Sums& other) {
@@ -41,6 +43,7 @@ struct Sums {
         without_frame += other.without_frame;
         below_horizon += other.below_horizon;
         unmatched += other.unmatched;
+        apart += other.apart;
         change += other.change;
         most_change = std::max(most_change, other.most_change);
     }
@@ -104,6 +107,21 @@ Buffer<std::uint32_t> matchTriangles(const MapSide& side, const MapSide& other, 
     return match;
 }
 
+/// visit(texel, its place) for each texel whose centre lies inside of a triangle.
+template <class Visit>
+void forEachTexel(const UvTriangles& triangles, std::size_t triangle, const TextureShape& shape, const Visit& visit) {
+    forEachSample(cornerUvs(triangles, triangle), shape, 1, [&](const UvSample& sample) {
+        const auto x = static_cast<std::int64_t>(std::floor(sample.x));
+        const auto y = static_cast<std::int64_t>(std::floor(sample.y));
+        const std::uint32_t column = texelInImage(x, shape.width, shape.wrap_u);
+        const std::uint32_t row = texelInImage(y, shape.height, shape.wrap_v);
+        if (column >= shape.width || row >= shape.height) return;
+        visit(std::size_t{row} * shape.width + column,
+              TexelPlace{static_cast<std::uint32_t>(triangle), static_cast<std::int32_t>(x),
+                         static_cast<std::int32_t>(y)});
+    });
+}
+
 /// For texels inside of triangles of both, which may lie over each other: takes the triangle of `other` that is nearest in
 /// space to where `places` has the texel on `side`. Both have positions.
 void chooseByPosition(const MapSide& side, const UvTriangles& triangles, const TexelTriangles& places,
@@ -112,16 +130,8 @@ void chooseByPosition(const MapSide& side, const UvTriangles& triangles, const T
     const TextureShape& shape = other_places.shape;
     Buffer<double> distances(allocator, places.kinds.size(), static_cast<double>(INFINITY));
     for (std::size_t triangle = 0; triangle < other.uvs.count / 3; ++triangle) {
-        forEachSample(cornerUvs(other_triangles, triangle), shape, 1, [&](const UvSample& sample) {
-            const auto x = static_cast<std::int64_t>(std::floor(sample.x));
-            const auto y = static_cast<std::int64_t>(std::floor(sample.y));
-            const std::uint32_t column = texelInImage(x, shape.width, shape.wrap_u);
-            const std::uint32_t row = texelInImage(y, shape.height, shape.wrap_v);
-            if (column >= shape.width || row >= shape.height) return;
-            const std::size_t texel = std::size_t{row} * shape.width + column;
+        forEachTexel(other_triangles, triangle, shape, [&](std::size_t texel, const TexelPlace& place) {
             if (places.kinds[texel] != TexelKind::inside) return;
-            const TexelPlace place{static_cast<std::uint32_t>(triangle), static_cast<std::int32_t>(x),
-                                   static_cast<std::int32_t>(y)};
             const DVec3 apart = positionAt(other, other_triangles, shape, place) -
                                 positionAt(side, triangles, shape, places.places[texel]);
             const double distance = dot(apart, apart);
@@ -160,6 +170,8 @@ class Conversion {
         }
         const std::size_t texels = map_.texels.size(), tasks = (texels + kTexelsOfTask - 1) / kTexelsOfTask;
         if (options_.bits == 8) findSpreads();
+        if (from_.space == MapSpace::tangent && to_.space == MapSpace::object && places_.counts.overlapping > 0)
+            countConflicts();
         if (options_.bits == 16 && from_.space != to_.space) {
             vectors_ = Buffer<Vec3>(allocator_, texels);
             keeps_ = Buffer<bool>(allocator_, texels, true);
@@ -191,6 +203,7 @@ class Conversion {
         places_ = std::move(*places);
         if (one_mesh_) return true;
         matches_ = matchTriangles(main_, other_, allocator_);
+        if (!main_.positions.empty() && !other_.positions.empty()) size_ = PositionBox(main_.positions).diagonal();
         if (std::find(matches_.begin(), matches_.end(), kNoTriangle) == matches_.end()) return true;
         const UvTriangles others = other_corners_.triangles(map_);
         auto other_places = findTexelTriangles(others, map_.width, map_.height, padding, parallel_, allocator_);
@@ -260,7 +273,7 @@ class Conversion {
                 ++sums.background;
                 return;
             }
-            if (!findFrames(texel, from, to)) {
+            if (!findFrames(texel, from, to, sums)) {
                 ++sums.unmatched;
                 return;
             }
@@ -287,8 +300,38 @@ class Conversion {
         sums.most_change = std::max(sums.most_change, converted->change_deg);
     }
 
+    /// Before any texel is written: `out_` may be the input.
+    void countConflicts() {
+        constexpr double kApartDeg = 2;
+        const UvTriangles triangles = main_corners_.triangles(map_);
+        const TextureShape& shape = places_.shape;
+        Buffer<bool> counted(allocator_, places_.kinds.size(), false);
+        const auto directionAt = [&](std::size_t texel, const TexelPlace& place) {
+            const ShadingFrame frame = oneMeshFrame(from_, place.triangle, weightsAt(triangles, shape, place));
+            return shadedNormal(frame, decodeTexel(map_.texels[texel], readingOf(from_)));
+        };
+        for (std::size_t triangle = 0; triangle < main_.uvs.count / 3; ++triangle) {
+            forEachTexel(triangles, triangle, shape, [&](std::size_t texel, const TexelPlace& place) {
+                if (places_.kinds[texel] != TexelKind::inside || !places_.overlaps[texel] || counted[texel]) return;
+                const TexelPlace& first = places_.places[texel];
+                if (first.triangle == triangle) return;
+                counted[texel] = degreesBetween(directionAt(texel, first), directionAt(texel, place)) > kApartDeg;
+                conflict_count_ += counted[texel] ? 1 : 0;
+            });
+        }
+    }
+
+    /// Whether the texel lies far from where the other side has it.
+    [[nodiscard]] bool isApart(const TexelPlace& place, const TexelPlace& other) const {
+        if (!(size_ > 0)) return false;
+        constexpr double kFar = 0.02;
+        const DVec3 apart = positionAt(main_, main_corners_.triangles(map_), places_.shape, place) -
+                            positionAt(other_, other_corners_.triangles(map_), places_.shape, other);
+        return dot(apart, apart) > kFar * kFar * size_ * size_;
+    }
+
     /// False: the other side has no triangle there.
-    [[nodiscard]] bool findFrames(std::size_t texel, ShadingFrame& from, ShadingFrame& to) const {
+    [[nodiscard]] bool findFrames(std::size_t texel, ShadingFrame& from, ShadingFrame& to, Sums& sums) const {
         const TexelPlace& place = places_.places[texel];
         const std::array<double, 3> weights = weightsAt(main_corners_.triangles(map_), places_.shape, place);
         if (one_mesh_) {
@@ -300,6 +343,7 @@ class Conversion {
         other_place.triangle = matches_[place.triangle];
         if (other_place.triangle == kNoTriangle) other_place = other_places_.places[texel];
         if (other_place.triangle == kNoTriangle) return false;
+        if (matches_[place.triangle] == kNoTriangle && isApart(place, other_place)) ++sums.apart;
         const ShadingFrame main_frame = sideFrame(main_, place.triangle, weights);
         const ShadingFrame other_frame = sideFrame(
             other_, other_place.triangle, weightsAt(other_corners_.triangles(map_), places_.shape, other_place));
@@ -325,6 +369,8 @@ class Conversion {
         report.below_horizon = sums.below_horizon;
         report.unmatched = sums.unmatched;
         report.overlapping = places_.counts.overlapping;
+        report.conflicting = conflict_count_;
+        report.apart = sums.apart;
         report.degenerate_uv_count = places_.counts.without_area;
         report.bad_uv_count = places_.counts.not_finite + places_.counts.too_far;
         if (sums.converted > 0) report.mean_change_deg = sums.change / static_cast<double>(sums.converted);
@@ -349,7 +395,9 @@ class Conversion {
     /// With 16 bits from space to space: vectors as computed, and which texels stay as they are.
     Buffer<Vec3> vectors_ = {};
     Buffer<bool> keeps_ = {};
-    Buffer<float> spreads_ = {};          ///< TexelNumbers::spread of each texel, with 8 bits
+    Buffer<float> spreads_ = {};  ///< TexelNumbers::spread of each texel, with 8 bits
+    std::uint64_t conflict_count_ = 0;
+    double size_ = 0;                     ///< of the mesh, where both sides have positions
     Buffer<std::uint32_t> matches_ = {};  ///< triangles of the other side, by those of the main one
 };
 

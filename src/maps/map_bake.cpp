@@ -10,6 +10,7 @@
 #include "maps/quantize.h"
 #include "maps/solve_texels.h"
 #include "maps/texel_plan.h"
+#include "maps/trace_layers.h"
 #include "maps/trace_texels.h"
 
 namespace tspace {
@@ -26,21 +27,24 @@ constexpr unsigned kIntegerRounds = 3;
 
 class Baking {
   public:
-    /// `fails_if_missed`: where no ray meets anything; else the map has no texels then.
-    Baking(const LowPoly& low, const HighPoly& high, const BakeOptions& options, const Execution& execution,
-           const Progress& progress, bool fails_if_missed)
+    /// `layers`: what is made beside the normal map. `shared`: null, or the surface of the high poly, which is left there; the map
+    /// then has no texels where no ray meets anything, which is an error else.
+    Baking(const LowPoly& low, const HighPoly& high, const BakeOptions& options, const LayerOptions& layers,
+           const Execution& execution, const Progress& progress, SharedRays* shared)
         : low_(low),
           high_(high),
           options_(options),
-          fails_if_missed_(fails_if_missed),
+          layers_(layers),
+          shared_(shared),
           allocator_(execution.allocator),
           parallel_(execution),
           work_{execution.allocator, parallel_, progress} {}
 
-    Result<BakedMap> run() {
-        Result<MapSurfaces> surfaces =
-            MapSurfaces::make(low_, high_, options_.reach, options_.rays, parallel_, allocator_);
+    Result<BakedMaps> run() {
+        Result<MapSurfaces> surfaces = MapSurfaces::make(low_, high_, options_.reach, options_.rays, parallel_,
+                                                         allocator_, shared_ == nullptr ? nullptr : shared_->surface);
         if (!surfaces) return std::move(surfaces).error();
+        if (shared_ != nullptr) shared_->surface = surfaces->surface();
         const LowUvs uvs(low_, allocator_);
         const std::uint32_t padding = std::max(options_.padding, kFilterTexels);
         const std::optional<TexelTriangles> triangles =
@@ -53,9 +57,11 @@ class Baking {
             return makeError(ErrorCode::missingAttribute, kNoElement, "the UVs of the low poly cover no texel");
         traceTexels(*surfaces, *triangles, options_, work_, traced_);
         countOrigins(*triangles);
-        if (map_.hit_count == 0 && fails_if_missed_)
+        if (map_.hit_count == 0 && shared_ == nullptr)
             return makeError(ErrorCode::missingAttribute, kNoElement, "no line from the low poly meets the high poly");
-        if (map_.hit_count == 0) return withoutTexels(*surfaces);
+        std::vector<BakedLayer> made;
+        if (map_.hit_count > 0) made = traceLayers(*surfaces, *triangles, options_, layers_, work_);
+        if (map_.hit_count == 0 || !layers_.has_normal) return BakedMaps{withoutTexels(*surfaces), std::move(made)};
         fillFromNeighbours(traced_, triangles->shape);
         if (solves()) {
             solve(*surfaces, *triangles);
@@ -64,7 +70,7 @@ class Baking {
             if (options_.bits == 8) takeNearest();
         }
         writeTexels();
-        return measured(*surfaces);
+        return BakedMaps{measured(*surfaces), std::move(made)};
     }
 
   private:
@@ -81,16 +87,20 @@ class Baking {
         map_.overlaps.assign(triangles.overlaps.begin(), triangles.overlaps.end());
         map_.overlap_count = triangles.counts.overlapping;
         map_.conflict_count = traced_.conflict_count;
+        map_.conflict_max_deg = traced_.conflict_max_deg;
+        if (map_.conflict_count > 0)
+            map_.conflict_mean_deg = traced_.conflict_sum_deg / static_cast<double>(map_.conflict_count);
         map_.degenerate_uv_count =
             triangles.counts.without_area + triangles.counts.not_finite + triangles.counts.too_far;
     }
 
-    Result<BakedMap> withoutTexels(const MapSurfaces& surfaces) {
+    BakedMap withoutTexels(const MapSurfaces& surfaces) {
         map_.width = options_.width;
         map_.height = options_.height;
         map_.bits = options_.bits;
         map_.error.reach = surfaces.reach();
         map_.error.cage_offset = surfaces.cageOffset();
+        map_.origins.assign(traced_.origins.begin(), traced_.origins.end());
         return std::move(map_);
     }
 
@@ -104,7 +114,7 @@ class Baking {
         const CellSampling sampling = samplingOf(options_);
         const TexelPlan plan = planTexels(traced_, triangles, sampling.tolerance, has_integers, parallel_, allocator_);
         TexelSystem system(allocator_, options_.width, options_.height, {plan.roles.data(), plan.roles.size()});
-        traceBetween(surfaces, plan, sampling.points, options_, work_, system);
+        traceBetween(surfaces, traced_, plan, sampling.points, options_, work_, system);
         tellOfFitting();
         sharpenTexels(plan, texels, parallel_, allocator_);
         if (has_integers) {
@@ -156,7 +166,7 @@ class Baking {
         map_.origins.assign(traced_.origins.begin(), traced_.origins.end());
     }
 
-    Result<BakedMap> measured(const MapSurfaces& surfaces) {
+    BakedMap measured(const MapSurfaces& surfaces) {
         if (options_.rays.target == RayTarget::outermost || !low_.cage.empty()) {
             map_.error = errorAgainst(surfaces, options_.heat);
             return std::move(map_);
@@ -180,7 +190,8 @@ class Baking {
     LowPoly low_;
     HighPoly high_;
     const BakeOptions& options_;
-    bool fails_if_missed_;
+    const LayerOptions& layers_;
+    SharedRays* shared_;
     const Allocator* allocator_;
     Parallel parallel_;
     MapWork work_;
@@ -222,26 +233,39 @@ std::uint64_t bakeBytes(std::uint64_t low_triangles, std::uint64_t high_triangle
 
 namespace {
 
-Result<BakedMap> bake(const LowPoly& low, const HighPoly& high, const BakeOptions& options, const Execution& execution,
-                      const Progress& progress, bool fails_if_missed) {
-    return atBorder([&]() -> Result<BakedMap> {
-        Error error = checkBakeOptions(options, low.positions.count / 3, high.corners.size() / 3);
+Result<BakedMaps> bake(const LowPoly& low, const HighPoly& high, const BakeOptions& options, const LayerOptions& layers,
+                       const Execution& execution, const Progress& progress, SharedRays* shared) {
+    return atBorder([&]() -> Result<BakedMaps> {
+        const std::size_t high_triangles = high.corners.size() / 3;
+        Error error = checkBakeOptions(options, low.positions.count / 3, high_triangles);
+        if (error.code == ErrorCode::ok) error = checkLayers(layers, options, low.positions.count / 3, high_triangles);
         if (error.code == ErrorCode::ok) error = checkSurfaces(low, high, options.space == MapSpace::tangent);
         if (error.code != ErrorCode::ok) return error;
-        return Baking(low, high, options, execution, progress, fails_if_missed).run();
+        return Baking(low, high, options, layers, execution, progress, shared).run();
     });
+}
+
+Result<BakedMap> normalMapOf(Result<BakedMaps> maps) {
+    if (!maps) return std::move(maps).error();
+    return std::move(maps->normal);
 }
 
 }  // namespace
 
 Result<BakedMap> bakeMap(const LowPoly& low, const HighPoly& high, const BakeOptions& options,
                          const Execution& execution, const Progress& progress) {
-    return bake(low, high, options, execution, progress, true);
+    return normalMapOf(bake(low, high, options, {}, execution, progress, nullptr));
 }
 
-Result<BakedMap> bakeEvenIfMissed(const LowPoly& low, const HighPoly& high, const BakeOptions& options,
-                                  const Execution& execution, const Progress& progress) {
-    return bake(low, high, options, execution, progress, false);
+Result<BakedMaps> bakeMaps(const LowPoly& low, const HighPoly& high, const BakeOptions& options,
+                           const LayerOptions& layers, const Execution& execution, const Progress& progress) {
+    return bake(low, high, options, layers, execution, progress, nullptr);
+}
+
+Result<BakedMaps> bakeEvenIfMissed(const LowPoly& low, const HighPoly& high, const BakeOptions& options,
+                                   const LayerOptions& layers, const Execution& execution, const Progress& progress,
+                                   SharedRays& shared) {
+    return bake(low, high, options, layers, execution, progress, &shared);
 }
 
 }  // namespace tspace

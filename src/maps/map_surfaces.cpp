@@ -6,6 +6,7 @@
 
 #include "core/base/border.h"
 #include "core/base/numbers.h"
+#include "maps/texture_sample.h"
 
 namespace tspace {
 
@@ -96,6 +97,35 @@ Error apartError(const PositionBox& low, const PositionBox& high) {
 
 }  // namespace
 
+namespace {
+
+Error checkHighMaps(const HighPoly& high) {
+    if (high.maps.empty()) return {ErrorCode::ok};
+    if (high.normals.empty() || high.tangents.empty() || high.uvs.empty())
+        return makeError(ErrorCode::missingAttribute, kNoElement,
+                         "the maps of the high poly need its normals, tangents and UVs");
+    if (Error error = checkSpan(high.tangents, high.positions.count, "high.tangents"); error.code != ErrorCode::ok)
+        return error;
+    if (Error error = checkSpan(high.uvs, high.positions.count, "high.uvs"); error.code != ErrorCode::ok) return error;
+    if (high.map_of.size() != high.corners.size() / 3)
+        return makeError(ErrorCode::countMismatch, kNoElement, "high.map_of needs one entry per triangle");
+    for (std::size_t i = 0; i < high.map_of.size(); ++i) {
+        if (high.map_of[i] != kNoHighMap && high.map_of[i] >= high.maps.size())
+            return makeError(ErrorCode::indexOutOfRange, i, "high.map_of names a map that is not there");
+    }
+    for (const HighMap& map : high.maps) {
+        const MapImage& image = map.image;
+        if (image.texels.empty() || image.texels.size() != std::uint64_t{image.width} * image.height)
+            return makeError(ErrorCode::countMismatch, kNoElement,
+                             "a map of the high poly needs width * height texels");
+        if (!std::isfinite(map.reading.scale))
+            return makeError(ErrorCode::invalidOption, kNoElement, "the scale of a map must be finite");
+    }
+    return {ErrorCode::ok};
+}
+
+}  // namespace
+
 Error checkSurfaces(const LowPoly& low, const HighPoly& high, bool needs_tangents) {
     const std::size_t corners = low.positions.count;
     Error error = checkSpan(low.positions, corners, "low.positions");
@@ -127,7 +157,7 @@ Error checkSurfaces(const LowPoly& low, const HighPoly& high, bool needs_tangent
     if (has_groups != !high.groups.empty() ||
         (has_groups && (low.groups.size() != corners / 3 || high.groups.size() != high.corners.size() / 3)))
         return makeError(ErrorCode::countMismatch, kNoElement, "groups are one per triangle, of both meshes or none");
-    if (high.corners.empty()) return error;
+    if (error = checkHighMaps(high); error.code != ErrorCode::ok || high.corners.empty()) return error;
     return checkIndices(IndexView(high.corners), high.positions.count);
 }
 
@@ -147,16 +177,20 @@ Error checkRays(const RayOptions& rays, double reach) {
 }
 
 Result<MapSurfaces> MapSurfaces::make(const LowPoly& low, const HighPoly& high, double reach, const RayOptions& rays,
-                                      Parallel& parallel, const Allocator* allocator) {
+                                      Parallel& parallel, const Allocator* allocator,
+                                      std::shared_ptr<const RaySurface> surface) {
     MapSurfaces surfaces;
     surfaces.low_ = low;
     surfaces.high_ = high;
     surfaces.reach_ = reach > 0 ? reach : chosenReach(low, high);
     if (!(surfaces.reach_ > 0)) return apartError(PositionBox(low.positions), PositionBox(high.positions));
-    Result<std::unique_ptr<const RaySurface>> made =
-        RaySurface::make(high.positions, high.corners, high.groups, parallel);
-    if (!made) return std::move(made).error();
-    surfaces.rays_ = *std::move(made);
+    if (surface == nullptr) {
+        Result<std::unique_ptr<const RaySurface>> made =
+            RaySurface::make(high.positions, high.corners, high.groups, parallel);
+        if (!made) return std::move(made).error();
+        surface = *std::move(made);
+    }
+    surfaces.rays_ = std::move(surface);
     surfaces.aim(rays, parallel, allocator);
     return surfaces;
 }
@@ -181,14 +215,38 @@ void MapSurfaces::aim(const RayOptions& rays, Parallel& parallel, const Allocato
 DVec3 MapSurfaces::normalOf(const RayHit& hit) const {
     std::array<std::uint32_t, 3> vertices{};
     for (std::size_t i = 0; i < 3; ++i) vertices[i] = high_.corners[3 * std::size_t{hit.triangle} + i];
+    if (const DVec3 mapped = mappedNormal(hit, vertices); dot(mapped, mapped) > 0) return mapped;
     if (!high_.normals.empty()) {
         DVec3 sum{};
         for (std::size_t i = 0; i < 3; ++i) sum = sum + hit.weights[i] * toDouble(high_.normals[vertices[i]]);
         if (normalize(sum)) return sum;
     }
-    const DVec3 first = toDouble(high_.positions[vertices[0]]);
-    DVec3 flat = cross(toDouble(high_.positions[vertices[1]]) - first, toDouble(high_.positions[vertices[2]]) - first);
+    return faceOf(hit.triangle);
+}
+
+DVec3 MapSurfaces::faceOf(std::uint32_t triangle) const {
+    const auto at = [&](std::size_t i) {
+        return toDouble(high_.positions[high_.corners[3 * std::size_t{triangle} + i]]);
+    };
+    DVec3 flat = cross(at(1) - at(0), at(2) - at(0));
     return normalize(flat) ? flat : DVec3{};
+}
+
+DVec3 MapSurfaces::mappedNormal(const RayHit& hit, const std::array<std::uint32_t, 3>& vertices) const {
+    if (high_.maps.empty() || high_.map_of[hit.triangle] == kNoHighMap) return {};
+    const HighMap& map = high_.maps[high_.map_of[hit.triangle]];
+    CornerFrames frames;
+    double u = 0, v = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        frames.normals[i] = high_.normals[vertices[i]];
+        frames.tangents[i] = high_.tangents[vertices[i]];
+        u += hit.weights[i] * high_.uvs[vertices[i]].x;
+        v += hit.weights[i] * high_.uvs[vertices[i]].y;
+    }
+    const TextureShape shape{map.image.width, map.image.height, map.image.wrap_u, map.image.wrap_v};
+    const Vec3 texel = sampleBilinear(shape, map.image.texels, {static_cast<float>(u), static_cast<float>(v)});
+    const DVec3 shaded = shadedNormal(shadingFrame(frames, hit.weights, map.reading), decodeTexel(texel, map.reading));
+    return std::isfinite(shaded.x + shaded.y + shaded.z) ? shaded : DVec3{};
 }
 
 bool MapSurfaces::rayAt(std::size_t triangle, const std::array<double, 3>& weights, Ray& ray) const {
@@ -237,6 +295,20 @@ bool MapSurfaces::truthAt(std::size_t triangle, const std::array<double, 3>& wei
     normal = normalOf(hit);
     if (around != nullptr) around->normal_is_inward = dot(normal, ray.outward) < 0;
     return dot(normal, normal) > 0;
+}
+
+bool MapSurfaces::hitAt(std::size_t triangle, const std::array<double, 3>& weights, double& guess,
+                        SurfaceHit& hit) const {
+    Ray ray;
+    RayHit met;
+    if (!rayAt(triangle, weights, ray) || !meet(ray, guess, met)) return false;
+    hit = {.triangle = met.triangle, .weights = met.weights, .height = met.distance};
+    for (std::size_t i = 0; i < 3; ++i)
+        hit.place =
+            hit.place + met.weights[i] * toDouble(high_.positions[high_.corners[3 * std::size_t{met.triangle} + i]]);
+    hit.normal = normalOf(met);
+    hit.face = faceOf(met.triangle);
+    return dot(hit.normal, hit.normal) > 0;
 }
 
 CornerFrames MapSurfaces::corners(std::size_t triangle, const StridedSpan<const Vec4>& tangents) const {

@@ -56,28 +56,43 @@ struct RayNeighbourhood {
     bool normal_is_inward = false;  ///< that of the high poly, as shaded, where its front was met
 };
 
+/// Where the ray of a point of the low poly meets the high poly.
+struct SurfaceHit {
+    std::uint32_t triangle = 0;  ///< of the high poly
+    std::array<double, 3> weights = {};
+    double height = 0;  ///< outwards from the low poly, along the ray
+    DVec3 place = {};
+    DVec3 normal = {}, face = {};  ///< unit: as shaded, and that of the triangle
+};
+
 class MapSurfaces {
   public:
     /// Checked meshes, which must stay, and checked rays, whose image must stay. `reach`: 0 chooses. Errors:
-    /// unsupportedFile, outOfMemory, missingAttribute (meshes that are nowhere near each other).
+    /// unsupportedFile, outOfMemory, missingAttribute (meshes that are nowhere near each other). `surface`: that of the high
+    /// poly, where it is there already, or null.
     static Result<MapSurfaces> make(const LowPoly& low, const HighPoly& high, double reach, const RayOptions& rays,
-                                    Parallel& parallel, const Allocator* allocator);
+                                    Parallel& parallel, const Allocator* allocator,
+                                    std::shared_ptr<const RaySurface> surface = nullptr);
     /// The same meshes with other rays. `reach`: 0 is that of this one.
     [[nodiscard]] MapSurfaces withRays(const RayOptions& rays, double reach, Parallel& parallel,
                                        const Allocator* allocator) const;
 
     [[nodiscard]] const LowPoly& low() const { return low_; }
+    [[nodiscard]] const HighPoly& high() const { return high_; }
     [[nodiscard]] const RayOptions& rays() const { return options_; }
     [[nodiscard]] double reach() const { return reach_; }
     /// 0 with a cage of the low poly's own.
     [[nodiscard]] double cageOffset() const { return low_.cage.empty() ? cage_offset_ : 0; }
     [[nodiscard]] std::size_t triangleCount() const { return low_.positions.count / 3; }
+    [[nodiscard]] const std::shared_ptr<const RaySurface>& surface() const { return rays_; }
 
     /// The unit normal of the high poly, as shaded, where the ray of a point of the low poly meets it. `guess` as
     /// RaySurface::nearest; begin with 0. `around`: null, or where to say what else the ray meets. Threads may call at the
     /// same time.
     bool truthAt(std::size_t triangle, const std::array<double, 3>& weights, double& guess, DVec3& normal,
                  RayNeighbourhood* around = nullptr) const;
+    /// truthAt, and all of the place.
+    bool hitAt(std::size_t triangle, const std::array<double, 3>& weights, double& guess, SurfaceHit& hit) const;
 
     [[nodiscard]] CornerFrames corners(std::size_t triangle, const StridedSpan<const Vec4>& tangents) const;
 
@@ -102,7 +117,10 @@ class MapSurfaces {
     bool meet(const Ray& ray, double& guess, RayHit& hit) const;
     [[nodiscard]] RayNeighbourhood around(const Ray& ray, const RayHit* hit) const;
     void aim(const RayOptions& rays, Parallel& parallel, const Allocator* allocator);
-    DVec3 normalOf(const RayHit& hit) const;
+    [[nodiscard]] DVec3 normalOf(const RayHit& hit) const;
+    [[nodiscard]] DVec3 faceOf(std::uint32_t triangle) const;
+    /// The normal that the high poly's own map gives; zero where it shows none there.
+    [[nodiscard]] DVec3 mappedNormal(const RayHit& hit, const std::array<std::uint32_t, 3>& vertices) const;
 };
 
 /// The UVs of a low poly as a list of triangles.

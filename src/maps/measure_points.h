@@ -14,6 +14,23 @@ namespace tspace {
 // Points of triangles on a grid of n x n a texel, cut into bands of texel rows. Within a band points come one after the
 // other, so sums are equal for any number of threads.
 
+/// A column or row of a grid of n points a texel, as a part of the way from the centre of a texel to the next.
+struct BetweenTexels {
+    std::uint32_t texel = 0;
+    float part = 0;
+};
+
+inline BetweenTexels betweenTexels(std::uint32_t at, std::uint32_t n, std::uint32_t size, TextureWrap wrap) {
+    const std::uint32_t shift = n / 2;
+    const bool repeats = wrap == TextureWrap::repeat;
+    // Points before the first centre belong to the last texel of an image that repeats; others show the first alone there.
+    if (at < shift && !repeats) return {};
+    const std::uint32_t from_centre = at < shift ? at + size * n - shift : at - shift, texel = from_centre / n;
+    if (texel + 1 == size && !repeats) return {texel, 0};
+    const float first = n % 2 == 0 ? 0.5F / static_cast<float>(n) : 0.0F;
+    return {texel, first + static_cast<float>(from_centre % n) / static_cast<float>(n)};
+}
+
 /// A point inside of a triangle or on its edge.
 struct BandSample {
     std::uint32_t triangle = 0;

@@ -172,11 +172,8 @@ std::string otherPlace(const Trial& trial, double size, double high_size, double
 
 }  // namespace
 
-std::string causeOfMisses(const LowPoly& low, const HighPoly& high, double reach, Parallel& parallel) {
-    const Result<std::unique_ptr<const RaySurface>> surface =
-        RaySurface::make(high.positions, high.corners, high.groups, parallel);
-    if (!surface) return {};
-    const Trial trial(**surface, samplesOf(low));
+std::string causeOfMisses(const LowPoly& low, const HighPoly& high, const RaySurface& surface, double reach) {
+    const Trial trial(surface, samplesOf(low));
     if (trial.metBacksAlone(reach) >= 0.5) return "its faces point inwards: rays met only their backs";
     const double size = PositionBox(low.positions).diagonal(), high_size = PositionBox(high.positions).diagonal();
     const double usual = std::max(reach, kUsualReach * size);
@@ -193,12 +190,9 @@ std::string causeOfMisses(const LowPoly& low, const HighPoly& high, double reach
     return {};
 }
 
-std::string otherPlaceOf(const LowPoly& low, const HighPoly& high, Parallel& parallel) {
+std::string otherPlaceOf(const LowPoly& low, const HighPoly& high, const RaySurface& surface) {
     constexpr double kFew = 0.5, kNearlyAll = 0.95;
-    const Result<std::unique_ptr<const RaySurface>> surface =
-        RaySurface::make(high.positions, high.corners, high.groups, parallel);
-    if (!surface) return {};
-    const Trial trial(**surface, samplesOf(low));
+    const Trial trial(surface, samplesOf(low));
     const double size = PositionBox(low.positions).diagonal(), high_size = PositionBox(high.positions).diagonal();
     if (trial.met(kUsualReach * size) >= kFew) return {};
     return otherPlace(trial, size, high_size, kUsualReach * size, kNearlyAll);

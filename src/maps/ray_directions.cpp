@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "core/base/disjoint_sets.h"
 #include "core/base/mesh_loops.h"
 #include "core/base/vec_math.h"
 #include "core/base/weld.h"
@@ -39,14 +40,14 @@ class Search {
         spread();
         found_.nearest.resize(groups_.size());
         found_.at_edge.resize(groups_.size());
-        for (const auto& [corner, edge] : at_edges_) found_.at_edge[rootOf(corner)] = true;
+        for (const auto& [corner, edge] : at_edges_) found_.at_edge[groupOf(corner)] = true;
         for (std::uint32_t i = 0; i < groups_.size(); ++i) {
-            const std::uint32_t group = rootOf(i);  // the first of its corners
+            const std::uint32_t group = groupOf(i);
             found_.nearest[i] = near_[group];
             found_.at_edge[i] = found_.at_edge[group];
         }
         found_.groups.resize(groups_.size());
-        for (std::uint32_t i = 0; i < groups_.size(); ++i) found_.groups[i] = rootOf(i);
+        for (std::uint32_t i = 0; i < groups_.size(); ++i) found_.groups[i] = groupOf(i);
         return std::move(found_);
     }
 
@@ -68,7 +69,7 @@ class Search {
             const bool has_angle = dot(a, a) > 0 && dot(b, b) > 0;
             if (!has_angle || dot(a, b) >= kCosine) {
                 for (const std::uint32_t end : {low, high})
-                    join(cornerAt(cornerOf(sides[0]), end), cornerAt(cornerOf(sides[1]), end));
+                    joinSets(groups_.data(), cornerAt(cornerOf(sides[0]), end), cornerAt(cornerOf(sides[1]), end));
                 return;
             }
         }
@@ -87,16 +88,8 @@ class Search {
         return roots_[side] == root ? side : nextCorner(side);
     }
 
-    std::uint32_t rootOf(std::uint32_t corner) {
-        while (groups_[corner] != corner) corner = groups_[corner] = groups_[groups_[corner]];
-        return corner;
-    }
-
-    void join(std::uint32_t a, std::uint32_t b) {
-        a = rootOf(a);
-        b = rootOf(b);
-        groups_[std::max(a, b)] = std::min(a, b);
-    }
+    /// The first corner of its group.
+    std::uint32_t groupOf(std::uint32_t corner) { return rootOf(groups_.data(), corner); }
 
     [[nodiscard]] double distanceTo(std::uint32_t edge, std::uint32_t corner) const {
         const auto& [from, to] = found_.edges[edge].corners;
@@ -120,12 +113,12 @@ class Search {
         // The corners of each group, in a list.
         std::vector<std::uint32_t> first(groups_.size(), HardEdges::kNone), next(groups_.size(), HardEdges::kNone);
         for (auto corner = static_cast<std::uint32_t>(groups_.size()); corner-- > 0;) {
-            const std::uint32_t group = rootOf(corner);
+            const std::uint32_t group = groupOf(corner);
             next[corner] = first[group];
             first[group] = corner;
         }
         std::priority_queue<Reached> queue;
-        for (const auto& [corner, edge] : at_edges_) queue.push({0, rootOf(corner), edge});
+        for (const auto& [corner, edge] : at_edges_) queue.push({0, groupOf(corner), edge});
         while (!queue.empty()) {
             const Reached reached = queue.top();
             queue.pop();
@@ -134,7 +127,7 @@ class Search {
             near[near[0] == HardEdges::kNone ? 0 : 1] = reached.edge;
             for (std::uint32_t at = first[reached.group]; at != HardEdges::kNone; at = next[at]) {
                 for (std::uint32_t other = nextCorner(at); other != at; other = nextCorner(other)) {
-                    const std::uint32_t group = rootOf(other);
+                    const std::uint32_t group = groupOf(other);
                     if (near_[group][0] == reached.edge || near_[group][1] != HardEdges::kNone) continue;
                     const double distance = distanceTo(reached.edge, other);
                     if (distance <= far_) queue.push({distance, group, reached.edge});

@@ -43,6 +43,8 @@ struct Embree {
     decltype(&rtcCommitGeometry) commitGeometry = nullptr;
     decltype(&rtcAttachGeometry) attachGeometry = nullptr;
     decltype(&rtcIntersect1) intersect1 = nullptr;
+    decltype(&rtcSetGeometryOccludedFilterFunction) setGeometryOccludedFilterFunction = nullptr;
+    decltype(&rtcOccluded1) occluded1 = nullptr;
     bool is_loaded = false;
 
     Embree() {
@@ -61,6 +63,8 @@ struct Embree {
         library.find(commitGeometry, "rtcCommitGeometry");
         library.find(attachGeometry, "rtcAttachGeometry");
         library.find(intersect1, "rtcIntersect1");
+        library.find(setGeometryOccludedFilterFunction, "rtcSetGeometryOccludedFilterFunction");
+        library.find(occluded1, "rtcOccluded1");
         is_loaded = library.hasAll();
     }
 };
@@ -75,6 +79,8 @@ using QueryContext = RTCRayQueryContext;
 #else
 using QueryContext = RTCIntersectContext;
 #endif
+
+constexpr std::uint32_t kNothingSkipped = 0xffffffffu;
 
 /// A point of a triangle's plane.
 struct PlanePoint {
@@ -127,7 +133,8 @@ enum class Wanted : std::uint8_t {
     nearest,  ///< to `from`, on either side
     first,    ///< in the order of the direction
     last,
-    all  ///< all are counted, and backs
+    any,  ///< the first, fronts or backs
+    all   ///< all are counted, and backs
 };
 
 /// A line and its best hit. Embree's part comes first: the filter function gets a pointer to it.
@@ -138,6 +145,7 @@ struct Query {
     double begin, end;  ///< along the direction
     Wanted wanted;
     std::uint32_t group;
+    std::uint32_t skipped;  ///< a triangle that is not met; kNothingSkipped: none
     bool is_hit;
     RayHit best;
     RayCrossings crossings;
@@ -161,6 +169,24 @@ void countCrossing(Query& query, std::uint32_t triangle) {
     }
 }
 
+/// Intersects the line with the plane of a triangle, whichever way it faces.
+bool meetEitherSide(const Query& query, std::uint32_t triangle, PlanePoint& point) {
+    if (query.surface->meet(triangle, query.from, query.direction, point)) return true;
+    if (!query.surface->meet(triangle, query.from, -1.0 * query.direction, point)) return false;
+    point.distance = -point.distance;
+    return true;
+}
+
+/// Called for a triangle that may hide the way; rejects it where it does not, so that Embree goes on to others.
+void acceptBlocking(const RTCFilterFunctionNArguments* arguments) {
+    const auto& query = *reinterpret_cast<const Query*>(arguments->context);
+    const std::uint32_t triangle = RTCHitN_primID(arguments->hit, arguments->N, 0);
+    PlanePoint point;
+    const bool is_met =
+        triangle != query.skipped && meetEitherSide(query, triangle, point) && query.reaches(point.distance);
+    if (!is_met) arguments->valid[0] = 0;
+}
+
 /// Called for each triangle that the line meets; rejects it, so that Embree goes on to all others.
 void collectHit(const RTCFilterFunctionNArguments* arguments) {
     arguments->valid[0] = 0;
@@ -175,8 +201,10 @@ void collectHit(const RTCFilterFunctionNArguments* arguments) {
         return;
     }
     PlanePoint point;
-    if (!query.surface->meet(triangle, query.from, query.direction, point)) return;
-    if (!query.reaches(point.distance)) return;
+    const bool is_met = query.wanted == Wanted::any
+                            ? triangle != query.skipped && meetEitherSide(query, triangle, point)
+                            : query.surface->meet(triangle, query.from, query.direction, point);
+    if (!is_met || !query.reaches(point.distance)) return;
     const double rank = query.rank(point.distance), best = query.is_hit ? query.rank(query.best.distance) : 0;
     if (query.is_hit && !(rank < best || (rank == best && triangle < query.best.triangle))) return;
     query.is_hit = true;
@@ -258,6 +286,7 @@ Result<std::unique_ptr<const RaySurface>> RaySurface::make(StridedSpan<const Vec
     api.setSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, corners.data(), 0,
                                 3 * sizeof(std::uint32_t), corners.size() / 3);
     api.setGeometryIntersectFilterFunction(geometry, collectHit);
+    api.setGeometryOccludedFilterFunction(geometry, acceptBlocking);
     api.commitGeometry(geometry);
     api.attachGeometry(state->scene, geometry);
     api.releaseGeometry(geometry);
@@ -272,9 +301,9 @@ Result<std::unique_ptr<const RaySurface>> RaySurface::make(StridedSpan<const Vec
 
 namespace {
 
-/// Finds what is wanted between `begin` and `end` on the line, or counts what is there.
-Query shoot(const RaySurface::State& state, const DVec3& from, const DVec3& direction, double begin, double end,
-            Wanted wanted, std::uint32_t group) {
+/// A line between `begin` and `end`, on which nothing is looked for yet.
+Query lineOf(const RaySurface::State& state, const DVec3& from, const DVec3& direction, double begin, double end,
+             Wanted wanted, std::uint32_t group) {
     Query query;
 #if RTC_VERSION_MAJOR >= 4
     rtcInitRayQueryContext(&query.context);
@@ -289,37 +318,71 @@ Query shoot(const RaySurface::State& state, const DVec3& from, const DVec3& dire
     query.wanted = wanted;
     query.crossings = {};
     query.group = group;
+    query.skipped = kNothingSkipped;
     query.is_hit = false;
+    return query;
+}
+
+/// The part of a line near the surface, as Embree has it. False where there is none.
+bool placeRay(const Query& query, RTCRay& ray) {
     // Embree ends the process where a ray begins or ends beyond 1.8e18: only the part near the surface is given to it,
     // whose box has sides of 1 about the centre.
     constexpr double kBeyond = 2;
-    const double middle = dot(state.centre - from, direction);
-    begin = std::max(begin, middle - kBeyond / state.scale);
-    end = std::min(end, middle + kBeyond / state.scale);
-    const DVec3 place = state.scale * (from + begin * direction - state.centre);
-    if (!(begin <= end) || !(dot(place, place) <= 4 * kBeyond * kBeyond)) return query;
+    const RaySurface::State& state = *query.surface;
+    const double middle = dot(state.centre - query.from, query.direction);
+    const double begin = std::max(query.begin, middle - kBeyond / state.scale);
+    const double end = std::min(query.end, middle + kBeyond / state.scale);
+    const DVec3 place = state.scale * (query.from + begin * query.direction - state.centre);
+    if (!(begin <= end) || !(dot(place, place) <= 4 * kBeyond * kBeyond)) return false;
     const Vec3 origin = toFloat(place);
+    ray.org_x = origin.x;
+    ray.org_y = origin.y;
+    ray.org_z = origin.z;
+    const Vec3 along = toFloat(query.direction);
+    ray.dir_x = along.x;
+    ray.dir_y = along.y;
+    ray.dir_z = along.z;
+    ray.tfar = static_cast<float>(state.scale * (end - begin));
+    ray.mask = ~0u;
+    return true;
+}
+
+/// Finds what is wanted on the line, or counts what is there.
+void shoot(Query& query) {
     RTCRayHit ray{};
-    ray.ray.org_x = origin.x;
-    ray.ray.org_y = origin.y;
-    ray.ray.org_z = origin.z;
-    const Vec3 along = toFloat(direction);
-    ray.ray.dir_x = along.x;
-    ray.ray.dir_y = along.y;
-    ray.ray.dir_z = along.z;
-    ray.ray.tfar = static_cast<float>(state.scale * (end - begin));
-    ray.ray.mask = ~0u;
+    if (!placeRay(query, ray.ray)) return;
     ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
 #if RTC_VERSION_MAJOR >= 4
     RTCIntersectArguments arguments;
     rtcInitIntersectArguments(&arguments);
     arguments.context = &query.context;
-    embree().intersect1(state.scene, &ray, &arguments);
+    embree().intersect1(query.surface->scene, &ray, &arguments);
 #else
-    embree().intersect1(state.scene, &query.context, &ray);
+    embree().intersect1(query.surface->scene, &query.context, &ray);
 #endif
+}
+
+Query shoot(const RaySurface::State& state, const DVec3& from, const DVec3& direction, double begin, double end,
+            Wanted wanted, std::uint32_t group) {
+    Query query = lineOf(state, from, direction, begin, end, wanted, group);
+    shoot(query);
     return query;
+}
+
+/// Whether a triangle is accepted by acceptBlocking.
+bool isHidden(Query& query) {
+    RTCRay ray{};
+    if (!placeRay(query, ray)) return false;
+#if RTC_VERSION_MAJOR >= 4
+    RTCOccludedArguments arguments;
+    rtcInitOccludedArguments(&arguments);
+    arguments.context = &query.context;
+    embree().occluded1(query.surface->scene, &ray, &arguments);
+#else
+    embree().occluded1(query.surface->scene, &query.context, &ray);
+#endif
+    return ray.tfar < 0;
 }
 
 /// The best hit, with its distance along the other direction.
@@ -362,6 +425,24 @@ bool RaySurface::innermost(const DVec3& from, const DVec3& outward, double begin
     return takeTurned(shoot(*state_, from, -1.0 * outward, -end, -begin, Wanted::last, group), hit);
 }
 
+bool RaySurface::isBlocked(const DVec3& from, const DVec3& direction, double begin, double end,
+                           std::uint32_t skipped) const {
+    Query query = lineOf(*state_, from, direction, begin, end, Wanted::any, kEveryGroup);
+    query.skipped = skipped;
+    return isHidden(query);
+}
+
+bool RaySurface::firstOfAny(const DVec3& from, const DVec3& direction, double begin, double end, std::uint32_t skipped,
+                            RayHit& hit) const {
+    Query query = lineOf(*state_, from, direction, begin, end, Wanted::any, kEveryGroup);
+    query.skipped = skipped;
+    shoot(query);
+    if (query.is_hit) hit = query.best;
+    return query.is_hit;
+}
+
+double RaySurface::size() const { return 1 / state_->scale; }
+
 RayCrossings RaySurface::crossings(const DVec3& from, const DVec3& outward, double begin, double end,
                                    std::uint32_t group) const {
     return shoot(*state_, from, -1.0 * outward, -end, -begin, Wanted::all, group).crossings;
@@ -382,6 +463,9 @@ bool RaySurface::first(const DVec3&, const DVec3&, double, std::uint32_t, RayHit
 bool RaySurface::outermost(const DVec3&, const DVec3&, double, double, std::uint32_t, RayHit&) const { return false; }
 bool RaySurface::innermost(const DVec3&, const DVec3&, double, double, std::uint32_t, RayHit&) const { return false; }
 RayCrossings RaySurface::crossings(const DVec3&, const DVec3&, double, double, std::uint32_t) const { return {}; }
+bool RaySurface::isBlocked(const DVec3&, const DVec3&, double, double, std::uint32_t) const { return false; }
+bool RaySurface::firstOfAny(const DVec3&, const DVec3&, double, double, std::uint32_t, RayHit&) const { return false; }
+double RaySurface::size() const { return 1; }
 
 #endif
 

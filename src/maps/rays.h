@@ -60,6 +60,17 @@ class RaySurface {
     [[nodiscard]] RayCrossings crossings(const DVec3& from, const DVec3& outward, double begin, double end,
                                          std::uint32_t group) const;
 
+    /// Whether a triangle other than `skipped` lies on the line from `from` along `direction` (unit), between `begin` and `end`
+    /// away, whichever way it faces and whatever its group.
+    [[nodiscard]] bool isBlocked(const DVec3& from, const DVec3& direction, double begin, double end,
+                                 std::uint32_t skipped) const;
+    /// The first of these triangles.
+    bool firstOfAny(const DVec3& from, const DVec3& direction, double begin, double end, std::uint32_t skipped,
+                    RayHit& hit) const;
+
+    /// The longest side of the box of the surface.
+    [[nodiscard]] double size() const;
+
     struct State;
 
   private:

@@ -215,8 +215,13 @@ class Gradients {
 
 }  // namespace
 
-void solveTexels(const TexelSystem& system, std::span<Vec3> texels, Parallel& parallel, const Allocator* allocator) {
+void solveLeastSquares(const TexelSystem& system, std::span<Vec3> texels, Parallel& parallel,
+                       const Allocator* allocator) {
     Gradients(system, texels, parallel, allocator).run();
+}
+
+void solveTexels(const TexelSystem& system, std::span<Vec3> texels, Parallel& parallel, const Allocator* allocator) {
+    solveLeastSquares(system, texels, parallel, allocator);
     parallel.forRanges(texels.size(), Parallel::kGrain, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             const float size = length(texels[i]);

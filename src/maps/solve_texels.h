@@ -122,6 +122,10 @@ void forRowsApart(Parallel& parallel, std::uint32_t height, const Row& row) {
 
 /// Moves the unknown ones of `texels` (width * height) to the least squares, by conjugate gradients. The same bits for any
 /// number of threads.
+void solveLeastSquares(const TexelSystem& system, std::span<Vec3> texels, Parallel& parallel,
+                       const Allocator* allocator);
+
+/// The same for vectors of unit length at most.
 void solveTexels(const TexelSystem& system, std::span<Vec3> texels, Parallel& parallel, const Allocator* allocator);
 
 /// The vectors that integers stand for: n from 0 to `most` is 2 n / most - 1.

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "maps/trace_texels.h"
 
+#include "core/base/vec_math.h"
 #include "maps/measure_points.h"
 #include "maps/solve_texels.h"
 #include "maps/texel_plan.h"
+#include "maps/uv_pieces.h"
 
 namespace tspace {
 
@@ -11,6 +13,9 @@ namespace {
 
 /// The cosine of half of two degrees: how short the mean of two unit vectors may be.
 constexpr float kAgreeing = 0.99985F;
+constexpr double kApartDeg = 2;
+/// TracedTexels::owners of a texel whose centre no triangle shows.
+constexpr std::uint32_t kNobody = 0xffffffff;
 /// How much an error of the length counts beside one of the direction.
 constexpr float kAlong = 0.02F;
 
@@ -46,23 +51,6 @@ FitSample sampleOf(const BakeOptions& options, const Vec3& wanted) {
     return acrossSample(wanted, options.bits == 8 ? 0.0F : kAlong, kWantedLength);
 }
 
-/// A column or row of a grid of n points a texel, as a part of the way from the centre of a texel to the next.
-struct BetweenTexels {
-    std::uint32_t texel = 0;
-    float part = 0;
-};
-
-BetweenTexels betweenTexels(std::uint32_t at, std::uint32_t n, std::uint32_t size, TextureWrap wrap) {
-    const std::uint32_t shift = n / 2;
-    const bool repeats = wrap == TextureWrap::repeat;
-    // Points before the first centre belong to the last texel of an image that repeats; others show the first alone there.
-    if (at < shift && !repeats) return {};
-    const std::uint32_t from_centre = at < shift ? at + size * n - shift : at - shift, texel = from_centre / n;
-    if (texel + 1 == size && !repeats) return {texel, 0};
-    const float first = n % 2 == 0 ? 0.5F / static_cast<float>(n) : 0.0F;
-    return {texel, first + static_cast<float>(from_centre % n) / static_cast<float>(n)};
-}
-
 class Tracing {
   public:
     Tracing(const MapSurfaces& surfaces, const TexelTriangles& triangles, const BakeOptions& options,
@@ -80,6 +68,11 @@ class Tracing {
         traced_.wanted = Buffer<Vec3>(allocator, texels, Vec3{});
         traced_.origins = Buffer<TexelOrigin>(allocator, texels, TexelOrigin::background);
         votes_ = Buffer<std::uint16_t>(allocator, texels, std::uint16_t{0});
+        traced_.ranks = ranksOfPieces(surfaces_.low(), options_.overlap, allocator);
+        if (traced_.ranks.size() > 0) {
+            traced_.owners = Buffer<std::uint32_t>(allocator, texels, kNobody);
+            others_ = Buffer<Vec3>(allocator, texels, Vec3{});
+        }
         traceInside();
         traceBeside();
     }
@@ -88,12 +81,27 @@ class Tracing {
     void traceInside() {
         const SampleBands bands(uvs_.triangles(options_.wrap_u, options_.wrap_v), options_.width, options_.height, 1, 0,
                                 work_.allocator);
+        const auto texelOf = [&](const BandSample& sample) {
+            return std::size_t{sample.row} * options_.width + sample.column;
+        };
         const auto traceBand = [&](std::size_t band) {
+            // A texel's samples are all in one band.
+            if (traced_.ranks.size() > 0) {
+                bands.forSamples(band, [&](const BandSample& sample) {
+                    std::uint32_t& owner = traced_.owners[texelOf(sample)];
+                    owner = std::min(owner, traced_.ranks[sample.triangle]);
+                });
+            }
             WantedVectors vectors(surfaces_, options_);
             bands.forSamples(band, [&](const BandSample& sample) {
+                const std::size_t texel = texelOf(sample);
                 Vec3 wanted;
                 const bool is_hit = vectors.at(sample.triangle, sample.weights(), wanted);
-                vote(std::size_t{sample.row} * options_.width + sample.column, is_hit, wanted);
+                if (traced_.ranks.size() == 0 || traced_.owners[texel] == traced_.ranks[sample.triangle]) {
+                    vote(texel, is_hit, wanted);
+                } else if (is_hit) {
+                    others_[texel] = others_[texel] + wanted;
+                }
             });
         };
         forTasksTold(work_, bands.bandCount(), "tracing", traceBand);
@@ -112,10 +120,26 @@ class Tracing {
         for (std::size_t i = 0; i < votes_.size(); ++i) {
             if (votes_[i] == 0) continue;
             const float size = length(traced_.wanted[i]);
-            if (triangles_.overlaps[i] && size < kAgreeing * static_cast<float>(votes_[i])) ++traced_.conflict_count;
+            if (triangles_.overlaps[i] && size < kAgreeing * static_cast<float>(votes_[i]))
+                countConflict(anglePairOf(size / static_cast<float>(votes_[i])));
             DVec3 mean = toDouble(traced_.wanted[i]);
             traced_.wanted[i] = normalize(mean) ? toFloat(mean) : Vec3{};
+            if (others_.size() == 0 || isZero(others_[i])) continue;
+            const double apart = degreesBetween(toDouble(traced_.wanted[i]), toDouble(others_[i]));
+            if (apart > kApartDeg) countConflict(apart);
         }
+    }
+
+    void countConflict(double degrees) {
+        ++traced_.conflict_count;
+        traced_.conflict_sum_deg += degrees;
+        traced_.conflict_max_deg = std::max(traced_.conflict_max_deg, degrees);
+    }
+
+    /// The angle between two unit vectors whose mean is so long.
+    static double anglePairOf(float mean_length) {
+        const double cosine = std::min(1.0, static_cast<double>(mean_length));
+        return 2 * polarAngle(cosine, std::sqrt(1 - cosine * cosine)) * (180 / kPi);
     }
 
     void traceBeside() {
@@ -146,6 +170,7 @@ class Tracing {
     TracedTexels& traced_;
     LowUvs uvs_;
     Buffer<std::uint16_t> votes_ = {};
+    Buffer<Vec3> others_ = {};  ///< with ranks: sums of what pieces want that do not count
 };
 
 }  // namespace
@@ -155,8 +180,16 @@ void traceTexels(const MapSurfaces& surfaces, const TexelTriangles& triangles, c
     Tracing(surfaces, triangles, options, work, traced).run();
 }
 
-void traceBetween(const MapSurfaces& surfaces, const TexelPlan& plan, std::uint32_t n, const BakeOptions& options,
-                  const MapWork& work, TexelSystem& system) {
+void traceBetween(const MapSurfaces& surfaces, const TracedTexels& traced, const TexelPlan& plan, std::uint32_t n,
+                  const BakeOptions& options, const MapWork& work, TexelSystem& system) {
+    // What lies nearest to a texel counts as its centre does.
+    const auto counts = [&](std::uint32_t triangle, const BetweenTexels& x, const BetweenTexels& y) {
+        if (traced.ranks.size() == 0) return true;
+        const std::size_t column = x.part < 0.5F ? x.texel : system.right(x.texel),
+                          row = y.part < 0.5F ? y.texel : system.below(y.texel);
+        const std::uint32_t owner = traced.owners[row * options.width + column];
+        return owner == kNobody || owner == traced.ranks[triangle];
+    };
     const LowUvs uvs(surfaces.low(), work.allocator);
     const SampleBands bands(uvs.triangles(options.wrap_u, options.wrap_v), options.width, options.height, n, n / 2,
                             work.allocator);
@@ -168,6 +201,7 @@ void traceBetween(const MapSurfaces& surfaces, const TexelPlan& plan, std::uint3
             const TexelCell cell = plan.cells[std::size_t{y.texel} * options.width + x.texel];
             Vec3 wanted;
             if (cell == TexelCell::outside || cell == TexelCell::smooth) return;
+            if (!counts(sample.triangle, x, y)) return;
             if (!vectors.at(sample.triangle, sample.weights(), wanted)) return;
             system.add(x.texel, y.texel, x.part, y.part, sampleOf(options, wanted));
         });

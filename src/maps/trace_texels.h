@@ -13,7 +13,11 @@ namespace tspace {
 struct TracedTexels {
     Buffer<Vec3> wanted = {};  ///< at the centre; the mean where several triangles show it. Zero: not known
     Buffer<TexelOrigin> origins = {};
-    std::uint64_t conflict_count = 0;  ///< texels whose triangles want over 2 degrees different vectors
+    /// Texels whose triangles want over 2 degrees different vectors; the sum and the largest of these angles.
+    std::uint64_t conflict_count = 0;
+    double conflict_sum_deg = 0, conflict_max_deg = 0;
+    Buffer<std::uint32_t> ranks = {};   ///< ranksOfPieces; empty: all triangles of a texel count
+    Buffer<std::uint32_t> owners = {};  ///< with ranks, of each texel: the smallest one of those that show its centre
 };
 
 /// A ray at the centre of each texel that a triangle shows or that continues one.
@@ -23,8 +27,8 @@ void traceTexels(const MapSurfaces& surfaces, const TexelTriangles& triangles, c
 struct TexelPlan;
 
 /// Rays at n x n points a texel in the cells of the plan that are asked or rough; what they say is added to the system.
-void traceBetween(const MapSurfaces& surfaces, const TexelPlan& plan, std::uint32_t n, const BakeOptions& options,
-                  const MapWork& work, TexelSystem& system);
+void traceBetween(const MapSurfaces& surfaces, const TracedTexels& traced, const TexelPlan& plan, std::uint32_t n,
+                  const BakeOptions& options, const MapWork& work, TexelSystem& system);
 
 /// Adds what `texels`, filtered, say in the smooth cells of the plan.
 void addSmoothCells(const TexelPlan& plan, std::span<const Vec3> texels, const BakeOptions& options, Parallel& parallel,

@@ -32,7 +32,7 @@ while read -r page; do
             complain "$page" "no such heading: $link"
         fi
     done < <(prose "$page" | grep -oE '\]\([^) ]+\)' | sed -E 's/^\]\(//; s/\)$//')
-done < <(find . -name '*.md' -not -path './build/*' -not -path './.git/*' -not -path '*/node_modules/*' | sort)
+done < <(find . \( -name '*.md' -o -path ./llms.txt \) -not -path './build/*' -not -path './.git/*' -not -path '*/node_modules/*' | sort)
 
 echo "$checked links, $broken broken"
 [ $checked -gt 0 ] && [ $broken = 0 ]

@@ -1,5 +1,5 @@
 # What every consumer builds and runs: both quick starts and an engine with the MikkTSpace interface. LINK is what the
-# targets link to; COMPAT_DIR is the folder of mikktspace.h.
+# targets link to; COMPAT_DIR is the folder of mikktspace.h; a third argument is what the program in C++ links instead.
 enable_testing()  # in the function it would be forgotten at its end
 function(tspace_add_consumers link compat_dir)
     get_property(languages GLOBAL PROPERTY ENABLED_LANGUAGES)
@@ -13,7 +13,11 @@ function(tspace_add_consumers link compat_dir)
         list(APPEND programs quickstart_cpp)
     endif()
     foreach(program IN LISTS programs)
-        target_link_libraries(${program} PRIVATE ${link})
+        if(program STREQUAL "quickstart_cpp" AND ARGC GREATER 2)
+            target_link_libraries(${program} PRIVATE ${ARGV2})
+        else()
+            target_link_libraries(${program} PRIVATE ${link})
+        endif()
         add_test(NAME ${program} COMMAND ${program})
     endforeach()
 endfunction()

@@ -25,6 +25,14 @@ configure(core_alone -DCMAKE_DISABLE_FIND_PACKAGE_GTest=ON -DCMAKE_DISABLE_FIND_
           -DCMAKE_DISABLE_FIND_PACKAGE_fmt=ON)
 expect_line("asset.*tool.*demo.*tests [(].*nlohmann-json3-dev libfmt-dev")
 
+if(NOT output MATCHES "no CMAKE_BUILD_TYPE was given, so this is a Release build")
+    message(FATAL_ERROR "nothing says which build type was taken: ${output}")
+endif()
+load_cache("${FOLDER}/core_alone" READ_WITH_PREFIX core_alone_ CMAKE_BUILD_TYPE)
+if(NOT core_alone_CMAKE_BUILD_TYPE STREQUAL "Release")
+    message(FATAL_ERROR "without a build type it is ${core_alone_CMAKE_BUILD_TYPE}")
+endif()
+
 # What is demanded must be there.
 execute_process(COMMAND "${CMAKE_COMMAND}" -S "${SOURCE}" -B "${FOLDER}/demanded" -G "${GENERATOR}" -DTSPACE_BUILD_TESTS=ON
                         "-DCMAKE_CXX_COMPILER=${CXX}" "-DCMAKE_C_COMPILER=${C}" -DCMAKE_DISABLE_FIND_PACKAGE_GTest=ON
@@ -108,3 +116,30 @@ if(HAS_TOOL)
     find_parts(core asset)
     expect_said("installed without tspace::asset")
 endif()
+
+# A missing component is named with its reason.
+configure(shared -DTSPACE_BUILD_TESTS=OFF -DTSPACE_BUILD_TOOL=OFF -DTSPACE_BUILD_EXAMPLES=OFF -DTSPACE_BUILD_ASSET=OFF -DBUILD_SHARED_LIBS=ON)
+load_cache("${FOLDER}/shared" READ_WITH_PREFIX shared_ TSPACE_BUILD_SHARED)
+if(NOT shared_TSPACE_BUILD_SHARED)
+    message(FATAL_ERROR "BUILD_SHARED_LIBS makes no shared library")
+endif()
+file(TOUCH "${FOLDER}/shared/libtspace.a")
+install_all("${FOLDER}/shared")
+find_parts(core shared)
+expect_said("without tspace::shared, which had not been built")
+find_parts(core asset)
+expect_said("without tspace::asset, since TSPACE_BUILD_ASSET was OFF")
+find_parts(core maps)
+expect_said("no component .maps.: there are core, asset and shared")
+file(TOUCH "${FOLDER}/core_alone/libtspace.a")
+install_all("${FOLDER}/core_alone")
+find_parts(core asset)
+expect_said("since libraries were not found, as Debian packages: nlohmann-json3-dev")
+find_parts(shared)
+expect_said("since TSPACE_BUILD_SHARED was OFF")
+
+# Without TSPACE_INSTALL, the default where another project has this one in its tree, nothing is installed.
+configure(no_install -DTSPACE_BUILD_TESTS=OFF -DTSPACE_INSTALL=OFF)
+file(TOUCH "${FOLDER}/no_install/libtspace.a" "${FOLDER}/no_install/bin/tspace")
+install_all("${FOLDER}/no_install")
+expect_none(*)

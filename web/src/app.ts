@@ -29,6 +29,8 @@ export interface Views {
   progress: Progress;
   /** The model, or null before there is one, and the one that it was mended from. */
   opened: (model: ModelFiles | null, before: ModelFiles | null) => void;
+  /** Names of the file's variants, none where it has none. */
+  offered: (variants: string[]) => void;
   checked: (report: CheckReport) => void;
   /** All is there: picture, findings, who made the tangents. */
   ready: () => void;
@@ -61,11 +63,16 @@ export class App {
   reports: Reports = {};
   /** Parts of the file that Mend has made. */
   #mended: Part[] = [];
+  #mendedFile: ModelFiles | null = null;
   /** What the model was mended from. */
   #before: ModelFiles | null = null;
   /** Images of normal maps by material, and those of them whose green points down, as `check` says. */
   #normalImages: number[] = [];
   #greenDown = new Set<number>();
+  /** Which of the file's variants is shown, or -1. */
+  #variant = -1;
+  /** Sentences on how the model came in. */
+  #remarks: string[] = [];
   #generation = 0;
 
   constructor(readonly work: Work, private views: Views) {}
@@ -94,8 +101,11 @@ export class App {
     const { stage, look, uvMap, place, parts, motion } = this.views;
     place.clear();
     this.#mended = [];
+    this.#mendedFile = null;
     this.#normalImages = [];
     this.#greenDown.clear();
+    this.#variant = -1;
+    this.views.offered([]);
     stage.setGreen("none");
     look.offerMended(false);
     stage.viewport.show(new Scene());
@@ -144,9 +154,9 @@ export class App {
       if (!isCurrent()) return;
       this.views.inspected(this.reports.inspect as InspectReport);
       this.views.parts.describe(this.reports.inspect as InspectReport);
-      const remarks = isObj ? ["An OBJ is shown and judged as the GLB that it becomes."] : [];
-      if (missing.length > 0) remarks.push(lacking(missing));
-      await this.#draw(model, remarks, isCurrent);
+      this.#remarks = isObj ? ["An OBJ is shown and judged as the GLB that it becomes."] : [];
+      if (missing.length > 0) this.#remarks.push(lacking(missing));
+      await this.#draw(model, isCurrent);
       await this.#judge(model, isCurrent);
     } catch (error) {
       if (!isCurrent()) return;
@@ -162,14 +172,36 @@ export class App {
     this.#state("stopped");
   }
 
+  get variant(): number {
+    return this.#variant;
+  }
+
+  /** Another of the file's variants, or none of them, seen from where the eye is. Findings stay: they are about the file. */
+  async setVariant(variant: number): Promise<void> {
+    const { model } = this, { progress, look, place } = this.views;
+    if (!model || variant === this.#variant) return;
+    const generation = this.#generation, isCurrent = () => generation === this.#generation && this.#variant === variant;
+    this.#variant = variant;
+    try {
+      place.clear();
+      await this.#draw(model, isCurrent, true);
+      if (!isCurrent()) return;
+      if (this.#mendedFile) this.#mended = (await loadModel(this.#mendedFile, this.work, variant)).parts;
+      await this.compare(look.right, 0.3, 1);
+      if (isCurrent()) progress.done("");
+    } catch (error) {
+      if (isCurrent()) progress.done(sentenceOf(error));
+    }
+  }
+
   /** The picture. It may fail where the verdict does not: then there is a sentence in its place. */
-  async #draw(model: ModelFiles, before: string[], isCurrent: () => boolean): Promise<void> {
+  async #draw(model: ModelFiles, isCurrent: () => boolean, isOther = false): Promise<void> {
     const { stage, progress } = this.views;
     progress.at("Drawing", 0.1);
     stage.say("");
     try {
-      const { parts, motion, normalImages, remarks: own } = await loadModel(model, this.work);
-      const remarks = [...before, ...own];
+      const { parts, motion, normalImages, variants, remarks: own } = await loadModel(model, this.work, this.#variant);
+      const remarks = [...this.#remarks, ...own];
       if (!isCurrent()) return;
       this.#normalImages = normalImages;
       const scene = new Scene();
@@ -186,7 +218,10 @@ export class App {
       }
       if (!stage.viewport.hasPicture) remarks.unshift("This browser has no WebGL, so there is no picture. Findings and mends are complete.");
       stage.viewport.show(scene);
-      stage.viewport.reset(true);
+      if (!isOther) {
+        stage.viewport.reset(true);
+        this.views.offered(variants);
+      }
       this.views.uvMap.reset();
       this.views.parts.reset();
       this.views.motion.reset(motion);
@@ -264,9 +299,10 @@ export class App {
   /** Puts the file that Mend has made right of the slider: its frames and its normal maps, as they are in it. */
   async showMended(model: ModelFiles): Promise<void> {
     const generation = this.#generation;
-    const { parts } = await loadModel(model, this.work);
+    const { parts } = await loadModel(model, this.work, this.#variant);
     if (generation !== this.#generation) return;
     this.#mended = parts;
+    this.#mendedFile = model;
     this.views.look.offerMended(true);
     await this.setRight("mended");
   }

@@ -13,8 +13,8 @@ export interface ModelFiles {
 /** A sentence for the person. */
 export class Refusal extends Error {}
 
-const kMostBytes = 1 << 30;
-const kMostFiles = 2000;
+export const kMostBytes = 1 << 30;
+export const kMostFiles = 2000;
 const kModel = /\.(glb|vrm|gltf|obj)$/i;
 
 /** What can be read of a file: one of the disk, or one out of an archive. */
@@ -127,16 +127,22 @@ export function modelsIn(named: Named[]): string[] {
   return named.map(({ path }) => path).filter((path) => kModel.test(path)).sort((a, b) => depth(a) - depth(b) || a.localeCompare(b, "en"));
 }
 
-/** Files that a .gltf names and that did not come with it. */
-export function missingFiles({ name, bytes, others }: ModelFiles): string[] {
-  if (!/\.gltf$/i.test(name)) return [];
+/** Files that a .gltf names, as it writes them. */
+export function fileUris(bytes: Uint8Array): string[] {
   try {
     const { buffers = [], images = [] } = JSON.parse(new TextDecoder().decode(bytes)) as { buffers?: { uri?: unknown }[]; images?: { uri?: unknown }[] };
     const uris = [...buffers, ...images].map(({ uri }) => uri).filter((uri): uri is string => typeof uri === "string" && !/^[a-z][a-z0-9+.-]*:/i.test(uri));
-    return [...new Set(uris.map((uri) => decodeURIComponent(uri).replace(/^\.\//, "")))].filter((path) => !others.has(path));
+    for (const uri of uris) decodeURIComponent(uri);
+    return [...new Set(uris)];
   } catch {
     return []; // what is wrong with it is said by its readers
   }
+}
+
+/** Files that a .gltf names and that did not come with it. */
+export function missingFiles({ name, bytes, others }: ModelFiles): string[] {
+  if (!/\.gltf$/i.test(name)) return [];
+  return [...new Set(fileUris(bytes).map((uri) => decodeURIComponent(uri).replace(/^\.\//, "")))].filter((path) => !others.has(path));
 }
 
 /** One of the models among the files, the first where none is named, with all files that it may name. */

@@ -6,6 +6,7 @@ import { el, replaceChildren } from "./dom.js";
 import { chooseModel, droppedFiles, modelsIn, pickedFiles, Pile, type ModelFiles, type Named } from "./files.js";
 import { embeddedModel } from "./embedded.js";
 import { keepLink, linkedBy } from "./link.js";
+import { askedModel, askFirst, filesAt } from "./asked.js";
 import { faults, samples } from "./samples.js";
 import { FindingsView } from "./views/findings.js";
 import { LookView } from "./views/look.js";
@@ -23,15 +24,16 @@ import { Work } from "./worker/client.js";
 // The library is read and compiled by the worker while WebGL starts, which holds this thread up for longer than all else.
 const work = new Work();
 await work.started;
-const stage = new Stage();
+const largeMap = el("section", { class: "large-map", "aria-label": "UV map", hidden: true });
+const stage = new Stage(largeMap);
 const place = new PlaceView(stage.viewport, (look) => stage.setLook(look));
 const findings = new FindingsView({
   choose: (chosen, isOne) => (stage.canvas.dataset.outlined = String(place.show(chosen, isOne))),
   mend: (finding) => mend.prepare(finding),
 });
 const progress = new Progress(() => app.stop());
-const look = new LookView(stage, (right) => void app.setRight(right));
-const uvMap = new UvMapView(stage.viewport);
+const look = new LookView(stage, (right) => void app.setRight(right), (variant) => void app.setVariant(variant));
+const uvMap = new UvMapView(stage.viewport, work, largeMap);
 const parts = new PartsView(stage.viewport), motion = new MotionView(stage.viewport);
 const texel = new TexelView(stage.viewport, (spot) => uvMap.point(spot));
 const title = el("p", { class: "model-name" });
@@ -49,7 +51,7 @@ const mend = new MendView(
   ({ name, bytes, others }) => void app.openMended({ name, bytes, others }),
 );
 const app: App = new App(work, {
-  stage, findings, look, uvMap, place, parts, motion, progress, opened: showName, checked: (report) => mend.advise(report), ready: followLink,
+  stage, findings, look, uvMap, place, parts, motion, progress, opened: showName, offered: (variants) => look.offerVariants(variants), checked: (report) => mend.advise(report), ready: followLink,
   inspected: ({ primitives }) => mend.setCompressed(primitives.some(({ compression }) => compression !== "none")),
 });
 
@@ -62,11 +64,12 @@ const share = new ShareView({
 });
 
 /** The first model is shown as the address says; from then on the address says what is shown. */
-let linked = linkedBy(location.hash);
+const own = embeddedModel(), asked = own ? null : askedModel(), first = linkedBy(location.hash);
+let linked = asked ? {} : first;
 const keep = keepLink(stage, () => findings.chosen, () => (pile.isEmpty && app.model !== own ? (app.model?.name ?? null) : null));
 stage.viewport.onDrawn = () => document.documentElement.dataset.state === "ready" && keep();
 function followLink(): void {
-  const { look, finding, split, camera } = linked;
+  const { look, finding, split, camera } = linked as typeof first;
   linked = {};
   if (finding !== undefined) findings.openFinding(finding);
   if (look) stage.setLook(look);
@@ -84,7 +87,6 @@ function showName(model: ModelFiles | null, before: ModelFiles | null): void {
   for (const button of sampleButtons) button.setAttribute("aria-pressed", String(model !== null && button.dataset.file === model.name));
 }
 
-const own = embeddedModel();
 let pile = new Pile();
 /** Where several models came together: which of them. */
 const others = el("select", { class: "models", "aria-label": "Models that came together", hidden: true });
@@ -134,8 +136,12 @@ const header = el("header", { class: "bar" },
   others, title, back);
 const inspector = el("aside", { class: "inspector", "aria-label": "Inspector" }, look.element, texel.element, uvMap.element, motion.element, parts.element, mend.element, share.element);
 const main = el("main", {}, findings.element, stage.element, inspector);
-const footer = el("footer", {}, progress.element, el("span", { class: "quiet" }, "Drop a .glb, a .zip, a folder with a .gltf, or an .obj anywhere. Nothing leaves this computer."));
-document.body.append(header, main, footer);
+const footer = el("footer", {}, progress.element, el("span", { class: "quiet" }, `Drop a .glb, a .zip, a folder with a .gltf, or an .obj anywhere. ${asked ? `Nothing but a request to ${asked.host} can leave this computer.` : "Nothing leaves this computer."}`));
+const question = asked && askFirst(asked, () => {
+  linked = first;
+  openFiles(filesAt(asked));
+});
+document.body.append(header, ...(question ? [question] : []), main, footer);
 
 addEventListener("keydown", (event) => {
   const isText = event.target instanceof HTMLInputElement && event.target.type === "text";
@@ -161,8 +167,8 @@ addEventListener("drop", (event) => {
 
 if (own) void app.open(async () => own);
 else {
-  const first = [...samples, ...faults].find(({ file }) => file === linked.sample) ?? samples[0];
-  openSample(first.file, first.bytes());
+  const sample = [...samples, ...faults].find(({ file }) => file === first.sample) ?? samples[0];
+  openSample(sample.file, sample.bytes());
 }
 
 /** For tests, and for those who look with the browser's console. */

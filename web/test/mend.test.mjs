@@ -113,3 +113,73 @@ test("compressed models are mended to the bytes that the tool unpacks them to", 
     rmSync(folder, { recursive: true, force: true });
   }
 });
+
+test("a .gltf that came in a folder goes out as a folder: only what changed has other bytes", { skip: noTool }, async () => {
+  const path = join(shared, "models/assets/sofa_03/sofa_03_1k.gltf"), { unzipSync, zipSync } = await import("fflate");
+  await withPage(async (tab) => {
+    const others = { ...named(path), "LICENSE.txt": join(shared, "models/README.md") };
+    assert.equal(await openFile(tab, path, { others }), "ready");
+    await tab.locator(".mend > summary").click();
+    await choose(tab, "all anew", ".mend");
+    const glb = new Glb(await mended(tab));
+    const [download] = await Promise.all([tab.waitForEvent("download"), tab.locator(".result a.folder").click()]);
+    assert.equal(download.suggestedFilename(), "sofa_03_1k-mended.zip");
+    const zip = Object.fromEntries(Object.entries(unzipSync(readFileSync(await download.path()))).map(([name, bytes]) => [name.replace(/^sofa_03_1k-mended\//, ""), Buffer.from(bytes)]));
+    assert.deepEqual(Object.keys(zip).sort(), [...Object.keys(others), "sofa_03_1k.gltf"].sort(), "the same names");
+    const before = JSON.parse(readFileSync(path, "utf8")), after = JSON.parse(zip["sofa_03_1k.gltf"]);
+    assert.deepEqual(after.images.map(({ uri }) => uri), before.images.map(({ uri }) => uri));
+    const changed = Object.keys(others).filter((name) => !readFileSync(others[name]).equals(zip[name]));
+    assert.deepEqual(changed, ["sofa_03.bin"]);
+    // The same numbers as in the GLB.
+    const numbers = ({ json, binary }, index) => {
+      const { bufferView, byteOffset = 0, count, type } = json.accessors[index], view = json.bufferViews[bufferView], start = (view.byteOffset ?? 0) + byteOffset, width = { VEC2: 8, VEC3: 12, VEC4: 16 }[type];
+      const stride = view.byteStride ?? width;
+      return Buffer.concat(Array.from({ length: count }, (_, i) => binary.subarray(start + i * stride, start + i * stride + width)));
+    };
+    for (const [m, mesh] of after.meshes.entries()) {
+      for (const [p, { attributes }] of mesh.primitives.entries()) {
+        for (const [name, index] of Object.entries(attributes)) {
+          const own = numbers({ json: after, binary: zip["sofa_03.bin"] }, index), theirs = numbers({ json: glb.json, binary: glb.binary() }, glb.json.meshes[m].primitives[p].attributes[name]);
+          assert.ok(own.length > 0 && own.equals(theirs), `${m}/${p} ${name}`);
+        }
+      }
+    }
+    // And the folder opens again, with nothing to find in it that was mended.
+    const folder = mkdtempSync(join(tmpdir(), "tspace-folder-"));
+    try {
+      writeFileSync(join(folder, "again.zip"), zipSync(Object.fromEntries(Object.entries(zip).map(([name, bytes]) => [`deep/${name}`, new Uint8Array(bytes)]))));
+      await tab.locator(".picker input").first().setInputFiles(join(folder, "again.zip"));
+      await tab.waitForFunction(() => window.tspaceView.model?.name === "sofa_03_1k.gltf" && document.documentElement.dataset.state === "ready");
+      assert.equal(await tab.locator(".remark").isVisible(), false);
+    } finally {
+      rmSync(folder, { recursive: true, force: true });
+    }
+  }, { allowMessages: true });
+});
+
+test("an image that a mend changes goes into the folder under its own name", { skip: missing }, async () => {
+  const folder = mkdtempSync(join(tmpdir(), "tspace-ring-")), { unzipSync } = await import("fflate");
+  try {
+    await withPage(async (tab) => {
+      await tab.getByRole("button", { name: "Ring", exact: true }).click();
+      await settled(tab);
+      const glb = new Glb(Buffer.from(await tab.evaluate(() => [...window.tspaceView.model.bytes]))), { json } = glb, map = glb.bytesOfImage(0);
+      writeFileSync(join(folder, "bricks map.png"), map);
+      json.images[0] = { name: "bricks", uri: "maps/bricks%20map.png" };
+      writeFileSync(join(folder, "ring.bin"), glb.binary());
+      writeFileSync(join(folder, "ring.gltf"), JSON.stringify({ ...json, buffers: [{ byteLength: glb.binary().length, uri: "ring.bin" }] }));
+      assert.equal(await openFile(tab, join(folder, "ring.gltf"), { others: { "ring.bin": join(folder, "ring.bin"), "maps/bricks map.png": join(folder, "bricks map.png") } }), "ready");
+      await tab.locator(".mend > summary").click();
+      const whole = new Glb(await mended(tab));
+      const [download] = await Promise.all([tab.waitForEvent("download"), tab.locator(".result a.folder").click()]);
+      const zip = unzipSync(readFileSync(await download.path())), own = Buffer.from(zip["ring-mended/maps/bricks map.png"]);
+      assert.deepEqual(Object.keys(zip).sort(), ["ring-mended/maps/bricks map.png", "ring-mended/ring.bin", "ring-mended/ring.gltf"]);
+      assert.ok(own.equals(whole.bytesOfImage(0)) && !own.equals(map), "green is turned in it");
+      const after = JSON.parse(Buffer.from(zip["ring-mended/ring.gltf"]).toString());
+      assert.deepEqual(after.images, [{ name: "bricks", uri: "maps/bricks%20map.png" }]);
+      assert.equal(after.buffers[0].byteLength, zip["ring-mended/ring.bin"].length);
+    });
+  } finally {
+    rmSync(folder, { recursive: true, force: true });
+  }
+});

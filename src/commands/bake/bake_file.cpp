@@ -8,6 +8,7 @@
 #include <map>
 #include <set>
 
+#include "commands/bake/all_maps.h"
 #include "commands/bake/bake_report.h"
 #include "commands/bake/model_surfaces.h"
 #include "commands/compress_map/pack_texture.h"
@@ -48,6 +49,12 @@ std::string withWord(const std::string& path, const std::string& word) {
     return path.substr(0, at) + "." + word + path.substr(at);
 }
 
+/// "dir/name_WORD.png" of "dir/name.png", whose end is .png.
+std::string withLayer(const std::string& path, const char* word) {
+    const std::size_t dot = path.find_last_of('.');
+    return path.substr(0, dot) + "_" + word + path.substr(dot);
+}
+
 class FileBaking {
   public:
     FileBaking(const std::string& output, const BakeFileOptions& options) : output_(output), options_(options) {
@@ -64,6 +71,8 @@ class FileBaking {
         high_ = high;
         checkOutput();
         checkOutMesh();
+        if (!options_.layers.has_normal && !options_.heat.empty())
+            failFile(ErrorCode::invalidOption, "a picture of the error needs the normal map");
         if (Error error = checkBakeOptions(options_.map, 0, 0); error.code != ErrorCode::ok) throw FileError{error};
         models_ = readBakeModels(low, high, options_);
         report_.frames_made = models_.low.frames_made;
@@ -72,14 +81,13 @@ class FileBaking {
         report_.high_triangle_count = models_.high.corners.size() / 3;
         report_.warnings = models_.low.warnings;
         report_.warnings.insert(report_.warnings.end(), models_.high.warnings.begin(), models_.high.warnings.end());
+        report_.high_maps = models_.high.shown.reports;
         options_.map.reach = models_.reach(options_.map.reach);
+        aboutInput(BakeInput::high, [&] { return &detail_.emplace(models_, high, options_); });
+        const std::vector<std::string>& seen = detail_->warnings();
+        report_.warnings.insert(report_.warnings.end(), seen.begin(), seen.end());
         for (const LowModel::Image& image : models_.low.images) {
             const std::string word = models_.low.images.size() > 1 ? freshWord(fileWord(image.material)) : "";
-            if (const std::size_t count = beyondEdges(image))
-                report_.warnings.push_back(std::to_string(count) +
-                                           " triangles reach beyond the edge of the texture of " +
-                                           (image.material.empty() ? "the low poly" : inQuotes(image.material)) +
-                                           ", which is clamped: there they show the texels of its edge");
             bakeTiles(image, word);
         }
         if (!options_.out_mesh.empty() && !is_without_map_)
@@ -99,6 +107,8 @@ class FileBaking {
         if (!isTextureName(output_))
             failFile(ErrorCode::unsupportedFile,
                      "the output " + pathInQuotes(output_) + " ends in none of .png, .ktx2 and .dds");
+        if (!options_.layers.layers.empty() || !options_.layers.has_normal)
+            failFile(ErrorCode::invalidOption, "other maps than normals are written as .png alone");
         if (!options_.out_mesh.empty())
             failFile(ErrorCode::invalidOption, "a glTF model holds no texture of two channels; bake a .png for it");
         if (options_.map.space == MapSpace::object)
@@ -132,13 +142,12 @@ class FileBaking {
     }
 
     /// How many triangles lie more than half a texel outside of a clamped image.
-    [[nodiscard]] std::size_t beyondEdges(const LowModel::Image& image) const {
-        if (options_.udim) return 0;
+    [[nodiscard]] std::size_t beyondEdges(const LowModel::Image& image, const LowPart& part) const {
         const auto isBeyond = [](TextureWrap wrap, float at, std::uint32_t size) {
             return wrap == TextureWrap::clamp && std::fabs(at - 0.5F) > 0.5F + 0.5F / static_cast<float>(size);
         };
         std::size_t count = 0;
-        const std::vector<Vec2>& uvs = image.part.uvs;
+        const std::vector<Vec2>& uvs = part.uvs;
         for (auto corner = uvs.begin(); corner != uvs.end(); corner += 3) {
             count += std::any_of(corner, corner + 3, [&](const Vec2& uv) {
                 return isBeyond(image.wrap_u, uv.x, options_.map.width) ||
@@ -146,6 +155,44 @@ class FileBaking {
             });
         }
         return count;
+    }
+
+    static std::string nameOf(const LowModel::Image& image) {
+        return image.material.empty() ? "the low poly" : inQuotes(image.material);
+    }
+
+    /// The triangles that have a say, and the others as the rest. UVs that are not finite are counted by the bake.
+    LowPart insidePart(const LowModel::Image& image, std::uint64_t& outside) {
+        const auto isOutside = [&](std::size_t triangle) {
+            const Vec2* const uvs = &image.part.uvs[3 * triangle];
+            const float u = uvs[0].x + uvs[1].x + uvs[2].x, v = uvs[0].y + uvs[1].y + uvs[2].y;
+            // Beyond the edge of a clamped texture nothing is shown again.
+            const auto isBeside = [](TextureWrap wrap, float sum) {
+                return wrap != TextureWrap::clamp && (sum < 0 || sum > 3);
+            };
+            return std::isfinite(u + v) && (isBeside(image.wrap_u, u) || isBeside(image.wrap_v, v));
+        };
+        const std::size_t count = image.part.triangleCount();
+        for (std::size_t i = 0; !options_.wrap && i < count; ++i) outside += isOutside(i) ? 1 : 0;
+        if (outside == count) {
+            report_.warnings.push_back("all triangles of " + nameOf(image) +
+                                       " have UVs outside of 0 to 1; they are baked as with --wrap");
+            outside = 0;
+        }
+        if (outside == 0) return image.part;
+        report_.warnings.push_back(std::to_string(outside) + " of " + std::to_string(count) + " triangles of " +
+                                   nameOf(image) +
+                                   " have UVs outside of 0 to 1 and no say, as copies that were moved there; --wrap "
+                                   "bakes them too, --udim gives each tile a file");
+        LowPart part;
+        for (std::size_t i = 0; i < count; ++i) {
+            if (isOutside(i)) {
+                part.addToRest(image.part, i);
+            } else {
+                part.addTriangle(image.part, i);
+            }
+        }
+        return part;
     }
 
     void bakeTiles(const LowModel::Image& image, const std::string& word) {
@@ -156,9 +203,14 @@ class FileBaking {
             }
         };
         if (!options_.udim) {
-            LowPart part = image.part;
+            std::uint64_t outside = 0;
+            LowPart part = insidePart(image, outside);
+            if (const std::size_t count = beyondEdges(image, part))
+                report_.warnings.push_back(std::to_string(count) +
+                                           " triangles reach beyond the edge of the texture of " + nameOf(image) +
+                                           ", which is clamped: there they show the texels of its edge");
             addOtherImages(part);
-            bakeImage(image, word, 0, part);
+            bakeImage(image, word, 0, part, outside);
             return;
         }
         std::map<std::uint32_t, LowPart> tiles;
@@ -189,7 +241,8 @@ class FileBaking {
         }
     }
 
-    void bakeImage(const LowModel::Image& image, const std::string& word, std::uint32_t tile, const LowPart& part) {
+    void bakeImage(const LowModel::Image& image, const std::string& word, std::uint32_t tile, const LowPart& part,
+                   std::uint64_t outside = 0) {
         BakeOptions options = options_.map;
         options.heat = options.heat || !options_.heat.empty();
         if (!options_.udim) {
@@ -197,16 +250,18 @@ class FileBaking {
             options.wrap_v = image.wrap_v;
         }
         options.rays = models_.rays(options.rays, options.wrap_u, options.wrap_v);
-        BakedFile file{.path = withWord(output_, word),
+        BakedMaps maps = aboutInput(BakeInput::low, [&] {
+            return valueOrThrow(bakeEvenIfMissed(part.view(), models_.high.view(), options, detail_->layers(),
+                                                 options_.execution, options_.progress, shared_));
+        });
+        BakedFile file{.path = options_.layers.has_normal ? withWord(output_, word) : "",
                        .material = image.material,
                        .tile = tile,
                        .triangle_count = part.triangleCount(),
+                       .outside_count = outside,
                        .rays = {options.rays.target, options.rays.directions, !options.rays.skew.texels.empty(),
                                 !part.cage.empty()},
-                       .map = aboutInput(BakeInput::low, [&] {
-                           return valueOrThrow(bakeEvenIfMissed(part.view(), models_.high.view(), options,
-                                                                options_.execution, options_.progress));
-                       })};
+                       .map = std::move(maps.normal)};
         BakedMap& map = file.map;
         findCause(file, part);
         if (map.hit_count == 0) {
@@ -216,14 +271,8 @@ class FileBaking {
             report_.files.push_back(std::move(file));
             return;
         }
-        std::vector<std::uint8_t> png = takeNormalFile(map);
-        // Baking again writes over the map that the low poly shows.
-        inputs_.letOff(file.path);
-        if (options_.out_mesh.empty()) {
-            files_.add(file.path, png);
-        } else {
-            maps_.push_back({file.path, Bytes(png.begin(), png.end()), image.primitives, image.wrap_u, image.wrap_v});
-        }
+        if (options_.layers.has_normal) addMap(file.path, takeNormalFile(map), MapSlot::normal, image);
+        addLayers(image, word, maps.layers, file);
         if (!options_.misses.empty())
             files_.add(withWord(options_.misses, word), pngOf(map.width, map.height, pictureOfOrigins(map), 8));
         if (!options_.heat.empty()) {
@@ -238,6 +287,49 @@ class FileBaking {
         report_.files.push_back(std::move(file));
     }
 
+    /// Adds a map to the outputs, or to the model that is written with it.
+    void addMap(const std::string& path, const std::vector<std::uint8_t>& png, std::optional<MapSlot> slot,
+                const LowModel::Image& image) {
+        // Baking again writes over the map that the low poly shows.
+        inputs_.letOff(path);
+        if (options_.out_mesh.empty() || !slot) {
+            files_.add(path, png);
+        } else {
+            maps_.push_back({path, Bytes(png.begin(), png.end()), image.primitives, image.wrap_u, image.wrap_v, *slot});
+        }
+    }
+
+    void addLayers(const LowModel::Image& image, const std::string& word, std::vector<BakedLayer>& layers,
+                   BakedFile& file) {
+        for (BakedLayer& layer : layers) {
+            BakedLayerFile made{.path = withWord(withLayer(output_, layerName(layer.layer)), word)};
+            const std::vector<std::uint8_t> png =
+                layerPng(layer, file.map, options_.map.bits, models_.low.origin, made);
+            if (layer.layer == MapLayer::id) {
+                made.id_count = detail_->idCount();
+                made.ids = detail_->ids();
+            }
+            addMap(made.path, png, slotOf(layer.layer), image);
+            file.layers.push_back(std::move(made));
+        }
+    }
+
+    /// What of a glTF material shows a layer. Red of `orm` is `ao` where both are made: then one image is both.
+    [[nodiscard]] std::optional<MapSlot> slotOf(MapLayer layer) const {
+        switch (layer) {
+            case MapLayer::ao:
+                return shows(options_.layers, MapLayer::orm) ? std::nullopt : std::optional(MapSlot::occlusion);
+            case MapLayer::orm:
+                return shows(options_.layers, MapLayer::ao) ? MapSlot::occlusion_and_metal : MapSlot::metal;
+            case MapLayer::color:
+                return MapSlot::color;
+            case MapLayer::emission:
+                return MapSlot::emission;
+            default:
+                return {};
+        }
+    }
+
     /// What makes the map useless.
     void findCause(const BakedFile& file, const LowPart& part) {
         const BakedMap& map = file.map;
@@ -245,18 +337,17 @@ class FileBaking {
             report_.findings.push_back(pathInQuotes(high_) + ": " + what + (why.empty() ? "" : "; " + why));
         };
         constexpr std::uint64_t kFew = 50;  // one of so many
-        Parallel parallel(options_.execution);
         if (map.missed_count > map.hit_count) {
             add(std::to_string(map.missed_count) + " of " + std::to_string(map.missed_count + map.hit_count) +
                     " texels of " + pathInQuotes(file.path) + " met no front of it" +
                     (map.hit_count == 0 ? ", and nothing is written" : ""),
-                causeOfMisses(part.view(), models_.high.view(), map.error.reach, parallel));
+                causeOfMisses(part.view(), models_.high.view(), *shared_.surface, map.error.reach));
         } else if (2 * map.error.inward_count > map.error.point_count) {
             add("its normals point inwards, against its faces, at " + std::to_string(map.error.inward_count) + " of " +
                     std::to_string(map.error.point_count) + " points",
                 "");
         } else if (kFew * map.missed_count > map.hit_count) {
-            const std::string why = otherPlaceOf(part.view(), models_.high.view(), parallel);
+            const std::string why = otherPlaceOf(part.view(), models_.high.view(), *shared_.surface);
             if (!why.empty())
                 add(std::to_string(map.missed_count) + " texels of " + pathInQuotes(file.path) + " met no front of it",
                     why);
@@ -279,6 +370,8 @@ class FileBaking {
     InputFiles inputs_ = {};
     BakeFileOptions options_;
     BakeModels models_ = {};
+    SharedRays shared_ = {};                 ///< of the high poly, for all images
+    std::optional<HighDetail> detail_ = {};  ///< refers to the models
     AtomicOutput files_{{.sync = options_.file.sync, .inputs = &inputs_}};
     std::vector<ModelMap> maps_ = {};
     std::set<std::string> words_ = {};
@@ -358,6 +451,20 @@ Json errorOfMapJson(const MapError& error) {
             {"insideMeanDeg", error.inside_mean_deg}};
 }
 
+Json highMapJson(const BakedHighMap& map) {
+    return {{"image", map.image},
+            {"material", map.material},
+            {"scale", map.scale},
+            {"green", map.green == Green::down ? "down" : "up"},
+            {"greenIs", greenSourceWord(map.green_is)},
+            {"triangles", map.triangle_count}};
+}
+
+const char* greenSourceWord(GreenSource source) {
+    static constexpr const char* kWords[] = {"assumed", "told", "declared", "seen"};
+    return kWords[static_cast<std::size_t>(source)];
+}
+
 const char* raysWord(const UsedRays& rays) {
     if (rays.has_cage) return "cage";
     return rays.target == RayTarget::nearest ? "nearest" : "outermost";
@@ -394,14 +501,18 @@ Json bakedFileJson(const BakedFile& file) {
               {"padding", map.padding_count},
               {"overlapping", map.overlap_count},
               {"conflicting", map.conflict_count}}},
+            {"conflictMeanDeg", map.conflict_mean_deg},
+            {"conflictMaxDeg", map.conflict_max_deg},
+            {"outsideTriangles", file.outside_count},
             {"degenerateUvs", map.degenerate_uv_count},
             {"rays", raysWord(file.rays)},
             {"directions", directionsWord(file.rays)},
             {"reach", map.error.reach},
             {"cageOffset", map.error.cage_offset},
-            {"error", errorOfMapJson(map.error)},
+            {"error", file.path.empty() ? Json() : errorOfMapJson(map.error)},
             {"ownError", map.own_error.point_count > 0 ? errorOfMapJson(map.own_error) : Json()},
-            {"heatTopDeg", file.heat_top_deg}};
+            {"heatTopDeg", file.heat_top_deg},
+            {"maps", listJson(file.layers, layerJson)}};
 }
 
 }  // namespace
@@ -419,6 +530,7 @@ std::string bakeJson(const Outcome<BakeFileReport>& outcome, const std::string& 
     json["highTriangles"] = result->high_triangle_count;
     json["framesMade"] = result->frames_made;
     json["matchedByName"] = result->matched_by_name;
+    json["highMaps"] = listJson(result->high_maps, highMapJson);
     json["files"] = listJson(result->files, bakedFileJson);
     json["outputFiles"] = result->output_files;
     json["findings"] = result->findings;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // How normal maps are baked and measured.
+#include <algorithm>
 #include <cmath>
 
 #include "commands/shared/file_options.h"
@@ -13,7 +14,12 @@ constexpr Named<MapFit> kFits[] = {{"solve", MapFit::solve}, {"texel", MapFit::t
 constexpr Named<RayTarget> kTargets[] = {{"outermost", RayTarget::outermost}, {"nearest", RayTarget::nearest}};
 constexpr Named<RayDirections> kDirections[] = {
     {"auto", RayDirections::automatic}, {"averaged", RayDirections::averaged}, {"normals", RayDirections::normals}};
+constexpr Named<MapOverlap> kOverlaps[] = {
+    {"mean", MapOverlap::mean}, {"first", MapOverlap::first}, {"larger", MapOverlap::larger}};
 constexpr Named<unsigned> kMapBits[] = {{"8", 8}, {"16", 16}};
+
+constexpr Named<BakeIds> kIds[] = {
+    {"material", BakeIds::material}, {"object", BakeIds::object}, {"shell", BakeIds::shell}};
 
 constexpr unsigned kMostPadding = 256, kMostSide = 16384;
 
@@ -29,14 +35,84 @@ Option lengthOption(const char* name, double& target, const char* help) {
 
 Option mapSizeOption(BakeOptions& map) {
     const auto take = [&map](const std::string& text) -> std::string {
-        std::uint64_t side = 0;
-        if (!parseNumber(text, side) || side == 0 || side > kMostSide) return "must be a whole number from 1 to 16384";
-        map.width = map.height = static_cast<std::uint32_t>(side);
+        const std::size_t cross = text.find('x');
+        std::uint64_t width = 0, height = 0;
+        const bool is_read = parseNumber(text.substr(0, cross), width) &&
+                             parseNumber(cross == text.npos ? text : text.substr(cross + 1), height);
+        if (!is_read || width == 0 || height == 0 || width > kMostSide || height > kMostSide)
+            return "must be a whole number from 1 to 16384, or two as 2048x1024";
+        map.width = static_cast<std::uint32_t>(width);
+        map.height = static_cast<std::uint32_t>(height);
         return {};
     };
-    Option size = option("--size", "TEXELS", take, "Width and height of the map: 1 to 16384.");
+    Option size =
+        option("--size", "TEXELS", take, "Width and height of the map, 1 to 16384: one number, or two as 2048x1024.");
     size.default_text = std::to_string(map.width);
     return size;
+}
+
+Option mapsOption(LayerOptions& layers) {
+    // The first name that is given takes the place of the default, which is the normal map alone.
+    const auto take = [&layers, is_first = true](const std::string& name) mutable -> std::string {
+        const bool is_normal = name == "normal";
+        layers.has_normal = is_normal || (layers.has_normal && !is_first);
+        is_first = false;
+        for (std::uint32_t i = 0; i < kMapLayerCount; ++i) {
+            const auto layer = static_cast<MapLayer>(i);
+            const bool is_new = std::find(layers.layers.begin(), layers.layers.end(), layer) == layers.layers.end();
+            if (name == layerName(layer) && is_new) layers.layers.push_back(layer);
+        }
+        return {};
+    };
+    Option maps =
+        option("--maps", "LIST", take,
+               "Which maps, with commas between them. normal is the output itself, the others stand beside it: "
+               "OUT_ao.png. color, orm (occlusion, roughness, metal) and emission are what the high poly's "
+               "materials show.");
+    maps.choices.emplace_back("normal");
+    for (std::uint32_t i = 0; i < kMapLayerCount; ++i) maps.choices.emplace_back(layerName(static_cast<MapLayer>(i)));
+    maps.default_text = "normal";
+    maps.is_list = true;
+    return maps;
+}
+
+Option samplesOption(std::uint32_t& target) {
+    const auto take = [&target](const std::string& text) -> std::string {
+        std::uint64_t count = 0;
+        if (!parseNumber(text, count) || count == 0 || count > kMostLayerRays)
+            return "must be a whole number from 1 to 4096";
+        target = static_cast<std::uint32_t>(count);
+        return {};
+    };
+    Option samples = option("--samples", "RAYS", take, "Rays from each texel for ao, bent and thickness: 1 to 4096.");
+    samples.default_text = std::to_string(target);
+    return samples;
+}
+
+void addLayerOptions(OptionList& list, LayerOptions& layers, BakeIds& ids) {
+    const char* group = "Maps";
+    add(list, group, mapsOption(layers));
+    add(list, group, samplesOption(layers.ray_count));
+    add(list, group,
+        lengthOption("--ao-distance", layers.sky_distance,
+                     "What is further away hides nothing, in units of the models. Default: everything does."));
+    add(list, group,
+        lengthOption("--height-range", layers.height_range,
+                     "The height that white stands for, in units of the models; black is as far below. Default: the "
+                     "largest that is met; the report says how much."));
+    add(list, group,
+        lengthOption("--curvature-range", layers.curvature_range,
+                     "The mean curvature that white stands for, 1 / radius in units of the models; black is as much "
+                     "inwards. Default: what 99 % of the texels are below; the report says how much."));
+    add(list, group,
+        lengthOption("--thickness-range", layers.thickness_range,
+                     "The thickness that white stands for, in units of the models. Default: the largest that is met; "
+                     "the report says how much."));
+    add(list, group,
+        choice(
+            "--id", "BY", kIds, ids,
+            "What has a colour of its own in the map of ids: material, object (nodes by their names), or shell (what "
+            "hangs together by its positions)."));
 }
 
 Option fileOption(const char* name, const char* value, std::string& target, const char* help) {
@@ -105,9 +181,35 @@ void addBakedMapOptions(OptionList& list, BakeFileOptions& options) {
                "Texels around the triangles that continue them, so that filters and smaller mip levels meet no "
                "background."));
     add(list, group,
-        flag(
-            "--udim", options.udim,
-            "A file per tile of the UV map, NAME.1001.png and on. Without this, the image goes on outside of 0 to 1."));
+        choice(
+            "--overlap", "HOW", kOverlaps, map.overlap,
+            "Whose normals count where triangles share texels and want different ones, as mirrored halves. mean: the "
+            "mean of all; first: the piece of the UV map that comes first in the file; larger: the piece with the "
+            "larger surface. The report says how far they are apart."));
+    add(list, group, flag("--udim", options.udim, "A file per tile of the UV map, NAME.1001.png and on."));
+    Option wrap = flag("--wrap", options.wrap,
+                       "Also bake triangles whose UVs lie outside of 0 to 1, where the texture is shown again. Without "
+                       "this they have no say, as copies that were moved there by 1.");
+    wrap.excludes = {"--udim"};
+    add(list, group, std::move(wrap));
+}
+
+void addHighMapOptions(OptionList& list, bool& ignore, std::optional<Green>& green) {
+    const char* group = "High poly";
+    add(list, group,
+        flag("--ignore-high-maps", ignore,
+             "Look at the high poly's own normals alone. Without this, the normal maps of its materials are baked "
+             "through."));
+    const auto take = [&green](const std::string& text) -> std::string {
+        if (text != "up" && text != "down") return "must be up or down";
+        green = text == "down" ? Green::down : Green::up;
+        return {};
+    };
+    Option told = option("--high-green", "up|down", take,
+                         "Which way green of these maps points. Default: as the file says or the slopes of the map "
+                         "show, and up where neither does.");
+    told.excludes = {"--ignore-high-maps"};
+    add(list, group, std::move(told));
 }
 
 Option matchOption(std::string& target) {
@@ -139,7 +241,9 @@ OptionList bakeOptions(BakeFileOptions& options) {
                    "A picture of the error: from black over red to white, which is the 99th percentile."));
     add(list, kInputAndOutput, matchOption(options.match));
     addAllowExternal(list, options.file);
+    addLayerOptions(list, options.layers, options.ids);
     addBakedMapOptions(list, options);
+    addHighMapOptions(list, options.ignore_high_maps, options.high_green);
     addRayOptions(list, options.map.reach, options.map.rays, options.cage, options.skew);
     add(list, "Frames",
         choice("--method", "NAME", kMethods, options.tangents.method,
@@ -173,6 +277,7 @@ OptionList mapErrorOptions(MapErrorFileOptions& options) {
     add(list, group,
         flag("--two-channels", options.two_channels,
              "z is made from x and y, as of BC5 and DXT5nm; blue is not read."));
+    addHighMapOptions(list, options.ignore_high_maps, options.high_green);
     addRayOptions(list, options.map.reach, options.map.rays, options.cage, options.skew);
     addThreads(list, options.execution, "Number of threads; 0: as many as there are cores. Changes no figure.");
     addLimits(list, options.file);

@@ -14,6 +14,10 @@ std::string bakeJson(const Outcome<BakeFileReport>& outcome, const std::string& 
 std::string bakeText(const Outcome<BakeFileReport>& outcome, const std::string& out_mesh);
 
 /// As docs/json.md has them.
+/// A normal map of the high poly, and how it is known which way its green points.
+Json highMapJson(const BakedHighMap& map);
+const char* greenSourceWord(GreenSource source);
+std::string highMapText(const BakedHighMap& map);
 const char* raysWord(const UsedRays& rays);
 const char* directionsWord(const UsedRays& rays);
 

@@ -20,13 +20,39 @@ std::string raysText(const BakedFile& file) {
                        error.reach, directions);
 }
 
+/// What black and white stand for, where that is not said by the name.
+std::string rangeText(const BakedLayerFile& layer) {
+    const auto& least = layer.least;
+    const auto& most = layer.most;
+    switch (layer.layer) {
+        case MapLayer::height:
+        case MapLayer::thickness:
+            return fmt::format(", {:.4g} to {:.4g}", least[0], most[0]);
+        case MapLayer::curvature:
+            return fmt::format(", {:.4g} to {:.4g} / length", least[0], most[0]);
+        case MapLayer::position:
+            return fmt::format(", from ({:.4g}, {:.4g}, {:.4g}) to ({:.4g}, {:.4g}, {:.4g})", least[0], least[1],
+                               least[2], most[0], most[1], most[2]);
+        case MapLayer::id:
+            return fmt::format(", {}", counted(layer.id_count, "id"));
+        default:
+            return layer.is_srgb ? ", sRGB" : "";
+    }
+}
+
 void addFile(const BakedFile& file, Table& table) {
     const BakedMap& map = file.map;
-    table.addRow({"map", fmt::format("{}, {} x {}, {} bits", printable(file.path), map.width, map.height, map.bits)});
+    if (!file.path.empty())
+        table.addRow(
+            {"map", fmt::format("{}, {} x {}, {} bits", printable(file.path), map.width, map.height, map.bits)});
+    for (const BakedLayerFile& layer : file.layers)
+        table.addRow({layerName(layer.layer), fmt::format("{}, {} x {}, {} bits{}", printable(layer.path), map.width,
+                                                          map.height, layer.bits, rangeText(layer))});
     table.addRow({"texels", fmt::format("{} baked, {} around them", map.hit_count, map.padding_count)});
-    table.addRow({"error", fmt::format("mean {} degrees, 99 % below {}, largest {}; at seams {} in the mean",
-                                       degreesText(map.error.mean_deg), degreesText(map.error.p99_deg),
-                                       degreesText(map.error.max_deg), degreesText(map.error.seam_mean_deg))});
+    if (!file.path.empty())
+        table.addRow({"error", fmt::format("mean {} degrees, 99 % below {}, largest {}; at seams {} in the mean",
+                                           degreesText(map.error.mean_deg), degreesText(map.error.p99_deg),
+                                           degreesText(map.error.max_deg), degreesText(map.error.seam_mean_deg))});
     if (map.own_error.point_count > 0)
         table.addRow(
             {"", fmt::format("mean {} degrees against what its own rays met", degreesText(map.own_error.mean_deg))});
@@ -46,7 +72,9 @@ void addFile(const BakedFile& file, Table& table) {
         table.addRow({map.conflict_count > 0 ? "warning" : "note",
                       fmt::format("{} shown by several triangles{}", counted(map.overlap_count, "texel"),
                                   map.conflict_count > 0
-                                      ? fmt::format(", which want different normals in {} of them", map.conflict_count)
+                                      ? fmt::format(", which want different normals in {} of them: {:.1f} degrees "
+                                                    "apart in the mean, {:.1f} at most (--overlap)",
+                                                    map.conflict_count, map.conflict_mean_deg, map.conflict_max_deg)
                                       : std::string())});
     if (map.degenerate_uv_count > 0)
         table.addRow({"note", fmt::format("{} without UV area", counted(map.degenerate_uv_count, "triangle"))});
@@ -54,12 +82,18 @@ void addFile(const BakedFile& file, Table& table) {
 
 }  // namespace
 
+std::string highMapText(const BakedHighMap& map) {
+    return fmt::format("{}, scale {:.4g}, green {} ({})", printable(map.image), map.scale,
+                       map.green == Green::down ? "down" : "up", greenSourceWord(map.green_is));
+}
+
 std::string bakeText(const Outcome<BakeFileReport>& outcome, const std::string& out_mesh) {
     const BakeFileReport& done = *outcome.result;
     Table table;
     for (const BakedFile& file : done.files) {
         if (file.map.hit_count > 0) addFile(file, table);
     }
+    for (const BakedHighMap& map : done.high_maps) table.addRow({"high map", highMapText(map)});
     for (const std::string& finding : done.findings) table.addRow({"finding", printable(finding)});
     if (!out_mesh.empty() && !done.output_files.empty())
         table.addRow({"model", fmt::format("{}, with its frames and maps", printable(out_mesh))});

@@ -34,6 +34,62 @@ std::optional<std::size_t> indexIn(const Json& object, const char* key, std::siz
     return index->get<std::size_t>();
 }
 
+/// The references of a material that show a slot: the member, and whether it is one of pbrMetallicRoughness.
+struct SlotReference {
+    const char* key;
+    bool is_in_pbr;
+};
+
+std::vector<SlotReference> referencesOf(MapSlot slot) {
+    constexpr SlotReference kOcclusion{"occlusionTexture", false}, kMetal{"metallicRoughnessTexture", true};
+    switch (slot) {
+        case MapSlot::normal:
+            break;
+        case MapSlot::occlusion:
+            return {kOcclusion};
+        case MapSlot::metal:
+            return {kMetal};
+        case MapSlot::occlusion_and_metal:
+            return {kMetal, kOcclusion};
+        case MapSlot::color:
+            return {{"baseColorTexture", true}};
+        case MapSlot::emission:
+            return {{"emissiveTexture", false}};
+    }
+    return {{"normalTexture", false}};
+}
+
+/// The object that holds a reference; made where it is not there.
+Json& holderOf(Json& material, const SlotReference& reference) {
+    if (!reference.is_in_pbr) return material;
+    Json& pbr = material["pbrMetallicRoughness"];
+    if (!pbr.is_object()) pbr = Json::object();
+    return pbr;
+}
+
+/// The map has all that factors said of the high poly.
+void setFactors(Json& material, MapSlot slot) {
+    switch (slot) {
+        case MapSlot::color: {
+            Json& factor = holderOf(material, {"", true})["baseColorFactor"];
+            const bool has_alpha = factor.is_array() && factor.size() == 4;
+            const Json alpha = has_alpha ? factor[3] : Json(1.0);
+            factor = Json::array({1.0, 1.0, 1.0, alpha});
+            break;
+        }
+        case MapSlot::metal:
+        case MapSlot::occlusion_and_metal:
+            for (const char* factor : {"metallicFactor", "roughnessFactor"})
+                holderOf(material, {"", true})[factor] = 1.0;
+            break;
+        case MapSlot::emission:
+            material["emissiveFactor"] = Json::array({1.0, 1.0, 1.0});
+            break;
+        default:
+            break;
+    }
+}
+
 class MapPlacing {
   public:
     MapPlacing(Document& document, Editor& editor, const gltf::OutputTarget& target)
@@ -53,13 +109,17 @@ class MapPlacing {
     /// True: a .gltf names the file beside it.
     bool place(const ModelMap& map) {
         const std::vector<std::size_t> materials = giveMaterials(map);
-        const std::optional<std::size_t> old = oldTexture(materials);
+        const std::optional<std::size_t> old = oldTexture(materials, referencesOf(map.slot));
         const std::optional<std::string> name = nameBeside(map.path);
         const std::size_t image = placeImage(map, name, old);
         const std::size_t texture = old ? *old : append("textures", Json{{"source", image}});
         // The map was baked for the sampler of the old texture.
         if (!old) setWrap(document_.json["textures"][texture], map);
-        for (std::size_t i = 0; i < materials.size(); ++i) showMap(materials[i], map.primitives[i], texture);
+        for (std::size_t i = 0; i < materials.size(); ++i) {
+            for (const SlotReference& reference : referencesOf(map.slot))
+                showMap(materials[i], map.primitives[i], texture, reference);
+            setFactors(document_.json["materials"][materials[i]], map.slot);
+        }
         editor_.touch();
         if (name) document_.new_files[*name] = map.png;
         return name.has_value();
@@ -95,12 +155,16 @@ class MapPlacing {
             before.push_back(materialOf(editor_.primitive(primitive.mesh, primitive.primitive)));
             if (before.back()) ++users[*before.back()];
         }
+        std::map<std::size_t, std::size_t> users_before = users_;
         std::map<std::optional<std::size_t>, std::size_t> given;
         std::vector<std::size_t> materials;
         for (std::size_t i = 0; i < before.size(); ++i) {
             const auto [known, is_new] = given.try_emplace(before[i], 0);
-            if (is_new) known->second = ownMaterial(before[i], before[i] && users[*before[i]] == users_[*before[i]]);
+            if (is_new)
+                known->second = ownMaterial(before[i], before[i] && users[*before[i]] == users_before[*before[i]]);
             materials.push_back(known->second);
+            if (before[i]) --users_[*before[i]];
+            ++users_[known->second];
             editor_.primitive(map.primitives[i].mesh, map.primitives[i].primitive)["material"] = known->second;
         }
         return materials;
@@ -113,20 +177,25 @@ class MapPlacing {
         return append("materials", std::move(copy));
     }
 
-    /// The normal texture of these materials, where nothing else shows it or its image.
-    [[nodiscard]] std::optional<std::size_t> oldTexture(const std::vector<std::size_t>& materials) const {
+    /// The texture that all these references of these materials show, where nothing else shows it or its image.
+    [[nodiscard]] std::optional<std::size_t> oldTexture(const std::vector<std::size_t>& materials,
+                                                        const std::vector<SlotReference>& references) const {
         const Json& json = document_.json;
         std::optional<std::size_t> texture;
         std::set<std::size_t> seen;
         for (const std::size_t material : materials) {
             if (!seen.insert(material).second) continue;
-            const Json* const reference = json["materials"][material].find("normalTexture");
-            if (reference == nullptr) return {};
-            const auto shown = indexIn(*reference, "index", json["textures"].size());
-            if (!shown || (texture && *texture != *shown)) return {};
-            texture = shown;
+            for (const SlotReference& wanted : references) {
+                const Json* holder = &json["materials"][material];
+                if (wanted.is_in_pbr) holder = holder->find("pbrMetallicRoughness");
+                const Json* const reference = holder == nullptr ? nullptr : holder->find(wanted.key);
+                if (reference == nullptr) return {};
+                const auto shown = indexIn(*reference, "index", json["textures"].size());
+                if (!shown || (texture && *texture != *shown)) return {};
+                texture = shown;
+            }
         }
-        if (!texture || referencesTo(json["materials"], *texture) != seen.size()) return {};
+        if (!texture || referencesTo(json["materials"], *texture) != seen.size() * references.size()) return {};
         const Json& entry = json["textures"][*texture];
         const auto image = indexIn(entry, "source", json["images"].size());
         if (!image || entry.contains("extensions")) return {};
@@ -168,9 +237,11 @@ class MapPlacing {
         return name;
     }
 
-    void showMap(std::size_t material, const MappedPrimitive& primitive, std::size_t texture) {
-        Json& reference = document_.json["materials"][material]["normalTexture"];
-        if (primitive.had_map && reference.is_object()) {
+    void showMap(std::size_t material, const MappedPrimitive& primitive, std::size_t texture,
+                 const SlotReference& slot) {
+        Json& reference = holderOf(document_.json["materials"][material], slot)[slot.key];
+        const bool is_normal = std::string_view(slot.key) == "normalTexture";
+        if (is_normal && primitive.had_map && reference.is_object()) {
             reference["index"] = texture;
             reference.erase("scale");
             return;

@@ -14,7 +14,9 @@
 #include <utility>
 #include <vector>
 
+#include "commands/bake/all_maps.h"
 #include "commands/generate/generate_model.h"
+#include "commands/shared/map_image_file.h"
 #include "commands/shared/uv_reading.h"
 #include "core/base/vec_math.h"
 #include "core/mesh/surface/float_loss.h"
@@ -27,6 +29,12 @@
 #include "tspace/map_error.h"
 
 namespace tspace {
+
+std::size_t placedCorner(const Affine& place, std::size_t i) {
+    constexpr std::size_t kMirrored[3] = {0, 2, 1};
+    return place.determinant() < 0 ? i - i % 3 + kMirrored[i % 3] : i;
+}
+
 namespace {
 
 // Which meshes of a low poly look at which meshes of a high poly.
@@ -286,12 +294,6 @@ DrawnScene readWithFrames(const std::string& low, const BakeFileOptions& options
     return gltf::generateModel(std::move(model), generate, false).model.drawnScene(false);
 }
 
-/// The order of the corners of a triangle at a place, which may mirror.
-std::size_t placedCorner(const Affine& place, std::size_t i) {
-    constexpr std::size_t kMirrored[3] = {0, 2, 1};
-    return place.determinant() < 0 ? i - i % 3 + kMirrored[i % 3] : i;
-}
-
 /// Where a primitive stands first.
 Affine firstPlace(const DrawnScene& drawn, std::size_t primitive) {
     for (const ScenePlacement& placement : drawn.placements) {
@@ -423,6 +425,25 @@ std::vector<Vec3> smoothNormals(const ScenePrimitive& primitive, const BakeFileO
     return normals;
 }
 
+/// One vertex per corner where the primitive shows a map of its own, with the frames that the map is read with.
+void addMapped(const ScenePrimitive& primitive, const TangentUse& use, const Affine& place, std::uint32_t map,
+               const BakeFileOptions& options, HighModel& model) {
+    MapMesh mesh;
+    addMapCorners(primitive, &use, options.tangents, options.execution, mesh);
+    model.tangents.resize(model.positions.size());
+    model.uvs.resize(model.positions.size());
+    model.map_of.resize(model.corners.size() / 3, kNoHighMap);
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+        const std::size_t corner = placedCorner(place, i);
+        model.corners.push_back(static_cast<std::uint32_t>(model.positions.size()));
+        model.positions.push_back(toFloat(place.point(toDouble(mesh.positions[corner]))));
+        model.normals.push_back(normalAt(place, mesh.normals[corner]));
+        model.tangents.push_back(tangentAt(place, mesh.tangents[corner]));
+        model.uvs.push_back(mesh.uvs[corner]);
+    }
+    model.map_of.resize(model.corners.size() / 3, map);
+}
+
 HighModel highModel(const DrawnScene& drawn, const MeshMatch* match, const std::string& path,
                     const BakeFileOptions& options) {
     HighModel model;
@@ -430,13 +451,18 @@ HighModel highModel(const DrawnScene& drawn, const MeshMatch* match, const std::
     // What glTF and OBJ leave out is flat; meshes of scanners and sculptors are meant to be smooth.
     const std::string extension = lowerExtension(path);
     const bool is_flat = isGltfName(path) || extension == ".obj";
+    HighMapReading maps(drawn.scene, options);
     for (std::size_t i = 0; i < drawn.placements.size(); ++i) {
         const ScenePlacement& placement = drawn.placements[i];
         const ScenePrimitive& primitive = drawn.scene.primitives[placement.primitive];
         const Affine& place = placement.to_world;
         if (primitive.corners.empty()) continue;
+        model.parts.push_back({static_cast<std::uint32_t>(model.corners.size() / 3), i});
         // Those of STL say where the triangles look, and not how they are shaded.
-        if (!primitive.normals.empty() && extension != ".stl") {
+        if (const TangentUse* const use = maps.find(primitive)) {
+            addMapped(primitive, *use, place, maps.numberOf(primitive, *use, primitive.corners.size() / 3), options,
+                      model);
+        } else if (!primitive.normals.empty() && extension != ".stl") {
             addSmooth(primitive, primitive.normals.span(), place, model);
         } else {
             ++made;
@@ -449,6 +475,13 @@ HighModel highModel(const DrawnScene& drawn, const MeshMatch* match, const std::
         if (match != nullptr) model.groups.insert(model.groups.end(), primitive.corners.size() / 3, match->high[i]);
     }
     if (model.corners.empty()) failFile(ErrorCode::missingAttribute, "the high poly has no triangles");
+    model.shown = maps.take();
+    model.warnings = std::exchange(model.shown.warnings, {});
+    if (!model.shown.maps.empty()) {
+        model.tangents.resize(model.positions.size());
+        model.uvs.resize(model.positions.size());
+        model.map_of.resize(model.corners.size() / 3, kNoHighMap);
+    }
     if (made > 0)
         model.warnings.push_back(std::string("the high poly has no normals; its triangles are taken as ") +
                                  (is_flat ? "flat, as glTF says" : "smooth"));
@@ -525,14 +558,7 @@ std::optional<LowModel> readLowAnew(const std::string& low, const BakeFileOption
 
 FloatImage readFloatImage(const std::string& path, const FileOptions& options) {
     if (options.opened) options.opened(path);
-    const Bytes bytes = readFile(path);
-    // Images of a usual size are read whatever their files weigh.
-    constexpr std::uint64_t kUsualPixels = std::uint64_t{1} << 26, kPixelBytes = 32;
-    const std::uint64_t limit = options.memory_limit_bytes;
-    std::string why;
-    std::optional<FloatImage> image = decodeFloatImage(bytes, limit == 0 ? kUsualPixels : limit / kPixelBytes, why);
-    if (!image) failFile(ErrorCode::invalidFile, "the image cannot be read: " + why);
-    return *std::move(image);
+    return readMapImage(path, {}, options);
 }
 
 BakeModels readBakeModels(const std::string& low, const std::string& high, const BakeFileOptions& options) {
@@ -547,7 +573,10 @@ BakeModels readBakeModels(const std::string& low, const std::string& high, const
             return read;
         });
     }
-    DrawnScene high_scene = aboutInput(BakeInput::high, [&] { return readDrawnScene(high, options.file, false); });
+    DrawnScene high_scene = aboutInput(BakeInput::high, [&] {
+        return showsMaterials(options.layers) ? readMaterialScene(high, options.file, !options.ignore_high_maps)
+                                              : readDrawnScene(high, options.file, !options.ignore_high_maps);
+    });
     const DVec3 of_high = farPlace(high_scene);
     const DVec3 origin = length(of_high) > 0 ? of_high : farPlace(low_scene);
     for (DrawnScene* const scene : {&low_scene, &cage_scene, &high_scene}) moveBy(origin, *scene);
@@ -559,6 +588,8 @@ BakeModels readBakeModels(const std::string& low, const std::string& high, const
     models.low.frames_made = frames_made;
     models.low.origin = origin;
     models.high = aboutInput(BakeInput::high, [&] { return highModel(high_scene, used, high, options); });
+    if (showsMaterials(options.layers) || shows(options.layers, MapLayer::id))
+        models.high_scene = std::move(high_scene);
     if (!options.skew.empty())
         models.skew = aboutInput(BakeInput::skew, [&] { return readFloatImage(options.skew, options.file); });
     models.high.warnings.insert(models.high.warnings.end(), match.warnings.begin(), match.warnings.end());

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "commands/bake/high_maps.h"
 #include "images/float_image.h"
 #include "maps/map_surfaces.h"
 #include "maps/uv_coverage.h"
@@ -19,7 +20,7 @@
 
 namespace tspace {
 
-// A low poly with the maps that were baked for it as its normal textures.
+// A low poly with the maps that were baked for it as the textures of its materials.
 
 /// A primitive, and the UVs that its map is read with.
 struct MappedPrimitive {
@@ -29,12 +30,16 @@ struct MappedPrimitive {
     UvTransform transform = {};
 };
 
+/// What of a material a map is.
+enum class MapSlot { normal, occlusion, metal, occlusion_and_metal, color, emission };
+
 /// A baked image, and the primitives that read it.
 struct ModelMap {
     std::string path = {};  ///< the file that holds it
     Bytes png = {};
     std::vector<MappedPrimitive> primitives = {};
     TextureWrap wrap_u = TextureWrap::repeat, wrap_v = TextureWrap::repeat;
+    MapSlot slot = MapSlot::normal;
 };
 
 struct ModelWithMaps {
@@ -101,13 +106,32 @@ struct LowModel {
     [[nodiscard]] bool hasCage() const { return !images.empty() && !images.front().part.cage.empty(); }
 };
 
+/// The triangles of a high poly that a placement of its scene gives, from this one on.
+struct HighPart {
+    std::uint32_t first_triangle = 0;
+    std::size_t placement = 0;
+};
+
 struct HighModel {
+    std::vector<HighPart> parts = {};  ///< in ascending order
     std::vector<Vec3> positions = {}, normals = {};
     std::vector<std::uint32_t> corners = {}, groups = {};
+    /// Where the high poly shows maps of its own; empty without.
+    std::vector<Vec4> tangents = {};
+    std::vector<Vec2> uvs = {};
+    std::vector<std::uint32_t> map_of = {};
+    HighMaps shown = {};
     std::vector<std::string> warnings = {};
 
     [[nodiscard]] HighPoly view() const {
-        return {.positions = positions, .normals = normals, .corners = corners, .groups = groups};
+        return {.positions = positions,
+                .normals = normals,
+                .corners = corners,
+                .groups = groups,
+                .maps = shown.maps,
+                .map_of = map_of,
+                .tangents = tangents,
+                .uvs = uvs};
     }
 };
 
@@ -115,7 +139,8 @@ struct HighModel {
 struct BakeModels {
     LowModel low = {};
     HighModel high = {};
-    Bytes low_glb = {};  ///< the low poly with its frames, where `out_mesh` asks for it
+    DrawnScene high_scene = {};  ///< where maps show its materials or names; else empty
+    Bytes low_glb = {};          ///< the low poly with its frames, where `out_mesh` asks for it
     bool matched_by_name = false;
 
     FloatImage skew = {};  ///< without texels where there is none
@@ -126,11 +151,14 @@ struct BakeModels {
     [[nodiscard]] PositionBox lowBox() const;
 };
 
+/// The order of the corners of a triangle at a place, which may mirror: corner i of the placed one is that one of its primitive.
+std::size_t placedCorner(const Affine& place, std::size_t i);
+
 /// How a primitive reads its normal map, or will: the normal map that its own material has, or the first thing that needs
 /// tangents, which they follow. Null: the first UVs, as they are.
 const TangentUse* mapUse(const ScenePrimitive& primitive);
 
-/// An image, within the limit on memory; small ones whatever their files weigh. Throws FileError.
+/// An image that is an input of the call: readMapImage.
 FloatImage readFloatImage(const std::string& path, const FileOptions& options);
 
 /// Reads the models, makes the frames that the low poly lacks, and matches meshes by name. Throws FileError, which says as

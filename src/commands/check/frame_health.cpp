@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/disjoint_sets.h"
 #include "core/base/sort.h"
 #include "core/base/unique_index.h"
 #include "core/base/vec_math.h"
@@ -35,16 +36,13 @@ class VertexPatches {
         std::iota(parents_.begin(), parents_.end(), 0u);
         for (const std::uint32_t* v = corners.data(); v != corners.data() + corners.size(); v += 3) {
             if (!connects(v)) continue;
-            parents_[of(v[1])] = of(v[0]);
-            parents_[of(v[2])] = of(v[0]);
+            joinSets(parents_.data(), v[0], v[1]);
+            joinSets(parents_.data(), v[0], v[2]);
         }
     }
 
-    /// One of the vertices of the patch, the same for all of them.
-    std::uint32_t of(std::uint32_t vertex) {
-        while (parents_[vertex] != vertex) vertex = parents_[vertex] = parents_[parents_[vertex]];
-        return vertex;
-    }
+    /// The lowest vertex of the patch.
+    std::uint32_t of(std::uint32_t vertex) { return rootOf(parents_.data(), vertex); }
 
   private:
     std::vector<std::uint32_t> parents_;

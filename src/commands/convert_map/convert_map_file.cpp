@@ -30,7 +30,7 @@ struct Meshes {
 
 Meshes readMeshes(const std::string& input, const ConvertMapFileOptions& options) {
     const bool in_world = options.from == MapFileSpace::world || options.to == MapFileSpace::world;
-    const MapMeshChoice choice{options.material, fileNameOf(input), in_world, options.tile};
+    const MapMeshChoice choice{options.material, fileNameOf(input), in_world, options.tile, true};
     const auto read = [&](const std::string& model) {
         return readNamedMapMesh(model, choice, options.tangents, options.file, options.execution);
     };
@@ -106,6 +106,28 @@ void addMapWarnings(const ConvertMapFileOptions& options, ConvertMapFileReport& 
     if (has_mesh && texels.converted == 0) warn("no triangle of the mesh shows the map: nothing was converted");
     if (!options.to_mesh.empty() && texels.converted > 0 && texels.changed == 0) {
         warn("both meshes have the same frames: no texel changed");
+    }
+}
+
+/// Refuses models that are not one surface with one UV map, and texels that would need several directions.
+void checkConversion(const ConvertMapReport& texels) {
+    constexpr std::uint64_t kOneOf = 10, kOneOfShared = 100;
+    const std::uint64_t shown = texels.converted + texels.unmatched + texels.without_frame,
+                        wrong = texels.unmatched + texels.apart;
+    if (kOneOf * wrong > shown) {
+        failFile(ErrorCode::invalidFile,
+                 std::string("the models are not one surface with one UV map: of ") + std::to_string(shown) +
+                     " texels that triangles show, " + std::to_string(texels.apart) +
+                     " lie elsewhere in space on the other model, and " + std::to_string(texels.unmatched) +
+                     " are shown by none of its triangles; bake bakes from one UV map to another");
+    }
+    if (kOneOfShared * texels.conflicting > texels.converted) {
+        failFile(
+            ErrorCode::invalidFile,
+            std::to_string(texels.conflicting) + " of " + std::to_string(texels.converted) +
+                " texels are shown by several triangles that look different ways, as mirrored halves do, and a map "
+                "in object or world space has one direction a texel; choose a part with --material, or give each "
+                "half texels of its own");
     }
 }
 
@@ -192,6 +214,7 @@ ConvertMapFileReport convert(const std::string& input, const std::string& output
         failFile(ErrorCode::invalidOption, "textures of two channels hold tangent space alone; write a .png or .exr");
     report.texels =
         valueOrThrow(convertMap(map, sides.from, sides.to, chosen, image.texels, options.execution, options.progress));
+    checkConversion(report.texels);
     if (!before.empty()) countLayout(before, image.texels, any == nullptr, report.texels);
     if (!how_read.empty()) report.warnings.push_back(how_read);
     if (image.not_finite > 0)
@@ -240,7 +263,9 @@ std::string convertMapJson(const Outcome<ConvertMapFileReport>& outcome, ExitCod
     json["withoutFrame"] = texels.without_frame;
     json["belowHorizon"] = texels.below_horizon;
     json["overlapping"] = texels.overlapping;
+    json["conflicting"] = texels.conflicting;
     json["unmatched"] = texels.unmatched;
+    json["apart"] = texels.apart;
     json["degenerateUvs"] = texels.degenerate_uv_count;
     json["badUvs"] = texels.bad_uv_count;
     json["meanChangeDeg"] = texels.mean_change_deg;

@@ -79,6 +79,8 @@ class FileMeasuring {
         bake_.cage = options.cage;
         bake_.skew = options.skew;
         bake_.match = options.match;
+        bake_.ignore_high_maps = options.ignore_high_maps;
+        bake_.high_green = options.high_green;
     }
 
     MapErrorFileReport run(const std::string& map, const std::string& low, const std::string& high) {
@@ -91,6 +93,7 @@ class FileMeasuring {
         const BakeModels models = readBakeModels(low, high, bake_);
         report_.frames_made = models.low.frames_made;
         report_.matched_by_name = models.matched_by_name;
+        report_.high_maps = models.high.shown.reports;
         report_.warnings = models.low.warnings;
         report_.warnings.insert(report_.warnings.end(), models.high.warnings.begin(), models.high.warnings.end());
         if (!how_read.empty()) report_.warnings.push_back(how_read);
@@ -432,6 +435,7 @@ std::string mapErrorJson(const Outcome<MapErrorFileReport>& outcome, const std::
     });
     json["framesMade"] = result->frames_made;
     json["matchedByName"] = result->matched_by_name;
+    json["highMaps"] = listJson(result->high_maps, highMapJson);
     json["heatTopDeg"] = result->heat_top_deg;
     json["warnings"] = result->warnings;
     return jsonText(json);

@@ -50,6 +50,7 @@ std::string mapErrorText(const Outcome<MapErrorFileReport>& outcome) {
         table.addRow(
             {"note", fmt::format("{} of {} points met no high poly within {:.4g}, and count as {:.0f} degrees",
                                  error.missed_count, error.missed_count + error.point_count, error.reach, kMissedDeg)});
+    for (const BakedHighMap& map : done.high_maps) table.addRow({"high map", highMapText(map)});
     for (const std::string& warning : done.warnings) table.addRow({"warning", printable(warning)});
     return fmt::format("{}: {}\n{}", printable(outcome.input), done.verdict, table.text("  "));
 }

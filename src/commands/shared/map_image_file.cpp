@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
+#include <map>
 #include <optional>
 
 #include "commands/shared/uv_reading.h"
@@ -47,6 +49,7 @@ struct ChosenPrimitive {
     const ScenePrimitive* primitive = nullptr;
     std::size_t number = 0;           ///< in the scene
     const TangentUse* use = nullptr;  ///< null: the first UVs, as they are
+    bool is_guess = false;            ///< no material names an image of the map's name
 };
 
 std::vector<ChosenPrimitive> choosePrimitives(const Scene& scene, const MapMeshChoice& choice) {
@@ -64,7 +67,7 @@ std::vector<ChosenPrimitive> choosePrimitives(const Scene& scene, const MapMeshC
         const std::size_t set = use == nullptr ? 0 : use->uv_set;
         if (primitive.corners.empty() || set >= primitive.uv_sets.size() || primitive.uv_sets[set].empty()) continue;
         const auto number = static_cast<std::size_t>(&primitive - scene.primitives.data());
-        chosen.push_back({&primitive, number, use});
+        chosen.push_back({&primitive, number, use, !by_image});
     }
     return chosen;
 }
@@ -108,6 +111,38 @@ double scaleOf(std::span<const ChosenPrimitive> chosen) {
         }
     }
     return scale_of(first);
+}
+
+/// Fails where several materials may show the map, and their UVs lie over each other: a map fits one of them.
+void checkMaterials(std::span<const ChosenPrimitive> chosen) {
+    constexpr std::uint32_t kSide = 512;
+    constexpr std::uint64_t kOneOf = 100;
+    const auto countOf = [](const TexelMask& mask) {
+        return mask.count({.left = 0, .top = 0, .right = kSide, .bottom = kSide});
+    };
+    std::map<std::string, TexelMask> masks;
+    std::uint64_t steps = kCoverSteps;
+    for (const ChosenPrimitive& one : chosen) {
+        const TangentUse plain, &use = one.use == nullptr ? plain : *one.use;
+        const std::vector<Vec2> uvs = textureUvs(one.primitive->uv_sets[use.uv_set].span(), use.transform);
+        TexelMask& mask = masks.try_emplace(one.primitive->material_name, kSide, kSide).first->second;
+        coverTexels({one.primitive->corners.span(), uvs, use.wrap_u, use.wrap_v}, mask, steps);
+    }
+    std::string names;
+    for (const auto& [name, mask] : masks) names += (names.empty() ? "" : ", ") + inQuotes(name);
+    for (auto one = masks.begin(); one != masks.end(); ++one) {
+        for (auto other = std::next(one); other != masks.end(); ++other) {
+            TexelMask both = one->second;
+            both.add(other->second);
+            const std::uint64_t a = countOf(one->second), b = countOf(other->second), shared = a + b - countOf(both);
+            if (kOneOf * shared <= std::min(a, b)) continue;
+            failFile(ErrorCode::invalidFile, "the UVs of the materials " + inQuotes(one->first) + " and " +
+                                                 inQuotes(other->first) +
+                                                 " lie over each other, and none names an image of the map's name; "
+                                                 "--material says which one shows the map: " +
+                                                 names);
+        }
+    }
 }
 
 /// Whether two places turn directions alike; offsets and sizes do not matter.
@@ -202,6 +237,7 @@ MapMesh readMapMesh(const std::string& model, const MapMeshChoice& choice, const
             choice.material.empty() ? std::string() : " of the material " + inQuotes(choice.material);
         failFile(ErrorCode::invalidFile, "the model has no triangles" + which + " with the UVs of a normal map");
     }
+    if (choice.needs_material && choice.material.empty() && chosen.front().is_guess) checkMaterials(chosen);
     MapMesh mesh;
     mesh.report.scale = scaleOf(chosen);
     // Tiles lie beside each other, whatever a texture does at its edges.

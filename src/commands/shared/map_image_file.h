@@ -40,6 +40,9 @@ struct MapMeshChoice {
     std::string image_name = {};  ///< the file name of the map, without folder
     bool in_world = false;        ///< normals and tangents as the nodes of the scene turn them
     std::uint32_t tile = 0;       ///< ConvertMapFileOptions::tile
+    /// Fails where neither the name of the material nor that of the image says which materials show the map, and their UVs lie
+    /// over each other.
+    bool needs_material = false;
 };
 
 /// Reads a model and takes the triangles that show the map. Throws FileError: invalidFile where there are none, where their

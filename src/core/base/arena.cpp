@@ -11,6 +11,7 @@
 #include <sys/mman.h>
 #endif
 
+#include "core/base/border.h"
 #include "core/base/memory.h"
 
 #ifdef _WIN32
@@ -136,7 +137,7 @@ class Arena::Impl {
     /// The smallest free block that fits, the first one of several, else the place behind all. So the same calls on an empty
     /// arena end in the same places. Null where there is no room.
     void* takeBlock(std::size_t bytes) noexcept {
-        try {
+        return withMemory([&]() -> std::byte* {
             auto best = blocks_.end();
             for (auto block = blocks_.begin(); block != blocks_.end(); ++block) {
                 if (block->is_free && block->bytes >= bytes && (best == blocks_.end() || block->bytes < best->bytes))
@@ -154,9 +155,7 @@ class Arena::Impl {
             }
             *best = {best->begin, bytes, false};
             return begin_ + best->begin;
-        } catch (...) {
-            return nullptr;  // for the list of blocks
-        }
+        });
     }
 
     void endBlock(std::size_t begin) noexcept {

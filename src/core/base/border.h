@@ -2,6 +2,8 @@
 // The border of the library: checks of the caller's spans, and no exception gets out.
 #pragma once
 
+#include <new>
+#include <stdexcept>
 #include <type_traits>
 
 #include "core/base/memory.h"
@@ -28,6 +30,23 @@ auto atBorder(Body&& body) -> std::invoke_result_t<Body> {
         return body();
     } catch (...) {
         return caughtError();
+    }
+#else
+    return body();
+#endif
+}
+
+/// What `body` returns, and 0 or null where there was no memory for it. Other exceptions pass through. Without exceptions
+/// the program ends there.
+template <class Body>
+auto withMemory(Body&& body) -> std::invoke_result_t<Body> {
+#ifdef __cpp_exceptions
+    try {
+        return body();
+    } catch (const std::bad_alloc&) {
+        return {};
+    } catch (const std::length_error&) {
+        return {};
     }
 #else
     return body();

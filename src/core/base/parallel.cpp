@@ -37,12 +37,19 @@ class Parallel::Pool {
     }
 
     void startHelpers(std::size_t count) {
-        try {
+        const auto start = [&] {
             helpers_.reserve(count);
             while (helpers_.size() < count) helpers_.emplace_back([this] { serve(); });
+        };
+#ifdef __cpp_exceptions
+        try {
+            start();
         } catch (...) {
             // No more threads (or memory for them): the ones there are, and the caller, do the work.
         }
+#else
+        start();
+#endif
     }
 
     void run(std::size_t count, void (*task)(void*, std::size_t), void* context) {

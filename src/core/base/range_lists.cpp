@@ -133,7 +133,7 @@ bool RangeLists::areCompact(const TriangleGroups& triangles, std::size_t block_s
     std::size_t several = 0;
     for (std::size_t i = 0; i < samples; ++i) {
         walk.read((2 * i + 1) * blocks / (2 * samples));
-        several += walk.range() == kSeveral ? 1 : 0;
+        several += walk.range() == kSeveral ? 1u : 0u;
     }
     return 2 * several <= samples;
 }

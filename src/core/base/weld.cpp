@@ -35,7 +35,7 @@ class RepeatedHashes {
     }
 
     RepeatedHashes(const Allocator* allocator, std::size_t vertex_count, std::size_t ranges)
-        : log2_(std::clamp<unsigned>(std::bit_width(kPlacesPerVertex * vertex_count), 6, 32)),
+        : log2_(static_cast<unsigned>(std::clamp<std::size_t>(std::bit_width(kPlacesPerVertex * vertex_count), 6, 32))),
           words_((std::size_t{1} << log2_) / kPlacesPerWord),
           ranges_(ranges),
           table_(allocator, words_ * ranges, std::uint64_t{0}) {}

@@ -92,6 +92,11 @@ void give(Struct report, Struct* to) {
     std::memcpy(to, &report, to->struct_size);
 }
 
+/// Checks that options were prepared. `has_defaults` is false where every field with a default other than 0 is 0, as in a
+/// struct of zeros from a language without TSPACE_INIT, whose tangents nothing would say to be other ones. `name` is that
+/// of tspace_init<name>, `fields` are these.
+Error checkPrepared(bool has_defaults, const char* name, const char* fields);
+
 /// Checks that a choice or flag is not above its largest value.
 Error checkChoice(std::uint32_t value, std::uint32_t largest, const char* name);
 

@@ -27,7 +27,11 @@ namespace tspace::c_api {
 Error checkOptions(const tspace_NormalOptions* given) {
     if (Error error = checkSized(given, "options"); error.code != ErrorCode::ok) return error;
     const tspace_NormalOptions options = orDefault(given);
-    return firstError([&] { return checkChoice(options.weighting, TSPACE_NORMAL_WEIGHTING_BEST, "weighting"); },
+    const bool has_defaults = options.weighting != TSPACE_NORMAL_WEIGHTING_FLAT || options.crease_angle_deg != 0 ||
+                              options.weld_positions != 0 || options.refine != 0;
+    constexpr const char* kFields = "weighting, crease_angle_deg, weld_positions and refine";
+    return firstError([&] { return checkPrepared(has_defaults, "NormalOptions", kFields); },
+                      [&] { return checkChoice(options.weighting, TSPACE_NORMAL_WEIGHTING_BEST, "weighting"); },
                       [&] { return checkChoice(options.smoothing_groups_are_masks, 1, "smoothing_groups_are_masks"); },
                       [&] { return checkChoice(options.weld_positions, 1, "weld_positions"); },
                       [&] { return checkConvention(options.convention); },
@@ -112,7 +116,11 @@ namespace {
 Error checkOptions(const tspace_WindingOptions* given) {
     if (Error error = checkSized(given, "options"); error.code != ErrorCode::ok) return error;
     const tspace_WindingOptions options = orDefault(given);
-    return firstError([&] { return checkChoice(options.use_normals, 1, "use_normals"); },
+    const bool has_defaults =
+        options.use_normals != 0 || options.weld_positions != 0 || toConvention(options.convention) != Convention{};
+    constexpr const char* kFields = "use_normals, weld_positions and the convention";
+    return firstError([&] { return checkPrepared(has_defaults, "WindingOptions", kFields); },
+                      [&] { return checkChoice(options.use_normals, 1, "use_normals"); },
                       [&] { return checkChoice(options.weld_positions, 1, "weld_positions"); },
                       [&] { return checkConvention(options.convention); });
 }

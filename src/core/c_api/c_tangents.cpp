@@ -49,7 +49,9 @@ namespace tspace::c_api {
 Error checkOptions(const tspace_TangentOptions* given) {
     if (Error error = checkSized(given, "options"); error.code != ErrorCode::ok) return error;
     const tspace_TangentOptions options = orDefault(given);
-    return firstError([&] { return checkChoice(options.method, TSPACE_METHOD_BEST, "method"); },
+    const bool has_defaults = options.angular_threshold_deg != 0 || options.refine != 0;
+    return firstError([&] { return checkPrepared(has_defaults, "TangentOptions", "angular_threshold_deg and refine"); },
+                      [&] { return checkChoice(options.method, TSPACE_METHOD_BEST, "method"); },
                       [&] { return checkChoice(options.pairing, TSPACE_PAIRING_CORRECTED, "pairing"); },
                       [&] { return checkChoice(options.ngons, TSPACE_NGONS_SKIP, "ngons"); },
                       [&] { return checkChoice(options.domain, TSPACE_DOMAIN_VERTEX, "domain"); },

@@ -2,11 +2,10 @@
 // The MikkTSpace reference's interface: reads all corners through the callbacks, then calls generateTangents.
 #include "tspace/compat/mikktspace.h"
 
-#include <new>
 #include <numeric>
-#include <stdexcept>
 #include <vector>
 
+#include "core/base/border.h"
 #include "tspace/tangents.h"
 
 namespace {
@@ -145,13 +144,7 @@ tbool genTangSpace(const SMikkTSpaceContext* pContext, const float fAngularThres
     if (pContext == nullptr || pContext->m_pInterface == nullptr || pContext->m_pInterface->m_getNumFaces == nullptr) {
         return 0;
     }
-    try {
-        return generate(pContext, fAngularThreshold) ? 1 : 0;
-    } catch (const std::bad_alloc&) {
-        return 0;
-    } catch (const std::length_error&) {
-        return 0;
-    }
+    return tspace::withMemory([&]() -> tbool { return generate(pContext, fAngularThreshold) ? 1 : 0; });
 }
 
 tbool genTangSpaceDefault(const SMikkTSpaceContext* pContext) { return genTangSpace(pContext, 180.0f); }

@@ -128,7 +128,7 @@ class TriangleSmoother {
             const std::uint32_t* const v = fillGroup(batch.vertices, batch.count, kTermGroup, batch.own_vertices);
             const std::size_t without_area = call_.kernel.compute(source, v, batch.count, terms);
             for (std::size_t t = 0; without_area != 0 && t < batch.count; ++t)
-                degenerate += terms.normal[t][3] == 0.0 && range.has(batch.groups[3 * t]) ? 1 : 0;
+                degenerate += terms.normal[t][3] == 0.0 && range.has(batch.groups[3 * t]) ? 1u : 0u;
             call_.kernel.add(terms, batch.groups, batch.count, sums, range.begin, range.end);
         }
         // Sums of products of floats neither overflow nor vanish when squared.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "core/base/disjoint_sets.h"
 #include "core/base/sort.h"
 #include "core/base/vec_math.h"
 
@@ -90,7 +91,7 @@ class PointComponents {
         else
             joinOverEdges();
         if (components_ == 1) return oneComponent(count_, links_);
-        for (std::uint32_t slot = 0; slot < count_; ++slot) links_[slot] = {root(slot), slot};
+        for (std::uint32_t slot = 0; slot < count_; ++slot) links_[slot] = {rootOf(parents_, slot), slot};
         sortLinks(links_, links_ + count_);
         return links_;
     }
@@ -102,21 +103,8 @@ class PointComponents {
         return rule_.groups.empty() ? 1 : rule_.groups[faces_.of(corner(slot))];
     }
 
-    std::uint32_t root(std::uint32_t slot) {
-        while (parents_[slot] != slot) slot = parents_[slot] = parents_[parents_[slot]];
-        return slot;
-    }
     void join(std::uint32_t a, std::uint32_t b) {
-        a = root(a);
-        b = root(b);
-        if (a == b) return;
-        --components_;
-        // The lower one stays root: linking by order with halved paths is O(log n) per step, and needs no
-        // ranks.
-        if (a < b)
-            parents_[b] = a;
-        else
-            parents_[a] = b;
+        if (joinSets(parents_, a, b)) --components_;
     }
     void joinIfSmooth(std::uint32_t a, std::uint32_t b) {
         if (rule_.anyAngle() || isSmooth(rule_, row(a), row(b))) join(a, b);
@@ -164,7 +152,8 @@ class PointComponents {
             const std::uint32_t found = previous.with(at_.next(slot));
             const std::uint32_t like = next.with(at_.next(slot)), behind = previous.with(at_.previous(slot));
             if ((like & (like - 1)) != 0 || (behind & (behind - 1)) != 0) return false;
-            follower[slot] = static_cast<std::uint8_t>(found != 0 ? std::countr_zero(found) : slot);
+            follower[slot] =
+                static_cast<std::uint8_t>(found != 0 ? static_cast<unsigned>(std::countr_zero(found)) : slot);
         }
         for (std::uint32_t slot = 0; slot < count_; ++slot) {
             if (follower[slot] != slot) joinTwo(slot, follower[slot], corner(slot));

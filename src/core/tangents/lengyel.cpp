@@ -57,6 +57,7 @@ std::uint64_t lowBits(std::size_t count) { return ~std::uint64_t{0} >> (64 - cou
 
 static_assert(TriangleBatch::kMost == derivatives::kTermTriangles);
 static_assert(TriangleBatch::kMost % derivatives::kTermGroup == 0);
+constexpr std::uint32_t kGroup{derivatives::kTermGroup};
 
 /// Triangles whose vertices are their groups.
 class IndexedTriangles final : public TriangleGroups {
@@ -141,7 +142,7 @@ class FaceSums {
             counts.mirrored += static_cast<unsigned>(std::popcount(terms.mirrored));
         } else {
             for (std::size_t i = 0; i < batch.count; ++i)
-                counts.mirrored += (terms.mirrored >> i & 1) != 0 && range.has(v[3 * i]) ? 1 : 0;
+                counts.mirrored += (terms.mirrored >> i & 1) != 0 && range.has(v[3 * i]) ? 1u : 0u;
         }
         if (visits_ == nullptr) return;
         for (std::size_t i = 0; i < 3 * batch.count; ++i) {
@@ -156,7 +157,7 @@ class FaceSums {
         const UvFrame frame = uvFrame(p0, p1, p2, plan_.uvs[v[0]], plan_.uvs[v[1]], plan_.uvs[v[2]]);
         const bool has_area = hasUvArea(frame.determinant);
         if (range.has(v[0])) {
-            counts.degenerate += p0 == p1 || p1 == p2 || p2 == p0 ? 1 : 0;
+            counts.degenerate += p0 == p1 || p1 == p2 || p2 == p0 ? 1u : 0u;
             counts.degenerate_uv += has_area ? 0 : 1;
             counts.mirrored += has_area && frame.determinant < 0 ? 1 : 0;
         }
@@ -209,7 +210,7 @@ class VertexFrames {
             const std::uint32_t left = std::min(kMost, range.end - v);
             // Whole groups, without the last vertex of all: the kernel would read past its normal.
             const auto most = static_cast<std::uint32_t>(std::min<std::size_t>(left, normals_.count - 1 - v));
-            const std::uint32_t whole = has_extras_ ? 0 : most / derivatives::kTermGroup * derivatives::kTermGroup;
+            const std::uint32_t whole = has_extras_ ? 0 : most / kGroup * kGroup;
             whole != 0 ? finishInPlace(v, whole, counts) : finishCopy(v, left, counts);
             v += whole != 0 ? whole : left;
         }
@@ -236,7 +237,7 @@ class VertexFrames {
         std::copy_n(sums_.head(first), 4 * count, heads);
         std::copy_n(sums_.tail(first), 2 * count, tails);
         for (std::uint32_t i = 0; i < count; ++i) normals[i] = normals_[first + i];
-        const std::uint32_t groups = (count + derivatives::kTermGroup - 1) / derivatives::kTermGroup;
+        const std::uint32_t groups = (count + kGroup - 1) / kGroup;
         const std::uint64_t safe = kernel_.finish({heads, tails}, reinterpret_cast<const std::byte*>(normals),
                                                   sizeof(Vec3), sign_factor_, groups * derivatives::kTermGroup);
         finishOthers(first, count, has_extras_ ? 0 : safe, counts);

@@ -174,6 +174,29 @@ DrawnScene Model::drawnScene(bool with_images) {
     return drawn;
 }
 
+DrawnScene Model::materialScene(bool with_normal_maps) {
+    DrawnScene drawn = drawnScene(false);
+    std::set<std::size_t> images = materialImagesOf(drawn.looks);
+    if (with_normal_maps) images.merge(imagesOf(drawn.looks));
+    readImages(*document_, images, drawn.scene);
+    for (const Primitive& primitive : primitives()) {
+        SharedArray<Vec4>& colors = drawn.colors.emplace_back();
+        const auto accessor = primitive.find("COLOR_0");
+        if (!accessor || primitive.vertex_count == 0) continue;
+        const std::string place = join(join(primitive.place(), "attributes"), "COLOR_0");
+        if (readAccessor(*document_, *accessor).component_count == 4) {
+            colors = arrays_->vec4(*accessor, place);
+            continue;
+        }
+        const SharedArray<Vec3> opaque = arrays_->vec3(*accessor, place);
+        document_->memory->take(opaque.size() * sizeof(Vec4), place);
+        std::vector<Vec4> values;
+        for (const Vec3& color : opaque) values.push_back({color.x, color.y, color.z, 1});
+        colors = SharedArray<Vec4>(std::move(values));
+    }
+    return drawn;
+}
+
 void Model::wasEdited() {
     dropScene();
     arrays_->forget();

@@ -99,6 +99,9 @@ class Model {
     /// The scene with looks and places, and `with_images` the bytes of those images that pictures show. The model does not
     /// keep it.
     [[nodiscard]] DrawnScene drawnScene(bool with_images);
+    /// The same with all that materials show: the bytes of the images of colours, metal and emission, and the colours of
+    /// vertices.
+    [[nodiscard]] DrawnScene materialScene(bool with_normal_maps);
 
     /// Primitives and scene are made anew when they are next asked for, and their old memory is free again.
     void wasEdited();

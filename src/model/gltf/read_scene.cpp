@@ -147,7 +147,14 @@ SurfaceLook readLook(const Document& document, const Primitive& primitive) {
         readNumbers(*metal, "baseColorFactor", metal_place, color);
         for (std::size_t i = 0; i < 4; ++i) look.base_color[i] = static_cast<float>(std::clamp(color[i], 0.0, 1.0));
         look.base_texture = readOwnTexture(document, *metal, "baseColorTexture", metal_place);
+        look.metalness = readNumber(*metal, "metallicFactor", metal_place, 1);
+        look.roughness = readNumber(*metal, "roughnessFactor", metal_place, 1);
+        look.metal_texture = readOwnTexture(document, *metal, "metallicRoughnessTexture", metal_place);
+    } else {
+        look.metalness = 1;
     }
+    readNumbers(material, "emissiveFactor", place, look.emission);
+    look.emission_texture = readOwnTexture(document, material, "emissiveTexture", place);
     look.normal_texture = readOwnTexture(document, material, "normalTexture", place);
     if (look.normal_texture)
         look.normal_scale = readNumber(material["normalTexture"], "scale", join(place, "normalTexture"), 1);
@@ -187,14 +194,28 @@ void tellPlaces(const Document& document, std::span<const Primitive> primitives,
         scene.primitives[placement.primitive].places.push_back(placement.to_world);
 }
 
-std::set<std::size_t> imagesOf(std::span<const SurfaceLook> looks) {
+namespace {
+
+using LookTexture = std::optional<TextureReading> SurfaceLook::*;
+
+std::set<std::size_t> imagesOf(std::span<const SurfaceLook> looks, std::initializer_list<LookTexture> textures) {
     std::set<std::size_t> images;
     for (const SurfaceLook& look : looks) {
-        for (const auto* texture : {&look.base_texture, &look.normal_texture}) {
-            if (*texture && (*texture)->image) images.insert(*(*texture)->image);
+        for (const LookTexture texture : textures) {
+            if (look.*texture && (look.*texture)->image) images.insert(*(look.*texture)->image);
         }
     }
     return images;
+}
+
+}  // namespace
+
+std::set<std::size_t> imagesOf(std::span<const SurfaceLook> looks) {
+    return imagesOf(looks, {&SurfaceLook::base_texture, &SurfaceLook::normal_texture});
+}
+
+std::set<std::size_t> materialImagesOf(std::span<const SurfaceLook> looks) {
+    return imagesOf(looks, {&SurfaceLook::base_texture, &SurfaceLook::metal_texture, &SurfaceLook::emission_texture});
 }
 
 namespace {

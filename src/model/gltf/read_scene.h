@@ -27,8 +27,10 @@ std::vector<ScenePlacement> readPlacements(const Document& document, std::span<c
 /// Sets `places` of the scene's primitives, which must be these, in this order. Nodes that cannot be read draw nothing.
 void tellPlaces(const Document& document, std::span<const Primitive> primitives, Scene& scene);
 
-/// The images that these looks name.
+/// The images that these looks name and pictures show: base colours and normal maps.
 std::set<std::size_t> imagesOf(std::span<const SurfaceLook> looks);
+/// Those of colours, metal and emission.
+std::set<std::size_t> materialImagesOf(std::span<const SurfaceLook> looks);
 
 /// These primitives, in their order, and what the file says of itself; names of images, but no bytes. `arrays`: of
 /// the document.

@@ -276,6 +276,10 @@ SurfaceLook lookOf(const Material& material, ImageFiles& files) {
         look.normal_texture = TextureReading{.image = files.indexOf(material.normal_texture)};
     look.normal_scale = material.normal_scale;
     look.is_double_sided = true;
+    look.metalness = static_cast<double>(material.metallic);
+    look.roughness = static_cast<double>(material.roughness);
+    look.emission = {static_cast<double>(material.emission.x), static_cast<double>(material.emission.y),
+                     static_cast<double>(material.emission.z)};
     return look;
 }
 

@@ -55,14 +55,25 @@ Scene readScene(const std::string& input, const FileOptions& options, bool with_
     return scene;
 }
 
+namespace {
+
+DrawnScene readObjScene(const std::string& input, const FileOptions& options, bool with_images) {
+    obj::Model model = obj::readModel(input, options);
+    std::vector<obj::ObjPrimitive> primitives = obj::collectPrimitives(model);
+    valueOrThrow(obj::completeNormals(model, primitives, {}));
+    return obj::drawnSceneOf(model, primitives, with_images);
+}
+
+}  // namespace
+
 DrawnScene readDrawnScene(const std::string& input, const FileOptions& options, bool with_images) {
-    if (lowerExtension(input) == ".obj") {
-        obj::Model model = obj::readModel(input, options);
-        std::vector<obj::ObjPrimitive> primitives = obj::collectPrimitives(model);
-        valueOrThrow(obj::completeNormals(model, primitives, {}));
-        return obj::drawnSceneOf(model, primitives, with_images);
-    }
+    if (lowerExtension(input) == ".obj") return readObjScene(input, options, with_images);
     return readModel(input, options).drawnScene(with_images);
+}
+
+DrawnScene readMaterialScene(const std::string& input, const FileOptions& options, bool with_normal_maps) {
+    if (lowerExtension(input) == ".obj") return readObjScene(input, options, true);
+    return readModel(input, options).materialScene(with_normal_maps);
 }
 
 }  // namespace tspace

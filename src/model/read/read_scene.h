@@ -33,4 +33,8 @@ Scene readScene(const std::string& input, const FileOptions& options, bool with_
 /// without normals get those that generateFile gives them.
 DrawnScene readDrawnScene(const std::string& input, const FileOptions& options, bool with_images);
 
+/// The same with all that materials show: images of colours, metal and emission, and colours of vertices, as they are stored.
+/// `with_normal_maps`: those images too. OBJ has none of those, and images of colours alone.
+DrawnScene readMaterialScene(const std::string& input, const FileOptions& options, bool with_normal_maps);
+
 }  // namespace tspace

@@ -186,6 +186,10 @@ struct SurfaceLook {
     std::optional<TextureReading> base_texture = {};
     std::optional<TextureReading> normal_texture = {};
     double normal_scale = 1;
+    double metalness = 0, roughness = 1;
+    std::optional<TextureReading> metal_texture = {};  ///< green: roughness; blue: metalness
+    std::array<double, 3> emission = {0, 0, 0};        ///< linear
+    std::optional<TextureReading> emission_texture = {};
     /// Where alpha is smaller the surface is not there; 0: it is there everywhere.
     double alpha_cutoff = 0;
     bool is_double_sided = false;
@@ -203,6 +207,8 @@ struct DrawnScene {
     Scene scene = {};
     std::vector<SurfaceLook> looks = {};          ///< one per primitive
     std::vector<ScenePlacement> placements = {};  ///< in the order of nodes; never empty where there are primitives
+    /// COLOR_0 as stored, one list per primitive, empty where it has none; no lists where they were not asked for.
+    std::vector<SharedArray<Vec4>> colors = {};
 };
 
 }  // namespace tspace

@@ -226,7 +226,8 @@ RC_GTEST_PROP(IndexedProperty, FlatTriangleIsItsFaceFrameMadeOrthogonal, ()) {
         const Frame frame{face.tangent, face.bitangent, n};
         const double sine = test::norm(orthonormalize(frame).tangent);
         if (std::fabs(face.determinant) < 1e-2f || sine < 1e-2) continue;
-        RC_ASSERT(test::dot(packTangent(frame).w == 0 ? Vec3{} : xyz(packTangent(frame)), xyz(out.tangents[c])) > 1 - 1e-5);
+        RC_ASSERT(test::dot(packTangent(frame).w == 0 ? Vec3{} : xyz(packTangent(frame)), xyz(out.tangents[c])) >
+                  1 - 1e-5);
         if (std::fabs(determinant(frame)) > 1e-3f) RC_ASSERT(out.tangents[c].w == frameSign(frame));
         RC_ASSERT(std::fabs(out.magnitudes_s[c] - test::norm(face.tangent)) <= 1e-5 * test::norm(face.tangent));
     }

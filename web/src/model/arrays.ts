@@ -20,7 +20,7 @@ const named = (geometry: BufferGeometry, name: string, size: number): Float32Arr
   return attribute && attribute.itemSize >= size ? floats(attribute, size) : null;
 };
 
-const uvName = (channel: number): string => (channel === 0 ? "uv" : `uv${channel}`);
+export const uvName = (channel: number): string => (channel === 0 ? "uv" : `uv${channel}`);
 
 function transformed(uvs: Float32Array<ArrayBuffer>, matrix: Matrix3 | null): Float32Array<ArrayBuffer> {
   if (!matrix) return uvs;
@@ -36,6 +36,9 @@ export function uvsOf(geometry: BufferGeometry, channel: number, matrix: Matrix3
   const uvs = named(geometry, uvName(channel), 2);
   return uvs && transformed(uvs, matrix);
 }
+
+/** Two numbers per vertex, through the transform of a texture. */
+export const uvsThrough = (attribute: Attribute, matrix: Matrix3 | null): Float32Array<ArrayBuffer> => transformed(floats(attribute, 2), matrix);
 
 export function arraysOf(geometry: BufferGeometry, channel: number, matrix: Matrix3 | null): Arrays | null {
   const positions = named(geometry, "position", 3);

@@ -9,16 +9,12 @@ import { Motion } from "./motion.js";
 import { poseOf } from "./pose.js";
 import { giveDecoders } from "./compressed.js";
 import type { Model, Part } from "./part.js";
-import { leaveOutBasis, missingImages, normalImagesOf } from "./textures.js";
+import { materialIn, putOn, variantsOf, type Origin } from "./variants.js";
+import { missingImages, normalImagesOf, readTextureFiles } from "./textures.js";
 
 /** More is not drawn, since a browser's memory ends there; findings are complete all the same. */
 const kMostCorners = 12_000_000;
 const kMostInstances = 1000;
-
-interface Origin {
-  meshes: number;
-  primitives: number;
-}
 
 const decoded = (uri: string): string => {
   try {
@@ -100,9 +96,6 @@ function originOf(mesh: Mesh, gltf: GLTF): Origin | null {
   return meshes === undefined ? null : { meshes, primitives: above === undefined ? 0 : mesh.parent!.children.indexOf(mesh) };
 }
 
-/** The material of a primitive, by its place in the file. */
-const materialOf = ({ meshes, primitives }: Origin, gltf: GLTF): number => (gltf.parser.json.meshes?.[meshes]?.primitives?.[primitives]?.material as number | undefined) ?? -1;
-
 /** Where a mesh is drawn: of many instances the first ones. */
 function placesOf(mesh: Mesh): Matrix4[] {
   if (mesh instanceof SkinnedMesh) return [new Matrix4()];
@@ -134,12 +127,13 @@ async function sceneOf(gltf: GLTF, remarks: string[]): Promise<Object3D[]> {
   return meshes;
 }
 
-export async function loadModel(model: ModelFiles, work: Work): Promise<Model> {
+/** What a file draws, with the materials of one of its variants, or those of its primitives (-1). */
+export async function loadModel(model: ModelFiles, work: Work, variant = -1): Promise<Model> {
   const urls: string[] = [];
   const remarks: string[] = [];
   const loader = new GLTFLoader(managerFor(model, urls));
   giveDecoders(loader, work);
-  leaveOutBasis(loader);
+  const why = readTextureFiles(loader, work);
   try {
     const buffer = model.bytes.buffer.slice(model.bytes.byteOffset, model.bytes.byteOffset + model.bytes.byteLength);
     const isText = /\.gltf$/i.test(model.name);
@@ -147,6 +141,8 @@ export async function loadModel(model: ModelFiles, work: Work): Promise<Model> {
     const parts = new Map<string, Part>(), normalImages = normalImagesOf(gltf);
     let corners = 0, left = 0;
     const roots = await sceneOf(gltf, remarks), objects: [Part, Mesh][] = [];
+    const lost = await putOn(gltf, variant, roots, originOf);
+    if (lost) remarks.push(lost);
     for (const root of roots) {
       root.updateMatrixWorld(true);
       root.traverse((object) => {
@@ -154,7 +150,7 @@ export async function loadModel(model: ModelFiles, work: Work): Promise<Model> {
         if (!(object instanceof Mesh) || !where) return;
         // Each skinned mesh has a pose of its own.
         const key = `${where.meshes}/${where.primitives}/${(object.material as Material).uuid}/${object instanceof SkinnedMesh ? object.uuid : ""}`;
-        const known = parts.get(key) ?? partOf(object, where, materialOf(where, gltf), normalImages);
+        const known = parts.get(key) ?? partOf(object, where, materialIn(gltf, where, variant), normalImages);
         if (!known) return;
         corners += known.arrays.indices?.length ?? known.arrays.positions.length / 3;
         if (corners > kMostCorners) return void (left += 1);
@@ -165,10 +161,10 @@ export async function loadModel(model: ModelFiles, work: Work): Promise<Model> {
     }
     moveToOrigin(parts.values());
     if (left > 0) remarks.push(`${left} of its parts are not drawn: the picture ends at ${kMostCorners / 3 / 1e6} million triangles.`);
-    remarks.push(...(await missingImages(gltf)));
+    remarks.push(...(await missingImages(gltf, why)));
     const isMoving = gltf.animations.length > 0 || gltf.cameras.length > 0 || objects.some(([, { morphTargetInfluences }]) => morphTargetInfluences);
     const motion = isMoving && roots.length > 0 ? new Motion(roots, gltf.animations, gltf.cameras, objects) : null;
-    return { parts: [...parts.values()], motion, normalImages, remarks };
+    return { parts: [...parts.values()], motion, normalImages, variants: variantsOf(gltf), remarks };
   } finally {
     for (const url of urls) URL.revokeObjectURL(url);
   }

@@ -42,6 +42,8 @@ export interface Model {
   motion: Motion | null;
   /** For each material of the file the index of its normal map's image, or -1. */
   normalImages: number[];
+  /** Names of KHR_materials_variants. */
+  variants: string[];
   /** Sentences about what the picture leaves out. */
   remarks: string[];
 }

@@ -2,10 +2,15 @@
 // Images of a file: which one a normal map is, and what happens to those that the picture cannot show.
 import type { GLTF, GLTFLoader, GLTFParser } from "three/examples/jsm/loaders/GLTFLoader.js";
 import { plural } from "../dom.js";
+import type { Work } from "../worker/client.js";
 
 interface TextureJson {
   source?: number;
   extensions?: Record<string, { source?: number } | undefined>;
+}
+interface ImageJson {
+  mimeType?: string;
+  uri?: string;
 }
 interface MaterialJson {
   name?: string;
@@ -13,7 +18,7 @@ interface MaterialJson {
   pbrMetallicRoughness?: { baseColorTexture?: { index: number } };
 }
 
-const kBasis = "KHR_texture_basisu";
+const kBasis = "KHR_texture_basisu", kDds = "MSFT_texture_dds";
 /** The order in which renderers look for an image. */
 const kSources = [kBasis, "EXT_texture_avif", "EXT_texture_webp"];
 
@@ -22,8 +27,10 @@ function imageOf(texture: TextureJson | undefined): number {
     const source = texture?.extensions?.[name]?.source;
     if (source !== undefined) return source;
   }
-  return texture?.source ?? -1;
+  return texture?.source ?? texture?.extensions?.[kDds]?.source ?? -1;
 }
+
+const isTextureFile = (image: ImageJson | undefined): boolean => /^image\/(ktx2|vnd-ms\.dds)$/.test(image?.mimeType ?? "") || /^data:image\/(ktx2|vnd-ms\.dds)|\.(ktx2|dds)$/i.test(image?.uri ?? "");
 
 /** For each material the index of its normal map's image, or -1. */
 export function normalImagesOf(gltf: GLTF): number[] {
@@ -31,21 +38,44 @@ export function normalImagesOf(gltf: GLTF): number[] {
   return materials.map(({ normalTexture }) => (normalTexture ? imageOf(textures[normalTexture.index]) : -1));
 }
 
-/** A texture in KTX2 that has no other image is left out: without this the loader would refuse the whole model. */
-export function leaveOutBasis(loader: GLTFLoader): void {
-  loader.register((parser: GLTFParser) => ({
-    name: kBasis,
-    loadTexture: (index: number) => {
-      const texture = parser.json.textures[index] as TextureJson;
-      return texture.extensions?.[kBasis] && texture.source === undefined ? (Promise.resolve(null) as unknown as ReturnType<GLTFParser["loadTexture"]>) : null;
-    },
-  }));
+/** What the loader calls: images by their addresses. */
+interface ImageLoader {
+  isImageBitmapLoader: true;
+  load(url: string, done: (image: ImageBitmap) => void, progress: unknown, failed: (error: unknown) => void): void;
 }
 
-/** A sentence on the images that materials name and the picture cannot show, or none. */
-export async function missingImages(gltf: GLTF): Promise<string[]> {
-  const { materials = [], textures = [], images = [] } = gltf.parser.json as { materials?: MaterialJson[]; textures?: TextureJson[]; images?: { mimeType?: string; uri?: string }[] };
-  const lost = new Set<number>();
+/**
+ * Textures whose only image is KTX2 or DDS are decoded by the worker; the loader of three.js would refuse the whole model. So are those that name such an
+ * image as their source, without the extension for it. Returns why images were not decoded, by their number.
+ */
+export function readTextureFiles(loader: GLTFLoader, work: Work): Map<number, string> {
+  const why = new Map<number, string>();
+  const pixels = async (url: string): Promise<ImageBitmap> => {
+    const file = new Uint8Array(await (await fetch(loader.manager.resolveURL(url))).arrayBuffer());
+    const { width, height, rgba } = await work.run("texture", { file });
+    return createImageBitmap(new ImageData(rgba, width, height), { premultiplyAlpha: "none", colorSpaceConversion: "none" });
+  };
+  for (const name of [kBasis, kDds]) {
+    loader.register((parser: GLTFParser) => ({
+      name,
+      loadTexture: (index: number) => {
+        const texture = parser.json.textures[index] as TextureJson, source = texture.source ?? texture.extensions?.[name]?.source;
+        if (source === undefined || (source === texture.source && !isTextureFile(parser.json.images?.[source]))) return null;
+        const own: ImageLoader = {
+          isImageBitmapLoader: true,
+          load: (url, done, _, failed) => void pixels(url).then(done).catch((error: Error) => (why.set(source, error.message), failed(error))),
+        };
+        return parser.loadTextureImage(index, source, own as unknown as Parameters<GLTFParser["loadTextureImage"]>[2]) as ReturnType<GLTFParser["loadTexture"]>;
+      },
+    }));
+  }
+  return why;
+}
+
+/** A sentence on the images that materials name and the picture cannot show, or none; `why`: what is known of them. */
+export async function missingImages(gltf: GLTF, why: ReadonlyMap<number, string>): Promise<string[]> {
+  const { materials = [], textures = [] } = gltf.parser.json as { materials?: MaterialJson[]; textures?: TextureJson[] };
+  const lost = new Set<number>(why.keys());
   for (const { normalTexture, pbrMetallicRoughness } of materials) {
     for (const index of [normalTexture?.index, pbrMetallicRoughness?.baseColorTexture?.index]) {
       if (index === undefined) continue;
@@ -54,6 +84,6 @@ export async function missingImages(gltf: GLTF): Promise<string[]> {
     }
   }
   if (lost.size === 0) return [];
-  const isKtx = [...lost].every((image) => images[image]?.mimeType === "image/ktx2" || /\.ktx2$/i.test(images[image]?.uri ?? ""));
-  return [`${plural(lost.size, "image")} cannot be drawn here${isKtx ? ", being KTX2" : ""}, and the model is shown without ${lost.size === 1 ? "it" : "them"}.`];
+  const reasons = new Set([...lost].map((image) => why.get(image)).filter((reason) => reason !== undefined));
+  return [`${plural(lost.size, "image")} cannot be drawn here${reasons.size > 0 ? ` (${[...reasons].join("; ")})` : ""}, and the model is shown without ${lost.size === 1 ? "it" : "them"}.`];
 }

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 // The picture: camera, controls, light, and drawing when something has changed and not otherwise.
-import { Color, DirectionalLight, Matrix4, NeutralToneMapping, NoBlending, PerspectiveCamera, Scene as ThreeScene, Vector2, Vector3, WebGLRenderer, WebGLRenderTarget, type Object3D } from "three";
+import { BufferAttribute, Color, DirectionalLight, Matrix4, NeutralToneMapping, NoBlending, PerspectiveCamera, Scene as ThreeScene, Vector2, Vector3, WebGLRenderer, WebGLRenderTarget, type Object3D } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { Scene } from "./scene.js";
 import { environmentFor } from "./environment.js";
 import { setValues, type Look, type PictureValues } from "./shader.js";
+import type { MapCorners } from "../worker/protocol.js";
 
 export interface Settings {
   look: Look;
@@ -13,6 +14,14 @@ export interface Settings {
   usesColors: boolean;
   /** 0 to 1 from the left: where frames of the file end and right ones begin. */
   split: number;
+}
+
+/** One attribute for each array, so that what was sent to the graphics card stays there. */
+const attributes = new WeakMap<Float32Array, BufferAttribute>();
+function attributeOf(values: Float32Array<ArrayBuffer>): BufferAttribute {
+  const attribute = attributes.get(values) ?? new BufferAttribute(values, 2);
+  attributes.set(values, attribute);
+  return attribute;
 }
 
 const kStep = Math.PI / 24;
@@ -188,36 +197,38 @@ export class Viewport {
   }
 
   /** The UV map of a part as pixels, from the top row down, or null without WebGL; `area` is scale and offset of UVs. */
-  async drawMap(partIndex: number, look: Look, size: number, area: [number, number, number, number]): Promise<Uint8ClampedArray<ArrayBuffer> | null> {
+  async drawMap(partIndex: number, map: MapCorners, look: Look, isWire: boolean, { width, height }: { width: number; height: number }, area: [number, number, number, number]): Promise<Uint8ClampedArray<ArrayBuffer> | null> {
     const { renderer } = this;
     if (!renderer) return null;
-    const target = new WebGLRenderTarget(size, size);
+    const target = new WebGLRenderTarget(width, height, { samples: 4 });
     const { drawn } = this.scene;
     const clear = renderer.getClearColor(new Color()), alpha = renderer.getClearAlpha();
     drawn.forEach(({ meshes }, i) => meshes.forEach((mesh, k) => (mesh.visible = i === partIndex && k === 0)));
-    const { material } = drawn[partIndex];
-    const { side } = material;
-    setValues(material, { ...this.#values(), look, isWire: false, split: Infinity });
+    const { material, geometry } = drawn[partIndex];
+    const { side } = material, own = { mapUv: geometry.getAttribute("mapUv"), island: geometry.getAttribute("island") };
+    setValues(material, { ...this.#values(), look, isWire, split: Infinity });
     material.side = 2;
     material.depthTest = false;
     material.blending = NoBlending;
     material.uniforms.uIsMap.value = true;
     material.uniforms.uMapArea.value = area;
     material.uniforms.uSplit.value = 1e9;
+    geometry.setAttribute("mapUv", attributeOf(map.uvs)).setAttribute("island", attributeOf(map.islands));
     renderer.setRenderTarget(target);
     renderer.setClearColor(0, 0);
     renderer.clear();
     renderer.render(this.#world, this.camera);
     renderer.setRenderTarget(null);
     renderer.setClearColor(clear, alpha);
+    geometry.setAttribute("mapUv", own.mapUv).setAttribute("island", own.island);
     material.uniforms.uIsMap.value = false;
     material.depthTest = true;
     material.side = side;
     this.scene.show(false);
-    const upsideDown = new Uint8ClampedArray(4 * size * size), rows = new Uint8ClampedArray(4 * size * size);
-    await renderer.readRenderTargetPixelsAsync(target, 0, 0, size, size, upsideDown);
+    const upsideDown = new Uint8ClampedArray(4 * width * height), rows = new Uint8ClampedArray(4 * width * height), row = 4 * width;
+    await renderer.readRenderTargetPixelsAsync(target, 0, 0, width, height, upsideDown);
     target.dispose();
-    for (let row = 0; row < size; ++row) rows.set(upsideDown.subarray(4 * size * (size - 1 - row), 4 * size * (size - row)), 4 * size * row);
+    for (let y = 0; y < height; ++y) rows.set(upsideDown.subarray(row * (height - 1 - y), row * (height - y)), row * y);
     return rows;
   }
 

@@ -18,7 +18,9 @@ export class LookView {
   #viewport: Viewport;
   #choice: HTMLSelectElement;
 
-  constructor(private stage: Stage, private changed: (right: Right) => void) {
+  #variants = el("div", { hidden: true });
+
+  constructor(private stage: Stage, private changed: (right: Right) => void, private vary: (variant: number) => void) {
     const { viewport } = stage;
     this.#viewport = viewport;
     const names = [...methods, "mended"] as const;
@@ -50,10 +52,17 @@ export class LookView {
       this.showLines();
     });
     this.element.append(
-      el("div", { class: "rows" }, frames.element, this.#figures, map.element,
+      el("div", { class: "rows" }, this.#variants, frames.element, this.#figures, map.element,
         el("div", { class: "row" }, wire.element, colors.element),
         el("div", { class: "row lines" }, ...axes, length), whose.element, ground.element));
     this.offerMended(false);
+  }
+
+  /** A choice among the variants of the file, where it has some; `chosen`: by its number, or -1. */
+  offerVariants(names: string[], chosen = -1): void {
+    this.#variants.hidden = names.length === 0;
+    const variants = names.length > 0 && select("Variant", [["-1", "none: as the file stands"], ...names.map((name, i) => [String(i), name] as const)], String(chosen), (value) => this.vary(Number(value))).element;
+    replaceChildren(this.#variants, variants);
   }
 
   #choose(right: Right): void {

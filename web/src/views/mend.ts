@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Mends the model as `tspace generate` does: what to do, the same as a command line, what changed, and the file. Each model
 // begins with what its own findings ask for.
+import { folderOf, zipOf } from "../model/folder.js";
 import { checkbox, choice, count, el, replaceChildren, select } from "../dom.js";
 import type { ModelFiles } from "../files.js";
 import type { CheckReport, Finding, GeneratedPrimitive, GenerateReport, JudgedMap } from "tspace/gltf";
@@ -177,6 +178,14 @@ export class MendView {
     }
   }
 
+  /** The folder that a .gltf came in, as a .zip. */
+  #folder(mended: Mended): HTMLElement[] {
+    const files = this.#model && folderOf(mended.bytes, this.#model);
+    if (!files) return [];
+    const stem = mended.name.replace(/\.glb$/, ""), url = URL.createObjectURL(new Blob([zipOf(files, stem)], { type: "application/zip" }));
+    return [el("a", { class: "button plain-link folder", href: url, download: `${stem}.zip` }, "Download the folder (.zip)")];
+  }
+
   #show(mended: Mended): void {
     const file = mended.report as GenerateReport;
     const url = URL.createObjectURL(new Blob([mended.bytes], { type: "model/gltf-binary" }));
@@ -190,7 +199,7 @@ export class MendView {
       changeTable(file.primitives),
       file.normalMaps.length > 0 ? mapTable(file.normalMaps) : null,
       ...file.warnings.map((warning) => el("p", { class: "quiet" }, warning)),
-      el("div", { class: "row" }, download, look));
+      el("div", { class: "row" }, download, ...this.#folder(mended), look));
   }
 }
 

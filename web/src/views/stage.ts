@@ -46,10 +46,10 @@ export class Stage {
   #share = 0.5;
   #blinks = false;
 
-  constructor() {
+  constructor(beside: HTMLElement) {
     const frame = this.#frame = el("div", { class: "frame", "data-ground": "grey" }, this.canvas, this.#line, this.#leftLabel, this.#rightLabel, this.#legend.element, this.#light, this.#remark);
     this.#looks = choice("Look", lookNames, "lit", (look) => this.setLook(look));
-    this.element = el("section", { class: "stage", "aria-label": "Picture" }, this.#looks.element, frame, this.#split);
+    this.element = el("section", { class: "stage", "aria-label": "Picture" }, this.#looks.element, el("div", { class: "views" }, el("div", { class: "picture" }, frame, this.#split), beside));
     this.viewport = new Viewport(this.canvas);
     this.#split.addEventListener("input", () => this.setSplit(Number(this.#split.value) / 1000));
     this.canvas.addEventListener("light", () => this.#showLight());

@@ -8,7 +8,9 @@ import type { Viewport } from "../picture/viewport.js";
 export interface Spot {
   drawn: Drawn;
   partIndex: number;
-  uv: [number, number] | null;
+  /** Of the part's triangles, and the weights of its corners. */
+  triangle: number;
+  weights: [number, number, number];
 }
 
 /** Weights of the corners where a ray meets the plane of a triangle. */
@@ -52,6 +54,7 @@ export class TexelView {
     this.element.append(this.#body);
     this.reset();
     viewport.canvas.addEventListener("pointermove", (event) => event.buttons === 0 && void this.#look(event));
+    viewport.canvas.addEventListener("pointerleave", () => ((this.#next = null), this.found(null)));
     viewport.canvas.addEventListener("pointerdown", (event) => event.pointerType !== "mouse" && void this.#look(event));
   }
 
@@ -82,7 +85,7 @@ export class TexelView {
   async #show(x: number, y: number, box: DOMRect): Promise<void> {
     const { viewport } = this, { scene } = viewport;
     const hit = scene.at(await viewport.pick(x, y));
-    if (!hit) return;
+    if (!hit) return this.found(null);
     const { drawn, place, triangle } = hit;
     const pointer = new Vector2((x / box.width) * 2 - 1, 1 - (y / box.height) * 2);
     const far = new Vector3(pointer.x, pointer.y, 0.5).unproject(viewport.camera);
@@ -102,7 +105,7 @@ export class TexelView {
     const { corners, frames, part } = drawn;
     const n = mixed(corners.normals, 3);
     const uv: [number, number] | null = corners.uvs && [mix(corners.uvs, 2, 0), mix(corners.uvs, 2, 1)];
-    this.found({ drawn, partIndex: this.viewport.scene.drawn.indexOf(drawn), uv });
+    this.found({ drawn, partIndex: this.viewport.scene.drawn.indexOf(drawn), triangle, weights: [weights.x, weights.y, weights.z] });
     const texelOf = (map: Texture | null) => (uv && map ? this.#reader.read(map, uv[0], uv[1]) : null);
     const normalOf = (texel: ReturnType<typeof texelOf>, turn = 1) => {
       const [x, y, z] = texel ? texel.rgb.map((c) => (c / 255) * 2 - 1) : [0, 0, 1];

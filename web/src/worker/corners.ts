@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Primitives as lists of corners, islands of their UV maps, and frames with their distance from those of the file.
 import { generateNormals, generateTangents, ready, type Mesh } from "tspace";
-import type { Arrays, Corners, Frames, Method } from "./protocol.js";
+import type { Arrays, Corners, Frames, MapCorners, Method } from "./protocol.js";
 
 const kNoVertex = 0xffffffff;
 
@@ -89,25 +89,30 @@ export async function cornersOf(arrays: Arrays): Promise<Corners> {
   const corners: Corners = {
     positions: gather(arrays.positions, 3, vertices),
     normals: arrays.normals ? gather(arrays.normals, 3, vertices) : (generateNormals(meshOf(arrays, vertices), { weighting: "flat" }) as Float32Array<ArrayBuffer>),
-    uvs: arrays.uvs && gather(arrays.uvs, 2, vertices),
+    uvs: null,
     tangents: arrays.tangents && gather(arrays.tangents, 4, vertices),
     islands: new Float32Array(2 * vertices.length),
     islandCount: 0,
     mirroredCount: 0,
     normalsMade: !arrays.normals,
   };
-  if (!corners.uvs) return corners;
-  const { ofTriangle, count } = findIslands(arrays, vertices);
-  corners.islandCount = count;
+  return arrays.uvs ? { ...corners, ...mapCorners(arrays) } : corners;
+}
+
+/** The UV map of arrays that have one. */
+export function mapCorners(arrays: Arrays): MapCorners {
+  const vertices = cornerVertices(arrays), { ofTriangle, count } = findIslands(arrays, vertices);
+  const uvs = gather(arrays.uvs!, 2, vertices), islands = new Float32Array(2 * vertices.length);
+  let mirroredCount = 0;
   for (let triangle = 0; triangle < ofTriangle.length; ++triangle) {
-    const side = mirrored(corners.uvs, triangle);
-    if (side === 1) corners.mirroredCount += 1;
+    const side = mirrored(uvs, triangle);
+    if (side === 1) mirroredCount += 1;
     for (let corner = 3 * triangle; corner < 3 * triangle + 3; ++corner) {
-      corners.islands[2 * corner] = ofTriangle[triangle];
-      corners.islands[2 * corner + 1] = side;
+      islands[2 * corner] = ofTriangle[triangle];
+      islands[2 * corner + 1] = side;
     }
   }
-  return corners;
+  return { uvs, islands, islandCount: count, mirroredCount };
 }
 
 /** Degrees between two directions, or -1 where one of them is none. */

@@ -18,6 +18,14 @@ export interface Arrays {
   indices: Uint32Array<ArrayBuffer> | null;
 }
 
+/** A UV map per corner: what the picture of it needs. */
+export interface MapCorners {
+  uvs: Float32Array<ArrayBuffer>;
+  islands: Float32Array<ArrayBuffer>;
+  islandCount: number;
+  mirroredCount: number;
+}
+
 /** The same per corner, three corners a triangle, for the picture. */
 export interface Corners {
   positions: Float32Array<ArrayBuffer>;
@@ -63,15 +71,25 @@ export interface DracoMesh {
   attributes: { name: string; size: number; values: Float32Array }[];
 }
 
+/** The first level of a KTX2 or DDS, from the top row down. */
+export interface TexturePixels {
+  width: number;
+  height: number;
+  rgba: Uint8ClampedArray<ArrayBuffer>;
+}
+
 export interface Calls {
   report: { ask: { verb: Verb; model: ModelFiles }; answer: unknown };
   generate: { ask: { model: ModelFiles; options: Record<string, unknown> }; answer: { report: unknown; bytes: Uint8Array<ArrayBuffer> } };
   corners: { ask: { part: number; arrays: Arrays }; answer: Corners };
+  /** The map of other UVs for a part. */
+  map: { ask: { arrays: Arrays }; answer: MapCorners };
   frames: { ask: { part: number; method: Method }; answer: Frames };
   /** Frames of the same part in another file: null where it has none, or has other triangles. */
   otherFrames: { ask: { part: number; arrays: Arrays }; answer: Frames | null };
   meshopt: { ask: MeshoptAsk; answer: Uint8Array<ArrayBuffer> };
   draco: { ask: DracoAsk; answer: DracoMesh };
+  texture: { ask: { file: Uint8Array<ArrayBuffer> }; answer: TexturePixels };
   forget: { ask: Record<string, never>; answer: null };
 }
 export type Call = keyof Calls;

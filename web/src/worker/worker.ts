@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Everything that takes time: reports on files, and frames of the parts that the page shows.
 import { decodeDraco, decodeMeshopt, forgetCodecs } from "./codecs.js";
-import { computeFrames, cornersOf, otherFrames } from "./corners.js";
+import { computeFrames, cornersOf, mapCorners, otherFrames } from "./corners.js";
+import { decodeTexture } from "./texture_files.js";
 import { generateModel, reportOn } from "./model_calls.js";
 import type { Answer, Arrays, Question } from "./protocol.js";
 
@@ -26,6 +27,10 @@ async function answerTo(question: Question): Promise<{ answer: unknown; transfer
       const buffers = [answer.positions, answer.normals, answer.islands, answer.uvs, answer.tangents].map((array) => array?.buffer);
       return { answer, transfer: [...new Set(buffers)].filter((buffer) => buffer !== undefined) };
     }
+    case "map": {
+      const answer = mapCorners(question.ask.arrays);
+      return { answer, transfer: [answer.uvs.buffer, answer.islands.buffer] };
+    }
     case "frames": {
       const answer = await computeFrames(known(question.ask.part), question.ask.method);
       return { answer, transfer: [answer.tangents.buffer, answer.errors.buffer] };
@@ -41,6 +46,10 @@ async function answerTo(question: Question): Promise<{ answer: unknown; transfer
     case "draco": {
       const answer = await decodeDraco(question.ask);
       return { answer, transfer: [answer.indices.buffer, ...answer.attributes.map(({ values }) => values.buffer)] };
+    }
+    case "texture": {
+      const answer = await decodeTexture(question.ask.file);
+      return { answer, transfer: [answer.rgba.buffer] };
     }
     case "forget":
       parts.clear();

@@ -12,7 +12,8 @@ import numpy
 
 from . import _abi, _file_reports, _files_abi
 from ._errors import InputError, UnknownOptionError, raise_error, shown
-from ._file_reports import DiffReport, Finding, FlipGreenReport, GenerateReport, HeightToNormalReport, InspectReport
+from ._file_reports import DiffReport, Finding, FlipGreenReport, HeightToNormalReport, InspectReport
+from ._generate_report import GenerateReport
 from ._report import Report
 
 PathLike = Union[str, "os.PathLike[str]"]

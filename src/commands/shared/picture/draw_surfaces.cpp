@@ -68,6 +68,15 @@ DVec3 worldNormal(const Affine& to_world, DVec3 normal, bool is_back) {
     return is_back ? -1.0 * world : world;
 }
 
+/// Whether a place turns, mirrors and scales evenly, and no more.
+bool keepsAngles(const Affine& place) {
+    constexpr double kSame = 1e-9;
+    const double size = dot(place.x, place.x);
+    const auto isSame = [&](double value, double wanted) { return std::fabs(value - wanted) <= kSame * size; };
+    return isSame(dot(place.y, place.y), size) && isSame(dot(place.z, place.z), size) &&
+           isSame(dot(place.x, place.y), 0) && isSame(dot(place.y, place.z), 0) && isSame(dot(place.z, place.x), 0);
+}
+
 DVec3 plainNormal(const ShownSurface& surface, const Affine& to_world, const SurfacePoint& point) {
     const std::array<Vec3, 3> normals = valuesAt(surface.normals, shownTriangle(surface, point.triangle));
     DVec3 normal;
@@ -164,9 +173,19 @@ bool isThere(const ShownSurface& surface, std::size_t triangle, const Weights& w
 DVec3 mappedNormal(const ShownSurface& surface, const Affine& to_world, const SurfacePoint& point) {
     if (surface.normal_map.image == nullptr || surface.tangents.empty()) return plainNormal(surface, to_world, point);
     const Vec3 texel = sampleAt(surface.normal_map, shownTriangle(surface, point.triangle), point.weights);
-    const DVec3 normal =
-        shadedNormal(frameAt(surface, surface.normals, surface.tangents, point), decodeTexel(texel, surface.reading));
-    return worldNormal(to_world, normal, point.is_back);
+    const DVec3 vector = decodeTexel(texel, surface.reading);
+    if (keepsAngles(to_world)) {
+        const ShadingFrame frame = frameAt(surface, surface.normals, surface.tangents, point);
+        return worldNormal(to_world, shadedNormal(frame, vector), point.is_back);
+    }
+    // As three.js and the viewer of Khronos do it: N by the inverse transpose, T by the matrix, unit at the vertices, and B of
+    // these two, so that what a texel leans by is not squeezed by the node.
+    const ShownTriangle triangle = shownTriangle(surface, point.triangle);
+    CornerFrames frames{valuesAt(surface.normals, triangle), valuesAt(surface.tangents, triangle)};
+    for (Vec3& normal : frames.normals) normal = normalAt(to_world, normal);
+    for (Vec4& tangent : frames.tangents) tangent = tangentAt(to_world, tangent);
+    const DVec3 normal = shadedNormal(shadingFrame(frames, point.weights, surface.reading), vector);
+    return point.is_back ? -1.0 * normal : normal;
 }
 
 double frameError(const ShownSurface& surface, const SurfacePoint& point) {

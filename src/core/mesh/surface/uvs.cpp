@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/base/disjoint_sets.h"
 #include "core/base/unique_index.h"
 #include "core/base/vec_math.h"
 
@@ -24,35 +25,11 @@ std::vector<std::uint32_t> weldVertices(std::span<const Vec3> positions, std::sp
     return welded;
 }
 
-/// Sets of triangles, merged by size with path halving: near-linear, and no recursion.
-class TriangleSets {
-  public:
-    explicit TriangleSets(std::size_t count) : parent_(count), size_(count, 1) {
-        std::iota(parent_.begin(), parent_.end(), 0U);
-    }
-    std::uint32_t find(std::uint32_t triangle) {
-        while (parent_[triangle] != triangle) {
-            parent_[triangle] = parent_[parent_[triangle]];
-            triangle = parent_[triangle];
-        }
-        return triangle;
-    }
-    void merge(std::uint32_t a, std::uint32_t b) {
-        a = find(a);
-        b = find(b);
-        if (a == b) return;
-        if (size_[a] < size_[b]) std::swap(a, b);
-        parent_[b] = a;
-        size_[a] += size_[b];
-    }
-
-  private:
-    std::vector<std::uint32_t> parent_;
-    std::vector<std::uint32_t> size_;
-};
-
-TriangleSets joinIslands(std::span<const std::uint32_t> corners, const std::vector<std::uint32_t>& welded) {
-    TriangleSets islands(corners.size() / 3);
+/// Parents of triangles (disjoint_sets.h).
+std::vector<std::uint32_t> joinIslands(std::span<const std::uint32_t> corners,
+                                       const std::vector<std::uint32_t>& welded) {
+    std::vector<std::uint32_t> islands(corners.size() / 3);
+    std::iota(islands.begin(), islands.end(), 0U);
     UniqueIndex<std::array<std::uint32_t, 2>> edges(corners.size());
     std::vector<std::uint32_t> first_triangle;
     for (std::size_t corner = 0; corner < corners.size(); ++corner) {
@@ -63,7 +40,7 @@ TriangleSets joinIslands(std::span<const std::uint32_t> corners, const std::vect
         if (edge == first_triangle.size()) {
             first_triangle.push_back(triangle);
         } else {
-            islands.merge(first_triangle[edge], triangle);
+            joinSets(islands.data(), first_triangle[edge], triangle);
         }
     }
     return islands;
@@ -73,13 +50,13 @@ TriangleSets joinIslands(std::span<const std::uint32_t> corners, const std::vect
 
 UvIslands findUvIslands(std::span<const std::uint32_t> corners, std::span<const Vec3> positions,
                         std::span<const Vec2> uvs) {
-    TriangleSets sets = joinIslands(corners, weldVertices(positions, uvs));
+    std::vector<std::uint32_t> sets = joinIslands(corners, weldVertices(positions, uvs));
     UvIslands islands;
     islands.island_of.resize(corners.size() / 3);
     constexpr std::uint32_t kNew = 0xffffffffu;
     std::vector<std::uint32_t> number_of(islands.island_of.size(), kNew);
     for (std::size_t i = 0; i < islands.island_of.size(); ++i) {
-        std::uint32_t& number = number_of[sets.find(static_cast<std::uint32_t>(i))];
+        std::uint32_t& number = number_of[rootOf(sets.data(), static_cast<std::uint32_t>(i))];
         if (number == kNew) number = islands.count++;
         islands.island_of[i] = number;
     }

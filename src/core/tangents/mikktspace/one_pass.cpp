@@ -281,7 +281,7 @@ bool finishEstimates(OnePass& pass, std::size_t first, std::size_t end) {
 void countReplaced(OnePass& pass) {
     for (std::size_t i = 0; i < 3 * pass.in.triangles.count; ++i) {
         const std::uint32_t node = pass.in.nodeAt(i);
-        pass.default_corner_count += (pass.sums.marks[node] & kReplaced) != 0 ? 1 : 0;
+        pass.default_corner_count += (pass.sums.marks[node] & kReplaced) != 0 ? 1u : 0u;
     }
 }
 

@@ -152,7 +152,7 @@ class Planner {
         ends_.drop(ends_.size());
         std::fill_n(ends_.extend(groups.count + 1), groups.count + 1, 0u);
         for (std::size_t i = 0; i < groups.corners.size(); ++i)
-            ends_[groups.of(i) + 1] += groups.of(i) != kNone ? 1 : 0;
+            ends_[groups.of(i) + 1] += groups.of(i) != kNone ? 1u : 0u;
         for (std::size_t g = 1; g <= groups.count; ++g) ends_[g] += ends_[g - 1];
         members_.drop(members_.size());
         members_.extend(groups.corners.size());
@@ -386,7 +386,7 @@ class CornerReader {
     static std::uint8_t flagsOf(std::uint32_t marks) {
         if ((marks & kDegenerateMark) != 0) return kDegenerate;
         if ((marks & kNoUvArea) != 0) return kAny;
-        return (marks & kMirroredMark) != 0 ? kFacesDown : kFacesUp;
+        return static_cast<std::uint8_t>((marks & kMirroredMark) != 0 ? kFacesDown : kFacesUp);
     }
 
     [[nodiscard]] float uvArea(std::size_t t) const {
@@ -423,7 +423,7 @@ class CornerReader {
         }
         const bool degenerate_uv_may_choose = good_.size() == 2 && isAny(0) && facing != 0;
         if (facing != kFacing && !degenerate_uv_may_choose) return;
-        const std::uint8_t orientation = uvArea(orientingTriangle()) > 0 ? kFacesUp : kFacesDown;
+        const auto orientation = static_cast<std::uint8_t>(uvArea(orientingTriangle()) > 0 ? kFacesUp : kFacesDown);
         for (const std::uint32_t t : good_) {
             if ((to_.flags[t] & kAny) == 0) to_.flags[t] = orientation;
         }

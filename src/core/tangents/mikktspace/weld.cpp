@@ -297,7 +297,7 @@ void listVertices(Nodes& nodes, const Allocator* allocator) {
     std::uint32_t* const vertices = nodes.vertices.data();
     for (std::size_t v = 0; next < nodes.count; ++v) {
         vertices[next] = static_cast<std::uint32_t>(v);  // overwritten until v is the first vertex of node `next`
-        next += nodes.of_vertex[v] == next ? 1 : 0;
+        next += nodes.of_vertex[v] == next ? 1u : 0u;
     }
 }
 

@@ -1,0 +1,296 @@
+// SPDX-License-Identifier: MIT
+use crate::error::{checked, mismatch, Error};
+use crate::mesh::{Indices, Mesh};
+use crate::normals::{NormalOptions, NormalReport};
+use crate::options::{prepared, Convention, Execution};
+use crate::sys;
+use crate::tangents::{new_report, span, TangentOptions, TangentReport};
+use std::ptr::{null, null_mut};
+
+/// Tangents that were mended, by cause and by cure.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct SanitizeReport {
+    /// NaN or infinity in the tangent.
+    pub not_finite_count: u64,
+    /// Length 0.
+    pub zero_count: u64,
+    /// Length off by more than 5e-4.
+    pub not_unit_count: u64,
+    /// Within 1 degree of N or -N.
+    pub parallel_count: u64,
+    /// (1, 0, 0), and not in the plane across N.
+    pub placeholder_count: u64,
+    /// Sign neither +1 nor -1.
+    pub bad_sign_count: u64,
+    /// Sign changed because the face's corners disagreed.
+    pub mixed_sign_count: u64,
+    /// Sound ones changed, since that was asked.
+    pub orthogonalized_count: u64,
+    /// Cure: its own direction, made unit and orthogonal to N.
+    pub normalized_count: u64,
+    /// Cure: the direction of a sound corner of the same face or position.
+    pub from_neighbor_count: u64,
+    /// Cure: a basis from N alone.
+    pub from_basis_count: u64,
+    /// Corners whose N is zero or not finite.
+    pub bad_normal_count: u64,
+    /// All that were written.
+    pub mended_count: u64,
+}
+
+impl SanitizeReport {
+    fn of(raw: &sys::SanitizeReport) -> Self {
+        SanitizeReport {
+            not_finite_count: raw.not_finite_count,
+            zero_count: raw.zero_count,
+            not_unit_count: raw.not_unit_count,
+            parallel_count: raw.parallel_count,
+            placeholder_count: raw.placeholder_count,
+            bad_sign_count: raw.bad_sign_count,
+            mixed_sign_count: raw.mixed_sign_count,
+            orthogonalized_count: raw.orthogonalized_count,
+            normalized_count: raw.normalized_count,
+            from_neighbor_count: raw.from_neighbor_count,
+            from_basis_count: raw.from_basis_count,
+            bad_normal_count: raw.bad_normal_count,
+            mended_count: raw.mended_count,
+        }
+    }
+}
+
+/// Mends tangents in place: those that are not finite, zero, not unit, parallel to N, or whose signs differ in a face.
+/// Sound ones keep every bit, unless `orthogonalize_all`. The mesh needs normals.
+pub fn sanitize(
+    mesh: &Mesh<'_>,
+    tangents: &mut [[f32; 4]],
+    orthogonalize_all: bool,
+    execution: Execution,
+) -> Result<SanitizeReport, Error> {
+    let mut options = prepared(sys::tspace_initSanitizeOptions);
+    options.orthogonalize_all = orthogonalize_all.into();
+    let mut report = new_report(|report: &mut sys::SanitizeReport, size| report.struct_size = size);
+    // SAFETY: all pointers are to slices that outlive the call, with their lengths.
+    checked(|error| unsafe {
+        sys::tspace_sanitizeTangents(&mesh.raw(), &options, span(tangents), &execution.raw(), &mut report, error)
+    })?;
+    Ok(SanitizeReport::of(&report))
+}
+
+/// Values per corner by which [`split`] tells vertices apart: `N` floats each.
+#[derive(Clone, Copy, Debug)]
+pub struct Attribute<'a> {
+    floats: &'a [f32],
+    components: usize,
+    tolerance: f32,
+}
+
+impl<'a> Attribute<'a> {
+    /// Corners are equal when all bits are.
+    pub fn new<const N: usize>(values: &'a [[f32; N]]) -> Self {
+        // SAFETY: arrays of arrays of floats are floats side by side.
+        let floats = unsafe { std::slice::from_raw_parts(values.as_ptr().cast::<f32>(), values.len() * N) };
+        Attribute { floats, components: N, tolerance: 0.0 }
+    }
+
+    /// Corners are equal when every component differs by at most this.
+    pub fn tolerance(mut self, tolerance: f32) -> Self {
+        self.tolerance = tolerance;
+        self
+    }
+
+    fn corner_count(&self) -> usize {
+        self.floats.len() / self.components.max(1)
+    }
+
+    fn raw(&self) -> sys::CornerAttribute {
+        sys::CornerAttribute {
+            data: self.floats.as_ptr(),
+            stride_bytes: 0,
+            component_count: self.components as u32,
+            tolerance: self.tolerance,
+        }
+    }
+}
+
+/// The new index buffer and where each new vertex comes from.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Split {
+    /// The new vertex of each corner.
+    pub indices: Vec<u32>,
+    /// The old vertex that each new one copies. Gather every vertex attribute through it.
+    pub source_vertices: Vec<u32>,
+    /// The corner whose values belong to each new vertex; `None` where no corner uses it.
+    pub source_corners: Vec<Option<u32>>,
+}
+
+/// Numbers of the library, copied.
+///
+/// # Safety
+/// `data` points to `count` of them, or `count` is 0.
+unsafe fn copied<T: Clone>(data: *const T, count: usize) -> Vec<T> {
+    if count == 0 {
+        Vec::new()
+    } else {
+        std::slice::from_raw_parts(data, count).to_vec()
+    }
+}
+
+fn corners(list: Vec<u32>) -> Vec<Option<u32>> {
+    list.into_iter().map(|corner| if corner == u32::MAX { None } else { Some(corner) }).collect()
+}
+
+/// Splits vertices whose corners disagree in any attribute. Old vertices keep their place, copies come behind.
+pub fn split<'a>(
+    indices: impl Into<Indices<'a>>,
+    vertex_count: usize,
+    attributes: &[Attribute<'_>],
+    execution: Execution,
+) -> Result<Split, Error> {
+    let indices = indices.into().raw();
+    let corner_count = attributes.first().map_or(indices.count, Attribute::corner_count);
+    if let Some(other) = attributes.iter().find(|attribute| attribute.corner_count() != corner_count) {
+        let message = format!("attributes have {} and {} corners", corner_count, other.corner_count());
+        return Err(mismatch(message));
+    }
+    let raw: Vec<_> = attributes.iter().map(Attribute::raw).collect();
+    let mut made = null_mut();
+    // SAFETY: all pointers are to slices that outlive the call; what the library made is copied, then freed.
+    unsafe {
+        checked(|error| {
+            sys::tspace_splitVertices(
+                &indices,
+                vertex_count,
+                corner_count,
+                raw.as_ptr(),
+                raw.len(),
+                &execution.raw(),
+                &mut made,
+                error,
+            )
+        })?;
+        let split = Split {
+            indices: copied((*made).indices, (*made).corner_count),
+            source_vertices: copied((*made).source_vertices, (*made).vertex_count),
+            source_corners: corners(copied((*made).source_corners, (*made).vertex_count)),
+        };
+        sys::tspace_destroySplitResult(made);
+        Ok(split)
+    }
+}
+
+/// Triangles of a polygon mesh.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Triangles {
+    /// Three corners of the mesh per triangle, winding kept.
+    pub corners: Vec<u32>,
+    /// The face that each triangle was cut from.
+    pub faces: Vec<u32>,
+}
+
+/// Cuts every face with 4 or more corners; quads as MikkTSpace does.
+pub fn triangulate(mesh: &Mesh<'_>) -> Result<Triangles, Error> {
+    let mut made = null_mut();
+    // SAFETY: as in `split`.
+    unsafe {
+        checked(|error| sys::tspace_triangulate(&mesh.raw(), &mut made, error))?;
+        let triangles = Triangles {
+            corners: copied((*made).corners, 3 * (*made).triangle_count),
+            faces: copied((*made).faces, (*made).triangle_count),
+        };
+        sys::tspace_destroyTriangulation(made);
+        Ok(triangles)
+    }
+}
+
+/// How [`make_indexed_frames`] works. [`IndexedFramesOptions::new`] has every default.
+#[derive(Clone, Copy, Debug)]
+pub struct IndexedFramesOptions<'a> {
+    /// Tangents; its execution is that of all steps.
+    pub tangents: TangentOptions,
+    /// Where normals are made. Its convention is not looked at: that of `tangents` counts.
+    pub normals: NormalOptions<'a>,
+    /// Also where the mesh has normals; they are made anyway where it has none.
+    pub make_normals: bool,
+    /// Mend broken tangents. Default: true.
+    pub sanitize: bool,
+    /// Also make every sound tangent unit and orthogonal to N.
+    pub orthogonalize_all: bool,
+    /// Further attributes per corner that must not be shared.
+    pub keep_apart: &'a [Attribute<'a>],
+}
+
+impl IndexedFramesOptions<'_> {
+    /// The defaults.
+    pub fn new(convention: Convention) -> Self {
+        let raw = prepared(sys::tspace_initIndexedFramesOptions);
+        IndexedFramesOptions {
+            tangents: TangentOptions::new(convention),
+            normals: NormalOptions::new(convention),
+            make_normals: raw.make_normals != 0,
+            sanitize: raw.sanitize != 0,
+            orthogonalize_all: raw.orthogonalize_all != 0,
+            keep_apart: &[],
+        }
+    }
+}
+
+/// A mesh with the faces of the given one.
+#[derive(Clone, Debug, PartialEq)]
+pub struct IndexedFrames {
+    /// The new vertex of each corner.
+    pub indices: Vec<u32>,
+    /// The entry of positions that each new vertex copies.
+    pub source_vertices: Vec<u32>,
+    /// The first corner that uses each new vertex; `None` where none does.
+    pub source_corners: Vec<Option<u32>>,
+    /// One per new vertex.
+    pub normals: Vec<[f32; 3]>,
+    /// One per new vertex: unit tangent and sign.
+    pub tangents: Vec<[f32; 4]>,
+    /// Where normals were made.
+    pub normal_report: Option<NormalReport>,
+    /// Counts of tangents.
+    pub tangent_report: TangentReport,
+    /// What was mended.
+    pub sanitize_report: SanitizeReport,
+}
+
+/// Makes normals where they are missing, tangents, mends those that are broken, and splits vertices whose corners disagree.
+pub fn make_indexed_frames(mesh: &Mesh<'_>, options: &IndexedFramesOptions<'_>) -> Result<IndexedFrames, Error> {
+    let corner_count = mesh.corner_count();
+    if let Some(wrong) = options.keep_apart.iter().find(|attribute| attribute.corner_count() != corner_count) {
+        let message = format!("keep_apart has {} entries, corners are {corner_count}", wrong.corner_count());
+        return Err(mismatch(message));
+    }
+    let (tangents, normals) = (options.tangents.raw(), options.normals.raw());
+    let keep_apart: Vec<_> = options.keep_apart.iter().map(Attribute::raw).collect();
+    let mut raw = prepared(sys::tspace_initIndexedFramesOptions);
+    raw.make_normals = options.make_normals.into();
+    raw.sanitize = options.sanitize.into();
+    raw.orthogonalize_all = options.orthogonalize_all.into();
+    raw.tangents = &tangents;
+    raw.normals = &normals;
+    raw.keep_apart = if keep_apart.is_empty() { null() } else { keep_apart.as_ptr() };
+    raw.keep_apart_count = keep_apart.len();
+    let execution = options.tangents.execution.raw();
+    let mut made = null_mut();
+    // SAFETY: as in `split`.
+    unsafe {
+        checked(|error| sys::tspace_makeIndexedFrames(&mesh.raw(), &raw, &execution, &mut made, error))?;
+        let frames = &*made;
+        let count = frames.vertex_count;
+        let result = IndexedFrames {
+            indices: copied(frames.indices, frames.corner_count),
+            source_vertices: copied(frames.source_vertices, count),
+            source_corners: corners(copied(frames.source_corners, count)),
+            normals: copied(frames.normals.cast(), count),
+            tangents: copied(frames.tangents.cast(), count),
+            normal_report: frames.normal_report.as_ref().map(NormalReport::of),
+            tangent_report: frames.tangent_report.as_ref().map(TangentReport::of).unwrap_or_default(),
+            sanitize_report: frames.sanitize_report.as_ref().map(SanitizeReport::of).unwrap_or_default(),
+        };
+        sys::tspace_destroyIndexedFrames(made);
+        Ok(result)
+    }
+}

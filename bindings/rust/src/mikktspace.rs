@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+//! For code that calls the crates `mikktspace` or `bevy_mikktspace` today: their trait, and their function, which gives the
+//! same bits.
+//!
+//! ```
+//! use tspace::mikktspace::{generate_tangents, Geometry};
+//!
+//! struct Triangle {
+//!     tangents: [[f32; 4]; 3],
+//! }
+//! impl Geometry for Triangle {
+//!     fn num_faces(&self) -> usize { 1 }
+//!     fn num_vertices_of_face(&self, _face: usize) -> usize { 3 }
+//!     fn position(&self, _face: usize, vert: usize) -> [f32; 3] { [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]][vert] }
+//!     fn normal(&self, _face: usize, _vert: usize) -> [f32; 3] { [0.0, 0.0, 1.0] }
+//!     fn tex_coord(&self, _face: usize, vert: usize) -> [f32; 2] { [[0.0; 2], [1.0, 0.0], [0.0, 1.0]][vert] }
+//!     fn set_tangent_encoded(&mut self, tangent: [f32; 4], _face: usize, vert: usize) { self.tangents[vert] = tangent }
+//! }
+//!
+//! let mut triangle = Triangle { tangents: [[0.0; 4]; 3] };
+//! assert!(generate_tangents(&mut triangle));
+//! assert_eq!(triangle.tangents, [[1.0, 0.0, 0.0, 1.0]; 3]);
+//! ```
+
+use crate::{tangents_full, Convention, Mesh, Ngons, TangentOptions};
+
+/// What the reference's callbacks are.
+pub trait Geometry {
+    /// Faces of the mesh.
+    fn num_faces(&self) -> usize;
+    /// Corners of a face. Of those with other than 3 and 4 nothing is computed.
+    fn num_vertices_of_face(&self, face: usize) -> usize;
+    /// Position of a corner.
+    fn position(&self, face: usize, vert: usize) -> [f32; 3];
+    /// Normal of a corner.
+    fn normal(&self, face: usize, vert: usize) -> [f32; 3];
+    /// UV of a corner.
+    fn tex_coord(&self, face: usize, vert: usize) -> [f32; 2];
+
+    /// Takes the result of a corner: all of it. Calls [`Geometry::set_tangent_encoded`] unless it is replaced.
+    #[allow(clippy::too_many_arguments)]
+    fn set_tangent(
+        &mut self,
+        tangent: [f32; 3],
+        _bi_tangent: [f32; 3],
+        _f_mag_s: f32,
+        _f_mag_t: f32,
+        bi_tangent_preserves_orientation: bool,
+        face: usize,
+        vert: usize,
+    ) {
+        let sign = if bi_tangent_preserves_orientation { 1.0 } else { -1.0 };
+        self.set_tangent_encoded([tangent[0], tangent[1], tangent[2], sign], face, vert);
+    }
+
+    /// Takes the result of a corner: the tangent, and the sign of `B = sign * cross(N, T)`.
+    fn set_tangent_encoded(&mut self, _tangent: [f32; 4], _face: usize, _vert: usize) {}
+}
+
+/// Tangents as the MikkTSpace reference makes them. False where there is nothing that it takes, and nothing is set then.
+///
+/// Beside the reference this reads all corners first, so that a callback is asked for each of them once.
+pub fn generate_tangents<G: Geometry + ?Sized>(geometry: &mut G) -> bool {
+    let (mut positions, mut normals, mut uvs) = (Vec::new(), Vec::new(), Vec::new());
+    let sizes: Vec<usize> = (0..geometry.num_faces())
+        .map(|face| geometry.num_vertices_of_face(face))
+        .map(|corners| if corners == 3 || corners == 4 { corners } else { 0 })
+        .collect();
+    for (face, &corners) in sizes.iter().enumerate() {
+        for vert in 0..corners {
+            positions.push(geometry.position(face, vert));
+            normals.push(geometry.normal(face, vert));
+            uvs.push(geometry.tex_coord(face, vert));
+        }
+    }
+    if positions.is_empty() {
+        return false;
+    }
+    let options = match Convention::preset("opengl") {
+        Ok(convention) => TangentOptions { ngons: Ngons::Skip, ..TangentOptions::new(convention) },
+        Err(_) => return false,
+    };
+    let face_sizes: Vec<u32> = sizes.iter().map(|&corners| corners as u32).collect();
+    let mesh = Mesh::new(&positions).normals(&normals).uvs(&uvs).face_sizes(&face_sizes);
+    let made = match tangents_full(&mesh, &options) {
+        Ok(made) => made,
+        Err(_) => return false,
+    };
+    let mut corner = 0;
+    for (face, &corners) in sizes.iter().enumerate() {
+        for vert in 0..corners {
+            let [x, y, z, sign] = made.tangents[corner];
+            geometry.set_tangent(
+                [x, y, z],
+                made.bitangents[corner],
+                made.magnitudes_s[corner],
+                made.magnitudes_t[corner],
+                sign > 0.0,
+                face,
+                vert,
+            );
+            corner += 1;
+        }
+    }
+    true
+}

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+use crate::error::{checked, Error};
+use crate::sys;
+use std::ffi::CString;
+use std::mem::{size_of, MaybeUninit};
+
+/// Where v = 0 lies in the texture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum VAxis {
+    /// At the bottom row of the image (OpenGL, Blender, Unity).
+    Up = 1,
+    /// At the top row (glTF, DirectX, Unreal, Godot).
+    Down = 2,
+}
+
+/// What a large green value in a normal map means.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Green {
+    /// Towards the top row of the image ("OpenGL", +Y).
+    Up = 0,
+    /// Towards the bottom row ("DirectX", -Y).
+    Down = 1,
+}
+
+/// Whether the stored sign is that of `B = sign * cross(N, T)` or its negative.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum StoredSign {
+    /// `B = sign * cross(N, T)`.
+    AsIs = 0,
+    /// Its negative.
+    Negated = 1,
+}
+
+/// Of the coordinate system.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Handedness {
+    /// Right-handed.
+    Right = 0,
+    /// Left-handed.
+    Left = 1,
+}
+
+/// Order of a face's vertices as seen from outside.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Winding {
+    /// Counter-clockwise.
+    CounterClockwise = 0,
+    /// Clockwise.
+    Clockwise = 1,
+}
+
+/// What a format or engine means by its numbers: it decides the sign of tangents, and which side of a face is out. There is
+/// no default.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Convention {
+    /// Where v = 0 lies.
+    pub v_axis: VAxis,
+    /// What large green means.
+    pub green: Green,
+    /// How the sign is stored.
+    pub stored_sign: StoredSign,
+    /// Of the coordinate system.
+    pub handedness: Handedness,
+    /// Of a face seen from outside.
+    pub winding: Winding,
+}
+
+impl Convention {
+    /// "gltf", "opengl", "directx", "unreal", "unity", "blender" or "godot"; `InvalidOption` for any other name.
+    pub fn preset(name: &str) -> Result<Convention, Error> {
+        let mut raw = sys::Convention { v_axis: 0, green: 0, stored_sign: 0, handedness: 0, winding: 0 };
+        let name = CString::new(name).unwrap_or_default();
+        // SAFETY: the name ends in 0, and `raw` is written on success alone.
+        checked(|error| unsafe { sys::tspace_findConvention(name.as_ptr(), &mut raw, error) })?;
+        Ok(Convention {
+            v_axis: if raw.v_axis == 1 { VAxis::Up } else { VAxis::Down },
+            green: if raw.green == 0 { Green::Up } else { Green::Down },
+            stored_sign: if raw.stored_sign == 0 { StoredSign::AsIs } else { StoredSign::Negated },
+            handedness: if raw.handedness == 0 { Handedness::Right } else { Handedness::Left },
+            winding: if raw.winding == 0 { Winding::CounterClockwise } else { Winding::Clockwise },
+        })
+    }
+
+    pub(crate) fn raw(&self) -> sys::Convention {
+        sys::Convention {
+            v_axis: self.v_axis as u32,
+            green: self.green as u32,
+            stored_sign: self.stored_sign as u32,
+            handedness: self.handedness as u32,
+            winding: self.winding as u32,
+        }
+    }
+}
+
+/// Where work runs. No bit of a result depends on it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Execution {
+    /// The calling thread alone.
+    #[default]
+    OneThread,
+    /// So many threads, which are started and joined within the call.
+    Threads(u32),
+    /// As many as there are cores.
+    AllThreads,
+}
+
+impl Execution {
+    pub(crate) fn raw(&self) -> sys::Execution {
+        let mut raw = prepared(sys::tspace_initExecution);
+        raw.thread_count = match self {
+            Execution::OneThread => 1,
+            Execution::Threads(count) => *count,
+            Execution::AllThreads => u32::MAX,
+        };
+        raw
+    }
+}
+
+/// A struct with its size and defaults.
+pub(crate) fn prepared<Struct>(init: sys::Init<Struct>) -> Struct {
+    let mut raw = MaybeUninit::<Struct>::zeroed();
+    // SAFETY: `init` writes a struct of this size, or fails; zeros are a value of each of these structs.
+    unsafe {
+        let done = checked(|error| init(raw.as_mut_ptr(), size_of::<Struct>() as u32, error));
+        debug_assert_eq!(done, Ok(()));
+        raw.assume_init()
+    }
+}

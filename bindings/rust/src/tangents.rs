@@ -1,0 +1,390 @@
+// SPDX-License-Identifier: MIT
+use crate::error::{checked, mismatch, Error};
+use crate::mesh::{Mesh, Points};
+use crate::options::{prepared, Convention, Execution};
+use crate::sys;
+use std::mem::{size_of, MaybeUninit};
+use std::ptr::null_mut;
+
+/// How tangents are computed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Method {
+    /// Bit for bit the result of the MikkTSpace reference: what bakers and glTF expect.
+    #[default]
+    Mikktspace = 0,
+    /// One tangent per vertex index, in one pass (Lengyel 2001). Never splits.
+    Lengyel = 1,
+    /// Mean of unit face tangents, every face the same.
+    Uniform = 2,
+    /// Mean by corner angle.
+    Angle = 3,
+    /// Mean by face area.
+    Area = 4,
+    /// The face's own direction.
+    Flat = 5,
+    /// No UVs: a basis from the normal alone.
+    Basis = 6,
+    /// Two sums, one accurate on smooth surfaces, one robust, mixed.
+    Fast = 7,
+    /// A quadratic map fitted to the edges around each vertex.
+    Best = 8,
+}
+
+/// How [`Method::Mikktspace`] finds neighbouring faces.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Pairing {
+    /// With the reference's defect in the last bucket of its edge list: the bits of every other MikkTSpace.
+    #[default]
+    Reference = 0,
+    /// Without it.
+    Corrected = 1,
+}
+
+/// What happens to faces with more than 4 corners.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Ngons {
+    /// They are cut; results come back per corner of the face.
+    #[default]
+    Triangulate = 0,
+    /// As the reference: outputs are 0.
+    Skip = 1,
+}
+
+/// What one entry of the result belongs to.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum OutputDomain {
+    /// A corner.
+    #[default]
+    Corner = 0,
+    /// A vertex: for [`Method::Lengyel`] and [`Method::Basis`] only.
+    Vertex = 1,
+}
+
+/// Which orthonormal frame stands for sheared UVs.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum FrameShape {
+    /// T is the direction of dP/du.
+    #[default]
+    GramSchmidt = 0,
+    /// T is the bisector of dP/du and of the direction across dP/dv.
+    Symmetric = 1,
+}
+
+/// How tangents are computed. [`TangentOptions::new`] has every default.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TangentOptions {
+    /// Decides the stored sign.
+    pub convention: Convention,
+    /// Default: [`Method::Mikktspace`].
+    pub method: Method,
+    /// Default: [`Ngons::Triangulate`].
+    pub ngons: Ngons,
+    /// Default: [`OutputDomain::Corner`].
+    pub domain: OutputDomain,
+    /// Default: [`FrameShape::GramSchmidt`].
+    pub frame: FrameShape,
+    /// Degrees; mikktspace alone. Faces whose tangents differ by this or more are not averaged. Default: 180.
+    pub angular_threshold_deg: f32,
+    /// Default: [`Pairing::Reference`].
+    pub pairing: Pairing,
+    /// Steps that [`Method::Best`] takes after its fit: 0, 1 or 2. Default: 1.
+    pub refine: u32,
+    /// Default: the calling thread.
+    pub execution: Execution,
+}
+
+impl TangentOptions {
+    /// The defaults.
+    pub fn new(convention: Convention) -> Self {
+        let raw = prepared(sys::tspace_initTangentOptions);
+        TangentOptions {
+            convention,
+            method: Method::default(),
+            ngons: Ngons::default(),
+            domain: OutputDomain::default(),
+            frame: FrameShape::default(),
+            angular_threshold_deg: raw.angular_threshold_deg,
+            pairing: Pairing::default(),
+            refine: raw.refine,
+            execution: Execution::default(),
+        }
+    }
+
+    pub(crate) fn raw(&self) -> sys::TangentOptions {
+        let mut raw = prepared(sys::tspace_initTangentOptions);
+        raw.method = self.method as u32;
+        raw.convention = self.convention.raw();
+        raw.ngons = self.ngons as u32;
+        raw.domain = self.domain as u32;
+        raw.frame = self.frame as u32;
+        raw.angular_threshold_deg = self.angular_threshold_deg;
+        raw.pairing = self.pairing as u32;
+        raw.refine = self.refine;
+        // The C API refuses both of 0 as forgotten; no method looks at both.
+        if raw.angular_threshold_deg == 0.0 && raw.refine == 0 {
+            if self.method == Method::Best {
+                raw.angular_threshold_deg = 180.0;
+            } else {
+                raw.refine = 1;
+            }
+        }
+        raw
+    }
+
+    fn count(&self, mesh: &Mesh<'_>) -> usize {
+        match self.domain {
+            OutputDomain::Corner => mesh.corner_count(),
+            OutputDomain::Vertex => mesh.vertex_count(),
+        }
+    }
+}
+
+/// Counts of triangles, groups and defects of the input.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct TangentReport {
+    /// The input drives the reference itself into quadratic time, so its last step was left out.
+    pub reference_order_abandoned: bool,
+    /// Triangles computed with, after cutting.
+    pub triangle_count: u64,
+    /// Of those, with two corners at the same position.
+    pub degenerate_triangle_count: u64,
+    /// Of those, without UV area: they take their neighbours' frame.
+    pub degenerate_uv_count: u64,
+    /// Of those, with negative UV area.
+    pub mirrored_count: u64,
+    /// Faces for which nothing was computed.
+    pub skipped_face_count: u64,
+    /// Sets of corners that share one tangent.
+    pub group_count: u64,
+    /// Results that no face gives a tangent: the method's default.
+    pub default_corner_count: u64,
+    /// Results that have a NaN or infinity.
+    pub not_finite_count: u64,
+}
+
+impl TangentReport {
+    pub(crate) fn of(raw: &sys::TangentReport) -> Self {
+        TangentReport {
+            reference_order_abandoned: raw.reference_order_abandoned != 0,
+            triangle_count: raw.triangle_count,
+            degenerate_triangle_count: raw.degenerate_triangle_count,
+            degenerate_uv_count: raw.degenerate_uv_count,
+            mirrored_count: raw.mirrored_count,
+            skipped_face_count: raw.skipped_face_count,
+            group_count: raw.group_count,
+            default_corner_count: raw.default_corner_count,
+            not_finite_count: raw.not_finite_count,
+        }
+    }
+}
+
+/// Everything that a method gives, one entry per corner (or vertex).
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tangents {
+    /// Unit tangent and sign.
+    pub tangents: Vec<[f32; 4]>,
+    /// Unit direction of dP/dv; in general not cross(N, T).
+    pub bitangents: Vec<[f32; 3]>,
+    /// Mean length of dP/du; 1 for methods without.
+    pub magnitudes_s: Vec<f32>,
+    /// Mean length of dP/dv; 1 for methods without.
+    pub magnitudes_t: Vec<f32>,
+    /// Counts.
+    pub report: TangentReport,
+}
+
+impl Tangents {
+    fn empty(count: usize) -> Self {
+        Tangents {
+            tangents: vec![[0.0; 4]; count],
+            bitangents: vec![[0.0; 3]; count],
+            magnitudes_s: vec![0.0; count],
+            magnitudes_t: vec![0.0; count],
+            report: TangentReport::default(),
+        }
+    }
+
+    fn output(&mut self) -> sys::TangentOutput {
+        output(
+            &mut self.tangents,
+            span(&mut self.bitangents),
+            span_of_floats(&mut self.magnitudes_s),
+            span_of_floats(&mut self.magnitudes_t),
+        )
+    }
+}
+
+pub(crate) fn span<const N: usize>(points: &mut [[f32; N]]) -> sys::Span {
+    sys::Span { data: points.as_mut_ptr().cast(), count: points.len(), stride_bytes: 0 }
+}
+
+fn span_of_floats(floats: &mut [f32]) -> sys::Span {
+    sys::Span { data: floats.as_mut_ptr(), count: floats.len(), stride_bytes: 0 }
+}
+
+fn no_span() -> sys::Span {
+    sys::Span { data: null_mut(), count: 0, stride_bytes: 0 }
+}
+
+fn output(tangents: &mut [[f32; 4]], bitangents: sys::Span, s: sys::Span, t: sys::Span) -> sys::TangentOutput {
+    sys::TangentOutput {
+        struct_size: size_of::<sys::TangentOutput>() as u32,
+        reserved: 0,
+        tangents: span(tangents),
+        bitangents,
+        magnitudes_s: s,
+        magnitudes_t: t,
+    }
+}
+
+/// Zeros with the size, as reports are prepared.
+pub(crate) fn new_report<Report>(set_size: impl FnOnce(&mut Report, u32)) -> Report {
+    // SAFETY: reports are numbers.
+    let mut report = unsafe { MaybeUninit::<Report>::zeroed().assume_init() };
+    set_size(&mut report, size_of::<Report>() as u32);
+    report
+}
+
+fn tangent_report() -> sys::TangentReport {
+    new_report(|report: &mut sys::TangentReport, size| report.struct_size = size)
+}
+
+fn generate(mesh: &Mesh<'_>, options: &TangentOptions, out: &sys::TangentOutput) -> Result<TangentReport, Error> {
+    let mut report = tangent_report();
+    let execution = options.execution.raw();
+    // SAFETY: all pointers are to slices that outlive the call, with their lengths.
+    checked(|error| unsafe {
+        sys::tspace_generateTangents(&mesh.raw(), &options.raw(), out, &execution, &mut report, error)
+    })?;
+    Ok(TangentReport::of(&report))
+}
+
+/// One tangent per corner, with its sign: `[x, y, z, sign]`, `B = sign * cross(N, T)`.
+///
+/// The mesh needs normals, and UVs for all methods but [`Method::Basis`]. Do not write results through the old index list,
+/// since corners of a vertex can differ: [`make_indexed_frames`](crate::make_indexed_frames) or [`split`](crate::split)
+/// make the new one.
+pub fn tangents(mesh: &Mesh<'_>, options: &TangentOptions) -> Result<Vec<[f32; 4]>, Error> {
+    mesh.validate()?;
+    let mut made = vec![[0.0; 4]; options.count(mesh)];
+    tangents_into(mesh, options, &mut made)?;
+    Ok(made)
+}
+
+/// [`tangents`] into the caller's slice, with counts.
+///
+/// Errors also: `CountMismatch` where `out` has another length than there are corners.
+pub fn tangents_into(mesh: &Mesh<'_>, options: &TangentOptions, out: &mut [[f32; 4]]) -> Result<TangentReport, Error> {
+    generate(mesh, options, &output(out, no_span(), no_span(), no_span()))
+}
+
+/// [`tangents`] with bitangents, magnitudes and counts.
+pub fn tangents_full(mesh: &Mesh<'_>, options: &TangentOptions) -> Result<Tangents, Error> {
+    mesh.validate()?;
+    let mut made = Tangents::empty(options.count(mesh));
+    made.report = generate(mesh, options, &made.output())?;
+    Ok(made)
+}
+
+/// Everything about a mesh that does not change while it deforms: neighbours, groups, splits, UVs. Keeps no borrow, and
+/// may be evaluated by many threads at once.
+///
+/// ```
+/// # fn main() -> Result<(), tspace::Error> {
+/// # let positions = [[0.0f32, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+/// # let (normals, uvs) = ([[0.0f32, 0.0, 1.0]; 3], [[0.0f32, 0.0], [1.0, 0.0], [0.0, 1.0]]);
+/// use tspace::{Convention, Execution, Mesh, Plan, TangentOptions};
+/// let mesh = Mesh::new(&positions).normals(&normals).uvs(&uvs);
+/// let plan = Plan::new(&mesh, &TangentOptions::new(Convention::preset("gltf")?))?;
+/// let posed = plan.evaluate(&positions, &normals, Execution::OneThread)?;
+/// assert_eq!(posed.len(), 3);
+/// # Ok(())
+/// # }
+/// ```
+#[derive(Debug)]
+pub struct Plan {
+    raw: *mut sys::TangentPlan,
+    output_count: usize,
+}
+
+// SAFETY: a plan is immutable, and the library lets any thread evaluate and end it.
+unsafe impl Send for Plan {}
+// SAFETY: as above.
+unsafe impl Sync for Plan {}
+
+impl Plan {
+    /// Inputs and errors as [`tangents`].
+    pub fn new(mesh: &Mesh<'_>, options: &TangentOptions) -> Result<Plan, Error> {
+        let mut plan = Plan { raw: null_mut(), output_count: 0 };
+        let execution = options.execution.raw();
+        // SAFETY: pointers are to slices that outlive the call; the plan is null after an error.
+        checked(|error| unsafe {
+            sys::tspace_planTangents(&mesh.raw(), &options.raw(), &execution, &mut plan.raw, error)
+        })?;
+        plan.output_count = plan.info()?.output_count;
+        Ok(plan)
+    }
+
+    /// Entries of results.
+    pub fn output_count(&self) -> usize {
+        self.output_count
+    }
+
+    /// Bytes that the plan holds.
+    pub fn memory_bytes(&self) -> usize {
+        self.info().map_or(0, |info| info.memory_bytes)
+    }
+
+    /// Tangents for a pose: positions and normals, as many as the mesh had.
+    pub fn evaluate<'a>(
+        &self,
+        positions: impl Into<Points<'a, 3>>,
+        normals: impl Into<Points<'a, 3>>,
+        execution: Execution,
+    ) -> Result<Vec<[f32; 4]>, Error> {
+        let mut made = vec![[0.0; 4]; self.output_count];
+        self.evaluate_into(positions, normals, execution, &mut made)?;
+        Ok(made)
+    }
+
+    /// [`Plan::evaluate`] into the caller's slice of [`Plan::output_count`] entries.
+    pub fn evaluate_into<'a>(
+        &self,
+        positions: impl Into<Points<'a, 3>>,
+        normals: impl Into<Points<'a, 3>>,
+        execution: Execution,
+        out: &mut [[f32; 4]],
+    ) -> Result<TangentReport, Error> {
+        if out.len() != self.output_count {
+            return Err(mismatch(format!("out has {} entries, the plan {}", out.len(), self.output_count)));
+        }
+        let out = output(out, no_span(), no_span(), no_span());
+        let pose = sys::Pose {
+            struct_size: size_of::<sys::Pose>() as u32,
+            reserved: 0,
+            positions: positions.into().span(),
+            normals: normals.into().span(),
+        };
+        let (mut report, execution) = (tangent_report(), execution.raw());
+        // SAFETY: as above.
+        checked(|error| unsafe {
+            sys::tspace_evaluateTangents(self.raw, &pose, &out, &execution, &mut report, error)
+        })?;
+        Ok(TangentReport::of(&report))
+    }
+
+    fn info(&self) -> Result<sys::TangentPlanInfo, Error> {
+        let mut info = new_report(|info: &mut sys::TangentPlanInfo, size| info.struct_size = size);
+        // SAFETY: the plan lives.
+        checked(|error| unsafe { sys::tspace_describeTangentPlan(self.raw, &mut info, error) })?;
+        Ok(info)
+    }
+}
+
+impl Drop for Plan {
+    fn drop(&mut self) {
+        // SAFETY: nobody uses it after this; null is allowed.
+        unsafe { sys::tspace_destroyTangentPlan(self.raw) }
+    }
+}

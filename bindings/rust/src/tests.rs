@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: MIT
+//! Golden meshes are in the repository's test data: `TSPACE_SHARED_DIR`, or `shared` beside the repository.
+
+use crate::*;
+use std::path::PathBuf;
+
+fn shared() -> PathBuf {
+    match std::env::var_os("TSPACE_SHARED_DIR") {
+        Some(folder) => folder.into(),
+        None => PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../../shared"),
+    }
+}
+
+/// A mesh, and what the MikkTSpace reference made of it.
+struct Golden {
+    name: String,
+    threshold: f32,
+    face_sizes: Vec<u32>,
+    inputs: Vec<f32>,
+    results: Vec<u32>,
+}
+
+impl Golden {
+    fn read(path: &std::path::Path) -> Golden {
+        let bytes = std::fs::read(path).unwrap();
+        let words: Vec<u32> =
+            bytes.chunks_exact(4).map(|b| u32::from_le_bytes([b[0], b[1], b[2], b[3]])).collect();
+        assert_eq!(words[0], 0x3147_5354);
+        let (faces, corners) = (words[1] as usize, words[2] as usize);
+        let (inputs, results) = words[5 + faces..].split_at(8 * corners);
+        Golden {
+            name: path.display().to_string(),
+            threshold: f32::from_bits(words[3]),
+            face_sizes: words[5..5 + faces].to_vec(),
+            inputs: inputs.iter().map(|&word| f32::from_bits(word)).collect(),
+            results: results.to_vec(),
+        }
+    }
+
+    /// docs/methods/mikktspace.md promises no bits for others.
+    fn is_promised(&self) -> bool {
+        self.inputs.iter().all(|value| value.abs() < 1.6e38)
+    }
+
+    fn mesh(&self) -> Mesh<'_> {
+        Mesh::new(Points::interleaved(&self.inputs, 0, 8).unwrap())
+            .normals(Points::<3>::interleaved(&self.inputs, 3, 8).unwrap())
+            .uvs(Points::<2>::interleaved(&self.inputs, 6, 8).unwrap())
+            .face_sizes(&self.face_sizes)
+    }
+
+    fn options(&self) -> TangentOptions {
+        TangentOptions {
+            angular_threshold_deg: self.threshold,
+            ngons: Ngons::Skip,
+            ..TangentOptions::new(Convention::preset("opengl").unwrap())
+        }
+    }
+}
+
+fn goldens() -> Vec<Golden> {
+    let folder = shared().join("golden/mikktspace");
+    let mut paths: Vec<PathBuf> = match std::fs::read_dir(&folder) {
+        Ok(entries) => entries.map(|entry| entry.unwrap().path()).collect(),
+        Err(_) => {
+            eprintln!("skipped: {} is not there", folder.display());
+            return Vec::new();
+        }
+    };
+    paths.sort();
+    let all: Vec<Golden> = paths.iter().map(|path| Golden::read(path)).collect();
+    assert_eq!(all.len(), 400);
+    let promised: Vec<Golden> = all.into_iter().filter(Golden::is_promised).collect();
+    assert!(promised.len() > 300);
+    promised
+}
+
+fn same(a: f32, word: u32) -> bool {
+    a.to_bits() == word || (a.is_nan() && f32::from_bits(word).is_nan())
+}
+
+fn square() -> ([[f32; 3]; 4], [[f32; 3]; 4], [[f32; 2]; 4], [u16; 6]) {
+    (
+        [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]],
+        [[0.0, 0.0, 1.0]; 4],
+        [[0.0, 1.0], [1.0, 1.0], [1.0, 0.0], [0.0, 0.0]],
+        [0, 1, 2, 0, 2, 3],
+    )
+}
+
+fn gltf() -> Convention {
+    Convention::preset("gltf").unwrap()
+}
+
+#[test]
+fn every_word_equals_the_reference() {
+    for golden in goldens() {
+        for execution in [Execution::OneThread, Execution::Threads(3)] {
+            let made = tangents_full(&golden.mesh(), &TangentOptions { execution, ..golden.options() }).unwrap();
+            for (corner, words) in golden.results.chunks_exact(10).enumerate() {
+                let (t, b) = (made.tangents[corner], made.bitangents[corner]);
+                let s = [made.magnitudes_s[corner], made.magnitudes_t[corner]];
+                let got = [t[0], t[1], t[2], b[0], b[1], b[2], s[0], s[1]];
+                let is_same = got.iter().zip(words).all(|(&a, &word)| same(a, word)) && same(t[3], words[9]);
+                assert!(is_same, "{} corner {corner}", golden.name);
+            }
+        }
+    }
+}
+
+#[test]
+fn a_plan_gives_the_bits_of_the_call() {
+    for golden in goldens().iter().take(60) {
+        let plan = Plan::new(&golden.mesh(), &golden.options()).unwrap();
+        let posed = plan
+            .evaluate(
+                Points::interleaved(&golden.inputs, 0, 8).unwrap(),
+                Points::interleaved(&golden.inputs, 3, 8).unwrap(),
+                Execution::AllThreads,
+            )
+            .unwrap();
+        let made = tangents(&golden.mesh(), &golden.options()).unwrap();
+        let is_same = posed.iter().flatten().zip(made.iter().flatten()).all(|(&a, b)| same(a, b.to_bits()));
+        assert!(is_same, "{}", golden.name);
+    }
+}
+
+struct Callbacks<'a> {
+    golden: &'a Golden,
+    firsts: Vec<usize>,
+    got: Vec<u32>,
+}
+
+impl Callbacks<'_> {
+    fn at(&self, face: usize, vert: usize) -> &[f32] {
+        &self.golden.inputs[8 * (self.firsts[face] + vert)..]
+    }
+}
+
+impl mikktspace::Geometry for Callbacks<'_> {
+    fn num_faces(&self) -> usize {
+        self.golden.face_sizes.len()
+    }
+    fn num_vertices_of_face(&self, face: usize) -> usize {
+        self.golden.face_sizes[face] as usize
+    }
+    fn position(&self, face: usize, vert: usize) -> [f32; 3] {
+        self.at(face, vert)[..3].try_into().unwrap()
+    }
+    fn normal(&self, face: usize, vert: usize) -> [f32; 3] {
+        self.at(face, vert)[3..6].try_into().unwrap()
+    }
+    fn tex_coord(&self, face: usize, vert: usize) -> [f32; 2] {
+        self.at(face, vert)[6..8].try_into().unwrap()
+    }
+    fn set_tangent_encoded(&mut self, tangent: [f32; 4], face: usize, vert: usize) {
+        let corner = self.firsts[face] + vert;
+        for (i, value) in tangent.iter().enumerate() {
+            self.got[4 * corner + i] = value.to_bits();
+        }
+    }
+}
+
+#[test]
+fn the_trait_of_bevy_mikktspace_gives_the_reference_too() {
+    for golden in goldens().iter().filter(|golden| golden.threshold == 180.0) {
+        let mut firsts = vec![0];
+        for &corners in &golden.face_sizes {
+            firsts.push(firsts.last().unwrap() + corners as usize);
+        }
+        let corner_count = golden.results.len() / 10;
+        let mut callbacks = Callbacks { golden, firsts, got: vec![0; 4 * corner_count] };
+        mikktspace::generate_tangents(&mut callbacks);
+        for (corner, words) in golden.results.chunks_exact(10).enumerate() {
+            let got = &callbacks.got[4 * corner..4 * corner + 4];
+            let is_same = (0..3).all(|i| same(f32::from_bits(got[i]), words[i])) && same(f32::from_bits(got[3]), words[9]);
+            assert!(is_same, "{} corner {corner}", golden.name);
+        }
+    }
+}
+
+#[test]
+fn defaults_are_those_of_the_library() {
+    let options = TangentOptions::new(gltf());
+    assert_eq!((options.angular_threshold_deg, options.refine), (180.0, 1));
+    let options = NormalOptions::new(gltf());
+    assert_eq!((options.crease_angle_deg, options.weld_positions, options.refine), (180.0, true, 2));
+    assert_eq!(options.weighting as u32, NormalOptions::new(gltf()).raw().weighting);
+    let options = WindingOptions::new(gltf());
+    assert!(options.use_normals && options.weld_positions);
+    assert!(IndexedFramesOptions::new(gltf()).sanitize);
+}
+
+#[test]
+fn options_of_zero_can_be_said() {
+    let (positions, normals_of, uvs, indices) = square();
+    let mesh = Mesh::new(&positions).normals(&normals_of).uvs(&uvs).indices(&indices);
+    for method in [Method::Mikktspace, Method::Best] {
+        let options = TangentOptions { method, angular_threshold_deg: 0.0, refine: 0, ..TangentOptions::new(gltf()) };
+        tangents(&mesh, &options).unwrap();
+    }
+    let options = NormalOptions {
+        weighting: NormalWeighting::Flat,
+        crease_angle_deg: 0.0,
+        weld_positions: false,
+        refine: 0,
+        ..NormalOptions::new(gltf())
+    };
+    assert_eq!(normals(&mesh, &options).unwrap(), [[0.0, 0.0, 1.0]; 6]);
+    let options = WindingOptions { use_normals: false, weld_positions: false, ..WindingOptions::new(gltf()) };
+    assert_eq!(mend_winding(&mesh, &options).unwrap(), [false; 2]);
+}
+
+#[test]
+fn conventions_are_those_of_the_library() {
+    let gltf = gltf();
+    assert_eq!((gltf.v_axis, gltf.green), (VAxis::Down, Green::Up));
+    let unity = Convention::preset("unity").unwrap();
+    assert_eq!((unity.handedness, unity.winding), (Handedness::Left, Winding::Clockwise));
+    assert_eq!(Convention::preset("quake").unwrap_err().code, ErrorCode::InvalidOption);
+}
+
+#[test]
+fn steps_give_what_the_one_call_does() {
+    let (positions, normals_of, uvs, indices) = square();
+    let mesh = Mesh::new(&positions).normals(&normals_of).uvs(&uvs).indices(&indices);
+    let frames = make_indexed_frames(&mesh, &IndexedFramesOptions::new(gltf())).unwrap();
+    let mut made = tangents(&mesh, &TangentOptions::new(gltf())).unwrap();
+    assert_eq!(sanitize(&mesh, &mut made, false, Execution::OneThread).unwrap().mended_count, 0);
+    let split = split(&indices, 4, &[Attribute::new(&made)], Execution::OneThread).unwrap();
+    assert_eq!(frames.indices, split.indices);
+    assert_eq!(frames.source_vertices, split.source_vertices);
+    assert_eq!(frames.source_corners, split.source_corners);
+    assert!(frames.normal_report.is_none());
+    assert_eq!(frames.tangents[0], made[0]);
+    let triangles = triangulate(&Mesh::new(&positions).face_size(4)).unwrap();
+    assert_eq!(triangles.faces, [0, 0]);
+}
+
+#[test]
+fn frames_survive_packing() {
+    let (_, normals_of, _, _) = square();
+    let tangents_of = [[1.0, 0.0, 0.0, -1.0]; 4];
+    for format in [FrameFormat::Frame32, FrameFormat::Frame48, FrameFormat::Frame64, FrameFormat::GltfSnorm8] {
+        let bytes = pack_frames(&normals_of, &tangents_of, format).unwrap();
+        assert_eq!(bytes.len(), 4 * format.bytes());
+        let (n, t) = unpack_frames(&bytes, format).unwrap();
+        assert!(n[3][2] > 0.9999 && t[3][0] > 0.9999 && t[3][3] == -1.0);
+        assert_eq!(unpack_frames(&bytes[1..], format).unwrap_err().code, ErrorCode::CountMismatch);
+    }
+}
+
+#[test]
+fn wrong_input_is_an_error_that_says_where() {
+    let (positions, normals_of, uvs, _) = square();
+    let mesh = Mesh::new(&positions).normals(&normals_of).uvs(&uvs).indices(&[0u16, 1, 9]);
+    let error = tangents(&mesh, &TangentOptions::new(gltf())).unwrap_err();
+    assert_eq!((error.code, error.element), (ErrorCode::IndexOutOfRange, Some(2)));
+    assert!(error.to_string().contains("corner 2"), "{error}");
+    let mesh = Mesh::new(&positions).uvs(&uvs).indices(&[0u16, 1, 2]);
+    assert_eq!(tangents(&mesh, &TangentOptions::new(gltf())).unwrap_err().code, ErrorCode::MissingAttribute);
+    let mesh = mesh.normals(&normals_of);
+    let error = tangents_into(&mesh, &TangentOptions::new(gltf()), &mut [[0.0; 4]; 2]).unwrap_err();
+    assert_eq!(error.code, ErrorCode::CountMismatch);
+    let huge = [u32::MAX; 4]; // no memory is taken for so many corners
+    let mesh = Mesh::new(&positions).normals(&normals_of).uvs(&uvs).face_sizes(&huge);
+    assert_eq!(tangents(&mesh, &TangentOptions::new(gltf())).unwrap_err().code, ErrorCode::CountMismatch);
+    assert_eq!(Points::<3>::interleaved(&[0.0; 9], 0, 2).unwrap_err().code, ErrorCode::StrideTooSmall);
+    assert!(Points::<3>::interleaved(&[0.0; 9], 10, 3).is_err());
+    assert_eq!(Points::<3>::interleaved(&[0.0; 9], 1, 3).unwrap().len(), 2);
+    assert!(tangents(&Mesh::new(&[]).normals(&[]).uvs(&[]), &TangentOptions::new(gltf())).unwrap().is_empty());
+}

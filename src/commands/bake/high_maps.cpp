@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+#include "commands/bake/high_maps.h"
+
+#include <algorithm>
+
+#include "commands/check/normal_map.h"
+#include "commands/shared/map_image_file.h"
+#include "model/io/file_error.h"
+
+namespace tspace {
+
+namespace {
+
+/// Which way green points, as the slopes of the map say it.
+GreenVerdict greenOf(const FloatImage& image) {
+    RgbImage bytes{.width = image.width, .height = image.height};
+    bytes.rgb.reserve(3 * image.texels.size());
+    for (const Vec3& texel : image.texels) {
+        for (const float channel : {texel.x, texel.y, texel.z})
+            bytes.rgb.push_back(static_cast<std::uint8_t>(std::clamp(channel, 0.0F, 1.0F) * 255 + 0.5F));
+    }
+    TexelMask all(image.width, image.height);
+    all.fillAll();
+    return GreenBlocks(bytes, all).all().verdict;
+}
+
+}  // namespace
+
+std::string HighMapReading::nameOf(std::size_t image) const {
+    const SceneImage& of = scene_.images[image];
+    if (!of.uri.empty() && of.uri.rfind("data:", 0) != 0) return of.uri;
+    return of.name.empty() ? "image " + std::to_string(image) : of.name;
+}
+
+const HighMapReading::Image& HighMapReading::imageOf(std::size_t number) {
+    const auto [known, is_new] = images_.try_emplace(number);
+    Image& image = known->second;
+    if (!is_new) return image;
+    const auto leaveOut = [&](const std::string& why) {
+        made_.warnings.push_back("the high poly's normal map " + inQuotes(nameOf(number)) +
+                                 " is not baked through: " + why);
+    };
+    const std::vector<std::uint8_t>& bytes = scene_.images[number].bytes;
+    if (bytes.empty()) {
+        leaveOut("it cannot be read");
+        return image;
+    }
+    FloatImage read;
+    const std::optional<Error> failure = tryFile([&] { read = readMapImage({}, bytes, options_.file); });
+    if (failure && (failure->code == ErrorCode::tooLarge || failure->code == ErrorCode::outOfMemory))
+        throw FileError{*failure};
+    if (failure) {
+        leaveOut(failure->message);
+        return image;
+    }
+    const std::string how_read = readTextureVectors(read);
+    if (!how_read.empty()) made_.warnings.push_back("the high poly's normal map: " + how_read);
+    image.is_grey = isGreyImage(read);
+    const GreenVerdict verdict = greenOf(read);
+    image.shows_green = verdict == GreenVerdict::up || verdict == GreenVerdict::down;
+    image.green = verdict == GreenVerdict::down ? Green::down : Green::up;
+    image.number = made_.images.size();
+    made_.images.push_back(std::move(read));
+    return image;
+}
+
+const TangentUse* HighMapReading::find(const ScenePrimitive& primitive) {
+    if (options_.ignore_high_maps || primitive.is_unlit || primitive.corners.empty()) return nullptr;
+    for (const TangentUse& use : primitive.uses) {
+        if (use.needed_by != "normalTexture" || use.only_in_variant || !use.image) continue;
+        if (use.uv_set >= primitive.uv_sets.size() || primitive.uv_sets[use.uv_set].empty()) continue;
+        const bool was_known = images_.count(*use.image) > 0;
+        const Image& image = imageOf(*use.image);
+        if (!image.number) return nullptr;
+        if (!image.is_grey) return &use;
+        if (!was_known)
+            made_.warnings.push_back("the high poly's map " + inQuotes(nameOf(*use.image)) +
+                                     " is grey, as height maps are, and is not baked through; tspace "
+                                     "height-to-normal makes a normal map of it");
+        return nullptr;
+    }
+    return nullptr;
+}
+
+std::uint32_t HighMapReading::numberOf(const ScenePrimitive& primitive, const TangentUse& use,
+                                       std::size_t triangle_count) {
+    const Image& image = imageOf(*use.image);
+    const Key key{*use.image, use.scale, use.is_declared_down, use.wrap_u, use.wrap_v};
+    const auto [known, is_new] = numbers_.try_emplace(key, static_cast<std::uint32_t>(made_.maps.size()));
+    if (is_new) {
+        BakedHighMap report{.image = nameOf(*use.image), .material = primitive.material_name, .scale = use.scale};
+        if (options_.high_green) {
+            report.green = *options_.high_green;
+            report.green_is = GreenSource::told;
+        } else if (use.is_declared_down) {
+            report.green = Green::down;
+            report.green_is = GreenSource::declared;
+        } else if (image.shows_green) {
+            report.green = image.green;
+            report.green_is = GreenSource::seen;
+        }
+        if (report.green_is == GreenSource::seen && report.green == Green::down)
+            made_.warnings.push_back("green of the high poly's normal map " + inQuotes(report.image) +
+                                     " points down, as its slopes show, and it is read so; --high-green up reads it "
+                                     "as glTF says");
+        const FloatImage& pixels = made_.images[*image.number];
+        made_.maps.push_back({.image = {pixels.width, pixels.height, pixels.texels, use.wrap_u, use.wrap_v},
+                              .reading = {.green = report.green, .scale = static_cast<float>(use.scale)}});
+        made_.reports.push_back(std::move(report));
+    }
+    made_.reports[known->second].triangle_count += triangle_count;
+    return known->second;
+}
+
+}  // namespace tspace

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+// Directions spread over a hemisphere by the cosine, such that few of them do: Sobol's first two dimensions, scrambled for
+// each point by itself, so that neighbours err differently.
+// Based on: Sobol, "On the distribution of points in a cube", 1967; Owen, "Randomly permuted (t,m,s)-nets", 1995; Shirley &
+// Chiu, "A low distortion map between disk and square", 1997.
+#pragma once
+
+#include <bit>
+
+#include "core/base/unique_index.h"
+#include "core/base/vec_math.h"
+
+namespace tspace {
+
+/// The points of a square, one after the other, that belong to one texel. Of the first 2^k each part of the square with sides
+/// 2^-i and 2^-(k - i) has one. Texels of one block have parts of one sequence, so that the points of a block, and of each quarter
+/// of it, are spread as well as those of a texel: what texels err by, those around make good under a filter.
+/// Based on also: Ahmed & Wonka, "Screen-space blue-noise diffusion of Monte Carlo sampling error via hierarchical ordering of
+/// pixels", 2020.
+class ScrambledSobol {
+  public:
+    static constexpr int kBlockLevels = 2;  // 4 x 4 texels
+
+    /// `count`: how many points of the texel at column x and row y will be asked for, 1 to 2^16.
+    ScrambledSobol(std::uint32_t count, std::uint32_t x, std::uint32_t y) {
+        const std::uint64_t seed = mixBits(std::uint64_t{y >> kBlockLevels} << 32 | x >> kBlockLevels);
+        std::uint32_t place = 1;
+        for (int level = kBlockLevels - 1; level >= 0; --level) {
+            const std::uint32_t quarter = (x >> level & 1) | (y >> level & 1) << 1;
+            place = place << 2 | (quarter ^ (mixBits(seed ^ place) & 3));
+        }
+        const int point_levels = std::bit_width(count - 1);
+        first_ = (place & ((1u << 2 * kBlockLevels) - 1)) << point_levels;
+        depth_ = point_levels + 2 * kBlockLevels;
+        seeds_ = {mixBits(seed + 1), mixBits(seed + 2)};
+    }
+
+    /// Both coordinates of point i, from 0 to below 1.
+    [[nodiscard]] std::array<double, 2> at(std::uint32_t i) const {
+        i += first_;
+        // The first dimension has the bits of i in reverse; the second one's matrix is Pascal's triangle modulo 2.
+        std::uint32_t first = 0, second = 0, column = 0x80000000u;
+        for (std::uint32_t bit = 0; i >> bit != 0; ++bit, column ^= column >> 1) {
+            if ((i >> bit & 1) == 0) continue;
+            first ^= 0x80000000u >> bit;
+            second ^= column;
+        }
+        return {scrambled(first, seeds_[0]), scrambled(second, seeds_[1])};
+    }
+
+  private:
+    /// Turns each bit over or not, by the seed and the bits above it: halves of halves change places. Below the bits that tell
+    /// points apart a number of the seed's own.
+    [[nodiscard]] double scrambled(std::uint32_t bits, std::uint64_t seed) const {
+        std::uint64_t above = 1, result = 0;
+        for (int level = 0; level < depth_; ++level) {
+            const std::uint64_t bit = bits >> (31 - level) & 1;
+            result = result << 1 | (bit ^ (mixBits(seed ^ above) & 1));
+            above = above << 1 | bit;
+        }
+        const auto rest = static_cast<double>(mixBits(seed ^ above) >> 32) * 0x1p-32;
+        return (static_cast<double>(result) + rest) / static_cast<double>(std::uint64_t{1} << depth_);
+    }
+
+    std::uint32_t first_ = 0;
+    int depth_ = 0;
+    std::array<std::uint64_t, 2> seeds_ = {};
+};
+
+/// A unit direction about the z axis, as likely as its z is large.
+inline DVec3 cosineDirection(const std::array<double, 2>& square) {
+    const double a = 2 * square[0] - 1, b = 2 * square[1] - 1;
+    if (a == 0 && b == 0) return {0, 0, 1};
+    const bool is_flat = a * a > b * b;
+    const double radius = is_flat ? a : b;
+    const SineCosine turn = sineCosine(0.25 * kPi * (is_flat ? b / a : a / b));
+    const double along = radius * turn.cosine, across = radius * turn.sine;
+    const double z = std::sqrt(std::max(0.0, 1 - radius * radius));
+    return is_flat ? DVec3{along, across, z} : DVec3{across, along, z};
+}
+
+}  // namespace tspace

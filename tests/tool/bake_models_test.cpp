@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: MIT
+// tspace bake on models as they come: high polys with maps of their own, copies beside the UV map, halves that share texels.
+#include "tool/baked_sheets.h"
+
+#include <cmath>
+#include <sstream>
+
+#include "core/base/vec_math.h"
+#include "maps/shading.h"
+
+namespace tspace::test {
+namespace {
+
+using nlohmann::json;
+
+class BakeModels : public BakeCommand {
+  protected:
+    /// A sheet whose u runs along y and v along x, with a material that shows the map.
+    void writeMapped(const std::string& name, const std::string& map) const {
+        std::string text = "mtllib " + name + ".mtl\n", faces = sheet(4, 0, true);
+        std::istringstream lines(faces);
+        for (std::string line; std::getline(lines, line);) {
+            std::istringstream words(line);
+            std::string keyword, u, v;
+            words >> keyword >> u >> v;
+            if (keyword == "vt") line = "vt " + v + " " + u;
+            if (keyword == "s") line += "\nusemtl skin";
+            text += line + "\n";
+        }
+        folder.write(name + ".obj", text);
+        folder.write(name + ".mtl", "newmtl skin\nnorm " + map + "\n");
+    }
+    template <class VectorAt>
+    void writeMap(const std::string& name, std::uint32_t side, const VectorAt& vectorAt) const {
+        FloatImage image{.width = side, .height = side, .bits = 16};
+        for (std::uint32_t y = 0; y < side; ++y) {
+            for (std::uint32_t x = 0; x < side; ++x) {
+                DVec3 vector = vectorAt((x + 0.5) / side, (y + 0.5) / side);
+                normalize(vector);
+                image.texels.push_back(toFloat(0.5 * (vector + DVec3{1, 1, 1})));
+            }
+        }
+        const auto png = encodePng(image, 16);
+        ASSERT_TRUE(png);
+        folder.write(name, std::string(png->begin(), png->end()));
+    }
+    [[nodiscard]] json bake(const std::string& options, const std::string& output = "out.png") const {
+        const ToolRun run = runTool(folder, "bake " + options + " -o " + output + " --json");
+        EXPECT_EQ(run.exit_code, 0) << run.err << run.out;
+        return json::parse(run.out, nullptr, false);
+    }
+    [[nodiscard]] DVec3 middleOf(const std::string& png) const {
+        const FloatImage image = imageOf(folder, png);
+        DVec3 vector = decodeTexel(image.texels[image.width * (image.height / 2) + image.width / 2], {});
+        normalize(vector);
+        return vector;
+    }
+    static bool warns(const json& report, const std::string& words) {
+        for (const json& warning : report["warnings"]) {
+            if (warning.get<std::string>().find(words) != std::string::npos) return true;
+        }
+        return false;
+    }
+};
+
+TEST_F(BakeModels, TheMapOfTheHighPolyIsBakedThroughOnOtherUvs) {
+    writeMap("tilt.png", 8, [](double, double) { return DVec3{0.48, 0.36, 0.8}; });
+    writeMapped("mapped", "tilt.png");
+    const json report = bake("low.obj --high mapped.obj --size 32");
+    // u of the map runs along y, and v, upwards, along x.
+    EXPECT_LT(degreesBetween(middleOf("out.png"), {0.36, 0.48, 0.8}), 0.02);
+    ASSERT_EQ(report["highMaps"].size(), 1U);
+    EXPECT_EQ(report["highMaps"][0]["image"], "tilt.png");
+    EXPECT_EQ(report["highMaps"][0]["triangles"], 32);
+    EXPECT_LT(report["files"][0]["error"]["maxDeg"], 0.02) << "the error counts the map";
+    // map-error has the same truth.
+    const ToolRun measured = runTool(folder, "map-error out.png low.obj --high mapped.obj --json");
+    EXPECT_LT(json::parse(measured.out)["angles"]["maxDeg"], 0.02) << measured.out;
+    const json without = bake("low.obj --high mapped.obj --size 32 --ignore-high-maps");
+    EXPECT_LT(degreesBetween(middleOf("out.png"), {0, 0, 1}), 0.02);
+    EXPECT_EQ(without["highMaps"].size(), 0U);
+}
+
+TEST_F(BakeModels, GreenOfTheHighPolysMapIsSeenOrTold) {
+    const auto slopes = [](double green) {
+        return [green](double u, double v) {
+            // h = sin(12 u) sin(9 v'), v' upwards.
+            return DVec3{-0.6 * std::cos(12 * u) * std::sin(9 * (1 - v)),
+                         -green * 0.45 * std::sin(12 * u) * std::cos(9 * (1 - v)), 1};
+        };
+    };
+    writeMap("up.png", 256, slopes(1));
+    writeMap("down.png", 256, slopes(-1));
+    writeMapped("up", "up.png");
+    writeMapped("down", "down.png");
+    const json up = bake("low.obj --high up.obj --size 64", "of_up.png");
+    const json down = bake("low.obj --high down.obj --size 64", "of_down.png");
+    EXPECT_EQ(up["highMaps"][0]["green"], "up");
+    EXPECT_EQ(down["highMaps"][0]["green"], "down");
+    EXPECT_EQ(down["highMaps"][0]["greenIs"], "seen");
+    EXPECT_TRUE(warns(down, "points down")) << down["warnings"];
+    EXPECT_LT(degreesBetween(middleOf("of_up.png"), middleOf("of_down.png")), 0.1);
+    const json told = bake("low.obj --high down.obj --size 64 --high-green up", "told.png");
+    EXPECT_EQ(told["highMaps"][0]["greenIs"], "told");
+    EXPECT_GT(degreesBetween(middleOf("of_up.png"), middleOf("told.png")), 1);
+}
+
+TEST_F(BakeModels, AGreyMapOfTheHighPolyIsNoNormalMap) {
+    writeMap("grey.png", 8, [](double u, double) { return DVec3{u, u, u}; });
+    writeMapped("grey", "grey.png");
+    const json report = bake("low.obj --high grey.obj --size 32");
+    EXPECT_EQ(report["highMaps"].size(), 0U);
+    EXPECT_TRUE(warns(report, "height-to-normal")) << report["warnings"];
+    EXPECT_LT(degreesBetween(middleOf("out.png"), {0, 0, 1}), 0.02);
+}
+
+/// A sheet, and beside it in space another whose UVs are moved by `by`.
+std::string twoSheets(double by) {
+    std::string text = sheet(4, 0, true, "a");
+    std::istringstream lines(sheet(4, 0, true, "b", 0, 25));
+    for (std::string line; std::getline(lines, line);) {
+        std::istringstream words(line);
+        std::string keyword;
+        double x = 0, y = 0;
+        words >> keyword >> x >> y;
+        if (keyword == "v") line = "v " + std::to_string(x + 2) + " " + std::to_string(1.2 * y) + " 0";
+        if (keyword == "vt") line = "vt " + std::to_string(x + by) + " " + std::to_string(y);
+        text += line + "\n";
+    }
+    return text;
+}
+
+/// Detail over the first sheet, and another detail over the second.
+std::string twoDetails() {
+    std::string text = sheet(40, 0.02, false, "a");
+    std::istringstream lines(sheet(40, -0.02, false, "b", 0, 41 * 41));
+    for (std::string line; std::getline(lines, line);) {
+        std::istringstream words(line);
+        std::string keyword, z;
+        double x = 0, y = 0;
+        words >> keyword >> x >> y >> z;
+        if (keyword == "v") line = "v " + std::to_string(x + 2) + " " + std::to_string(1.2 * y) + " " + z;
+        text += line + "\n";
+    }
+    return text;
+}
+
+TEST_F(BakeModels, CopiesOutsideOfTheUvMapHaveNoSay) {
+    folder.write("moved.obj", twoSheets(1));
+    folder.write("details.obj", twoDetails());
+    const std::string options = " --high details.obj --size 32 --match all --reach 0.1";
+    const json report = bake("moved.obj" + options);
+    EXPECT_EQ(report["files"][0]["outsideTriangles"], 32);
+    EXPECT_EQ(report["files"][0]["texels"]["overlapping"], 0);
+    EXPECT_TRUE(warns(report, "--wrap")) << report["warnings"];
+    const json alone = bake("low.obj" + options, "alone.png");
+    EXPECT_EQ(alone["files"][0]["outsideTriangles"], 0);
+    EXPECT_EQ(folder.read("out.png"), folder.read("alone.png"));
+    const json wrapped = bake("moved.obj --wrap" + options, "wrapped.png");
+    EXPECT_EQ(wrapped["files"][0]["outsideTriangles"], 0);
+    EXPECT_GT(wrapped["files"][0]["texels"]["conflicting"], 100);
+    EXPECT_NE(folder.read("out.png"), folder.read("wrapped.png"));
+}
+
+TEST_F(BakeModels, AMaterialThatLiesOutsideAsAWholeIsBaked) {
+    folder.write("moved.obj", twoSheets(1));
+    std::string away = sheet(4, 0, true);
+    std::string text;
+    std::istringstream lines(away);
+    for (std::string line; std::getline(lines, line);) {
+        std::istringstream words(line);
+        std::string keyword;
+        double u = 0, v = 0;
+        words >> keyword >> u >> v;
+        text += (keyword == "vt" ? "vt " + std::to_string(u + 1) + " " + std::to_string(v) : line) + "\n";
+    }
+    folder.write("away.obj", text);
+    const json report = bake("away.obj --high high.obj --size 32");
+    EXPECT_TRUE(warns(report, "all triangles")) << report["warnings"];
+    EXPECT_EQ(report["files"][0]["texels"]["missed"], 0);
+    EXPECT_GT(report["files"][0]["texels"]["baked"], 1000);
+}
+
+TEST_F(BakeModels, OverlapSaysWhichOfTwoPiecesCounts) {
+    folder.write("shared.obj", twoSheets(0));
+    folder.write("details.obj", twoDetails());
+    const std::string options = " --high details.obj --size 32 --match all --reach 0.1";
+    const json mean = bake("shared.obj" + options);
+    EXPECT_GT(mean["files"][0]["texels"]["conflicting"], 100);
+    EXPECT_GT(mean["files"][0]["conflictMeanDeg"], 2);
+    EXPECT_GE(mean["files"][0]["conflictMaxDeg"], mean["files"][0]["conflictMeanDeg"]);
+    static_cast<void>(bake("shared.obj --overlap first" + options, "first.png"));
+    static_cast<void>(bake("shared.obj --overlap larger" + options, "larger.png"));
+    static_cast<void>(bake("low.obj" + options, "alone.png"));
+    EXPECT_LT(degreesBetween(middleOf("first.png"), middleOf("alone.png")), 0.05);
+    EXPECT_GT(degreesBetween(middleOf("larger.png"), middleOf("alone.png")), 2);
+}
+
+TEST_F(BakeModels, ASizeMayBeWiderThanHigh) {
+    const json report = bake("low.obj --high high.obj --size 64x32");
+    EXPECT_EQ(report["files"][0]["width"], 64);
+    EXPECT_EQ(report["files"][0]["height"], 32);
+    EXPECT_LT(report["files"][0]["error"]["meanDeg"], 0.2);
+    for (const std::string size : {"0x8", "8x", "x8", "8x16385", "8y8"}) {
+        const ToolRun run = runTool(folder, "bake low.obj --high high.obj -o out.png --size " + size);
+        EXPECT_EQ(run.exit_code, 2) << size;
+    }
+}
+
+}  // namespace
+}  // namespace tspace::test

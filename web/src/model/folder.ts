@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+// A mended GLB as the folder that the model came in: a .gltf with its buffer, and its images under their own names.
+import { zipSync } from "fflate";
+import { fileUris, type ModelFiles } from "../files.js";
+
+interface ImageJson {
+  uri?: string;
+  mimeType?: string;
+  bufferView?: number;
+}
+interface Json {
+  buffers?: { byteLength: number; uri?: string }[];
+  bufferViews?: { buffer: number; byteOffset?: number; byteLength: number }[];
+  images?: ImageJson[];
+  extensionsUsed?: string[];
+  [name: string]: unknown;
+}
+type Bytes = Uint8Array<ArrayBuffer>;
+
+/** Extensions that name buffer views under other names than `bufferView`. */
+const kOwnReferences = /^EXT_(structural|feature|instance)_(metadata|features)$|_meshopt_compression$/;
+
+const pathOf = (uri: string): string => decodeURIComponent(uri).replace(/^\.\//, "");
+const isFile = (uri: string | undefined): uri is string => uri !== undefined && !/^[a-z][a-z0-9+.-]*:/i.test(uri);
+
+function readGlb(bytes: Bytes): { json: Json; binary: Bytes } {
+  const length = new DataView(bytes.buffer, bytes.byteOffset).getUint32(12, true);
+  return { json: JSON.parse(new TextDecoder().decode(bytes.subarray(20, 20 + length))) as Json, binary: bytes.subarray(Math.min(bytes.length, 28 + length)) };
+}
+
+/** All numbers called `bufferView`, wherever they stand. */
+function renumber(value: unknown, numbers: readonly number[]): void {
+  if (typeof value !== "object" || value === null) return;
+  for (const [name, inner] of Object.entries(value)) {
+    if (name === "bufferView" && typeof inner === "number") (value as Record<string, unknown>)[name] = numbers[inner];
+    else renumber(inner, numbers);
+  }
+}
+
+/** Takes buffer views out, with their bytes. */
+function without(json: Json, binary: Bytes, taken: ReadonlySet<number>): Bytes {
+  const pieces: { at: number; bytes: Bytes }[] = [], numbers: number[] = [], kept: NonNullable<Json["bufferViews"]> = [];
+  let size = 0;
+  // In the order of their bytes; views may share some, and then stay together.
+  const views = json.bufferViews ?? [], order = [...views.keys()].filter((i) => !taken.has(i)).sort((a, b) => (views[a].byteOffset ?? 0) - (views[b].byteOffset ?? 0));
+  const starts = new Map<number, number>();
+  let end = 0, shift = 0;
+  for (const i of order) {
+    const { byteOffset = 0, byteLength } = views[i];
+    if (byteOffset >= end) {
+      size = 4 * Math.ceil(size / 4);
+      // Alignment to 16 bytes is kept, whatever asked for it.
+      while (size % 16 !== byteOffset % 16) size += 4;
+      shift = size - byteOffset;
+    }
+    const from = Math.max(byteOffset, end), to = byteOffset + byteLength;
+    if (to > from) pieces.push({ at: from + shift, bytes: binary.subarray(from, to) });
+    end = Math.max(end, to);
+    size = Math.max(size, to + shift);
+    starts.set(i, byteOffset + shift);
+  }
+  for (const [i, view] of views.entries()) {
+    numbers.push(taken.has(i) ? -1 : kept.push({ ...view, byteOffset: starts.get(i)! }) - 1);
+  }
+  json.bufferViews = kept;
+  renumber(json, numbers);
+  const packed = new Uint8Array(size);
+  for (const { at, bytes } of pieces) packed.set(bytes, at);
+  return packed;
+}
+
+/** The files of the folder, by their paths; null where the model was no .gltf with files, or cannot be taken apart again. */
+export function folderOf(mended: Bytes, source: ModelFiles): Map<string, Bytes> | null {
+  if (!/\.gltf$/i.test(source.name) || fileUris(source.bytes).length === 0) return null;
+  const { json, binary } = readGlb(mended), before = JSON.parse(new TextDecoder().decode(source.bytes)) as Json;
+  if (json.extensionsUsed?.some((name) => kOwnReferences.test(name))) return null;
+  const files = new Map(source.others), taken = new Set<number>();
+  for (const { uri } of before.buffers ?? []) if (isFile(uri)) files.delete(pathOf(uri));
+  const written = new Map<string, Bytes>();
+  for (const [i, image] of (json.images ?? []).entries()) {
+    const uri = before.images?.[i]?.uri, view = image.bufferView === undefined ? undefined : json.bufferViews?.[image.bufferView];
+    if (!isFile(uri) || !view) continue;
+    const bytes = binary.slice(view.byteOffset ?? 0, (view.byteOffset ?? 0) + view.byteLength), path = pathOf(uri), there = written.get(path);
+    // Two images of one file, of which one has changed, cannot have one name.
+    if (there && !isSame(there, bytes)) continue;
+    written.set(path, bytes);
+    files.set(path, bytes);
+    taken.add(image.bufferView!);
+    delete image.bufferView;
+    if (before.images?.[i].mimeType === undefined) delete image.mimeType;
+    image.uri = uri;
+  }
+  const packed = without(json, binary, taken), stem = source.name.replace(/^.*\//, "").replace(/\.gltf$/i, "");
+  const name = (before.buffers ?? []).map(({ uri }) => uri).find(isFile) ?? `${encodeURIComponent(stem)}.bin`;
+  json.buffers = [{ byteLength: packed.length, uri: name }];
+  files.set(pathOf(name), packed);
+  files.set(source.name, new TextEncoder().encode(`${JSON.stringify(json, null, 2)}\n`));
+  return files;
+}
+
+const isSame = (a: Bytes, b: Bytes): boolean => a.length === b.length && a.every((byte, i) => byte === b[i]);
+
+/** A .zip with all of them in a folder. Images are packed already. */
+export function zipOf(files: ReadonlyMap<string, Bytes>, folder: string): Bytes {
+  const entries = [...files].filter(([path]) => !path.split("/").includes("..")).sort(([a], [b]) => (a < b ? -1 : 1));
+  return zipSync(Object.fromEntries(entries.map(([path, bytes]) => [`${folder}/${path}`, [bytes, { level: /\.(png|jpe?g|webp|ktx2|zip)$/i.test(path) ? 0 : 6 }]]))) as Bytes;
+}

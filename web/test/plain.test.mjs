@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+// The picture against three.js alone: the same model, environment, light and pose; and how much of a picture a fault changes.
+import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
+import { join } from "node:path";
+import { test } from "node:test";
+import { pathToFileURL } from "node:url";
+import { decode } from "fast-png";
+import { Glb } from "./glb.mjs";
+import { drawn, isLong, named, noShared, openFile, settled, shared, withPage } from "./support.mjs";
+
+const plain = process.env.TSPACE_PLAIN;
+const models = [
+  "khronos/NormalTangentTest.glb", "khronos/BoomBoxWithAxes.glb", "khronos/Suzanne/Suzanne.gltf", "khronos/Fox.glb", "khronos/CesiumMan.glb", "khronos/ClearCoatTest.glb",
+  "khronos/Lantern.glb", "khronos/SciFiHelmet.glb", "khronos/SheenCloth.glb", "khronos/SimpleInstancing.glb", "khronos/BoxVertexColors.glb", "khronos/TwoSidedPlane.glb",
+  "khronos/AnisotropyStrengthTest.glb", "khronos/MorphStressTest.glb", "assets/Cat.glb", "assets/Ghost.glb", "assets/sofa_03/sofa_03_1k.gltf", "assets/tea_set_01/tea_set_01_1k.gltf",
+  "assets/ycb_mustard_bottle.glb", "features/chr_knight.glb",
+].map((name) => join(shared ?? "", "models", name));
+const shown = models.filter((_, i) => isLong || i % 5 === 1);
+
+/** The picture of the page, all of it as the file is, and where its eye and its lamp are. */
+const ownPicture = (tab) => tab.evaluate(async () => {
+  const { stage } = window.tspaceView.views, { viewport } = stage, { camera, target } = viewport;
+  stage.setSplit(1);
+  viewport.draw();
+  const picture = await viewport.draw().convertToBlob({ type: "image/png" });
+  const text = await new Promise((done) => {
+    const reader = new FileReader();
+    reader.onload = () => done(reader.result.split(",")[1]);
+    reader.readAsDataURL(picture);
+  });
+  const { width, height } = viewport.canvas, light = viewport.light.clone().transformDirection(camera.matrixWorld);
+  return { text, view: { width, height, position: camera.position.toArray(), target: target.toArray(), up: camera.up.toArray(), fov: camera.fov, near: camera.near, far: camera.far, light: light.toArray() } };
+});
+
+/** Pixels over a grey ground. */
+function overGrey(text) {
+  const { width, height, channels, data } = decode(Buffer.from(text, "base64")), rgb = new Float64Array(3 * width * height), covered = new Uint8Array(width * height);
+  for (let i = 0; i < covered.length; ++i) {
+    const alpha = channels === 4 ? data[4 * i + 3] / 255 : 1;
+    covered[i] = alpha > 0;
+    for (let k = 0; k < 3; ++k) rgb[3 * i + k] = data[channels * i + k] * alpha + 111 * (1 - alpha);
+  }
+  return { rgb, covered };
+}
+
+/** The mean over the pixels where one of both has something. */
+function difference(one, other) {
+  let sum = 0, count = 0;
+  for (let i = 0; i < one.covered.length; ++i) {
+    if (!one.covered[i] && !other.covered[i]) continue;
+    count += 1;
+    for (let k = 0; k < 3; ++k) sum += Math.abs(one.rgb[3 * i + k] - other.rgb[3 * i + k]) / 3;
+  }
+  return { mean: sum / Math.max(1, count), count };
+}
+
+test("models look as three.js alone shows them: 6 of 255 apart in the mean of their pixels, at most", { skip: noShared || (!plain && "the page of three.js alone is not built"), timeout: 3_600_000 }, async (t) => {
+  const own = new Map();
+  await withPage(async (tab) => {
+    for (const path of shown) {
+      assert.equal(await openFile(tab, path, { others: named(path) }), "ready", path);
+      await drawn(tab);
+      own.set(path, await ownPicture(tab));
+    }
+  }, { allowMessages: true });
+  await withPage(async (tab) => {
+    const means = [];
+    for (const [path, { text, view }] of own) {
+      const files = { ...named(path), [path.split("/").pop()]: path };
+      const content = Object.fromEntries(Object.entries(files).map(([name, file]) => [name, readFileSync(file).toString("base64")]));
+      const theirs = await tab.evaluate(([name, content, view]) => window.renderPlain(name, content, view), [path.split("/").pop(), content, view]);
+      const { mean, count } = difference(overGrey(text), overGrey(theirs));
+      t.diagnostic(`${path.split("/").pop()}: ${mean.toFixed(2)} of 255 over ${count} pixels`);
+      assert.ok(count > 1000, path);
+      assert.ok(mean <= 6, `${path}: ${mean}`);
+      means.push(mean);
+    }
+    t.diagnostic(`mean over ${means.length} models ${(means.reduce((a, b) => a + b, 0) / means.length).toFixed(2)}, largest ${Math.max(...means).toFixed(2)}`);
+  }, { url: pathToFileURL(plain).href, allowMessages: true });
+});
+
+test("on a cat with inverted signs a quarter of the pixels differ between the file and what is right", { skip: noShared }, async (t) => {
+  await withPage(async (tab) => {
+    // Its normal map is for DirectX, and its signs are inverted, which cancels out; turned, they are wrong together with the map.
+    const glb = new Glb(readFileSync(join(shared, "models/assets/Cat.glb"))), seen = new Set();
+    for (const { attributes } of glb.primitives("TANGENT")) {
+      if (seen.has(attributes.TANGENT)) continue;
+      seen.add(attributes.TANGENT);
+      const numbers = glb.numbers(attributes.TANGENT);
+      for (let i = 3; i < numbers.length; i += 4) numbers[i] = -numbers[i];
+      const index = glb.addFloats(numbers, "VEC4");
+      for (const primitive of glb.primitives("TANGENT")) if (primitive.attributes.TANGENT === attributes.TANGENT) primitive.attributes.TANGENT = index;
+      seen.add(index);
+    }
+    const bytes = glb.finish().toString("base64");
+    await tab.evaluate((text) => void window.tspaceView.open(async () => ({ name: "cat.glb", bytes: Uint8Array.from(atob(text), (c) => c.charCodeAt(0)), others: new Map() })), bytes);
+    assert.equal(await settled(tab), "ready");
+    await drawn(tab);
+    const picture = (share) => tab.evaluate(async (share) => {
+      const { stage } = window.tspaceView.views;
+      stage.setSplit(share);
+      stage.viewport.draw();
+      const copy = stage.viewport.draw(), { data } = copy.getContext("2d").getImageData(0, 0, copy.width, copy.height);
+      return Array.from(data);
+    }, share);
+    const file = await picture(1), right = await picture(0);
+    let covered = 0, differing = 0;
+    for (let i = 0; i < file.length; i += 4) {
+      if (file[i + 3] === 0) continue;
+      covered += 1;
+      differing += Math.max(...[0, 1, 2].map((k) => Math.abs(file[i + k] - right[i + k]))) > 6;
+    }
+    t.diagnostic(`${((100 * differing) / covered).toFixed(1)} % of ${covered} pixels`);
+    assert.ok(differing / covered >= 0.25, `${differing} of ${covered}`);
+  }, { allowMessages: true });
+});

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// What three.js alone makes of a model, in the environment, light and pose of the page: what plain.test.mjs compares the page with.
+import { DirectionalLight, LoadingManager, NeutralToneMapping, PerspectiveCamera, Scene, WebGLRenderer } from "three";
+import { GLTFLoader } from "three/examples/jsm/loaders/GLTFLoader.js";
+import { environmentFor } from "../../src/picture/environment.ts";
+
+const canvas = document.querySelector("canvas"), decode = (text) => Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
+const renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true });
+renderer.setClearColor(0, 0);
+renderer.toneMapping = NeutralToneMapping;
+
+/** A picture as PNG. `files`: by their paths, as base64; `view`: of the page. */
+window.renderPlain = async (name, files, { width, height, position, target, up, fov, near, far, light }) => {
+  const urls = new Map(Object.entries(files).map(([path, text]) => [path, URL.createObjectURL(new Blob([decode(text)]))]));
+  const manager = new LoadingManager();
+  manager.setURLModifier((url) => (/^(data|blob):/i.test(url) ? url : (urls.get(decodeURIComponent(url).replace(/^\.\//, "")) ?? "data:,")));
+  const bytes = decode(files[name]), gltf = await new GLTFLoader(manager).parseAsync(/\.gltf$/i.test(name) ? new TextDecoder().decode(bytes) : bytes.buffer, "");
+  renderer.setSize(width, height, false);
+  const scene = new Scene(), camera = new PerspectiveCamera(fov, width / height, near, far), lamp = new DirectionalLight(0xffffff, 2);
+  camera.position.fromArray(position);
+  camera.up.fromArray(up);
+  camera.lookAt(...target);
+  lamp.position.fromArray(light);
+  scene.add(gltf.scene, lamp);
+  // The lamps of a file are not in the page's picture.
+  const lights = [];
+  gltf.scene.traverse((object) => object.isLight && lights.push(object));
+  for (const one of lights) one.removeFromParent();
+  scene.environment = environmentFor(renderer);
+  renderer.render(scene, camera);
+  return canvas.toDataURL("image/png").split(",")[1];
+};
+document.documentElement.dataset.state = "ready";
