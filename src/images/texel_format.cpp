@@ -6,7 +6,7 @@
 #include <bit>
 #include <cstddef>
 
-#include "images/texel_format.h"
+#include "images/pack_block.h"
 
 namespace tspace {
 
@@ -59,14 +59,6 @@ void decodeChannel(const std::uint8_t* block, bool is_signed, std::size_t channe
     std::uint64_t codes = little64(block) >> 16;
     for (std::size_t i = 0; i < kBlockTexels; ++i, codes >>= 3) texels[i][channel] = palette[codes & 7];
 }
-
-constexpr std::int8_t kEacModifiers[16][8] = {
-    {-3, -6, -9, -15, 2, 5, 8, 14}, {-3, -7, -10, -13, 2, 6, 9, 12}, {-2, -5, -8, -13, 1, 4, 7, 12},
-    {-2, -4, -6, -13, 1, 3, 5, 12}, {-3, -6, -8, -12, 2, 5, 7, 11},  {-3, -7, -9, -11, 2, 6, 8, 10},
-    {-4, -7, -8, -11, 3, 6, 7, 10}, {-3, -5, -8, -11, 2, 4, 7, 10},  {-2, -6, -8, -10, 1, 5, 7, 9},
-    {-2, -5, -8, -10, 1, 4, 7, 9},  {-2, -4, -8, -10, 1, 3, 7, 9},   {-2, -5, -7, -10, 1, 4, 6, 9},
-    {-3, -4, -7, -10, 2, 3, 6, 9},  {-1, -2, -3, -10, 0, 1, 2, 9},   {-4, -6, -8, -9, 3, 5, 7, 8},
-    {-3, -5, -7, -9, 2, 4, 6, 8}};
 
 /// Big-endian, and column by column.
 void decodeEacChannel(const std::uint8_t* block, bool is_signed, std::size_t channel, Rgba* texels) {

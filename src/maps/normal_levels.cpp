@@ -2,22 +2,23 @@
 #include "maps/normal_levels.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace tspace {
 
 namespace {
 
+/// Means of xx, xy, xz, yy and yz of unit normals; that of zz follows.
+using Moments = std::array<float, 5>;
+
 struct MeanLevel {
     std::uint32_t width = 0, height = 0;
     std::vector<Vec3> means = {};  ///< not unit
+    std::vector<Moments> moments = {};
 };
 
-/// What a texel of the smaller row covers of the larger one: texels from `begin` on, with weights.
-struct Cover {
-    std::size_t begin = 0;
-    std::vector<double> weights = {};
-};
+}  // namespace
 
 std::vector<Cover> coversOf(std::uint32_t from, std::uint32_t to) {
     std::vector<Cover> covers(to);
@@ -33,40 +34,74 @@ std::vector<Cover> coversOf(std::uint32_t from, std::uint32_t to) {
     return covers;
 }
 
+namespace {
+
+Moments momentsOf(const Vec3& n) { return {n.x * n.x, n.x * n.y, n.x * n.z, n.y * n.y, n.y * n.z}; }
+
+/// Sums part(texel, weight) over what a texel covers.
+template <class Part>
+void forCovered(const MeanLevel& from, const Cover& across, const Cover& down, const Part& part) {
+    for (std::size_t j = 0; j < down.weights.size(); ++j) {
+        const std::size_t row = (down.begin + j) * from.width + across.begin;
+        for (std::size_t i = 0; i < across.weights.size(); ++i) part(row + i, down.weights[j] * across.weights[i]);
+    }
+}
+
 MeanLevel shrink(const MeanLevel& from, std::uint32_t width, std::uint32_t height, Parallel& parallel) {
     const std::vector<Cover> across = coversOf(from.width, width), down = coversOf(from.height, height);
-    MeanLevel to{width, height, std::vector<Vec3>(std::size_t{width} * height)};
+    const std::size_t count = std::size_t{width} * height;
+    MeanLevel to{width, height, std::vector<Vec3>(count), {}};
+    to.moments.resize(from.moments.empty() ? 0 : count);
     parallel.forRanges(height, 1, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t y = begin; y < end; ++y) {
-            for (std::size_t x = 0; x < width; ++x) {
-                DVec3 sum{};
-                for (std::size_t j = 0; j < down[y].weights.size(); ++j) {
-                    const Vec3* const row = &from.means[(down[y].begin + j) * from.width + across[x].begin];
-                    for (std::size_t i = 0; i < across[x].weights.size(); ++i)
-                        sum = sum + down[y].weights[j] * across[x].weights[i] * toDouble(row[i]);
-                }
-                to.means[y * width + x] = toFloat(sum);
-            }
+        for (std::size_t at = begin * width; at < end * width; ++at) {
+            const Cover &columns = across[at % width], &rows = down[at / width];
+            DVec3 sum{};
+            forCovered(from, columns, rows,
+                       [&](std::size_t texel, double weight) { sum = sum + weight * toDouble(from.means[texel]); });
+            to.means[at] = toFloat(sum);
+            if (to.moments.empty()) continue;
+            std::array<double, 5> moments{};
+            forCovered(from, columns, rows, [&](std::size_t texel, double weight) {
+                for (std::size_t k = 0; k < 5; ++k) moments[k] += weight * static_cast<double>(from.moments[texel][k]);
+            });
+            for (std::size_t k = 0; k < 5; ++k) to.moments[at][k] = static_cast<float>(moments[k]);
         }
     });
     return to;
 }
 
+/// 1 - mean (n . along)^2
+float spreadOf(const Moments& m, const Vec3& along) {
+    const DVec3 a = toDouble(along);
+    const auto of = [&](std::size_t i) { return static_cast<double>(m[i]); };
+    const double zz = 1 - of(0) - of(3);
+    const double mean = of(0) * a.x * a.x + of(3) * a.y * a.y + zz * a.z * a.z +
+                        2 * (of(1) * a.x * a.y + of(2) * a.x * a.z + of(4) * a.y * a.z);
+    return static_cast<float>(std::clamp(1 - mean, 0.0, 1.0));
+}
+
 NormalLevel unitOf(const MeanLevel& level) {
-    NormalLevel unit{level.width, level.height, level.means};
-    for (Vec3& normal : unit.normals) {
-        const DVec3 mean = toDouble(normal);
+    NormalLevel unit{level.width, level.height, level.means, {}};
+    unit.spreads.reserve(level.moments.size());
+    for (std::size_t i = 0; i < unit.normals.size(); ++i) {
+        const DVec3 mean = toDouble(unit.normals[i]);
         const double size = length(mean);
-        normal = size > 1e-6 ? toFloat((1 / size) * mean) : Vec3{0, 0, 1};
+        unit.normals[i] = size > 1e-6 ? toFloat((1 / size) * mean) : Vec3{0, 0, 1};
+        if (!level.moments.empty()) unit.spreads.push_back(spreadOf(level.moments[i], unit.normals[i]));
     }
     return unit;
 }
 
 }  // namespace
 
-std::vector<NormalLevel> makeNormalLevels(NormalLevel first, Parallel& parallel) {
+std::vector<NormalLevel> makeNormalLevels(NormalLevel first, Parallel& parallel, bool with_spreads) {
     std::vector<NormalLevel> levels;
-    const MeanLevel whole{first.width, first.height, first.normals};
+    MeanLevel whole{first.width, first.height, first.normals, {}};
+    if (with_spreads) {
+        whole.moments.reserve(first.normals.size());
+        for (const Vec3& normal : first.normals) whole.moments.push_back(momentsOf(normal));
+        first.spreads.assign(first.normals.size(), 0.0F);
+    }
     levels.push_back(std::move(first));
     MeanLevel last;
     while (levels.back().width > 1 || levels.back().height > 1) {

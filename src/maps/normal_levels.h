@@ -13,11 +13,21 @@ namespace tspace {
 struct NormalLevel {
     std::uint32_t width = 0, height = 0;
     std::vector<Vec3> normals = {};  ///< unit
+    /// How far the normals that a texel covers spread around its own: 1 - mean (n . own)^2, the trace of their covariance across it. Empty
+    /// unless asked for.
+    std::vector<float> spreads = {};
 };
+
+/// What texels of a row of `to` cover of a row of `from` texels: from `begin` on, with weights of the sum 1.
+struct Cover {
+    std::size_t begin = 0;
+    std::vector<double> weights = {};
+};
+std::vector<Cover> coversOf(std::uint32_t from, std::uint32_t to);
 
 /// The given level and all smaller ones down to 1 x 1, each half as wide and high, rounded down. A texel of any level is the unit mean of
 /// the normals that it covers on the first, in parts where an edge cuts them; z along where that has no direction. Memory: twice
-/// that of the first level. The same for any number of threads.
-std::vector<NormalLevel> makeNormalLevels(NormalLevel first, Parallel& parallel);
+/// that of the first level, with spreads four times. The same for any number of threads.
+std::vector<NormalLevel> makeNormalLevels(NormalLevel first, Parallel& parallel, bool with_spreads = false);
 
 }  // namespace tspace

@@ -11,7 +11,7 @@ namespace tspace {
 namespace {
 
 NormalLevel noiseLevel(std::uint32_t width, std::uint32_t height) {
-    NormalLevel level{width, height, {}};
+    NormalLevel level{width, height, {}, {}};
     std::uint32_t state = 11;
     const auto next = [&state] {
         state = state * 1664525U + 1013904223U;
@@ -24,9 +24,10 @@ NormalLevel noiseLevel(std::uint32_t width, std::uint32_t height) {
     return level;
 }
 
-/// The unit mean over a texel of a level of that size, texel by texel in parts of the first level.
-DVec3 meanOf(const NormalLevel& first, const NormalLevel& level, std::uint32_t x, std::uint32_t y) {
-    DVec3 sum{};
+/// The mean of part(normal) over a texel of a level of that size, texel by texel in parts of the first level.
+template <class Part>
+auto meanOver(const NormalLevel& first, const NormalLevel& level, std::uint32_t x, std::uint32_t y, const Part& part) {
+    decltype(part(DVec3{})) sum{};
     const double wide = static_cast<double>(first.width) / level.width,
                  high = static_cast<double>(first.height) / level.height;
     for (std::uint32_t row = 0; row < first.height; ++row) {
@@ -34,10 +35,16 @@ DVec3 meanOf(const NormalLevel& first, const NormalLevel& level, std::uint32_t x
         for (std::uint32_t column = 0; column < first.width && down > 0; ++column) {
             const double across = std::min(column + 1.0, (x + 1) * wide) - std::max<double>(column, x * wide);
             if (across > 0)
-                sum = sum + down * across * toDouble(first.normals[std::size_t{row} * first.width + column]);
+                sum = sum + down * across / (wide * high) *
+                                part(toDouble(first.normals[std::size_t{row} * first.width + column]));
         }
     }
-    return (1 / length(sum)) * sum;
+    return sum;
+}
+
+DVec3 meanOf(const NormalLevel& first, const NormalLevel& level, std::uint32_t x, std::uint32_t y) {
+    const DVec3 mean = meanOver(first, level, x, y, [](const DVec3& normal) { return normal; });
+    return (1 / length(mean)) * mean;
 }
 
 TEST(NormalLevels, AreTheUnitMeansOfWhatTheyCoverWhateverTheSize) {
@@ -58,6 +65,24 @@ TEST(NormalLevels, AreTheUnitMeansOfWhatTheyCoverWhateverTheSize) {
             }
             w = std::max(w / 2, 1U);
             h = std::max(h / 2, 1U);
+        }
+    }
+}
+
+TEST(NormalLevels, KnowHowFarTheNormalsThatTheyCoverSpread) {
+    for (const auto& [width, height] : {std::pair(32U, 16U), {33U, 17U}, {7U, 1U}}) {
+        const NormalLevel first = noiseLevel(width, height);
+        Parallel parallel(Execution{.thread_count = 2});
+        const std::vector<NormalLevel> levels = makeNormalLevels(first, parallel, true);
+        for (const NormalLevel& level : levels) {
+            for (std::uint32_t i = 0; i < level.width * level.height; ++i) {
+                const DVec3 own = toDouble(level.normals[i]);
+                const double mean = meanOver(first, level, i % level.width, i / level.width, [&](const DVec3& normal) {
+                    const double along = dot(normal, own);
+                    return along * along;
+                });
+                ASSERT_NEAR(level.spreads[i], 1 - mean, 1e-6);
+            }
         }
     }
 }

@@ -77,6 +77,21 @@ TEST_F(BakeCommand, SaysNothingOfNoiseWhereThereIsNone) {
     EXPECT_EQ(folder.read("a.png"), folder.read("b.png"));
 }
 
+TEST_F(BakeCommand, GoesStraightToBlocks) {
+    const std::string common = "bake low.obj --high high.obj -q --size 64 -o ";
+    for (const std::string name : {"n.png", "n.ktx2", "n.dds"}) ASSERT_EQ(runTool(folder, common + name).exit_code, 0);
+    ASSERT_EQ(runTool(folder, "compress-map -q n.png -o after.ktx2").exit_code, 0);
+    const auto errorOf = [&](const std::string& name) {
+        const ToolRun run = runTool(folder, "map-error --json " + name + " --source n.png");
+        EXPECT_EQ(run.exit_code, 0) << run.err;
+        return nlohmann::json::parse(run.out)["meanErrorDeg"].get<double>();
+    };
+    EXPECT_LT(errorOf("n.ktx2"), 1.02 * errorOf("after.ktx2"));
+    EXPECT_EQ(errorOf("n.dds"), errorOf("n.ktx2"));
+    for (const std::string more : {"n.ktx2 --out-mesh m.glb", "n.ktx2 --space object", "n.exr"})
+        EXPECT_NE(runTool(folder, common + more).exit_code, 0) << more;
+}
+
 TEST_F(BakeCommand, GivesTheSameBytesForAnyNumberOfThreads) {
     for (const std::string bits : {"8", "16"}) {
         const std::string common = "bake low.obj --high high.obj -q --size 40 --bits " + bits;

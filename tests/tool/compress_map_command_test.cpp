@@ -129,6 +129,124 @@ TEST(CompressMapCommand, WritesTheSameBlocksInBothFilesAndForAnyNumberOfThreads)
     EXPECT_EQ(runTool(folder, "compress-map n16.png -o - > piped.ktx2").exit_code, 0);
 }
 
+TEST(CompressMapCommand, EveryFormatIsReadAgainAsTheMap) {
+    const TempFolder folder;
+    writeWaves(folder);
+    std::string why;
+    const auto map = decodeFloatImage(bytesOf(folder.read("n16.png")), 1 << 20, why);
+    ASSERT_TRUE(map) << why;
+    for (const std::string arguments :
+         {"-o n.ktx2", "-o n.ktx2 --format eac-rg11", "-o n.ktx2 --format rg8", "-o n.ktx2 --format rg8 --signed",
+          "-o n.ktx2 --format eac-rg11 --signed --quality best", "-o n.ktx2 --quality quick --mips",
+          "-o n.dds --format rg8"}) {
+        const Json report = reportOf(folder, "n16.png " + arguments);
+        const auto image = decodeFloatImage(bytesOf(folder.read(report["output"].get<std::string>())), 1 << 20, why);
+        ASSERT_TRUE(image) << why;
+        ASSERT_EQ(image->texels.size(), map->texels.size());
+        for (std::size_t i = 0; i < map->texels.size(); ++i) {
+            ASSERT_NEAR(image->texels[i].x, map->texels[i].x, 0.006) << arguments;
+            ASSERT_NEAR(image->texels[i].y, map->texels[i].y, 0.006) << arguments;
+        }
+        EXPECT_LT(report["meanErrorDeg"], 0.15);
+        EXPECT_LE(report["meanErrorDeg"], report["p99ErrorDeg"]);
+        EXPECT_LE(report["p99ErrorDeg"], report["maxErrorDeg"]);
+        EXPECT_LT(report["maxErrorX"], 97);
+    }
+}
+
+TEST(MapErrorCommand, SaysOfATextureBesideItsSourceWhatCompressMapSaid) {
+    const TempFolder folder;
+    writeWaves(folder);
+    for (const std::string output : {"n.ktx2", "n.dds"}) {
+        const Json made = reportOf(folder, "n16.png -o " + output);
+        const ToolRun run = runTool(folder, "map-error --json " + output + " --source n16.png");
+        ASSERT_EQ(run.exit_code, 0) << run.err;
+        const Json report = Json::parse(run.out);
+        EXPECT_NEAR(report["meanErrorDeg"].get<double>(), made["meanErrorDeg"].get<double>(), 1e-6);
+        EXPECT_NEAR(report["p99ErrorDeg"].get<double>(), made["p99ErrorDeg"].get<double>(), 1e-4);
+        EXPECT_EQ(report["makesZ"], true);
+    }
+    // Three channels that only were rounded.
+    const Json rounded = Json::parse(runTool(folder, "map-error --json n8.png --source n16.png").out);
+    EXPECT_EQ(rounded["makesZ"], false);
+    EXPECT_LT(rounded["meanErrorDeg"], 0.2);
+    for (const std::string arguments : {"n.dds", "n.dds --source none.png", "n.dds n16.png --source n16.png"})
+        EXPECT_NE(runTool(folder, "map-error " + arguments).exit_code, 0) << arguments;
+}
+
+TEST(ConvertMapCommand, WritesTheSameBlocksAsCompressMapDoes) {
+    const TempFolder folder;
+    writeWaves(folder);
+    const double made = reportOf(folder, "n16.png -o n.dds")["meanErrorDeg"];
+    for (const std::string output : {"c.ktx2", "c.dds"}) {
+        ASSERT_EQ(runTool(folder, "convert-map n16.png --flip-green -o " + output).exit_code, 0);
+        ASSERT_EQ(runTool(folder, "flip-green " + output + " -o turned-" + output).exit_code, 0);
+        const ToolRun run = runTool(folder, "map-error --json turned-" + output + " --source n16.png");
+        EXPECT_NEAR(Json::parse(run.out)["meanErrorDeg"].get<double>(), made, 0.02 * made);
+    }
+    EXPECT_NE(runTool(folder, "convert-map n16.png --from object --to object -o c.dds").exit_code, 0);
+}
+
+TEST(CompressMapCommand, PacksLevelsOnceMore) {
+    const TempFolder folder;
+    writeWaves(folder);
+    const Json plain = reportOf(folder, "n8.png -o plain.ktx2"),
+               packed = reportOf(folder, "n8.png -o packed.ktx2 --zstd 19");
+    EXPECT_LT(packed["outputBytes"], plain["outputBytes"]);
+    std::string why;
+    const auto from_plain = decodeFloatImage(bytesOf(folder.read("plain.ktx2")), 1 << 20, why);
+    const auto from_packed = decodeFloatImage(bytesOf(folder.read("packed.ktx2")), 1 << 20, why);
+    ASSERT_TRUE(from_plain && from_packed) << why;
+    EXPECT_EQ(from_plain->texels, from_packed->texels);
+}
+
+/// Rows that lean up and down in turns, and an even roughness.
+void writeCorrugated(const TempFolder& folder, std::uint32_t size, std::uint32_t roughness_size) {
+    FloatImage map{size, size, 16, {}, {}}, orm{roughness_size, roughness_size, 8, {}, {}};
+    for (std::uint32_t i = 0; i < size * size; ++i)
+        map.texels.push_back({0.5F, i / size % 2 == 0 ? 0.65F : 0.35F, 0.976970F});
+    orm.texels.assign(std::size_t{roughness_size} * roughness_size, Vec3{1, 0.4F, 0});
+    folder.write("n.png", std::span<const std::uint8_t>(*encodePng(map, 16)));
+    folder.write("orm.png", std::span<const std::uint8_t>(*encodePng(orm, 8)));
+}
+
+TEST(CompressMapCommand, PutsWhatNormalsSpreadIntoTheRoughnessOfTheSameLevel) {
+    const TempFolder folder;
+    writeCorrugated(folder, 16, 16);
+    const Json report = reportOf(folder, "n.png -o levels/ --roughness orm.png -o2 levels/");
+    EXPECT_EQ(report["levels"], 5);
+    EXPECT_NEAR(report["meanRoughness"].get<double>(), 0.4, 1e-6);
+    std::string why;
+    const double wanted = std::pow(std::pow(0.4, 4) + 0.3 * 0.3, 0.25);
+    for (int level = 0; level < 5; ++level) {
+        const std::string number = std::to_string(level);
+        const auto normals = decodeFloatImage(bytesOf(folder.read("levels/n." + number + ".png")), 1 << 20, why);
+        const auto orm = decodeFloatImage(bytesOf(folder.read("levels/orm." + number + ".png")), 1 << 20, why);
+        ASSERT_TRUE(normals && orm) << why;
+        EXPECT_EQ(normals->width, 16u >> level);
+        EXPECT_EQ(orm->width, 16u >> level);
+        for (const Vec3& texel : orm->texels) EXPECT_NEAR(texel.y, level == 0 ? 0.4 : wanted, 0.003);
+        for (const Vec3& texel : normals->texels) EXPECT_NEAR(texel.z, level == 0 ? 0.97697 : 1, 1e-4);
+    }
+    reportOf(folder, "n.png -o n.ktx2 --roughness orm.png -o2 orm.ktx2");
+    const auto orm = decodeFloatImage(bytesOf(folder.read("orm.ktx2")), 1 << 20, why);
+    ASSERT_TRUE(orm) << why;
+    EXPECT_NEAR(orm->texels[0].y, 0.4, 0.003);
+}
+
+TEST(CompressMapCommand, RefusesWhatDoesNotFitTogether) {
+    const TempFolder folder;
+    writeCorrugated(folder, 16, 12);
+    for (const std::string arguments :
+         {"-o n.ktx2 --roughness orm.png -o2 o.ktx2", "-o n.ktx2 --roughness n.png", "-o n.dds --format eac-rg11",
+          "-o n.dds --zstd 3", "-o n.ktx2 --zstd 23", "-o n.ktx2 --bits 9", "-o n.ktx2 --format bc4"}) {
+        const ToolRun run = runTool(folder, "compress-map n.png " + arguments);
+        EXPECT_NE(run.exit_code, 0) << arguments;
+        EXPECT_EQ(run.errorLines(), 1) << run.err;
+    }
+    EXPECT_FALSE(folder.has("n.ktx2"));
+}
+
 TEST(CompressMapCommand, SaysWhatTwoChannelsDoNotHold) {
     const TempFolder folder;
     FloatImage image{8, 8, 8, std::vector<Vec3>(64, Vec3{0.5F, 0.95F, 0.3F}), std::vector<float>(64, 0.5F)};

@@ -95,7 +95,8 @@ Command bakeCommand() {
                                            "The model with the detail, in the same place. It needs no UVs."));
     high.is_file = high.is_required = true;
     Option& output =
-        command.add(group, text("-o, --output", "OUT", arguments.output, "Where to write: a file that ends in .png."));
+        command.add(group, text("-o, --output", "OUT", arguments.output,
+                                "Where to write: a file that ends in .png; or in .ktx2 or .dds: BC5 with all levels."));
     output.is_file = output.is_required = true;
     command.add(bakeOptions(arguments.options));
     command.add(kReporting, text("--report", "JSON", arguments.report, "Also write the result as JSON to this file."))

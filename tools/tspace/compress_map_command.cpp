@@ -22,7 +22,13 @@ struct CompressMapArguments {
 };
 
 ExitCode runCompressMap(const CompressMapArguments& arguments) {
-    const Result<Done> fit = prepareOutputs({arguments.output}, {arguments.input}, arguments.options.dry_run);
+    // Folders take files of other names.
+    const auto fileOf = [](const std::string& path) {
+        return path.empty() || path.back() != '/' ? path : std::string();
+    };
+    const CompressMapFileOptions& wanted = arguments.options;
+    const Result<Done> fit = prepareOutputs({fileOf(arguments.output), fileOf(wanted.roughness_output)},
+                                            {arguments.input, wanted.roughness}, wanted.dry_run);
     if (!fit) return printUsageError(fit.error().message + "; name another file");
     if (goesToTerminal(arguments)) return printUsageError(kNoTextForATerminal);
     const Result<CompressMapFileReport> result =
@@ -41,19 +47,23 @@ Command compressMapCommand() {
     arguments.options.execution.thread_count = kAllThreads;
     Command command{
         .name = "compress-map",
-        .summary = "pack a normal map as a texture for engines (BC5)",
+        .summary = "pack a normal map as a texture for engines (BC5, EAC RG11)",
         .operands = "IN -o OUT",
         .description =
-            "Packs a normal map in tangent space as BC5, one byte a texel: x in red, y in green, and z made by who "
-            "reads it. Blocks are searched for from all bits that the image has, so 16 bits give more than 8. All "
-            "smaller levels are made of mean directions. The report says how far the texture is off as it is "
-            "filtered.",
-        .examples = {"tspace compress-map normal.png -o normal.ktx2", "tspace compress-map normal.exr -o normal.dds"},
+            "Packs a normal map in tangent space as BC5 or EAC RG11, one byte a texel: x in red, y in green, and z "
+            "made by "
+            "who reads it. Blocks are those with the least error as it is filtered, from all bits that the image has, "
+            "so "
+            "16 bits give more than 8. All smaller levels are made of mean directions; with a roughness texture its "
+            "levels become wider by what they spread. The report says how far the texture is off.",
+        .examples = {"tspace compress-map normal.png -o normal.ktx2", "tspace compress-map normal.exr -o normal.dds",
+                     "tspace compress-map normal.png -o normal.ktx2 --roughness orm.png -o2 orm.ktx2"},
     };
     const char* group = kInputAndOutput;
     command.add(group, operand("IN", arguments.input, "An image: PNG, JPEG, WebP, EXR, KTX2 or DDS; - for stdin."));
     Option output = text("-o, --output", "OUT", arguments.output,
-                         "Where to write: a file that ends in .ktx2 or .dds; - for stdout, a KTX2.");
+                         "Where to write: a file that ends in .ktx2 or .dds, or a folder of PNGs (ends in /); - for "
+                         "stdout, a KTX2.");
     output.is_file = output.is_required = true;
     command.add(group, output);
     command.add(compressMapOptions(arguments.options));

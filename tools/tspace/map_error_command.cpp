@@ -15,13 +15,28 @@ namespace tspace::tool {
 namespace {
 
 struct MapErrorArguments {
-    std::string map = {}, low = {}, high = {};
+    std::string map = {}, low = {}, high = {}, source = {};
     MapErrorFileOptions options = {};
     bool json = false;
     bool quiet = false;
 };
 
+ExitCode runBesideSource(const MapErrorArguments& arguments) {
+    const Result<TextureErrorReport> result = textureErrorFile(
+        arguments.map, arguments.source, {.file = arguments.options.file, .execution = arguments.options.execution});
+    const ExitCode exit_code = result ? ExitCode::done : printError(arguments.map, result.error());
+    const report::Outcome<TextureErrorReport> outcome{.input = arguments.map, .result = result};
+    std::string text;
+    if (arguments.json) {
+        text = report::textureErrorJson(outcome, arguments.source, exit_code);
+    } else if (!arguments.quiet && result) {
+        text = report::textureErrorText(outcome);
+    }
+    return printResult(text) ? exit_code : ExitCode::cannotReadOrWrite;
+}
+
 ExitCode runMapError(const MapErrorArguments& arguments) {
+    if (!arguments.source.empty()) return runBesideSource(arguments);
     const Result<Done> fit = prepareOutputs({arguments.options.heat}, {arguments.map, arguments.low, arguments.high,
                                                                        arguments.options.cage, arguments.options.skew});
     if (!fit) return printUsageError(fit.error().message);
@@ -62,18 +77,31 @@ Command mapErrorCommand() {
         .description =
             "Measures anybody's normal map: the angle between what a renderer shades with it and the high poly, in "
             "degrees. Then reads it in other ways (green down, tangents of other methods, quads, a bitangent per "
-            "vertex, object space) and says in one sentence which fits best. Changes nothing.",
+            "vertex, object space) and says in one sentence which fits best. With --source a texture is compared "
+            "with the map that it was made of, as both are filtered. Changes nothing.",
         .examples = {"tspace map-error normal.png low.glb --high high.glb",
-                     "tspace map-error normal.png low.fbx --high scan.ply --convention unreal --heat heat.png --json"},
+                     "tspace map-error normal.png low.fbx --high scan.ply --convention unreal --heat heat.png --json",
+                     "tspace map-error normal.ktx2 --source normal.png"},
     };
     const char* group = kInputAndOutput;
     command.add(group, operand("MAP", arguments.map, "A normal map: PNG, JPEG, WebP, EXR, KTX2 or DDS."));
-    command.add(group, operand("LOW", arguments.low, "The model that the map is for."));
+    Option& low = command.add(group, operand("LOW", arguments.low, "The model that the map is for."));
+    low.is_required = false;
     Option& high =
         command.add(group, text("--high", "HIGH", arguments.high, "The model with the detail, in the same place."));
-    high.is_file = high.is_required = true;
+    high.is_file = true;
+    Option source = text("--source", "IMAGE", arguments.source,
+                         "The normal map that the texture MAP was made of: compares with it, in place of a high poly.");
+    source.is_file = true;
+    source.excludes = {"--high", "LOW"};
+    command.add(group, source);
     command.add(mapErrorOptions(arguments.options));
     addReporting(command, arguments.json, arguments.quiet);
+    command.finish = [owned](const Given&) {
+        if (!owned->source.empty()) return std::string();
+        if (owned->low.empty()) return std::string("LOW is missing");
+        return std::string(owned->high.empty() ? "--high is missing" : "");
+    };
     command.run = [owned] {
         owned->options.file.importer = importerPath();
         return runMapError(*owned);

@@ -23,7 +23,9 @@ class Reader {
             } else if (argument == "--") {
                 only_operands = true;
             } else {
-                wrong = argument[1] == '-' ? readLong(argument) : readShort(argument);
+                // -o2 is a name of its own where a command has it.
+                const bool is_name = argument[1] == '-' || (argument.size() > 2 && find(argument) != nullptr);
+                wrong = is_name ? readLong(argument) : readShort(argument);
             }
         }
         return wrong.empty() ? checkWhole() : wrong;

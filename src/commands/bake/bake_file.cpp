@@ -11,6 +11,7 @@
 #include "commands/bake/all_maps.h"
 #include "commands/bake/bake_report.h"
 #include "commands/bake/model_surfaces.h"
+#include "commands/compress_map/pack_texture.h"
 #include "commands/shared/noted_noise.h"
 #include "core/base/numbers.h"
 #include "images/float_image.h"
@@ -70,8 +71,7 @@ class FileBaking {
 
     BakeFileReport run(const std::string& low, const std::string& high) {
         high_ = high;
-        if (lowerExtension(output_) != ".png")
-            failFile(ErrorCode::unsupportedFile, "the output " + pathInQuotes(output_) + " does not end in .png");
+        checkOutput();
         checkOutMesh();
         if (!options_.layers.has_normal && !options_.heat.empty())
             failFile(ErrorCode::invalidOption, "a picture of the error needs the normal map");
@@ -111,6 +111,28 @@ class FileBaking {
         if (const double noise = notedNoise(mesh, models_.high.position_step); noise > 0)
             report_.warnings.push_back("the positions of the high poly are noisy, by " + shortNumber(noise) +
                                        " of an edge, and the map shows it: --denoise auto bakes normals without that");
+    }
+
+    /// A .png; or a texture, whose blocks are fitted to what the texels of 16 bits are filtered to.
+    void checkOutput() {
+        if (lowerExtension(output_) == ".png") return;
+        if (!isTextureName(output_))
+            failFile(ErrorCode::unsupportedFile,
+                     "the output " + pathInQuotes(output_) + " ends in none of .png, .ktx2 and .dds");
+        if (!options_.layers.layers.empty() || !options_.layers.has_normal)
+            failFile(ErrorCode::invalidOption, "other maps than normals are written as .png alone");
+        if (!options_.out_mesh.empty())
+            failFile(ErrorCode::invalidOption, "a glTF model holds no texture of two channels; bake a .png for it");
+        if (options_.map.space == MapSpace::object)
+            failFile(ErrorCode::invalidOption, "textures of two channels hold tangent space alone; bake a .png");
+        options_.map.bits = 16;
+    }
+
+    /// The file of a normal map, and no texels any more.
+    std::vector<std::uint8_t> takeNormalFile(BakedMap& map) const {
+        std::vector<Vec3> texels = std::exchange(map.texels, {});
+        if (isTextureName(output_)) return packTexture(output_, map.width, map.height, texels, options_.execution);
+        return pngOf(map.width, map.height, std::move(texels), map.bits);
     }
 
     /// A model that is written reads the map as glTF says.
@@ -262,9 +284,7 @@ class FileBaking {
             report_.files.push_back(std::move(file));
             return;
         }
-        if (options_.layers.has_normal)
-            addMap(file.path, pngOf(map.width, map.height, std::exchange(map.texels, {}), map.bits), MapSlot::normal,
-                   image);
+        if (options_.layers.has_normal) addMap(file.path, takeNormalFile(map), MapSlot::normal, image);
         addLayers(image, word, maps.layers, file);
         if (!options_.misses.empty())
             files_.add(withWord(options_.misses, word), pngOf(map.width, map.height, pictureOfOrigins(map), 8));

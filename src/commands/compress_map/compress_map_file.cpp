@@ -3,17 +3,17 @@
 #include "tspace/map_compress_file.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "commands/compress_map/compress_map_report.h"
+#include "commands/compress_map/pack_texture.h"
 #include "commands/shared/file_options.h"
 #include "commands/shared/map_image_file.h"
 #include "commands/shared/request.h"
-#include "images/pack_bc4.h"
-#include "images/texel_format.h"
 #include "images/write_texture.h"
-#include "maps/normal_levels.h"
+#include "maps/filtered_error.h"
+#include "maps/fit_blocks.h"
+#include "maps/roughness_levels.h"
 #include "maps/shading.h"
 #include "model/io/atomic_output.h"
 #include "model/io/file_error.h"
@@ -21,10 +21,22 @@
 namespace tspace {
 namespace {
 
+enum class Container { ktx2, dds, png, folder };
+
+Container containerOf(const std::string& output, bool takes_png) {
+    const std::string extension = lowerExtension(output);
+    if (!output.empty() && (output.back() == '/' || output.back() == '\\')) return Container::folder;
+    if (extension == ".ktx2") return Container::ktx2;
+    if (extension == ".dds") return Container::dds;
+    if (extension == ".png" && takes_png) return Container::png;
+    failFile(ErrorCode::unsupportedFile, "the output " + pathInQuotes(output) + " ends in none of .ktx2, .dds" +
+                                             (takes_png ? ", .png" : "") + " and / (a folder of PNGs)");
+}
+
 /// Unit vectors with z of at least 0, and what of the image was none.
 NormalLevel normalsOf(const FloatImage& image, CompressMapFileReport& report) {
     constexpr double kMostOff = 0.1;
-    NormalLevel level{image.width, image.height, std::vector<Vec3>(image.texels.size())};
+    NormalLevel level{image.width, image.height, std::vector<Vec3>(image.texels.size()), {}};
     for (std::size_t i = 0; i < image.texels.size(); ++i) {
         DVec3 vector = decodeTexel(image.texels[i], {});
         const double size = length(vector);
@@ -38,158 +50,344 @@ NormalLevel normalsOf(const FloatImage& image, CompressMapFileReport& report) {
     return level;
 }
 
-/// The blocks of a level, row by row. At the edges the last texels are taken once more.
-std::vector<std::uint8_t> packLevel(const NormalLevel& level, bool is_signed, Parallel& parallel) {
-    const std::size_t across = (level.width + 3) / 4, down = (level.height + 3) / 4;
-    std::vector<std::uint8_t> blocks(16 * across * down);
-    parallel.forRanges(down, 1, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t block = begin * across; block < end * across; ++block) {
-            std::array<float, 16> x{}, y{};
-            for (std::size_t i = 0; i < 16; ++i) {
-                const std::size_t column = std::min<std::size_t>(block % across * 4 + i % 4, level.width - 1);
-                const std::size_t row = std::min<std::size_t>(block / across * 4 + i / 4, level.height - 1);
-                const Vec3& normal = level.normals[row * level.width + column];
-                x[i] = 0.5F * normal.x + 0.5F;
-                y[i] = 0.5F * normal.y + 0.5F;
-            }
-            const std::array<std::uint8_t, 8> red = packBc4(x, is_signed), green = packBc4(y, is_signed);
-            std::copy(red.begin(), red.end(), &blocks[16 * block]);
-            std::copy(green.begin(), green.end(), &blocks[16 * block + 8]);
-        }
-    });
-    return blocks;
-}
+/// A level as it is written, and as it is decoded.
+struct PackedLevel {
+    std::vector<std::uint8_t> bytes = {};
+    std::vector<Vec3> texels = {};
+};
 
-/// x and y of a level as they are decoded.
-std::vector<Vec2> decodedLevel(const NormalLevel& level, const std::vector<std::uint8_t>& blocks, bool is_signed) {
-    const TexelFormat format = texelFormat(is_signed ? TexelKind::bc5s : TexelKind::bc5);
-    const std::size_t across = (level.width + 3) / 4;
-    std::vector<Vec2> texels(level.normals.size());
-    std::array<Rgba, 16> block{};
-    for (std::size_t i = 0; i < blocks.size() / 16; ++i) {
-        format.decode(format, &blocks[16 * i], block.data());
-        for (std::size_t k = 0; k < 16; ++k) {
-            const std::size_t column = i % across * 4 + k % 4, row = i / across * 4 + k / 4;
-            if (column < level.width && row < level.height)
-                texels[row * level.width + column] = {2 * block[k][0] - 1, 2 * block[k][1] - 1};
-        }
+PackedLevel roundLevel(const NormalLevel& level, bool is_signed) {
+    PackedLevel packed;
+    packed.bytes.reserve(2 * level.normals.size());
+    packed.texels.reserve(level.normals.size());
+    const double half = is_signed ? 127 : 127.5, zero = is_signed ? 0 : 127.5;
+    const auto add = [&](float part) {
+        const double number = std::floor(static_cast<double>(part) * half + zero + 0.5);
+        packed.bytes.push_back(static_cast<std::uint8_t>(static_cast<int>(number)));
+        return static_cast<float>((number - zero) / half);
+    };
+    for (const Vec3& normal : level.normals) {
+        const float x = add(normal.x), y = add(normal.y);
+        packed.texels.push_back({x, y, 0});
     }
-    return texels;
+    return packed;
 }
 
-/// What a renderer shades at points between texels, of three channels and of two. The map repeats.
-class FilteredError {
-  public:
-    FilteredError(const NormalLevel& level, const std::vector<Vec2>& decoded) : level_(level), decoded_(decoded) {}
+PackedLevel packLevel(const NormalLevel& level, const CompressMapFileOptions& options, Parallel& parallel) {
+    if (options.format == TextureFormat::rg8) return roundLevel(level, options.is_signed);
+    BlockOptions how{.is_signed = options.is_signed};
+    if (options.format == TextureFormat::eacRg11) how.format = BlockFormat::eacRg11;
+    if (options.quality == TextureQuality::best) how.quality = BlockQuality::best;
+    if (options.quality == TextureQuality::quick) how.quality = BlockQuality::quick;
+    FittedLevel fitted = fitBlocks(level, how, parallel);
+    PackedLevel packed{std::move(fitted.blocks), {}};
+    packed.texels.reserve(fitted.texels.size());
+    for (const Vec2& texel : fitted.texels) packed.texels.push_back({texel.x, texel.y, 0});
+    return packed;
+}
 
-    void measure(CompressMapFileReport& report) {
-        constexpr std::size_t kMostPoints = std::size_t{1} << 22;
-        const std::size_t row_points = std::size_t{9} * level_.width;
-        const std::size_t step = row_points * level_.height / kMostPoints + 1;
-        std::vector<float> angles;
-        double sum = 0;
-        for (std::size_t y = step / 2; y < level_.height; y += step) {
-            for (std::size_t x = 0; x < level_.width; ++x) {
-                for (int point = 0; point < 9; ++point) {
-                    const double angle = angleAt(x, y, (point % 3) / 3.0, static_cast<double>(point / 3) / 3.0);
-                    sum += angle;
-                    angles.push_back(static_cast<float>(angle));
-                }
-            }
+TexelKind kindOf(const CompressMapFileOptions& options) {
+    constexpr TexelKind kKinds[][2] = {
+        {TexelKind::bc5, TexelKind::bc5s}, {TexelKind::eacRg, TexelKind::eacRgs}, {TexelKind::rg8, TexelKind::rg8s}};
+    return kKinds[static_cast<std::size_t>(options.format)][options.is_signed ? 1 : 0];
+}
+
+class MapCompression {
+  public:
+    MapCompression(const std::string& input, const std::string& output, const CompressMapFileOptions& options)
+        : input_(input), output_(output), options_(options), parallel_(options.execution) {}
+
+    CompressMapFileReport run() {
+        checkOptions();
+        if (options_.content.data() == nullptr) inputs_.add(input_);
+        if (!options_.roughness.empty()) inputs_.add(options_.roughness);
+        FloatImage image = readMapImage(input_, options_.content, options_.file);
+        report_.width = image.width;
+        report_.height = image.height;
+        report_.bits_before = image.bits;
+        if (std::string how_read = readTextureVectors(image); !how_read.empty())
+            report_.warnings.push_back(std::move(how_read));
+        RoughnessLevel roughness = readRoughness(image);
+        NormalLevel first = normalsOf(image, report_);
+        addWarnings(image);
+        image = {};
+        if (options_.levels || !options_.roughness.empty()) {
+            levels_ = makeNormalLevels(std::move(first), parallel_, !options_.roughness.empty());
+        } else {
+            levels_.push_back(std::move(first));
         }
-        report.mean_error_deg = sum / static_cast<double>(angles.size());
-        const auto near_end = angles.begin() + static_cast<std::ptrdiff_t>(angles.size() * 99 / 100);
-        std::nth_element(angles.begin(), near_end, angles.end());
-        report.p99_error_deg = static_cast<double>(*near_end);
-        report.max_error_deg = static_cast<double>(*std::max_element(near_end, angles.end()));
+        AtomicOutput files(
+            {.sink = options_.sink, .is_dry_run = options_.dry_run, .sync = options_.file.sync, .inputs = &inputs_});
+        if (!options_.roughness.empty()) writeRoughness(roughness, files);
+        if (!options_.levels) levels_.resize(1);
+        report_.level_count = static_cast<std::uint32_t>(levels_.size());
+        writeNormals(files);
+        files.commit();
+        return std::move(report_);
     }
 
   private:
-    [[nodiscard]] double angleAt(std::size_t x, std::size_t y, double right, double down) const {
-        const std::size_t next_x = (x + 1) % level_.width, next_y = (y + 1) % level_.height;
-        const std::array<std::size_t, 4> places{y * level_.width + x, y * level_.width + next_x,
-                                                next_y * level_.width + x, next_y * level_.width + next_x};
-        const std::array<double, 4> weights{(1 - right) * (1 - down), right * (1 - down), (1 - right) * down,
-                                            right * down};
-        DVec3 shaded{}, packed{};
-        for (std::size_t i = 0; i < 4; ++i) {
-            shaded = shaded + weights[i] * toDouble(level_.normals[places[i]]);
-            packed.x += weights[i] * static_cast<double>(decoded_[places[i]].x);
-            packed.y += weights[i] * static_cast<double>(decoded_[places[i]].y);
+    void checkOptions() {
+        constexpr unsigned kMostZstd = 22;
+        container_ = options_.sink ? Container::ktx2 : containerOf(output_, false);
+        if (options_.roughness.empty() != options_.roughness_output.empty())
+            failFile(ErrorCode::invalidOption, "roughness needs both a texture and an output");
+        if (options_.sink && !options_.roughness.empty())
+            failFile(ErrorCode::invalidOption, "two outputs do not fit one stream");
+        if (!options_.roughness.empty()) roughness_container_ = containerOf(options_.roughness_output, true);
+        if (!(options_.roughness_factor >= 0 && options_.roughness_factor <= 1))
+            failFile(ErrorCode::invalidOption, "the factor of roughness must be from 0 to 1");
+        if (options_.bits != 8 && options_.bits != 16) failFile(ErrorCode::invalidOption, "a PNG has 8 or 16 bits");
+        if (container_ == Container::dds) {
+            if (const char* why_not = whyNotDds(kindOf(options_))) failFile(ErrorCode::invalidOption, why_not);
         }
-        packed.z = std::sqrt(std::max(0.0, 1 - packed.x * packed.x - packed.y * packed.y));
-        return degreesBetween(shaded, packed);
+        if (options_.zstd_level == 0) return;
+        if (options_.zstd_level > kMostZstd) failFile(ErrorCode::invalidOption, "levels of Zstandard are 1 to 22");
+        if (const char* why_not = whyNotZstd()) failFile(ErrorCode::unsupportedFile, why_not);
+        if (container_ != Container::ktx2 && roughness_container_ != Container::ktx2)
+            failFile(ErrorCode::invalidOption, "Zstandard packs a .ktx2 alone");
     }
 
-    const NormalLevel& level_;
-    const std::vector<Vec2>& decoded_;
+    RoughnessLevel readRoughness(const FloatImage& map) {
+        if (options_.roughness.empty()) return {};
+        try {
+            FloatImage image = readMapImage(options_.roughness, {}, options_.file);
+            RoughnessLevel level{image.width, image.height, std::move(image.texels)};
+            if (const std::string why = whyGridsDiffer(level, map.width, map.height); !why.empty())
+                failFile(ErrorCode::invalidOption, why);
+            if (!image.alpha.empty()) report_.warnings.emplace_back("alpha of the roughness texture is left out");
+            return level;
+        } catch (FileError& failure) {
+            failure.error.message = "the roughness " + pathInQuotes(options_.roughness) + ": " + failure.error.message;
+            throw;
+        }
+    }
+
+    void addWarnings(const FloatImage& image) {
+        const auto warn = [&](std::string text) { report_.warnings.push_back(std::move(text)); };
+        const std::uint64_t total = image.texels.size();
+        if (!image.alpha.empty()) warn("the image has alpha, which the output has no room for");
+        if (report_.below_horizon > 0)
+            warn(std::to_string(report_.below_horizon) +
+                 " texels look below the horizon, which two channels cannot say");
+        if (report_.not_unit > total / 10)
+            warn(std::to_string(report_.not_unit) + " of " + std::to_string(total) +
+                 " texels are no unit vectors: is it a normal map in tangent space?");
+        if (container_ == Container::folder) {
+            if (options_.format != TextureFormat::bc5 || options_.is_signed)
+                warn("PNGs hold three channels, whatever format was asked for");
+        } else if (options_.format == TextureFormat::rg8 && options_.quality != TextureQuality::fast) {
+            warn("the quality does not matter for RG8, which is rounded");
+        }
+    }
+
+    void writeNormals(AtomicOutput& files) {
+        if (container_ == Container::folder) {
+            writeFolder(files);
+            return;
+        }
+        Texture texture{.width = report_.width, .height = report_.height, .kind = kindOf(options_), .levels = {}};
+        report_.format = std::string(texelFormat(texture.kind).name);
+        for (const NormalLevel& level : levels_) {
+            PackedLevel packed = packLevel(level, options_, parallel_);
+            if (texture.levels.empty()) takeError(measureFiltered(level, packed.texels, true, parallel_));
+            texture.levels.push_back(std::move(packed.bytes));
+        }
+        report_.output_bytes = addTexture(texture, container_, output_, files);
+    }
+
+    void takeError(const FilteredError& error) {
+        report_.mean_error_deg = error.mean_deg;
+        report_.p99_error_deg = error.p99_deg;
+        report_.max_error_deg = error.max_deg;
+        report_.max_error_x = error.max_x;
+        report_.max_error_y = error.max_y;
+    }
+
+    std::uint64_t addTexture(const Texture& texture, Container container, const std::string& output,
+                             AtomicOutput& files) const {
+        std::vector<std::uint8_t> bytes;
+        if (container == Container::dds) {
+            bytes = writeDds(texture);
+        } else {
+            std::optional<std::vector<std::uint8_t>> file = writeKtx2(texture, static_cast<int>(options_.zstd_level));
+            if (!file) failFile(ErrorCode::outOfMemory, "the levels cannot be packed");
+            bytes = *std::move(file);
+        }
+        files.add(output, std::span<const std::uint8_t>(bytes));
+        return bytes.size();
+    }
+
+    /// FOLDER/NAME.LEVEL.png
+    [[nodiscard]] static std::string levelPath(const std::string& folder, const std::string& input, std::size_t level) {
+        std::string name = fileNameOf(input);
+        if (const std::size_t dot = name.rfind('.'); dot != std::string::npos && dot > 0) name.resize(dot);
+        return folder + (name.empty() || name == "-" ? "map" : name) + "." + std::to_string(level) + ".png";
+    }
+
+    static std::uint64_t addPng(const FloatImage& image, unsigned bits, const std::string& path, AtomicOutput& files) {
+        const std::optional<std::vector<std::uint8_t>> png = encodePng(image, bits);
+        if (!png) failFile(ErrorCode::unsupportedFile, "this build of tspace writes no PNG");
+        files.add(path, std::span<const std::uint8_t>(*png));
+        return png->size();
+    }
+
+    void writeFolder(AtomicOutput& files) {
+        report_.format = options_.bits == 8 ? "PNG of 8 bits" : "PNG of 16 bits";
+        const float most = options_.bits == 8 ? 255.0F : 65535.0F;
+        const auto rounded = [&](float part) { return std::floor((0.5F * part + 0.5F) * most + 0.5F) / most; };
+        for (std::size_t i = 0; i < levels_.size(); ++i) {
+            FloatImage image{levels_[i].width, levels_[i].height, options_.bits, {}, {}};
+            for (const Vec3& normal : levels_[i].normals)
+                image.texels.push_back({rounded(normal.x), rounded(normal.y), rounded(normal.z)});
+            report_.output_bytes += addPng(image, options_.bits, levelPath(output_, input_, i), files);
+            if (i > 0) continue;
+            for (Vec3& texel : image.texels) texel = 2.0F * texel - Vec3{1, 1, 1};
+            takeError(measureFiltered(levels_[0], image.texels, false, parallel_));
+        }
+    }
+
+    void writeRoughness(const RoughnessLevel& first, AtomicOutput& files) {
+        std::vector<RoughnessLevel> levels =
+            makeRoughnessLevels(first, static_cast<float>(options_.roughness_factor), levels_, parallel_);
+        double sum = 0;
+        for (const Vec3& texel : first.texels) sum += static_cast<double>(texel.y);
+        report_.mean_roughness = options_.roughness_factor * sum / static_cast<double>(first.texels.size());
+        report_.mean_widened_roughness = static_cast<double>(levels.back().texels.front().y);
+        if (!options_.levels) levels.resize(1);
+        const std::string& output = options_.roughness_output;
+        if (roughness_container_ == Container::png || roughness_container_ == Container::folder) {
+            const bool is_folder = roughness_container_ == Container::folder;
+            if (!is_folder) {
+                levels.resize(1);
+                report_.warnings.emplace_back(
+                    "a PNG has no levels, so what their normals spread is not in the roughness; "
+                    "write a .ktx2, a .dds or a folder");
+            }
+            for (std::size_t i = 0; i < levels.size(); ++i) {
+                const FloatImage image{levels[i].width, levels[i].height, 8, levels[i].texels, {}};
+                report_.roughness_bytes +=
+                    addPng(image, 8, is_folder ? levelPath(output, options_.roughness, i) : output, files);
+            }
+            return;
+        }
+        Texture texture{.width = first.width, .height = first.height, .kind = TexelKind::rgba8, .levels = {}};
+        for (const RoughnessLevel& level : levels) {
+            std::vector<std::uint8_t>& bytes = texture.levels.emplace_back();
+            bytes.reserve(4 * level.texels.size());
+            for (const Vec3& texel : level.texels) {
+                for (const float part : {texel.x, texel.y, texel.z, 1.0F})
+                    bytes.push_back(static_cast<std::uint8_t>(std::clamp(part, 0.0F, 1.0F) * 255 + 0.5F));
+            }
+        }
+        report_.roughness_bytes = addTexture(texture, roughness_container_, output, files);
+    }
+
+    const std::string &input_, &output_;
+    const CompressMapFileOptions& options_;
+    Parallel parallel_;
+    InputFiles inputs_ = {};
+    Container container_ = Container::ktx2, roughness_container_ = Container::png;
+    std::vector<NormalLevel> levels_ = {};
+    CompressMapFileReport report_ = {};
 };
-
-void addCompressWarnings(const FloatImage& image, CompressMapFileReport& report) {
-    const auto warn = [&](std::string text) { report.warnings.push_back(std::move(text)); };
-    const std::uint64_t total = image.texels.size();
-    if (!image.alpha.empty()) warn("the image has alpha, which BC5 has no room for");
-    if (report.below_horizon > 0)
-        warn(std::to_string(report.below_horizon) + " texels look below the horizon, which two channels cannot say");
-    if (report.not_unit > total / 10)
-        warn(std::to_string(report.not_unit) + " of " + std::to_string(total) +
-             " texels are no unit vectors: is it a normal map in tangent space?");
-}
-
-CompressMapFileReport compress(const std::string& input, const std::string& output,
-                               const CompressMapFileOptions& options) {
-    InputFiles inputs;
-    if (options.content.data() == nullptr) inputs.add(input);
-    const std::string extension = lowerExtension(output);
-    if (!options.sink && extension != ".dds" && extension != ".ktx2")
-        failFile(ErrorCode::unsupportedFile,
-                 "the output " + pathInQuotes(output) + " ends neither in .dds nor in .ktx2");
-    FloatImage image = readMapImage(input, options.content, options.file);
-    CompressMapFileReport report{.width = image.width, .height = image.height, .bits_before = image.bits};
-    if (std::string how_read = readTextureVectors(image); !how_read.empty())
-        report.warnings.push_back(std::move(how_read));
-    Parallel parallel(options.execution);
-    std::vector<NormalLevel> levels;
-    NormalLevel first = normalsOf(image, report);
-    if (options.levels) {
-        levels = makeNormalLevels(std::move(first), parallel);
-    } else {
-        levels.push_back(std::move(first));
-    }
-    report.level_count = static_cast<std::uint32_t>(levels.size());
-    Bc5Texture texture{.width = image.width, .height = image.height, .is_signed = options.is_signed};
-    for (const NormalLevel& level : levels) texture.levels.push_back(packLevel(level, options.is_signed, parallel));
-    const std::vector<Vec2> decoded = decodedLevel(levels.front(), texture.levels.front(), options.is_signed);
-    FilteredError(levels.front(), decoded).measure(report);
-    addCompressWarnings(image, report);
-    const std::vector<std::uint8_t> file = extension == ".dds" ? writeDds(texture) : writeKtx2(texture);
-    report.output_bytes = file.size();
-    AtomicOutput files(
-        {.sink = options.sink, .is_dry_run = options.dry_run, .sync = options.file.sync, .inputs = &inputs});
-    files.add(output, std::span<const std::uint8_t>(file));
-    files.commit();
-    return report;
-}
 
 }  // namespace
 
+bool isTextureName(const std::string& path) {
+    const std::string extension = lowerExtension(path);
+    return extension == ".ktx2" || extension == ".dds";
+}
+
+std::vector<std::uint8_t> packTexture(const std::string& name, std::uint32_t width, std::uint32_t height,
+                                      std::span<const Vec3> texels, const Execution& execution) {
+    NormalLevel first{width, height, {}, {}};
+    first.normals.reserve(texels.size());
+    for (const Vec3& texel : texels) first.normals.push_back(toFloat(decodeTexel(texel, {})));
+    Parallel parallel(execution);
+    Texture texture{.width = width, .height = height, .kind = TexelKind::bc5, .levels = {}};
+    for (const NormalLevel& level : makeNormalLevels(std::move(first), parallel))
+        texture.levels.push_back(packLevel(level, {}, parallel).bytes);
+    if (lowerExtension(name) == ".dds") return writeDds(texture);
+    std::optional<std::vector<std::uint8_t>> file = writeKtx2(texture);
+    if (!file) failFile(ErrorCode::outOfMemory, "the levels cannot be packed");
+    return *std::move(file);
+}
+
 Result<CompressMapFileReport> compressMapFile(const std::string& input, const std::string& output,
                                               const CompressMapFileOptions& options) {
-    return atFileBorder([&]() -> Result<CompressMapFileReport> { return compress(input, output, options); });
+    return atFileBorder(
+        [&]() -> Result<CompressMapFileReport> { return MapCompression(input, output, options).run(); });
 }
 
 }  // namespace tspace
 
 namespace tspace::options {
 
+namespace {
+
+constexpr Named<TextureFormat> kFormats[] = {
+    {"bc5", TextureFormat::bc5}, {"eac-rg11", TextureFormat::eacRg11}, {"rg8", TextureFormat::rg8}};
+constexpr Named<TextureQuality> kQualities[] = {
+    {"quick", TextureQuality::quick}, {"fast", TextureQuality::fast}, {"best", TextureQuality::best}};
+
+Option factorOption(double& factor) {
+    const auto take = [&factor](const std::string& value) {
+        double number = 0;
+        if (!parseReal(value, number) || number < 0 || number > 1) return std::string("must be a number from 0 to 1");
+        factor = number;
+        return std::string();
+    };
+    Option option = options::option("--roughness-factor", "NUMBER", take,
+                                    "The material's roughnessFactor, which becomes a part of the texture: set it to 1 "
+                                    "in the material then.");
+    option.default_text = "1";
+    option.needs = "--roughness";
+    return option;
+}
+
+void addRoughness(OptionList& list, CompressMapFileOptions& options) {
+    Option texture = text("--roughness", "IMAGE", options.roughness,
+                          "A texture of occlusion, roughness and metalness, as glTF has it. Its levels become wider by "
+                          "what the normals of each texel spread, so that far surfaces do not shine. Its size is that "
+                          "of the normal map, or a power of two larger or smaller.");
+    texture.is_file = true;
+    texture.needs = "--roughness-output";
+    add(list, "Roughness", texture);
+    Option output = text("-o2, --roughness-output", "OUT", options.roughness_output,
+                         "Where it goes: .ktx2, .dds, .png (the first level), or a folder of PNGs (ends in /).");
+    output.is_file = true;
+    output.needs = "--roughness";
+    add(list, "Roughness", output);
+    add(list, "Roughness", factorOption(options.roughness_factor));
+}
+
+}  // namespace
+
 OptionList compressMapOptions(CompressMapFileOptions& options) {
     OptionList list;
     add(list, "Texture",
-        flag("--signed", options.is_signed,
-             "Write BC5 with a sign (SNORM). Flat parts of maps of more than 8 bits are then exact; engines must be "
-             "told."));
+        choice("--format", "FORMAT", kFormats, options.format,
+               "bc5 for desktops and consoles; eac-rg11 for phones (a .ktx2); rg8 is not compressed."));
     add(list, "Texture",
-        setting("--no-levels", options.levels, false, "Write the first level alone. By default all smaller ones too."));
+        choice("--quality", "QUALITY", kQualities, options.quality,
+               "fast: blocks with the least error as it is filtered. best: 1 % nearer, 2.5 times as long. quick: each "
+               "channel by itself, a fifth farther off, a quarter of the time."));
+    add(list, "Texture",
+        flag("--signed", options.is_signed,
+             "Write numbers with a sign (SNORM). Flat parts of maps of more than 8 bits are then exact; engines must "
+             "be told."));
+    add(list, "Texture",
+        setting("--mips", options.levels, true, "Write all smaller levels too, each from the first. So it is anyway."));
+    Option no_levels = setting("--no-levels", options.levels, false, "Write the first level alone.");
+    no_levels.excludes = {"--mips"};
+    add(list, "Texture", no_levels);
+    add(list, "Texture",
+        number("--zstd", options.zstd_level, 22,
+               "Pack the levels of a .ktx2 once more by Zstandard: 1 is fast, 19 small; 0: not. Blocks of fine maps "
+               "hardly become smaller."));
+    add(list, "Texture", number("--bits", options.bits, 16, "Bits of PNGs of normals: 8 or 16."));
+    addRoughness(list, options);
     add(list, kInputAndOutput, flag("--dry-run", options.dry_run, "Do everything but write."));
     addThreads(list, options.execution,
                "Threads; 0: as many as there are cores. The output is the same for any number.");
@@ -209,13 +407,19 @@ std::string compressMapJson(const Outcome<CompressMapFileReport>& outcome, ExitC
     json["width"] = result->width;
     json["height"] = result->height;
     json["bitsBefore"] = result->bits_before;
+    json["format"] = result->format;
     json["levels"] = result->level_count;
     json["outputBytes"] = result->output_bytes;
+    json["roughnessBytes"] = result->roughness_bytes;
     json["meanErrorDeg"] = result->mean_error_deg;
     json["p99ErrorDeg"] = result->p99_error_deg;
     json["maxErrorDeg"] = result->max_error_deg;
+    json["maxErrorX"] = result->max_error_x;
+    json["maxErrorY"] = result->max_error_y;
     json["belowHorizon"] = result->below_horizon;
     json["notUnit"] = result->not_unit;
+    json["meanRoughness"] = result->mean_roughness;
+    json["meanWidenedRoughness"] = result->mean_widened_roughness;
     json["warnings"] = result->warnings;
     return jsonText(json);
 }

@@ -10,11 +10,17 @@ namespace tspace::report {
 std::string compressMapText(const Outcome<CompressMapFileReport>& outcome) {
     const CompressMapFileReport& done = *outcome.result;
     Table table;
-    table.addRow({"texture", fmt::format("BC5, {} x {}, {} {}, {} bytes", done.width, done.height, done.level_count,
-                                         done.level_count == 1 ? "level" : "levels", done.output_bytes)});
     table.addRow(
-        {"error", fmt::format("{:.3g} degrees in the mean, {:.3g} at 99 % of the points, {:.3g} at most, filtered",
-                              done.mean_error_deg, done.p99_error_deg, done.max_error_deg)});
+        {"texture", fmt::format("{}, {} x {}, {} {}, {} bytes", done.format, done.width, done.height, done.level_count,
+                                done.level_count == 1 ? "level" : "levels", done.output_bytes)});
+    table.addRow({"error", fmt::format("{:.3g} degrees in the mean, {:.3g} at 99 % of the points, {:.3g} at most (at "
+                                       "texel {:.1f}, {:.1f}), filtered",
+                                       done.mean_error_deg, done.p99_error_deg, done.max_error_deg, done.max_error_x,
+                                       done.max_error_y)});
+    if (done.roughness_bytes > 0)
+        table.addRow(
+            {"roughness", fmt::format("{} bytes; {:.3f} in the mean, and {:.3f} at the last level",
+                                      done.roughness_bytes, done.mean_roughness, done.mean_widened_roughness)});
     for (const std::string& warning : done.warnings) table.addRow({"warning", printable(warning)});
     return fmt::format("{} -> {}{}\n{}", printable(outcome.input), printable(outcome.output),
                        outcome.is_dry_run ? " (not written)" : "", table.text("  "));

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string_view>
 
+#include "commands/compress_map/pack_texture.h"
 #include "commands/convert_map/convert_map_report.h"
 #include "commands/shared/axes_option.h"
 #include "commands/shared/file_options.h"
@@ -180,7 +181,7 @@ ImageFormat outputFormat(const std::string& output, const ConvertMapFileOptions&
     const ImageFormat format = extension == ".exr" ? ImageFormat::exr : ImageFormat::png;
     if (!options.sink && extension != ".png" && extension != ".exr")
         failFile(ErrorCode::unsupportedFile,
-                 "the output " + pathInQuotes(output) + " ends neither in .png nor in .exr");
+                 "the output " + pathInQuotes(output) + " ends in none of .png, .exr, .ktx2 and .dds");
     if (const char* why_not = whyNotRead(format))
         failFile(ErrorCode::unsupportedFile, "the output cannot be written: " + std::string(why_not));
     return format;
@@ -230,8 +231,9 @@ ConvertMapFileReport convert(const std::string& input, const std::string& output
     ConvertMapFileOptions options = requested;
     inputs.watch(options.file);
     if (options.content.data() == nullptr) inputs.add(input);
-    const ImageFormat format = outputFormat(output, options);
-    const unsigned bits = outputBits(format, options.bits);
+    const bool is_texture = !options.sink && isTextureName(output);
+    const ImageFormat format = is_texture ? ImageFormat::ktx2 : outputFormat(output, options);
+    const unsigned bits = is_texture ? 16 : outputBits(format, options.bits);
     FloatImage image = readMapImage(input, options.content, options.file);
     const std::string how_read = options.layout == MapLayout{} ? readTextureVectors(image) : std::string();
     const std::vector<Vec3> before = applyLayout(options.layout, image);
@@ -255,6 +257,8 @@ ConvertMapFileReport convert(const std::string& input, const std::string& output
     const MapAxes axes = axesOf(image, meshes, options, report.warnings);
     const std::vector<MapAxes> of_triangles(any == nullptr || axes == MapAxes{} ? 0 : any->uvs.size() / 3, axes);
     const MapSides sides = sidesOf(meshes, options, of_triangles);
+    if (is_texture && sides.to.space == MapSpace::object)
+        failFile(ErrorCode::invalidOption, "textures of two channels hold tangent space alone; write a .png or .exr");
     report.texels =
         valueOrThrow(convertMap(map, sides.from, sides.to, chosen, image.texels, options.execution, options.progress));
     checkConversion(report.texels);
@@ -264,6 +268,15 @@ ConvertMapFileReport convert(const std::string& input, const std::string& output
         report.warnings.push_back(std::to_string(image.not_finite) +
                                   " texels of the image are not finite; they become grey, which has no direction");
     addMapWarnings(options, report);
+    if (is_texture) {
+        if (options.bits != 0) report.warnings.emplace_back("the number of bits does not matter for BC5");
+        AtomicOutput files({.is_dry_run = options.dry_run, .sync = options.file.sync, .inputs = &inputs});
+        const std::vector<std::uint8_t> file =
+            packTexture(output, image.width, image.height, image.texels, options.execution);
+        files.add(output, std::span<const std::uint8_t>(file));
+        files.commit();
+        return report;
+    }
     writeMapImage(image, format, bits, output,
                   {.sink = options.sink, .is_dry_run = options.dry_run, .sync = options.file.sync, .inputs = &inputs});
     return report;

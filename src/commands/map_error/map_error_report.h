@@ -6,6 +6,7 @@
 
 #include "commands/shared/report.h"
 #include "tspace/bake_file.h"
+#include "tspace/map_compress_file.h"
 
 namespace tspace::report {
 
@@ -13,5 +14,9 @@ namespace tspace::report {
 std::string mapErrorJson(const Outcome<MapErrorFileReport>& outcome, const std::string& low, const std::string& high,
                          ExitCode exit_code);
 std::string mapErrorText(const Outcome<MapErrorFileReport>& outcome);
+
+/// Of the texture `outcome`.input.
+std::string textureErrorJson(const Outcome<TextureErrorReport>& outcome, const std::string& source, ExitCode exit_code);
+std::string textureErrorText(const Outcome<TextureErrorReport>& outcome);
 
 }  // namespace tspace::report

@@ -58,4 +58,17 @@ std::string mapErrorText(const Outcome<MapErrorFileReport>& outcome) {
     return fmt::format("{}: {}\n{}", printable(outcome.input), done.verdict, table.text("  "));
 }
 
+std::string textureErrorText(const Outcome<TextureErrorReport>& outcome) {
+    const TextureErrorReport& done = *outcome.result;
+    Table table;
+    table.addRow({"texture",
+                  fmt::format("{}, {} x {}", done.format.empty() ? "an image" : done.format, done.width, done.height)});
+    table.addRow({"error", fmt::format("{:.3g} degrees in the mean, {:.3g} at 99 % of the points, {:.3g} at most (at "
+                                       "texel {:.1f}, {:.1f}), filtered",
+                                       done.mean_error_deg, done.p99_error_deg, done.max_error_deg, done.max_error_x,
+                                       done.max_error_y)});
+    for (const std::string& warning : done.warnings) table.addRow({"warning", printable(warning)});
+    return fmt::format("{}\n{}", printable(outcome.input), table.text("  "));
+}
+
 }  // namespace tspace::report

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// Normal maps that other commands make, as textures.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "tspace/execution.h"
+#include "tspace/vec.h"
+
+namespace tspace {
+
+/// Whether the name ends in .ktx2 or .dds.
+bool isTextureName(const std::string& path);
+
+/// The file of that name: BC5 with all levels, as compressMapFile makes it by default. `texels`: of a map in tangent space, from 0 to 1; the
+/// vectors need not be unit: what the filter makes of them is what the blocks are fitted to.
+std::vector<std::uint8_t> packTexture(const std::string& name, std::uint32_t width, std::uint32_t height,
+                                      std::span<const Vec3> texels, const Execution& execution);
+
+}  // namespace tspace
