@@ -201,7 +201,8 @@ void ModelPicture::prepare(std::size_t primitive) {
     shown.is_blended = look.is_blended;
     shown.metalness = static_cast<float>(std::clamp(look.metalness, 0.0, 1.0));
     shown.roughness = static_cast<float>(std::clamp(look.roughness, 0.0, 1.0));
-    shown.emission = toFloat({look.emission[0], look.emission[1], look.emission[2]});
+    const double strength = look.emission_strength;
+    shown.emission = toFloat({strength * look.emission[0], strength * look.emission[1], strength * look.emission[2]});
     if (primitive < drawn_.colors.size() && drawn_.colors[primitive].size() == source.positions.size())
         shown.colors = drawn_.colors[primitive].span();
     shown.reading = reading_;

@@ -175,6 +175,8 @@ void readMetalAndEmission(const Document& document, const Primitive& primitive, 
         look.metal_texture = readOwnTexture(document, *metal, "metallicRoughnessTexture", metal_place);
     }
     readNumbers(material, "emissiveFactor", place, look.emission);
+    if (const Json* strength = findExtension(material, "KHR_materials_emissive_strength"))
+        look.emission_strength = std::max(0.0, readNumber(*strength, "emissiveStrength", join(place, "extensions"), 1));
     look.emission_texture = readOwnTexture(document, material, "emissiveTexture", place);
 }
 

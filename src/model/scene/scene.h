@@ -189,6 +189,7 @@ struct SurfaceLook {
     double metalness = 0, roughness = 1;
     std::optional<TextureReading> metal_texture = {};  ///< green: roughness; blue: metalness
     std::array<double, 3> emission = {0, 0, 0};        ///< linear
+    double emission_strength = 1;                      ///< KHR_materials_emissive_strength
     std::optional<TextureReading> emission_texture = {};
     /// Where alpha is smaller the surface is not there; 0: it is there everywhere.
     double alpha_cutoff = 0;
