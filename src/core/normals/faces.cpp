@@ -13,7 +13,7 @@
 
 namespace tspace {
 
-Faces::Faces(const MeshView& mesh, const Allocator* allocator) {
+MeshFaces::MeshFaces(const MeshView& mesh, const Allocator* allocator) {
     if (mesh.face_sizes.empty()) {
         size_ = mesh.face_size;
         used_count_ = size_ >= 3 ? mesh.faceCount() : 0;
@@ -30,7 +30,7 @@ Faces::Faces(const MeshView& mesh, const Allocator* allocator) {
     first_corners_[mesh.faceCount()] = static_cast<std::uint32_t>(mesh.cornerCount());
 }
 
-PointItems::PointItems(const MeshView& mesh, const Faces& faces, const Buffer<std::uint32_t>& points,
+PointItems::PointItems(const MeshView& mesh, const MeshFaces& faces, const Buffer<std::uint32_t>& points,
                        const Allocator* allocator)
     : TriangleGroups(areTriangles(mesh) ? mesh.faceCount() : mesh.cornerCount()),
       mesh_(mesh),
@@ -80,7 +80,7 @@ void PointItems::readEach(NumberOf numberOf, std::size_t size, std::uint32_t* ve
         }
         for (std::size_t i = 0; i < size; ++i) {
             const auto corner = static_cast<std::uint32_t>(numberOf(i));
-            const Faces::Around around = faces_.around(corner);
+            const MeshFaces::Around around = faces_.around(corner);
             readTriangle(i, [&](std::size_t k) { return vertexOf(around.corners[k]); });
             const bool is_used = faces_.isUsed(faces_.of(corner));
             std::fill_n(points + 3 * i, 3, is_used ? points[3 * i] : ~std::uint32_t{0});
@@ -116,7 +116,7 @@ FaceRow faceRow(const MeshView& mesh, std::uint32_t first, std::uint32_t past, d
 
 NormalReport writeFaceNormals(const NormalsCall& call) {
     using smooth::FaceTerms, smooth::kTermGroup, smooth::kTermTriangles;
-    const Faces& faces = call.faces;
+    const MeshFaces& faces = call.faces;
     std::atomic<std::uint64_t> degenerate_faces{0}, degenerate_corners{0};
     const auto write = [&](std::uint32_t face, const FaceRow& row, NormalReport& counts) {
         const std::uint32_t first = faces.first(face), past = faces.past(face);

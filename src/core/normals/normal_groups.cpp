@@ -42,7 +42,7 @@ void NormalGroups::sortCorners(const CornerGroups& corner_groups, double length)
     const auto around = [&](std::uint32_t corner) {
         if (!call_.are_triangles) return call_.faces.around(corner);
         const std::uint32_t first = corner / 3 * 3, k = corner - first;
-        return Faces::Around{{corner, first + (k == 2 ? 0 : k + 1), first + (k == 0 ? 2 : k - 1)}};
+        return MeshFaces::Around{{corner, first + (k == 2 ? 0 : k + 1), first + (k == 0 ? 2 : k - 1)}};
     };
     DVec3 origin;
     for (std::uint32_t c = 0; c < corner_count; ++c) {
@@ -53,7 +53,7 @@ void NormalGroups::sortCorners(const CornerGroups& corner_groups, double length)
     // A corner counts where its triangle has three groups.
     const auto read = [&](std::uint32_t corner, std::uint32_t(&groups)[3]) {
         if (!call_.are_triangles && !call_.faces.isUsed(call_.faces.of(corner))) return false;
-        const Faces::Around a = around(corner);
+        const MeshFaces::Around a = around(corner);
         for (std::size_t k = 0; k < 3; ++k) groups[k] = corner_groups.of(a.corners[k]);
         return groups[0] != groups[1] && groups[1] != groups[2] && groups[2] != groups[0];
     };

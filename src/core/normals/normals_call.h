@@ -43,9 +43,9 @@ Creases findCreases(const MeshView& mesh, const NormalOptions& options, const Ex
 // The arguments and faces of a call, and the ways to smooth.
 
 /// The faces of a mesh by their corners. Faces of one size need no table; otherwise 4 bytes per corner and face.
-class Faces {
+class MeshFaces {
   public:
-    Faces(const MeshView& mesh, const Allocator* allocator);
+    MeshFaces(const MeshView& mesh, const Allocator* allocator);
 
     /// The face of a corner, the first corner of a face, and the one after its last.
     [[nodiscard]] std::uint32_t of(std::uint32_t corner) const {
@@ -78,7 +78,7 @@ class Faces {
 class PointItems final : public TriangleGroups {
   public:
     /// `points`: of each vertex; empty when each is its own.
-    PointItems(const MeshView& mesh, const Faces& faces, const Buffer<std::uint32_t>& points,
+    PointItems(const MeshView& mesh, const MeshFaces& faces, const Buffer<std::uint32_t>& points,
                const Allocator* allocator);
 
     static bool areTriangles(const MeshView& mesh) { return mesh.face_sizes.empty() && mesh.face_size == 3; }
@@ -101,7 +101,7 @@ class PointItems final : public TriangleGroups {
     enum Block : std::uint8_t { unknown, own, shared };  // own: each vertex is its own point
 
     const MeshView& mesh_;
-    const Faces& faces_;
+    const MeshFaces& faces_;
     const Buffer<std::uint32_t>& points_;
     const std::uint32_t* in_place_;  ///< the indices; null where they are not triangles of 32-bit numbers
     /// What was found of each block by inPlace. Nearly all are `own` where triangles lie close together, and comparing
@@ -157,7 +157,7 @@ struct NormalsCall {
     StridedSpan<Vec3> out;
     const Allocator* allocator;
     Parallel& parallel;
-    Faces faces;
+    MeshFaces faces;
     Buffer<std::uint32_t> points;  ///< the point of each vertex; empty when each is its own
     PointItems items;
     smooth::FaceKernel kernel;
@@ -177,7 +177,7 @@ struct NormalsCall {
 NormalReport smoothTriangles(const NormalsCall& call);
 
 /// Any mesh: faces of any size, hard edges, all weightings. Range by range of points, with a list of the corners around
-/// each. Scratch memory: 4 bytes per vertex, core/base/range_lists.h, Faces where faces differ in size, and for each task
+/// each. Scratch memory: 4 bytes per vertex, core/base/range_lists.h, MeshFaces where faces differ in size, and for each task
 /// 150 bytes per triangle of a range, which are an eighth of a small mesh and about 8000 of a large one; for `best`
 /// also 28 bytes per corner. While vertices are welded 10 to 24 bytes per vertex. Throws OutOfMemory.
 NormalReport smoothFaces(const NormalsCall& call);

@@ -33,7 +33,7 @@ class ComponentCorners final : public TriangleGroups {
     static constexpr std::uint32_t kAside = 0x80000000u;  ///< mark: the corner's face is degenerate, and adds nothing
 
     /// `components`: of each corner the lowest corner of its component, and kAside.
-    ComponentCorners(const MeshView& mesh, const Faces& faces, const Buffer<std::uint32_t>& components)
+    ComponentCorners(const MeshView& mesh, const MeshFaces& faces, const Buffer<std::uint32_t>& components)
         : TriangleGroups(components.size()), mesh_(mesh), faces_(faces), components_(components) {}
 
     void read(std::size_t first, std::size_t size, std::uint32_t* vertices, std::uint32_t* groups) const override {
@@ -44,7 +44,7 @@ class ComponentCorners final : public TriangleGroups {
                 (components_[corner] & kAside) != 0 ? static_cast<std::uint32_t>(count) : components_[corner];
             std::fill_n(groups + 3 * i, 3, own);
             if (vertices == nullptr) continue;
-            const Faces::Around around = faces_.around(corner);
+            const MeshFaces::Around around = faces_.around(corner);
             for (std::size_t k = 0; k < 3; ++k) {
                 if (k != 0) groups[3 * i + k] = components_[around.corners[k]] & ~kAside;
                 vertices[3 * i + k] = mesh_.indices[around.corners[k]];
@@ -54,7 +54,7 @@ class ComponentCorners final : public TriangleGroups {
 
   private:
     const MeshView& mesh_;
-    const Faces& faces_;
+    const MeshFaces& faces_;
     const Buffer<std::uint32_t>& components_;
 };
 

@@ -242,7 +242,7 @@ class PointComponents {
     }
 
     const SmoothingRule& rule_;
-    const Faces& faces_;
+    const MeshFaces& faces_;
     const FaceRow* rows_;
     const PointCorners& at_;
     std::uint32_t count_, components_;

@@ -246,7 +246,7 @@ struct OwnAngles {
   private:
     /// Of those from the first corner, squared.
     [[nodiscard]] double longestEdge(std::uint32_t face) const {
-        const Faces& faces = call.surface.faces;
+        const MeshFaces& faces = call.surface.faces;
         const DVec3 origin = call.surface.position(faces.first(face));
         double longest = 0;
         for (std::uint32_t c = faces.first(face) + 1; c < faces.past(face); ++c) {
@@ -276,7 +276,7 @@ struct OwnAngles {
 Component flood(const WindingCall& call, std::uint32_t first, std::uint32_t begin, Buffer<std::uint32_t>& order,
                 Buffer<std::uint8_t>& reached) {
     const Surface& surface = call.surface;
-    const Faces& faces = surface.faces;
+    const MeshFaces& faces = surface.faces;
     const auto runsForward = [&](std::uint32_t corner) {
         return surface.pointOf(corner) < surface.pointOf(faces.next(corner));
     };

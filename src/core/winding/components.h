@@ -19,7 +19,7 @@ namespace tspace::winding {
 /// The faces of a call and the points that they share.
 struct Surface {
     const MeshView& mesh;
-    const Faces& faces;
+    const MeshFaces& faces;
     const Buffer<std::uint32_t>& points;  ///< of each corner
 
     [[nodiscard]] std::uint32_t pointOf(std::uint32_t corner) const { return points[corner]; }

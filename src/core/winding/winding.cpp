@@ -189,7 +189,7 @@ class Mending {
           closed_(call.allocator(), call.surface.mesh.faceCount() / kFewest + 1) {}
 
     void run() {
-        const Faces& faces = call_.surface.faces;
+        const MeshFaces& faces = call_.surface.faces;
         const auto count = static_cast<std::uint32_t>(call_.surface.mesh.faceCount());
         std::uint32_t done = 0;
         for (std::uint32_t face = 0; face < count; ++face) {
@@ -305,7 +305,7 @@ Result<WindingReport> checkAndMend(const MeshView& mesh, const Call<WindingOptio
     if (Error e = checkSpan(turned, mesh.faceCount(), "turned"); e.code != ErrorCode::ok) return e;
     const Allocator* const allocator = options.execution.allocator;
     for (std::size_t face = 0; face < turned.count; ++face) turned[face] = 0;
-    const Faces faces(mesh, allocator);
+    const MeshFaces faces(mesh, allocator);
     WindingReport report{.face_count = faces.usedCount()};
     if (report.face_count == 0) return report;
     const Buffer<std::uint32_t> corner_points = pointsOfCorners(mesh, options, parallel);
