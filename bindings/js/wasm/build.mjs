@@ -29,11 +29,11 @@ const fileRooms = [
 const notHere = new Set([
   "core/base/parallel.cpp", "core/base/arena.cpp", "model/io/atomic_output_disk.cpp", "model/io/file_io.cpp",
   "model/obj/tiny_obj_loader.cpp", "model/gltf/codecs/draco_library.cpp", "model/gltf/codecs/meshopt_library.cpp",
-  ...["astc", "basis_lz", "bc7", "dds", "ktx2", "texel_format", "texture", "uastc", "write_texture"].map((name) => `images/${name}.cpp`),
+  ...["astc", "basis_lz", "bc7", "dds", "ktx2", "texel_format", "texture", "uastc", "unpack_level", "write_texture"].map((name) => `images/${name}.cpp`),
   "images/exr.cpp", "images/float_image.cpp", "images/jpeg.cpp", "images/png.cpp", "images/webp.cpp", "maps/rays.cpp",
   "commands/generate/convert_maps.cpp", "commands/generate/mend_maps.cpp", "commands/diff/diff_words.cpp",
   "commands/shared/map_image_file.cpp", "commands/flip_green/texture_png.cpp",
-  ...["bake/bake_file", "bake/high_maps", "bake/model_maps", "bake/model_surfaces", "convert_map/convert_map_file",
+  ...["bake/all_maps", "bake/bake_file", "bake/high_maps", "bake/match_meshes", "bake/model_maps", "bake/model_surfaces", "convert_map/convert_map_file",
     "height_to_normal/height_to_normal_file", "render/model_picture", "render/render_file"]
     .map((name) => `commands/${name}.cpp`),
   ...["posix", "windows"].map((system) => `model/io/system_files_${system}.cpp`),
@@ -62,7 +62,7 @@ const modules = {
   /// Not of the package: the page draws KTX2 and DDS by it.
   textures: {
     sources: ["memory.cpp", "textures.cpp"], isFast: false, defines: [], rooms: [], kernels: [], imports: ["endCall", "unpack"],
-    files: ["astc", "basis_lz", "bc7", "dds", "image", "ktx2", "texel_blocks", "texel_format", "texture", "uastc"].map((name) => `images/${name}.cpp`),
+    files: ["astc", "basis_lz", "bc7", "dds", "image", "ktx2", "texel_format", "texture", "uastc"].map((name) => `images/${name}.cpp`),
   },
   gltf: {
     sources: ["heap.cpp", "c_library.cpp", "throw.cpp", "only_memory.cpp", "codecs.cpp", "images.cpp", "obj_parser.cpp", "gltf.cpp"], isFast: false,
