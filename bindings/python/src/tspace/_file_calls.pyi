@@ -4,8 +4,9 @@ test compares the names."""
 
 from typing import Literal, Optional, Sequence, Union
 
-from ._file_reports import DiffReport, FlipGreenReport, GenerateReport, HeightToNormalReport, InspectReport
+from ._file_reports import DiffReport, FlipGreenReport, HeightToNormalReport, InspectReport
 from ._files import BytesLike, CheckReport, FindFile, Generated, IdentifyReport, PathLike
+from ._generate_report import GenerateReport
 from ._types import DegreesOrAuto, MethodName, PairingName, PresetName
 
 Severity = Literal["note", "warning", "error"]
