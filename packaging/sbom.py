@@ -65,8 +65,7 @@ def main(version, folder):
             needed[identifier] = package(what, identifier, externalRefs=[{
                 "referenceCategory": "PACKAGE-MANAGER", "referenceType": "purl",
                 "referenceLocator": f"pkg:{'deb/debian' if registry == 'deb' else registry}/{what}"}])
-            if identifier != spdx_id(name):
-                relations.append((spdx_id(name), "DEPENDS_ON", identifier))
+            relations.append((spdx_id(name), "DEPENDS_ON", identifier))
     time = datetime.datetime.fromtimestamp(int(os.environ["SOURCE_DATE_EPOCH"]), datetime.timezone.utc)
     everything = hashlib.sha256("".join(one["checksums"][0]["checksumValue"] for one in ours).encode()).hexdigest()
     json.dump({

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/base/disjoint_sets.h"
 #include "core/base/sort.h"
 #include "core/base/unique_index.h"
 #include "core/base/vec_math.h"
@@ -27,13 +28,7 @@ class Pieces {
     }
 
     /// The first triangle of a triangle's piece.
-    std::uint32_t firstOf(std::uint32_t triangle) {
-        while (parents_[triangle] != triangle) {
-            parents_[triangle] = parents_[parents_[triangle]];
-            triangle = parents_[triangle];
-        }
-        return triangle;
-    }
+    std::uint32_t firstOf(std::uint32_t triangle) { return rootOf(parents_.data(), triangle); }
 
   private:
     /// Which way the UVs of a triangle turn: 1, -1, or 0 without area.
@@ -58,13 +53,9 @@ class Pieces {
             return a.hash != b.hash ? a.hash < b.hash : a.triangle < b.triangle;
         });
         for (std::size_t i = 1; i < corners.size(); ++i) {
-            if (corners[i].hash == corners[i - 1].hash) join(corners[i].triangle, corners[i - 1].triangle);
+            if (corners[i].hash == corners[i - 1].hash)
+                joinSets(parents_.data(), corners[i].triangle, corners[i - 1].triangle);
         }
-    }
-
-    void join(std::uint32_t a, std::uint32_t b) {
-        const std::uint32_t first = firstOf(a), second = firstOf(b);
-        parents_[std::max(first, second)] = std::min(first, second);
     }
 
     const LowPoly& low_;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Paths of Windows, as the tool sees them. Its file names are those of POSIX: a drive (C:) or a share (\\server\share) is one
-// component, from which all that follows begins anew, wherever it stands. So C:/a and /D:/work/C:/a are both C:/a.
+// component, from which all that follows begins anew, wherever it stands. So C:/a and /D:/b/C:/a are both C:/a.
 
 const isDrive = (part) => /^[A-Za-z]:$/.test(part);
 const isShare = (part) => part.startsWith("\\\\");

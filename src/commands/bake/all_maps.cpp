@@ -2,10 +2,13 @@
 #include "commands/bake/all_maps.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "commands/shared/picture/colors.h"
 #include "commands/shared/uv_reading.h"
+#include "core/base/disjoint_sets.h"
 #include "core/base/weld.h"
+#include "images/float_image.h"
 #include "model/io/file_error.h"
 #include "model/io/file_io.h"
 
@@ -21,30 +24,9 @@ std::array<std::uint8_t, 3> bytesOf(const Vec3& color) {
 }
 
 std::uint64_t mostPixels(std::uint64_t memory_limit) {
-    // As those of a picture: images of a usual size are read whatever the model weighs.
-    constexpr std::uint64_t kUsualPixels = std::uint64_t{1} << 26, kPixelBytes = 32;
-    return memory_limit == 0 ? kUsualPixels : std::max<std::uint64_t>(memory_limit / kPixelBytes, 1);
+    constexpr std::uint64_t kPixelBytes = 32;
+    return memory_limit == 0 ? kMostModelMapPixels : std::max<std::uint64_t>(memory_limit / kPixelBytes, 1);
 }
-
-/// Triangles that share a position, as sets of positions.
-class Shells {
-  public:
-    explicit Shells(std::size_t count) : above_(count) {
-        for (std::uint32_t i = 0; i < count; ++i) above_[i] = i;
-    }
-    std::uint32_t rootOf(std::uint32_t i) {
-        while (above_[i] != i) i = above_[i] = above_[above_[i]];
-        return i;
-    }
-    void join(std::uint32_t a, std::uint32_t b) {
-        a = rootOf(a);
-        b = rootOf(b);
-        above_[std::max(a, b)] = std::min(a, b);
-    }
-
-  private:
-    std::vector<std::uint32_t> above_;
-};
 
 }  // namespace
 
@@ -112,16 +94,18 @@ void HighDetail::findShells() {
         const std::uint32_t vertex = high_.corners[corner];
         return roots.empty() ? vertex : roots[vertex];
     };
-    Shells shells(high_.positions.size());
+    // Positions that triangles hold together.
+    std::vector<std::uint32_t> shells(high_.positions.size());
+    std::iota(shells.begin(), shells.end(), 0u);
     for (std::size_t i = 0; i < triangles; ++i) {
-        shells.join(pointOf(3 * i), pointOf(3 * i + 1));
-        shells.join(pointOf(3 * i), pointOf(3 * i + 2));
+        joinSets(shells.data(), pointOf(3 * i), pointOf(3 * i + 1));
+        joinSets(shells.data(), pointOf(3 * i), pointOf(3 * i + 2));
     }
     constexpr std::uint32_t kNoNumber = 0xffffffffu;
     std::vector<std::uint32_t> numbers(high_.positions.size(), kNoNumber);
     ids_.resize(triangles);
     for (std::size_t i = 0; i < triangles; ++i) {
-        std::uint32_t& number = numbers[shells.rootOf(pointOf(3 * i))];
+        std::uint32_t& number = numbers[rootOf(shells.data(), pointOf(3 * i))];
         if (number == kNoNumber) number = static_cast<std::uint32_t>(id_count_++);
         ids_[i] = number;
     }
@@ -134,17 +118,12 @@ void HighDetail::listIds(const std::vector<std::string>& names) {
             {i < names.size() ? names[i] : std::string(), bytesOf(idColor(static_cast<std::uint32_t>(i)))});
 }
 
-HighDetail::PlacedMap HighDetail::placed(std::size_t primitive, const std::optional<TextureReading>& texture,
-                                         bool is_color) {
+PlacedTexture HighDetail::placed(std::size_t primitive, const std::optional<TextureReading>& texture, bool is_color) {
     const ScenePrimitive& source = scene_.scene.primitives[primitive];
-    PlacedMap map;
-    if (!texture || !texture->image || *texture->image >= scene_.scene.images.size()) return map;
-    if (texture->uv_set >= source.uv_sets.size() || source.uv_sets[texture->uv_set].empty()) return map;
-    map.image = textures_.read({*texture->image, is_color, false});
+    PlacedTexture map = textures_.find(source, texture, is_color, false);
     if (map.image == nullptr) return map;
     if (scene_.scene.memory) scene_.scene.memory->take(source.positions.size() * sizeof(Vec2), source.place);
-    map.uvs = textureUvs(source.uv_sets[texture->uv_set].span(), texture->transform);
-    map.shape = {map.image->width, map.image->height, texture->wrap_u, texture->wrap_v};
+    map.uvs = uvs_.emplace_back(textureUvs(source.uv_sets[texture->uv_set].span(), texture->transform));
     return map;
 }
 
@@ -192,14 +171,8 @@ ShownMaterial HighDetail::materialAt(std::uint32_t triangle, const std::array<do
     for (std::size_t i = 0; i < 3; ++i)
         vertices[i] =
             primitive.corners[placedCorner(placement.to_world, 3 * std::size_t{triangle - part.first_triangle} + i)];
-    const auto sample = [&](const PlacedMap& map) {
-        if (map.image == nullptr) return Vec3{1, 1, 1};
-        double u = 0, v = 0;
-        for (std::size_t i = 0; i < 3; ++i) {
-            u += weights[i] * static_cast<double>(map.uvs[vertices[i]].x);
-            v += weights[i] * static_cast<double>(map.uvs[vertices[i]].y);
-        }
-        return sampleTexture(*map.image, map.shape, {static_cast<float>(u), static_cast<float>(v)});
+    const auto sample = [&](const PlacedTexture& map) {
+        return map.image == nullptr ? Vec3{1, 1, 1} : sampleAt(map, vertices, weights);
     };
     const Vec3 base = sample(material.base), metal = sample(material.metal), emission = sample(material.emission);
     ShownMaterial shown;

@@ -30,14 +30,8 @@ class HighDetail {
     [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
 
   private:
-    /// A texture at the vertices of a primitive.
-    struct PlacedMap {
-        const PictureTexture* image = nullptr;
-        TextureShape shape = {};
-        std::vector<Vec2> uvs = {};
-    };
     struct Material {
-        PlacedMap base = {}, metal = {}, emission = {};
+        PlacedTexture base = {}, metal = {}, emission = {};
         std::vector<Vec4> colors = {};  ///< linear, or empty
     };
 
@@ -45,7 +39,7 @@ class HighDetail {
     void findShells();
     void listIds(const std::vector<std::string>& names);
     void readMaterials(const std::string& path);
-    PlacedMap placed(std::size_t primitive, const std::optional<TextureReading>& texture, bool is_color);
+    PlacedTexture placed(std::size_t primitive, const std::optional<TextureReading>& texture, bool is_color);
     [[nodiscard]] std::size_t partOf(std::uint32_t triangle) const;
     [[nodiscard]] ShownMaterial materialAt(std::uint32_t triangle, const std::array<double, 3>& weights) const;
 
@@ -56,7 +50,8 @@ class HighDetail {
     std::vector<std::uint32_t> ids_ = {};
     std::uint64_t id_count_ = 0;
     std::vector<BakedId> listed_ = {};
-    std::deque<Material> materials_ = {};  ///< one per primitive
+    std::deque<std::vector<Vec2>> uvs_ = {};  ///< of the textures, one per vertex
+    std::deque<Material> materials_ = {};     ///< one per primitive
     std::vector<std::string> warnings_ = {};
 };
 

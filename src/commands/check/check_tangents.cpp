@@ -12,6 +12,7 @@
 #include "commands/check/primitive_checks.h"
 #include "core/base/vec_math.h"
 #include "core/mesh/quads/quads.h"
+#include "core/mesh/surface/uvs.h"
 
 namespace tspace {
 namespace {
@@ -27,8 +28,7 @@ bool hasFaults(const FrameHealth& health) {
 
 double uvArea(const TangentView& mesh, std::size_t triangle) {
     const auto uv = [&](std::size_t k) { return mesh.uvs[mesh.corners[3 * triangle + k]]; };
-    const Vec2 a = uv(0), b = uv(1), c = uv(2);
-    return std::fabs((double{b.x} - a.x) * (double{c.y} - a.y) - (double{b.y} - a.y) * (double{c.x} - a.x));
+    return std::fabs(signedUvArea(uv(0), uv(1), uv(2), false));
 }
 
 /// The orientation of a quad, as in the reference: where it is folded in the UV map, its larger half decides.

@@ -140,6 +140,17 @@ const PictureTexture* ModelTextures::read(const Wanted& wanted) {
     return entry->second ? &*entry->second : nullptr;
 }
 
+PlacedTexture ModelTextures::find(const ScenePrimitive& primitive, const std::optional<TextureReading>& texture,
+                                  bool is_color, bool alpha) {
+    PlacedTexture found;
+    if (!texture || !texture->image || *texture->image >= scene_.images.size()) return found;
+    if (texture->uv_set >= primitive.uv_sets.size() || primitive.uv_sets[texture->uv_set].empty()) return found;
+    found.image = read({*texture->image, is_color, alpha});
+    if (found.image != nullptr)
+        found.shape = {found.image->width, found.image->height, texture->wrap_u, texture->wrap_v};
+    return found;
+}
+
 std::optional<PictureTexture> ModelTextures::decode(const Wanted& wanted) {
     const SceneImage& source = scene_.images[wanted.image];
     const bool in_floats = wanted.alpha || isDeepPng(source.bytes) || (!wanted.is_color && isTextureFile(source.bytes));
@@ -217,15 +228,10 @@ void ModelPicture::prepareTextures(std::size_t primitive) {
     ModelSurface& surface = surfaces_[primitive];
     const auto placed = [&](const std::optional<TextureReading>& texture, bool is_color, bool alpha,
                             std::vector<Vec2>& uvs) {
-        PlacedTexture result;
-        if (!texture || !texture->image) return result;
-        const std::size_t set = texture->uv_set;
-        if (set >= source.uv_sets.size() || source.uv_sets[set].empty()) return result;
-        result.image = textures_->read({*texture->image, is_color, alpha});
+        PlacedTexture result = textures_->find(source, texture, is_color, alpha);
         if (result.image == nullptr) return result;
-        uvs = textureUvs(source.uv_sets[set].span(), texture->transform);
+        uvs = textureUvs(source.uv_sets[texture->uv_set].span(), texture->transform);
         result.uvs = uvs;
-        result.shape = {result.image->width, result.image->height, texture->wrap_u, texture->wrap_v};
         return result;
     };
     const bool is_surface = show_ == RenderShow::surface, is_light = is_surface || show_ == RenderShow::lit;

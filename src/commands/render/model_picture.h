@@ -54,6 +54,10 @@ class ModelTextures {
     };
     /// Null where it cannot be shown; a warning then says why.
     const PictureTexture* read(const Wanted& wanted);
+    /// That of a material, without its UVs, which follow from its transform (textureUvs). No image: there is none, or the
+    /// primitive lacks its UV set.
+    PlacedTexture find(const ScenePrimitive& primitive, const std::optional<TextureReading>& texture, bool is_color,
+                       bool alpha);
 
     std::vector<std::string> warnings = {};
 

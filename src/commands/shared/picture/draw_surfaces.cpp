@@ -39,22 +39,27 @@ std::array<T, 3> valuesAt(const CornerValues<T>& values, const ShownTriangle& tr
             values.at(triangle.corners[2], triangle.vertices[2])};
 }
 
-Vec2 uvAt(std::span<const Vec2> uvs, const ShownTriangle& triangle, const Weights& weights) {
+Vec2 uvAt(std::span<const Vec2> uvs, const std::array<std::uint32_t, 3>& vertices, const Weights& weights) {
     double u = 0, v = 0;
     for (std::size_t k = 0; k < 3; ++k) {
-        u += weights[k] * uvs[triangle.vertices[k]].x;
-        v += weights[k] * uvs[triangle.vertices[k]].y;
+        u += weights[k] * uvs[vertices[k]].x;
+        v += weights[k] * uvs[vertices[k]].y;
     }
     return {static_cast<float>(u), static_cast<float>(v)};
 }
 
-Vec3 sampleAt(const PlacedTexture& texture, const ShownTriangle& triangle, const Weights& weights) {
-    return sampleTexture(*texture.image, texture.shape, uvAt(texture.uvs, triangle, weights));
+}  // namespace
+
+Vec3 sampleAt(const PlacedTexture& texture, const std::array<std::uint32_t, 3>& vertices,
+              const std::array<double, 3>& weights) {
+    return sampleTexture(*texture.image, texture.shape, uvAt(texture.uvs, vertices, weights));
 }
+
+namespace {
 
 float alphaAt(const PlacedTexture& texture, const ShownTriangle& triangle, const Weights& weights) {
     if (texture.image->alpha.empty()) return 1;
-    const BilinearTaps taps = bilinearTaps(texture.shape, uvAt(texture.uvs, triangle, weights));
+    const BilinearTaps taps = bilinearTaps(texture.shape, uvAt(texture.uvs, triangle.vertices, weights));
     float alpha = 0;
     for (std::size_t i = 0; i < 4; ++i) alpha += taps.weights[i] * texture.image->alpha[taps.texels[i]];
     return alpha;
@@ -123,7 +128,7 @@ Vec4 vertexColor(const ShownSurface& surface, const ShownTriangle& triangle, con
 Vec3 baseColor(const ShownSurface& surface, const SurfacePoint& point) {
     Vec3 color{surface.base_color[0], surface.base_color[1], surface.base_color[2]};
     const ShownTriangle triangle = shownTriangle(surface, point.triangle);
-    if (surface.base.image != nullptr) color = product(color, sampleAt(surface.base, triangle, point.weights));
+    if (surface.base.image != nullptr) color = product(color, sampleAt(surface.base, triangle.vertices, point.weights));
     if (!surface.colors.empty()) color = product(color, xyz(vertexColor(surface, triangle, point.weights)));
     return color;
 }
@@ -218,13 +223,13 @@ Vec3 surfaceColor(const ShownSurface& surface, const Affine& to_world, const Lig
     const ShownTriangle triangle = shownTriangle(surface, point.triangle);
     float metalness = surface.metalness, roughness = surface.roughness;
     if (surface.metal.image != nullptr) {
-        const Vec3 texel = sampleAt(surface.metal, triangle, point.weights);
+        const Vec3 texel = sampleAt(surface.metal, triangle.vertices, point.weights);
         roughness *= texel.y;
         metalness *= texel.z;
     }
     Vec3 emission = surface.emission;
     if (surface.emission_map.image != nullptr)
-        emission = product(emission, sampleAt(surface.emission_map, triangle, point.weights));
+        emission = product(emission, sampleAt(surface.emission_map, triangle.vertices, point.weights));
     constexpr float kLeastRoughness = 0.0525f, kGlass = 0.04f;
     roughness = std::clamp(roughness, kLeastRoughness, 1.0f);
     metalness = std::clamp(metalness, 0.0f, 1.0f);
@@ -315,7 +320,7 @@ bool isThere(const ShownSurface& surface, std::size_t triangle, const Weights& w
 
 DVec3 mappedNormal(const ShownSurface& surface, const Affine& to_world, const SurfacePoint& point) {
     if (surface.normal_map.image == nullptr || surface.tangents.empty()) return plainNormal(surface, to_world, point);
-    const Vec3 texel = sampleAt(surface.normal_map, shownTriangle(surface, point.triangle), point.weights);
+    const Vec3 texel = sampleAt(surface.normal_map, shownTriangle(surface, point.triangle).vertices, point.weights);
     const DVec3 vector = decodeTexel(texel, surface.reading);
     if (keepsAngles(to_world)) {
         const ShadingFrame frame = frameAt(surface, surface.normals, surface.tangents, point);

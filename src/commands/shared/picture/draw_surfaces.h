@@ -65,6 +65,10 @@ struct PlacedTexture {
     std::span<const Vec2> uvs = {};         ///< one per vertex, after any transform
 };
 
+/// What a texture that has an image shows at a point of the triangle of these vertices.
+Vec3 sampleAt(const PlacedTexture& texture, const std::array<std::uint32_t, 3>& vertices,
+              const std::array<double, 3>& weights);
+
 /// Whether a triangle shows its texture mirrored.
 enum class UvSide : std::uint8_t { unknown, plain, mirrored };
 
