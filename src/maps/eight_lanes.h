@@ -19,7 +19,10 @@ struct Eight {
     Eight(float all) : low{all, all, all, all}, high(low) {}  // NOLINT(google-explicit-constructor): as float is
 
     [[nodiscard]] float operator[](std::size_t lane) const { return lane < 4 ? low[lane] : high[lane - 4]; }
-    void set(std::size_t lane, float value) { (lane < 4 ? low : high)[lane % 4] = value; }
+    void set(std::size_t lane, float value) {
+        Four& half = lane < 4 ? low : high;
+        half[lane % 4] = value;
+    }
 };
 
 inline Eight operator+(const Eight& a, const Eight& b) { return {a.low + b.low, a.high + b.high}; }

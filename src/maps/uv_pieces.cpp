@@ -83,7 +83,7 @@ Buffer<std::uint32_t> ranksOfPieces(const LowPoly& low, MapOverlap overlap, cons
         double area = 0;
         std::uint32_t first = 0;
     };
-    Buffer<Piece> by_area(allocator, count);
+    Buffer<Piece> by_area(allocator, count, Piece{});
     for (std::uint32_t i = 0; i < count; ++i) {
         by_area[i].first = i;
         by_area[ranks[i]].area += areaOfTriangle(low, i);

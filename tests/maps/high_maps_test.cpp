@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "maps/shading.h"
+#include "support/filled_memory.h"
 #include "tspace/map_bake.h"
 
 namespace tspace::test {
@@ -48,8 +49,9 @@ class HighMapBake : public testing::Test {
         if (!map && map.error().code == ErrorCode::unsupportedFile) GTEST_SKIP() << map.error().message;
     }
     static BakeOptions options() { return {.width = 16, .height = 16, .reach = 0.1}; }
-    static BakedMap baked(const LowPoly& low, const HighPoly& high, const BakeOptions& options) {
-        const Result<BakedMap> map = bakeMap(low, high, options);
+    static BakedMap baked(const LowPoly& low, const HighPoly& high, const BakeOptions& options,
+                          const Execution& execution = {}) {
+        const Result<BakedMap> map = bakeMap(low, high, options, execution);
         EXPECT_TRUE(map) << map.error().message;
         return map ? *map : BakedMap{};
     }
@@ -152,12 +154,13 @@ class SharedTexels : public HighMapBake {
     };
     static constexpr DVec3 kFirst{0.6, 0, 0.8}, kSecond{0, 0.6, 0.8};
 
-    [[nodiscard]] BakedMap bakedWith(MapOverlap overlap, unsigned bits = 16) const {
+    [[nodiscard]] BakedMap bakedWith(MapOverlap overlap, unsigned bits = 16, const Execution& execution = {}) const {
         BakeOptions how = options();
         how.overlap = overlap;
         how.bits = bits;
         return baked({.positions = low_.positions, .normals = low_.normals, .tangents = low_.tangents, .uvs = low_.uvs},
-                     {.positions = high_.positions, .normals = high_.normals, .corners = high_.corners}, how);
+                     {.positions = high_.positions, .normals = high_.normals, .corners = high_.corners}, how,
+                     execution);
     }
     Mesh low_ = {}, high_ = {};
 };
@@ -169,6 +172,16 @@ TEST_F(SharedTexels, TheFirstTheLargerOrTheMeanCounts) {
         EXPECT_LT(degreesBetween(vectorIn(bakedWith(MapOverlap::larger, bits)), kSecond), most);
     }
     EXPECT_LT(degreesBetween(vectorIn(bakedWith(MapOverlap::mean)), {0.3, 0.3, 0.8}), 0.01);
+}
+
+TEST_F(SharedTexels, WhatFreshMemoryHoldsChangesNoTexel) {
+    for (const MapOverlap overlap : {MapOverlap::mean, MapOverlap::first, MapOverlap::larger}) {
+        const BakedMap expected = bakedWith(overlap);
+        for (const unsigned char byte : test::kFillings) {
+            const test::FilledMemory memory(byte);
+            EXPECT_TRUE(expected.texels == bakedWith(overlap, 16, memory.execution()).texels) << int{byte};
+        }
+    }
 }
 
 TEST_F(SharedTexels, TheAngleBetweenThemIsSaid) {

@@ -128,7 +128,7 @@ TEST(Accessor, RefusesSparseDefects) {
 TEST(Accessor, StaysInsideItsView) {
     const auto code = [](std::size_t offset, std::size_t count, std::size_t stride) {
         GltfBuilder builder;
-        builder.addView(Bytes(48));
+        builder.addView(Bytes(48, 0));
         if (stride != 0) builder.json()["bufferViews"][0]["byteStride"] = stride;
         builder.json()["accessors"].push_back(
             {{"bufferView", 0}, {"byteOffset", offset}, {"componentType", 5126}, {"count", count}, {"type", "VEC3"}});

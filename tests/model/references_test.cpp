@@ -112,7 +112,7 @@ TEST(Editor, OverwritesOnlyWhatNobodyElseReads) {
     builder.addFloats(std::vector<float>(8), 4);
     builder.addFloats(std::vector<float>(8), 4);
     builder.json()["accessors"].push_back(builder.json()["accessors"][1]);
-    builder.json()["images"] = Json::array({Json{{"bufferView", builder.addView(Bytes(16))}}});
+    builder.json()["images"] = Json::array({Json{{"bufferView", builder.addView(Bytes(16, 0))}}});
     builder.addFloats(std::vector<float>(8), 4);
     builder.json()["bufferViews"].back()["extensions"] = {{"VENDOR_x", Json::object()}};
     Document document = parse(builder);
