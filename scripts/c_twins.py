@@ -3,7 +3,8 @@
 
 C_HEADERS = ("tspace.h", "tspace_normals.h", "tspace_indexed_frames.h", "tspace_frame.h", "tspace_pack.h", "tspace_winding.h",
              "tspace_files.h")
-FILE_HEADERS = ("asset.h", "check.h", "diff.h", "flip_green.h", "identify.h", "map_height_file.h")
+FILE_HEADERS = ("asset.h", "check.h", "diff.h", "flip_green.h", "identify.h", "map_compress_file.h",
+                "map_height_file.h")
 # Headers whose first comment is that of a C++ header.
 HEADS = {f"tspace_{name}": name for name in ("frame.h", "indexed_frames.h", "normals.h", "pack.h", "winding.h")}
 
@@ -34,7 +35,7 @@ C_ALONE = {
     r"tspace_describeTangentPlan|tspace_TangentPlanInfo": "TangentPlan has a function for each field",
     r"tspace_IndexedFrames\.\w+_report": "members of IndexedFramesReport; null stands for normals_made",
     r"tspace_Bytes|tspace_destroyBytes|tspace_Model|tspace_FindFile": "FileOptions::content and find_file, Sink",
-    r"tspace_(generate|check|inspect|identify|diff)Bytes": "in C++ those on files take bytes: FileOptions::content",
+    r"tspace_(generate|check|inspect|identify|diff|compressMap)Bytes": "in C++ those on files take bytes: FileOptions::content",
 }
 
 # Only in C++ (regular expressions; a type stands for its members) -> why.
@@ -49,6 +50,7 @@ CPP_ALONE = {
     r"(action|faces|frameFormat|severity|signReading)Name|finding\w+": "reports of files have these names and texts in their JSON",
     r"NormalOptions::(crease|denoise)_auto": "-1 in C",
     r"removeAbandonedFiles": "a matter of the tool",
+    r"[tT]extureError\w+": "a part of `tspace map-error`, which is for C++ and the tool",
     r"Cancelled": "C has no function that is told of progress",
 }
 
@@ -63,6 +65,7 @@ PHRASES = {
     r"`?conventions::(\w+)`?": r'"\1"',
     r"those of heightToNormal and of convertMapFile": "those of readers of models; CANNOT_READ, CANNOT_WRITE, "
     "UNSUPPORTED_FILE, INVALID_FILE (an image that cannot be read), INVALID_OPTION, TOO_LARGE, OUT_OF_MEMORY",
+    r"those of convertMapFile, and invalidOption": "those of tspace_heightToNormalFile, and INVALID_OPTION",
     r"`?(crease|denoise)_auto`?": "-1",
     r"mesh\.vertexCount\(\)": "mesh->positions.count",
     r"Returns null for any other name\.": "INVALID_OPTION for any other name.",

@@ -6,15 +6,19 @@
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
+#include <fstream>
 #include <functional>
 #include <random>
+#include <string_view>
 
 #ifdef TSPACE_HAS_SQUISH
 #include <squish.h>
 #endif
 
 #include "compressed_cases.h"
+#include "images/float_image.h"
 #include "images/texel_format.h"
+#include "images/write_texture.h"
 #include "maps/filtered_error.h"
 #include "maps/fit_blocks.h"
 
@@ -120,8 +124,24 @@ std::vector<Vec3> bySquish(const NormalLevel& level, Parallel&) {
 }
 #endif
 
+/// By the library astcenc; of x and y as they are, or with `fits` of those for which the filtered map is nearest.
+Pack astc(AstcEffort effort, bool fits) {
+    return [=](const NormalLevel& level, Parallel& parallel) {
+        std::vector<Vec2> wanted;
+        if (fits) {
+            wanted = fitTexels(level, parallel);
+        } else {
+            for (const Vec3& normal : level.normals) wanted.push_back({normal.x, normal.y});
+        }
+        std::vector<Vec3> texels;
+        if (!packAstc(level.width, level.height, effort, wanted, parallel)) std::exit(1);
+        for (const Vec2& texel : wanted) texels.push_back({texel.x, texel.y, 0});
+        return texels;
+    };
+}
+
 void printFormats(const std::vector<CompressedCase>& cases, Parallel& parallel) {
-    const std::vector<Row> rows = {
+    std::vector<Row> rows = {
         {"R16G16", exact},
         {"RG8", rounded},
 #ifdef TSPACE_HAS_SQUISH
@@ -136,6 +156,12 @@ void printFormats(const std::vector<CompressedCase>& cases, Parallel& parallel) 
         {"EAC RG11 fast", blocks(BlockFormat::eacRg11, BlockQuality::fast)},
         {"EAC RG11 best", blocks(BlockFormat::eacRg11, BlockQuality::best)},
     };
+    if (whyNoAstcWritten() == nullptr) {
+        rows.push_back({"ASTC 4x4, astcenc (medium) alone", astc(AstcEffort::fast, false)});
+        rows.push_back({"ASTC 4x4 quick", astc(AstcEffort::quick, true)});
+        rows.push_back({"ASTC 4x4 fast", astc(AstcEffort::fast, true)});
+        rows.push_back({"ASTC 4x4 best", astc(AstcEffort::best, true)});
+    }
     std::printf("Degrees, filtered, mean / p99; microseconds a texel of one thread (processor).\n\n| |");
     for (const CompressedCase& one : cases) std::printf(" %s |", one.name.c_str());
     std::printf(" time |\n|---|");
@@ -154,6 +180,23 @@ void printFormats(const std::vector<CompressedCase>& cases, Parallel& parallel) 
         }
         std::printf(" %.2f |\n", 1e6 * seconds / texel_count);
     }
+}
+
+/// The maps as PNGs with 8 and 16 bits, for other programs: NAME.8.png, NAME.16.png.
+bool writeMaps(const std::vector<CompressedCase>& cases, const std::string& folder) {
+    for (const CompressedCase& one : cases) {
+        FloatImage image{one.level.width, one.level.height, 16, {}, {}};
+        for (const Vec3& normal : one.level.normals)
+            image.texels.push_back({0.5F + 0.5F * normal.x, 0.5F + 0.5F * normal.y, 0.5F + 0.5F * normal.z});
+        for (const unsigned bits : {8U, 16U}) {
+            const auto png = encodePng(image, bits);
+            std::ofstream file(folder + "/" + one.name + "." + std::to_string(bits) + ".png", std::ios::binary);
+            if (!png ||
+                !file.write(reinterpret_cast<const char*>(png->data()), static_cast<std::streamsize>(png->size())))
+                return false;
+        }
+    }
+    return true;
 }
 
 // Levels: what is shaded by one normal and one roughness in place of all the normals that a texel covers.
@@ -299,13 +342,16 @@ void printLevels(const std::vector<CompressedCase>& cases, Parallel& parallel) {
 }  // namespace tspace::bench
 
 int main(int argc, char** argv) {
-    const std::uint32_t size = argc > 1 ? static_cast<std::uint32_t>(std::atoi(argv[1])) : 512;
+    const bool writes = argc > 2 && std::string_view(argv[1]) == "--write";
+    const int at = writes ? 3 : 1;
+    const std::uint32_t size = argc > at ? static_cast<std::uint32_t>(std::atoi(argv[at])) : 512;
     if (size < 64 || size % 64 != 0) {
-        std::fprintf(stderr, "usage: tspace_compress_bench [SIZE]: a multiple of 64\n");
+        std::fprintf(stderr, "usage: tspace_compress_bench [--write FOLDER] [SIZE]: a multiple of 64\n");
         return 2;
     }
     tspace::Parallel parallel(tspace::Execution{.thread_count = 1});
     const auto cases = tspace::bench::compressedCases(size, tspace::bench::kSeed);
+    if (writes) return tspace::bench::writeMaps(cases, argv[2]) ? 0 : 1;
     tspace::bench::printFormats(cases, parallel);
     tspace::bench::printLevels(cases, parallel);
     return 0;

@@ -103,4 +103,5 @@ def main():
         print(f"rms {255 * np.sqrt(np.mean(off**2)):.3f} of 255, 99 % below {255 * np.quantile(np.abs(off), 0.99):.2f}")
 
 
-main()
+if __name__ == "__main__":
+    main()

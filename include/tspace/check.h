@@ -73,8 +73,10 @@ enum class FindingCode : std::uint32_t {
     normalMapScale = 45,          ///< normalTexture.scale is 0 or below
     normalMapIsPicture = 46,      ///< colors, which are no unit vectors
     positionsNoisy = 47,          ///< positions that lie beside any smooth surface at random, as those of scans do
+    normalMapLossy = 48,          ///< packed as pictures are (ETC1S, WebP with loss), which costs vectors degrees
+    normalMapLevels = 49,         ///< a texture without smaller levels
 };
-inline constexpr std::uint32_t kFindingCodeCount = 48;
+inline constexpr std::uint32_t kFindingCodeCount = 50;
 
 /// Stable lowerCamelCase name: the name of the enumerator.
 const char* findingName(FindingCode code);

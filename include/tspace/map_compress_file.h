@@ -14,7 +14,9 @@ namespace tspace {
 enum class TextureFormat : std::uint32_t {
     bc5 = 0,      ///< one byte a texel: desktops and consoles
     eacRg11 = 1,  ///< one byte a texel: phones (OpenGL ES 3, Vulkan)
-    rg8 = 2       ///< two bytes a texel, each rounded: where nothing is compressed
+    rg8 = 2,      ///< two bytes a texel, each rounded: where nothing is compressed
+    astc4x4 =
+        3  ///< one byte a texel, x in red, green and blue, y in alpha: phones; by the library astcenc, where it is installed
 };
 
 enum class TextureQuality : std::uint32_t {

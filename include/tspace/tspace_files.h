@@ -146,6 +146,19 @@ tspace_ErrorCode tspace_flipGreenFile(const char* input, const char* output, con
 tspace_ErrorCode tspace_heightToNormalFile(const char* input, const char* output, const char* options,
                                            tspace_Bytes* report, tspace_Error* error) TSPACE_NOEXCEPT;
 
+/* Packs a normal map in tangent space: x in red, y in green; z is made by who reads it. `output` ends in .dds or
+ * .ktx2; or in / for a folder of PNGs, NAME.0.png and on, with three channels. From PNG of 16 bits or EXR blocks are
+ * better than from 8 bits. Errors: those of tspace_heightToNormalFile, and INVALID_OPTION: grids of normals and
+ * roughness that do not fit, a format that the container does not hold. Thread-safe; the same bytes for any number
+ * of threads.
+ * In C: options of `tspace compress-map`, report tspace.compress-map/1. */
+tspace_ErrorCode tspace_compressMapFile(const char* input, const char* output, const char* options,
+                                        tspace_Bytes* report, tspace_Error* error) TSPACE_NOEXCEPT;
+/* The same from the bytes of an image to those of a KTX2, without roughness. Free `output` by tspace_destroyBytes; it is
+ * empty after an error, and with the option "dry-run". */
+tspace_ErrorCode tspace_compressMapBytes(const uint8_t* data, size_t size, const char* options, tspace_Bytes* output,
+                                         tspace_Bytes* report, tspace_Error* error) TSPACE_NOEXCEPT;
+
 #ifdef __cplusplus
 }
 #endif

@@ -4,6 +4,7 @@
 
 #include "api/c_call.h"
 #include "commands/check/check_report.h"
+#include "commands/compress_map/compress_map_report.h"
 #include "commands/diff/diff_report.h"
 #include "commands/flip_green/flip_green_report.h"
 #include "commands/generate/generate_report.h"
@@ -103,6 +104,20 @@ void readHeightToNormalOptions(const char* text, HeightToNormalFileOptions& opti
     options::Given given;
     options.execution.thread_count = 1;
     readOptions(options::heightToNormalOptions(options), text, given);
+}
+
+void compressMap(const std::string& input, const std::string& output, const CompressMapFileOptions& options,
+                 tspace_Bytes* json) {
+    report::Outcome<CompressMapFileReport> outcome{.input = input, .output = output, .is_dry_run = options.dry_run};
+    outcome.result = compressMapFile(input, output, options);
+    throwError(outcome.result);
+    giveReport(report::compressMapJson(outcome, ExitCode::done), json);
+}
+
+void readCompressMapOptions(const char* text, CompressMapFileOptions& options) {
+    options::Given given;
+    options.execution.thread_count = 1;
+    readOptions(options::compressMapOptions(options), text, given);
 }
 
 void readFlipGreenOptions(const char* text, FlipGreenOptions& options) {
@@ -259,6 +274,34 @@ tspace_ErrorCode tspace_heightToNormalFile(const char* input, const char* output
         outcome.result = heightToNormalFile(from, to, chosen);
         throwError(outcome.result);
         giveReport(report::heightToNormalJson(outcome, ExitCode::done), report);
+    });
+}
+
+tspace_ErrorCode tspace_compressMapFile(const char* input, const char* output, const char* options,
+                                        tspace_Bytes* report, tspace_Error* error) noexcept {
+    return atCallBorder(error, {report}, [&] {
+        const std::string from = neededText(input, "input"), to = neededText(output, "output");
+        CompressMapFileOptions chosen;
+        readCompressMapOptions(options, chosen);
+        compressMap(from, to, chosen, report);
+    });
+}
+
+tspace_ErrorCode tspace_compressMapBytes(const uint8_t* data, size_t size, const char* options, tspace_Bytes* output,
+                                         tspace_Bytes* report, tspace_Error* error) noexcept {
+    return atCallBorder(error, {output, report}, [&] {
+        if (data == nullptr) failFile(ErrorCode::nullData, "data is null");
+        if (output == nullptr) failFile(ErrorCode::nullData, "output is null");
+        CompressMapFileOptions chosen;
+        readCompressMapOptions(options, chosen);
+        chosen.content = {data, size};
+        GrowingBytes bytes;
+        chosen.sink = [&](std::span<const std::uint8_t> part) {
+            bytes.append(part);
+            return true;
+        };
+        compressMap("map", "map.ktx2", chosen, report);
+        bytes.giveTo(output);
     });
 }
 

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 // ASTC by Arm's astcenc, which is loaded when the first such texture comes.
 #include "images/texture_file.h"
+#include "images/write_texture.h"
 
 #ifdef TSPACE_HAS_ASTC
 #define ASTCENC_DYNAMIC_LIBRARY
 #include <astcenc.h>
 
+#include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstring>
 #include <memory>
@@ -25,6 +28,7 @@ struct Astc {
     decltype(&astcenc_context_alloc) allocateContext = nullptr;
     decltype(&astcenc_context_free) freeContext = nullptr;
     decltype(&astcenc_decompress_image) decompress = nullptr;
+    decltype(&astcenc_compress_image) compress = nullptr;
     bool is_loaded = false;
 
     Astc() {
@@ -33,6 +37,7 @@ struct Astc {
         library.find(allocateContext, "astcenc_context_alloc");
         library.find(freeContext, "astcenc_context_free");
         library.find(decompress, "astcenc_decompress_image");
+        library.find(compress, "astcenc_compress_image");
         is_loaded = library.hasAll();
     }
 };
@@ -45,6 +50,26 @@ const Astc& astc() {
 struct FreeAstcContext {
     void operator()(astcenc_context* context) const { astc().freeContext(context); }
 };
+using AstcContext = std::unique_ptr<astcenc_context, FreeAstcContext>;
+
+float effortOf(AstcEffort effort) {
+    return effort == AstcEffort::quick  ? ASTCENC_PRE_FAST
+           : effort == AstcEffort::best ? ASTCENC_PRE_THOROUGH
+                                        : ASTCENC_PRE_MEDIUM;
+}
+
+/// What the blocks hold, as the library decodes them.
+bool decodeTwoChannels(std::uint32_t width, std::uint32_t height, ByteSpan blocks, std::span<Vec2> texels) {
+    TextureFile texture{.size = {width, height}, .format = texelFormat(TexelKind::astc)};
+    std::vector<std::uint8_t> decoded(sizeof(Rgba) * texels.size());
+    if (!decodeAstc(texture, blocks, decoded)) return false;
+    for (std::size_t i = 0; i < texels.size(); ++i) {
+        Rgba texel{};
+        std::memcpy(&texel, &decoded[sizeof texel * i], sizeof texel);
+        texels[i] = {2 * texel[0] - 1, 2 * texel[3] - 1};
+    }
+    return true;
+}
 
 }  // namespace
 
@@ -64,7 +89,7 @@ bool decodeAstc(const TextureFile& texture, ByteSpan blocks, std::span<std::uint
         astc().allocateContext(&config, 1, &made) != ASTCENC_SUCCESS) {
         return false;
     }
-    const std::unique_ptr<astcenc_context, FreeAstcContext> context(made);
+    const AstcContext context(made);
     void* slice = texels.data();
     astcenc_image image{texture.size.width, texture.size.height, 1, ASTCENC_TYPE_F32, &slice};
     const astcenc_swizzle swizzle{ASTCENC_SWZ_R, ASTCENC_SWZ_G, ASTCENC_SWZ_B, ASTCENC_SWZ_A};
@@ -83,10 +108,58 @@ bool decodeAstc(const TextureFile& texture, ByteSpan blocks, std::span<std::uint
     return true;
 }
 
+const char* whyNoAstcWritten() {
+    return astc().is_loaded ? nullptr
+                            : "ASTC is packed by the library astcenc (" TSPACE_ASTC_LIBRARY
+                              "), which is not installed (Debian: libastcenc3d)";
+}
+
+std::optional<std::vector<std::uint8_t>> packAstc(std::uint32_t width, std::uint32_t height, AstcEffort effort,
+                                                  std::span<Vec2> texels, Parallel& parallel) {
+    constexpr std::uint32_t kSide = 4;
+    constexpr std::size_t kBlockBytes = 16;
+    const unsigned tasks = parallel.width();
+    astcenc_config config{};
+    astcenc_context* made = nullptr;
+    // The library then counts angles, of x that it finds in red and y in alpha.
+    if (astc().initConfig(ASTCENC_PRF_LDR, kSide, kSide, 1, effortOf(effort), ASTCENC_FLG_MAP_NORMAL, &config) !=
+            ASTCENC_SUCCESS ||
+        astc().allocateContext(&config, tasks, &made) != ASTCENC_SUCCESS)
+        return {};
+    const AstcContext context(made);
+    std::vector<Rgba> source;
+    source.reserve(texels.size());
+    for (const Vec2& texel : texels)
+        source.push_back(
+            {0.5F + 0.5F * std::clamp(texel.x, -1.0F, 1.0F), 0.5F + 0.5F * std::clamp(texel.y, -1.0F, 1.0F), 0, 1});
+    void* slice = source.data();
+    astcenc_image image{width, height, 1, ASTCENC_TYPE_F32, &slice};
+    const astcenc_swizzle swizzle{ASTCENC_SWZ_R, ASTCENC_SWZ_R, ASTCENC_SWZ_R, ASTCENC_SWZ_G};
+    const std::size_t across = (width + kSide - 1) / kSide, down = (height + kSide - 1) / kSide;
+    std::vector<std::uint8_t> blocks(kBlockBytes * across * down);
+    std::atomic<bool> is_done{true};
+    // Tasks share the blocks among themselves; one that comes late finds none, so they need not run together.
+    parallel.forTasks(tasks, [&](std::size_t task) {
+        if (astc().compress(context.get(), &image, &swizzle, blocks.data(), blocks.size(),
+                            static_cast<unsigned>(task)) != ASTCENC_SUCCESS)
+            is_done = false;
+    });
+    if (!is_done || !decodeTwoChannels(width, height, blocks, texels)) return {};
+    return blocks;
+}
+
 #else
 
 const char* whyNotAstc() { return "it is a KTX2 of ASTC, which this build of tspace does not read"; }
 bool decodeAstc(const TextureFile&, ByteSpan, std::span<std::uint8_t>) { return false; }
+
+const char* whyNoAstcWritten() {
+    return "this build of tspace writes no ASTC: it was made without the library astcenc (Debian: libastcenc-dev)";
+}
+std::optional<std::vector<std::uint8_t>> packAstc(std::uint32_t, std::uint32_t, AstcEffort, std::span<Vec2>,
+                                                  Parallel&) {
+    return {};
+}
 
 #endif
 

@@ -19,7 +19,12 @@ struct TextureFacts {
     MapLayout layout = {};    ///< of a normal map: where the format has x, y and z. Not the default: z is to be made
     bool is_guessed = false;  ///< the layout is not said by the format, but the texels look like it
     bool is_srgb = false;     ///< it says that its numbers have the sRGB curve, which normal maps must not have
+    bool has_blocks = false;  ///< smaller levels cannot be made of it by who loads it
+    std::uint32_t level_count = 1;
 };
+
+/// Whether it is a WebP that was packed as photographs are.
+bool isLossyWebp(ByteSpan bytes);
 
 /// By the head alone, so that nothing is guessed; nothing for other files and for what is not read.
 std::optional<TextureFacts> textureFacts(ByteSpan bytes);

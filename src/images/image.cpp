@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <string_view>
 
+#include "core/base/numbers.h"
 #include "images/codecs.h"
 #include "images/flip_green.h"
 #include "images/image.h"
@@ -224,6 +225,19 @@ std::vector<std::uint8_t> decodeAlpha([[maybe_unused]] ByteSpan bytes) {
     for (std::size_t i = 0; 4 * i < pixels.size(); ++i) pixels[i] = pixels[4 * i + 3];
     pixels.resize(pixels.size() / 4);
     return pixels;
+}
+
+bool isLossyWebp(ByteSpan bytes) {
+    if (imageFormat(bytes) != ImageFormat::webp) return false;
+    constexpr std::size_t kHead = 12, kChunkHead = 8;
+    for (std::size_t at = kHead; at + kChunkHead <= bytes.size();) {
+        const std::string_view name(reinterpret_cast<const char*>(bytes.data()) + at, 4);
+        if (name == "VP8 ") return true;
+        if (name == "VP8L") return false;
+        const std::uint64_t count = loadLittleEndian<std::uint32_t>(bytes.data() + at + 4);
+        at += static_cast<std::size_t>(std::min<std::uint64_t>(kChunkHead + count + count % 2, bytes.size() - at));
+    }
+    return false;
 }
 
 }  // namespace tspace

@@ -222,6 +222,11 @@ class Ktx2Reader {
             swizzle[i] = static_cast<std::uint8_t>(found);
         }
         texture_.swizzle = swizzle;
+        // Two channels of four alone are shown.
+        if (swizzle[0] < 4 && swizzle[1] < 4 && swizzle[2] == TextureFile::kZero && swizzle[3] == TextureFile::kOne) {
+            x_ = swizzle[0];
+            y_ = swizzle[1];
+        }
         if (x_ != y_) setChannels(x_, y_);
     }
 

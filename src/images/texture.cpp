@@ -143,7 +143,11 @@ std::optional<TextureFacts> textureFacts(ByteSpan bytes) {
     std::string why;
     const std::optional<TextureFile> texture = readTextureHead(bytes, why);
     if (!texture) return {};
-    return TextureFacts{.name = texture->name(), .layout = texture->layout, .is_srgb = texture->is_srgb};
+    return TextureFacts{.name = texture->name(),
+                        .layout = texture->layout,
+                        .is_srgb = texture->is_srgb,
+                        .has_blocks = texture->format.width > 1,
+                        .level_count = static_cast<std::uint32_t>(std::max<std::size_t>(texture->levels.size(), 1))};
 }
 
 ImageClaim claimOfTexture(ByteSpan bytes) {

@@ -89,6 +89,7 @@ std::vector<std::uint8_t> keysAndValues(const WrittenFormat& format) {
     };
     addPair(std::string_view("KTXorientation\0rd\0", 18));
     if (format.samples == 2) addPair(std::string_view("KTXswizzle\0rg01\0", 16));
+    if (format.kind == TexelKind::astc) addPair(std::string_view("KTXswizzle\0ra01\0", 16));
     addPair(std::string_view("KTXwriter\0tspace\0", 17));
     return out.bytes;
 }

@@ -4,9 +4,12 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "core/base/parallel.h"
+#include "core/base/vec_math.h"
 #include "images/image.h"
 #include "images/texel_format.h"
 
@@ -29,5 +32,14 @@ const char* whyNotZstd();
 /// Linear, rows from the top. `zstd_level`: from 1 (fast) to 22 (small), each level by itself; 0: not packed. Nothing where it runs out of
 /// memory.
 std::optional<std::vector<std::uint8_t>> writeKtx2(const Texture& texture, int zstd_level = 0);
+
+enum class AstcEffort : std::uint8_t { quick, fast, best };
+
+/// Null, or why no ASTC is written here: a sentence.
+const char* whyNoAstcWritten();
+/// Blocks of 4 x 4 texels of x (in red, green and blue) and y (in alpha), row by row. `texels`, from -1 to 1, become those of the blocks. Nothing
+/// where the library fails. The same for any number of threads. whyNoAstcWritten must be null.
+std::optional<std::vector<std::uint8_t>> packAstc(std::uint32_t width, std::uint32_t height, AstcEffort effort,
+                                                  std::span<Vec2> texels, Parallel& parallel);
 
 }  // namespace tspace

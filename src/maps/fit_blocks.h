@@ -33,4 +33,8 @@ struct FittedLevel {
 /// Memory: 48 bytes a texel. The same bytes for any number of threads, and on any CPU.
 FittedLevel fitBlocks(const NormalLevel& level, const BlockOptions& options, Parallel& parallel);
 
+/// x and y for which the map is nearest as it is filtered, for packers of others: where that moves them by little, they stay. They may be a
+/// little beyond -1 to 1.
+std::vector<Vec2> fitTexels(const NormalLevel& level, Parallel& parallel);
+
 }  // namespace tspace

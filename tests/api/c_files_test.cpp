@@ -457,6 +457,32 @@ TEST(CFilesHeightToNormal, FilesAreThoseOfTheTool) {
     EXPECT_TRUE(folder.read("out.png") == bytes);
 }
 
+TEST(CFilesCompressMap, FilesAndBytesAreThoseOfTheTool) {
+    const TempFolder folder;
+    writeBumpMap(folder);
+    const ToolRun run = runTool(folder, "compress-map bump.png -o out.ktx2 --format rg8 --signed --json");
+    if (run.exit_code != 0) GTEST_SKIP() << run.err;
+    const std::string bytes = folder.read("out.ktx2"), image = folder.read("bump.png");
+    std::filesystem::current_path(folder.path());
+    const char* options = R"({"format":"rg8","signed":true})";
+    Made report, output;
+    ASSERT_EQ(tspace_compressMapFile("bump.png", "out.ktx2", options, &report.bytes, nullptr), TSPACE_OK);
+    EXPECT_EQ(report.text(), run.out);
+    EXPECT_TRUE(folder.read("out.ktx2") == bytes);
+    ASSERT_EQ(tspace_compressMapBytes(reinterpret_cast<const std::uint8_t*>(image.data()), image.size(), options,
+                                      &output.bytes, nullptr, nullptr),
+              TSPACE_OK);
+    EXPECT_TRUE(output.text() == bytes);
+    tspace_Error error;
+    EXPECT_EQ(tspace_compressMapFile("none.png", "out.dds", nullptr, nullptr, &error), TSPACE_ERROR_CANNOT_READ);
+    EXPECT_EQ(tspace_compressMapFile("bump.png", "out.png", nullptr, nullptr, &error), TSPACE_ERROR_UNSUPPORTED_FILE);
+    EXPECT_EQ(tspace_compressMapFile("bump.png", "out.dds", R"({"format":"uastc"})", nullptr, &error),
+              TSPACE_ERROR_INVALID_OPTION);
+    EXPECT_NE(std::string(error.message).find("basisu"), std::string::npos) << error.message;
+    EXPECT_EQ(tspace_compressMapFile("bump.png", nullptr, nullptr, nullptr, &error), TSPACE_ERROR_NULL_DATA);
+    EXPECT_EQ(tspace_compressMapBytes(nullptr, 0, nullptr, &output.bytes, nullptr, &error), TSPACE_ERROR_NULL_DATA);
+}
+
 TEST(CFilesFlipGreen, FilesAndBytesAreThoseOfTheTool) {
     const TempFolder folder;
     writeBumpMap(folder);

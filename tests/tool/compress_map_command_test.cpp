@@ -154,6 +154,44 @@ TEST(CompressMapCommand, EveryFormatIsReadAgainAsTheMap) {
     }
 }
 
+TEST(CompressMapCommand, PacksAstcByTheLibraryOrSaysThatItIsNotThere) {
+    const TempFolder folder;
+    writeWaves(folder);
+    const ToolRun first = runTool(folder, "compress-map n16.png -o a.ktx2 --format astc-4x4 --threads 1");
+    if (first.exit_code != 0) {
+        EXPECT_NE(first.err.find("astcenc"), std::string::npos) << first.err;
+        EXPECT_EQ(first.errorLines(), 1);
+        GTEST_SKIP() << first.err;
+    }
+    const Json report = reportOf(folder, "n16.png -o b.ktx2 --format astc-4x4 --threads 3");
+    EXPECT_EQ(report["format"], "ASTC 4x4");
+    EXPECT_EQ(report["levels"], 7);
+    EXPECT_EQ(folder.read("a.ktx2"), folder.read("b.ktx2"));
+    // What it says is what the file holds, read as any other.
+    const Json error = Json::parse(runTool(folder, "map-error --json b.ktx2 --source n16.png").out);
+    EXPECT_EQ(error["makesZ"], true);
+    EXPECT_NEAR(report["meanErrorDeg"].get<double>(), error["meanErrorDeg"].get<double>(), 1e-6);
+    EXPECT_LT(report["meanErrorDeg"], 0.15);
+    const Json best = reportOf(folder, "n16.png -o c.ktx2 --format astc-4x4 --quality best");
+    EXPECT_LT(best["meanErrorDeg"], report["meanErrorDeg"]);
+    for (const std::string arguments : {"-o d.dds --format astc-4x4", "-o d.ktx2 --format astc-4x4 --signed"})
+        EXPECT_EQ(runTool(folder, "compress-map n16.png " + arguments).exit_code, 2) << arguments;
+}
+
+TEST(CompressMapCommand, SaysWhyThereIsNoUastc) {
+    const TempFolder folder;
+    const ToolRun run = runTool(folder, "compress-map n.png -o n.ktx2 --format uastc");
+    EXPECT_EQ(run.exit_code, 2);
+    EXPECT_EQ(run.errorLines(), 1) << run.err;
+    EXPECT_NE(run.err.find("basisu"), std::string::npos) << run.err;
+    const ToolRun model = runTool(folder, "generate a.glb -o b.glb --compress-maps uastc");
+    EXPECT_EQ(model.exit_code, 2);
+    EXPECT_EQ(model.errorLines(), 1) << model.err;
+    EXPECT_NE(model.err.find("basisu"), std::string::npos) << model.err;
+    const ToolRun other = runTool(folder, "compress-map n.png -o n.ktx2 --format uastk");
+    EXPECT_NE(other.err.find("must be one of bc5, eac-rg11, astc-4x4, rg8"), std::string::npos) << other.err;
+}
+
 TEST(MapErrorCommand, SaysOfATextureBesideItsSourceWhatCompressMapSaid) {
     const TempFolder folder;
     writeWaves(folder);

@@ -8,6 +8,7 @@
 
 #include "images/float_image.h"
 #include "images/images.h"
+#include "images/textures.h"
 #include "maps/shading.h"
 #include "run_tool.h"
 #include "tspace/map_layout.h"
@@ -145,6 +146,43 @@ TEST(MendMaps, WhatCheckNamesMendsTheModelAndTheImage) {
 }
 
 /// Round bumps curve along x and along y apart, so that only one of the two can be x.
+TEST(MendMaps, TexturesBecomePngsThatTheModelNamesPlainly) {
+    const TempFolder folder;
+    const RgbImage map = normalMapOf(64, bumps);
+    folder.write("n.png", pngFile(map));
+    writeSquare(folder, "n");
+    std::string linear(map.rgb.begin(), map.rgb.end());
+    Ktx2Parts claims{.format = 29, .width = 64, .height = 64, .levels = {linear}};
+    claims.transfer = 2;
+    folder.write("two.dds", ddsFile(83, 64, 64, bc5Blocks(map)));
+    folder.write("claims.ktx2", ktx2File(claims));
+    ASSERT_EQ(runTool(folder, "convert-map -q two.dds -o two.png --channels rg").exit_code, 0);
+    const struct {
+        const char *extension, *file, *code, *truth;
+    } kinds[] = {{"MSFT_texture_dds", "two.dds", "normalMapTwoChannels", "two.png"},
+                 {"KHR_texture_basisu", "claims.ktx2", "normalMapIsSrgb", "n.png"}};
+    for (const auto& kind : kinds) {
+        Json model = Json::parse(folder.read("n.gltf"));
+        model["images"][0] = {{"uri", kind.file}};
+        model["textures"][0] = {{"extensions", {{kind.extension, {{"source", 0}}}}}};
+        model["extensionsUsed"] = model["extensionsRequired"] = {kind.extension};
+        folder.write("t.gltf", model.dump());
+        const Json findings = findingsOf(folder, "t.gltf");
+        ASSERT_FALSE(findings.empty());
+        EXPECT_EQ(findings[0]["code"], kind.code);
+        EXPECT_NE(findings[0]["remedy"].get<std::string>().find("generate --mend-maps"), std::string::npos);
+        const ToolRun run = runTool(folder, "generate t.gltf -o mended.gltf --mend-maps");
+        ASSERT_EQ(run.exit_code, 0) << run.err;
+        const Json mended = Json::parse(folder.read("mended.gltf"));
+        EXPECT_EQ(mended["textures"][0], Json({{"source", 0}})) << mended["textures"];
+        EXPECT_FALSE(mended.contains("extensionsUsed") || mended.contains("extensionsRequired"));
+        const std::string name = mended["images"][0]["uri"];
+        EXPECT_EQ(name.substr(name.size() - 11), "-mended.png");
+        EXPECT_LT(meanError(imageIn(folder, name), imageIn(folder, kind.truth)), 0.01);
+        EXPECT_EQ(findingsOf(folder, "mended.gltf"), Json::array()) << run.out;
+    }
+}
+
 TEST(MendMaps, MendsRedAndGreenThatWereExchanged) {
     const auto bumps_apart = [](double x, double y) {
         double h = 0;

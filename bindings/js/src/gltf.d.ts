@@ -142,6 +142,8 @@ export interface GenerateOptions extends ModelOptions, ImageOptions, WatchOption
   flipGreenAll?: boolean;
   /** Writes normal maps anew whose channels hold something else than glTF reads. Needs decodeImage and encodeImage. */
   mendMaps?: boolean;
+  /** Images come out as they went in, but for normal maps that another option writes anew. */
+  compressMaps?: "keep";
   /** The image as a file of this type, without loss but for a JPEG. */
   encodeImage?: (pixels: PixelsToEncode, type: ImageType) => Uint8Array;
   /** Turns triangles that are wound against their neighbours, and parts that are inside out as a whole. */

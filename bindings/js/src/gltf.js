@@ -37,8 +37,8 @@ const known = {
   generate: [
     "name", ...ofAll, ...watched, "all", "onlyMissing", "overwrite", "repair", "strip", "method", "pairing", "threshold", "frame", "refine",
     "textureTransform", "bitangents", "format", "pack", "packDrop", "normals", "crease", "denoise", "normalsPerPrimitive",
-    "overwriteNormals", "morphNormals", "compress", "flipGreen", "flipGreenAll", "mendMaps", "mendWinding", "encodeImage",
-    "noSanitize", "orthogonalize", "keepCoordinates", "dryRun",
+    "overwriteNormals", "morphNormals", "compress", "flipGreen", "flipGreenAll", "mendMaps", "compressMaps", "mendWinding",
+    "encodeImage", "noSanitize", "orthogonalize", "keepCoordinates", "dryRun",
   ],
   check: ["name", ...ofAll, ...watched, "failOn", "severity", "ignore", "angle", "noImages"],
   inspect: ["name", ...ofAll],

@@ -64,15 +64,17 @@ class Names(unittest.TestCase):
         """Every function is asked, past the check of names, for every option that any has."""
         names = set()
         for path in OPTIONS.rglob("*.cpp"):
-            names.update(name.replace("-", "_") for name in re.findall(r'"--([a-z-]+)"', path.read_text()))
+            names.update(name.replace("-", "_") for name in re.findall(r'"(?:-\w+, )?--([a-z-]+)"', path.read_text()))
         self.assertGreater(len(names), 40)
         for verb, known in _files._OPTIONS.items():
             call = {
                 "generate": tspace.generate_bytes,
                 "flipGreen": tspace.flip_green_bytes,
                 "heightToNormal": tspace.height_to_normal_file,
+                "compressMap": tspace.compress_map_file,
             }.get(verb)
-            models = {"diff": (b"", b""), "heightToNormal": ("none.png", "none.png")}.get(verb, (b"",))
+            paths = ("none.png", "none.ktx2")
+            models = {"diff": (b"", b""), "heightToNormal": paths, "compressMap": paths}.get(verb, (b"",))
             has = {name for name in names if self.knows(call or getattr(tspace, verb), models, name)}
             self.assertEqual(has, set(known.split()), verb)
 

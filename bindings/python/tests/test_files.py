@@ -114,6 +114,21 @@ class Generate(Files):
         with self.assertRaises(tspace.ReadWriteError):
             tspace.height_to_normal_file(self.folder / "none.png", self.folder / "normal.png")
 
+    def test_a_normal_map_becomes_a_texture(self):
+        image = next(path for path in sorted(needs_shared("models").rglob("*.png")) if path.stat().st_size < 300000)
+        normal = self.folder / "normal.png"
+        tspace.height_to_normal_file(image, normal, strength=2)
+        report = tspace.compress_map_file(normal, self.folder / "normal.ktx2", quality="quick", no_levels=True, threads=2)
+        self.assertEqual((report.format, report.levels, report.bits_before), ("BC5", 1, 16))
+        self.assertLessEqual(report.mean_error_deg, report.p99_error_deg)
+        texture = tspace.compress_map_bytes(normal.read_bytes(), quality="quick", no_levels=True)
+        self.assertEqual(texture, (self.folder / "normal.ktx2").read_bytes())
+        self.assertEqual(texture.report.mean_error_deg, report.mean_error_deg)
+        with self.assertRaisesRegex(tspace.UnknownOptionError, "quality"):
+            tspace.compress_map_bytes(b"", qualitty="quick")
+        with self.assertRaisesRegex(tspace.Error, "basisu"):
+            tspace.compress_map_bytes(normal.read_bytes(), format="uastc")
+
 
 class Failures(Files):
     def test_what_is_not_there_is_a_file_not_found_error_with_its_name(self):

@@ -82,6 +82,7 @@ class FileCalls(unittest.TestCase):
     def test_type_checkers_know_the_options_of_files(self):
         verbs = {"generate_file": "generate", "generate_bytes": "generate", "flip_green_file": "flipGreen"}
         verbs.update({"flip_green_bytes": "flipGreen", "height_to_normal_file": "heightToNormal"})
+        verbs.update({"compress_map_file": "compressMap", "compress_map_bytes": "compressMap"})
         verbs.update({name: name for name in ("check", "identify", "inspect", "diff")})
         tree = ast.parse((Path(tspace.__file__).parent / "_file_calls.pyi").read_text())
         functions = {node.name: node for node in tree.body if isinstance(node, ast.FunctionDef)}

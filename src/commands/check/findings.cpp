@@ -112,6 +112,11 @@ constexpr std::array<CodeText, kFindingCodeCount> kCodes{{
      "Nothing needs to be done if it is shaded smoothly. Else make normals without the noise, which leaves vertices "
      "where "
      "they are: tspace generate --overwrite-normals --normals best --denoise auto."},
+    {"normalMapLossy",
+     "Pack it from the source anew: as PNG or WebP without loss, or as UASTC where it must stay small; for engines, "
+     "beside the glTF: tspace compress-map."},
+    {"normalMapLevels",
+     "Write all levels with the program that packed it; for engines, beside the glTF: tspace compress-map."},
 }};
 
 }  // namespace
@@ -184,6 +189,8 @@ const char* findingSummary(FindingCode code) {
         "The scale of a normal map is 0 or below.",
         "A picture in colors is used as a normal map.",
         "Positions are noisy.",
+        "A normal map is packed as pictures are.",
+        "A texture of a normal map has no smaller levels.",
     };
     static_assert(kSummaries.size() == kFindingCodeCount);
     const auto number = static_cast<std::size_t>(code);
@@ -457,12 +464,10 @@ std::string messageOf(const std::string& name, const MapLook& look) {
     return name + " is grey, and no normal map: it is a height map, perhaps";
 }
 
-std::string remedyOf(const std::string& file, const MapLook& look, bool green_is_down, bool can_mend) {
+std::string remedyOf(const std::string& file, const MapLook& look, bool green_is_down) {
     const std::string flip = green_is_down ? " --flip-green" : "";
     // No full stop behind a command, since it would be copied along.
-    const std::string in_model =
-        can_mend ? "In the model: tspace generate --mend-maps" + flip + " does it. The image alone: "
-                 : "Give the model an image that has x, y and z: ";
+    const std::string in_model = "In the model: tspace generate --mend-maps" + flip + " does it. The image alone: ";
     const std::string convert = "tspace convert-map " + file + " -o OUT.png";
     if (look.content == MapContent::picture) return findingRemedy(FindingCode::normalMapIsPicture);
     if (look.content == MapContent::height) {
@@ -495,13 +500,13 @@ std::string layoutOptions(const MapLayout& layout) {
 }
 
 std::optional<Finding> contentFinding(const std::string& name, const std::string& file, const MapLook& look,
-                                      bool green_is_down, bool can_mend) {
+                                      bool green_is_down) {
     if (look.content == MapContent::normals) return {};
     const Tally texels{.count = look.count, .total = look.total};
     std::string message = messageOf(name, look);
     if (green_is_down) message += "; and y is inverted besides";
     Finding finding = makeFinding(codeOf(look.content), Severity::warning, texels, "texels", std::move(message));
-    finding.remedy = remedyOf(file, look, green_is_down, can_mend);
+    finding.remedy = remedyOf(file, look, green_is_down);
     finding.confidence = texels.share();
     return finding;
 }

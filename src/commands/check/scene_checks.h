@@ -50,9 +50,9 @@ std::vector<Finding> checkMapScales(const Scene& scene);
 std::string layoutOptions(const MapLayout& layout);
 
 /// `name`: of the image, with quotes. `file`: its name in a command line. `green_is_down`: the channel that holds y is also
-/// inverted. `can_mend`: generate --mend-maps writes an image of this format anew. Nothing for normals.
+/// inverted. Nothing for normals.
 std::optional<Finding> contentFinding(const std::string& name, const std::string& file, const MapLook& look,
-                                      bool green_is_down, bool can_mend = true);
+                                      bool green_is_down);
 
 // The packed frames of a scene.
 

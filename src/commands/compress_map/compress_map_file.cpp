@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "commands/compress_map/compress_map_report.h"
 #include "commands/compress_map/pack_texture.h"
@@ -73,8 +74,21 @@ PackedLevel roundLevel(const NormalLevel& level, bool is_signed) {
     return packed;
 }
 
+PackedLevel packByAstcenc(const NormalLevel& level, TextureQuality quality, Parallel& parallel) {
+    std::vector<Vec2> texels = fitTexels(level, parallel);
+    const AstcEffort effort = quality == TextureQuality::quick  ? AstcEffort::quick
+                              : quality == TextureQuality::best ? AstcEffort::best
+                                                                : AstcEffort::fast;
+    std::optional<std::vector<std::uint8_t>> blocks = packAstc(level.width, level.height, effort, texels, parallel);
+    if (!blocks) failFile(ErrorCode::outOfMemory, "the library astcenc fails to pack the levels");
+    PackedLevel packed{*std::move(blocks), {}};
+    for (const Vec2& texel : texels) packed.texels.push_back({texel.x, texel.y, 0});
+    return packed;
+}
+
 PackedLevel packLevel(const NormalLevel& level, const CompressMapFileOptions& options, Parallel& parallel) {
     if (options.format == TextureFormat::rg8) return roundLevel(level, options.is_signed);
+    if (options.format == TextureFormat::astc4x4) return packByAstcenc(level, options.quality, parallel);
     BlockOptions how{.is_signed = options.is_signed};
     if (options.format == TextureFormat::eacRg11) how.format = BlockFormat::eacRg11;
     if (options.quality == TextureQuality::best) how.quality = BlockQuality::best;
@@ -87,8 +101,10 @@ PackedLevel packLevel(const NormalLevel& level, const CompressMapFileOptions& op
 }
 
 TexelKind kindOf(const CompressMapFileOptions& options) {
-    constexpr TexelKind kKinds[][2] = {
-        {TexelKind::bc5, TexelKind::bc5s}, {TexelKind::eacRg, TexelKind::eacRgs}, {TexelKind::rg8, TexelKind::rg8s}};
+    constexpr TexelKind kKinds[][2] = {{TexelKind::bc5, TexelKind::bc5s},
+                                       {TexelKind::eacRg, TexelKind::eacRgs},
+                                       {TexelKind::rg8, TexelKind::rg8s},
+                                       {TexelKind::astc, TexelKind::astc}};
     return kKinds[static_cast<std::size_t>(options.format)][options.is_signed ? 1 : 0];
 }
 
@@ -138,6 +154,10 @@ class MapCompression {
         if (!(options_.roughness_factor >= 0 && options_.roughness_factor <= 1))
             failFile(ErrorCode::invalidOption, "the factor of roughness must be from 0 to 1");
         if (options_.bits != 8 && options_.bits != 16) failFile(ErrorCode::invalidOption, "a PNG has 8 or 16 bits");
+        if (options_.format == TextureFormat::astc4x4) {
+            if (options_.is_signed) failFile(ErrorCode::invalidOption, "ASTC has no numbers with a sign");
+            if (const char* why_not = whyNoAstcWritten()) failFile(ErrorCode::unsupportedFile, why_not);
+        }
         if (container_ == Container::dds) {
             if (const char* why_not = whyNotDds(kindOf(options_))) failFile(ErrorCode::invalidOption, why_not);
         }
@@ -187,7 +207,7 @@ class MapCompression {
             return;
         }
         Texture texture{.width = report_.width, .height = report_.height, .kind = kindOf(options_), .levels = {}};
-        report_.format = std::string(texelFormat(texture.kind).name);
+        report_.format = std::string(texelFormat(texture.kind).name) + (texture.kind == TexelKind::astc ? " 4x4" : "");
         for (const NormalLevel& level : levels_) {
             PackedLevel packed = packLevel(level, options_, parallel_);
             if (texture.levels.empty()) takeError(measureFiltered(level, packed.texels, true, parallel_));
@@ -326,10 +346,27 @@ namespace tspace::options {
 
 namespace {
 
-constexpr Named<TextureFormat> kFormats[] = {
-    {"bc5", TextureFormat::bc5}, {"eac-rg11", TextureFormat::eacRg11}, {"rg8", TextureFormat::rg8}};
+constexpr Named<TextureFormat> kFormats[] = {{"bc5", TextureFormat::bc5},
+                                             {"eac-rg11", TextureFormat::eacRg11},
+                                             {"astc-4x4", TextureFormat::astc4x4},
+                                             {"rg8", TextureFormat::rg8}};
 constexpr Named<TextureQuality> kQualities[] = {
     {"quick", TextureQuality::quick}, {"fast", TextureQuality::fast}, {"best", TextureQuality::best}};
+
+Option formatOption(TextureFormat& format) {
+    Option made = choice("--format", "FORMAT", kFormats, format,
+                         "bc5 for desktops and consoles; eac-rg11 for phones (a .ktx2); astc-4x4 for phones with x in "
+                         "red and y in alpha (a .ktx2; by the library astcenc, where it is installed); rg8 is not "
+                         "compressed.");
+    made.take = [take = made.take](const std::string& name) {
+        if (name == "uastc")
+            return std::string(
+                "tspace has no encoder of UASTC that is nearer than that of basisu, which is there for "
+                "it; in a glTF, PNG and WebP without loss are exact");
+        return take(name);
+    };
+    return made;
+}
 
 Option factorOption(double& factor) {
     const auto take = [&factor](const std::string& value) {
@@ -366,9 +403,7 @@ void addRoughness(OptionList& list, CompressMapFileOptions& options) {
 
 OptionList compressMapOptions(CompressMapFileOptions& options) {
     OptionList list;
-    add(list, "Texture",
-        choice("--format", "FORMAT", kFormats, options.format,
-               "bc5 for desktops and consoles; eac-rg11 for phones (a .ktx2); rg8 is not compressed."));
+    add(list, "Texture", formatOption(options.format));
     add(list, "Texture",
         choice("--quality", "QUALITY", kQualities, options.quality,
                "fast: blocks with the least error as it is filtered. best: 1 % nearer, 2.5 times as long. quick: each "

@@ -271,7 +271,7 @@ class Alternatives {
     std::set<std::size_t> is_settled_ = {};
 };
 
-/// Writes the map anew, inverted where it is to be, if nothing but PNG and JPEG stands beside it.
+/// Writes the map anew, inverted where it is to be, if it is not there in another format too.
 void mendInPlace(Document& document, const Scene& scene, const GenerateOptions& options, JudgedMap& map,
                  MapFlips& flips) {
     if (!TextureUses(document).alternatives(map.image).empty()) {
@@ -317,11 +317,13 @@ MapFlips planFlips(Model& model, std::span<const PrimitiveReport> reports, const
 
 void applyFlips(Document& document, Editor& editor, const OutputTarget& target, MapFlips&& flips) {
     TextureUses uses(document);
+    std::vector<std::size_t> new_images;
     const auto placeAll = [&](std::map<std::size_t, Bytes>& made, const char* ending) {
         ImagePlacer placer(document, editor, target, ending);
         for (auto& [image, bytes] : made) {
             if (!uses.isOther(image)) {
                 placer.place(image, std::move(bytes), false);
+                new_images.push_back(image);
                 continue;
             }
             Json& images = document.json["images"];
@@ -330,11 +332,16 @@ void applyFlips(Document& document, Editor& editor, const OutputTarget& target, 
             const std::size_t own = images.size() - 1;
             placer.place(own, std::move(bytes), true);
             uses.redirect(image, own);
+            new_images.push_back(own);
         }
     };
     placeAll(flips.images, "-green-up");
+    new_images.clear();
     placeAll(flips.mended, "-mended");
     uses.applyRedirections();
+    // These are PNGs now, whatever they were.
+    MapReferences references(document, {});
+    for (const std::size_t image : new_images) references.namePlainly(image);
 }
 
 }  // namespace tspace::gltf

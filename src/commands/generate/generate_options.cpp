@@ -161,6 +161,22 @@ void addPackOptions(OptionList& list, GenerateOptions& options) {
         .needs = "--pack";
 }
 
+/// There is one answer alone, and a sentence why.
+Option compressMapsOption() {
+    const auto take = [](const std::string& how) {
+        return how == "uastc" ? std::string(
+                                    "tspace has no encoder of UASTC that is nearer than that of basisu, which is "
+                                    "there for it; PNG and WebP without loss are exact")
+                              : std::string();
+    };
+    Option made = option("--compress-maps", "HOW", take,
+                         "keep: images come out as they went in, KTX2 and DDS too, but for normal maps that another "
+                         "option writes anew: those are PNGs. Textures for engines: tspace compress-map.");
+    made.choices = {"keep"};
+    made.default_text = "keep";
+    return made;
+}
+
 void addMapOptions(OptionList& list, GenerateOptions& options) {
     const char* group = "Normal maps";
     add(list, group,
@@ -175,14 +191,16 @@ void addMapOptions(OptionList& list, GenerateOptions& options) {
     add(list, group,
         flag("--mend-maps", options.mend_maps,
              "Write normal maps anew that hold something else than glTF reads, as check finds them: two channels, "
-             "exchanged channels, x in alpha, colors (sRGB), object space. Height maps stay: their strength is not "
-             "known (tspace height-to-normal)."));
+             "exchanged channels, x in alpha, colors (sRGB), object space. They become PNGs, from KTX2 and DDS too. "
+             "Height "
+             "maps stay: their strength is not known (tspace height-to-normal)."));
     add(list, group,
         flag("--convert-maps", options.convert_maps,
              "Write normal maps anew for the tangents that are computed, so that the picture stays as it was. Maps and "
              "materials that several primitives share are copied where they need different ones. Images beside a .gltf "
              "stay as they are, and the output gets new ones."))
         .excludes = {"--flip-green", "--flip-green-all", "--mend-maps", "--repair"};
+    add(list, group, compressMapsOption());
 }
 
 void addOtherOptions(OptionList& list, GenerateOptions& options) {

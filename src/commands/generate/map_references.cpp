@@ -85,6 +85,11 @@ void MapReferences::namePlainly(std::size_t image) {
         forSources(texture, [&](Json& source) { shows_it = shows_it || isNumber(source, image); });
         if (shows_it) setSource(texture, image);
     }
+    const Json& textures = rootArray(document_, "textures");
+    forSourceExtensions([&](const char* name) {
+        const auto has = [&](const Json& texture) { return findExtension(texture, name) != nullptr; };
+        if (std::none_of(textures.begin(), textures.end(), has)) dropExtension(document_, name);
+    });
 }
 
 std::string MapReferences::whyNotApart(std::span<const MapUser> users) const {

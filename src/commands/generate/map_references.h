@@ -73,7 +73,8 @@ class MapReferences {
     /// Whether nothing but these primitives shows the image, which may then be replaced where it is.
     [[nodiscard]] bool isOfAlone(std::size_t image, std::span<const MapUser> users) const;
 
-    /// Has all textures that show the image name it as their only source, as those of the formats that all viewers read.
+    /// Has all textures that show the image name it as their only source, as those of the formats that all viewers read. The file needs no
+    /// extension for other formats any more where none of its textures has one.
     void namePlainly(std::size_t image);
 
     /// Half a sentence: why these primitives cannot have an image that others do not see. Empty: they can.

@@ -27,6 +27,7 @@ const char* whatItHeld(MapContent content) {
         case MapContent::objectSpace:
             return "it was in object space";
         case MapContent::normals:
+            return "its file said that its numbers have the sRGB curve";
         case MapContent::height:
         case MapContent::picture:
             break;
@@ -34,9 +35,9 @@ const char* whatItHeld(MapContent content) {
     return "";
 }
 
-/// Empty, or why an image with such a content stays.
-std::string whyItStays(const MapLook& look, ImageFormat format) {
-    if (look.content == MapContent::normals) return "it holds what glTF reads";
+/// Empty, or why an image with such a content stays. `claims_srgb`: what the file says of the numbers.
+std::string whyItStays(const MapLook& look, bool claims_srgb) {
+    if (look.content == MapContent::normals && !claims_srgb) return "it holds what glTF reads";
     if (look.content == MapContent::height)
         return "it is grey: a height map, whose strength is not known (tspace height-to-normal)";
     if (look.content == MapContent::picture) return "it is a picture in colors, and no normal map";
@@ -44,8 +45,6 @@ std::string whyItStays(const MapLook& look, ImageFormat format) {
         return "it is not in tangent space, nor in that of this mesh";
     if (look.content == MapContent::objectSpace && look.is_in_world)
         return "it is in world space (tspace convert-map --from world)";
-    if (format != ImageFormat::png && format != ImageFormat::jpeg)
-        return std::string("it is ") + formatName(format) + ", and the new one would be PNG";
     return {};
 }
 
@@ -91,7 +90,8 @@ void toTangentSpace(const Scene& scene, std::size_t image_number, const Generate
 }  // namespace
 
 Bytes mendMap(const Scene& scene, ByteSpan bytes, const GenerateOptions& options, JudgedMap& map) {
-    map.report.reason = whyItStays(map.look, imageFormat(bytes));
+    const std::optional<TextureFacts> facts = textureFacts(bytes);
+    map.report.reason = whyItStays(map.look, facts && facts->is_srgb);
     if (!map.report.reason.empty()) return {};
     if (!scene.memory->has(kMapPixelBytes * claimedSize(bytes).pixels())) {
         map.report.reason = "it takes more memory than the limit";
@@ -105,7 +105,8 @@ Bytes mendMap(const Scene& scene, ByteSpan bytes, const GenerateOptions& options
         image->texels[i] = readTexel(image->texels[i], image->alpha.empty() ? 1 : image->alpha[i], layout);
     if (layout.x.channel == MapChannel::alpha) image->alpha.clear();
     if (map.look.content == MapContent::objectSpace) toTangentSpace(scene, map.image, options, *image);
-    const auto file = encodePng(*image, image->bits);
+    constexpr unsigned kMostBits = 16;  // of a PNG
+    const auto file = encodePng(*image, std::min(image->bits, kMostBits));
     if (!file) {
         map.report.reason = "the new one cannot be packed as PNG";
         return {};

@@ -107,7 +107,7 @@ OptionList heightToNormalOptions(HeightToNormalFileOptions& options) {
              "The image ends at its borders. By default it goes on at the other side, as textures that repeat do; with "
              "--mesh as the mesh's texture does."));
     const auto take_convention = [&options](const std::string& name) {
-        options.green = findMapReading(name.c_str())->green;
+        if (const MapReading* reading = findMapReading(name.c_str())) options.green = reading->green;
         return std::string();
     };
     Option convention = option("--convention", "NAME", take_convention,

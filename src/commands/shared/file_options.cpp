@@ -27,7 +27,7 @@ bool parseMemory(const std::string& text, std::uint64_t& bytes) {
 
 Option readingOption(const char* names, MapReading& target, HelpText help) {
     const auto take = [&target](const std::string& value) {
-        target = *findMapReading(value.c_str());
+        if (const MapReading* reading = findMapReading(value.c_str())) target = *reading;
         return std::string();
     };
     Option chosen = option(names, "NAME", take, std::move(help));

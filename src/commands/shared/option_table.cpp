@@ -30,9 +30,12 @@ std::string givePart(const Option& option, const std::string& value) {
     std::string wrong;
     if (!choices.empty() && std::find(choices.begin(), choices.end(), value) == choices.end()) {
         constexpr std::size_t kMostListed = 12;
-        wrong =
-            choices.size() <= kMostListed ? "must be one of " + joined(choices) : "there is no such " + option.value;
-        wrong += didYouMean(value, choices);
+        wrong = option.take(value);  // says of some names why they are none
+        if (wrong.empty()) {
+            wrong = choices.size() <= kMostListed ? "must be one of " + joined(choices)
+                                                  : "there is no such " + option.value;
+            wrong += didYouMean(value, choices);
+        }
     } else {
         wrong = option.take(value);
     }

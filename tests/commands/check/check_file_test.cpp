@@ -3,10 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "commands/check/patch.h"
+#include "images/float_image.h"
 #include "images/images.h"
+#include "images/known_blocks.h"
 #include "images/textures.h"
 #include "model/gltf_builder.h"
 #include "support/temp_folder.h"
@@ -161,11 +164,78 @@ TEST(CheckFile, LooksAtKtx2AndDds) {
     model.builder.json()["textures"] = Json::parse(R"([{"extensions":{"MSFT_texture_dds":{"source":0}}}])");
     model.folder.write("normal.png", ddsFile(83, 256, 256, bc5Blocks(normalMapOf(256, bumps))));
     const CheckReport report = model.check();
-    ASSERT_EQ(codes(report), Codes{"warning normalMapTwoChannels"});
+    ASSERT_EQ(codes(report), (Codes{"warning normalMapTwoChannels", "note normalMapLevels"}));
     EXPECT_NE(report.findings[0].message.find("it is BC5 in a DDS"), std::string::npos);
-    EXPECT_EQ(report.findings[0].remedy.find("--mend-maps"), std::string::npos) << "which writes no DDS";
+    EXPECT_NE(report.findings[0].remedy.find("--mend-maps"), std::string::npos) << report.findings[0].remedy;
     model.folder.write("normal.png", ddsFile(83, 256, 256, bc5Blocks(normalMapOf(256, bumps, true))));
-    EXPECT_EQ(codes(model.check()), (Codes{"warning normalMapTwoChannels", "warning greenFlipped"}));
+    EXPECT_EQ(codes(model.check()),
+              (Codes{"warning normalMapTwoChannels", "warning greenFlipped", "note normalMapLevels"}));
+}
+
+/// What a finding says that texels are off by.
+double degreesIn(const Finding& finding) {
+    const std::size_t at = finding.message.find("about ");
+    return at == std::string::npos ? 0 : std::atof(finding.message.c_str() + at + 6);
+}
+
+/// Root of the mean square of the angle between the texels of a file and normalMapOf(size, bumps).
+double degreesOff(const std::string& file, std::uint32_t size) {
+    std::string why;
+    const std::optional<RgbImage> packed = decodeImage(bytesOf(file), 1 << 20, why);
+    EXPECT_TRUE(packed) << why;
+    const RgbImage map = normalMapOf(size, bumps);
+    double sum = 0;
+    const auto vector = [](const RgbImage& image, std::size_t i) {
+        DVec3 normal{image.rgb[i] / 127.5 - 1, image.rgb[i + 1] / 127.5 - 1, image.rgb[i + 2] / 127.5 - 1};
+        normalize(normal);
+        return normal;
+    };
+    for (std::size_t i = 0; packed && i < map.rgb.size(); i += 3) {
+        const DVec3 a = vector(map, i), b = vector(*packed, i);
+        const double angle = std::atan2(length(cross(a, b)), dot(a, b)) * 57.29577951308232;
+        sum += angle * angle;
+    }
+    return std::sqrt(3 * sum / static_cast<double>(map.rgb.size()));
+}
+
+TEST(CheckFile, SaysAboutHowFarVectorsAreOffThatWerePackedAsColors) {
+    TestModel model;
+    model.builder.json()["textures"] = Json::parse(R"([{"extensions":{"EXT_texture_webp":{"source":0}}}])");
+    const RgbImage map = normalMapOf(256, bumps);
+    model.folder.write("normal.png", webpFile(map, true));
+    EXPECT_EQ(codes(model.check()), Codes{});
+    const std::string webp = webpFile(map, false), etc1s = bytesOfHex(kEtc1sNormals);
+    model.folder.write("normal.png", webp);
+    const CheckReport lossy = model.check();
+    ASSERT_EQ(codes(lossy), Codes{"note normalMapLossy"});
+    EXPECT_NEAR(degreesIn(lossy.findings[0]) / degreesOff(webp, 256), 0.9, 0.25) << lossy.findings[0].message;
+    model.builder.json()["textures"] = Json::parse(R"([{"extensions":{"KHR_texture_basisu":{"source":0}}}])");
+    model.folder.write("normal.png", etc1s);
+    const CheckReport coarse = model.check();
+    ASSERT_EQ(codes(coarse), (Codes{"note normalMapLossy", "note normalMapLevels"}));
+    EXPECT_NE(coarse.findings[0].message.find("ETC1S"), std::string::npos);
+    EXPECT_NEAR(degreesIn(coarse.findings[0]) / degreesOff(etc1s, 64), 0.9, 0.25) << coarse.findings[0].message;
+}
+
+TEST(CheckFile, FindsATextureThatClaimsTheSrgbCurveOfLinearNumbers) {
+    const RgbImage map = normalMapOf(256, bumps);
+    Ktx2Parts parts{.format = 29, .width = 256, .height = 256, .levels = {{map.rgb.begin(), map.rgb.end()}}};
+    parts.unpacked = {map.rgb.size()};
+    parts.transfer = 2;
+    TestModel model;
+    model.builder.json()["textures"] = Json::parse(R"([{"extensions":{"KHR_texture_basisu":{"source":0}}}])");
+    model.folder.write("normal.png", ktx2File(parts));
+    const CheckReport report = model.check();
+    ASSERT_EQ(codes(report), Codes{"warning normalMapIsSrgb"});
+    EXPECT_NE(report.findings[0].remedy.find("linear"), std::string::npos) << report.findings[0].remedy;
+    // Where the numbers have the curve too, that is one finding, of the numbers.
+    for (char& byte : parts.levels[0]) {
+        const double part = static_cast<unsigned char>(byte) / 255.0;
+        const double coded = part <= 0.0031308 ? 12.92 * part : 1.055 * std::pow(part, 1 / 2.4) - 0.055;
+        byte = static_cast<char>(static_cast<unsigned char>(255 * coded + 0.5));
+    }
+    model.folder.write("normal.png", ktx2File(parts));
+    EXPECT_EQ(codes(model.check()), Codes{"warning normalMapIsSrgb"});
 }
 
 TEST(CheckFile, FindsXAndYInOtherChannelsOfATexture) {
@@ -195,7 +265,7 @@ TEST(CheckFile, LooksAtWebp) {
     TestModel model;
     model.folder.write("normal.png", webpFile(normalMapOf(256, bumps, true), false));
     model.builder.json()["textures"] = Json::parse(R"([{"extensions":{"EXT_texture_webp":{"source":0}}}])");
-    EXPECT_EQ(codes(model.check()), Codes{"warning greenFlipped"});
+    EXPECT_EQ(codes(model.check()), (Codes{"warning greenFlipped", "note normalMapLossy"}));
 }
 
 /// A map whose left half points up and whose right half points down.

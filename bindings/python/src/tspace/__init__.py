@@ -52,6 +52,7 @@ Model files (glTF, GLB, OBJ), on disk or in memory
     inspect         what is in a file
     flip_green_file, flip_green_bytes   inverts the green channel of a normal map
     height_to_normal_file               makes a normal map of a height map
+    compress_map_file, compress_map_bytes   packs a normal map as a texture for engines
 
 Arrays
     Positions and normals have shape (vertices, 3), UVs (vertices, 2), indices (corners,) or (faces, k); units are yours, angles
@@ -78,6 +79,7 @@ from ._abi import library as _library
 from ._errors import Error, FileError, IndexRangeError, InputError, ReadWriteError, UnknownOptionError
 from ._files import (
     CheckReport,
+    CompressMapReport,
     DiffReport,
     Finding,
     FlipGreenReport,
@@ -102,6 +104,8 @@ from ._winding import WindingResult, mend_winding
 if _TYPE_CHECKING:
     from ._file_calls import (
         check,
+        compress_map_bytes,
+        compress_map_file,
         diff,
         flip_green_bytes,
         flip_green_file,
@@ -114,6 +118,8 @@ if _TYPE_CHECKING:
 else:
     from ._files import (
         check,
+        compress_map_bytes,
+        compress_map_file,
         diff,
         flip_green_bytes,
         flip_green_file,
@@ -129,6 +135,7 @@ __version__ = f"{_number // 10000}.{_number // 100 % 100}.{_number % 100}"
 
 __all__ = [
     "CheckReport",
+    "CompressMapReport",
     "Convention",
     "DiffReport",
     "Error",
@@ -162,6 +169,8 @@ __all__ = [
     "WindingReport",
     "WindingResult",
     "check",
+    "compress_map_bytes",
+    "compress_map_file",
     "diff",
     "flip_green_bytes",
     "flip_green_file",

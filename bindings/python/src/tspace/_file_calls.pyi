@@ -4,7 +4,7 @@ test compares the names."""
 
 from typing import Literal, Optional, Sequence, Union
 
-from ._file_reports import DiffReport, FlipGreenReport, HeightToNormalReport, InspectReport
+from ._file_reports import CompressMapReport, DiffReport, FlipGreenReport, HeightToNormalReport, InspectReport
 from ._files import BytesLike, CheckReport, FindFile, Generated, IdentifyReport, PathLike
 from ._generate_report import GenerateReport
 from ._types import DegreesOrAuto, MethodName, PairingName, PresetName
@@ -44,6 +44,7 @@ def generate_file(
     mend_maps: bool = ...,
     flip_green_all: bool = ...,
     convert_maps: bool = ...,
+    compress_maps: Literal["keep"] = ...,
     mend_winding: bool = ...,
     no_sanitize: bool = ...,
     orthogonalize: bool = ...,
@@ -88,6 +89,7 @@ def generate_bytes(
     mend_maps: bool = ...,
     flip_green_all: bool = ...,
     convert_maps: bool = ...,
+    compress_maps: Literal["keep"] = ...,
     mend_winding: bool = ...,
     no_sanitize: bool = ...,
     orthogonalize: bool = ...,
@@ -180,3 +182,44 @@ def height_to_normal_file(
     memory_limit: Size = ...,
     import_seconds: float = ...,
 ) -> HeightToNormalReport: ...
+def compress_map_file(
+    input: PathLike,
+    output: PathLike,
+    *,
+    format: Literal["bc5", "eac-rg11", "astc-4x4", "rg8"] = ...,
+    quality: Literal["quick", "fast", "best"] = ...,
+    signed: bool = ...,
+    mips: bool = ...,
+    no_levels: bool = ...,
+    zstd: int = ...,
+    bits: Literal[8, 16] = ...,
+    roughness: PathLike = ...,
+    roughness_output: PathLike = ...,
+    roughness_factor: float = ...,
+    dry_run: bool = ...,
+    threads: int = ...,
+    no_sync: bool = ...,
+    allow_external: bool = ...,
+    memory_limit: Size = ...,
+    import_seconds: float = ...,
+) -> CompressMapReport: ...
+def compress_map_bytes(
+    data: BytesLike,
+    *,
+    format: Literal["bc5", "eac-rg11", "astc-4x4", "rg8"] = ...,
+    quality: Literal["quick", "fast", "best"] = ...,
+    signed: bool = ...,
+    mips: bool = ...,
+    no_levels: bool = ...,
+    zstd: int = ...,
+    bits: Literal[8, 16] = ...,
+    roughness: PathLike = ...,
+    roughness_output: PathLike = ...,
+    roughness_factor: float = ...,
+    dry_run: bool = ...,
+    threads: int = ...,
+    no_sync: bool = ...,
+    allow_external: bool = ...,
+    memory_limit: Size = ...,
+    import_seconds: float = ...,
+) -> Generated[CompressMapReport]: ...

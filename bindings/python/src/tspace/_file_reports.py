@@ -467,3 +467,54 @@ class MapMesh(Report):
     tangents_made: bool
     #: What its materials multiply x and y of the map by (glTF's "normalTexture.scale").
     scale: float
+
+
+class CompressMapReport(Report):
+    """A normal map that became a texture."""
+
+    schema: str
+    #: Version of the tool.
+    version: str
+    #: The output was written.
+    ok: bool
+    #: Path of the input.
+    input: str
+    #: Path of the output.
+    output: str
+    #: Nothing was written.
+    dry_run: bool
+    #: Null when ok.
+    error: None
+    width: int
+    height: int
+    #: Of a channel of the input.
+    bits_before: int
+    #: What was written: BC5, EAC RG11 signed, ASTC 4x4, PNG of 16 bits.
+    format: str
+    #: In the output.
+    levels: int
+    #: Size of the output.
+    output_bytes: int
+    #: Size of the roughness texture; 0: none was asked for.
+    roughness_bytes: int
+    #: Of the first level, filtered: between the map with three channels and the texture.
+    mean_error_deg: float
+    #: 99 % of the points are nearer.
+    p99_error_deg: float
+    max_error_deg: float
+    #: Where that is, in texels from the left.
+    max_error_x: float
+    #: And from the top.
+    max_error_y: float
+    #: Texels whose z is below 0.
+    below_horizon: int
+    #: Texels that are a tenth or more longer or shorter than unit vectors.
+    not_unit: int
+    #: Of the roughness texture, with the factor; 0: none was asked for.
+    mean_roughness: float
+    #: Of its last level as it was written.
+    mean_widened_roughness: float
+    #: Sentences for a person.
+    warnings: List[str]
+    #: That of the tool: 0, or 1 where something was found.
+    exit_code: int

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Model files: generate, check, identify, diff, inspect, flip green, heights to normals. Each is one function of the C API."""
+"""Model files: generate, check, identify, diff, inspect, flip green, heights to normals, textures. Each is one function of the C API."""
 
 import ctypes
 import json
@@ -12,7 +12,7 @@ import numpy
 
 from . import _abi, _file_reports, _files_abi
 from ._errors import InputError, UnknownOptionError, raise_error, shown
-from ._file_reports import DiffReport, Finding, FlipGreenReport, HeightToNormalReport, InspectReport
+from ._file_reports import CompressMapReport, DiffReport, Finding, FlipGreenReport, HeightToNormalReport, InspectReport
 from ._generate_report import GenerateReport
 from ._report import Report
 
@@ -30,13 +30,15 @@ _LIMITS = "allow_external memory_limit import_seconds"
 _OPTIONS = {
     "generate": "all only_missing overwrite repair strip method faces pairing threshold frame refine texture_transform"
     " bitangents convention format pack pack_drop normals crease denoise normals_per_primitive overwrite_normals morph_normals compress flip_green mend_maps"
-    f" flip_green_all convert_maps mend_winding no_sanitize orthogonalize keep_coordinates dry_run threads no_sync {_LIMITS}",
+    f" flip_green_all convert_maps compress_maps mend_winding no_sanitize orthogonalize keep_coordinates dry_run threads no_sync {_LIMITS}",
     "check": f"fail_on severity ignore angle convention faces no_images threads {_LIMITS}",
     "inspect": _LIMITS,
     "identify": f"tolerance threads {_LIMITS}",
     "diff": f"tolerance worst {_LIMITS}",
     "flipGreen": "dry_run memory_limit no_sync",
     "heightToNormal": f"strength mesh material clamp convention bits method dry_run threads no_sync {_LIMITS}",
+    "compressMap": "format quality signed mips no_levels zstd bits roughness roughness_output roughness_factor"
+    f" dry_run threads no_sync {_LIMITS}",
 }
 
 
@@ -355,3 +357,30 @@ def flip_green_bytes(data: BytesLike, **options: Any) -> Generated[FlipGreenRepo
     view = call.buffer("data", data)
     output, document = call.run("tspace_flipGreenBytes", view.ctypes.data, view.size, options=options, has_output=True)
     return Generated.of(output, FlipGreenReport(document))
+
+
+def compress_map_file(input: PathLike, output: PathLike, **options: Any) -> CompressMapReport:
+    """Packs a normal map as a texture for engines: BC5, EAC RG11, ASTC or RG8, with all levels.
+
+    input:   path of a normal map in tangent space: PNG, JPEG, WebP, EXR, KTX2 or DDS; 16 bits give more than 8
+    output:  path of the texture, .ktx2 or .dds; or a folder for PNGs, which ends in /
+    options: those of `tspace compress-map` (docs/compress-map.md), with underscores:
+             format="eac-rg11", quality="best", roughness="orm.png", roughness_output="orm.ktx2"
+
+    `mean_error_deg` and `p99_error_deg` of the report say how far the texture is off, as it is filtered.
+    """
+    call = _Call()
+    paths = call.path("input", input), call.path("output", output)
+    return CompressMapReport(call.run("tspace_compressMapFile", *paths, options=options))
+
+
+def compress_map_bytes(data: BytesLike, **options: Any) -> Generated[CompressMapReport]:
+    """The same as `compress_map_file` in memory: bytes of an image in, bytes of a KTX2 out.
+
+    data:    bytes of a normal map
+    options: as for `compress_map_file`, but for those on roughness
+    """
+    call = _Call()
+    view = call.buffer("data", data)
+    output, document = call.run("tspace_compressMapBytes", view.ctypes.data, view.size, options=options, has_output=True)
+    return Generated.of(output, CompressMapReport(document))

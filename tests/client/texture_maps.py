@@ -1,0 +1,82 @@
+# SPDX-License-Identifier: MIT
+"""python3 texture_maps.py write MAP.png NUMBERS: a normal map of waves, 64 x 48 texels of 16 bits, and its x and y as bytes
+python3 texture_maps.py pillow NUMBERS DDS...: Pillow reads these as that map
+python3 texture_maps.py old DDS OUT: with the head of Direct3D 9 (ATI2): nvdecompress 2.0.8 gives black for BC5 behind the new one
+python3 texture_maps.py tga NUMBERS TGA: this is that map
+"""
+
+import math
+import struct
+import sys
+import zlib
+
+WIDTH, HEIGHT = 64, 48
+MOST = 4  # of 255: a step of a block, and what the search moves texels for the filter
+
+
+def write(path, numbers):
+    rows, bytes_ = [], bytearray()
+    for row in range(HEIGHT):
+        line = b"\0"
+        for column in range(WIDTH):
+            u, v = (column + 0.5) / WIDTH, (row + 0.5) / HEIGHT
+            x, y = 0.3 * math.sin(2 * math.pi * u), 0.2 * math.sin(2 * math.pi * (u + v))
+            z = math.sqrt(1 - x * x - y * y)
+            line += struct.pack(">3H", *(round(65535 * (0.5 + 0.5 * part)) for part in (x, y, z)))
+            bytes_ += bytes(round(255 * (0.5 + 0.5 * part)) for part in (x, y))
+        rows.append(line)
+
+    def chunk(name, data):
+        return struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data))
+
+    head = struct.pack(">IIBBBBB", WIDTH, HEIGHT, 16, 2, 0, 0, 0)
+    with open(path, "wb") as file:
+        file.write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"IDAT", zlib.compress(b"".join(rows))) + chunk(b"IEND", b""))
+    with open(numbers, "wb") as file:
+        file.write(bytes_)
+
+
+def compare(name, numbers, pixels):
+    """`pixels`: red and green of each, from the top."""
+    with open(numbers, "rb") as file:
+        wanted = file.read()
+    if len(pixels) != WIDTH * HEIGHT:
+        sys.exit(f"FAILED {name}: {len(pixels)} pixels")
+    worst = max(abs(part - wanted[2 * i + k]) for i, pixel in enumerate(pixels) for k, part in enumerate(pixel[:2]))
+    print(f"{name}: within {worst} of 255")
+    if worst > MOST:
+        sys.exit(f"FAILED {name}: it shows another map")
+
+
+def pillow(numbers, *files):
+    import PIL
+    from PIL import Image
+
+    for path in files:
+        image = Image.open(path)
+        compare(f"Pillow {PIL.__version__}, {path.rsplit('/', 1)[-1]}", numbers, list(image.convert("RGB").getdata()))
+
+
+def old(path, out):
+    with open(path, "rb") as file:
+        data = file.read()
+    if data[84:88] != b"DX10" or data[128:132] != b"\x53\0\0\0":
+        sys.exit(f"FAILED {path}: it is no BC5 with a DX10 head")
+    with open(out, "wb") as file:
+        file.write(data[:84] + b"ATI2" + data[88:128] + data[148:])
+
+
+def tga(numbers, path):
+    with open(path, "rb") as file:
+        data = file.read()
+    kind, width, height, bits, flags = data[2], *struct.unpack("<HHBB", data[12:18])
+    if kind != 2 or (width, height) != (WIDTH, HEIGHT):
+        sys.exit(f"FAILED nvdecompress: a TGA of kind {kind}, {width} x {height}")
+    step, at = bits // 8, 18 + data[0]
+    rows = [[data[at + step * (y * width + x) :][:3] for x in range(width)] for y in range(height)]
+    if not flags & 0x20:
+        rows.reverse()
+    compare("nvdecompress", numbers, [(blue_first[2], blue_first[1]) for row in rows for blue_first in row])
+
+
+{"write": write, "pillow": pillow, "old": old, "tga": tga}[sys.argv[1]](*sys.argv[2:])
