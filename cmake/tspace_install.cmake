@@ -6,7 +6,7 @@ include(CMakePackageConfigHelpers)
 tspace_install_built(tspace tspace_core EXPORT tspace_core ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/include/tspace" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" COMPONENT tspace_core
         FILES_MATCHING PATTERN "*.h" PATTERN "*.hpp"
-        PATTERN "asset.h" EXCLUDE PATTERN "bake_file.h" EXCLUDE PATTERN "check.h" EXCLUDE PATTERN "diff.h" EXCLUDE PATTERN "identify.h" EXCLUDE PATTERN "maps.h" EXCLUDE PATTERN "map_*.h" EXCLUDE PATTERN "flip_green.h" EXCLUDE PATTERN "render.h" EXCLUDE PATTERN "tspace_files.h" EXCLUDE)
+        PATTERN "asset.h" EXCLUDE PATTERN "bake_file.h" EXCLUDE PATTERN "check.h" EXCLUDE PATTERN "diff.h" EXCLUDE PATTERN "finish_file.h" EXCLUDE PATTERN "identify.h" EXCLUDE PATTERN "maps.h" EXCLUDE PATTERN "map_*.h" EXCLUDE PATTERN "flip_green.h" EXCLUDE PATTERN "render.h" EXCLUDE PATTERN "tspace_files.h" EXCLUDE)
 install(FILES "${PROJECT_BINARY_DIR}/include/tspace/version.h" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/tspace"
         COMPONENT tspace_core)
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/shaders" DESTINATION "${CMAKE_INSTALL_DATADIR}/tspace" COMPONENT tspace_core)
@@ -20,7 +20,7 @@ if(TARGET tspace_asset)
     install(TARGETS tspace_asset EXPORT tspace_asset COMPONENT tspace_asset)
     tspace_install_built(tspace_files tspace_asset EXPORT tspace_files ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
     install(DIRECTORY "${PROJECT_SOURCE_DIR}/include/tspace" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}"
-            COMPONENT tspace_asset FILES_MATCHING PATTERN "asset.h" PATTERN "bake_file.h" PATTERN "check.h" PATTERN "diff.h" PATTERN "identify.h"
+            COMPONENT tspace_asset FILES_MATCHING PATTERN "asset.h" PATTERN "bake_file.h" PATTERN "check.h" PATTERN "diff.h" PATTERN "finish_file.h" PATTERN "identify.h"
             PATTERN "maps.h" PATTERN "map_*.h" PATTERN "flip_green.h" PATTERN "render.h" PATTERN "tspace_files.h")
     tspace_install_export(asset tspace_asset tspace ${wings})
     tspace_install_export(files tspace_asset tspace ${wings} tspace_files)

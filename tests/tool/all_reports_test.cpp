@@ -105,6 +105,13 @@ TEST(AllReports, OfRenderAndView) {
     }
 }
 
+TEST(AllReports, OfFinish) {
+    NEEDS_ALL;
+    const TempFolder folder;
+    const std::vector<std::string> files = sharedFiles({".glb", ".gltf", ".obj"});
+    for (std::size_t i = 0; i < files.size(); i += 5) reportOf(folder, "finish " + files[i] + " -o out.glb");
+}
+
 TEST(AllReports, OfMaps) {
     NEEDS_ALL;
     const TempFolder folder;

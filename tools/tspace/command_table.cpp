@@ -38,9 +38,9 @@ Command helpCommand(const std::vector<Command>& others) {
 
 ToolTable toolTable() {
     ToolTable tool;
-    for (Command (*const make)() :
-         {generateCommand, diffCommand, identifyCommand, inspectCommand, checkCommand, flipGreenCommand, renderCommand,
-          convertMapCommand, heightToNormalCommand, compressMapCommand, viewCommand, bakeCommand, mapErrorCommand}) {
+    for (Command (*const make)() : {generateCommand, diffCommand, identifyCommand, inspectCommand, checkCommand,
+                                    flipGreenCommand, renderCommand, convertMapCommand, heightToNormalCommand,
+                                    compressMapCommand, viewCommand, bakeCommand, finishCommand, mapErrorCommand}) {
         tool.commands.push_back(make());
     }
     tool.commands.push_back(helpCommand(tool.commands));

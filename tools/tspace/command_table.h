@@ -58,6 +58,7 @@ Command heightToNormalCommand();
 Command compressMapCommand();
 Command viewCommand();
 Command bakeCommand();
+Command finishCommand();
 Command mapErrorCommand();
 
 /// All commands, in the order in which help lists them.

@@ -10,6 +10,7 @@
 
 #include "commands/bake/all_maps.h"
 #include "commands/bake/bake_report.h"
+#include "commands/bake/bake_step.h"
 #include "commands/bake/model_surfaces.h"
 #include "commands/compress_map/pack_texture.h"
 #include "commands/shared/noted_noise.h"
@@ -59,8 +60,9 @@ std::string withLayer(const std::string& path, const char* word) {
 
 class FileBaking {
   public:
-    FileBaking(const std::string& output, const BakeFileOptions& options) : output_(output), options_(options) {
-        inputs_.watch(options_.file);
+    FileBaking(const std::string& output, const BakeFileOptions& options, const BakeStep& step)
+        : output_(output), options_(options), step_(step) {
+        step_.inputs.watch(options_.file);
         options_.map.reading.two_channels = options_.map.reading.two_channels || options_.unit;
         // The size of the image is an option, so the limit by the size of the input file does not fit here.
         constexpr std::uint64_t kUsualLimit = std::uint64_t{16} << 30;
@@ -76,7 +78,7 @@ class FileBaking {
         if (!options_.layers.has_normal && !options_.heat.empty())
             failFile(ErrorCode::invalidOption, "a picture of the error needs the normal map");
         if (Error error = checkBakeOptions(options_.map, 0, 0); error.code != ErrorCode::ok) throw FileError{error};
-        models_ = readBakeModels(low, high, options_);
+        models_ = readBakeModels(low, high, options_, step_.sources);
         report_.frames_made = models_.low.frames_made;
         report_.matched_by_name = models_.matched_by_name;
         report_.low_triangle_count = models_.low.triangleCount();
@@ -84,7 +86,7 @@ class FileBaking {
         report_.warnings = models_.low.warnings;
         report_.warnings.insert(report_.warnings.end(), models_.high.warnings.begin(), models_.high.warnings.end());
         report_.high_maps = models_.high.shown.reports;
-        if (options_.denoise == 0) noteNoise();
+        if (options_.denoise == 0 && step_.notes_noise) noteNoise();
         options_.map.reach = models_.reach(options_.map.reach);
         aboutInput(BakeInput::high, [&] { return &detail_.emplace(models_, high, options_); });
         const std::vector<std::string>& seen = detail_->warnings();
@@ -94,11 +96,9 @@ class FileBaking {
             bakeTiles(image, word);
         }
         if (!options_.out_mesh.empty() && !is_without_map_)
-            addModelWithMaps({*std::move(models_.low_model), options_.out_mesh, std::move(maps_)}, files_,
-                             report_.warnings);
-        if (is_without_map_) return std::move(report_);
-        report_.output_files = files_.files();
-        files_.commit();
+            addModelWithMaps({*std::move(models_.low_model), options_.out_mesh, std::move(maps_)}, step_.model_files,
+                             files_, report_.warnings);
+        if (!is_without_map_) report_.output_files = files_.files();
         return std::move(report_);
     }
 
@@ -304,7 +304,7 @@ class FileBaking {
     void addMap(const std::string& path, const std::vector<std::uint8_t>& png, std::optional<MapSlot> slot,
                 const LowModel::Image& image) {
         // Baking again writes over the map that the low poly shows.
-        inputs_.letOff(path);
+        step_.inputs.letOff(path);
         if (options_.out_mesh.empty() || !slot) {
             files_.add(path, png);
         } else {
@@ -315,7 +315,8 @@ class FileBaking {
     void addLayers(const LowModel::Image& image, const std::string& word, std::vector<BakedLayer>& layers,
                    BakedFile& file) {
         for (BakedLayer& layer : layers) {
-            BakedLayerFile made{.path = withWord(withLayer(output_, layerName(layer.layer)), word)};
+            const std::string& base = step_.layers_output.empty() ? output_ : step_.layers_output;
+            BakedLayerFile made{.path = withWord(withLayer(base, layerName(layer.layer)), word)};
             const std::vector<std::uint8_t> png =
                 layerPng(layer, file.map, options_.map.bits, models_.low.origin, made);
             if (layer.layer == MapLayer::id) {
@@ -380,12 +381,12 @@ class FileBaking {
     const std::string& output_;
     std::string high_ = {};
     bool is_without_map_ = false;  ///< no ray of an image met anything
-    InputFiles inputs_ = {};
     BakeFileOptions options_;
+    const BakeStep& step_;
     BakeModels models_ = {};
     SharedRays shared_ = {};                 ///< of the high poly, for all images
     std::optional<HighDetail> detail_ = {};  ///< refers to the models
-    AtomicOutput files_{{.sync = options_.file.sync, .inputs = &inputs_}};
+    AtomicOutput& files_ = step_.map_files;
     std::vector<ModelMap> maps_ = {};
     std::set<std::string> words_ = {};
     BakeFileReport report_ = {};
@@ -395,7 +396,19 @@ class FileBaking {
 
 Result<BakeFileReport> bakeFile(const std::string& low, const std::string& high, const std::string& output,
                                 const BakeFileOptions& options) {
-    return atFileBorder([&]() -> Result<BakeFileReport> { return FileBaking(output, options).run(low, high); });
+    return atFileBorder([&]() -> Result<BakeFileReport> {
+        InputFiles inputs;
+        AtomicOutput files({.sync = options.file.sync, .inputs = &inputs});
+        const BakeStep whole{.inputs = inputs, .map_files = files, .model_files = files};
+        BakeFileReport report = bakeAsStep(low, high, output, options, whole);
+        if (!report.output_files.empty()) files.commit();
+        return report;
+    });
+}
+
+BakeFileReport bakeAsStep(const std::string& low, const std::string& high, const std::string& output,
+                          const BakeFileOptions& options, const BakeStep& step) {
+    return FileBaking(output, options, step).run(low, high);
 }
 
 std::vector<Vec3> pictureOfOrigins(const BakedMap& map) {
@@ -530,7 +543,7 @@ Json bakedFileJson(const BakedFile& file) {
 
 }  // namespace
 
-std::string bakeJson(const Outcome<BakeFileReport>& outcome, const std::string& high, ExitCode exit_code) {
+Json bakeDocument(const Outcome<BakeFileReport>& outcome, const std::string& high, ExitCode exit_code) {
     const Result<BakeFileReport>& result = outcome.result;
     Json json = documentJson("tspace.bake/1", result.ok(), exit_code);
     json["low"] = outcome.input;
@@ -538,7 +551,7 @@ std::string bakeJson(const Outcome<BakeFileReport>& outcome, const std::string& 
     json["output"] = outcome.output;
     json["seconds"] = outcome.seconds;
     json["error"] = errorJson(result ? nullptr : &result.error());
-    if (!result) return jsonText(json);
+    if (!result) return json;
     json["lowTriangles"] = result->low_triangle_count;
     json["highTriangles"] = result->high_triangle_count;
     json["framesMade"] = result->frames_made;
@@ -548,7 +561,11 @@ std::string bakeJson(const Outcome<BakeFileReport>& outcome, const std::string& 
     json["outputFiles"] = result->output_files;
     json["findings"] = result->findings;
     json["warnings"] = result->warnings;
-    return jsonText(json);
+    return json;
+}
+
+std::string bakeJson(const Outcome<BakeFileReport>& outcome, const std::string& high, ExitCode exit_code) {
+    return jsonText(bakeDocument(outcome, high, exit_code));
 }
 
 }  // namespace tspace::report

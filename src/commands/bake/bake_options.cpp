@@ -53,10 +53,11 @@ Option mapSizeOption(BakeOptions& map) {
 }
 
 Option mapsOption(LayerOptions& layers) {
-    // The first name that is given takes the place of the default, which is the normal map alone.
+    // The first name that is given takes the place of the default.
     const auto take = [&layers, is_first = true](const std::string& name) mutable -> std::string {
         const bool is_normal = name == "normal";
         layers.has_normal = is_normal || (layers.has_normal && !is_first);
+        if (is_first) layers.layers.clear();
         is_first = false;
         for (std::uint32_t i = 0; i < kMapLayerCount; ++i) {
             const auto layer = static_cast<MapLayer>(i);
@@ -72,7 +73,7 @@ Option mapsOption(LayerOptions& layers) {
                "materials show.");
     maps.choices.emplace_back("normal");
     for (std::uint32_t i = 0; i < kMapLayerCount; ++i) maps.choices.emplace_back(layerName(static_cast<MapLayer>(i)));
-    maps.default_text = "normal";
+    maps.default_text = layers.layers.empty() ? "normal" : "all of them";
     maps.is_list = true;
     return maps;
 }

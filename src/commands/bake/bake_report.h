@@ -5,13 +5,18 @@
 #include <string>
 
 #include "commands/shared/report.h"
+#include "commands/shared/text.h"
 #include "tspace/bake_file.h"
 
 namespace tspace::report {
 
+Json bakeDocument(const Outcome<BakeFileReport>& outcome, const std::string& high, ExitCode exit_code);
 std::string bakeJson(const Outcome<BakeFileReport>& outcome, const std::string& high, ExitCode exit_code);
 /// Of a bake that was done. `out_mesh`: as BakeFileOptions::out_mesh.
 std::string bakeText(const Outcome<BakeFileReport>& outcome, const std::string& out_mesh);
+
+/// The rows of a bake that was done. `out_mesh`: as BakeFileOptions::out_mesh.
+void addBakedRows(const BakeFileReport& done, const std::string& out_mesh, Table& table);
 
 /// As docs/json.md has them.
 /// A normal map of the high poly, and how it is known which way its green points.

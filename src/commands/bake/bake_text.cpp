@@ -87,9 +87,7 @@ std::string highMapText(const BakedHighMap& map) {
                        map.green == Green::down ? "down" : "up", greenSourceWord(map.green_is));
 }
 
-std::string bakeText(const Outcome<BakeFileReport>& outcome, const std::string& out_mesh) {
-    const BakeFileReport& done = *outcome.result;
-    Table table;
+void addBakedRows(const BakeFileReport& done, const std::string& out_mesh, Table& table) {
     for (const BakedFile& file : done.files) {
         if (file.map.hit_count > 0) addFile(file, table);
     }
@@ -100,6 +98,11 @@ std::string bakeText(const Outcome<BakeFileReport>& outcome, const std::string& 
     if (done.frames_made) table.addRow({"note", "the low poly lacks frames; they were made as generate makes them"});
     if (done.matched_by_name) table.addRow({"note", "meshes were matched by their names"});
     for (const std::string& warning : done.warnings) table.addRow({"warning", printable(warning)});
+}
+
+std::string bakeText(const Outcome<BakeFileReport>& outcome, const std::string& out_mesh) {
+    Table table;
+    addBakedRows(*outcome.result, out_mesh, table);
     return fmt::format("{} -> {}\n{}", printable(outcome.input), printable(outcome.output), table.text("  "));
 }
 

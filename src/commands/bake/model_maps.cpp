@@ -268,17 +268,18 @@ class MapPlacing {
 
 }  // namespace
 
-void addModelWithMaps(ModelWithMaps&& model, AtomicOutput& files, std::vector<std::string>& warnings) {
+void addModelWithMaps(ModelWithMaps&& model, AtomicOutput& model_files, AtomicOutput& map_files,
+                      std::vector<std::string>& warnings) {
     Document& document = model.model.document();
-    const gltf::OutputTarget target = gltf::outputTarget(document, model.output, false);
+    const gltf::OutputTarget target = gltf::outputTarget(document, model.output, model_files.isStream());
     gltf::convertContainer(document, target, true, warnings);
     Editor editor(document, gltf::freeFileName(document, target, ".tspace.bin"));
     MapPlacing placing(document, editor, target);
     for (const ModelMap& map : model.maps) {
-        if (!placing.place(map)) files.add(map.path, std::span<const std::uint8_t>(map.png));
+        if (!placing.place(map)) map_files.add(map.path, std::span<const std::uint8_t>(map.png));
     }
     editor.finish();
-    gltf::writeDocument(document, target, files, warnings, {.thread_count = 1});
+    gltf::writeDocument(document, target, model_files, warnings, {.thread_count = 1});
 }
 
 }  // namespace tspace

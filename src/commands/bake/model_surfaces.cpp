@@ -402,9 +402,31 @@ FloatImage readFloatImage(const std::string& path, const FileOptions& options) {
     return readMapImage(path, {}, options);
 }
 
-BakeModels readBakeModels(const std::string& low, const std::string& high, const BakeFileOptions& options) {
+namespace {
+
+/// How a model is opened whose bytes are there, if they are: a GLB, whatever its name says.
+struct OpenedModel {
+    OpenedModel(const std::string& path, ByteSpan bytes, const FileOptions& options) : name(path), file(options) {
+        if (bytes.empty()) return;
+        if (!isGlbName(path)) name += ".glb";
+        file.content = bytes;
+    }
+
+    std::string name;
+    FileOptions file;
+};
+
+}  // namespace
+
+BakeModels readBakeModels(const std::string& low_path, const std::string& high_path, const BakeFileOptions& options,
+                          const BakeSources& sources) {
     BakeModels models;
-    DrawnScene low_scene = aboutInput(BakeInput::low, [&] { return readWithFrames(low, options, models); });
+    const OpenedModel low(low_path, sources.low, options.file), high(high_path, sources.high, options.file);
+    DrawnScene low_scene = aboutInput(BakeInput::low, [&] {
+        BakeFileOptions of_low = options;
+        of_low.file = low.file;
+        return readWithFrames(low.name, of_low, models);
+    });
     const bool frames_made = models.low.frames_made;
     DrawnScene cage_scene;
     if (!options.cage.empty()) {
@@ -415,8 +437,8 @@ BakeModels readBakeModels(const std::string& low, const std::string& high, const
         });
     }
     DrawnScene high_scene = aboutInput(BakeInput::high, [&] {
-        return showsMaterials(options.layers) ? readMaterialScene(high, options.file, !options.ignore_high_maps)
-                                              : readDrawnScene(high, options.file, !options.ignore_high_maps);
+        return showsMaterials(options.layers) ? readMaterialScene(high.name, high.file, !options.ignore_high_maps)
+                                              : readDrawnScene(high.name, high.file, !options.ignore_high_maps);
     });
     const DVec3 of_high = farPlace(high_scene);
     const DVec3 origin = length(of_high) > 0 ? of_high : farPlace(low_scene);
@@ -428,7 +450,7 @@ BakeModels readBakeModels(const std::string& low, const std::string& high, const
                             [&] { return lowModel(low_scene, options.cage.empty() ? nullptr : &cage_scene, used); });
     models.low.frames_made = frames_made;
     models.low.origin = origin;
-    models.high = aboutInput(BakeInput::high, [&] { return highModel(high_scene, used, high, options); });
+    models.high = aboutInput(BakeInput::high, [&] { return highModel(high_scene, used, high.name, options); });
     if (showsMaterials(options.layers) || shows(options.layers, MapLayer::id))
         models.high_scene = std::move(high_scene);
     if (!options.skew.empty())

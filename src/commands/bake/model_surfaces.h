@@ -49,9 +49,11 @@ struct ModelWithMaps {
     std::vector<ModelMap> maps = {};
 };
 
-/// Adds the model with its maps, and the maps themselves, to `files`. A GLB holds them; a .gltf names them where they lie in
-/// its folder or below, and holds them otherwise. Maps that were there go where nothing else shows them. Throws FileError.
-void addModelWithMaps(ModelWithMaps&& model, AtomicOutput& files, std::vector<std::string>& warnings);
+/// Adds the model with its maps to `model_files`, and the maps themselves to `map_files`, which may be the same. A GLB holds
+/// them; a .gltf names them where they lie in its folder or below, and holds them otherwise. Maps that were there go where
+/// nothing else shows them. Throws FileError.
+void addModelWithMaps(ModelWithMaps&& model, AtomicOutput& model_files, AtomicOutput& map_files,
+                      std::vector<std::string>& warnings);
 
 /// What `body` returns; where it fails, the error says that it is about this file.
 template <class Body>
@@ -162,10 +164,16 @@ const TangentUse* mapUse(const ScenePrimitive& primitive);
 /// An image that is an input of the call: readMapImage.
 FloatImage readFloatImage(const std::string& path, const FileOptions& options);
 
+/// GLBs in the place of the files of a bake, whose names say only what they are called. Empty: the file is read.
+struct BakeSources {
+    std::span<const std::uint8_t> low = {}, high = {};
+};
+
 /// Reads the models, makes the frames that the low poly lacks, and matches meshes by name. Throws FileError, which says as
 /// its element which BakeInput it is about: also where the low poly has no UVs, where the cage has other triangles, and
 /// where one of them has none at all.
-BakeModels readBakeModels(const std::string& low, const std::string& high, const BakeFileOptions& options);
+BakeModels readBakeModels(const std::string& low, const std::string& high, const BakeFileOptions& options,
+                          const BakeSources& sources = {});
 
 /// The low poly with tangents of `options`.tangents computed anew on these faces, in the order that readBakeModels gives. Nothing
 /// where that method gives another number of triangles. Throws FileError.

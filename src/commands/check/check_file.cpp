@@ -156,7 +156,9 @@ Json packedJson(const PackedFramesInfo& info) {
     });
 }
 
-Json checkedJson(const CheckOutcome& outcome) {
+}  // namespace
+
+Json checkedFileJson(const CheckOutcome& outcome) {
     Json json = fileJson(outcome);
     if (!outcome.result) return json;
     const CheckReport& report = *outcome.result;
@@ -173,12 +175,10 @@ Json checkedJson(const CheckOutcome& outcome) {
     return json;
 }
 
-}  // namespace
-
 std::string checkJson(const std::vector<CheckOutcome>& outcomes, ExitCode exit_code, Severity fail_on) {
     Json json = documentJson("tspace.check/1", exit_code == ExitCode::done, exit_code);
     json["failOn"] = severityName(fail_on);
-    json["files"] = listJson(outcomes, checkedJson);
+    json["files"] = listJson(outcomes, checkedFileJson);
     return jsonText(json);
 }
 

@@ -12,6 +12,8 @@ namespace tspace::report {
 
 using CheckOutcome = Outcome<CheckReport>;
 
+/// What the document says of one file.
+Json checkedFileJson(const CheckOutcome& outcome);
 std::string checkJson(const std::vector<CheckOutcome>& outcomes, ExitCode exit_code, Severity fail_on);
 /// As SARIF 2.1.0, for CI systems. `docs_url`: where docs/ is, which each rule names.
 std::string checkSarif(const std::vector<CheckOutcome>& outcomes, ExitCode exit_code, const std::string& docs_url);

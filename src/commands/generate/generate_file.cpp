@@ -40,14 +40,25 @@ void checkOptions(const std::string& input, const GenerateOptions& options) {
 /// An OBJ file has no magic word, so only its name tells it; everything else is read as glTF and refused there.
 bool isObj(const std::string& input) { return lowerExtension(input) == ".obj"; }
 
+Result<GenerateReport> generateAny(const std::string& input, const std::string& output, const GenerateOptions& options,
+                                   const GenerateStep* step) {
+    return atFileBorder([&]() -> Result<GenerateReport> {
+        checkOptions(input, options);
+        return isObj(input) ? generateObj(input, output, options, step)
+                            : gltf::generateGltf(input, output, options, step);
+    });
+}
+
 }  // namespace
 
 Result<GenerateReport> generateFile(const std::string& input, const std::string& output,
                                     const GenerateOptions& options) {
-    return atFileBorder([&]() -> Result<GenerateReport> {
-        checkOptions(input, options);
-        return isObj(input) ? generateObj(input, output, options) : gltf::generateGltf(input, output, options);
-    });
+    return generateAny(input, output, options, nullptr);
+}
+
+Result<GenerateReport> generateStep(const std::string& input, const std::string& output, const GenerateOptions& options,
+                                    const GenerateStep& step) {
+    return generateAny(input, output, options, &step);
 }
 
 gltf::GeneratedModel generateModel(const std::string& input, const GenerateOptions& options, bool with_images) {
@@ -217,7 +228,9 @@ Json convertedMapJson(const ConvertedMapReport& map) {
     return json;
 }
 
-Json generatedJson(const GenerateOutcome& outcome) {
+}  // namespace
+
+Json generatedFileJson(const GenerateOutcome& outcome) {
     Json json = Json::object({
         {"input", outcome.input},
         {"output", outcome.output},
@@ -242,12 +255,10 @@ Json generatedJson(const GenerateOutcome& outcome) {
     return json;
 }
 
-}  // namespace
-
 std::string generateJson(const std::vector<GenerateOutcome>& outcomes, ExitCode exit_code, double seconds) {
     Json json = documentJson("tspace.generate/1", exit_code == ExitCode::done, exit_code);
     json["seconds"] = seconds;
-    json["files"] = listJson(outcomes, generatedJson);
+    json["files"] = listJson(outcomes, generatedFileJson);
     json["dryRun"] = !outcomes.empty() && outcomes.front().is_dry_run;
     return jsonText(json);
 }

@@ -112,8 +112,9 @@ struct Decisions {
 
 /// The plan comes first and repair narrows it down; all others follow what the plan says then. Arrays that were decoded to
 /// look at are let go at the end: pools mostly read the file's own bytes, and all arrays together may be larger than they.
-Decisions decide(Model& model, const GenerateOptions& options, std::vector<std::string>& warnings) {
-    Decisions decisions{.plan = planGenerate(model.document(), model.primitives(), options)};
+Decisions decide(Model& model, const GenerateOptions& options, const NormalWishes& wishes,
+                 std::vector<std::string>& warnings) {
+    Decisions decisions{.plan = planGenerate(model.document(), model.primitives(), options, wishes)};
     GeneratePlan& plan = decisions.plan;
     if (options.existing == ExistingTangents::repair) planRepair(model, options, plan);
     planSurroundings(model, options, plan);
@@ -189,9 +190,10 @@ WorkedOn edit(Input& input, const Storage& storage, Decisions&& decisions, Gener
 }
 
 /// Turns triangles where that is asked for. Returns whether any were, and the container then is that of the output.
-bool turnWrong(Input& input, const Storage& storage, WindingPlan& plan, std::vector<std::string>& warnings) {
+bool turnWrong(Input& input, const Storage& storage, std::span<const std::uint32_t> kept, WindingPlan& plan,
+               std::vector<std::string>& warnings) {
     if (!input.options.mend_winding) return false;
-    plan = planWinding(input.model, input.options);
+    plan = planWinding(input.model, input.options, kept);
     if (!plan.turnsAny()) return false;
     Document& document = input.model.document();
     if (input.options.compression == Compression::keep) convertContainer(document, input.target, true, warnings);
@@ -201,15 +203,15 @@ bool turnWrong(Input& input, const Storage& storage, WindingPlan& plan, std::vec
 }
 
 /// All but reading and writing.
-WorkedOn generate(Input& input, bool with_images, GenerateReport& report) {
+WorkedOn generate(Input& input, bool with_images, const GenerateStep& step, GenerateReport& report) {
     Document& document = input.model.document();
     report.warnings = document.warnings;
     std::copy_n(document.coordinate_offset.begin(), 3, report.coordinate_offset);
     const Storage storage = prepareStorage(input, report.warnings);
     WindingPlan winding;
-    const bool was_turned = turnWrong(input, storage, winding, report.warnings);
+    const bool was_turned = turnWrong(input, storage, step.wound_meshes, winding, report.warnings);
     report.windings = std::move(winding.reports);
-    Decisions decisions = decide(input.model, input.options, report.warnings);
+    Decisions decisions = decide(input.model, input.options, step.normals, report.warnings);
     report.input_bytes = document.input_bytes;
     if (input.options.compression == Compression::keep && !was_turned) {
         const bool will_edit = decisions.changeGeometryOrMaps() || input.options.pack.has_value();
@@ -238,7 +240,8 @@ void tellFiles(const std::string& input, const Document& document, const AtomicO
     report.output_bytes = files.files().empty() ? document.input_bytes : files.byteCount();
 }
 
-GenerateReport generateToFile(const std::string& path, const std::string& output, const GenerateOptions& requested) {
+GenerateReport generateToFile(const std::string& path, const std::string& output, const GenerateOptions& requested,
+                              const GenerateStep* step) {
     GenerateReport report;
     InputFiles inputs;
     GenerateOptions options = requested;
@@ -246,15 +249,15 @@ GenerateReport generateToFile(const std::string& path, const std::string& output
     tell(options, "reading", 0, 1);
     Input input = toInput(Model(loadDocument(path, options.file, options.execution, options.progress)), output,
                           options.sink != nullptr, options);
-    const WorkedOn worked_on = generate(input, true, report);
-    writeGenerated(path, input.model.document(), input.target, requested, worked_on, inputs, report);
+    const WorkedOn worked_on = generate(input, true, step != nullptr ? *step : GenerateStep{}, report);
+    writeGenerated(path, input.model.document(), input.target, requested, worked_on, inputs, step != nullptr, report);
     return report;
 }
 
 }  // namespace
 
 void writeGenerated(const std::string& input, Document& document, const OutputTarget& target,
-                    const GenerateOptions& options, const WorkedOn& worked_on, const InputFiles& inputs,
+                    const GenerateOptions& options, const WorkedOn& worked_on, const InputFiles& inputs, bool is_step,
                     GenerateReport& report) {
     AtomicOutput files({.sink = options.sink,
                         .is_dry_run = options.dry_run,
@@ -268,7 +271,7 @@ void writeGenerated(const std::string& input, Document& document, const OutputTa
         writeUnchanged(document, target, files, report.warnings);
     }
     tellFiles(input, document, files, report);
-    addWarnings(options, worked_on, report);
+    addWarnings(options, worked_on, is_step, report);
     tell(options, "writing", 1, 1);
     // Nothing that can fail comes after it.
     files.commit();
@@ -277,14 +280,14 @@ void writeGenerated(const std::string& input, Document& document, const OutputTa
 GeneratedModel generateModel(Model&& model, const GenerateOptions& options, bool with_images) {
     Input input = toInput(std::move(model), "model.glb", true, options);
     GenerateReport report;
-    generate(input, with_images, report);
+    generate(input, with_images, {}, report);
     input.model.readAnew();
     return {std::move(input.model), std::move(report)};
 }
 
-Result<GenerateReport> generateGltf(const std::string& input, const std::string& output,
-                                    const GenerateOptions& options) {
-    return atFileBorder([&]() -> Result<GenerateReport> { return generateToFile(input, output, options); });
+Result<GenerateReport> generateGltf(const std::string& input, const std::string& output, const GenerateOptions& options,
+                                    const GenerateStep* step) {
+    return atFileBorder([&]() -> Result<GenerateReport> { return generateToFile(input, output, options, step); });
 }
 
 }  // namespace tspace::gltf

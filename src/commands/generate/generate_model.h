@@ -2,10 +2,24 @@
 // Generating in memory, and generateFile for each format of input: read, decide, compute, edit, write.
 #pragma once
 
+#include <cstdint>
 #include <string>
+#include <vector>
 
+#include "model/gltf/generate_plan.h"
 #include "model/gltf/model.h"
 #include "tspace/asset.h"
+
+namespace tspace {
+
+/// Generating as a step of another command: of its options none is said to have had no effect.
+struct GenerateStep {
+    gltf::NormalWishes normals = {};  ///< not for OBJ
+    std::vector<std::uint32_t> wound_meshes =
+        {};  ///< meshes that GenerateOptions::mend_winding leaves alone; not for OBJ
+};
+
+}  // namespace tspace
 
 namespace tspace::gltf {
 
@@ -19,9 +33,9 @@ struct GeneratedModel {
 /// as a GLB does. GenerateOptions::sink and dry_run mean nothing. Throws FileError.
 GeneratedModel generateModel(Model&& input, const GenerateOptions& options, bool with_images);
 
-/// generateFile for glTF inputs, and for what the importer makes of other formats.
-Result<GenerateReport> generateGltf(const std::string& input, const std::string& output,
-                                    const GenerateOptions& options);
+/// generateFile for glTF inputs, and for what the importer makes of other formats. `step`: null for a command of its own.
+Result<GenerateReport> generateGltf(const std::string& input, const std::string& output, const GenerateOptions& options,
+                                    const GenerateStep* step);
 
 }  // namespace tspace::gltf
 
@@ -30,8 +44,13 @@ namespace tspace {
 /// The same for a model file of any format.
 gltf::GeneratedModel generateModel(const std::string& input, const GenerateOptions& options, bool with_images);
 
+/// generateFile as a step.
+Result<GenerateReport> generateStep(const std::string& input, const std::string& output, const GenerateOptions& options,
+                                    const GenerateStep& step);
+
 /// generateFile for an OBJ input; `output` is a .glb or .gltf.
-Result<GenerateReport> generateObj(const std::string& input, const std::string& output, const GenerateOptions& options);
+Result<GenerateReport> generateObj(const std::string& input, const std::string& output, const GenerateOptions& options,
+                                   const GenerateStep* step);
 /// generateModel for an OBJ input. Throws FileError.
 gltf::GeneratedModel generateObjModel(const std::string& input, const GenerateOptions& options);
 

@@ -281,7 +281,8 @@ Made generate(const std::string& input, const std::string& output, const Generat
     return made;
 }
 
-GenerateReport generateToFile(const std::string& input, const std::string& output, const GenerateOptions& requested) {
+GenerateReport generateToFile(const std::string& input, const std::string& output, const GenerateOptions& requested,
+                              bool is_step) {
     checkOutput(output);
     if (requested.sink && !isGlbName(output)) failFile(ErrorCode::invalidOption, "only a GLB is one stream of bytes");
     GenerateReport report;
@@ -291,15 +292,16 @@ GenerateReport generateToFile(const std::string& input, const std::string& outpu
     Made made = generate(input, output, options, report);
     // All files that it names lie where it goes to, and none is copied.
     const gltf::OutputTarget target{.path = output, .container = made.document.container, .same_folder = true};
-    gltf::writeGenerated(input, made.document, target, requested, made.worked_on, inputs, report);
+    gltf::writeGenerated(input, made.document, target, requested, made.worked_on, inputs, is_step, report);
     return report;
 }
 
 }  // namespace
 
-Result<GenerateReport> generateObj(const std::string& input, const std::string& output,
-                                   const GenerateOptions& options) {
-    return atFileBorder([&]() -> Result<GenerateReport> { return generateToFile(input, output, options); });
+Result<GenerateReport> generateObj(const std::string& input, const std::string& output, const GenerateOptions& options,
+                                   const GenerateStep* step) {
+    return atFileBorder(
+        [&]() -> Result<GenerateReport> { return generateToFile(input, output, options, step != nullptr); });
 }
 
 gltf::GeneratedModel generateObjModel(const std::string& input, const GenerateOptions& options) {

@@ -16,6 +16,9 @@ using GenerateOutcome = Outcome<GenerateReport>;
 
 std::string generateJson(const std::vector<GenerateOutcome>& outcomes, ExitCode exit_code, double seconds);
 
+/// What the document says of one file.
+Json generatedFileJson(const GenerateOutcome& outcome);
+
 std::string generateText(const GenerateOutcome& outcome);
 /// In one line, for one of several files.
 std::string generateLine(const GenerateOutcome& outcome);

@@ -31,8 +31,8 @@ struct WindingPlan {
 };
 
 /// Of a glTF model, mesh by mesh: where nodes put a mesh, and whether they mirror it, does not matter, since viewers look
-/// at the winding in the mesh's own coordinates. Changes nothing.
-WindingPlan planWinding(gltf::Model& model, const GenerateOptions& options);
+/// at the winding in the mesh's own coordinates. `kept`: meshes that are left alone. Changes nothing.
+WindingPlan planWinding(gltf::Model& model, const GenerateOptions& options, std::span<const std::uint32_t> kept);
 
 /// One more face that was turned, behind those before it.
 void listTurned(std::uint64_t face, PrimitiveReport& report);
@@ -107,15 +107,15 @@ struct WorkedOn {
 };
 
 /// Adds to the warnings: triangles that are wound against their neighbours, new normals that point behind their triangles,
-/// and options that are not the default and had nothing to work on.
-void addWarnings(const GenerateOptions& options, const WorkedOn& worked_on, GenerateReport& report);
+/// and options that are not the default and had nothing to work on, but not those of a step.
+void addWarnings(const GenerateOptions& options, const WorkedOn& worked_on, bool is_step, GenerateReport& report);
 
 namespace gltf {
 
 /// Writes a document that was generated, completes the report by what only that tells, and so ends the call: nothing that can
 /// fail comes after it. `inputs`: what the call read.
 void writeGenerated(const std::string& input, Document& document, const OutputTarget& target,
-                    const GenerateOptions& options, const WorkedOn& worked_on, const InputFiles& inputs,
+                    const GenerateOptions& options, const WorkedOn& worked_on, const InputFiles& inputs, bool is_step,
                     GenerateReport& report);
 
 }  // namespace gltf

@@ -90,7 +90,7 @@ void warnOfNoise(const GenerateOptions& options, bool any_made, GenerateReport& 
         warn({"--denoise"}, "no positions are noisy", report);
 }
 
-void warnOfNormals(const GenerateOptions& options, GenerateReport& report) {
+void warnOfIdleNormals(const GenerateOptions& options, GenerateReport& report) {
     const GenerateOptions plain;
     std::vector<std::string> idle;
     const bool any_made = any(report, [](const auto& primitive) { return primitive.normals_generated; });
@@ -111,7 +111,6 @@ void warnOfNormals(const GenerateOptions& options, GenerateReport& report) {
                  : "no normals were made; those that are there stay (--overwrite-normals makes them anew)",
              report);
     }
-    noteFoundValues(options.normals, report);
     warnOfNoise(options, any_made, report);
     const bool morphs = any(report, [](const auto& primitive) { return primitive.morph_normals_computed != 0; });
     if (options.morph_normals != MorphNormals::keep && !morphs) {
@@ -173,10 +172,11 @@ void warnOfFile(const GenerateOptions& options, const WorkedOn& worked_on, Gener
 
 }  // namespace
 
-void addWarnings(const GenerateOptions& options, const WorkedOn& worked_on, GenerateReport& report) {
+void addWarnings(const GenerateOptions& options, const WorkedOn& worked_on, bool is_step, GenerateReport& report) {
     warnOfWinding(options, report);
-    if (report.primitives.empty()) return;
-    warnOfNormals(options, report);
+    noteFoundValues(options.normals, report);
+    if (report.primitives.empty() || is_step) return;
+    warnOfIdleNormals(options, report);
     warnOfTangents(options, report);
     warnOfFile(options, worked_on, report);
     if (options.flip_green != FlipGreen::none && report.normal_maps.empty())

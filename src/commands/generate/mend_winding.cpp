@@ -84,7 +84,7 @@ bool WindingPlan::turnsAny() const {
     return std::any_of(turned.begin(), turned.end(), [](const auto& faces) { return !faces.empty(); });
 }
 
-WindingPlan planWinding(gltf::Model& model, const GenerateOptions& options) {
+WindingPlan planWinding(gltf::Model& model, const GenerateOptions& options, std::span<const std::uint32_t> kept) {
     WindingPlan plan;
     const std::vector<gltf::Primitive>& primitives = model.primitives();
     plan.turned.resize(primitives.size());
@@ -94,6 +94,7 @@ WindingPlan planWinding(gltf::Model& model, const GenerateOptions& options) {
             corners += 3 * primitives[past].triangleCount();
             vertices += primitives[past].vertex_count;
         }
+        if (std::find(kept.begin(), kept.end(), primitives[i].mesh) != kept.end()) continue;
         model.document().memory->require(48 * corners + 80 * vertices, primitives[i].place());
         MeshSurface surface(model);
         for (std::size_t number = i; number < past; ++number) surface.add(number, !options.overwrite_normals);

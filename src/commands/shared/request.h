@@ -11,6 +11,7 @@
 #include "tspace/bake_file.h"
 #include "tspace/check.h"
 #include "tspace/diff.h"
+#include "tspace/finish_file.h"
 #include "tspace/flip_green.h"
 #include "tspace/identify.h"
 #include "tspace/map_compress_file.h"
@@ -40,6 +41,7 @@ OptionList inspectOptions(FileOptions& options);
 OptionList flipGreenOptions(FlipGreenOptions& options);
 OptionList renderOptions(RenderOptions& options);
 OptionList bakeOptions(BakeFileOptions& options);
+OptionList finishOptions(FinishOptions& options);
 OptionList mapErrorOptions(MapErrorFileOptions& options);
 OptionList convertMapOptions(ConvertMapFileOptions& options);
 OptionList heightToNormalOptions(HeightToNormalFileOptions& options);

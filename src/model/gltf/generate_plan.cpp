@@ -48,8 +48,9 @@ bool hasSurface(const Primitive& primitive) {
 
 /// Whether its normals are made anew, and so are the tangents that it has: they would not fit.
 bool makesNormalsAnew(PrimitiveReport& report, const Document& document, const Primitive& primitive,
-                      const std::vector<TangentUse>& uses, const GenerateOptions& options) {
-    if (!options.overwrite_normals || !hasSurface(primitive) || surfaceKind(document, primitive).is_unlit) return false;
+                      const std::vector<TangentUse>& uses, const GenerateOptions& options, bool is_wished) {
+    if (!options.overwrite_normals && !is_wished) return false;
+    if (!hasSurface(primitive) || surfaceKind(document, primitive).is_unlit) return false;
     if (!packedAlone(document, primitive).empty()) return false;
     const bool can_follow = options.tangents.method == Method::basis || primitive.find(uvsOf(uses));
     if (!primitive.find("TANGENT") || tangentsGo(primitive, uses, options) || can_follow) return true;
@@ -199,7 +200,8 @@ bool lacksDeltas(const Primitive& primitive) {
 }
 
 GeneratePlan planGenerate(const Document& document, std::span<const Primitive> primitives,
-                          const GenerateOptions& options) {
+                          const GenerateOptions& options, const NormalWishes& wishes) {
+    const auto isIn = [](const std::vector<bool>& list, std::size_t i) { return i < list.size() && list[i]; };
     GeneratePlan plan;
     const std::set<std::string> animated = animatedPointers(document);
     const bool is_blenders = comesFromBlender(document);
@@ -217,8 +219,10 @@ GeneratePlan planGenerate(const Document& document, std::span<const Primitive> p
         report.morph_target_count = static_cast<std::uint32_t>(primitive.targets.size());
         report.vertices_before = report.vertices_after = primitive.vertex_count;
         const std::vector<TangentUse> uses = tangentUses(document, primitive);
-        NormalsPlan normals{.anew = makesNormalsAnew(report, document, primitive, uses, options)};
-        if (!normals.anew) normals.morphs = morphNormals(document, primitive, options.morph_normals);
+        NormalsPlan normals{.anew = makesNormalsAnew(report, document, primitive, uses, options, isIn(wishes.anew, i))};
+        if (!normals.anew)
+            normals.morphs =
+                morphNormals(document, primitive, isIn(wishes.morphs, i) ? MorphNormals::all : options.morph_normals);
         const bool computes = decide(report, document, primitive, uses, options, normals);
         if (hasTriangles(primitive.mode)) {
             const bool follows = computes && report.uv_set >= 0 && report.action != PrimitiveAction::kept;

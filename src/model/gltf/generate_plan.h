@@ -72,8 +72,14 @@ struct GeneratePlan {
 /// Whether a morph target that moves the surface leaves the tangents behind.
 bool lacksDeltas(const Primitive& primitive);
 
+/// Normals that are made whatever the options say: one per primitive in file order, or none.
+struct NormalWishes {
+    std::vector<bool> anew = {};    ///< as GenerateOptions::overwrite_normals, of these alone
+    std::vector<bool> morphs = {};  ///< as MorphNormals::all, of these alone
+};
+
 GeneratePlan planGenerate(const Document& document, std::span<const Primitive> primitives,
-                          const GenerateOptions& options);
+                          const GenerateOptions& options, const NormalWishes& wishes = {});
 
 // Which primitives of a mesh are one surface where normals are made.
 

@@ -217,25 +217,6 @@ std::string findingHtml(const Finding& finding, PictureSource& pictures) {
 
 std::string anchorOf(std::size_t number) { return "file-" + std::to_string(number + 1); }
 
-std::string fileHtml(const report::CheckOutcome& outcome, std::size_t number, const FileOptions& file,
-                     std::size_t room) {
-    std::string html = "<section id=\"" + anchorOf(number) + "\">\n<h2>" + htmlText(outcome.input) + "</h2>\n";
-    if (!outcome.result) {
-        return html + "<article class=\"error\"><h3><b>error</b> not read</h3><p>" +
-               htmlText(outcome.result.error().message) + "</p></article>\n</section>\n";
-    }
-    const CheckReport& report = *outcome.result;
-    html += "<p>" + severityCounts(report) + " in " + counted(report.primitive_count, "primitive") + ", " +
-            std::to_string(report.tangents_count) + " of them with tangents; looked at " +
-            counted(report.image_count, "normal map") +
-            ": what the channels hold, and which way green points (told by " + std::to_string(report.green_count) +
-            ")</p>\n";
-    if (!report.generator.empty()) html += "<p class=\"dim\">made by " + htmlText(report.generator) + "</p>\n";
-    PictureSource pictures(outcome.input, file, room);
-    for (const Finding& finding : report.findings) html += findingHtml(finding, pictures);
-    return html + "</section>\n";
-}
-
 std::string overviewHtml(const std::vector<report::CheckOutcome>& outcomes) {
     std::string html =
         "<div class=\"scroll\"><table><thead><tr><th>file</th><th class=\"n\">errors</th><th class=\"n\">warnings</th>"
@@ -255,6 +236,25 @@ std::string overviewHtml(const std::vector<report::CheckOutcome>& outcomes) {
 
 }  // namespace
 
+std::string checkedFileHtml(const report::CheckOutcome& outcome, std::size_t number, const FileOptions& file,
+                            std::size_t room) {
+    std::string html = "<section id=\"" + anchorOf(number) + "\">\n<h2>" + htmlText(outcome.input) + "</h2>\n";
+    if (!outcome.result) {
+        return html + "<article class=\"error\"><h3><b>error</b> not read</h3><p>" +
+               htmlText(outcome.result.error().message) + "</p></article>\n</section>\n";
+    }
+    const CheckReport& report = *outcome.result;
+    html += "<p>" + severityCounts(report) + " in " + counted(report.primitive_count, "primitive") + ", " +
+            std::to_string(report.tangents_count) + " of them with tangents; looked at " +
+            counted(report.image_count, "normal map") +
+            ": what the channels hold, and which way green points (told by " + std::to_string(report.green_count) +
+            ")</p>\n";
+    if (!report.generator.empty()) html += "<p class=\"dim\">made by " + htmlText(report.generator) + "</p>\n";
+    PictureSource pictures(outcome.input, file, room);
+    for (const Finding& finding : report.findings) html += findingHtml(finding, pictures);
+    return html + "</section>\n";
+}
+
 std::string checkPage(const std::vector<report::CheckOutcome>& outcomes, const FileOptions& file) {
     std::string html = pageHead("tspace check");
     html += "<h1>Frames of " + counted(outcomes.size(), "file") + "</h1>\n";
@@ -265,7 +265,7 @@ std::string checkPage(const std::vector<report::CheckOutcome>& outcomes, const F
     if (outcomes.size() > 1) html += overviewHtml(outcomes);
     for (std::size_t i = 0; i < outcomes.size(); ++i) {
         const std::size_t left = html.size() < kMostPageBytes ? kMostPageBytes - html.size() : 0;
-        html += fileHtml(outcomes[i], i, file, std::min(left, kMostModelBytes));
+        html += checkedFileHtml(outcomes[i], i, file, std::min(left, kMostModelBytes));
     }
     return html + pageEnd();
 }

@@ -57,6 +57,10 @@ class FindingPictures {
     std::unique_ptr<Model> model_;
 };
 
+/// The part of a page about one file, under a heading. `room`: for pictures, in bytes.
+std::string checkedFileHtml(const report::CheckOutcome& outcome, std::size_t number, const FileOptions& file,
+                            std::size_t room);
+
 /// One HTML file that needs nothing else: a summary, an overview where there are several files, and of each file its
 /// findings, with pictures of their places before and after the remedy where that can be shown. Files are read once more
 /// for the pictures, as `file` says; of one that cannot be, such as stdin, there are none. All text from files is

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// Baking as a step of another command.
+#pragma once
+
+#include <string>
+
+#include "commands/bake/model_surfaces.h"
+#include "model/io/atomic_output.h"
+#include "tspace/bake_file.h"
+
+namespace tspace {
+
+/// Where the models come from, and where the results go.
+struct BakeStep {
+    BakeSources sources = {};
+    /// What the names of the other maps are made of: NAME_ao.png of NAME.png. Empty: of the output, as of the normal map.
+    std::string layers_output = {};
+    bool notes_noise = true;  ///< warns of noisy positions of the high poly
+    InputFiles& inputs;       ///< are told what is read
+    AtomicOutput& map_files;
+    AtomicOutput& model_files;  ///< of BakeFileOptions::out_mesh
+};
+
+/// bakeFile, but that nothing is committed. Where the report names no output files, nothing is to be. Throws FileError.
+BakeFileReport bakeAsStep(const std::string& low, const std::string& high, const std::string& output,
+                          const BakeFileOptions& options, const BakeStep& step);
+
+}  // namespace tspace

@@ -1,0 +1,436 @@
+// SPDX-License-Identifier: MIT
+// finishFile: mends, checks, mends what check still finds, bakes, and checks what is written; its report as JSON.
+#include "tspace/finish_file.h"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "commands/bake/bake_report.h"
+#include "commands/bake/bake_step.h"
+#include "commands/check/check_report.h"
+#include "commands/finish/finish_report.h"
+#include "commands/generate/generate_model.h"
+#include "commands/generate/generate_report.h"
+#include "core/base/numbers.h"
+#include "model/io/atomic_output.h"
+#include "model/io/file_error.h"
+#include "model/io/file_io.h"
+#include "model/read/read_scene.h"
+
+namespace tspace {
+namespace {
+
+/// What makes UVs, which tspace does not.
+constexpr const char* kUvMakers = "unwrapping makes them (Blender's Smart UV Project, xatlas, RizomUV)";
+
+/// A name that says GLB, for bytes that are one.
+std::string glbName(const std::string& path) { return isGlbName(path) ? path : path + ".glb"; }
+
+/// Findings that new normals mend. `was_turned`: triangles of the primitive were, and its normals made on them as they were.
+bool asksForNormals(const Finding& finding, bool was_turned) {
+    switch (finding.code) {
+        case FindingCode::normalsMissing:
+            return true;
+        case FindingCode::normalsAgainstWinding:
+            return finding.severity == Severity::error || (finding.severity == Severity::warning && was_turned);
+        case FindingCode::normalsNotFinite:
+        case FindingCode::normalsNotUnit:
+            return finding.severity == Severity::error;
+        default:
+            return false;
+    }
+}
+
+bool asksForMorphNormals(const Finding& finding) {
+    return finding.code == FindingCode::morphNormalsWrong && finding.severity == Severity::error;
+}
+
+/// A model in work: a GLB in memory, and what is known of it.
+class ModelInWork {
+  public:
+    /// `output`: what the result will be called, whose folder files that it names are told from.
+    ModelInWork(const std::string& path, const std::string& output, bool is_low, const FinishOptions& options,
+                FinishedModel& report)
+        : path_(path), output_(output), is_low_(is_low), options_(options), report_(report) {
+        report_.path = path;
+    }
+
+    void finish() {
+        report_.before = check(path_, {});
+        GenerateOptions generate = generateOptions();
+        runFirst(generate, {});
+        if (std::vector<std::uint32_t> right = rightMeshes(); !right.empty()) {
+            // Faces of OBJ files are one surface.
+            generate.mend_winding = lowerExtension(path_) != ".obj";
+            runFirst(generate, {.wound_meshes = std::move(right)});
+        }
+        const gltf::NormalWishes wishes = wishesOf();
+        if (!wishes.anew.empty()) {
+            generate.mend_winding = false;
+            const Bytes before = std::move(bytes_);
+            take(run(glbName(path_), before, generate, {.normals = wishes}), wishes);
+            check_ = check(glbName(path_), bytes_);
+        }
+        report_.made.output_files.clear();
+        countUvs();
+    }
+
+    [[nodiscard]] const Bytes& bytes() const { return bytes_; }
+    [[nodiscard]] const CheckReport& checked() const { return check_; }
+
+  private:
+    [[nodiscard]] FileOptions fileOf(ByteSpan content) const {
+        FileOptions file = options_.file;
+        file.content = content;
+        return file;
+    }
+
+    [[nodiscard]] CheckReport check(const std::string& name, ByteSpan content) const {
+        CheckOptions check;
+        check.file = fileOf(content);
+        check.execution = options_.execution;
+        return valueOrThrow(checkFile(name, check));
+    }
+
+    [[nodiscard]] GenerateOptions generateOptions() const {
+        GenerateOptions generate;
+        generate.existing = ExistingTangents::repair;
+        generate.faces = Faces::automatic;
+        generate.mend_winding = options_.mend_winding;
+        if (options_.normals != FinishNormals::none) {
+            generate.normals.weighting = NormalWeighting::best;
+            generate.normals.crease_angle_deg = is_low_ ? 180 : options_.crease_angle_deg;
+            generate.normals.denoise = options_.denoise;
+        }
+        generate.execution = options_.execution;
+        generate.progress = options_.progress;
+        return generate;
+    }
+
+    void runFirst(const GenerateOptions& generate, const GenerateStep& step) {
+        report_.made = run(path_, {}, generate, step);
+        check_ = report_.made.changed ? check(glbName(path_), bytes_) : report_.before;
+    }
+
+    /// Meshes whose normals fit the triangles less since some were turned. Normals that are made anew fit them all the same.
+    [[nodiscard]] std::vector<std::uint32_t> rightMeshes() {
+        if (options_.normals == FinishNormals::all) return {};
+        const auto sharesOf = [](const CheckReport& report) {
+            std::map<std::uint32_t, double> shares;  // of surfaces, by mesh
+            for (const Finding& finding : report.findings) {
+                if (finding.code == FindingCode::normalsAgainstWinding) shares[finding.mesh] += finding.surface_share;
+            }
+            return shares;
+        };
+        const std::map<std::uint32_t, double> before = sharesOf(report_.before);
+        std::vector<std::uint32_t> right;
+        for (const auto& [mesh, share] : sharesOf(check_)) {
+            const auto known = before.find(mesh);
+            const auto turned = turnedIn(mesh);
+            if (turned == 0 || share <= (known == before.end() ? 0 : known->second)) continue;
+            right.push_back(mesh);
+            report_.left_winding_count += turned;
+        }
+        return right;
+    }
+
+    [[nodiscard]] std::uint64_t turnedIn(std::uint32_t mesh) const {
+        std::uint64_t count = 0;
+        for (const MendedWindingReport& mended : report_.made.windings) {
+            if (mended.mesh == mesh || lowerExtension(path_) == ".obj") count += mended.winding.turned_count;
+        }
+        return count;
+    }
+
+    /// Reads the file, or the bytes, and puts the result into `bytes_`.
+    GenerateReport run(const std::string& name, ByteSpan content, GenerateOptions generate, const GenerateStep& step) {
+        bytes_.clear();
+        generate.file = fileOf(content);
+        generate.sink = [this](ByteSpan bytes) {
+            bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());
+            return true;
+        };
+        return valueOrThrow(generateStep(name, output_, generate, step));
+    }
+
+    /// Which normals are made once triangles are wound as they should be.
+    [[nodiscard]] gltf::NormalWishes wishesOf() const {
+        if (options_.normals == FinishNormals::none) return {};
+        const std::vector<PrimitiveReport>& primitives = report_.made.primitives;
+        // Those of STL say where triangles look, and not how they are shaded.
+        const bool all = options_.normals == FinishNormals::all || lowerExtension(path_) == ".stl";
+        gltf::NormalWishes wishes{.anew = std::vector<bool>(primitives.size(), all),
+                                  .morphs = std::vector<bool>(primitives.size(), false)};
+        for (const Finding& finding : check_.findings) {
+            const auto found =
+                std::find_if(primitives.begin(), primitives.end(), [&](const PrimitiveReport& primitive) {
+                    return primitive.mesh == finding.mesh && primitive.primitive == finding.primitive;
+                });
+            if (finding.place.empty() || found == primitives.end()) continue;
+            const auto i = static_cast<std::size_t>(found - primitives.begin());
+            if (asksForMorphNormals(finding)) wishes.morphs[i] = true;
+            if (asksForNormals(finding, found->winding_mended_count != 0)) wishes.anew[i] = true;
+        }
+        const auto any = [](const std::vector<bool>& list) {
+            return std::find(list.begin(), list.end(), true) != list.end();
+        };
+        return any(wishes.anew) || any(wishes.morphs) ? wishes : gltf::NormalWishes{};
+    }
+
+    /// Adds what a second run did.
+    void take(GenerateReport&& second, const gltf::NormalWishes& wishes) {
+        GenerateReport& made = report_.made;
+        made.changed = made.changed || second.changed;
+        made.output_bytes = second.output_bytes;
+        for (std::string& warning : second.warnings) {
+            if (std::find(made.warnings.begin(), made.warnings.end(), warning) == made.warnings.end())
+                made.warnings.push_back(std::move(warning));
+        }
+        for (std::size_t i = 0; i < made.primitives.size() && i < second.primitives.size(); ++i) {
+            if (!wishes.anew[i] && !wishes.morphs[i]) continue;
+            PrimitiveReport& now = second.primitives[i];
+            PrimitiveReport& first = made.primitives[i];
+            now.winding_mended_count = first.winding_mended_count;
+            now.winding_mended = std::move(first.winding_mended);
+            now.vertices_before = first.vertices_before;
+            first = std::move(now);
+        }
+    }
+
+    void countUvs() {
+        const Scene scene = readScene(glbName(path_), fileOf(bytes_), false);
+        for (const ScenePrimitive& primitive : scene.primitives) {
+            const bool has_uvs = std::any_of(primitive.uv_sets.begin(), primitive.uv_sets.end(),
+                                             [](const auto& set) { return !set.empty(); });
+            report_.without_uvs_count += !primitive.corners.empty() && !has_uvs;
+        }
+    }
+
+    const std::string &path_, &output_;
+    bool is_low_;
+    const FinishOptions& options_;
+    FinishedModel& report_;
+    Bytes bytes_ = {};
+    CheckReport check_ = {};  ///< of the bytes
+};
+
+class Finishing {
+  public:
+    explicit Finishing(const FinishOptions& options) : options_(options) { inputs_.watch(options_.file); }
+
+    FinishReport run(const std::string& input, const std::string& output) {
+        if (!isGlbName(output))
+            failFile(ErrorCode::unsupportedFile,
+                     "the output " + pathInQuotes(output) + " ends in neither .glb nor .vrm");
+        // The low poly first: it is small, and what is wrong with it is known soon.
+        ModelInWork model(input, output, false, options_, report_.model);
+        if (options_.low.empty()) {
+            aboutInput(BakeInput::high, [&] { return model.finish(), true; });
+            sayWhatIsLeft(report_.model);
+            report_.check = model.checked();
+            write(output, model.bytes());
+            return std::move(report_);
+        }
+        ModelInWork low(options_.low, output, true, options_, report_.low.emplace());
+        aboutInput(BakeInput::low, [&] { return low.finish(), true; });
+        checkLow();
+        aboutInput(BakeInput::high, [&] { return model.finish(), true; });
+        noteNoise();
+        const Bytes baked = bake(input, output, low.bytes(), model.bytes());
+        if (report_.bake->output_files.empty()) return std::move(report_);
+        CheckOptions check;
+        check.file = options_.file;
+        check.file.content = baked;
+        check.execution = options_.execution;
+        report_.check = valueOrThrow(checkFile(output, check));
+        sayWhatIsLeft(*report_.low);
+        write(output, baked);
+        return std::move(report_);
+    }
+
+  private:
+    /// Fails where nothing can be baked.
+    void checkLow() const {
+        if (report_.low->without_uvs_count < report_.low->made.primitives.size()) return;
+        throw FileError{{.code = ErrorCode::missingAttribute,
+                         .message = std::string("the low poly has no UVs, and so no maps: ") + kUvMakers,
+                         .element = static_cast<std::uint64_t>(BakeInput::low)}};
+    }
+
+    void sayWhatIsLeft(const FinishedModel& model) {
+        if (model.left_winding_count != 0)
+            report_.remarks.push_back(report::counted(model.left_winding_count, "triangle") +
+                                      " would be turned by --normals all alone: the normals that are there fit the "
+                                      "triangles as they are");
+        if (model.without_uvs_count == 0) return;
+        const std::string which = model.without_uvs_count == 1
+                                      ? "1 primitive has"
+                                      : std::to_string(model.without_uvs_count) + " primitives have";
+        report_.remarks.push_back(which + " no UVs, and so no tangents and no maps: " + kUvMakers);
+    }
+
+    /// The bake would name an option of its own.
+    void noteNoise() {
+        const auto& findings = report_.model.before.findings;
+        const bool is_noisy = std::any_of(findings.begin(), findings.end(), [](const Finding& finding) {
+            return finding.code == FindingCode::positionsNoisy;
+        });
+        const bool any_made = std::any_of(report_.model.made.primitives.begin(), report_.model.made.primitives.end(),
+                                          [](const PrimitiveReport& primitive) { return primitive.normals.noise > 0; });
+        if (is_noisy && !any_made)
+            report_.remarks.emplace_back(
+                "the positions of the high poly are noisy, and its normals stay as they are: where they show that, "
+                "--normals all makes some without it");
+    }
+
+    /// The model with its maps; the maps go to the outputs.
+    Bytes bake(const std::string& input, const std::string& output, ByteSpan low, ByteSpan high) {
+        BakeFileOptions bake = options_.bake;
+        bake.out_mesh = output;
+        bake.file = options_.file;
+        bake.execution = options_.execution;
+        bake.progress = options_.progress;
+        Bytes bytes;
+        AtomicOutput model({.sink = [&](ByteSpan more) {
+            bytes.insert(bytes.end(), more.begin(), more.end());
+            return true;
+        }});
+        const std::string stem = output.substr(0, output.find_last_of('.'));
+        const BakeStep step{.sources = {.low = low, .high = high},
+                            .layers_output = stem + ".png",
+                            .notes_noise = false,
+                            .inputs = inputs_,
+                            .map_files = files_,
+                            .model_files = model};
+        report_.bake = bakeAsStep(options_.low, input, stem + "_normal.png", bake, step);
+        return bytes;
+    }
+
+    void write(const std::string& output, ByteSpan bytes) {
+        report_.output_bytes = bytes.size();
+        files_.add(output, bytes);
+        if (!options_.page.empty()) {
+            const std::string html = finishPage(report_, output, bytes, options_.file);
+            files_.add(options_.page, std::span(reinterpret_cast<const std::uint8_t*>(html.data()), html.size()));
+        }
+        report_.output_files = files_.files();
+        const auto model = std::find(report_.output_files.begin(), report_.output_files.end(), output);
+        if (model != report_.output_files.end()) std::rotate(report_.output_files.begin(), model, model + 1);
+        files_.commit();
+    }
+
+    FinishOptions options_;
+    InputFiles inputs_ = {};
+    AtomicOutput files_{{.sync = options_.file.sync, .inputs = &inputs_}};
+    FinishReport report_ = {};
+};
+
+}  // namespace
+
+BakeFileOptions allMaps() {
+    BakeFileOptions bake;
+    for (std::uint32_t i = 0; i < kMapLayerCount; ++i) bake.layers.layers.push_back(static_cast<MapLayer>(i));
+    return bake;
+}
+
+Result<FinishReport> finishFile(const std::string& input, const std::string& output, const FinishOptions& options) {
+    return atFileBorder([&]() -> Result<FinishReport> { return Finishing(options).run(input, output); });
+}
+
+}  // namespace tspace
+
+namespace tspace::report {
+
+// What was finished, as JSON and in sentences.
+
+std::string findingCounts(const CheckReport& report) {
+    return counted(report.error_count, "error") + ", " + counted(report.warning_count, "warning") + ", " +
+           counted(report.note_count, "note");
+}
+
+std::vector<std::string> doneTo(const FinishedModel& model) {
+    std::uint64_t faces = 0, turned = 0, hard_count = 0;
+    for (const MendedWindingReport& mended : model.made.windings) {
+        faces += mended.winding.face_count;
+        turned += mended.winding.turned_count;
+    }
+    const Totals totals = totalsOf(model.made);
+    double noise = 0, least = 180, most = 0;
+    for (const PrimitiveReport& primitive : model.made.primitives) {
+        if (!primitive.normals_generated) continue;
+        noise = std::max(noise, double{primitive.normals.noise});
+        const double angle = primitive.normals.crease_angle_deg;
+        if (angle >= 180 || primitive.normals.face_count == 0) continue;
+        ++hard_count;
+        least = std::min(least, angle);
+        most = std::max(most, angle);
+    }
+    std::vector<std::string> done;
+    if (turned != 0) done.push_back(std::to_string(turned) + " of " + counted(faces, "triangle") + " turned");
+    if (totals.normals_generated != 0) {
+        std::string text = "normals made for " + std::to_string(totals.normals_generated) + " of " +
+                           counted(totals.primitive_count, "primitive");
+        if (totals.normals_replaced != 0)
+            text += ", in place of wrong ones for " + std::to_string(totals.normals_replaced);
+        if (hard_count != 0)
+            text += ", hard at edges sharper than " + shortNumber(least) +
+                    (most > least ? " to " + shortNumber(most) : std::string()) + " degrees";
+        if (noise > 0) text += ", without the noise of positions, which is " + shortNumber(noise) + " of an edge";
+        done.push_back(text);
+    }
+    if (totals.morph_normals_computed != 0)
+        done.push_back("normals of " + counted(totals.morph_normals_computed, "morph target") + " made");
+    const std::uint64_t made = totals.actions[static_cast<std::size_t>(PrimitiveAction::generated)],
+                        anew = totals.actions[static_cast<std::size_t>(PrimitiveAction::replaced)];
+    if (made != 0) done.push_back("tangents made for " + counted(made, "primitive"));
+    if (anew != 0) done.push_back("tangents mended or made anew for " + counted(anew, "primitive"));
+    if (done.empty()) done.emplace_back(model.made.changed ? "only the format was changed" : "nothing had to be done");
+    return done;
+}
+
+namespace {
+
+Json finishedModelJson(const FinishedModel& model) {
+    GenerateOutcome made{.input = model.path};
+    made.result = model.made;
+    CheckOutcome before{.input = model.path};
+    before.result = model.before;
+    return {{"made", generatedFileJson(made)},
+            {"before", checkedFileJson(before)},
+            {"done", doneTo(model)},
+            {"withoutUvs", model.without_uvs_count},
+            {"leftWinding", model.left_winding_count}};
+}
+
+}  // namespace
+
+std::string finishJson(const Outcome<FinishReport>& outcome, const std::string& low, ExitCode exit_code) {
+    const Result<FinishReport>& result = outcome.result;
+    Json json = documentJson("tspace.finish/1", result.ok(), exit_code);
+    json["input"] = outcome.input;
+    json["low"] = low;
+    json["output"] = outcome.output;
+    json["seconds"] = outcome.seconds;
+    json["error"] = errorJson(result ? nullptr : &result.error());
+    if (!result) return jsonText(json);
+    json["models"] = Json::array();
+    json["models"].push_back(finishedModelJson(result->model));
+    if (result->low) json["models"].push_back(finishedModelJson(*result->low));
+    CheckOutcome check{.input = outcome.output};
+    check.result = result->check;
+    json["check"] = result->output_files.empty() ? Json() : checkedFileJson(check);
+    json["bake"] = Json();
+    if (result->bake) {
+        Outcome<BakeFileReport> bake{.input = low, .output = outcome.output};
+        bake.result = *result->bake;
+        bake.seconds = outcome.seconds;
+        json["bake"] = bakeDocument(bake, outcome.input, exit_code);
+    }
+    json["outputFiles"] = result->output_files;
+    json["outputBytes"] = result->output_bytes;
+    json["remarks"] = result->remarks;
+    return jsonText(json);
+}
+
+}  // namespace tspace::report

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+// How a model is finished.
+#include <algorithm>
+#include <iterator>
+#include <string_view>
+
+#include "commands/shared/file_options.h"
+#include "commands/shared/request.h"
+
+namespace tspace::options {
+namespace {
+
+constexpr Named<FinishNormals> kFinishNormals[] = {
+    {"missing", FinishNormals::missing}, {"all", FinishNormals::all}, {"none", FinishNormals::none}};
+
+/// Options of bake that mean something here.
+constexpr std::string_view kBakes[] = {"--match",
+                                       "--maps",
+                                       "--samples",
+                                       "--ao-distance",
+                                       "--height-range",
+                                       "--curvature-range",
+                                       "--thickness-range",
+                                       "--id",
+                                       "--size",
+                                       "--bits",
+                                       "--padding",
+                                       "--overlap",
+                                       "--wrap",
+                                       "--high-green",
+                                       "--ignore-high-maps",
+                                       "--rays",
+                                       "--directions",
+                                       "--cage-offset",
+                                       "--reach"};
+
+}  // namespace
+
+OptionList finishOptions(FinishOptions& options) {
+    OptionList list;
+    Option low = text("--low", "LOW", options.low,
+                      "A low poly of the same shape, in the same place, with UVs: it is finished too, all maps are "
+                      "baked onto it from IN, and OUT is this one, with its maps.");
+    low.is_file = true;
+    add(list, kInputAndOutput, std::move(low));
+    addAllowExternal(list, options.file);
+    addKeepCoordinates(list, options.file);
+    add(list, "Normals",
+        choice("--normals", "WHICH", kFinishNormals, options.normals,
+               "Which normals are made, by the weights of best. missing: where there are none, and where check calls "
+               "those that are there an error; all: everywhere; none: none, but those that tangents need."));
+    add(list, "Normals",
+        numberOrAuto("--crease", "DEG", "a number of degrees", options.crease_angle_deg, NormalOptions::crease_auto,
+                     180,
+                     "For normals of IN that are made: edges sharper than this stay hard. In degrees, 0 to 180; 180 "
+                     "makes none hard. auto: an angle by the mesh, which the report says."));
+    add(list, "Normals",
+        numberOrAuto("--denoise", "FACTOR", "a number", options.denoise, NormalOptions::denoise_auto, 4,
+                     "For normals that are made on noisy positions, such as scans: by more of the surface around. "
+                     "auto: as much as is measured, and nothing where that is shape; 0 to 4: so many times the noise "
+                     "that is measured."));
+    add(list, "Repair",
+        setting(
+            "--keep-winding", options.mend_winding, false,
+            "Leave triangles that are wound against their neighbours, and parts that are inside out, as they are."));
+    for (Option& option : bakeOptions(options.bake)) {
+        if (std::find(std::begin(kBakes), std::end(kBakes), option.name()) == std::end(kBakes)) continue;
+        option.needs = "--low";
+        option.excludes.clear();
+        if (option.name() == "--high-green") option.excludes = {"--ignore-high-maps"};
+        list.push_back(std::move(option));
+    }
+    addThreads(list, options.execution,
+               "Number of threads; 0: as many as there are cores. Changes no bit of the result.");
+    addLimits(list, options.file);
+    addSync(list, options.file.sync);
+    return list;
+}
+
+}  // namespace tspace::options

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+// What tspace finish reports: as JSON, as text, and as a page.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+
+#include "commands/shared/report.h"
+#include "tspace/finish_file.h"
+
+namespace tspace {
+
+/// One HTML file that needs nothing else: pictures before and after, what was done, and what check finds in the output.
+/// `output`: its bytes; pictures of the models as they were are drawn of their files, which are read once more. Throws FileError.
+std::string finishPage(const FinishReport& report, const std::string& output_path, std::span<const std::uint8_t> output,
+                       const FileOptions& file);
+
+}  // namespace tspace
+
+namespace tspace::report {
+
+std::string finishJson(const Outcome<FinishReport>& outcome, const std::string& low, ExitCode exit_code);
+std::string finishText(const Outcome<FinishReport>& outcome);
+
+/// "2 errors, 1 warning, 3 notes".
+std::string findingCounts(const CheckReport& report);
+/// What was made of a model, in sentences without a full stop.
+std::vector<std::string> doneTo(const FinishedModel& model);
+
+}  // namespace tspace::report

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+// tspace finish: one model, perhaps with a low poly.
+#include <chrono>
+#include <memory>
+
+#include "command_table.h"
+#include "commands/finish/finish_report.h"
+#include "commands/shared/request.h"
+#include "common_options.h"
+#include "console.h"
+#include "interrupt.h"
+#include "jobs.h"
+#include "output_files.h"
+
+namespace tspace::tool {
+namespace {
+
+struct FinishArguments {
+    std::string input = {}, output = {};
+    std::string report = {};  ///< a file for the JSON; empty: none
+    FinishOptions options = {};
+    bool json = false;
+    bool quiet = false;
+};
+
+Result<FinishReport> finish(const FinishArguments& arguments, InputFiles& read) {
+    FinishOptions options = arguments.options;
+    read.watch(options.file);
+    ProgressLine progress(1, !arguments.quiet);
+    options.progress = [&](const char* what, std::uint64_t done, std::uint64_t total) {
+        if (wasInterrupted()) throw Cancelled{};
+        progress.update(arguments.input, what, done, total);
+    };
+    const KeptFiles kept({arguments.report});
+    return finishFile(arguments.input, arguments.output, options);
+}
+
+ExitCode exitCodeOf(const FinishReport& report) {
+    const bool has_findings = report.check.error_count != 0 || (report.bake && !report.bake->findings.empty());
+    return has_findings ? ExitCode::findings : ExitCode::done;
+}
+
+ExitCode runFinish(const FinishArguments& arguments) {
+    const FinishOptions& options = arguments.options;
+    const std::string& about_low = options.low.empty() ? arguments.input : options.low;
+    const Result<Done> fit =
+        prepareOutputs({arguments.output, options.page, arguments.report}, {arguments.input, options.low});
+    if (!fit) return printUsageError(fit.error().message);
+    catchInterrupts();
+    InputFiles read;
+    const auto start = std::chrono::steady_clock::now();
+    const Result<FinishReport> result = finish(arguments, read);
+    if (!result && wasInterrupted()) endByInterrupt();
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+    ExitCode exit_code = result ? exitCodeOf(*result) : printErrorOfFiles({about_low, arguments.input}, result.error());
+    // Who reads no report shall see why there is no model.
+    if (result && result->output_files.empty()) {
+        for (const std::string& finding : result->bake->findings) printRemark(finding);
+    }
+    const report::Outcome<FinishReport> outcome{
+        .input = arguments.input, .output = arguments.output, .result = result, .seconds = took.count()};
+    if (!arguments.report.empty()) {
+        const Result<Done> written =
+            writeTextFile(arguments.report, report::finishJson(outcome, options.low, exit_code), &read);
+        if (!written) exit_code = worse(exit_code, printError(arguments.report, written.error()));
+    }
+    std::string text;
+    if (arguments.json) {
+        text = report::finishJson(outcome, options.low, exit_code);
+    } else if (!arguments.quiet && result) {
+        text = report::finishText(outcome);
+    }
+    return printResult(text) ? exit_code : ExitCode::cannotReadOrWrite;
+}
+
+}  // namespace
+
+Command finishCommand() {
+    const auto owned = std::make_shared<FinishArguments>();
+    FinishArguments& arguments = *owned;
+    arguments.options.execution.thread_count = kAllThreads;
+    Command command{
+        .name = "finish",
+        .summary = "make a mesh of a generator or a scanner ready: winding, normals, tangents, all maps",
+        .operands = "IN -o OUT.glb",
+        .description =
+            "Turns triangles that are wound the wrong way, makes normals where they are missing or wrong (hard edges "
+            "and noise as they are measured), mends tangents, and says what check finds before and after. With --low "
+            "the result is that low poly, with all maps baked from IN. What is right stays as it is. There is no "
+            "retopology and no unwrapping: where UVs are missing it says what makes them.",
+        .examples = {"tspace finish scan.ply -o scan.glb --html scan.html",
+                     "tspace finish sculpt.glb --low retopo.glb -o asset.glb --size 2048 --html asset.html",
+                     "tspace finish generated.obj -o generated.glb --normals all --report generated.json"},
+    };
+    const char* group = kInputAndOutput;
+    command.add(group, operand("IN", arguments.input, "A model of any format that generate reads."));
+    Option& output =
+        command.add(group, text("-o, --output", "OUT", arguments.output,
+                                "Where to write: a file that ends in .glb or .vrm. Maps stand beside it, "
+                                "OUT_normal.png and so on; those that glTF has a place for are in it too."));
+    output.is_file = output.is_required = true;
+    command.add(finishOptions(arguments.options));
+    command
+        .add(kReporting, text("--html", "PAGE", arguments.options.page,
+                              "Also write a page for people, with pictures before and after, and what check finds. It "
+                              "needs no other file."))
+        .is_file = true;
+    command.add(kReporting, text("--report", "JSON", arguments.report, "Also write the result as JSON to this file."))
+        .is_file = true;
+    addReporting(command, arguments.json, arguments.quiet);
+    command.run = [owned] {
+        owned->options.file.importer = importerPath();
+        return runFinish(*owned);
+    };
+    return command;
+}
+
+}  // namespace tspace::tool
