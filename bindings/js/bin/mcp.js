@@ -134,15 +134,30 @@ function checked(given, { properties, required }) {
   return given;
 }
 
-/** What a program prints, and its exit code. */
+/** What to do where this process ends before a call does: its program is ended, its folder removed. */
+const unfinished = new Set();
+
+/** What a program prints, up to a limit, and its exit code. */
 function ended(command, words, cwd, folders, signal) {
   return new Promise((done, failed) => {
     const env = { ...process.env, [onlyInside]: JSON.stringify(folders) };
     const child = spawn(command, words, { cwd, env, signal, timeout: limits.milliseconds, stdio: ["ignore", "pipe", "pipe"] });
-    const parts = { stdout: [], stderr: [] };
-    for (const name of ["stdout", "stderr"]) child[name].on("data", (part) => parts[name].push(part));
+    const stop = () => child.kill();
+    unfinished.add(stop);
+    const printed = ["stdout", "stderr"].map((name) => {
+      const text = { value: "", length: 0 };
+      child[name].setEncoding("utf8").on("data", (part) => {
+        text.value += part.slice(0, limits.characters - text.value.length);
+        text.length += part.length;
+      });
+      return text;
+    });
     child.on("error", failed);
-    child.on("close", (code, ending) => done({ code, ending, ...Object.fromEntries(Object.entries(parts).map(([name, list]) => [name, Buffer.concat(list).toString()])) }));
+    child.on("close", (code, ending) => {
+      unfinished.delete(stop);
+      const [stdout, stderr] = printed.map(({ value, length }) => (length > value.length ? `${value}\n(cut: there are ${length} characters)` : value));
+      done({ code, ending, stdout, stderr });
+    });
   });
 }
 
@@ -166,18 +181,20 @@ async function call(name, given, { root, native, signal }) {
   const tool = tools[name];
   if (tool.isNative && !native) throw new Refusal("bake needs the native tspace: start this server as tspace mcp FOLDER --tool PROGRAM");
   const own = realpathSync(mkdtempSync(join(tmpdir(), "tspace-mcp-")));
+  const remove = () => rmSync(own, { recursive: true, force: true });
+  unfinished.add(remove);
   try {
     const words = [name, ...tool.words(checked(given, tool), placesIn(root), own), "--json"];
     const run = tool.isNative ? ended(native, words, root, [], signal) : ended(process.execPath, [program, ...words], root, [root, own], signal);
     const { code, ending, stdout, stderr } = await run;
     if (ending) throw new Refusal(`${name} was ended (${ending}): it may take ${limits.milliseconds / 60_000} minutes`);
-    const report = stdout.length > limits.characters ? `${stdout.slice(0, limits.characters)}\n(cut: the report has ${stdout.length} characters)` : stdout;
     const page = join(own, "page.html");
-    const content = [report, stderr].filter((part) => part.trim() !== "").map((part) => ({ type: "text", text: part }));
+    const content = [stdout, stderr].filter((part) => part.trim() !== "").map((part) => ({ type: "text", text: part }));
     if (existsSync(page)) content.push(...picturesOf(readFileSync(page, "utf8")));
     return { content, isError: code > 1 };
   } finally {
-    rmSync(own, { recursive: true, force: true });
+    unfinished.delete(remove);
+    remove();
   }
 }
 
@@ -228,6 +245,8 @@ export async function serve(words) {
     last = answer;
     return answer;
   });
+  process.on("exit", () => unfinished.forEach((end) => end()));
+  for (const name of ["SIGINT", "SIGTERM", "SIGHUP"]) process.on(name, () => process.exit(1));
   const closed = new Promise((resolve) => {
     server.onclose = resolve;
     process.stdin.on("end", resolve);

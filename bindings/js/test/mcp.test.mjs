@@ -161,6 +161,29 @@ describe("tspace mcp", { skip: missing }, () => {
     }
   });
 
+  it("ends the program of a call when it is ended itself, and leaves nothing behind", async () => {
+    const own = () => readdirSync(tmpdir()).filter((name) => /^tspace-mcp-(?!test)/.test(name));
+    const before = own();
+    const other = await connected([root]);
+    // A model that takes long: a grid of 250,000 faces.
+    const size = 500, lines = [];
+    for (let y = 0; y <= size; ++y) for (let x = 0; x <= size; ++x) lines.push(`v ${x} ${y} ${Math.sin(x * y)}`, `vt ${x} ${y}`);
+    for (let y = 0; y < size; ++y) for (let x = 0; x < size; ++x) {
+      const [a, b] = [y * (size + 1) + x + 1, (y + 1) * (size + 1) + x + 1];
+      lines.push(`f ${a}/${a} ${a + 1}/${a + 1} ${b + 1}/${b + 1} ${b}/${b}`);
+    }
+    writeFileSync(join(root, "large.obj"), lines.join("\n"));
+    const answer = other.callTool({ name: "generate", arguments: { file: "large.obj", output: "large.glb", all: true } }).catch(() => undefined);
+    while (own().length === before.length) await new Promise((resolve) => setTimeout(resolve, 10));
+    await other.close();
+    await answer;
+    for (let i = 0; i < 100 && own().length > before.length; ++i) await new Promise((resolve) => setTimeout(resolve, 50));
+    assert.deepEqual(own(), before);
+    await new Promise((resolve) => setTimeout(resolve, 1000));
+    assert.deepEqual(readdirSync(root).filter((name) => /large\.(?!obj)|tmp/.test(name)), []);
+    rmSync(join(root, "large.obj"));
+  });
+
   it("has a help, and refuses what is no folder", () => {
     const run = (...words) => spawnSync(process.execPath, [program, "mcp", ...words], { encoding: "utf8" });
     assert.match(run("--help").stdout, /Usage: tspace mcp FOLDER/);
