@@ -38,6 +38,13 @@ def version():
     return re.search(r"project\(tspace VERSION ([0-9.]+)", text).group(1)
 
 
+def project_urls():
+    """Those of the repository, where TSPACE_URL names it: https://github.com/OWNER/tspace."""
+    url = os.environ.get("TSPACE_URL")
+    pages = {"Homepage": "", "Documentation": "/tree/main/docs", "Changes": "/blob/main/CHANGELOG.md", "Issues": "/issues"}
+    return {name: url + path for name, path in pages.items()} if url else {}
+
+
 def compile_libraries(folder):
     """Returns the files of the shared libraries."""
     generator = ["-G", "Ninja"] if shutil.which("ninja") else []
@@ -120,6 +127,7 @@ WORK.mkdir(parents=True, exist_ok=True)
 shutil.rmtree(WORK / "setuptools", ignore_errors=True)  # it would keep files that are gone
 setup(
     version=version(),
+    project_urls=project_urls(),
     package_dir={"": "src"},
     packages=["tspace"],
     package_data={"tspace": ["py.typed", "*.pyi"]},

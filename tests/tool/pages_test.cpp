@@ -2,6 +2,7 @@
 // Man pages and completions: shells and man read them, and they know what --help knows.
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <vector>
 
 #include "tool/run_tool.h"
@@ -98,6 +99,7 @@ TEST(ManPages, AreReadWithoutAWarning) {
     std::vector<std::string> pages = {"tspace"};
     for (const char* command : {"generate", "inspect", "check", "diff", "identify", "help"})
         pages.push_back(std::string("tspace-") + command);
+    if (std::filesystem::exists(kPages + "/man/man1/tspace-import.1")) pages.emplace_back("tspace-import");
     for (const std::string& page : pages) {
         const std::string file = kPages + "/man/man1/" + page + ".1";
         const auto [code, warnings] = outputOf(folder, "groff -man -ww -Tutf8 -rLL=80n " + file + " > page");

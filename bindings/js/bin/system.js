@@ -5,6 +5,7 @@ import * as fs from "node:fs";
 import { createRequire } from "node:module";
 import * as os from "node:os";
 import { isatty } from "node:tty";
+import { allowed } from "./inside.js";
 import { systemPath, toolPath } from "./paths.js";
 
 /** Loaded when it is needed: that takes 10 ms. */
@@ -77,8 +78,9 @@ export function systemOf({ memory, exports, program }) {
     see(at + 1);
     return Buffer.from(bytes.slice(at, bytes.indexOf(0, at)));
   }
-  /** As fs takes it: bytes where names are bytes. */
+  /** As fs takes it: bytes where names are bytes. To look at; pathTo is for all else. */
   const pathAt = (at) => (onWindows ? systemPath(textBytes(at >>> 0).toString()) : textBytes(at >>> 0));
+  const pathTo = (at) => allowed(pathAt(at));
   /** Writes what fits; the number of bytes. */
   function give(at, size, text) {
     see(at + size);
@@ -103,7 +105,7 @@ export function systemOf({ memory, exports, program }) {
   const wasi = (work) => (...values) => -tried(work)(...values);
 
   function open(at, flags, more) {
-    const path = pathAt(at);
+    const path = pathTo(at);
     if (flags & directoryFlag) {
       if (!fs.statSync(path).isDirectory()) return failure("ENOTDIR");
       // Windows opens no folders.
@@ -308,21 +310,21 @@ export function systemOf({ memory, exports, program }) {
       return path.length;
     }),
     __syscall_readlink: tried(readLink),
-    __syscall_unlink: tried((at) => fs.unlinkSync(pathAt(at))),
+    __syscall_unlink: tried((at) => fs.unlinkSync(pathTo(at))),
     __syscall_unlinkat: tried((folder, at, flags) =>
-      (flags & removesFolder ? fs.rmdirSync(pathBelow(folder, at)) : fs.unlinkSync(pathBelow(folder, at)))),
-    __syscall_rmdir: tried((at) => fs.rmdirSync(pathAt(at))),
-    __syscall_rename: tried((from, to) => fs.renameSync(pathAt(from), pathAt(to))),
-    __syscall_mkdir: tried((at, mode) => fs.mkdirSync(pathAt(at), mode)),
-    __syscall_symlink: tried((target, at) => fs.symlinkSync(textBytes(target >>> 0), pathAt(at))),
-    __syscall_chmod: tried((at, mode) => fs.chmodSync(pathAt(at), mode)),
+      (flags & removesFolder ? fs.rmdirSync(allowed(pathBelow(folder, at))) : fs.unlinkSync(allowed(pathBelow(folder, at))))),
+    __syscall_rmdir: tried((at) => fs.rmdirSync(pathTo(at))),
+    __syscall_rename: tried((from, to) => fs.renameSync(pathTo(from), pathTo(to))),
+    __syscall_mkdir: tried((at, mode) => fs.mkdirSync(pathTo(at), mode)),
+    __syscall_symlink: tried((target, at) => fs.symlinkSync(textBytes(target >>> 0), pathTo(at))),
+    __syscall_chmod: tried((at, mode) => fs.chmodSync(pathTo(at), mode)),
     __syscall_fchmod: tried((number, mode) => fs.fchmodSync(number, mode)),
-    __syscall_fchmodat: tried((folder, at, mode) => fs.chmodSync(pathBelow(folder, at), mode)),
+    __syscall_fchmodat: tried((folder, at, mode) => fs.chmodSync(allowed(pathBelow(folder, at)), mode)),
     __syscall_fchown32: tried((number, user, group) => fs.fchownSync(number, user, group)),
     __syscall_access: tried((at, mode) => fs.accessSync(pathAt(at), mode)),
     __syscall_ftruncate64: tried((number, low, high) => fs.ftruncateSync(number, (low >>> 0) + 2 ** 32 * (high >>> 0))),
-    __syscall_truncate64: tried((at, low, high) => fs.truncateSync(pathAt(at), (low >>> 0) + 2 ** 32 * (high >>> 0))),
-    makeLink: tried((from, to) => fs.linkSync(pathAt(from), pathAt(to))),
+    __syscall_truncate64: tried((at, low, high) => fs.truncateSync(pathTo(at), (low >>> 0) + 2 ** 32 * (high >>> 0))),
+    makeLink: tried((from, to) => fs.linkSync(pathTo(from), pathTo(to))),
     // 2: F_SETFD, 4: F_SETFL, which need nothing; 1: F_GETFD, 3: F_GETFL.
     __syscall_fcntl64: tried((number, command) => {
       if (command < 1 || command > 4) return failure("ENOSYS");
@@ -334,7 +336,7 @@ export function systemOf({ memory, exports, program }) {
       if (count === 0) sleep(milliseconds < 0 ? Infinity : milliseconds);
       return 0;
     },
-    __syscall_chown32: tried((at, user, group) => fs.chownSync(pathAt(at), user, group)),
+    __syscall_chown32: tried((at, user, group) => fs.chownSync(pathTo(at), user, group)),
     // No processes are started, and no files are mapped.
     __syscall_pipe: () => failure("ENOSYS"),
     __syscall_wait4: () => failure("ECHILD"),

@@ -10,9 +10,15 @@ import { toolWord } from "./paths.js";
 import { mostPages } from "./system.js";
 import { instanceOf, newTable, programEnd } from "./threads.js";
 
+// A server that runs this program for each call, and ends the process.
+if (process.argv[2] === "mcp") await (await import("./mcp.js")).serve(process.argv.slice(3));
+
 // A command calls few of the functions: they are looked at and compiled when they are called.
 setFlagsFromString("--wasm-lazy-compilation");
 setFlagsFromString("--wasm-lazy-validation");
+// And again, to be faster, once they have run for long (10 ms or so): in node 20 they are after a tenth of that, which costs more
+// than it gains for models of less than millions of triangles. Node 22 has 13,000,000 of its own.
+setFlagsFromString("--wasm-tiering-budget=20000000");
 const here = (name) => fileURLToPath(new URL(name, import.meta.url));
 const module = new WebAssembly.Module(readFileSync(here("tspace.wasm")));
 const memory = newMemory();

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The whole core, for the entries that load its module.
-import { makeCalls, meshOf, mikktspaceOptions, setMesh, tangentArguments, tangentCounts, writeTangents } from "./calls.js";
+import { makeCalls, meshOf, mikktspaceOptions, sanitizeCounts, setMesh, tangentArguments, tangentCounts, writeTangents } from "./calls.js";
 import { boolean, fail, floats, object, optionsOf } from "./check.js";
-import { normalArguments, normalOptions, normalsOf } from "./normal_calls.js";
+import { normalArguments, normalCounts, normalOptions, normalsOf } from "./normal_calls.js";
 import { Wasm } from "./wasm.js";
 
 const wasm = new Wasm();
@@ -17,6 +17,22 @@ const steps = ["makeNormals", "sanitize", "orthogonalizeAll"];
 export const { generateTangents, sanitizeTangents, splitVertices } = makeCalls(wasm, choices);
 export const generateNormals = normalsOf(wasm, false);
 
+export function triangulate(mesh) {
+  const { positions, uvs, indices, faceSizes, uvIndices } = object(mesh, "mesh");
+  if (uvIndices) fail("invalidOption", "triangulate takes no uvIndices");
+  const checked = meshOf({ positions, uvs, indices, faceSizes });
+  return wasm.run((call) => {
+    setMesh(call, checked);
+    const { cornerCount } = checked, faces = [];
+    const out = call.allocate(12 * cornerCount + 16);
+    call.check(call.wasm.triangulate(out));
+    (checked.faceSizes ?? new Uint8Array(cornerCount / 3).fill(3)).forEach((size, face) => {
+      while (size-- > 2) faces.push(face);
+    });
+    return { corners: call.get(Uint32Array, out, 3 * faces.length), faces: Uint32Array.from(faces) };
+  });
+}
+
 export function makeIndexedFrames(mesh, options = {}) {
   optionsOf(options, [...tangentOptions, ...steps, "normals", "report"]);
   const tangents = tangentArguments(options, choices);
@@ -29,8 +45,11 @@ export function makeIndexedFrames(mesh, options = {}) {
     call.check(call.wasm.makeIndexedFrames(...tangents, ...chosen, ...normals(call), result));
     const words = call.get(Uint32Array, result, 10);
     const take = (Type, i, size) => call.take(Type, words[2 * i], size * words[2 * i + 1]);
-    const report = {};
-    call.report(tangentCounts, report);
+    const report = {
+      normals: chosen[0] || !checked.normals ? call.report(normalCounts, {}, 22) : null,
+      tangents: call.report(tangentCounts, {}),
+      sanitize: chosen[1] ? call.report(sanitizeCounts, {}, 9) : null,
+    };
     Object.assign(options.report ?? {}, report);
     return {
       indices: take(Uint32Array, 0, 1),

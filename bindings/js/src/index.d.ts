@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-import type { Convention, ConventionName, Indices, Mesh, MikktspaceOptions, TangentReport } from "./types.js";
+import type { Convention, ConventionName, Indices, Mesh, MikktspaceOptions, SanitizeReport, TangentReport } from "./types.js";
 
 export { conventions, ready, sanitizeTangents, splitVertices, TspaceError } from "./types.js";
 export type * from "./types.js";
@@ -54,10 +54,35 @@ export interface NormalOptions {
   report?: Partial<NormalReport>;
 }
 
+/** Triangles of a polygon mesh. */
+export interface Triangles {
+  /** Three corners of the mesh (not vertices) per triangle, winding kept. */
+  corners: Uint32Array;
+  /** The face that each triangle was cut from. */
+  faces: Uint32Array;
+}
+
+/**
+ * Cuts faces of 4 and more corners into triangles: quads along the diagonal that MikkTSpace takes, for which it looks at `uvs` too,
+ * where they are given; n-gons by clipping ears. Faces of fewer than 3 corners give nothing. `normals` are not looked at, and
+ * `uvIndices` are refused.
+ * @example
+ * const { corners } = triangulate(mesh);
+ * const indices = corners.map((corner) => mesh.indices[corner]);
+ */
+export function triangulate(mesh: Mesh): Triangles;
+
 /** Normals of a mesh, of which positions, indices and face sizes are used: three numbers per corner, unit. */
 export function generateNormals(mesh: Mesh, options?: NormalOptions): Float32Array;
 
-export interface IndexedFramesOptions extends TangentOptions {
+/** What each step met; null: the step was left out. */
+export interface IndexedFramesReport {
+  normals: NormalReport | null;
+  tangents: TangentReport;
+  sanitize: SanitizeReport | null;
+}
+
+export interface IndexedFramesOptions extends Omit<TangentOptions, "report"> {
   /** Make normals also where the mesh has them; where it has none they are made anyway. */
   makeNormals?: boolean;
   /** How normals are made. */
@@ -66,6 +91,7 @@ export interface IndexedFramesOptions extends TangentOptions {
   sanitize?: boolean;
   /** Also make every sound tangent unit and orthogonal to its normal. */
   orthogonalizeAll?: boolean;
+  report?: Partial<IndexedFramesReport>;
 }
 
 /** A mesh with the faces of the given one. */
@@ -80,7 +106,7 @@ export interface IndexedFrames {
   normals: Float32Array;
   /** Four numbers per new vertex. */
   tangents: Float32Array;
-  report: TangentReport;
+  report: IndexedFramesReport;
 }
 
 /** The usual case in one call: normals where they are missing, tangents, mended and split into an indexed mesh. */

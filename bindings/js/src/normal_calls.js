@@ -6,7 +6,7 @@ import { conventionBits } from "./convention.js";
 
 const weightings = ["flat", "uniform", "area", "angle", "angleArea", "max", "best"];
 export const normalOptions = ["weighting", "creaseAngle", "smoothingGroups", "smoothingGroupsAreMasks", "weldPositions", "refine", "denoise"];
-const normalCounts = ["faceCount", "degenerateFaceCount", "fallbackCornerCount", "noise", "creaseAngle"];
+export const normalCounts = ["faceCount", "degenerateFaceCount", "fallbackCornerCount", "noise", "creaseAngle"];
 
 const numberOrAuto = (value, name) => (value === "auto" ? -1 : number(value, name));
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The entry "tspace/three": tangents for a BufferGeometry, which comes back indexed.
 import { BufferAttribute, BufferGeometry } from "three";
+import { typeError } from "./error.js";
 import { gather } from "./gather.js";
 import { makeIndexedFrames, ready, TspaceError } from "./index.js";
 
@@ -29,14 +30,24 @@ function gathered(attribute, sources) {
   return new BufferAttribute(own, itemSize, normalized);
 }
 
-export function computeTangents(geometry, options) {
+/** The geometry, or that of a mesh. */
+function geometryOf(given) {
+  const geometry = given?.isMesh ? given.geometry : given;
+  if (geometry?.isBufferGeometry) return geometry;
+  throw typeError("wrongType", `geometry must be a BufferGeometry or a Mesh, not ${given?.type ?? typeof given}`);
+}
+
+export function computeTangents(given, options = {}) {
+  const geometry = geometryOf(given);
   const { position, normal, uv } = geometry.attributes;
-  if (!position || !uv) throw new TspaceError("missingAttribute", "the geometry has no position or no uv attribute");
+  if (!position) throw new TspaceError("missingAttribute", "the geometry has no attribute position");
+  if (!uv && options.method !== "basis")
+    throw new TspaceError("missingAttribute", 'the geometry has no attribute uv: only the method "basis" needs none');
   const made = makeIndexedFrames(
     {
       positions: readFloats(position, 3),
       normals: normal && readFloats(normal, 3),
-      uvs: readFloats(uv, 2),
+      uvs: uv && readFloats(uv, 2),
       indices: geometry.index && Uint32Array.from(geometry.index.array),
     },
     options,

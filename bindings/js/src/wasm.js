@@ -154,10 +154,11 @@ class Call {
     if (number !== 0) throw new Failure(number);
   }
 
-  /** Fills in the last function's report. */
-  report(names, to) {
-    const numbers = new Float64Array(this.wasm.memory.buffer, this.wasm.report() >>> 0, names.length);
+  /** Fills in the last function's report, whose numbers begin at `first`. */
+  report(names, to, first = 0) {
+    const numbers = new Float64Array(this.wasm.memory.buffer, (this.wasm.report() >>> 0) + 8 * first, names.length);
     names.forEach((name, i) => (to[name] = numbers[i]));
+    return to;
   }
 
   end() {

@@ -170,6 +170,22 @@ describe("computeTangents for three.js", { skip: absent(three, "three") }, () =>
       assert.deepEqual(other.attributes[name].array, result.attributes[name].array);
   });
 
+  it("takes the geometry of a mesh, and needs no UVs for the method basis", async () => {
+    const { computeTangents } = await import("tspace/three");
+    const geometry = new three.SphereGeometry(1, 12, 8);
+    const body = new three.SkinnedMesh(geometry, new three.MeshBasicMaterial());
+    const [of, ofGeometry] = [body, geometry].map((given) => computeTangents(given, { convention: "opengl" }));
+    assert.deepEqual(of.attributes.tangent.array, ofGeometry.attributes.tangent.array);
+    assert.equal(body.geometry, geometry);
+    geometry.deleteAttribute("uv");
+    assert.throws(() => computeTangents(geometry, { convention: "opengl" }), { code: "missingAttribute", message: /uv.*"basis"/ });
+    const basis = computeTangents(geometry, { convention: "opengl", method: "basis" });
+    const wanted = generateTangents({ positions: geometry.attributes.position.array, normals: geometry.attributes.normal.array, indices: Uint32Array.from(geometry.index.array) }, { convention: "opengl", method: "basis" });
+    basis.index.array.forEach((v, c) => assert.deepEqual(basis.attributes.tangent.array.slice(4 * v, 4 * v + 4), wanted.slice(4 * c, 4 * c + 4)));
+    for (const wrong of [new three.Group(), undefined, {}])
+      assert.throws(() => computeTangents(wrong, { convention: "opengl" }), { name: "TypeError", message: /^geometry must be a BufferGeometry or a Mesh, not (Group|undefined|object)$/ });
+  });
+
   it("asks for a convention and UVs", async () => {
     const { computeTangents } = await import("tspace/three");
     assert.throws(() => computeTangents(new three.SphereGeometry(), {}), { code: "invalidOption" });

@@ -86,6 +86,34 @@ describe("calls", () => {
     assert.equal(report.groupCount, 4);
   });
 
+  it("cut polygons into triangles: quads by MikkTSpace's rule, others by ears", () => {
+    // Three quads and a triangle that share vertices: longer along 0-2, along 1-3, and of equal diagonals.
+    const quads = {
+      positions: Float32Array.of(0, 0, 0, 2, 0, 0, 3, 1, 0, 0, 1, 0, 5, 0, 0, 9, 0, 0, 9, 1, 0, 4, 1, 0),
+      indices: Uint16Array.of(0, 1, 2, 3, 0, 1, 2, 4, 5, 6, 7),
+      faceSizes: Uint8Array.of(4, 3, 4),
+    };
+    assert.deepEqual(Object.values(whole.triangulate(quads)).map((list) => [...list]), [[0, 1, 3, 1, 2, 3, 4, 5, 6, 7, 8, 9, 7, 9, 10], [0, 0, 1, 2, 2]]);
+    const uvs = new Float32Array(16);
+    uvs.set([0, 0, 4, 0, 1, 1, 0, 1]); // there 0-2 is the shorter one
+    assert.deepEqual([...whole.triangulate({ ...quads, uvs }).corners.subarray(0, 6)], [0, 1, 2, 0, 2, 3]);
+
+    // The letter L, without indices, and a face of two corners behind it, which gives nothing.
+    const letter = [0, 0, 3, 0, 3, 1, 1, 1, 1, 3, 0, 3];
+    const positions = Float32Array.from([...letter, 5, 5, 6, 6].flatMap((x, i) => (i % 2 ? [x, 0] : [x])));
+    const { corners, faces } = whole.triangulate({ positions, faceSizes: Uint32Array.of(6, 2) });
+    assert.deepEqual([...faces], [0, 0, 0, 0]);
+    const areas = [0, 3, 6, 9].map((at) => {
+      const [[ax, ay], [bx, by], [cx, cy]] = [0, 1, 2].map((k) => letter.slice(2 * corners[at + k], 2 * corners[at + k] + 2));
+      return ((bx - ax) * (cy - ay) - (by - ay) * (cx - ax)) / 2;
+    });
+    assert.ok(areas.every((area) => area > 0));
+    assert.equal(areas.reduce((sum, area) => sum + area), 5);
+    assert.deepEqual([...whole.triangulate(mesh).corners], [...mesh.indices.keys()]);
+    assert.throws(() => whole.triangulate({ ...quads, faceSizes: Uint32Array.of(4, 3, 0xffffffff) }), { code: "countMismatch" });
+    assert.throws(() => whole.triangulate({ ...quads, uvIndices: quads.indices }), { code: "invalidOption" });
+  });
+
   it("mend what is broken, and nothing else", () => {
     const sound = generateTangents(mesh, { convention: "gltf" });
     const broken = sound.slice();
@@ -165,8 +193,25 @@ describe("indexed frames in one call", () => {
       assert.equal(frames.sourceVertices[v], mesh.indices[c]);
       assert.deepEqual(frames.normals.subarray(3 * v, 3 * v + 3), mesh.normals.subarray(3 * mesh.indices[c], 3 * mesh.indices[c] + 3));
     });
-    assert.equal(frames.report.triangleCount, mesh.indices.length / 3);
+    assert.equal(frames.report.tangents.triangleCount, mesh.indices.length / 3);
     assert.equal(frames.sourceCorners.length, frames.sourceVertices.length);
+  });
+
+  it("report each step as its own call does, and null for one that was left out", () => {
+    const broken = { ...mesh, uvs: mesh.uvs.slice().fill(0.5, 0, 12), indices: mesh.indices.slice() };
+    broken.indices[4] = broken.indices[3]; // a face without area
+    const [tangents, sanitize, normals] = [{}, {}, {}];
+    sanitizeTangents(broken, generateTangents(broken, { convention: "gltf", report: tangents }), { report: sanitize });
+    const given = {};
+    const { report } = makeIndexedFrames(broken, { convention: "gltf", report: given });
+    assert.ok(sanitize.mendedCount > 0 && tangents.degenerateUvCount > 0);
+    assert.deepEqual(report, { normals: null, tangents, sanitize });
+    assert.deepEqual(given, report);
+    generateNormals(broken, { report: normals });
+    assert.ok(normals.degenerateFaceCount > 0);
+    const made = makeIndexedFrames(broken, { convention: "gltf", makeNormals: true, sanitize: false }).report;
+    assert.deepEqual([made.normals, made.sanitize], [normals, null]);
+    assert.deepEqual(makeIndexedFrames({ ...broken, normals: undefined }, { convention: "gltf" }).report.normals, normals);
   });
 
   it("make normals where there are none, and take an index list per attribute", () => {

@@ -51,7 +51,7 @@ const loops = /mikktspace\/(grid_order|weld)\.cpp|core\/base\/(weld|range_lists)
 const hot = /mikktspace\/(corner_terms_kernel|one_pass\.cpp|node_sums\.cpp)|core\/pack\/\w+_kernel/;
 
 const modules = {
-  core: { sources: ["memory.cpp", "common.cpp", "core.cpp", "generate_normals.cpp", "plain_normals.cpp"], isFast: true, defines: [], rooms, kernels: ["normals", "tangents"], without: notPlain },
+  core: { sources: ["memory.cpp", "common.cpp", "core.cpp", "generate_normals.cpp", "plain_normals.cpp", "triangulate.cpp"], isFast: true, defines: [], rooms, kernels: ["normals", "tangents"], without: notPlain },
   normals: {
     sources: ["memory.cpp", "common.cpp", "generate_normals.cpp", "normals.cpp"], isFast: true, defines: [], rooms: [...rooms, "core/winding"], kernels: ["normals", "tangents"],
   },
@@ -177,7 +177,7 @@ async function link(name, module, objects) {
   const wasm = join(out, `${name}.wasm`);
   // Low memory: the first KB is the end of the stack, where no offset below 1024 can lead by going round 2^32.
   await run("wasm-opt", ["--enable-simd", "--enable-bulk-memory", "--enable-sign-ext", "--enable-mutable-globals",
-    "--enable-nontrapping-float-to-int", module.isFast ? "-Os" : "-Oz", "--converge", "--low-memory-unused", "-ocimfs=15", raw, "-o", wasm]);
+    "--enable-nontrapping-float-to-int", module.isFast ? "-Os" : "-Oz", "--converge", "--low-memory-unused", "-ocimfs=12", "-aimfs=5", raw, "-o", wasm]);
   const bytes = readFileSync(wasm);
   const imports = WebAssembly.Module.imports(new WebAssembly.Module(bytes)).map((i) => i.name);
   const unknown = imports.filter((i) => !(module.imports ?? ["endCall"]).includes(i));

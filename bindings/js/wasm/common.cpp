@@ -2,6 +2,8 @@
 // Exports of all modules that compute frames: the mesh of the next call, and the three functions of `mikktspace`.
 #include "common.h"
 
+#include <bit>
+
 namespace tspace::js {
 
 namespace {
@@ -19,12 +21,21 @@ Convention conventionOf(std::uint32_t bits) {
 }
 
 void keep(const TangentReport& r) {
-    const std::uint64_t counts[] = {r.triangle_count,         r.degenerate_triangle_count,
-                                    r.degenerate_uv_count,    r.mirrored_count,
-                                    r.skipped_face_count,     r.group_count,
-                                    r.default_corner_count,   r.not_finite_count,
-                                    r.reference_order_abandoned};
-    keepCounts(counts);
+    // Its counts in their order, then the flag.
+    struct Words {
+        std::uint64_t counts[8], flag;
+    };
+    static_assert(sizeof(Words) == sizeof(r));
+    keepCounts(std::bit_cast<Words>(r).counts);
+    report[8] = r.reference_order_abandoned;
+}
+
+void keep(const SanitizeReport& r, std::size_t first) {
+    struct Words {
+        std::uint64_t counts[12];
+    };
+    keepCounts(std::bit_cast<Words>(r).counts, first);
+    report[first + 12] = static_cast<double>(r.mendedCount());
 }
 
 }  // namespace tspace::js
@@ -55,15 +66,8 @@ TSPACE_JS_EXPORT(sanitizeTangents) std::uint32_t sanitize(float* tangents, std::
     SanitizeOptions options;
     options.orthogonalize_all = orthogonalize_all;
     auto result = sanitizeTangents(mesh(), options, vec4Span(tangents, count));
-    if (!result) return codeOf(result);
-    const SanitizeReport& r = *result;
-    const std::uint64_t counts[] = {r.not_finite_count,  r.zero_count,       r.not_unit_count,
-                                    r.parallel_count,    r.placeholder_count, r.bad_sign_count,
-                                    r.mixed_sign_count,  r.orthogonalized_count, r.normalized_count,
-                                    r.from_neighbor_count, r.from_basis_count, r.bad_normal_count,
-                                    r.mendedCount()};
-    keepCounts(counts);
-    return 0;
+    if (result) keep(*result);
+    return codeOf(result);
 }
 
 /// `attributes`: attribute_count times a pointer, a number of components and a tolerance. `result`: gets six words, a

@@ -21,6 +21,9 @@ Convention conventionOf(std::uint32_t bits);
 
 void keep(const TangentReport& r);
 
+/// From the number `first` of the report on; 13 numbers.
+void keep(const SanitizeReport& r, std::size_t first = 0);
+
 /// As JavaScript lays it out.
 struct AttributeWords {
     const float* data;

@@ -58,7 +58,7 @@ TSPACE_JS_EXPORT(planBytes) std::size_t planBytes(const TangentPlan* plan) { ret
 TSPACE_JS_EXPORT(destroyPlan) void destroyPlan(TangentPlan* plan) { delete plan; }
 
 /// `result`: gets ten words, a pointer and a count for indices, source vertices, source corners, normals and tangents, to be
-/// released one by one. The report is that of tangents.
+/// released one by one. The report has the 9 numbers of tangents, then the 13 of sanitize and the 5 of normals.
 TSPACE_JS_EXPORT(makeIndexedFrames)
 std::uint32_t frames(std::uint32_t method, float threshold_deg, std::uint32_t pairing, std::uint32_t ngons,
                      std::uint32_t convention, std::uint32_t frame, std::uint32_t refine, bool make_normals,
@@ -81,6 +81,8 @@ std::uint32_t frames(std::uint32_t method, float threshold_deg, std::uint32_t pa
     giveArray(made->normals, result + 6);
     giveArray(made->tangents, result + 8);
     keep(made->report.tangents);
+    keep(made->report.sanitize, 9);
+    keep(made->report.normals, 22);
     return 0;
 }
 

@@ -24,12 +24,13 @@ namespace tspace::js {
 /// Of the last call that failed.
 extern Error& error;
 
-/// Numbers of the last call's report, in the order of its struct's fields.
-inline constexpr std::size_t kReportNumbers = 16;
+/// Numbers of the last call's report, in the order of its struct's fields; one report after the other where a call has several.
+inline constexpr std::size_t kReportNumbers = 32;
 extern double report[kReportNumbers];
 
-inline void keepCounts(std::span<const std::uint64_t> counts) {
-    for (std::size_t i = 0; i < counts.size(); ++i) report[i] = static_cast<double>(counts[i]);
+/// `first`: where they begin in the report.
+inline void keepCounts(std::span<const std::uint64_t> counts, std::size_t first = 0) {
+    for (std::size_t i = 0; i < counts.size(); ++i) report[first + i] = static_cast<double>(counts[i]);
 }
 
 /// The result's error code, 0 for success; keeps the error.

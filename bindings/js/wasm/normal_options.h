@@ -22,11 +22,12 @@ inline NormalOptions normalOptions(std::uint32_t weighting, float crease_angle_d
     return options;
 }
 
-inline void keep(const NormalReport& report) {
+/// From the number `first` of the report on; five numbers.
+inline void keep(const NormalReport& report, std::size_t first = 0) {
     const std::uint64_t counts[] = {report.face_count, report.degenerate_face_count, report.fallback_corner_count};
-    keepCounts(counts);
-    js::report[3] = double{report.noise};
-    js::report[4] = double{report.crease_angle_deg};
+    keepCounts(counts, first);
+    js::report[first + 3] = double{report.noise};
+    js::report[first + 4] = double{report.crease_angle_deg};
 }
 
 }  // namespace tspace::js

@@ -197,8 +197,8 @@ class BadInput(unittest.TestCase):
         refuses = self.refuses
         refuses(ValueError, "positions", tspace.normals, self.positions[:, :2])
         refuses(ValueError, "weighting", tspace.normals, *[self.positions, self.indices], weighting="heavy")
-        refuses(TypeError, "crease", tspace.normals, self.positions, self.indices, crease="sharp")
-        refuses(ValueError, "", tspace.normals, self.positions, self.indices, crease=181)
+        refuses(TypeError, "crease_angle", tspace.normals, self.positions, self.indices, crease_angle="sharp")
+        refuses(ValueError, "", tspace.normals, self.positions, self.indices, crease_angle=181)
         refuses(ValueError, "", tspace.normals, self.positions, self.indices, smoothing_groups=[1, 2])
         refuses(TypeError, "smoothing_groups", tspace.normals, self.positions, self.indices, smoothing_groups="a")
         rows = numpy.zeros((36, 4), numpy.float32)

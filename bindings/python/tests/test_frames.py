@@ -215,15 +215,15 @@ class Normals(unittest.TestCase):
         smooth = tspace.normals(shape.positions, shape.indices)
         self.assertLess(abs(smooth).max(), 0.9)
         for hard in (
-            dict(crease=60),
+            dict(crease_angle=60),
             dict(weighting="flat"),
             dict(weld_positions=False),
             dict(smoothing_groups=numpy.repeat(numpy.arange(1, 7), 2)),
-            dict(smoothing_groups=2 ** numpy.repeat(numpy.arange(6), 2), smoothing_masks=True),
+            dict(smoothing_groups=2 ** numpy.repeat(numpy.arange(6), 2), smoothing_groups_are_masks=True),
         ):
             normals = tspace.normals(shape.positions, shape.indices, **hard)
             self.assertTrue(numpy.allclose(normals, shape.normals[shape.indices]), hard)
-        left = tspace.normals(shape.positions, shape.indices, crease=60, convention="unreal")
+        left = tspace.normals(shape.positions, shape.indices, crease_angle=60, convention="unreal")
         self.assertTrue(numpy.allclose(left, -shape.normals[shape.indices]))
 
     def test_full_results_count_faces(self):

@@ -38,10 +38,10 @@ class IndexedFrames(unittest.TestCase):
 
     def test_normals_are_made_where_they_are_missing_or_asked_for(self):
         shape = cube()
-        want = tspace.normals(shape.positions, shape.indices, crease=60)
+        want = tspace.normals(shape.positions, shape.indices, crease_angle=60)
         for normals, options in ((None, {}), (shape.normals * 0, dict(make_normals=True))):
             made = tspace.make_indexed_frames(
-                shape.positions, normals, shape.uvs, shape.indices, convention="gltf", crease=60, **options
+                shape.positions, normals, shape.uvs, shape.indices, convention="gltf", crease_angle=60, **options
             )
             self.assertTrue(same_bits(made.normals[made.indices], want))
             self.assertEqual(made.report.normals.face_count, 12)

@@ -123,7 +123,7 @@ class Names(unittest.TestCase):
             return lambda: tspace.tangents(positions, normals, uvs, **arguments)
 
         cases = {
-            "crease": lambda: tspace.normals(positions, indices, crease=181),
+            "crease_angle": lambda: tspace.normals(positions, indices, crease_angle=181),
             "refine": tangents(refine=3),
             "face_sizes": tangents(face_sizes=[3] * 11),
             "face_sizes, indices": tangents(indices=indices[1:]),
@@ -160,7 +160,7 @@ class Names(unittest.TestCase):
         noise = tspace.position_noise(positions, triangles)
         self.assertAlmostEqual(noise.noise * noise.mean_edge, 0.2, delta=0.04)
         plain = tspace.normals(positions, triangles, weighting="best")
-        denoised = tspace.normals(positions, triangles, weighting="best", denoise="auto", crease="auto", full=True)
+        denoised = tspace.normals(positions, triangles, weighting="best", denoise="auto", crease_angle="auto", full=True)
         self.assertAlmostEqual(denoised.report.noise, noise.noise)
         self.assertLess((1 - denoised.normals[:, 2]).mean(), 0.3 * (1 - plain[:, 2]).mean())
         for wrong in (5, -0.5):

@@ -28,7 +28,7 @@ reveal_type(tspace.diff("a.glb", "b.glb").primitives[0].a)
 open("a.glb", "wb").write(tspace.generate_bytes(b""))
 reveal_type(tspace.pack_frames(a, a))
 tspace.tangents(a.tolist(), a, [[1.0, 2.0]], [[0, 1, 2]], convention="gltf", threads="all")
-tspace.normals(a, range(3), crease="auto")
+tspace.normals(a, range(3), crease_angle="auto")
 tspace.check("a.glb", fail_on="warning", ignore=["tangentsUnused"])
 """
 WRONG = """

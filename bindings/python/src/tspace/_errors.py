@@ -98,7 +98,7 @@ def shown(value: Any) -> str:
 
 # How messages of the C API begin, and how they begin with the name of the argument here.
 _IN_PYTHON = (
-    (r"^crease_angle_deg ", "crease "),
+    (r"^crease_angle_deg ", "crease_angle "),
     (r"\b(crease|denoise)_auto\b", '"auto"'),
     (r"^angular_threshold_deg ", "threshold "),
     (r"^face sizes ", "face_sizes "),

@@ -71,10 +71,10 @@ def make_indexed_frames(
     refine: Optional[int] = None,
     make_normals: bool = False,
     weighting: WeightingName = "angle",
-    crease: DegreesOrAuto = 180.0,
+    crease_angle: DegreesOrAuto = 180.0,
     denoise: DegreesOrAuto = 0,
     smoothing_groups: Optional[Numbers] = None,
-    smoothing_masks: bool = False,
+    smoothing_groups_are_masks: bool = False,
     weld_positions: bool = True,
     sanitize: bool = True,
     orthogonalize_all: bool = False,
@@ -95,7 +95,8 @@ def make_indexed_frames(
     refine:     steps that "best" takes after its fit, for tangents and normals: 0, 1 or 2;
                 None: 1 for tangents and 2 for normals
     make_normals: True: normals are made although there are some
-    weighting, crease, denoise, smoothing_groups, smoothing_masks, weld_positions: how normals are made, as for `normals`
+    weighting, crease_angle, denoise, smoothing_groups, smoothing_groups_are_masks, weld_positions: how normals are made, as
+                for `normals`
     sanitize:   False: broken tangents stay
     orthogonalize_all: True: also makes sound tangents unit and orthogonal to N
     keep_apart: arrays of shape (corners, k), without indices only: what else must not be shared, colours for instance
@@ -108,7 +109,14 @@ def make_indexed_frames(
     tangents = tangent_options(method, convention, threshold, pairing, ngons, "corner", frame, 1 if refine is None else refine)
     groups = None if smoothing_groups is None else uint32_array("smoothing_groups", smoothing_groups)
     made_by = normal_options(
-        weighting, crease, groups, smoothing_masks, weld_positions, convention, 2 if refine is None else refine, denoise
+        weighting,
+        crease_angle,
+        groups,
+        smoothing_groups_are_masks,
+        weld_positions,
+        convention,
+        2 if refine is None else refine,
+        denoise,
     )
     mesh = Mesh(positions, normals, uvs, indices, face_sizes, normal_indices, uv_indices)
     rows, keep = corner_attributes("keep_apart", keep_apart, mesh.corner_count, 0.0)

@@ -24,9 +24,9 @@ class NormalResult(NamedTuple):
 
 def normal_options(
     weighting: Any,
-    crease: Any,
+    crease_angle: Any,
     groups: Optional[numpy.ndarray],
-    smoothing_masks: Any,
+    smoothing_groups_are_masks: Any,
     weld_positions: Any,
     convention: Any,
     refine: Any,
@@ -40,10 +40,10 @@ def normal_options(
         ctypes.sizeof(_abi.NormalOptions),
         named("weighting", weighting, _abi.WEIGHTINGS),
         convention_struct("gltf" if convention is None else convention),
-        real_or_auto("crease", crease),
+        real_or_auto("crease_angle", crease_angle),
         None if groups is None else groups.ctypes.data,
         0 if groups is None else groups.size,
-        bool(smoothing_masks),
+        bool(smoothing_groups_are_masks),
         bool(weld_positions),
         small_number("refine", refine),
         0,
@@ -58,9 +58,9 @@ def normals(
     *,
     face_sizes: FaceSizes = ...,
     weighting: WeightingName = ...,
-    crease: DegreesOrAuto = ...,
+    crease_angle: DegreesOrAuto = ...,
     smoothing_groups: Optional[Numbers] = ...,
-    smoothing_masks: bool = ...,
+    smoothing_groups_are_masks: bool = ...,
     weld_positions: bool = ...,
     convention: Optional[ConventionLike] = ...,
     refine: int = ...,
@@ -79,9 +79,9 @@ def normals(
     *,
     face_sizes: FaceSizes = ...,
     weighting: WeightingName = ...,
-    crease: DegreesOrAuto = ...,
+    crease_angle: DegreesOrAuto = ...,
     smoothing_groups: Optional[Numbers] = ...,
-    smoothing_masks: bool = ...,
+    smoothing_groups_are_masks: bool = ...,
     weld_positions: bool = ...,
     convention: Optional[ConventionLike] = ...,
     refine: int = ...,
@@ -99,9 +99,9 @@ def normals(
     *,
     face_sizes: FaceSizes = None,
     weighting: WeightingName = "angle",
-    crease: DegreesOrAuto = 180.0,
+    crease_angle: DegreesOrAuto = 180.0,
     smoothing_groups: Optional[Numbers] = None,
-    smoothing_masks: bool = False,
+    smoothing_groups_are_masks: bool = False,
     weld_positions: bool = True,
     convention: Optional[ConventionLike] = None,
     refine: int = 2,
@@ -120,10 +120,10 @@ def normals(
     indices:          (corners,), or (faces, k) for faces of k corners; None: corner c is vertex c
     face_sizes:       None: triangles. A number: corners of every face. (faces,): corners of each face
     weighting:        how much a face counts: "angle", "area", "angle_area", "uniform", "max", "best"; "flat": no averaging
-    crease:           degrees, 180: no edge is hard. Two faces are smoothed over their edge only when their normals differ
+    crease_angle:     degrees, 180: no edge is hard. Two faces are smoothed over their edge only when their normals differ
                       by no more than this. "auto": an angle by the mesh, which the report says
     smoothing_groups: (faces,), a number per face: faces smooth together only when theirs are equal and not 0
-    smoothing_masks:  True: faces smooth together whose numbers have a bit in common
+    smoothing_groups_are_masks: True: faces smooth together whose numbers have a bit in common
     weld_positions:   True: vertices at the same position are one point, so that UV seams stay smooth; False: only equal
                       indices are
     convention:       its handedness and winding say which side is out; None: right-handed, counter-clockwise
@@ -137,7 +137,9 @@ def normals(
     """
     mesh = Mesh(positions, None, None, indices, face_sizes)
     groups = None if smoothing_groups is None else uint32_array("smoothing_groups", smoothing_groups)
-    options = normal_options(weighting, crease, groups, smoothing_masks, weld_positions, convention, refine, denoise)
+    options = normal_options(
+        weighting, crease_angle, groups, smoothing_groups_are_masks, weld_positions, convention, refine, denoise
+    )
     run = execution(threads)
     result = output_array(out, mesh.corner_count, 3)
     check_apart(out, mesh.arrays if groups is None else [*mesh.arrays, groups])

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+// three.js's WebGPURenderer and TSL with tangents of tspace/three, bundled by Vite, in headless Chromium.
+import assert from "node:assert/strict";
+import { createServer } from "node:http";
+import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { extname, join } from "node:path";
+import { fileURLToPath } from "node:url";
+import { it } from "node:test";
+
+const project = fileURLToPath(new URL("..", import.meta.url));
+const chromium = ["/usr/bin/chromium", "/usr/bin/chromium-browser"].find(existsSync);
+const [vite, playwright, three] = await Promise.all(["vite", "playwright-core", "three"].map((name) => import(name).catch(() => null)));
+const missing =
+  (!chromium && "no Chromium here: scripts/js --all") ||
+  (!(vite && playwright && three) && "Vite, playwright-core or three.js is not installed, or this node is too old for them");
+
+/** A square before the camera, whose texture is mirrored where `mirrored`: its colour is (tangent.x, bitangent.y, sign). */
+const page = `
+import * as THREE from "three/webgpu";
+import { bitangentWorld, tangentGeometry, tangentWorld, vec3, vec4 } from "three/tsl";
+import { computeTangents, ready } from "tspace/three";
+
+async function colour(renderer, mirrored) {
+  const geometry = new THREE.PlaneGeometry(2, 2);
+  if (mirrored) for (let i = 0; i < 4; ++i) geometry.attributes.uv.setX(i, 1 - geometry.attributes.uv.getX(i));
+  const material = new THREE.MeshBasicNodeMaterial();
+  material.colorNode = vec4(vec3(tangentWorld.x, bitangentWorld.y, tangentGeometry.w).mul(0.5).add(0.5), 1);
+  const mesh = new THREE.Mesh(geometry, material);
+  mesh.geometry = computeTangents(mesh, { convention: "opengl" });
+  const scene = new THREE.Scene();
+  scene.add(mesh);
+  const camera = new THREE.OrthographicCamera(-1, 1, 1, -1, 0.1, 10);
+  camera.position.z = 2;
+  const target = new THREE.RenderTarget(4, 4);
+  renderer.setRenderTarget(target);
+  await renderer.renderAsync(scene, camera);
+  return [...(await renderer.readRenderTargetPixelsAsync(target, 1, 1, 1, 1))].slice(0, 3);
+}
+/** What a lit material makes of a texel that leans along u, on a wall lit from the right, and from the left. */
+async function lit(renderer, mirrored) {
+  const geometry = new THREE.PlaneGeometry(2, 2);
+  if (mirrored) for (let i = 0; i < 4; ++i) geometry.attributes.uv.setX(i, 1 - geometry.attributes.uv.getX(i));
+  const normalMap = new THREE.DataTexture(Uint8Array.of(218, 128, 218, 255), 1, 1);
+  normalMap.needsUpdate = true;
+  const material = new THREE.MeshStandardNodeMaterial({ normalMap, roughness: 1 });
+  const scene = new THREE.Scene();
+  scene.add(new THREE.Mesh(computeTangents(geometry, { convention: "opengl" }), material));
+  const camera = new THREE.OrthographicCamera(-1, 1, 1, -1, 0.1, 10);
+  camera.position.z = 2;
+  const light = new THREE.DirectionalLight(0xffffff, 3);
+  scene.add(light);
+  const target = new THREE.RenderTarget(4, 4);
+  const levels = [];
+  for (const x of [1, -1]) {
+    light.position.set(x, 0, 1);
+    renderer.setRenderTarget(target);
+    await renderer.renderAsync(scene, camera);
+    levels.push((await renderer.readRenderTargetPixelsAsync(target, 1, 1, 1, 1))[0]);
+  }
+  return levels;
+}
+try {
+  await ready;
+  const result = {};
+  for (const forceWebGL of [true, false]) {
+    const renderer = new THREE.WebGPURenderer({ forceWebGL });
+    await renderer.init();
+    const name = renderer.backend.isWebGPUBackend ? "webgpu" : "webgl";
+    if (result[name]) continue; // no WebGPU here: the renderer took WebGL
+    result[name] = {};
+    for (const mirrored of [false, true]) result[name][mirrored] = { colour: await colour(renderer, mirrored), lit: await lit(renderer, mirrored) };
+  }
+  window.result = result;
+} catch (error) {
+  window.result = { error: String(error.stack) };
+}
+`;
+
+it("three.js's WebGPURenderer draws with tangents of tspace/three", { skip: missing }, async (t) => {
+  const folder = mkdtempSync(join(tmpdir(), "tspace-webgpu-"));
+  let server, browser;
+  try {
+    const source = mkdtempSync(join(project, "webgpu-"));
+    try {
+      writeFileSync(join(source, "index.html"), '<!doctype html><script type="module" src="./page.js"></script>');
+      writeFileSync(join(source, "page.js"), page);
+      await vite.build({ root: source, configFile: false, logLevel: "error", build: { outDir: folder, target: "esnext", emptyOutDir: true } });
+    } finally {
+      rmSync(source, { recursive: true });
+    }
+    const types = { ".html": "text/html", ".js": "text/javascript", ".wasm": "application/wasm" };
+    server = createServer((request, answer) => {
+      const path = join(folder, request.url === "/" ? "index.html" : new URL(request.url, "http://localhost").pathname);
+      if (!existsSync(path)) return answer.writeHead(404).end();
+      answer.writeHead(200, { "Content-Type": types[extname(path)] ?? "application/octet-stream" }).end(readFileSync(path));
+    });
+    await new Promise((resolve) => server.listen(0, "127.0.0.1", resolve));
+    browser = await playwright.chromium.launch({
+      executablePath: chromium,
+      args: ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--enable-unsafe-webgpu", "--use-webgpu-adapter=swiftshader", "--enable-features=Vulkan"],
+      env: { ...process.env, HOME: folder },
+    });
+    const tab = await browser.newPage();
+    await tab.goto(`http://127.0.0.1:${server.address().port}/`);
+    await tab.waitForFunction(() => window.result, null, { timeout: 120_000 });
+    const result = await tab.evaluate(() => window.result);
+    assert.equal(result.error, undefined);
+    assert.ok(result.webgl || result.webgpu);
+    t.diagnostic(`drawn by ${Object.keys(result).join(" and ")}`);
+    for (const [name, of] of Object.entries(result)) {
+      assert.deepEqual(of.false.colour, [255, 255, 255], `${name}: T along +x, B along +y, sign +1`);
+      assert.deepEqual(of.true.colour, [0, 255, 0], `${name}: T along -x, B along +y, sign -1`);
+      const [[right, left], [mirroredRight, mirroredLeft]] = [of.false.lit, of.true.lit];
+      assert.ok(right > left + 50 && mirroredLeft > mirroredRight + 50, `${name}: texels lean along u: ${right} ${left}, ${mirroredRight} ${mirroredLeft}`);
+    }
+  } finally {
+    await browser?.close();
+    server?.close();
+    rmSync(folder, { recursive: true });
+  }
+});
