@@ -59,7 +59,9 @@ struct RenderOptions {
     MapReading reading = {};
     bool textures = true;  ///< false: surfaces in their plain colour, without normal maps
     bool pose = true;      ///< false: skins as they were bound, without morph targets
-    bool legend = false;   ///< under the picture what its colours mean; `error` has its scale in any case
+    /// Under the picture what its colours mean and whose tangents it shows, in a third of its rows at most; a picture of less
+    /// than 200 columns has no room for it.
+    bool legend = true;
     /// Pictures of a turn about the vertical axis, each as far on as the others: 1 to 999. With more than one, OUT.png is
     /// written as OUT_000.png and so on, and the distance of the camera is the same in all.
     std::uint32_t turntable = 1;

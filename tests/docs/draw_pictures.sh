@@ -14,12 +14,12 @@ trap 'rm -rf "$work"' EXIT
 python3 "$(dirname "$0")/lose_signs.py" "$work/crate.glb" "$work/lost.glb"
 "$programs/tspace" generate -q --repair "$work/lost.glb" -o "$work/right.glb"
 for sign in lost right; do
-    "$programs/tspace" render -q "$work/$sign.glb" -o "$images/sign-$sign.png" --size 350 --samples 3 --view 14,14 --fov 20 --light=-0.3,0.9,0.65
+    "$programs/tspace" render -q "$work/$sign.glb" -o "$images/sign-$sign.png" --size 350 --samples 3 --no-legend --view 14,14 --fov 20 --light=-0.3,0.9,0.65
 done
 
 # docs/flip-green.md: one map, read with green up and with green down.
 for reading in gltf=right directx=turned; do
-    "$programs/tspace" render -q "$work/crate.glb" -o "$images/green-${reading#*=}.png" --size 220 --samples 3 --view 8,8 --fov 20 \
+    "$programs/tspace" render -q "$work/crate.glb" -o "$images/green-${reading#*=}.png" --size 220 --samples 3 --no-legend --view 8,8 --fov 20 \
         --light=0,1,0.6 --reading "${reading%=*}"
 done
 # Tangents of another method, so that there is an error to see.
@@ -32,12 +32,19 @@ draw crate tangents
 draw crate sign
 draw flat error
 draw crate uv
+draw crate surface
+draw lost both
+"$programs/tspace" render -q "$work/crate.glb" -o "$images/render-turn.png" --show surface --turntable 4 --size 130 --no-legend --view 20,15
+python3 "$(dirname "$0")/posed_pipe.py" "$work/pipe.glb"
+pipe() { "$programs/tspace" render -q "$work/pipe.glb" -o "$images/render-$1.png" --show surface --size 260x200 --samples 3 --no-legend --view 25,10 "${@:2}"; }
+pipe posed
+pipe unposed --no-pose
 
 # docs/normals.md: kinds of meshes, each with usual normals and with those that suit it.
 python3 "$(dirname "$0")/normal_kinds.py" "$work"
 normals() {
     "$programs/tspace" generate -q --all --method basis "$work/$1.obj" -o "$work/kind.glb" "${@:3}"
-    "$programs/tspace" render -q "$work/kind.glb" -o "$images/normals-$1-$2.png" --size 200 --samples 3 --view 30,25 --fov 20 --light=-0.6,0.7,0.5
+    "$programs/tspace" render -q "$work/kind.glb" -o "$images/normals-$1-$2.png" --size 200 --samples 3 --no-legend --view 30,25 --fov 20 --light=-0.6,0.7,0.5
 }
 normals grid usual --normals angle
 normals grid right --normals best --denoise auto

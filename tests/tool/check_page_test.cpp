@@ -3,6 +3,7 @@
 #include "commands/render/drawn.h"
 #include "support/temp_folder.h"
 #include "tool/run_tool.h"
+#include "tspace/version.h"
 
 namespace tspace::test {
 namespace {
@@ -46,6 +47,28 @@ TEST(CheckPage, TextOfFilesIsText) {
     EXPECT_NE(page.find("&lt;script&gt;alert(&#39;&amp;&#39;)&lt;/script&gt;"), std::string::npos);
     EXPECT_NE(page.find("a&lt;b&gt;&amp;.glb"), std::string::npos);
     EXPECT_EQ(countOf(page, "http"), 1U) << "nothing is loaded: the only one is that of http-equiv";
+}
+
+TEST(CheckPage, SaysWhenAndByWhichCommandItWasMade) {
+    const TempFolder folder;
+    writeInverted(folder, "it's a sheet.glb");
+    const std::string arguments = "check -q \"it's a sheet.glb\" --html report.html";
+    const auto pageAt = [&](const char* epoch) {
+        EXPECT_EQ(runTool(folder, arguments, std::string("SOURCE_DATE_EPOCH=") + epoch).exit_code, 1);
+        return folder.read("report.html");
+    };
+    const std::string page = pageAt("1767225599");
+    EXPECT_NE(page.find("tspace " TSPACE_VERSION_STRING ", 2025-12-31 23:59 UTC: <code>tspace check -q "
+                        "&#39;it&#39;\\&#39;&#39;s a sheet.glb&#39; --html report.html</code>"),
+              std::string::npos)
+        << page.substr(0, 4000);
+    EXPECT_EQ(pageAt("1767225599"), page) << "the same run gives the same bytes";
+    EXPECT_NE(pageAt("1767225600").find(", 2026-01-01 00:00 UTC: "), std::string::npos);
+    const ToolRun wrong = runTool(folder, arguments, "SOURCE_DATE_EPOCH=today");
+    EXPECT_EQ(wrong.exit_code, 2);
+    EXPECT_NE(wrong.err.find("SOURCE_DATE_EPOCH"), std::string::npos);
+    EXPECT_EQ(runTool(folder, "check -q \"it's a sheet.glb\"", "SOURCE_DATE_EPOCH=today").exit_code, 1)
+        << "no page, no date";
 }
 
 TEST(CheckPage, SeveralFilesHaveAnOverview) {

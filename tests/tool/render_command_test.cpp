@@ -64,6 +64,15 @@ TEST(RenderCommand, NamedViewsAreAngles) {
     EXPECT_EQ(folder.read("a.png"), folder.read("b.png"));
 }
 
+TEST(RenderCommand, ALegendIsThereUnlessItIsLeftOut) {
+    const TempFolder folder;
+    writeSheet(folder);
+    ASSERT_EQ(runTool(folder, "render -q sheet.glb -o with.png --size 400").exit_code, 0);
+    ASSERT_EQ(runTool(folder, "render -q sheet.glb -o without.png --size 400 --no-legend").exit_code, 0);
+    EXPECT_NE(folder.read("with.png"), folder.read("without.png"));
+    EXPECT_EQ(sizeOf(folder.read("with.png")).height, 400U);
+}
+
 TEST(RenderCommand, WrongUseIsOneLineAndNoFile) {
     const TempFolder folder;
     writeSheet(folder);

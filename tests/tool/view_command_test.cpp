@@ -47,6 +47,34 @@ TEST(ViewCommand, PutsTheModelAndWhatItNamesIntoThePage) {
     EXPECT_TRUE(page.ends_with("<script>1</script></body>"));
 }
 
+TEST(ViewCommand, ReadsAsAPageWithoutScripts) {
+    const Installed installed(kPage);
+    const auto page = [&](const char* epoch) {
+        const ToolRun run = runTool(installed.folder(), "view a.obj -o a.html",
+                                    std::string("SOURCE_DATE_EPOCH=") + epoch + R"( sh -c 'exec ./bin/tspace "$@"')");
+        EXPECT_EQ(run.exit_code, 0) << run.err;
+        return installed.folder().read("a.html");
+    };
+    const std::string made = page("1767225600");
+    const std::size_t begin = made.find("<noscript>"), end = made.find("</noscript>");
+    ASSERT_LT(begin, end);
+    ASSERT_NE(end, std::string::npos);
+    const std::string still = made.substr(begin, end - begin);
+    for (const char* part : {"2026-01-01 00:00 UTC: <code>tspace view a.obj -o a.html</code>", "<h2>a.obj</h2>",
+                             "src=\"data:image/png;base64,", "normalsMissing"})
+        EXPECT_NE(still.find(part), std::string::npos) << part << '\n' << still.substr(0, 2000);
+    EXPECT_EQ(still.find("<script"), std::string::npos);
+    EXPECT_NE(made.find(R"("command": "tspace view a.obj -o a.html")"), std::string::npos) << "for the page's scripts";
+    EXPECT_EQ(page("1767225600"), made);
+}
+
+TEST(ViewCommand, NamesOfFilesInTheCommandAreNoMarkup) {
+    const Installed installed(kPage);
+    ASSERT_EQ(installed.run("generate a.obj -o '<b>.glb'").exit_code, 0);
+    ASSERT_EQ(installed.run("view '<b>.glb' -o a.html").exit_code, 0);
+    EXPECT_EQ(installed.folder().read("a.html").find("<b>"), std::string::npos);
+}
+
 TEST(ViewCommand, FollowsTheRulesForFilesThatAModelNames) {
     const Installed installed(kPage);
     const auto model = [](const std::string& image) {

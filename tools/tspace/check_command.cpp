@@ -9,6 +9,7 @@
 #include "common_options.h"
 #include "console.h"
 #include "output_files.h"
+#include "page_origin.h"
 #include "read_files.h"
 #include "standard_input.h"
 
@@ -64,6 +65,8 @@ ExitCode runCheck(const CheckArguments& arguments) {
     for (const Job& job : jobs) inputs.push_back(job.input);
     if (const Result<Done> fit = prepareOutputs({arguments.sarif, arguments.html}, inputs); !fit)
         return printUsageError(fit.error().message);
+    const Result<PageOrigin> origin = pageOrigin();
+    if (!arguments.html.empty() && !origin) return printUsageError(origin.error().message);
     takeShard(jobs, arguments.batch.shard);
     const unsigned workers = workerCount(arguments.batch, jobs.size());
     CheckOptions options = arguments.request.options;
@@ -81,7 +84,8 @@ ExitCode runCheck(const CheckArguments& arguments) {
             exit_code = worse(exit_code, ExitCode::findings);
     }
     if (!arguments.html.empty()) {
-        const Result<Done> written = writeTextFile(arguments.html, checkPage(files.outcomes, options.file), &read);
+        const Result<Done> written =
+            writeTextFile(arguments.html, checkPage(files.outcomes, options.file, *origin), &read);
         if (!written) exit_code = worse(exit_code, printError(arguments.html, written.error()));
     }
     if (!arguments.sarif.empty() && !sarif_to_stdout) {

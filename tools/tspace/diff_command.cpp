@@ -10,6 +10,7 @@
 #include "console.h"
 #include "jobs.h"
 #include "output_files.h"
+#include "page_origin.h"
 
 namespace tspace::tool {
 namespace {
@@ -26,6 +27,8 @@ struct DiffArguments {
 ExitCode runDiff(const DiffArguments& arguments) {
     if (const Result<Done> fit = prepareOutputs({arguments.html}, {arguments.a, arguments.b}); !fit)
         return printUsageError(fit.error().message);
+    const Result<PageOrigin> origin = pageOrigin();
+    if (!arguments.html.empty() && !origin) return printUsageError(origin.error().message);
     DiffOptions options = arguments.request.options;
     InputFiles read;
     read.watch(options.file);
@@ -39,7 +42,7 @@ ExitCode runDiff(const DiffArguments& arguments) {
     }
     if (diff && !arguments.html.empty()) {
         const Result<Done> written =
-            writeTextFile(arguments.html, diffPage(arguments.a, arguments.b, *diff, options), &read);
+            writeTextFile(arguments.html, diffPage(arguments.a, arguments.b, *diff, options, *origin), &read);
         if (!written) exit_code = worse(exit_code, printError(arguments.html, written.error()));
     }
     std::string text;

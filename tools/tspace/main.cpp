@@ -15,6 +15,7 @@
 #include "console.h"
 #include "help.h"
 #include "interrupt.h"
+#include "page_origin.h"
 #include "read_command_line.h"
 #include "system.h"
 
@@ -78,6 +79,7 @@ int main(int argc, char** argv) {
     tidyUpAtSignals();
     try {
         std::vector<char*> words = commandLine(argc, argv);
+        rememberCommandLine(words);
         return static_cast<int>(run(static_cast<int>(words.size()), words.data()));
     } catch (const std::bad_alloc&) {
         // Formatting a message would allocate.

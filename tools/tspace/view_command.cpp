@@ -11,6 +11,7 @@
 #include "model/io/file_io.h"
 #include "model/io/system_files.h"
 #include "output_files.h"
+#include "page_origin.h"
 
 namespace tspace::tool {
 namespace {
@@ -36,18 +37,20 @@ std::string pagePath() {
     return {};
 }
 
-Result<ViewReport> view(const ViewArguments& arguments) {
+Result<ViewReport> view(const ViewArguments& arguments, const PageOrigin& origin) {
     const std::string page = pagePath();
     if (page.empty())
         return Error{ErrorCode::cannotRead, "the page was not built with this tool: scripts/web builds it"};
-    return writeViewPage(arguments.input, arguments.output, page, arguments.file);
+    return writeViewPage(arguments.input, arguments.output, page, arguments.file, origin);
 }
 
 ExitCode runView(const ViewArguments& arguments) {
     if (const Result<Done> fit = prepareOutputs({arguments.output}, {arguments.input}); !fit)
         return printUsageError(fit.error().message);
+    const Result<PageOrigin> origin = pageOrigin();
+    if (!origin) return printUsageError(origin.error().message);
     const report::Outcome<ViewReport> outcome{
-        .input = arguments.input, .output = arguments.output, .result = view(arguments)};
+        .input = arguments.input, .output = arguments.output, .result = view(arguments, *origin)};
     const ExitCode exit_code = outcome.result ? ExitCode::done : printError(arguments.input, outcome.result.error());
     std::string text;
     if (arguments.json) {

@@ -53,7 +53,8 @@ export function showAverage(host: HTMLElement, rows: HTMLElement) {
     figure.line(kSide, [-1.2 * normal[2], 1.2 * normal[0]], [1.2 * normal[2], -1.2 * normal[0]], "surface");
     figure.arrow(kSide, [0, 0], side(normal), "normal", "N");
     figure.arrow(kSide, [0, 0], side(mean), "tangent faint", "t");
-    figure.arrow(kSide, [0, 0], foot, "part", "N(N\u00b7t)");
+    figure.arrow(kSide, [0, 0], foot, "part");
+    figure.word(kSide, [foot[0] - 0.32, foot[1]], "N(N\u00b7t)", "part");
     figure.line(kSide, side(mean), side(flat), "dashed");
     figure.arrow(kSide, [0, 0], side(flat), "tangent", "T");
     figure.word(kSide, [0, -0.79], "from the side");

@@ -143,3 +143,37 @@ export class Numbers {
     row.textContent = value;
   }
 }
+
+/** A matrix of numbers in brackets: fields that can be edited where `set` is given, else text. */
+export class Matrix {
+  readonly element = document.createElement("span");
+  private readonly cells: HTMLElement[][];
+
+  constructor(rows: number, columns: number, label: string, private readonly set?: (row: number, column: number, value: number) => void) {
+    this.element.className = "matrix numbers-in";
+    this.element.style.gridTemplateColumns = `repeat(${columns}, auto)`;
+    this.element.setAttribute("role", "group");
+    this.element.setAttribute("aria-label", label);
+    this.cells = Array.from({ length: rows }, (_, row) => Array.from({ length: columns }, (_, column) => this.cell(row, column, label)));
+    this.element.append(...this.cells.flat());
+  }
+
+  private cell(row: number, column: number, label: string): HTMLElement {
+    if (!this.set) return document.createElement("span");
+    const field = document.createElement("input");
+    field.type = "number";
+    field.step = "0.05";
+    field.setAttribute("aria-label", `${label}: row ${row + 1}, column ${column + 1}`);
+    field.addEventListener("input", () => Number.isFinite(field.valueAsNumber) && this.set!(row, column, field.valueAsNumber));
+    return field;
+  }
+
+  /** A field that is being edited keeps what was typed. */
+  show(values: readonly (readonly number[])[], say: (value: number) => string) {
+    this.cells.forEach((row, i) => row.forEach((cell, k) => {
+      const value = values[i]![k]!;
+      if (!(cell instanceof HTMLInputElement)) cell.textContent = say(value);
+      else if (document.activeElement !== cell) cell.value = value.toFixed(2);
+    }));
+  }
+}

@@ -2,8 +2,8 @@
 // Figure 5: the light in tangent space, and its dot product with the texel.
 
 import { generateTangents } from "tspace";
-import { Figure, Numbers, type Plane } from "./figure";
-import { add, cross, dot, scale, text, tuple, unit, type Vec2, type Vec3 } from "./vector";
+import { Figure, Matrix, Numbers, type Plane } from "./figure";
+import { add, cross, dot, length, scale, text, tuple, unit, type Vec2, type Vec3 } from "./vector";
 
 const kLight: Plane = { origin: [100, 125], unit: 80 };
 const kFrame: Plane = { origin: [300, 125], unit: 80 };
@@ -22,10 +22,20 @@ function bump(x: number, y: number): Vec3 {
   return r < 0.75 ? unit([0.95 * x, 0.95 * y, Math.sqrt(Math.max(0.05, 0.75 - r * r))]) : [0, 0, 1];
 }
 
-export function showLight(host: HTMLElement, rows: HTMLElement, canvas: HTMLCanvasElement) {
+export function showLight(host: HTMLElement, rows: HTMLElement, canvas: HTMLCanvasElement, product: HTMLElement) {
   const figure = new Figure(host, 600, 260, "The light, a frame, and a texel");
   const numbers = new Numbers(rows);
   let light: Vec2 = [-0.45, 0.6], turn: Vec2 = [0.8, 0.4], texel: Vec2 = [0.3, 0.35];
+  let edited: [Vec3, Vec3, Vec3] | undefined;  // T, B and N, where they were typed
+  const frame = new Matrix(3, 3, "T, B and N in columns", (row, column, value) => {
+    const columns = (edited ?? shown).map((v): [number, number, number] => [...v]);
+    columns[column]![row] = value;
+    edited = columns as unknown as [Vec3, Vec3, Vec3];
+    figure.redraw();
+  });
+  let shown: [Vec3, Vec3, Vec3] = [[1, 0, 0], [0, 1, 0], [0, 0, 1]];
+  const ofTexel = new Matrix(3, 1, "the texel"), ofSpace = new Matrix(3, 1, "the texel in space");
+  product.append(frame.element, ofTexel.element, " = ", ofSpace.element);
   canvas.width = canvas.height = kCanvas;
   const pixels = canvas.getContext("2d");
 
@@ -50,8 +60,9 @@ export function showLight(host: HTMLElement, rows: HTMLElement, canvas: HTMLCanv
       { positions: new Float32Array(corners.flatMap(([x, y]) => [x, y, 0])), normals: new Float32Array(corners.flatMap(() => [0, 0, 1])),
         uvs: new Float32Array(corners.flatMap(([x, y]) => [c * x + s * y, c * y - s * x])), faceSizes: new Uint32Array([4]) },
       { convention: "opengl" });
-    const normal: Vec3 = [0, 0, 1], tangent: Vec3 = [made[0]!, made[1]!, made[2]!];
-    const bitangent = scale(made[3]!, cross(normal, tangent));
+    const computed: Vec3 = [made[0]!, made[1]!, made[2]!], up: Vec3 = [0, 0, 1];
+    shown = edited ?? [computed, scale(made[3]!, cross(up, computed)), up];
+    const [tangent, bitangent, normal] = shown;
     const l = onHemisphere(light), n = onHemisphere(texel);
     const inTangentSpace: Vec3 = [dot(tangent, l), dot(bitangent, l), dot(normal, l)];
     const inSpace = add(add(scale(n[0], tangent), scale(n[1], bitangent)), scale(n[2], normal));
@@ -63,25 +74,38 @@ export function showLight(host: HTMLElement, rows: HTMLElement, canvas: HTMLCanv
       if (plane === kTexel) disc.setAttribute("style", `fill: rgb(${colour.join(",")})`);
       figure.word(plane, [0, -1.25], words);
     }
-    figure.arrow(kLight, [0, 0], [l[0], l[1]], "light", "L");
-    figure.arrow(kFrame, [0, 0], [0.8 * tangent[0], 0.8 * tangent[1]], "tangent", "T");
+    figure.arrow(kLight, [0, 0], [l[0], l[1]], "light");
+    figure.word(kLight, [0.45 * l[0] + 0.2 * l[1], 0.45 * l[1] - 0.2 * l[0] - 0.05], "L", "light");
+    figure.arrow(kFrame, [0, 0], [0.8 * tangent[0], 0.8 * tangent[1]], "tangent");
+    // Beside the arrow, since the handle is at its end.
+    figure.word(kFrame, [0.45 * tangent[0] + 0.17 * tangent[1], 0.45 * tangent[1] - 0.17 * tangent[0] - 0.05], "T", "tangent");
     figure.arrow(kFrame, [0, 0], [0.8 * bitangent[0], 0.8 * bitangent[1]], "bitangent", "B");
     figure.arrow(kFrame, [0, 0], [0.8 * inSpace[0], 0.8 * inSpace[1]], "normal", "n");
     figure.arrow(kTexel, [0, 0], [n[0], n[1]], "part");
     shade(inTangentSpace, tangent, bitangent);
 
     const one = dot(inTangentSpace, n), other = dot(l, inSpace);
+    frame.show([0, 1, 2].map((row) => shown.map((v) => v[row]!)), text);
+    ofTexel.show(n.map((v) => [v]), text);
+    ofSpace.show(inSpace.map((v) => [v]), text);
     numbers.set("light in tangent space", `l = (T\u00b7L, B\u00b7L, N\u00b7L) = ${tuple(inTangentSpace)}`);
     numbers.set("texel", `rgb(${colour.join(", ")}) = (n + 1) / 2, n = ${tuple(n)}`);
     numbers.set("brightness", `max(0, n\u00b7l) = ${text(Math.max(0, one), 3)}`);
     numbers.set("the other way round", `n in space = x T + y B + z N = ${tuple(inSpace)}, and its dot product with L is ${text(Math.max(0, other), 3)} as well`);
+    const isRight = [length(tangent), length(bitangent), length(normal)].every((size) => Math.abs(size - 1) < 0.02)
+      && [dot(tangent, bitangent), dot(bitangent, normal), dot(normal, tangent)].every((cosine) => Math.abs(cosine) < 0.02);
+    numbers.set("the matrix", isRight ? "its columns are unit and at right angles, so its transpose is its inverse"
+      : `its columns are no longer unit and at right angles: n in space has length ${text(length(inSpace))}, and a shader that makes it unit shades ${text(Math.max(0, dot(l, unit(inSpace))), 3)}, not ${text(Math.max(0, one), 3)}`);
   });
   const disc: [Vec2, Vec2] = [[-1, 1], [-1, 1]];
   figure.handle(kLight, "the light", () => onHemisphere(light).slice(0, 2) as unknown as Vec2, (to) => (light = to), disc, "light");
   figure.handle(kFrame, "how the texture is turned", () => {
     const size = Math.hypot(...turn) || 1;
     return [turn[0] / size, turn[1] / size];
-  }, (to) => (turn = Math.hypot(...to) > 0.05 ? to : turn), disc);
+  }, (to) => {
+    turn = Math.hypot(...to) > 0.05 ? to : turn;
+    edited = undefined;
+  }, disc);
   figure.handle(kTexel, "the texel", () => onHemisphere(texel).slice(0, 2) as unknown as Vec2, (to) => (texel = to), disc);
   figure.redraw();
 }

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
-// The lesson: six figures, made when the library is there.
+// The lesson: eight figures and a picture, made when the library is there.
 
 import { ready } from "tspace";
+import { showAcross } from "./across";
 import { showAverage } from "./average";
+import { showHero } from "./hero";
 import { showLight } from "./light";
 import { showMethods } from "./methods";
 import { showMirror } from "./mirror";
 import { showRelief } from "./relief";
+import { showSeam } from "./seam";
 import { showTriangle } from "./triangle";
 
 function find<Type extends Element>(selector: string, type: new () => Type): Type {
@@ -19,12 +22,15 @@ const figure = (name: string) => find(`#${name} .drawing`, HTMLElement);
 const numbers = (name: string) => find(`#${name} .numbers`, HTMLElement);
 
 try {
+  showHero(find("#hero canvas", HTMLCanvasElement), find("#hero input", HTMLInputElement), find("#hero .said", HTMLElement));
   await ready;
   showRelief(figure("relief"), numbers("relief"), find("#down", HTMLInputElement));
-  showTriangle(figure("triangle"), numbers("triangle"));
+  showTriangle(figure("triangle"), numbers("triangle"), find("#triangle .system", HTMLElement));
   showAverage(figure("average"), numbers("average"));
+  showAcross(figure("across"), numbers("across"), find("#unit", HTMLInputElement));
   showMirror(figure("mirror"), numbers("mirror"), find("#dropped", HTMLInputElement));
-  showLight(figure("light"), numbers("light"), find("#light canvas", HTMLCanvasElement));
+  showSeam(figure("seam"), numbers("seam"), find("#shared", HTMLInputElement));
+  showLight(figure("light"), numbers("light"), find("#light canvas", HTMLCanvasElement), find("#light .system", HTMLElement));
   showMethods(figure("methods"), find("#methods tbody", HTMLTableSectionElement), find("#surface", HTMLSelectElement));
   document.documentElement.dataset["state"] = "ready";
 } catch (error) {

@@ -50,16 +50,17 @@ export function showMethods(host: HTMLElement, table: HTMLTableSectionElement, c
       const side = surface.truth[corner]![0] > 0 ? "+" : "-";
       if (!drawn.has(surface.indices[corner]! + side)) drawn.set(surface.indices[corner]! + side, corner);
     }
-    const arrow = (corner: number, v: Vec3, kind: string) => {
-      const step = project(v);
-      figure.arrow(kView, points[surface.indices[corner]!]!, [0.17 * step[0], 0.17 * step[1]], kind);
+    /** `aside`: in pixels, so that the methods' arrows lie beside each other. */
+    const arrow = (corner: number, v: Vec3, kind: string, aside = 0) => {
+      const step = project(v), [x, y] = project(surface.truth[corner]!), from = points[surface.indices[corner]!]!, shift = aside / kView.unit / (Math.hypot(x, y) || 1);
+      figure.arrow(kView, [from[0] - shift * y, from[1] + shift * x], [0.17 * step[0], 0.17 * step[1]], kind);
     };
     for (const corner of drawn.values()) arrow(corner, surface.truth[corner]!, "truth");
-    for (const method of kMethods) {
+    for (const [i, method] of kMethods.entries()) {
       const made = tangentsOf(surface, method);
       for (const corner of drawn.values()) {
         const truth = surface.truth[corner]!;
-        arrow(corner, unit(add(truth, scale(surface.enlarged, sub(made[corner]!, truth)))), `method ${method}`);
+        arrow(corner, unit(add(truth, scale(surface.enlarged, sub(made[corner]!, truth)))), `method ${method}`, 4 * (i - 1.5));
       }
       const errors = surface.watched.map((corner) => angle(made[corner]!, surface.truth[corner]!));
       const [mean, most] = rows.get(method)!;

@@ -3,6 +3,19 @@
 import { fromBase64 } from "./base64.js";
 import type { ModelFiles } from "./files.js";
 
+/** When the page was made, and by which command. */
+export interface PageOrigin {
+  version: string;
+  date: string;
+  command: string;
+}
+
+/** Of a page that `tspace view` made. */
+export function pageOrigin(): PageOrigin | null {
+  const text = document.getElementById("origin")?.textContent;
+  return text ? (JSON.parse(text) as PageOrigin) : null;
+}
+
 export function embeddedModel(): ModelFiles | null {
   const blocks = [...document.querySelectorAll<HTMLScriptElement>('script[type="application/octet-stream"]')];
   if (blocks.length === 0) return null;

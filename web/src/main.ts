@@ -4,7 +4,7 @@ import "./style.css";
 import { App } from "./app.js";
 import { el, replaceChildren } from "./dom.js";
 import { chooseModel, droppedFiles, modelsIn, pickedFiles, Pile, type ModelFiles, type Named } from "./files.js";
-import { embeddedModel } from "./embedded.js";
+import { embeddedModel, pageOrigin } from "./embedded.js";
 import { keepLink, linkedBy } from "./link.js";
 import { askedModel, askFirst, filesAt } from "./asked.js";
 import { faults, samples } from "./samples.js";
@@ -34,7 +34,7 @@ const findings = new FindingsView({
 const progress = new Progress(() => app.stop());
 const look = new LookView(stage, (right) => void app.setRight(right), (variant) => void app.setVariant(variant));
 const uvMap = new UvMapView(stage.viewport, work, largeMap);
-const parts = new PartsView(stage.viewport), motion = new MotionView(stage.viewport);
+const parts = new PartsView(stage.viewport, pageOrigin()), motion = new MotionView(stage.viewport);
 const texel = new TexelView(stage.viewport, (spot) => uvMap.point(spot));
 const title = el("p", { class: "model-name" });
 const back = el("button", { type: "button", class: "back", hidden: true, title: "Key: Backspace", onclick: () => app.back() });

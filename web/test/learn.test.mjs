@@ -148,9 +148,96 @@ it("measures methods against the true surface", { skip }, async () => {
   assert.ok(bevel.best[0] <= bevel.lengyel[0] + 1, JSON.stringify(bevel));
 });
 
+it("shows a ring that turns, with relief on one side of the line only", { skip }, async () => {
+  const tab = await open();
+  const pixels = () => tab.$eval("#hero canvas", (canvas) => [...canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data].filter((_, i) => i % 4 === 0));
+  /** How rough neighbours are on the ring, left and right of the middle, away from line and arrows. */
+  const roughness = (red) => [[120, 300], [340, 520]].map(([from, to]) => {
+    let sum = 0, count = 0;
+    for (let y = 40; y < 160; ++y) for (let x = from; x < to; ++x) if (red[y * 640 + x] > 0 && red[y * 640 + x + 1] > 0) [sum, count] = [sum + Math.abs(red[y * 640 + x] - red[y * 640 + x + 1]), count + 1];
+    return sum / count;
+  });
+  const before = await pixels(), [left, right] = roughness(before);
+  assert.ok(right > 2 * left, `${left} ${right}`);
+  await press(tab, "turn the ring", "ArrowRight", 3);
+  await tab.waitForTimeout(300);
+  const turned = await pixels();
+  assert.ok(turned.filter((value, i) => Math.abs(value - before[i]) > 20).length > 5000);
+  await tab.$eval("#hero input", (line) => { line.value = "0"; line.dispatchEvent(new Event("input")); });
+  await tab.waitForTimeout(300);
+  const [all] = roughness(await pixels());
+  assert.ok(all > 2 * left, "the relief is on both sides");
+  assert.deepEqual(tab.faults, []);
+});
+
+it("takes typed edges and frames, and says what follows", { skip }, async () => {
+  const tab = await open();
+  await tab.fill('[aria-label="edges in the texture: row 1, column 1"]', "-0.1");
+  assert.match(await number(tab, "triangle", "determinant"), /= \u2212/);
+  assert.match(await number(tab, "triangle", "which means"), /mirrored/);
+  // What T and B must give: the edges, by the matrix.
+  const cells = await tab.$$eval("#triangle .system .matrix", (all) => all.map((one) => [...one.children].map((cell) => Number((cell.value ?? cell.textContent).replace("\u2212", "-")))));
+  const [[s1, t1, s2, t2], [tx, ty, bx, by], [x1, y1, x2, y2]] = cells;
+  [[s1 * tx + t1 * bx, x1], [s1 * ty + t1 * by, y1], [s2 * tx + t2 * bx, x2], [s2 * ty + t2 * by, y2]].forEach(([made, edge]) => assert.ok(Math.abs(made - edge) < 0.05, cells.join(" | ")));
+  assert.match(await number(tab, "light", "the matrix"), /transpose is its inverse/);
+  await tab.fill('[aria-label="T, B and N in columns: row 1, column 1"]', "0.3");
+  assert.match(await number(tab, "light", "the matrix"), /no longer unit/);
+  await press(tab, "how the texture is turned", "ArrowUp", 1);
+  assert.match(await number(tab, "light", "the matrix"), /transpose is its inverse/);
+  assert.deepEqual(tab.faults, []);
+});
+
+it("mixes tangents between corners, shorter where they disagree", { skip }, async () => {
+  const tab = await open();
+  const at = async () => Number((await number(tab, "across", "T there")).match(/length ([\d.]+)/)[1]);
+  const between = async () => Number((await number(tab, "across", "shaded normal")).match(/([\d.]+) degrees/)[1]);
+  assert.ok((await at()) < 0.9 && (await between()) > 2);
+  const lit = () => tab.$eval("#across image", (image) => image.getAttribute("href"));
+  const before = await lit();
+  await tab.check("#unit");
+  assert.notEqual(await lit(), before);
+  // All three along x.
+  await press(tab, "T at corner 1", "Shift+ArrowRight", 12);
+  await press(tab, "T at corner 2", "Shift+ArrowUp", 1);
+  assert.ok((await at()) > 0.95, String(await at()));
+  assert.match(await number(tab, "across", "which means"), /agree/);
+});
+
+it("splits vertices at a seam, and shows what sharing them does", { skip }, async () => {
+  const tab = await open();
+  const lit = () => tab.$eval("#seam image", (image) => image.getAttribute("href"));
+  assert.match(await number(tab, "seam", "vertices"), /^8/);
+  const right = await lit();
+  await tab.check("#shared");
+  assert.match(await number(tab, "seam", "vertices"), /^6/);
+  assert.match(await number(tab, "seam", "which means"), /wrong beside the seam/);
+  assert.notEqual(await lit(), right);
+  await press(tab, "where u runs on the right square", "Shift+ArrowRight", 20);
+  await press(tab, "where u runs on the right square", "Shift+ArrowDown", 20);
+  await press(tab, "where u runs on the right square", "Shift+ArrowLeft", 40);
+  await press(tab, "where u runs on the right square", "Shift+ArrowUp", 10);
+  const degrees = Number((await number(tab, "seam", "T at the seam")).match(/(\d+) degrees/)[1]);
+  assert.ok(degrees > 90, String(degrees));
+});
+
+for (const width of [390, 1280])
+  it(`has no word under a handle, and none smaller than 12.9 pixels, at ${width}`, { skip }, async () => {
+    const tab = await open({ viewport: { width, height: 844 } });
+    const covered = await tab.$$eval("svg text", (words) => words.flatMap((word) => {
+      const own = word.getBoundingClientRect();
+      const knobs = [...word.ownerSVGElement.querySelectorAll(".handle")].map((knob) => knob.getBoundingClientRect());
+      // The middle of a letter is what one reads; its box has room around it.
+      const [x, y, half] = [(own.left + own.right) / 2, (own.top + own.bottom) / 2, own.width / 2];
+      return knobs.some((knob) => Math.abs((knob.left + knob.right) / 2 - x) < knob.width / 2 + half - 3 && Math.abs((knob.top + knob.bottom) / 2 - y) < knob.height / 2 + 0.25 * own.height) ? [`${word.closest("section").id}: ${word.textContent}`] : [];
+    }));
+    assert.deepEqual(covered, []);
+    const small = await tab.$$eval("svg text", (words) => words.filter((word) => parseFloat(getComputedStyle(word).fontSize) * word.ownerSVGElement.getScreenCTM().a < 12.9).map((word) => word.textContent));
+    assert.deepEqual(small, []);
+  });
+
 it("is reached by the keyboard, fits a telephone, and prints", { skip }, async () => {
   const tab = await open({ viewport: { width: 390, height: 844 } });
-  assert.ok(await tab.$$eval(".handle", (all) => all.length >= 16 && all.every((knob) => knob.tabIndex === 0 && knob.getAttribute("aria-label") && knob.getAttribute("aria-valuetext"))));
+  assert.ok(await tab.$$eval(".handle", (all) => all.length >= 21 && all.every((knob) => knob.tabIndex === 0 && knob.getAttribute("aria-label") && knob.getAttribute("aria-valuetext"))));
   assert.ok(await tab.evaluate(() => document.documentElement.scrollWidth <= innerWidth));
   await tab.emulateMedia({ media: "print" });
   assert.equal(await tab.$eval("#triangle svg", (svg) => svg.getBoundingClientRect().height > 50), true);

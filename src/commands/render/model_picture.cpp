@@ -193,6 +193,20 @@ std::uint64_t ModelPicture::cornerCount() const {
     return count;
 }
 
+TangentSources ModelPicture::tangentSources() const {
+    TangentSources sources{.has_other = !choice_.others.empty()};
+    for (const ModelSurface& surface : surfaces_) {
+        const ShownSurface& shown = surface.shown;
+        if (shown.corners.empty()) continue;
+        const bool is_missing = shown.tangents.empty() || (show_ == RenderShow::error && shown.expected.empty());
+        sources.stored |= !shown.tangents.empty() && !shown.tangents.is_per_corner;
+        sources.computed |= !shown.tangents.empty() && shown.tangents.is_per_corner;
+        sources.missing |= is_missing;
+        sources.has_map |= shown.normal_map.image != nullptr;
+    }
+    return sources;
+}
+
 void ModelPicture::prepare(std::size_t primitive) {
     const ScenePrimitive& source = drawn_.scene.primitives[primitive];
     ModelSurface& surface = surfaces_[primitive];
@@ -404,12 +418,8 @@ void visitPoints(const ModelPicture& model, Effort& effort, bool is_uv,
 
 SurfacePicture drawModel(const ModelPicture& model, const RenderOptions& options) {
     const bool is_uv = options.show == RenderShow::uv;
-    // Under the heat map stands its scale.
-    const bool has_scale = options.show == RenderShow::error;
-    const std::uint32_t scale_rows = has_scale        ? heatScaleRows(options.width)
-                                     : options.legend ? legendRows(options.show, options.width)
-                                                      : 0;
-    const std::uint32_t height = scale_rows + 16 <= options.height ? options.height - scale_rows : options.height;
+    const Legend legend = options.legend ? model.legend() : Legend{};
+    const std::uint32_t rows = legendRows(legend, options.width, options.height), height = options.height - rows;
     const std::uint64_t samples = std::uint64_t{options.width} * options.samples * options.height * options.samples;
     constexpr std::uint64_t kSteps = std::uint64_t{1} << 28, kMostLayers = 100, kCornerSteps = 64;
     Effort effort(kSteps + kMostLayers * samples + kCornerSteps * model.cornerCount());
@@ -428,15 +438,8 @@ SurfacePicture drawModel(const ModelPicture& model, const RenderOptions& options
     Parallel parallel(options.execution);
     SurfacePicture picture = drawSurfaces(options.show, model.meshes(), model.surfaces(), camera, to_light,
                                           {options.width, height, options.samples}, effort, parallel);
-    if (height != options.height) {
-        picture.image.height = options.height;
-        picture.image.rgb.resize(std::size_t{3} * options.width * options.height);
-        if (has_scale)
-            drawHeatScale(picture.image);
-        else
-            drawLegend(picture.image, options.show);
-    }
     if (is_uv) drawUvSquare(picture.image, camera, options.samples);
+    addLegend(legend, rows, picture.image);
     return picture;
 }
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "commands/shared/picture/draw_surfaces.h"
+#include "commands/shared/picture/legend.h"
 #include "images/image.h"
 #include "model/scene/scene.h"
 #include "tspace/render.h"
@@ -101,6 +102,8 @@ class ModelPicture {
     /// Of the file, each primitive once.
     [[nodiscard]] std::uint64_t cornerCount() const;
     [[nodiscard]] const ModelSurface& surfaceOf(std::size_t primitive) const { return surfaces_[primitive]; }
+    [[nodiscard]] TangentSources tangentSources() const;
+    [[nodiscard]] Legend legend() const { return legendOf(show_, tangentSources(), choice_.method); }
 
   private:
     void prepare(std::size_t primitive);
@@ -123,8 +126,8 @@ class ModelPicture {
 
 // A whole model in a picture.
 
-/// Size, camera, light and execution are those of `options`; options.show is what `model` was made for. Under a heat map
-/// stands its scale. Throws FileError (tooLarge).
+/// Size, camera, light and execution are those of `options`; options.show is what `model` was made for. With options.legend
+/// that takes the lowest rows. Throws FileError (tooLarge).
 SurfacePicture drawModel(const ModelPicture& model, const RenderOptions& options);
 
 /// The first picture left of a line, the second right of it. Both are of one size.

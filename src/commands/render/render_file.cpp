@@ -6,7 +6,6 @@
 
 #include "commands/render/model_picture.h"
 #include "commands/render/render_report.h"
-#include "commands/shared/picture/colors.h"
 #include "core/base/vec_math.h"
 #include "model/io/atomic_output.h"
 #include "model/io/file_error.h"
@@ -74,14 +73,16 @@ class ModelPictures {
         RenderOptions options = options_;
         options.yaw_deg = yaw_deg;
         if (models_.size() == 1) return drawModel(models_.front(), options);
-        const std::uint32_t rows = options.legend ? legendRows(RenderShow::both, options.width) : 0;
+        const Legend legend =
+            options.legend ? legendOfBoth(models_[0].tangentSources(), models_[1].tangentSources(), options.method)
+                           : Legend{};
+        const std::uint32_t rows = legendRows(legend, options.width, options.height);
         options.show = RenderShow::surface;
-        options.height = rows + 16 <= options.height ? options.height - rows : options.height;
+        options.legend = false;
+        options.height -= rows;
         SurfacePicture picture{
             .image = besideEachOther(drawModel(models_[0], options).image, drawModel(models_[1], options).image)};
-        picture.image.rgb.resize(std::size_t{3} * options_.width * options_.height);
-        picture.image.height = options_.height;
-        if (options.height != options_.height) drawLegend(picture.image, RenderShow::both);
+        addLegend(legend, rows, picture.image);
         return picture;
     }
 

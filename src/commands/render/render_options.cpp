@@ -154,7 +154,9 @@ OptionList renderOptions(RenderOptions& options) {
         number("--turntable", options.turntable, 999,
                "Write N pictures of a turn about the vertical axis, as OUT_000.png, OUT_001.png and so on; the camera "
                "keeps its distance."));
-    add(list, picture, flag("--legend", options.legend, "Say under the picture what its colours mean."));
+    add(list, picture,
+        setting("--no-legend", options.legend, false,
+                "Leave out what stands under the picture: what its colours mean, and whose tangents it shows."));
     add(list, picture,
         setting("--no-pose", options.pose, false, "Leave out bones and morph targets: the model as it was bound."));
     const char* frames = "Frames";

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The files of a model as blocks of data in the page, and the report as JSON. Browsers do not run a script whose type is no
-// language.
+// The files of a model as blocks of data in the page, what it shows where no script runs, and the report as JSON. Browsers do
+// not run a script whose type is no language.
 #include "commands/view/view_report.h"
 
 #include <filesystem>
@@ -10,11 +10,15 @@
 #include <string_view>
 #include <utility>
 
+#include "commands/render/model_picture.h"
+#include "commands/shared/page/check_page.h"
 #include "commands/shared/page/page_parts.h"
 #include "model/io/atomic_output.h"
 #include "model/io/file_error.h"
 #include "model/io/file_io.h"
 #include "model/io/uri.h"
+#include "model/read/read_scene.h"
+#include "tspace/version.h"
 
 namespace tspace {
 
@@ -57,9 +61,41 @@ std::vector<EmbeddedFile> filesOf(const Path& input, const FileOptions& options,
     return files;
 }
 
+/// Lit, from the front; empty where nothing can be drawn.
+std::string pictureHtml(const Path& input, const FileOptions& options) {
+    const RenderOptions render{.width = 480, .height = 360, .legend = false};
+    try {
+        const PosedScene posed = readPosedScene(input.string(), options, true);
+        ModelTextures textures(posed.drawn.scene, render.most_pixels);
+        const ModelPicture picture(posed.drawn, RenderShow::lit, {}, {}, &textures, posed.poses);
+        if (picture.meshes().empty()) return {};
+        return figuresHtml(
+            figureHtml(encodePicture(drawModel(picture, render).image), render.width, render.height, "as the file is"));
+    } catch (const FileError&) {
+        return {};
+    }
+}
+
+/// For readers that run no script: mail, previews, text browsers.
+std::string stillHtml(const Path& input, const FileOptions& options, const PageOrigin& origin) {
+    const std::string name = input.string().substr(input.string().rfind('/') + 1);
+    return "<noscript><div class=\"still\">\n" + originHtml(origin) + pictureHtml(input, options) +
+           findingsHtml({.input = name, .result = checkFile(input.string(), {.file = options})}) +
+           "</div></noscript>\n";
+}
+
+/// The same for the page's scripts.
+std::string originBlock(const PageOrigin& origin) {
+    const Json json = {{"version", TSPACE_VERSION_STRING}, {"date", origin.date}, {"command", origin.command}};
+    std::string html = "<script type=\"application/json\" id=\"origin\">";
+    for (const char c : report::jsonText(json)) html += c == '<' ? "\\u003c" : std::string(1, c);
+    return html + "</script>\n";
+}
+
 }  // namespace
 
-Result<ViewReport> writeViewPage(const Path& input, const Path& output, const Path& page, const FileOptions& options) {
+Result<ViewReport> writeViewPage(const Path& input, const Path& output, const Path& page, const FileOptions& options,
+                                 const PageOrigin& origin) {
     return atFileBorder([&]() -> Result<ViewReport> {
         InputFiles inputs;
         inputs.add(page);
@@ -76,6 +112,7 @@ Result<ViewReport> writeViewPage(const Path& input, const Path& output, const Pa
             made += "</script>\n";
             report.files.push_back(file.name);
         }
+        made += originBlock(origin) + stillHtml(input, options, origin);
         made += text.substr(place + kPlaceOfModel.size());
         AtomicOutput target({.sync = options.sync, .inputs = &inputs});
         target.add(output, std::span(reinterpret_cast<const std::uint8_t*>(made.data()), made.size()));

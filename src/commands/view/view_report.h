@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "commands/shared/page/page_parts.h"
 #include "commands/shared/report.h"
 #include "model/io/path.h"
 #include "tspace/asset.h"
@@ -21,11 +22,14 @@ struct ViewReport {
     std::uint64_t output_bytes = 0;
 };
 
-/// Writes `output` from the page that scripts/web builds and a model (GLB, glTF or OBJ), whose files go in as they are.
+/// Writes `output` from the page that scripts/web builds and a model (GLB, glTF or OBJ), whose files go in as they are. Where
+/// no script runs, the page shows a picture of the model and what checkFile finds.
+/// page      in it stands "<!-- model -->" where all of that goes
 /// options   content and find_file must be empty
 /// Errors: cannotRead (the page or the model), invalidFile, unsupportedFile (another format, or `page` has no place for a
 /// model), tooLarge, cannotWrite. Nothing has changed then.
-Result<ViewReport> writeViewPage(const Path& input, const Path& output, const Path& page, const FileOptions& options);
+Result<ViewReport> writeViewPage(const Path& input, const Path& output, const Path& page, const FileOptions& options,
+                                 const PageOrigin& origin);
 
 }  // namespace tspace
 

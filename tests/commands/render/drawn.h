@@ -37,12 +37,13 @@ inline Result<RenderReport> renderTo(std::vector<std::uint8_t>& png, std::span<c
     return renderFile("model.glb", "picture.png", options);
 }
 
-/// One sample in the middle of each pixel, from the front, without perspective.
+/// One sample in the middle of each pixel, from the front, without perspective and without a legend.
 inline RenderOptions plainView(RenderShow show, std::uint32_t size = 64) {
     RenderOptions options;
     options.show = show;
     options.width = options.height = size;
     options.samples = 1;
+    options.legend = false;
     options.yaw_deg = options.pitch_deg = options.field_of_view_deg = 0;
     return options;
 }

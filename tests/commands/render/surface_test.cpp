@@ -183,25 +183,6 @@ TEST(RenderSurface, ATurntableWritesNumberedPicturesFromOneDistance) {
               ErrorCode::invalidOption);
 }
 
-TEST(RenderSurface, ALegendLiesUnderThePictureAndTakesItsRowsFromIt) {
-    RenderOptions options = plainView(RenderShow::sign, 512);
-    const Drawn without = draw(SquareModel().build(), options);
-    options.legend = true;
-    const Drawn with = draw(SquareModel().build(), options);
-    EXPECT_EQ(with.image.height, without.image.height);
-    int inked = 0;
-    for (std::uint32_t y = 497; y < 512; ++y) {
-        for (std::uint32_t x = 0; x < 512; ++x) inked += with.at(x, y) != Pixel{236, 238, 241};
-    }
-    EXPECT_GT(inked, 300);
-    // The picture itself has no legend where nothing needs one.
-    options.show = RenderShow::lit;
-    options.legend = false;
-    const Drawn lit = draw(SquareModel().build(), options);
-    options.legend = true;
-    EXPECT_EQ(draw(SquareModel().build(), options).image.rgb, lit.image.rgb);
-}
-
 TEST(RenderSurface, PicturesHaveTheSameBytesForAnyNumberOfThreads) {
     GltfBuilder builder = twoSquares({0, 1, 0, 0.5}, {1, 0, 0, 0.25}, true);
     builder.json()["materials"][0]["alphaMode"] = "BLEND";

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What the file holds: numbers, its parts to show and hide, and its images with their channels.
 import { checkbox, choice, count, el, plural, replaceChildren, select } from "../dom.js";
+import type { PageOrigin } from "../embedded.js";
 import type { Viewport } from "../picture/viewport.js";
 import type { InspectReport } from "tspace/gltf";
 import type { Texture } from "three";
@@ -24,8 +25,10 @@ export class PartsView {
   #chosen = 0;
   #shown: ShownImage[] = [];
 
-  constructor(private viewport: Viewport) {
-    this.element.append(el("div", { class: "rows" }, this.#numbers, this.#list, this.#images));
+  /** `origin`: of the page, where the tool made it. */
+  constructor(private viewport: Viewport, origin: PageOrigin | null) {
+    const made = origin && el("p", { class: "quiet made" }, `This page was made on ${origin.date} by tspace ${origin.version}: `, el("code", {}, origin.command));
+    this.element.append(el("div", { class: "rows" }, this.#numbers, this.#list, this.#images, made));
     this.element.addEventListener("toggle", () => this.#drawImage());
   }
 

@@ -9,12 +9,10 @@
 #include <utility>
 
 #include "commands/generate/generate_model.h"
-#include "commands/shared/page/page_parts.h"
 #include "commands/shared/page/place_pictures.h"
 #include "commands/shared/report.h"
 #include "commands/shared/request.h"
 #include "model/io/file_error.h"
-#include "tspace/version.h"
 
 namespace tspace {
 namespace {
@@ -207,15 +205,34 @@ class PictureSource {
     bool is_over_ = false;
 };
 
-std::string findingHtml(const Finding& finding, PictureSource& pictures) {
+/// `pictures`: null: without.
+std::string findingHtml(const Finding& finding, PictureSource* pictures) {
     std::string html = "<article class=\"" + std::string(severityName(finding.severity)) + "\">\n<h3><b>" +
                        severityName(finding.severity) + "</b> " + findingName(finding.code) + "</h3>\n";
     html += "<p>" + htmlText(finding.message) + "</p>\n" + whereHtml(finding);
-    html += "<p>Mend: " + htmlText(finding.remedy) + "</p>\n" + pictures.html(finding);
+    html += "<p>Mend: " + htmlText(finding.remedy) + "</p>\n";
+    if (pictures != nullptr) html += pictures->html(finding);
     return html + "</article>\n";
 }
 
 std::string anchorOf(std::size_t number) { return "file-" + std::to_string(number + 1); }
+
+std::string fileHtml(const report::CheckOutcome& outcome, std::size_t number, PictureSource* pictures) {
+    std::string html = "<section id=\"" + anchorOf(number) + "\">\n<h2>" + htmlText(outcome.input) + "</h2>\n";
+    if (!outcome.result) {
+        return html + "<article class=\"error\"><h3><b>error</b> not read</h3><p>" +
+               htmlText(outcome.result.error().message) + "</p></article>\n</section>\n";
+    }
+    const CheckReport& report = *outcome.result;
+    html += "<p>" + severityCounts(report) + " in " + counted(report.primitive_count, "primitive") + ", " +
+            std::to_string(report.tangents_count) + " of them with tangents; looked at " +
+            counted(report.image_count, "normal map") +
+            ": what the channels hold, and which way green points (told by " + std::to_string(report.green_count) +
+            ")</p>\n";
+    if (!report.generator.empty()) html += "<p class=\"dim\">made by " + htmlText(report.generator) + "</p>\n";
+    for (const Finding& finding : report.findings) html += findingHtml(finding, pictures);
+    return html + "</section>\n";
+}
 
 std::string overviewHtml(const std::vector<report::CheckOutcome>& outcomes) {
     std::string html =
@@ -238,28 +255,18 @@ std::string overviewHtml(const std::vector<report::CheckOutcome>& outcomes) {
 
 std::string checkedFileHtml(const report::CheckOutcome& outcome, std::size_t number, const FileOptions& file,
                             std::size_t room) {
-    std::string html = "<section id=\"" + anchorOf(number) + "\">\n<h2>" + htmlText(outcome.input) + "</h2>\n";
-    if (!outcome.result) {
-        return html + "<article class=\"error\"><h3><b>error</b> not read</h3><p>" +
-               htmlText(outcome.result.error().message) + "</p></article>\n</section>\n";
-    }
-    const CheckReport& report = *outcome.result;
-    html += "<p>" + severityCounts(report) + " in " + counted(report.primitive_count, "primitive") + ", " +
-            std::to_string(report.tangents_count) + " of them with tangents; looked at " +
-            counted(report.image_count, "normal map") +
-            ": what the channels hold, and which way green points (told by " + std::to_string(report.green_count) +
-            ")</p>\n";
-    if (!report.generator.empty()) html += "<p class=\"dim\">made by " + htmlText(report.generator) + "</p>\n";
     PictureSource pictures(outcome.input, file, room);
-    for (const Finding& finding : report.findings) html += findingHtml(finding, pictures);
-    return html + "</section>\n";
+    return fileHtml(outcome, number, &pictures);
 }
 
-std::string checkPage(const std::vector<report::CheckOutcome>& outcomes, const FileOptions& file) {
+std::string findingsHtml(const report::CheckOutcome& outcome) { return fileHtml(outcome, 0, nullptr); }
+
+std::string checkPage(const std::vector<report::CheckOutcome>& outcomes, const FileOptions& file,
+                      const PageOrigin& origin) {
     std::string html = pageHead("tspace check");
     html += "<h1>Frames of " + counted(outcomes.size(), "file") + "</h1>\n";
-    html += "<p class=\"dim\">Found by tspace check, version " TSPACE_VERSION_STRING
-            ". An error surely renders wrong; a warning renders wrong in some "
+    html += originHtml(origin) +
+            "<p class=\"dim\">An error surely renders wrong; a warning renders wrong in some "
             "renderers, in a small part, or only perhaps; a note is worth knowing. Triangles of a finding are "
             "outlined.</p>\n";
     if (outcomes.size() > 1) html += overviewHtml(outcomes);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "commands/check/check_report.h"
+#include "commands/shared/page/page_parts.h"
 #include "model/scene/scene.h"
 #include "tspace/asset.h"
 #include "tspace/check.h"
@@ -65,6 +66,10 @@ std::string checkedFileHtml(const report::CheckOutcome& outcome, std::size_t num
 /// findings, with pictures of their places before and after the remedy where that can be shown. Files are read once more
 /// for the pictures, as `file` says; of one that cannot be, such as stdin, there are none. All text from files is
 /// escaped. Pictures of one file take 1.5 MB at most, and of all 12 MB; then findings come without.
-std::string checkPage(const std::vector<report::CheckOutcome>& outcomes, const FileOptions& file);
+std::string checkPage(const std::vector<report::CheckOutcome>& outcomes, const FileOptions& file,
+                      const PageOrigin& origin);
+
+/// The part of such a page about one file, without pictures.
+std::string findingsHtml(const report::CheckOutcome& outcome);
 
 }  // namespace tspace

@@ -154,7 +154,8 @@ std::string placesHtml(const FrameDiff& diff, DiffPictures& pictures, Room& room
 
 }  // namespace
 
-std::string diffPage(const std::string& a, const std::string& b, const FrameDiff& diff, const DiffOptions& options) {
+std::string diffPage(const std::string& a, const std::string& b, const FrameDiff& diff, const DiffOptions& options,
+                     const PageOrigin& origin) {
     const report::DiffWords words = report::diffWords(a, b, diff);
     std::string heat, places;
     try {
@@ -168,10 +169,10 @@ std::string diffPage(const std::string& a, const std::string& b, const FrameDiff
     std::string html = pageHead("tspace diff");
     html += "<h1>Frames of two models</h1>\n<p>" + htmlText(words.summary) + "</p>\n";
     for (const std::string& remark : words.remarks) html += "<p>" + htmlText(remark) + "</p>\n";
-    html +=
-        "<p class=\"dim\">Found by tspace diff. T is the tangent, N the normal, B the bitangent as a shader rebuilds "
-        "it; "
-        "angles are in degrees, over corners of triangles.</p>\n";
+    html += originHtml(origin) +
+            "<p class=\"dim\">T is the tangent, N the normal, B the bitangent as a shader rebuilds "
+            "it; "
+            "angles are in degrees, over corners of triangles.</p>\n";
     html +=
         heat +
         "<p class=\"dim\">The largest of the angles between T and T, N and N, and B and B, on the surface of A. Grey: "

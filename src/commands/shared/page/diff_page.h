@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "commands/shared/page/page_parts.h"
 #include "commands/shared/page/place_pictures.h"
 #include "tspace/diff.h"
 
@@ -46,6 +47,7 @@ class DiffPictures {
 /// A, the tables of the text, and the worst places in A and in B. Both files are read once more for the pictures, as
 /// `options` says; where one cannot be, or is not drawn, they are missing and a sentence says why. All text from files is
 /// escaped. Pictures take 1.5 MB at most.
-std::string diffPage(const std::string& a, const std::string& b, const FrameDiff& diff, const DiffOptions& options);
+std::string diffPage(const std::string& a, const std::string& b, const FrameDiff& diff, const DiffOptions& options,
+                     const PageOrigin& origin);
 
 }  // namespace tspace

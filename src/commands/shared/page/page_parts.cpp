@@ -3,6 +3,7 @@
 #include "commands/shared/page/page_parts.h"
 
 #include "model/io/uri.h"
+#include "tspace/version.h"
 
 namespace tspace {
 namespace {
@@ -37,7 +38,8 @@ figcaption{color:var(--dim);font-size:.875rem}
 figure.wide{flex-basis:320px;max-width:440px}td.wide{width:60%}.bar{display:inline-block;height:.7rem;background:var(--note);border-radius:2px}
 .none{display:flex;align-items:center;border:1px dashed var(--line);border-radius:3px;padding:1rem;max-width:320px;
 color:var(--dim);font-size:.875rem}
-a{color:inherit}
+a{color:inherit}code{overflow-wrap:anywhere}
+@media print{article,figure{break-inside:avoid}}
 </style></head><body><main>
 )";
 
@@ -46,6 +48,11 @@ a{color:inherit}
 std::string pageHead(std::string_view title) { return kBeforeTitle + std::string(title) + kAfterTitle; }
 
 std::string pageEnd() { return "</main></body></html>\n"; }
+
+std::string originHtml(const PageOrigin& origin) {
+    return "<p class=\"dim\">tspace " TSPACE_VERSION_STRING ", " + htmlText(origin.date) + ": <code>" +
+           htmlText(origin.command) + "</code></p>\n";
+}
 
 std::string figureHtml(const std::vector<std::uint8_t>& png, std::uint32_t width, std::uint32_t height,
                        std::string_view caption) {

@@ -19,6 +19,14 @@ inline constexpr std::uint32_t kPlaceWidth = 320, kPlaceHeight = 240;
 std::string pageHead(std::string_view title);
 std::string pageEnd();
 
+/// When a page was made, and by which command.
+struct PageOrigin {
+    std::string date = {};     ///< "2026-11-26 07:41 UTC"
+    std::string command = {};  ///< as a shell takes it: "tspace check helmet.glb --html report.html"
+};
+/// A paragraph that says so, with the version.
+std::string originHtml(const PageOrigin& origin);
+
 /// A picture with a caption, which is its alternative text too. `caption`: text. Nothing where `png` is empty.
 std::string figureHtml(const std::vector<std::uint8_t>& png, std::uint32_t width, std::uint32_t height,
                        std::string_view caption);

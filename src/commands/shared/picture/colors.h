@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Light and colours, without functions of the C library whose last bits differ; numbers, lines and scales in pictures.
+// Light and colours, without functions of the C library whose last bits differ; rectangles and lines in pictures.
 #pragma once
 
 #include <array>
 #include <cstdint>
-#include <string_view>
 #include <vector>
 
 #include "commands/shared/picture/visible_triangles.h"
 #include "images/image.h"
-#include "tspace/render.h"
 #include "tspace/vec.h"
 
 namespace tspace {
@@ -23,12 +21,15 @@ std::uint8_t lightToSrgb(float light);
 /// Eight bits of a value from 0 to 1, as they are.
 std::uint8_t storedByte(float value);
 
-/// The background.
-inline constexpr Vec3 kBackground{0.925f, 0.933f, 0.945f};
+/// The background, and what is written or drawn on it.
+inline constexpr Vec3 kBackground{0.925f, 0.933f, 0.945f}, kPictureInk{0.15f, 0.16f, 0.18f};
 
 /// The colours of `sign`.
 inline constexpr Vec3 kSignPlus{0.42f, 0.60f, 0.86f}, kSignMinus{0.95f, 0.66f, 0.33f},
     kSignNeither{0.90f, 0.20f, 0.80f}, kSignWrong{0.80f, 0.08f, 0.10f}, kSignStripes{0.20f, 0.20f, 0.24f};
+
+/// Where a view has nothing to show; and the first of the colours of islands.
+inline constexpr Vec3 kNothingKnown{0.55f, 0.55f, 0.55f}, kIslandColor{0.55f, 0.74f, 0.89f};
 
 /// A vector with components from -1 to 1 as a colour: 0.5 v + 0.5.
 inline Vec3 vectorColor(const Vec3& v) { return {0.5f * v.x + 0.5f, 0.5f * v.y + 0.5f, 0.5f * v.z + 0.5f}; }
@@ -48,28 +49,14 @@ inline constexpr std::array<HeatStop, 7> kHeatStops = {{{0, {0.16f, 0.19f, 0.35f
 /// The colour of an angle in degrees, 0 to 180.
 Vec3 heatColor(float degrees);
 
-// Numbers, lines and scales in pictures.
+// Rectangles and lines in pictures.
 
 /// Sets pixels `left` to `left + width - 1` of rows `top` ...; what lies outside of the image is left out.
 void fillRect(RgbImage& image, std::int64_t left, std::int64_t top, std::int64_t width, std::int64_t height,
               const Vec3& color);
 
-/// Digits, capital letters, + - = and spaces, each 5 x 7 dots of `dot` x `dot` pixels, one dot apart. Other characters count as spaces.
-void drawDigits(RgbImage& image, std::int64_t left, std::int64_t top, std::int64_t dot, std::string_view text,
-                const Vec3& color);
-
 /// Lines around u and v from 0 to 1, in a picture of points (u, -v, 0). `samples`: of the camera, along a pixel.
 void drawUvSquare(RgbImage& image, const Camera& camera, std::uint32_t samples);
-
-/// Rows that the scale of heatColor takes in a picture of this width; 0: there is no room for it.
-std::uint32_t heatScaleRows(std::uint32_t width);
-/// The scale in the last heatScaleRows of a picture: a bar, and degrees under it.
-void drawHeatScale(RgbImage& image);
-
-/// Rows that the legend of a view takes in a picture of this width; 0: it has none, or there is no room for it.
-std::uint32_t legendRows(RenderShow show, std::uint32_t width);
-/// In the last legendRows of a picture: what its colours mean.
-void drawLegend(RgbImage& image, RenderShow show);
 
 /// A white line with dark borders down the middle.
 void drawDividingLine(RgbImage& image);

@@ -13,7 +13,6 @@ namespace {
 
 /// Light that comes from everywhere, and from the lamp.
 constexpr float kAmbient = 0.12f, kLamp = 0.88f;
-constexpr Vec3 kNothingKnown{0.55f, 0.55f, 0.55f};
 /// Pixels from one stripe to the next, along both axes.
 constexpr std::uint32_t kStripe = 8;
 
@@ -279,7 +278,7 @@ UvSide uvSideOf(const ShownSurface& surface, const SurfacePoint& point) {
 }
 
 Vec3 islandColor(const ShownSurface& surface, const SurfacePoint& point) {
-    constexpr std::array<Vec3, 8> kIslands = {{{0.55f, 0.74f, 0.89f},
+    constexpr std::array<Vec3, 8> kIslands = {{kIslandColor,
                                                {0.98f, 0.75f, 0.52f},
                                                {0.62f, 0.82f, 0.62f},
                                                {0.94f, 0.62f, 0.60f},
