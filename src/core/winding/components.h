@@ -42,9 +42,16 @@ inline constexpr std::uint32_t kNoPartner = 0xffffffffu;
 /// Of a pair that lies on one another: neither is turned against the other.
 inline constexpr std::uint32_t kFixed = 0x80000000u;
 
-/// For each corner c: the corner whose edge, from it to the next one of its face, is the other half of c's edge. kNoPartner
-/// at borders, and for faces that are not used or touch a point twice.
-Buffer<std::uint32_t> pairEdges(const Surface& surface, const Allocator* allocator);
+/// For each corner c: the corner whose edge, from it to the next one of its face, is the other half of c's edge.
+struct EdgePairs {
+    /// kNoPartner at borders, and for faces that are not used or touch a point twice. c itself: see `doubtful`.
+    Buffer<std::uint32_t> sure;
+    /// Partners that were found by turn about an edge of more than two faces, with kOdd where their number is odd. Empty where
+    /// there are no such edges.
+    Buffer<std::uint32_t> doubtful;
+};
+inline constexpr std::uint32_t kOdd = 0x80000000u;
+EdgePairs pairEdges(const Surface& surface, const Allocator* allocator);
 
 // A tree of boxes, halved at the median of the widest side: for rays and for points.
 
@@ -133,7 +140,7 @@ struct Component {
 struct WindingCall {
     const Surface& surface;
     const Call<WindingOptions>& options;
-    const Buffer<std::uint32_t>& partners;
+    const EdgePairs& pairs;
     StridedSpan<std::uint8_t> turned;
     Parallel& parallel;
     double outward = 1;  ///< normalFactor(convention)
@@ -146,7 +153,8 @@ struct WindingCall {
 };
 
 /// Reaches the faces of a component from `first`, winds them alike and writes them to order[begin...]. Faces that were
-/// reached are in `reached`.
+/// reached are in `reached`. Over doubtful pairs it goes only to what sure pairs do not lead to: those of an even
+/// number of faces first. Those that contradict the others are no pairs.
 Component flood(const WindingCall& call, std::uint32_t first, std::uint32_t begin, Buffer<std::uint32_t>& order,
                 Buffer<std::uint8_t>& reached);
 
