@@ -95,19 +95,27 @@ Scan slab(std::uint32_t strips) {
 }  // namespace
 
 std::vector<Scan> drawnMeshes(bool is_sharp) {
-    if (!is_sharp) return {lathed(96, 8), lathed(12, 64), filleted(48, 5), filleted(16, 2)};
+    if (!is_sharp) return {lathed(96, 12), lathed(12, 64), filleted(48, 5), filleted(16, 2)};
     const std::vector<Point> side = {{0.8, -0.8}, {0.8, 0.8}};
     return {turnedAboutZ(drawnShapes()[2], side, 48, false), turnedAboutZ(drawnShapes()[2], side, 16, false), slab(1),
             slab(40)};
 }
 
 Scan decimated(const Scan& scan, double share) {
-    Scan made{scan.shape, scan.positions};
+    Scan made{scan.shape};
 #ifdef TSPACE_HAS_MESHOPT
     const auto wanted = static_cast<std::size_t>(share * static_cast<double>(scan.indices.size() / 3)) * 3;
     made.indices.resize(scan.indices.size());
     made.indices.resize(meshopt_simplify(made.indices.data(), scan.indices.data(), scan.indices.size(),
                                          &scan.positions[0].x, scan.positions.size(), sizeof(Vec3), wanted, 1.0f));
+    std::vector<std::uint32_t> kept(scan.positions.size(), ~0u);
+    for (std::uint32_t& vertex : made.indices) {
+        if (kept[vertex] == ~0u) {
+            kept[vertex] = static_cast<std::uint32_t>(made.positions.size());
+            made.positions.push_back(scan.positions[vertex]);
+        }
+        vertex = kept[vertex];
+    }
 #else
     static_cast<void>(share);
 #endif

@@ -33,7 +33,8 @@ class Pairing {
             surface_.mesh.vertexCount(), allocator_, [&](const auto& add) { forHalves(add); },
             [&](std::uint32_t, std::uint32_t, std::span<const HalfEdge> halves) {
                 if (halves.size() == 2) {
-                    pair(cornerOf(halves[0]), cornerOf(halves[1]));
+                    const std::uint32_t a = cornerOf(halves[0]), b = cornerOf(halves[1]);
+                    pair(a & ~kForward, b & ~kForward, (a & kForward) == (b & kForward));
                 } else if (halves.size() > 2) {
                     pairMany(halves);
                 }
@@ -42,7 +43,10 @@ class Pairing {
     }
 
   private:
-    /// body(low, high, corner) for the edges of all faces that count.
+    static constexpr std::uint32_t kForward =
+        0x80000000u;  // of a half-edge that runs from its lower point to the higher one
+
+    /// body(low, high, corner) for the edges of all faces that count; the corner with kForward.
     template <class Body>
     void forHalves(const Body& body) const {
         forEachFace(surface_.mesh, [&](std::size_t, std::size_t first, std::uint32_t size) {
@@ -51,7 +55,7 @@ class Pairing {
             std::uint32_t from = surface_.pointOf(last);
             for (std::uint32_t c = begin, corner = last; c <= last; corner = c++) {
                 const std::uint32_t to = surface_.pointOf(c);
-                body(std::min(from, to), std::max(from, to), corner);
+                body(std::min(from, to), std::max(from, to), corner | (from < to ? kForward : 0));
                 from = to;
             }
         });
@@ -69,11 +73,11 @@ class Pairing {
 
     [[nodiscard]] std::uint32_t apexOf(std::uint32_t corner) const {
         const std::uint32_t face = surface_.faces.of(corner);
-        if (surface_.faces.past(face) - surface_.faces.first(face) != 3) return kFixed | corner;
+        if (surface_.faces.past(face) - surface_.faces.first(face) != 3) return 0x80000000u | corner;
         return surface_.pointOf(surface_.faces.previous(corner));
     }
-    void pair(std::uint32_t a, std::uint32_t b) {
-        const std::uint32_t mark = apexOf(a) == apexOf(b) ? kFixed : 0;
+    void pair(std::uint32_t a, std::uint32_t b, bool are_alike) {
+        const std::uint32_t mark = are_alike && apexOf(a) != apexOf(b) ? kAgainst : 0;
         pairs_.sure[a] = b | mark;
         pairs_.sure[b] = a | mark;
     }
@@ -90,7 +94,7 @@ class Pairing {
     void pairMany(std::span<const HalfEdge> halves) {
         Buffer<FaceAtEdge> faces(allocator_, halves.size());
         for (std::size_t i = 0; i < halves.size(); ++i) {
-            const std::uint32_t corner = cornerOf(halves[i]);
+            const std::uint32_t corner = cornerOf(halves[i]) & ~kForward;
             const std::uint32_t a = surface_.mesh.indices[corner],
                                 b = surface_.mesh.indices[surface_.faces.next(corner)];
             const bool is_forward = runsForward(corner);
@@ -123,7 +127,8 @@ class Pairing {
         for (std::size_t i = 0, past = 0; i < faces.size(); i = past) {
             while (past < faces.size() && kindOf(faces[past]) == kindOf(faces[i])) ++past;
             if (past - i == 2) {
-                pair(faces[i].corner, faces[i + 1].corner);
+                const std::uint32_t a = faces[i].corner, b = faces[i + 1].corner;
+                pair(a, b, runsForward(a) == runsForward(b));
             } else {
                 for (std::size_t k = i; k < past; ++k) faces[kept++] = faces[k];
             }
@@ -310,8 +315,8 @@ class Flood {
                         continue;
                     }
                     if (partner == c) continue;
-                    const std::uint32_t other = faces_.of(partner & ~kFixed);
-                    const bool differs = areAgainst(c, partner);
+                    const std::uint32_t other = faces_.of(partner & ~kAgainst);
+                    const bool differs = (partner & kAgainst) != 0;
                     if (reached_[other] == 0) reach(other, isTurned(face) != differs);
                     before += differs ? 1U : 0U;
                     after += ((isTurned(face) != isTurned(other)) != differs) ? 1U : 0U;
@@ -325,16 +330,18 @@ class Flood {
     }
 
   private:
-    [[nodiscard]] bool isTurned(std::uint32_t face) const { return call_.turned[face] != 0; }
+    static constexpr std::uint8_t kReached = 1, kTurned = 2;
+
+    [[nodiscard]] bool isTurned(std::uint32_t face) const { return reached_[face] == kTurned; }
     [[nodiscard]] bool runsForward(std::uint32_t corner) const {
         return call_.surface.pointOf(corner) < call_.surface.pointOf(faces_.next(corner));
     }
-    /// Whether both faces run through their edge in the same direction, and should not.
+    /// Of a doubtful pair: whether both faces run through their edge in the same direction.
     [[nodiscard]] bool areAgainst(std::uint32_t corner, std::uint32_t partner) const {
-        return (partner & kFixed) == 0 && runsForward(corner) == runsForward(partner);
+        return runsForward(corner) == runsForward(partner);
     }
     void reach(std::uint32_t face, bool is_turned) {
-        reached_[face] = 1;
+        reached_[face] = is_turned ? kTurned : kReached;
         call_.turned[face] = is_turned ? 1 : 0;
         order_[end_++] = face;
     }
@@ -394,13 +401,13 @@ void measure(const WindingCall& call, const Buffer<std::uint32_t>& order, Compon
     const Surface& surface = call.surface;
     const bool has_normals = call.options.use_normals && !surface.mesh.normals.empty();
     const DVec3 origin = surface.position(surface.faces.first(order[component.begin]));
+    Box box;
     for (std::uint32_t i = component.begin; i < component.end; ++i) {
         const std::uint32_t face = order[i];
-        for (std::uint32_t c = surface.faces.first(face); c < surface.faces.past(face); ++c)
-            component.box.add(surface.mesh.positions[surface.mesh.indices[c]]);
-        const DVec3 vector = call.areaVector(face);
-        const double area = length(vector);
         const bool is_turned = call.turned[face] != 0;
+        const DVec3 counter_clockwise = surface.areaVector(face, [&](const Vec3& p) { box.add(p); });
+        const DVec3 vector = (is_turned ? -call.outward : call.outward) * counter_clockwise;
+        const double area = length(vector);
         component.turned_count += is_turned ? 1U : 0U;
         if (!(area < 1e300)) continue;
         component.area += area;
@@ -413,6 +420,7 @@ void measure(const WindingCall& call, const Buffer<std::uint32_t>& order, Compon
         component.facing += side > 0 ? area : -area;
         component.faced += area;
     }
+    component.box = box;
 }
 
 double ownWindingNumber(const WindingCall& call, const Buffer<std::uint32_t>& order, const Component& component) {
