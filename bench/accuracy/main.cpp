@@ -13,11 +13,17 @@ int main(int argc, char** argv) {
     tspace::accuracy::StudyOptions options;
     std::string json, plots;
     app.add_flag("--quick", options.quick, "8, 32 and 64 cells only, and fewer points");
+    bool kinds = false;
+    app.add_flag("--kinds", kinds, "Normals of grids, scans, decimated and CAD meshes, and nothing else");
     app.add_option("--seed", options.seed, "Other random meshes");
     app.add_option("--json", json, "Write the figures as JSON to a file, or - for stdout");
     app.add_option("--plots", plots, "Write pictures (SVG) into a folder");
     CLI11_PARSE(app, argc, argv);
 
+    if (kinds) {
+        printKinds(options);
+        return 0;
+    }
     const tspace::accuracy::Study study = tspace::accuracy::runStudy(options);
     if (json != "-") {
         printTables(study);

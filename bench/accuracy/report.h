@@ -12,6 +12,8 @@ namespace tspace::accuracy {
 void printTables(const Study& study);
 /// A table of normals on scans.
 void printScans(const StudyOptions& options);
+/// Tables of normals by what meshes come from: weightings, hard edges, noise.
+void printKinds(const StudyOptions& options);
 /// All figures. `path`: a file, or "-" for stdout. False when it cannot be written.
 bool writeJson(const Study& study, const std::string& path);
 

@@ -13,77 +13,6 @@ namespace {
 
 constexpr double kHalfSize = 1.05;  // of the grid; shapes lie in the unit cube
 
-DVec3 unitOf(const DVec3& v) { return (1 / length(v)) * v; }
-double larger(double a, double b) { return a > b ? a : b; }
-
-double blend(double a, double b, double width) {
-    const double h = std::clamp(0.5 + 0.5 * (b - a) / width, 0.0, 1.0);
-    return b + h * (a - b) - width * h * (1 - h);
-}
-double ellipsoid(const DVec3& p, const DVec3& centre, const DVec3& radii) {
-    const DVec3 q = p - centre;
-    const DVec3 a{q.x / radii.x, q.y / radii.y, q.z / radii.z}, b{a.x / radii.x, a.y / radii.y, a.z / radii.z};
-    return length(b) > 0 ? length(a) * (length(a) - 1) / length(b) : -1;
-}
-double box(const DVec3& p, const DVec3& half) {
-    const DVec3 q{std::fabs(p.x) - half.x, std::fabs(p.y) - half.y, std::fabs(p.z) - half.z};
-    return length(DVec3{larger(q.x, 0), larger(q.y, 0), larger(q.z, 0)}) + std::min(larger(q.x, larger(q.y, q.z)), 0.0);
-}
-double cylinder(double radius, double height, double most_radius, double half_height) {
-    return box({radius, height, 0}, {most_radius, half_height, 1});
-}
-double radiusOf(double x, double y) { return std::sqrt(x * x + y * y); }
-/// So that nothing lies along the grid.
-DVec3 turned(const DVec3& p) {
-    constexpr double c = 0.921060994, s = 0.389418342, d = 0.764842187, t = 0.644217687;
-    const double y = s * p.x + c * p.y;
-    return {c * p.x - s * p.y, d * y - t * p.z, t * y + d * p.z};
-}
-
-double blob(const DVec3& p) {
-    double d = ellipsoid(p, {0, 0.35, 0}, {0.33, 0.42, 0.38});
-    d = blend(d, ellipsoid(p, {0, -0.55, 0}, {0.75, 0.35, 0.4}), 0.25);
-    d = blend(d, ellipsoid(p, {0, -0.1, 0}, {0.2, 0.35, 0.2}), 0.12);
-    d = blend(d, ellipsoid(p, {0, 0.32, 0.4}, {0.07, 0.12, 0.1}), 0.06);
-    for (const double side : {-1.0, 1.0}) {
-        d = blend(d, ellipsoid(p, {side * 0.33, 0.33, 0}, {0.05, 0.1, 0.08}), 0.05);
-        d = -blend(-d, ellipsoid(p, {side * 0.14, 0.45, 0.38}, {0.07, 0.05, 0.06}), 0.05);
-    }
-    return d;
-}
-double torus(const DVec3& at) {
-    const DVec3 p = turned(at);
-    return radiusOf(radiusOf(p.x, p.y) - 0.6, p.z) - 0.25;
-}
-double roundedBox(const DVec3& at) { return box(turned(at), {0.4, 0.3, 0.5}) - 0.2; }
-
-double part(const DVec3& at) {
-    const DVec3 p = turned(at);
-    double d = box(p, {0.6, 0.4, 0.3});
-    d = larger(d, 0.2 - radiusOf(p.x - 0.2, p.y));
-    d = std::min(d, cylinder(radiusOf(p.y, p.z), p.x + 0.45, 0.22, 0.4));
-    return larger(d, -box(p - DVec3{-0.1, 0.4, 0.3}, {0.15, 0.15, 0.15}));
-}
-double gear(const DVec3& at) {
-    const DVec3 p = turned(at);
-    const double radius = radiusOf(p.x, p.y);
-    double d = cylinder(radius, p.z, 0.6, 0.2);
-    for (int tooth = 0; tooth < 12; ++tooth) {
-        const auto [sine, cosine] = sineCosine(kPi / 6 * tooth);
-        d = std::min(d, box({cosine * p.x + sine * p.y - 0.65, cosine * p.y - sine * p.x, p.z}, {0.15, 0.07, 0.2}));
-    }
-    return larger(d, 0.2 - radius);
-}
-
-constexpr Shape kShapes[] = {
-    {"blob", blob}, {"torus", torus}, {"rounded box", roundedBox}, {"part", part, true}, {"gear", gear, true}};
-
-DVec3 differences(const Shape& shape, const DVec3& p) {
-    constexpr double h = 1e-4;
-    const auto along = [&](const DVec3& d) { return (shape.distance(p + d) - shape.distance(p - d)) / (2 * h); };
-    return {along({h, 0, 0}), along({0, h, 0}), along({0, 0, h})};
-}
-
 /// Nearly: the sum of twelve uniform numbers, without functions whose last bits differ between C libraries.
 double normalNumber(Random& random) {
     double sum = -6;
@@ -91,29 +20,38 @@ double normalNumber(Random& random) {
     return sum;
 }
 
-/// Values of a shape at the corners of cells, and the points in the cells that it passes through.
-class Nets {
+using Cell = std::array<int, 3>;
+constexpr std::uint32_t kNone = ~std::uint32_t{0};
+
+/// Values of a shape at the corners of cells.
+class Field {
   public:
-    Nets(const Shape& shape, int cells) : side_(cells + 1), step_(2 * kHalfSize / cells) {
+    Field(const Shape& shape, int cells, double noise, Random& random)
+        : side_(cells + 1), step_(2 * kHalfSize / cells) {
         for (int z = 0; z < side_; ++z) {
             for (int y = 0; y < side_; ++y) {
-                for (int x = 0; x < side_; ++x) values_.push_back(shape.distance(place(x, y, z)));
+                for (int x = 0; x < side_; ++x) {
+                    const double moved = noise > 0 ? noise * step_ * normalNumber(random) : 0;
+                    values_.push_back(shape.distance(place(x, y, z)) + moved);
+                }
             }
         }
     }
 
-    void build(Scan& to) {
-        points_.assign(values_.size(), kNone);
-        forCells(0, [&](int x, int y, int z) { addPoint(x, y, z, to); });
-        forCells(1, [&](int x, int y, int z) {
-            for (int axis = 0; axis < 3; ++axis) addQuad({x, y, z}, axis, to);
-        });
+    [[nodiscard]] std::size_t count() const { return values_.size(); }
+    [[nodiscard]] std::size_t index(const Cell& c) const {
+        return static_cast<std::size_t>((c[2] * side_ + c[1]) * side_ + c[0]);
     }
-
-  private:
-    using Cell = std::array<int, 3>;
-    static constexpr std::uint32_t kNone = ~std::uint32_t{0};
-
+    [[nodiscard]] double value(const Cell& c) const { return values_[index(c)]; }
+    [[nodiscard]] bool isInside(const Cell& c) const { return value(c) < 0; }
+    [[nodiscard]] DVec3 place(double x, double y, double z) const {
+        return {step_ * x - kHalfSize, step_ * y - kHalfSize, step_ * z - kHalfSize};
+    }
+    /// In cells, where the shape crosses the edge between two corners.
+    [[nodiscard]] DVec3 crossing(const Cell& a, const Cell& b) const {
+        const double share = value(a) / (value(a) - value(b));
+        return {a[0] + share * (b[0] - a[0]), a[1] + share * (b[1] - a[1]), a[2] + share * (b[2] - a[2])};
+    }
     template <class Body>
     void forCells(int first, const Body& body) const {
         for (int z = first; z + 1 < side_; ++z) {
@@ -122,14 +60,27 @@ class Nets {
             }
         }
     }
-    [[nodiscard]] std::size_t index(const Cell& c) const {
-        return static_cast<std::size_t>((c[2] * side_ + c[1]) * side_ + c[0]);
-    }
-    [[nodiscard]] double value(const Cell& c) const { return values_[index(c)]; }
-    [[nodiscard]] DVec3 place(double x, double y, double z) const {
-        return {step_ * x - kHalfSize, step_ * y - kHalfSize, step_ * z - kHalfSize};
+
+  private:
+    int side_;
+    double step_;
+    std::vector<double> values_;
+};
+
+/// One point in each cell that the shape passes through.
+class Nets {
+  public:
+    explicit Nets(const Field& field) : field_(field) {}
+
+    void build(Scan& to) {
+        points_.assign(field_.count(), kNone);
+        field_.forCells(0, [&](int x, int y, int z) { addPoint(x, y, z, to); });
+        field_.forCells(1, [&](int x, int y, int z) {
+            for (int axis = 0; axis < 3; ++axis) addQuad({x, y, z}, axis, to);
+        });
     }
 
+  private:
     /// The mean of where the shape crosses the cell's edges.
     void addPoint(int x, int y, int z, Scan& to) {
         DVec3 sum;
@@ -141,31 +92,29 @@ class Nets {
                 a[static_cast<std::size_t>((axis + 2) % 3)] += k >> 1;
                 Cell b = a;
                 ++b[static_cast<std::size_t>(axis)];
-                if ((value(a) < 0) == (value(b) < 0)) continue;
-                const double share = value(a) / (value(a) - value(b));
-                sum = sum +
-                      DVec3{a[0] + share * (b[0] - a[0]), a[1] + share * (b[1] - a[1]), a[2] + share * (b[2] - a[2])};
+                if (field_.isInside(a) == field_.isInside(b)) continue;
+                sum = sum + field_.crossing(a, b);
                 ++count;
             }
         }
         if (count == 0) return;
-        points_[index({x, y, z})] = static_cast<std::uint32_t>(to.positions.size());
-        to.positions.push_back(toFloat(place(sum.x / count, sum.y / count, sum.z / count)));
+        points_[field_.index({x, y, z})] = static_cast<std::uint32_t>(to.positions.size());
+        to.positions.push_back(toFloat(field_.place(sum.x / count, sum.y / count, sum.z / count)));
     }
 
     /// The points of the four cells around an edge that the shape crosses, cut along the shorter diagonal.
     void addQuad(const Cell& from, int axis, Scan& to) const {
         Cell end = from;
         ++end[static_cast<std::size_t>(axis)];
-        const bool is_inside = value(from) < 0;
-        if (is_inside == (value(end) < 0)) return;
+        const bool is_inside = field_.isInside(from);
+        if (is_inside == field_.isInside(end)) return;
         const auto b = static_cast<std::size_t>((axis + 1) % 3), c = static_cast<std::size_t>((axis + 2) % 3);
         std::array<std::uint32_t, 4> quad{};
         for (std::size_t k = 0; k < 4; ++k) {
             Cell cell = from;
             cell[b] -= k == 0 || k == 3 ? 1 : 0;
             cell[c] -= k < 2 ? 1 : 0;
-            quad[is_inside ? k : 3 - k] = points_[index(cell)];
+            quad[is_inside ? k : 3 - k] = points_[field_.index(cell)];
         }
         const auto square = [&](std::size_t k) {
             const DVec3 d = toDouble(to.positions[quad[k]]) - toDouble(to.positions[quad[k + 2]]);
@@ -176,29 +125,92 @@ class Nets {
                           {quad[s], quad[s + 1], quad[s + 2], quad[s], quad[s + 2], quad[(s + 3) % 4]});
     }
 
-    int side_;
-    double step_;
-    std::vector<double> values_;
+    const Field& field_;
+    std::vector<std::uint32_t> points_;
+};
+
+/// Points where the shape crosses edges of cells.
+class Cubes {
+  public:
+    explicit Cubes(const Field& field) : field_(field), points_(3 * field.count(), kNone) {}
+
+    void build(Scan& to) {
+        field_.forCells(0, [&](int x, int y, int z) { addCell({x, y, z}, to); });
+    }
+
+  private:
+    /// Corners, as bits of x, y and z, of each side of a cell: counter-clockwise as seen from outside.
+    static constexpr unsigned kSides[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
+                                              {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
+
+    /// On each side a line goes around each run of corners inside; together these are loops, and each becomes a fan.
+    void addCell(const Cell& cell, Scan& to) {
+        std::array<std::uint32_t, 64>
+            next{};  // by the corners of an edge of the cell, lower one times 8: kNone or a point's
+        std::array<std::uint32_t, 64> points{};
+        next.fill(kNone);
+        const auto at = [&](unsigned corner) {
+            return Cell{cell[0] + static_cast<int>(corner & 1), cell[1] + static_cast<int>(corner >> 1 & 1),
+                        cell[2] + static_cast<int>(corner >> 2)};
+        };
+        for (const auto& side : kSides) {
+            std::array<bool, 4> in{};
+            for (std::size_t k = 0; k < 4; ++k) in[k] = field_.isInside(at(side[k]));
+            for (std::size_t k = 0; k < 4; ++k) {
+                if (in[k] || !in[(k + 1) % 4]) continue;  // a run begins
+                std::size_t last = (k + 1) % 4;
+                while (in[(last + 1) % 4]) last = (last + 1) % 4;
+                const std::size_t leave = slot(side[last], side[(last + 1) % 4]),
+                                  enter = slot(side[k], side[(k + 1) % 4]);
+                next[enter] = static_cast<std::uint32_t>(leave);
+                points[enter] = pointAt(at(side[k]), at(side[(k + 1) % 4]), to);
+            }
+        }
+        for (std::size_t start = 0; start < next.size(); ++start) {
+            std::vector<std::uint32_t> loop;
+            for (std::size_t i = start; next[i] != kNone;) {
+                loop.push_back(points[i]);
+                const std::size_t following = next[i];
+                next[i] = kNone;
+                i = following;
+            }
+            for (std::size_t k = 2; k < loop.size(); ++k)
+                to.indices.insert(to.indices.end(), {loop[0], loop[k - 1], loop[k]});
+        }
+    }
+    static std::size_t slot(unsigned a, unsigned b) { return 8 * std::min(a, b) + std::max(a, b); }
+    std::uint32_t pointAt(Cell a, Cell b, Scan& to) {
+        if (b < a) std::swap(a, b);
+        const std::size_t axis = a[0] != b[0] ? 0 : a[1] != b[1] ? 1 : 2;
+        std::uint32_t& point = points_[3 * field_.index(a) + axis];
+        if (point == kNone) {
+            point = static_cast<std::uint32_t>(to.positions.size());
+            const DVec3 p = field_.crossing(a, b);
+            to.positions.push_back(toFloat(field_.place(p.x, p.y, p.z)));
+        }
+        return point;
+    }
+
+    const Field& field_;
     std::vector<std::uint32_t> points_;
 };
 
 }  // namespace
 
-DVec3 Shape::normalAt(const DVec3& p) const { return unitOf(differences(*this, p)); }
-
-DVec3 Shape::nearest(DVec3 p) const {
-    for (int step = 0; step < 4; ++step) {
-        const DVec3 slope = differences(*this, p);
-        p = p - (distance(p) / larger(dot(slope, slope), 0.1)) * slope;
-    }
-    return p;
+Scan surfaceNets(const Shape& shape, int cells, double noise, Random random) {
+    Scan made{&shape};
+    Nets(Field(shape, cells, noise, random)).build(made);
+    return made;
 }
 
-std::span<const Shape> shapes() { return kShapes; }
+Scan marchingCubes(const Shape& shape, int cells, double noise, Random random) {
+    Scan made{&shape};
+    Cubes(Field(shape, cells, noise, random)).build(made);
+    return made;
+}
 
 Scan scan(const Shape& shape, int cells, double noise, Random random) {
-    Scan made{&shape};
-    Nets(shape, cells).build(made);
+    Scan made = surfaceNets(shape, cells, 0, random);
     for (Vec3& p : made.positions) p = toFloat(shape.nearest(toDouble(p)));
     double edges = 0;
     for (std::size_t c = 0; c < made.indices.size(); ++c) {

@@ -54,7 +54,8 @@ typedef struct tspace_WindingReport {
     uint64_t by_majority_count;       /* open, and no side is inside: as most of the area was wound */
     /* Fewer than 4 faces, such as leaves and cards: nothing is turned, since nothing says what is right. */
     uint64_t small_count;
-    /* Turning would leave as many conflicts as there are, as on a Moebius band: nothing is turned. */
+    /* Turning some faces would leave as many conflicts as there are, as on a Moebius band: none is turned, or all,
+     * where the component is open and its winding number says that it is inside out. */
     uint64_t one_sided_count;
 } tspace_WindingReport;
 
@@ -64,8 +65,8 @@ typedef struct tspace_WindingReport {
  * Faces are paired at the edges that they share. Where more than two meet, those that share the edge by their
  * indices are paired if they are two; others are sorted as they turn about the edge, and neighbours in that order
  * are paired, of the two ways to do so the one with the smaller gaps; of an odd number only the two that lie
- * straightest. Faces that lie on one another keep the winding that they have to each other: both sides of a sheet
- * stay so.
+ * straightest. Pairs by turn that contradict the others are none. Faces that lie on one another keep the winding
+ * that they have to each other: both sides of a sheet stay so.
  * Each component is wound alike in itself, and then decided as a whole, by the first of the rules in
  * tspace_WindingReport that applies. Nothing else about it is known: an open surface without an inside, such as a
  * terrain, that is wholly inside out and has no normals stays so.

@@ -23,10 +23,16 @@ class EdgePairs {
     explicit EdgePairs(const NormalsCall& call)
         : call_(call), others_(call.allocator, call.mesh.cornerCount(), kNoPair) {
         const auto forHalves = [&](const auto& add) {
-            for (std::uint32_t c = 0; c < others_.size(); ++c) {
-                const Ends ends = endsOf(c);
-                if (ends.low != ends.high) add(ends.low, ends.high, c);
-            }
+            forEachFace(call.mesh, [&](std::size_t, std::size_t first, std::uint32_t size) {
+                if (size < 3) return;
+                const auto begin = static_cast<std::uint32_t>(first), last = begin + size - 1;
+                std::uint32_t from = call.items.pointOf(last);
+                for (std::uint32_t c = begin, corner = last; c <= last; corner = c++) {
+                    const std::uint32_t to = call.items.pointOf(c);
+                    if (from != to) add(std::min(from, to), std::max(from, to), corner);
+                    from = to;
+                }
+            });
         };
         forEachEdge(call.mesh.vertexCount(), call.allocator, forHalves,
                     [&](std::uint32_t, std::uint32_t, std::span<const HalfEdge> halves) {
@@ -45,7 +51,6 @@ class EdgePairs {
         std::uint32_t low, high;  ///< points
     };
     [[nodiscard]] Ends endsOf(std::uint32_t corner) const {
-        if (!call_.are_triangles && !call_.faces.isUsed(call_.faces.of(corner))) return {0, 0};
         const std::uint32_t a = call_.items.pointOf(corner), b = call_.items.pointOf(call_.faces.next(corner));
         return {std::min(a, b), std::max(a, b)};
     }
@@ -74,13 +79,15 @@ class CreaseFinder {
     Creases find() {
         makeFaces();
         measureAngles();
-        if (mayBeNoisy()) noise_deg_ = kTurnOfNoise * roughnessOf(call_);
+        Histogram angles = histogram();
+        if (mayBeNoisy(angles)) noise_deg_ = kTurnOfNoise * roughnessOf(call_);
         if (noise_deg_ > kLeastFilteredDeg) {
             filter();
             measureAngles();
+            angles = histogram();
         }
         Creases creases;
-        creases.angle_deg = static_cast<float>(angleInGap());
+        creases.angle_deg = static_cast<float>(angleInGap(angles));
         mark(creases);
         return creases;
     }
@@ -184,12 +191,11 @@ class CreaseFinder {
         angles_ = Buffer<float>(call_.allocator, call_.mesh.cornerCount(), -1.0f);
         forCorners([&](std::uint32_t c) {
             const std::uint32_t other = pairs_.other(c);
-            if (other == kNoPair) return;
-            const Float4 m = normal(call_.faces.of(std::min(c, other))), n = normal(call_.faces.of(std::max(c, other)));
+            if (other == kNoPair || other < c) return;
+            const Float4 m = normal(call_.faces.of(c)), n = normal(call_.faces.of(other));
             if (!(m[3] > 0) || !(n[3] > 0)) return;
             const DVec3 a{m[0], m[1], m[2]}, b{n[0], n[1], n[2]};
-            const double angle = angleBetween(a, b) * (180 / kPi);
-            angles_[c] = static_cast<float>(angle);
+            angles_[c] = angles_[other] = static_cast<float>(angleBetween(a, b) * (180 / kPi));
         });
     }
 
@@ -201,40 +207,42 @@ class CreaseFinder {
 
     static constexpr int kBins = 180;
 
-    /// The length of the edges of each degree; returns that of all.
-    double addLengths(std::array<double, kBins>& lengths) const {
+    /// The length of the edges of each degree.
+    struct Histogram {
+        std::array<double, kBins> lengths = {};
         double all = 0;
+    };
+    [[nodiscard]] Histogram histogram() const {
+        Histogram of;
         for (std::uint32_t c = 0; c < call_.mesh.cornerCount(); ++c) {
             if (angles_[c] < 0 || pairs_.other(c) < c) continue;
             const double size = edgeLength(c);
             if (!std::isfinite(size)) continue;
-            lengths[static_cast<std::size_t>(std::min(kBins - 1, static_cast<int>(angles_[c])))] += size;
-            all += size;
+            of.lengths[static_cast<std::size_t>(std::min(kBins - 1, static_cast<int>(angles_[c])))] += size;
+            of.all += size;
         }
-        return all;
+        return of;
     }
 
     /// Noise turns half of the edges by 126 degrees times its size, or more: so where half turn by less than 2, it is too
     /// little to be filtered, and need not be measured.
-    [[nodiscard]] bool mayBeNoisy() const {
-        std::array<double, kBins> lengths{};
-        const double all = addLengths(lengths);
-        return lengths[0] + lengths[1] < all / 2;
+    [[nodiscard]] static bool mayBeNoisy(const Histogram& angles) {
+        return angles.lengths[0] + angles.lengths[1] < angles.all / 2;
     }
 
     /// The middle of the widest run of degrees in which there are the fewest edges, by length.
-    [[nodiscard]] double angleInGap() const {
+    [[nodiscard]] double angleInGap(const Histogram& angles) const {
         constexpr int kBlur = 6;
         constexpr double kMost = 70;
-        std::array<double, kBins> lengths{}, density{};
-        const double all = addLengths(lengths);
+        const double all = angles.all;
+        std::array<double, kBins> density{};
         // A normal distribution of 2 degrees.
         constexpr double kWeights[kBlur + 1] = {0.199676, 0.176213, 0.121109, 0.064826, 0.027023, 0.008773, 0.002218};
         for (int bin = 0; bin < kBins; ++bin) {
             for (int d = -kBlur; d <= kBlur; ++d) {
                 const int from = std::clamp(bin + d, 0, kBins - 1);
                 density[static_cast<std::size_t>(bin)] +=
-                    kWeights[d < 0 ? -d : d] * lengths[static_cast<std::size_t>(from)];
+                    kWeights[d < 0 ? -d : d] * angles.lengths[static_cast<std::size_t>(from)];
             }
         }
         const int first = static_cast<int>(std::max(15.0, std::min(25.0, 12 + noise_deg_)));
@@ -262,31 +270,33 @@ class CreaseFinder {
                                     std::uint8_t{0});  // of hard edges, 2 is many
         const auto forPairs = [&](const auto& body) {
             for (std::uint32_t c = 0; c < corners; ++c) {
-                if (angles_[c] >= 0 && pairs_.other(c) > c) body(c, pairs_.endsOf(c));
+                if (angles_[c] >= 0 && pairs_.other(c) > c) body(c);
             }
+        };
+        const auto areBothEnds = [&](std::uint32_t c) {
+            const EdgePairs::Ends ends = pairs_.endsOf(c);
+            return counts[ends.low] == 1 && counts[ends.high] == 1;
         };
         const auto set = [&](std::uint32_t corner, EdgeKind kind) {
             creases.edges[corner] = creases.edges[pairs_.other(corner)] = kind;
         };
         const auto countHard = [&] {
             std::fill(counts.begin(), counts.end(), std::uint8_t{0});
-            forPairs([&](std::uint32_t c, EdgePairs::Ends ends) {
+            forPairs([&](std::uint32_t c) {
                 if (creases.edges[c] != EdgeKind::hard) return;
+                const EdgePairs::Ends ends = pairs_.endsOf(c);
                 for (const std::uint32_t point : {ends.low, ends.high}) counts[point] = counts[point] == 0 ? 1 : 2;
             });
         };
-        forPairs([&](std::uint32_t c, EdgePairs::Ends) {
-            set(c, angles_[c] > creases.angle_deg ? EdgeKind::hard : EdgeKind::soft);
+        forPairs([&](std::uint32_t c) { set(c, angles_[c] > creases.angle_deg ? EdgeKind::hard : EdgeKind::soft); });
+        countHard();
+        forPairs([&](std::uint32_t c) {
+            if (creases.edges[c] == EdgeKind::hard && areBothEnds(c)) set(c, EdgeKind::soft);
         });
         countHard();
-        forPairs([&](std::uint32_t c, EdgePairs::Ends ends) {
-            if (creases.edges[c] == EdgeKind::hard && counts[ends.low] == 1 && counts[ends.high] == 1)
-                set(c, EdgeKind::soft);
-        });
-        countHard();
-        forPairs([&](std::uint32_t c, EdgePairs::Ends ends) {
-            const bool is_gap = counts[ends.low] == 1 && counts[ends.high] == 1 && angles_[c] > creases.angle_deg / 2;
-            if (creases.edges[c] == EdgeKind::soft && is_gap) set(c, EdgeKind::hard);
+        forPairs([&](std::uint32_t c) {
+            const bool may_be_gap = creases.edges[c] == EdgeKind::soft && angles_[c] > creases.angle_deg / 2;
+            if (may_be_gap && areBothEnds(c)) set(c, EdgeKind::hard);
         });
         creases.are_all_soft = !pairs_.hasCrowdedEdges() && std::find(creases.edges.begin(), creases.edges.end(),
                                                                       EdgeKind::hard) == creases.edges.end();

@@ -45,8 +45,13 @@ double smoothStep(double low, double high, double value) {
     return u * u * (3 - 2 * u);
 }
 
-/// By length, of the edges of some vertices, in degrees.
-double medianDihedral(const NormalGroups& groups, const Allocator* allocator) {
+/// Of angles at edges, in degrees: that below which a quarter, and a half, of their length lies.
+struct Dihedrals {
+    double quarter = 0, median = 0;
+};
+
+/// Of the edges of some vertices.
+Dihedrals sampleDihedrals(const NormalGroups& groups, const Allocator* allocator) {
     constexpr std::size_t kVertices = 1024;
     struct Edge {
         double angle, length;
@@ -75,12 +80,14 @@ double medianDihedral(const NormalGroups& groups, const Allocator* allocator) {
         }
     }
     sortList(edges.begin(), edges.begin() + count, [](const Edge& a, const Edge& b) { return a.angle < b.angle; });
+    Dihedrals found;
     double below = 0;
-    for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t i = 0; i < count && below < lengths / 2; ++i) {
+        if (below < lengths / 4) found.quarter = edges[i].angle;
         below += edges[i].length;
-        if (below >= lengths / 2) return edges[i].angle;
+        found.median = edges[i].angle;
     }
-    return 0;
+    return found;
 }
 
 /// Noise of 1 edge turns edges by 110 to 160 degrees in the median; the least that was measured, on shapes with many sharp
@@ -88,14 +95,16 @@ double medianDihedral(const NormalGroups& groups, const Allocator* allocator) {
 constexpr double kTurnOfNoise = 126, kLeastTurnOfNoise = 90;
 
 /// The part of sigma that is noise.
-double noisePart(double sigma, double kink_share, double dihedral) {
+double noisePart(double sigma, double kink_share, const Dihedrals& dihedrals) {
     constexpr double kLeast = 1e-3;  // of an edge: what a fit would gain is below what it costs
-    if (!(sigma > 0)) return 0;
+    if (!(sigma > 0) || !(dihedrals.median > 0)) return 0;
     // What a clean mesh shows of its shape as kinks, and as sigma, grow together.
-    const double high = std::min(0.5, kNoisyShare + 5 * sigma);
-    const double turn = dihedral / (kTurnOfNoise * sigma);
-    const double part = std::min(sigma, dihedral / kLeastTurnOfNoise) * smoothStep(high / 2, high, kink_share) *
-                        smoothStep(0.25, 0.5, turn);
+    const double high = std::min(0.4, kNoisyShare + 3 * sigma);
+    const double turn = dihedrals.median / (kTurnOfNoise * sigma);
+    // Noise leaves no edge flat: a quarter of the length turns by less than .36 to .49 of the median then. What is decimated
+    // has its flat faces: .3 at most, on eleven shapes.
+    const double part = std::min(sigma, dihedrals.median / kLeastTurnOfNoise) * smoothStep(high / 2, high, kink_share) *
+                        smoothStep(0.25, 0.5, turn) * smoothStep(0.31, 0.36, dihedrals.quarter / dihedrals.median);
     return part >= kLeast ? part : 0;
 }
 
@@ -157,10 +166,10 @@ double measureNoise(const NormalGroups& groups, const Allocator* allocator, Posi
     if (end - distances.begin() < static_cast<std::ptrdiff_t>(kLeastFits)) return 0;
     constexpr double kMedianOfNormal = 0.6745;  // of |x| for a normal distribution
     const double sigma = medianOf(distances.begin(), end) / kMedianOfNormal;
-    const double dihedral = medianDihedral(groups, allocator);
-    noise.sigma = static_cast<float>(std::min(sigma, dihedral / kLeastTurnOfNoise));
-    noise.noise = static_cast<float>(noisePart(sigma, noise.kink_share, dihedral));
-    return std::min(sigma, dihedral / kTurnOfNoise);
+    const Dihedrals dihedrals = sampleDihedrals(groups, allocator);
+    noise.sigma = static_cast<float>(std::min(sigma, dihedrals.median / kLeastTurnOfNoise));
+    noise.noise = static_cast<float>(noisePart(sigma, noise.kink_share, dihedrals));
+    return std::min(sigma, dihedrals.median / kTurnOfNoise);
 }
 
 double roughnessOf(const NormalsCall& call) {

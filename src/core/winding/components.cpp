@@ -24,23 +24,29 @@ struct FaceAtEdge {
 class Pairing {
   public:
     Pairing(const Surface& surface, const Allocator* allocator)
-        : surface_(surface), allocator_(allocator), partners_(allocator, surface.mesh.cornerCount(), kNoPartner) {}
+        : surface_(surface),
+          allocator_(allocator),
+          pairs_{Buffer<std::uint32_t>(allocator, surface.mesh.cornerCount(), kNoPartner), {}} {}
 
-    Buffer<std::uint32_t> run() {
+    EdgePairs run() {
         forEachEdge(
             surface_.mesh.vertexCount(), allocator_, [&](const auto& add) { forHalves(add); },
             [&](std::uint32_t, std::uint32_t, std::span<const HalfEdge> halves) {
                 if (halves.size() == 2) {
-                    pair(cornerOf(halves[0]), cornerOf(halves[1]));
+                    const std::uint32_t a = cornerOf(halves[0]), b = cornerOf(halves[1]);
+                    pair(a & ~kForward, b & ~kForward, (a & kForward) == (b & kForward));
                 } else if (halves.size() > 2) {
                     pairMany(halves);
                 }
             });
-        return std::move(partners_);
+        return std::move(pairs_);
     }
 
   private:
-    /// body(low, high, corner) for the edges of all faces that count.
+    static constexpr std::uint32_t kForward =
+        0x80000000u;  // of a half-edge that runs from its lower point to the higher one
+
+    /// body(low, high, corner) for the edges of all faces that count; the corner with kForward.
     template <class Body>
     void forHalves(const Body& body) const {
         forEachFace(surface_.mesh, [&](std::size_t, std::size_t first, std::uint32_t size) {
@@ -49,7 +55,7 @@ class Pairing {
             std::uint32_t from = surface_.pointOf(last);
             for (std::uint32_t c = begin, corner = last; c <= last; corner = c++) {
                 const std::uint32_t to = surface_.pointOf(c);
-                body(std::min(from, to), std::max(from, to), corner);
+                body(std::min(from, to), std::max(from, to), corner | (from < to ? kForward : 0));
                 from = to;
             }
         });
@@ -67,19 +73,28 @@ class Pairing {
 
     [[nodiscard]] std::uint32_t apexOf(std::uint32_t corner) const {
         const std::uint32_t face = surface_.faces.of(corner);
-        if (surface_.faces.past(face) - surface_.faces.first(face) != 3) return kFixed | corner;
+        if (surface_.faces.past(face) - surface_.faces.first(face) != 3) return 0x80000000u | corner;
         return surface_.pointOf(surface_.faces.previous(corner));
     }
-    void pair(std::uint32_t a, std::uint32_t b) {
-        const std::uint32_t mark = apexOf(a) == apexOf(b) ? kFixed : 0;
-        partners_[a] = b | mark;
-        partners_[b] = a | mark;
+    void pair(std::uint32_t a, std::uint32_t b, bool are_alike) {
+        const std::uint32_t mark = are_alike && apexOf(a) != apexOf(b) ? kAgainst : 0;
+        pairs_.sure[a] = b | mark;
+        pairs_.sure[b] = a | mark;
+    }
+    /// Of faces that do not lie on one another.
+    void pairDoubtfully(std::uint32_t a, std::uint32_t b, std::uint32_t mark) {
+        if (pairs_.doubtful.empty())
+            pairs_.doubtful = Buffer<std::uint32_t>(allocator_, pairs_.sure.size(), kNoPartner);
+        pairs_.sure[a] = a;
+        pairs_.sure[b] = b;
+        pairs_.doubtful[a] = b | mark;
+        pairs_.doubtful[b] = a | mark;
     }
 
     void pairMany(std::span<const HalfEdge> halves) {
         Buffer<FaceAtEdge> faces(allocator_, halves.size());
         for (std::size_t i = 0; i < halves.size(); ++i) {
-            const std::uint32_t corner = cornerOf(halves[i]);
+            const std::uint32_t corner = cornerOf(halves[i]) & ~kForward;
             const std::uint32_t a = surface_.mesh.indices[corner],
                                 b = surface_.mesh.indices[surface_.faces.next(corner)];
             const bool is_forward = runsForward(corner);
@@ -112,7 +127,8 @@ class Pairing {
         for (std::size_t i = 0, past = 0; i < faces.size(); i = past) {
             while (past < faces.size() && kindOf(faces[past]) == kindOf(faces[i])) ++past;
             if (past - i == 2) {
-                pair(faces[i].corner, faces[i + 1].corner);
+                const std::uint32_t a = faces[i].corner, b = faces[i + 1].corner;
+                pair(a, b, runsForward(a) == runsForward(b));
             } else {
                 for (std::size_t k = i; k < past; ++k) faces[kept++] = faces[k];
             }
@@ -132,7 +148,7 @@ class Pairing {
         for (std::size_t i = 0; i < count; i += 2) inner += faces[i + 1].turn - faces[i].turn;
         const std::size_t start = inner <= kPi ? 0 : 1;
         for (std::size_t i = start; i < count + start; i += 2)
-            pair(faces[i % count].corner, faces[(i + 1) % count].corner);
+            pairDoubtfully(faces[i % count].corner, faces[(i + 1) % count].corner, 0);
     }
 
     /// The interior of a face lies at cross(normal, edge) of its edge, whichever way it is wound.
@@ -169,19 +185,17 @@ class Pairing {
                 b = j;
             }
         }
-        pair(faces[a].corner, faces[b].corner);
+        pairDoubtfully(faces[a].corner, faces[b].corner, kOdd);
     }
 
     const Surface& surface_;
     const Allocator* allocator_;
-    Buffer<std::uint32_t> partners_;
+    EdgePairs pairs_;
 };
 
 }  // namespace
 
-Buffer<std::uint32_t> pairEdges(const Surface& surface, const Allocator* allocator) {
-    return Pairing(surface, allocator).run();
-}
+EdgePairs pairEdges(const Surface& surface, const Allocator* allocator) { return Pairing(surface, allocator).run(); }
 
 // Based on: Jacobson, Kavan & Sorkine-Hornung, "Robust Inside-Outside Segmentation using Generalized Winding Numbers",
 // 2013 (the winding number of an open surface); van Oosterom & Strackee, "The Solid Angle of a Plane Triangle", 1983;
@@ -273,53 +287,127 @@ struct OwnAngles {
 
 }  // namespace
 
+namespace {
+
+class Flood {
+  public:
+    Flood(const WindingCall& call, std::uint32_t begin, Buffer<std::uint32_t>& order, Buffer<std::uint8_t>& reached)
+        : call_(call),
+          faces_(call.surface.faces),
+          order_(order),
+          reached_(reached),
+          end_(begin),
+          even_(begin),
+          odd_(begin) {}
+
+    Component run(std::uint32_t first) {
+        Component component{.begin = end_};
+        reach(first, false);
+        std::uint64_t before = 0, after = 0;  // each pair is met from both sides
+        std::uint32_t at = component.begin;
+        do {
+            for (; at < end_; ++at) {
+                const std::uint32_t face = order_[at];
+                for (std::uint32_t c = faces_.first(face); c < faces_.past(face); ++c) {
+                    const std::uint32_t partner = call_.pairs.sure[c];
+                    if (partner == kNoPartner) {
+                        component.is_closed = false;
+                        continue;
+                    }
+                    if (partner == c) continue;
+                    const std::uint32_t other = faces_.of(partner & ~kAgainst);
+                    const bool differs = (partner & kAgainst) != 0;
+                    if (reached_[other] == 0) reach(other, isTurned(face) != differs);
+                    before += differs ? 1U : 0U;
+                    after += ((isTurned(face) != isTurned(other)) != differs) ? 1U : 0U;
+                }
+            }
+        } while (goOn(even_, 0) || goOn(odd_, kOdd));
+        component.end = end_;
+        component.conflicts_before = (before + doubtfulConflicts(component)) / 2;
+        component.conflicts_after = after / 2;
+        return component;
+    }
+
+  private:
+    static constexpr std::uint8_t kReached = 1, kTurned = 2;
+
+    [[nodiscard]] bool isTurned(std::uint32_t face) const { return reached_[face] == kTurned; }
+    [[nodiscard]] bool runsForward(std::uint32_t corner) const {
+        return call_.surface.pointOf(corner) < call_.surface.pointOf(faces_.next(corner));
+    }
+    /// Of a doubtful pair: whether both faces run through their edge in the same direction.
+    [[nodiscard]] bool areAgainst(std::uint32_t corner, std::uint32_t partner) const {
+        return runsForward(corner) == runsForward(partner);
+    }
+    void reach(std::uint32_t face, bool is_turned) {
+        reached_[face] = is_turned ? kTurned : kReached;
+        call_.turned[face] = is_turned ? 1 : 0;
+        order_[end_++] = face;
+    }
+
+    /// body(face, corner, partner) for the doubtful pairs of a face, as long as it returns true.
+    template <class Body>
+    bool forDoubtful(std::uint32_t face, const Body& body) const {
+        for (std::uint32_t c = faces_.first(face); c < faces_.past(face); ++c) {
+            if (call_.pairs.sure[c] == c && !body(c, call_.pairs.doubtful[c])) return false;
+        }
+        return true;
+    }
+    /// Reaches one more face, over a doubtful pair with this mark; false where there is none. Before `at` there is none already.
+    bool goOn(std::uint32_t& at, std::uint32_t mark) {
+        for (; !call_.pairs.doubtful.empty() && at < end_; ++at) {
+            const std::uint32_t face = order_[at];
+            const bool is_done = forDoubtful(face, [&](std::uint32_t corner, std::uint32_t partner) {
+                const std::uint32_t other = faces_.of(partner & ~kOdd);
+                if ((partner & kOdd) != mark || reached_[other] != 0) return true;
+                reach(other, isTurned(face) != areAgainst(corner, partner & ~kOdd));
+                return false;
+            });
+            if (!is_done) return true;
+        }
+        return false;
+    }
+    /// Twice the number of doubtful pairs that were in conflict and are not any more.
+    [[nodiscard]] std::uint64_t doubtfulConflicts(const Component& component) const {
+        std::uint64_t count = 0;
+        for (std::uint32_t at = component.begin; !call_.pairs.doubtful.empty() && at < end_; ++at) {
+            const std::uint32_t face = order_[at];
+            forDoubtful(face, [&](std::uint32_t corner, std::uint32_t partner) {
+                const bool is_apart = isTurned(face) != isTurned(faces_.of(partner & ~kOdd));
+                count += is_apart && areAgainst(corner, partner & ~kOdd) ? 1U : 0U;
+                return true;
+            });
+        }
+        return count;
+    }
+
+    const WindingCall& call_;
+    const MeshFaces& faces_;
+    Buffer<std::uint32_t>& order_;
+    Buffer<std::uint8_t>& reached_;
+    std::uint32_t end_;         ///< of what was reached, in the order
+    std::uint32_t even_, odd_;  ///< where doubtful pairs were looked at up to
+};
+
+}  // namespace
+
 Component flood(const WindingCall& call, std::uint32_t first, std::uint32_t begin, Buffer<std::uint32_t>& order,
                 Buffer<std::uint8_t>& reached) {
-    const Surface& surface = call.surface;
-    const MeshFaces& faces = surface.faces;
-    const auto runsForward = [&](std::uint32_t corner) {
-        return surface.pointOf(corner) < surface.pointOf(faces.next(corner));
-    };
-    Component component{.begin = begin, .end = begin};
-    order[component.end++] = first;
-    reached[first] = 1;
-    std::uint64_t before = 0, after = 0;
-    for (std::uint32_t at = begin; at < component.end; ++at) {
-        const std::uint32_t face = order[at];
-        for (std::uint32_t c = faces.first(face); c < faces.past(face); ++c) {
-            const std::uint32_t partner = call.partners[c];
-            if (partner == kNoPartner) {
-                component.is_closed = false;
-                continue;
-            }
-            const std::uint32_t other = faces.of(partner & ~kFixed);
-            const bool differs = (partner & kFixed) == 0 && runsForward(c) == runsForward(partner & ~kFixed);
-            if (reached[other] == 0) {
-                reached[other] = 1;
-                call.turned[other] = std::uint8_t{(call.turned[face] != 0) != differs};
-                order[component.end++] = other;
-            }
-            // Each pair is met from both sides.
-            before += differs ? 1U : 0U;
-            after += ((call.turned[face] != call.turned[other]) != differs) ? 1U : 0U;
-        }
-    }
-    component.conflicts_before = before / 2;
-    component.conflicts_after = after / 2;
-    return component;
+    return Flood(call, begin, order, reached).run(first);
 }
 
 void measure(const WindingCall& call, const Buffer<std::uint32_t>& order, Component& component) {
     const Surface& surface = call.surface;
     const bool has_normals = call.options.use_normals && !surface.mesh.normals.empty();
     const DVec3 origin = surface.position(surface.faces.first(order[component.begin]));
+    Box box;
     for (std::uint32_t i = component.begin; i < component.end; ++i) {
         const std::uint32_t face = order[i];
-        for (std::uint32_t c = surface.faces.first(face); c < surface.faces.past(face); ++c)
-            component.box.add(surface.mesh.positions[surface.mesh.indices[c]]);
-        const DVec3 vector = call.areaVector(face);
-        const double area = length(vector);
         const bool is_turned = call.turned[face] != 0;
+        const DVec3 counter_clockwise = surface.areaVector(face, [&](const Vec3& p) { box.add(p); });
+        const DVec3 vector = (is_turned ? -call.outward : call.outward) * counter_clockwise;
+        const double area = length(vector);
         component.turned_count += is_turned ? 1U : 0U;
         if (!(area < 1e300)) continue;
         component.area += area;
@@ -332,6 +420,7 @@ void measure(const WindingCall& call, const Buffer<std::uint32_t>& order, Compon
         component.facing += side > 0 ? area : -area;
         component.faced += area;
     }
+    component.box = box;
 }
 
 double ownWindingNumber(const WindingCall& call, const Buffer<std::uint32_t>& order, const Component& component) {

@@ -26,11 +26,21 @@ struct Surface {
     [[nodiscard]] DVec3 position(std::uint32_t corner) const { return toDouble(mesh.positions[mesh.indices[corner]]); }
     /// Twice the area times the normal that a counter-clockwise winding gives.
     [[nodiscard]] DVec3 areaVector(std::uint32_t face) const {
+        return areaVector(face, [](const Vec3&) {});
+    }
+    /// see(position): of each corner, on the way.
+    template <class See>
+    DVec3 areaVector(std::uint32_t face, const See& see) const {
         const std::uint32_t first = faces.first(face), past = faces.past(face);
-        const DVec3 origin = position(first);
-        DVec3 sum, before = position(first + 1) - origin;
+        const auto at = [&](std::uint32_t corner) {
+            const Vec3 p = mesh.positions[mesh.indices[corner]];
+            see(p);
+            return toDouble(p);
+        };
+        const DVec3 origin = at(first);
+        DVec3 sum, before = at(first + 1) - origin;
         for (std::uint32_t c = first + 2; c < past; ++c) {
-            const DVec3 here = position(c) - origin;
+            const DVec3 here = at(c) - origin;
             sum = sum + cross(before, here);
             before = here;
         }
@@ -39,12 +49,19 @@ struct Surface {
 };
 
 inline constexpr std::uint32_t kNoPartner = 0xffffffffu;
-/// Of a pair that lies on one another: neither is turned against the other.
-inline constexpr std::uint32_t kFixed = 0x80000000u;
+/// Of a pair in conflict. One that lies on one another has none: neither is turned against the other.
+inline constexpr std::uint32_t kAgainst = 0x80000000u;
 
-/// For each corner c: the corner whose edge, from it to the next one of its face, is the other half of c's edge. kNoPartner
-/// at borders, and for faces that are not used or touch a point twice.
-Buffer<std::uint32_t> pairEdges(const Surface& surface, const Allocator* allocator);
+/// For each corner c: the corner whose edge, from it to the next one of its face, is the other half of c's edge.
+struct EdgePairs {
+    /// With kAgainst; kNoPartner at borders, and for faces that are not used or touch a point twice. c itself: see `doubtful`.
+    Buffer<std::uint32_t> sure;
+    /// Partners that were found by turn about an edge of more than two faces, with kOdd where their number is odd. Empty where
+    /// there are no such edges.
+    Buffer<std::uint32_t> doubtful;
+};
+inline constexpr std::uint32_t kOdd = 0x80000000u;
+EdgePairs pairEdges(const Surface& surface, const Allocator* allocator);
 
 // A tree of boxes, halved at the median of the widest side: for rays and for points.
 
@@ -133,7 +150,7 @@ struct Component {
 struct WindingCall {
     const Surface& surface;
     const Call<WindingOptions>& options;
-    const Buffer<std::uint32_t>& partners;
+    const EdgePairs& pairs;
     StridedSpan<std::uint8_t> turned;
     Parallel& parallel;
     double outward = 1;  ///< normalFactor(convention)
@@ -146,7 +163,8 @@ struct WindingCall {
 };
 
 /// Reaches the faces of a component from `first`, winds them alike and writes them to order[begin...]. Faces that were
-/// reached are in `reached`.
+/// reached are in `reached`. Over doubtful pairs it goes only to what sure pairs do not lead to: those of an even
+/// number of faces first. Those that contradict the others are no pairs.
 Component flood(const WindingCall& call, std::uint32_t first, std::uint32_t begin, Buffer<std::uint32_t>& order,
                 Buffer<std::uint8_t>& reached);
 

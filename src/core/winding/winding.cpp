@@ -177,6 +177,8 @@ namespace {
 
 using winding::Component;
 
+/// 0 on average where no side is inside, 1/2 where a component is nearly closed.
+constexpr double kLeastWindingNumber = 0.15;
 constexpr std::uint32_t kFewest = 4;  // faces of a component that is decided: a tetrahedron has four
 
 class Mending {
@@ -206,8 +208,13 @@ class Mending {
         ++report_.component_count;
         report_.conflict_count_before += component.conflicts_before;
         if (component.size() < kFewest) return leave(component, report_.small_count);
-        if (component.conflicts_after != 0 && component.conflicts_after >= component.conflicts_before)
-            return leave(component, report_.one_sided_count);
+        if (component.conflicts_after != 0 && component.conflicts_after >= component.conflicts_before) {
+            for (std::uint32_t i = component.begin; i < component.end; ++i) call_.turned[order_[i]] = 0;
+            component.conflicts_after = component.conflicts_before;
+            // A body with holes may have an edge that had four faces, and two now that are no neighbours.
+            const double number = component.is_closed ? 0 : ownWindingNumber(call_, order_, component);
+            return finish(component, number < -kLeastWindingNumber, report_.one_sided_count);
+        }
         measure(call_, order_, component);
         // Half of the area has normals, and four fifths of that agree.
         if (component.faced > 0.5 * component.area && std::fabs(component.facing) > 0.6 * component.faced) {
@@ -248,10 +255,8 @@ class Mending {
     }
 
     void decideOpen(const Component& component) {
-        // 0 on average where no side is inside, 1/2 where it is nearly closed.
-        constexpr double kLeast = 0.15;
         const double number = ownWindingNumber(call_, order_, component);
-        if (std::fabs(number) > kLeast) {
+        if (std::fabs(number) > kLeastWindingNumber) {
             finish(component, number < 0, report_.by_winding_number_count);
         } else {
             finish(component, component.kept < 0, report_.by_majority_count);
@@ -310,8 +315,8 @@ Result<WindingReport> checkAndMend(const MeshView& mesh, const Call<WindingOptio
     if (report.face_count == 0) return report;
     const Buffer<std::uint32_t> corner_points = pointsOfCorners(mesh, options, parallel);
     const winding::Surface surface{mesh, faces, corner_points};
-    const Buffer<std::uint32_t> partners = pairEdges(surface, allocator);
-    Mending({surface, options, partners, turned, parallel, normalFactor(options.convention)}, report).run();
+    const winding::EdgePairs pairs = winding::pairEdges(surface, allocator);
+    Mending({surface, options, pairs, turned, parallel, normalFactor(options.convention)}, report).run();
     return report;
 }
 

@@ -124,6 +124,15 @@ TEST(DenoisedNormals, AreNearerToTheShapeOnNoisyScans) {
     }
 }
 
+TEST(DenoisedNormals, AreNearerToTheShapeOnNoisyMarchingCubes) {
+    const std::map<std::string, double> parts = {{"hand", 0.9}, {"ripples", 0.72}, {"links", 0.8}};
+    for (const Shape& shape : accuracy::heldOutShapes()) {
+        if (shape.is_sharp) continue;
+        const Scan cubes = accuracy::marchingCubes(shape, 64, 0.1, Random{1});
+        EXPECT_LT(partOfExisting(cubes, bestOf(cubes.view(), kAuto).normals), parts.at(shape.name)) << shape.name;
+    }
+}
+
 TEST(DenoisedNormals, HaveTheBitsOfBestWhereNothingIsNoise) {
     const auto expectSame = [](const MeshView& mesh, const char* name) {
         for (const float crease : {180.0f, 45.0f}) {
@@ -134,6 +143,16 @@ TEST(DenoisedNormals, HaveTheBitsOfBestWhereNothingIsNoise) {
     };
     for (const Shape& shape : accuracy::shapes())
         expectSame(accuracy::scan(shape, 48, 0, Random{1}).view(), shape.name);
+    for (const std::span<const Shape> all : {accuracy::shapes(), accuracy::heldOutShapes()}) {
+        for (const Shape& shape : all) {
+            for (const double share : {0.1, 0.03})
+                expectSame(decimated(accuracy::surfaceNets(shape, 64, 0, Random{1}), share).view(), shape.name);
+            expectSame(decimated(accuracy::marchingCubes(shape, 64, 0, Random{1}), 0.1).view(), shape.name);
+        }
+    }
+    for (const bool is_sharp : {false, true}) {
+        for (const Scan& drawn : accuracy::drawnMeshes(is_sharp)) expectSame(drawn.view(), drawn.shape->name);
+    }
     for (const std::uint32_t sides : {6u, 8u, 24u, 96u}) {
         for (const std::uint32_t rows : {1u, 8u, 50u}) expectSame(cappedCylinder(sides, rows).view(), "cylinder");
     }

@@ -8,6 +8,8 @@
 #include <string>
 
 #include "bodies.h"
+#include "core/normals/normals_outcome.h"
+#include "scans.h"
 
 namespace tspace {
 namespace {
@@ -281,6 +283,28 @@ TEST(MendWinding, ContinuesStraightOnWhereAFinMeetsASurface) {
     const Mended mended = mend(damaged.view());
     EXPECT_EQ(2u, mended.report.component_count);
     EXPECT_EQ(1, shareRight(sheet, damaged, mended));
+}
+
+/// Their nets have edges of four faces; where a face is missing, the two of three that lie straightest are no neighbours.
+TEST(MendWinding, MendsGridsWithEdgesOfFourFacesAndHoles) {
+    for (const char* name : {"part", "gear"}) {
+        const accuracy::Scan net = accuracy::surfaceNets(shape(name), 32, 0.1, accuracy::Random{1});
+        NamedBodies body{name, {}};
+        std::mt19937 random(3);
+        body.bodies.mesh.positions = net.positions;
+        for (std::size_t c = 0; c < net.indices.size(); c += 3) {
+            const std::uint32_t* const v = net.indices.data() + c;
+            if (random() % 10 != 0) body.bodies.mesh.addTriangle(v[0], v[1], v[2]);
+        }
+        body.bodies.closeBody();
+        for (const double share : {0.0, 0.3, 1.0}) {
+            const Bodies damaged = turnedByChance(body.bodies, share, 1);
+            const Mended mended = mend(damaged.view());
+            // Of islands of two and three faces, and of an edge that had four and lost two.
+            EXPECT_LE(mended.report.conflict_count_after, 4u) << name << ' ' << share;
+            EXPECT_GE(shareRight(body.bodies, damaged, mended), 0.99) << name << ' ' << share;
+        }
+    }
 }
 
 TEST(MendWinding, FollowsNormalsThatAgreeAmongThemselves) {
