@@ -275,8 +275,6 @@ void lookAtContent(const Scene& scene, const TexelMask& inside, NormalMap& map, 
 
 bool isEtc1s(const std::optional<TextureFacts>& facts) { return facts && facts->name.starts_with("ETC1S"); }
 
-constexpr double kDegrees = 57.29577951308232;
-
 /// Root mean square of the angle by which vectors that were packed as WebP are off, about: errors are as large along a vector as in each of
 /// the two directions across it, and along it a unit vector shows them. Of five kinds of maps, at qualities of 50 to 98, it is 0.67 to 1.10
 /// of the true one.
@@ -287,7 +285,7 @@ double webpDegrees(const RgbImage& image) {
         const double off = length(DVec3{part(0), part(1), part(2)}) - 1;
         sum += off * off;
     }
-    return kDegrees * std::sqrt(2 * sum / std::max(1.0, static_cast<double>(image.rgb.size() / 3)));
+    return 180 / kPi * std::sqrt(2 * sum / std::max(1.0, static_cast<double>(image.rgb.size() / 3)));
 }
 
 /// The same of ETC1S: a block is one color, made lighter or darker, so of x and y of its texels only the sum varies. Where relief leans to all
@@ -310,7 +308,7 @@ double etc1sDegrees(const RgbImage& image) {
             count += kBlock * kBlock;
         }
     }
-    const double lost = kDegrees * std::sqrt(kLostOfKept * std::max(0.0, sum) / std::max(1.0, count));
+    const double lost = 180 / kPi * std::sqrt(kLostOfKept * std::max(0.0, sum) / std::max(1.0, count));
     return std::sqrt(lost * lost + kRoundedDeg * kRoundedDeg);
 }
 
