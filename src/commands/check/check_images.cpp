@@ -427,7 +427,8 @@ void describeStorage(const Scene& scene, const NormalMap& map, const std::string
         if (content == MapContent::normals)
             text += "; so its texels are about " + shortNumber(std::max(0.1, std::round(10 * map.packing_deg) / 10)) +
                     " degrees off, in the root of the mean square" +
-                    (isEtc1s(facts) ? " (UASTC: a third of that, at most)" : " (8 bits without loss: 0.2)");
+                    (isEtc1s(facts) ? " (as UASTC our maps were off by a third of that at most)"
+                                    : " (8 bits without loss: 0.2)");
         add(FindingCode::normalMapLossy, Severity::note, std::move(text));
     }
     if (!facts) return;

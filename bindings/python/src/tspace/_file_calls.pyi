@@ -199,7 +199,6 @@ def compress_map_file(
     dry_run: bool = ...,
     threads: int = ...,
     no_sync: bool = ...,
-    allow_external: bool = ...,
     memory_limit: Size = ...,
     import_seconds: float = ...,
 ) -> CompressMapReport: ...
@@ -219,7 +218,6 @@ def compress_map_bytes(
     dry_run: bool = ...,
     threads: int = ...,
     no_sync: bool = ...,
-    allow_external: bool = ...,
     memory_limit: Size = ...,
     import_seconds: float = ...,
 ) -> Generated[CompressMapReport]: ...

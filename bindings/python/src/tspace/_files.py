@@ -38,7 +38,7 @@ _OPTIONS = {
     "flipGreen": "dry_run memory_limit no_sync",
     "heightToNormal": f"strength mesh material clamp convention bits method dry_run threads no_sync {_LIMITS}",
     "compressMap": "format quality signed mips no_levels zstd bits roughness roughness_output roughness_factor"
-    f" dry_run threads no_sync {_LIMITS}",
+    " dry_run threads no_sync memory_limit import_seconds",
 }
 
 
