@@ -12,6 +12,7 @@
 #include "commands/finish/finish_report.h"
 #include "commands/generate/generate_model.h"
 #include "commands/generate/generate_report.h"
+#include "commands/generate/generate_steps.h"
 #include "core/base/numbers.h"
 #include "model/io/atomic_output.h"
 #include "model/io/file_error.h"
@@ -67,11 +68,14 @@ class ModelInWork {
         }
         const gltf::NormalWishes wishes = wishesOf();
         if (!wishes.anew.empty()) {
-            generate.mend_winding = false;
+            GenerateOptions again = generate;
+            again.mend_winding = false;
             const Bytes before = std::move(bytes_);
-            take(run(glbName(path_), before, generate, {.normals = wishes}), wishes);
+            take(run(glbName(path_), before, again, {.normals = wishes}), wishes);
             check_ = check(glbName(path_), bytes_);
         }
+        generate.mend_winding = true;  // or it would be advised, by the name that it has elsewhere
+        warnOfWinding(generate, report_.made);
         report_.made.output_files.clear();
         countUvs();
     }
@@ -116,10 +120,15 @@ class ModelInWork {
     /// Meshes whose normals fit the triangles less since some were turned. Normals that are made anew fit them all the same.
     [[nodiscard]] std::vector<std::uint32_t> rightMeshes() {
         if (options_.normals == FinishNormals::all) return {};
-        const auto sharesOf = [](const CheckReport& report) {
+        const auto wasMade = [&](const Finding& finding) {
+            const PrimitiveReport* const primitive = primitiveOf(finding);
+            return primitive != nullptr && primitive->normals_generated;
+        };
+        const auto sharesOf = [&](const CheckReport& report) {
             std::map<std::uint32_t, double> shares;  // of surfaces, by mesh
             for (const Finding& finding : report.findings) {
-                if (finding.code == FindingCode::normalsAgainstWinding) shares[finding.mesh] += finding.surface_share;
+                if (finding.code == FindingCode::normalsAgainstWinding && !wasMade(finding))
+                    shares[finding.mesh] += finding.surface_share;
             }
             return shares;
         };
@@ -133,6 +142,15 @@ class ModelInWork {
             report_.left_winding_count += turned;
         }
         return right;
+    }
+
+    /// Null: it is about the file.
+    [[nodiscard]] const PrimitiveReport* primitiveOf(const Finding& finding) const {
+        if (finding.place.empty()) return nullptr;
+        for (const PrimitiveReport& primitive : report_.made.primitives) {
+            if (primitive.mesh == finding.mesh && primitive.primitive == finding.primitive) return &primitive;
+        }
+        return nullptr;
     }
 
     [[nodiscard]] std::uint64_t turnedIn(std::uint32_t mesh) const {

@@ -106,8 +106,10 @@ struct WorkedOn {
     bool compression = false;         ///< geometry that was packed or unpacked
 };
 
-/// Adds to the warnings: triangles that are wound against their neighbours, new normals that point behind their triangles,
-/// and options that are not the default and had nothing to work on, but not those of a step.
+/// Adds to the warnings: triangles that are wound against their neighbours, and new normals that point behind their triangles.
+void warnOfWinding(const GenerateOptions& options, GenerateReport& report);
+
+/// The same; and options that are not the default and had nothing to work on. Of a step neither: it may be one of several.
 void addWarnings(const GenerateOptions& options, const WorkedOn& worked_on, bool is_step, GenerateReport& report);
 
 namespace gltf {

@@ -20,6 +20,8 @@ bool wasComputed(const PrimitiveReport& primitive) {
            primitive.action == PrimitiveAction::unchanged;
 }
 
+}  // namespace
+
 void warnOfWinding(const GenerateOptions& options, GenerateReport& report) {
     std::uint64_t turned = 0, two_sided = 0, behind = 0, triangles = 0, before = 0, after = 0;
     for (const PrimitiveReport& primitive : report.primitives) {
@@ -52,6 +54,8 @@ void warnOfWinding(const GenerateOptions& options, GenerateReport& report) {
                                   " a new normal that points behind its own triangle");
     }
 }
+
+namespace {
 
 /// "--a has no effect: ", "--a and --b have no effect: "
 void warn(const std::vector<std::string>& options, const std::string& why, GenerateReport& report) {
@@ -173,9 +177,10 @@ void warnOfFile(const GenerateOptions& options, const WorkedOn& worked_on, Gener
 }  // namespace
 
 void addWarnings(const GenerateOptions& options, const WorkedOn& worked_on, bool is_step, GenerateReport& report) {
-    warnOfWinding(options, report);
     noteFoundValues(options.normals, report);
-    if (report.primitives.empty() || is_step) return;
+    if (is_step) return;
+    warnOfWinding(options, report);
+    if (report.primitives.empty()) return;
     warnOfIdleNormals(options, report);
     warnOfTangents(options, report);
     warnOfFile(options, worked_on, report);
