@@ -77,7 +77,6 @@ Command bakeCommand() {
     BakeArguments& arguments = *owned;
     arguments.options.execution.thread_count = kAllThreads;
     Command command{
-        .name = "bake",
         .summary = "bake the normal map of a low poly from a high poly",
         .operands = "LOW --high HIGH -o OUT.png",
         .description =

@@ -111,7 +111,6 @@ Command checkCommand() {
     CheckArguments& arguments = *owned;
     arguments.request.options.execution.thread_count = kAllThreads;
     Command command{
-        .name = "check",
         .summary = "find what is wrong with normals, tangents and UVs",
         .operands = "IN...",
         .description =

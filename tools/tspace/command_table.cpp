@@ -2,7 +2,6 @@
 // The list of all commands, and the command help.
 #include "command_table.h"
 
-#include <algorithm>
 #include <memory>
 
 #include "common_options.h"
@@ -12,23 +11,49 @@
 namespace tspace::tool {
 namespace {
 
-Command helpCommand(const std::vector<Command>& others) {
+struct Entry {
+    const char* name;
+    Command (*make)();
+};
+Command helpCommand();
+constexpr Entry kCommands[] = {
+    {"generate", generateCommand},
+    {"diff", diffCommand},
+    {"identify", identifyCommand},
+    {"inspect", inspectCommand},
+    {"check", checkCommand},
+    {"flip-green", flipGreenCommand},
+    {"render", renderCommand},
+    {"convert-map", convertMapCommand},
+    {"height-to-normal", heightToNormalCommand},
+    {"compress-map", compressMapCommand},
+    {"view", viewCommand},
+    {"bake", bakeCommand},
+    {"finish", finishCommand},
+    {"map-error", mapErrorCommand},
+    {"help", helpCommand},
+};
+
+Command commandOf(const Entry& entry) {
+    Command command = entry.make();
+    command.name = entry.name;
+    return command;
+}
+
+Command helpCommand() {
     const auto topic = std::make_shared<std::string>();
     Command command{
-        .name = "help",
         .summary = "print what a command does, and its options",
         .operands = "[COMMAND]",
         .description = "Prints the page of a command, as its --help does; without one, the list of commands.",
         .examples = {"tspace help", "tspace help generate"},
     };
     Option about = text("", "COMMAND", *topic, "The command that the page is about.");
-    for (const Command& other : others) about.choices.push_back(other.name);
-    about.choices.push_back(command.name);
+    for (const Entry& entry : kCommands) about.choices.emplace_back(entry.name);
     command.add("Input and output", about);
     command.add("Reporting", helpOption());
     command.run = [topic] {
-        const ToolTable tool = toolTable();
-        const std::string page = topic->empty() ? helpPage(tool) : helpPage(*findCommand(tool, *topic));
+        const std::string page = topic->empty() ? helpPage(toolTable()) : helpPage(*findCommand(*topic));
         return printResult(page) ? ExitCode::done : ExitCode::cannotReadOrWrite;
     };
     return command;
@@ -38,12 +63,7 @@ Command helpCommand(const std::vector<Command>& others) {
 
 ToolTable toolTable() {
     ToolTable tool;
-    for (Command (*const make)() : {generateCommand, diffCommand, identifyCommand, inspectCommand, checkCommand,
-                                    flipGreenCommand, renderCommand, convertMapCommand, heightToNormalCommand,
-                                    compressMapCommand, viewCommand, bakeCommand, finishCommand, mapErrorCommand}) {
-        tool.commands.push_back(make());
-    }
-    tool.commands.push_back(helpCommand(tool.commands));
+    for (const Entry& entry : kCommands) tool.commands.push_back(commandOf(entry));
     Option help = helpOption();
     help.group = "Options";
     Option version = option("-V, --version", "", help.take, "Print the version.");
@@ -52,10 +72,10 @@ ToolTable toolTable() {
     return tool;
 }
 
-const Command* findCommand(const ToolTable& tool, const std::string& name) {
-    const auto found = std::find_if(tool.commands.begin(), tool.commands.end(),
-                                    [&](const Command& command) { return command.name == name; });
-    return found != tool.commands.end() ? &*found : nullptr;
+std::optional<Command> findCommand(const std::string& name) {
+    for (const Entry& entry : kCommands)
+        if (name == entry.name) return commandOf(entry);
+    return std::nullopt;
 }
 
 }  // namespace tspace::tool

@@ -46,7 +46,6 @@ Command compressMapCommand() {
     CompressMapArguments& arguments = *owned;
     arguments.options.execution.thread_count = kAllThreads;
     Command command{
-        .name = "compress-map",
         .summary = "pack a normal map as a texture for engines (BC5, EAC RG11)",
         .operands = "IN -o OUT",
         .description =

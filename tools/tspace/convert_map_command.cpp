@@ -43,7 +43,6 @@ Command convertMapCommand() {
     ConvertMapArguments& arguments = *owned;
     arguments.options.execution.thread_count = kAllThreads;
     Command command{
-        .name = "convert-map",
         .summary = "carry a normal map from one set of tangent frames to another",
         .operands = "IN -o OUT",
         .description =

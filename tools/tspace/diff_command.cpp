@@ -60,7 +60,6 @@ Command diffCommand() {
     const auto owned = std::make_shared<DiffArguments>();
     DiffArguments& arguments = *owned;
     Command command{
-        .name = "diff",
         .summary = "compare the frames of two models",
         .operands = "A B",
         .description =

@@ -80,7 +80,6 @@ Command finishCommand() {
     FinishArguments& arguments = *owned;
     arguments.options.execution.thread_count = kAllThreads;
     Command command{
-        .name = "finish",
         .summary = "make a mesh of a generator or a scanner ready: winding, normals, tangents, all maps",
         .operands = "IN -o OUT.glb",
         .description =

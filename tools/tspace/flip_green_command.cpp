@@ -48,7 +48,6 @@ Command flipGreenCommand() {
     const auto owned = std::make_shared<FlipGreenArguments>();
     FlipGreenArguments& arguments = *owned;
     Command command{
-        .name = "flip-green",
         .summary = "invert the green channel of a normal map",
         .operands = "IN -o OUT",
         .description =

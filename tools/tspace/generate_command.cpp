@@ -253,7 +253,6 @@ Command generateCommand() {
     GenerateArguments& arguments = *owned;
     arguments.options.execution.thread_count = kAllThreads;
     Command command{
-        .name = "generate",
         .summary = "add the tangents that normal maps need",
         .operands = "IN... -o OUT",
         .description =

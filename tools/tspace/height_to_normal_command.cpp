@@ -42,7 +42,6 @@ Command heightToNormalCommand() {
     HeightToNormalArguments& arguments = *owned;
     arguments.options.execution.thread_count = kAllThreads;
     Command command{
-        .name = "height-to-normal",
         .summary = "make a normal map of a height map",
         .operands = "IN -o OUT",
         .description =

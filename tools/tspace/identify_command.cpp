@@ -49,7 +49,6 @@ Command identifyCommand() {
     IdentifyArguments& arguments = *owned;
     arguments.options.execution.thread_count = kAllThreads;
     Command command{
-        .name = "identify",
         .summary = "say which method made the tangents of a model",
         .operands = "IN...",
         .description =

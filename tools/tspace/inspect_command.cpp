@@ -45,7 +45,6 @@ Command inspectCommand() {
     const auto owned = std::make_shared<InspectArguments>();
     InspectArguments& arguments = *owned;
     Command command{
-        .name = "inspect",
         .summary = "say what is in model files",
         .operands = "IN...",
         .description =

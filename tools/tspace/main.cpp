@@ -2,6 +2,7 @@
 // Starts the command that the command line asks for.
 #include <exception>
 #include <new>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -44,7 +45,8 @@ void giveMemoryBack() {
 ExitCode print(const std::string& page) { return printResult(page) ? ExitCode::done : ExitCode::cannotReadOrWrite; }
 
 /// Handles a first word that is no command.
-ExitCode runWithoutCommand(const ToolTable& tool, const std::string& word) {
+ExitCode runWithoutCommand(const std::string& word) {
+    const ToolTable tool = toolTable();
     if (word == "-h" || word == "--help") return print(helpPage(tool));
     if (word == "-V" || word == "--version") return print("tspace " TSPACE_VERSION "\n" + leftOut());
     const char* see = " (see tspace --help)";
@@ -59,10 +61,9 @@ ExitCode runWithoutCommand(const ToolTable& tool, const std::string& word) {
 }
 
 ExitCode run(int argc, char** argv) {
-    const ToolTable tool = toolTable();
     if (argc < 2) return printUsageError("a command is missing (see tspace --help)");
-    const Command* command = findCommand(tool, argv[1]);
-    if (command == nullptr) return runWithoutCommand(tool, argv[1]);
+    const std::optional<Command> command = findCommand(argv[1]);
+    if (!command) return runWithoutCommand(argv[1]);
     Given given;
     const std::span<const char* const> arguments(argv + 2, static_cast<std::size_t>(argc - 2));
     const std::string wrong = readCommandLine(*command, arguments, given);

@@ -71,7 +71,6 @@ Command mapErrorCommand() {
     MapErrorArguments& arguments = *owned;
     arguments.options.execution.thread_count = kAllThreads;
     Command command{
-        .name = "map-error",
         .summary = "say how far a normal map is from its high poly, and why",
         .operands = "MAP LOW --high HIGH",
         .description =

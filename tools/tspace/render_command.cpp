@@ -51,7 +51,6 @@ Command renderCommand() {
     RenderArguments& arguments = *owned;
     arguments.options.execution.thread_count = kAllThreads;
     Command command{
-        .name = "render",
         .summary = "draw a model, or its frames, as a picture",
         .operands = "IN -o OUT",
         .description =

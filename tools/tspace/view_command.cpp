@@ -67,7 +67,6 @@ Command viewCommand() {
     const auto owned = std::make_shared<ViewArguments>();
     ViewArguments& arguments = *owned;
     Command command{
-        .name = "view",
         .summary = "write a page that shows a model, its frames and what is wrong",
         .operands = "IN -o OUT.html",
         .description =

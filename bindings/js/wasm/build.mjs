@@ -18,7 +18,7 @@ const out = resolve(process.argv[2] ?? join(root, "build/js/wasm"));
 /// Rooms of src/ and their files; loops over meshes that are worth more code than -Oz gives.
 const rooms = ["base", "frames", "normals", "tangents", "tangents/mikktspace", "tangents/estimators", "indexed"].map((room) => `core/${room}`);
 /// What plain_normals.cpp stands for.
-const notPlain = ["crease_auto", "denoise", "normal_groups"].map((name) => `core/normals/${name}.cpp`);
+const notPlain = ["crease_auto", "denoise", "noise_screen", "normal_groups"].map((name) => `core/normals/${name}.cpp`);
 const fileRooms = [
   ...["surface", "quads", "pools"].map((room) => `core/mesh/${room}`), "images", "maps",
   ...["io", "json", "gltf", "gltf/codecs", "obj", "read"].map((room) => `model/${room}`),

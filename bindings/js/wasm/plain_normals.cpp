@@ -10,6 +10,7 @@ NormalReport denoisedNormals(NormalsCall& call) { return averageNormals(call); }
 
 Creases findCreases(const MeshView&, const NormalOptions&, const Execution&, Parallel&) { return {}; }
 
-PositionNoise noiseOf(const MeshView&, const Execution&, Parallel&, bool) { return {}; }
+PositionNoise noiseOf(const MeshView&, const Execution&, Parallel&, double) { return {}; }
+bool mayHaveNoise(const MeshView&, double, const Execution&, Parallel&) { return false; }
 
 }  // namespace tspace

@@ -3,11 +3,13 @@
 #include "commands/check/primitive_checks.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
 
 #include "commands/check/findings.h"
 #include "commands/shared/noted_noise.h"
+#include "core/base/unique_index.h"
 #include "core/base/vec_math.h"
 #include "core/mesh/surface/surface.h"
 #include "tspace/winding.h"
@@ -29,19 +31,12 @@ constexpr double kFarDeg = 40;
 /// Share of the surface from which normals off their triangles are reported.
 constexpr double kSomeFar = 0.5;
 
-std::vector<bool> usedVertices(const TangentView& mesh) {
-    std::vector<bool> used(mesh.positions.size(), false);
-    for (const std::uint32_t vertex : mesh.corners) used[vertex] = true;
-    return used;
-}
-
 void checkNormalValues(PrimitiveFacts& facts) {
     const TangentView& mesh = facts.mesh;
     Tally not_finite, not_unit;
     std::uint64_t zero_count = 0;
-    const std::vector<bool> used = usedVertices(mesh);
-    for (std::uint32_t v = 0; v < used.size(); ++v) {
-        if (!used[v]) continue;
+    for (std::uint32_t v = 0; v < facts.used.size(); ++v) {
+        if (!facts.used[v]) continue;
         ++not_finite.total;
         ++not_unit.total;
         if (!isFinite(mesh.normals[v])) {
@@ -71,35 +66,84 @@ void checkNormalValues(PrimitiveFacts& facts) {
     }
 }
 
-/// Cosine between the normals of a face and its own.
-double facingOf(const PrimitiveFacts& facts, std::size_t face) {
-    DVec3 mean;
-    for (std::size_t k = 0; k < 3; ++k) {
-        DVec3 normal = toDouble(facts.mesh.normals[facts.mesh.corners[3 * face + k]]);
-        if (normalize(normal)) mean = mean + normal;
+/// Normals of vertices, with length 1; zero where they have no direction.
+using Directions = std::vector<DVec3>;
+
+Directions directionsOf(const StridedSpan<const Vec3>& normals) {
+    Directions directions(normals.count);
+    for (std::size_t v = 0; v < directions.size(); ++v) {
+        directions[v] = toDouble(normals[v]);
+        if (!normalize(directions[v])) directions[v] = {};
     }
-    return normalize(mean) ? dot(mean, toDouble(facts.surface.faces[face].normal)) : 0;
+    return directions;
+}
+
+/// Cosine between the mean of a face's normals and its own; 0 where one has no direction.
+double facingOf(const PrimitiveFacts& facts, const Directions& directions, std::size_t face) {
+    const std::uint32_t* const v = facts.mesh.corners.data() + 3 * face;
+    const DVec3 sum = directions[v[0]] + directions[v[1]] + directions[v[2]];
+    const double size = length(sum);
+    return size > 0 ? dot(sum, toDouble(facts.surface.faces[face].normal)) / size : 0;
+}
+
+/// Whether one of these triangles shares an edge with one that has its normals in front and is wound alike: mendWinding turns
+/// both or neither.
+bool haveSoundNeighbours(const PrimitiveFacts& facts, const Directions& directions,
+                         std::span<const std::uint32_t> against) {
+    struct Edge {
+        std::size_t count = 0;
+        std::uint32_t faces[2] = {};
+        bool is_forward[2] = {};
+    };
+    const std::span<const std::uint32_t> corners = facts.mesh.corners;
+    std::vector<bool> is_near(facts.mesh.positions.size(), false);
+    for (const std::uint32_t face : against)
+        for (std::size_t k = 0; k < 3; ++k) is_near[corners[3 * face + k]] = true;
+    UniqueIndex<std::array<std::uint32_t, 2>> numbers;
+    std::vector<Edge> edges;
+    for (std::uint32_t c = 0; c < corners.size(); ++c) {
+        const std::uint32_t from = corners[c], to = corners[c % 3 == 2 ? c - 2 : c + 1];
+        if (!is_near[from] || !is_near[to] || facts.surface.faces[c / 3].area == 0) continue;
+        const std::uint32_t number = numbers.indexOf({std::min(from, to), std::max(from, to)});
+        if (number == edges.size()) edges.emplace_back();
+        Edge& edge = edges[number];
+        if (edge.count < 2) {
+            edge.faces[edge.count] = c / 3;
+            edge.is_forward[edge.count] = from < to;
+        }
+        ++edge.count;
+    }
+    return std::any_of(edges.begin(), edges.end(), [&](const Edge& edge) {
+        if (edge.count != 2 || edge.is_forward[0] == edge.is_forward[1]) return false;
+        const double a = facingOf(facts, directions, edge.faces[0]), b = facingOf(facts, directions, edge.faces[1]);
+        return std::min(a, b) < kLeastFacing && std::max(a, b) > -kLeastFacing;
+    });
 }
 
 /// Whether turning triangles as `generate --mend-winding` does would leave no normal on the back of its own.
-bool areTrianglesToBlame(const PrimitiveFacts& facts) {
+bool areTrianglesToBlame(const PrimitiveFacts& facts, const Directions& directions,
+                         std::span<const std::uint32_t> against) {
+    if (haveSoundNeighbours(facts, directions, against)) return false;
     std::vector<std::uint8_t> turned(facts.surface.faces.size());
     if (!mendWinding(facts.mesh.triangles(), {}, turned, facts.options.execution)) return false;
     for (std::size_t f = 0; f < turned.size(); ++f) {
-        const double facing = facts.surface.faces[f].area == 0 ? 0 : facingOf(facts, f);
+        const double facing = facts.surface.faces[f].area == 0 ? 0 : facingOf(facts, directions, f);
         if ((turned[f] != 0 ? -facing : facing) < kLeastFacing) return false;
     }
     return true;
 }
 
-void checkWinding(PrimitiveFacts& facts) {
+void checkWinding(PrimitiveFacts& facts, const Directions& directions) {
     const TangentView& mesh = facts.mesh;
     Tally against;
-    for (std::size_t f = 0; f < facts.surface.faces.size(); ++f) {
+    std::vector<std::uint32_t> faces_against;
+    for (std::uint32_t f = 0; f < facts.surface.faces.size(); ++f) {
         const SurfaceFrame& face = facts.surface.faces[f];
         if (face.area == 0) continue;
         ++against.total;
-        if (facingOf(facts, f) < kLeastFacing) against.add(mesh.corners[3 * f], face.area);
+        if (facingOf(facts, directions, f) >= kLeastFacing) continue;
+        against.add(mesh.corners[3 * f], face.area);
+        faces_against.push_back(f);
     }
     against.finish(facts.surface.area);
     if (against.count == 0) return;
@@ -111,31 +155,31 @@ void checkWinding(PrimitiveFacts& facts) {
     facts.add(FindingCode::normalsAgainstWinding, severity, against, "triangles",
               "the normals of " + countText(against, "triangles") + " point to the back (" +
                   shareText(against.surface_share) + " of the surface)");
-    if (areTrianglesToBlame(facts))
+    if (areTrianglesToBlame(facts, directions, faces_against))
         facts.findings.back().remedy =
             "Turn those triangles round: tspace generate --mend-winding. Tangents that are there stay.";
 }
 
 /// Normals smoothed over hard edges, those of a whole tree on its leaves, or those of another shape. Some are meant, so the
 /// finding is a note.
-void checkFarNormals(PrimitiveFacts& facts) {
+void checkFarNormals(PrimitiveFacts& facts, const Directions& directions) {
     const TangentView& mesh = facts.mesh;
     const EqualVertices equal = findEqualVertices(mesh, false);
-    std::vector<float> least(equal.class_count, 180);
+    std::vector<double> nearest(equal.class_count, -1);  // cosines
     for (std::size_t c = 0; c < mesh.corners.size(); ++c) {
         const SurfaceFrame& face = facts.surface.faces[c / 3];
-        DVec3 normal = toDouble(mesh.normals[mesh.corners[c]]);
-        if (face.area == 0 || !normalize(normal)) continue;
-        float& angle = least[equal.class_of[mesh.corners[c]]];
-        angle = std::min(angle, static_cast<float>(angleBetween(normal, toDouble(face.normal)) * 180 / kPi));
+        if (face.area == 0) continue;
+        const std::uint32_t vertex = mesh.corners[c];
+        double& cosine = nearest[equal.class_of[vertex]];
+        cosine = std::max(cosine, dot(directions[vertex], toDouble(face.normal)));
     }
     Tally far;
-    const std::vector<bool> used = usedVertices(mesh);
-    for (std::uint32_t v = 0; v < used.size(); ++v) {
-        if (!used[v] || !isDirection(mesh.normals[v]) || facts.surface.vertex_areas[v] == 0) continue;
+    for (std::uint32_t v = 0; v < facts.used.size(); ++v) {
+        if (!facts.used[v] || !isDirection(mesh.normals[v]) || facts.surface.vertex_areas[v] == 0) continue;
         ++far.total;
         // Normals that point to the back are another finding.
-        const double angle = least[equal.class_of[v]];
+        const double cosine = nearest[equal.class_of[v]];
+        const double angle = polarAngle(cosine, std::sqrt(std::max(0.0, 1 - cosine * cosine))) * 180 / kPi;
         if (angle > kFarDeg && angle <= 90) far.add(v, facts.surface.vertex_areas[v], angle);
     }
     far.finish(facts.surface.area);
@@ -150,9 +194,8 @@ void checkFarNormals(PrimitiveFacts& facts) {
 
 void checkPositions(PrimitiveFacts& facts) {
     Tally bad;
-    const std::vector<bool> used = usedVertices(facts.mesh);
-    for (std::uint32_t v = 0; v < used.size(); ++v) {
-        if (!used[v]) continue;
+    for (std::uint32_t v = 0; v < facts.used.size(); ++v) {
+        if (!facts.used[v]) continue;
         ++bad.total;
         if (!isFinite(facts.mesh.positions[v])) bad.add(v, 0);
     }
@@ -181,8 +224,9 @@ void checkNormals(PrimitiveFacts& facts) {
     }
     const std::size_t first = facts.findings.size();
     checkNormalValues(facts);
-    checkWinding(facts);
-    checkFarNormals(facts);
+    const Directions directions = directionsOf(facts.mesh.normals);
+    checkWinding(facts, directions);
+    checkFarNormals(facts, directions);
     if (!facts.primitive.is_unlit) return;
     for (Finding& finding : std::span(facts.findings).subspan(first)) {
         finding.severity = Severity::note;
@@ -307,6 +351,12 @@ void PrimitiveFacts::add(FindingCode code, Severity severity, const Tally& tally
 
 namespace {
 
+std::vector<bool> usedVertices(const TangentView& mesh) {
+    std::vector<bool> used(mesh.positions.size(), false);
+    for (const std::uint32_t vertex : mesh.corners) used[vertex] = true;
+    return used;
+}
+
 /// Share of the surface where UVs determine tangents, and positions are not too coarse for that.
 double comparedShare(const PrimitiveFacts& facts) {
     const double most = sineCosine(facts.options.direction_deg * kPi / 180).sine;
@@ -369,6 +419,7 @@ Result<PrimitiveVerdict> judgePrimitive(const ScenePrimitive& primitive, const C
                   .corners = primitive.corners.span(),
                   .position_step = primitive.position_step};
     facts.surface = describeSurface(facts.mesh);
+    facts.used = usedVertices(facts.mesh);
     checkPositions(facts);
     checkRounding(facts);
     checkNormals(facts);

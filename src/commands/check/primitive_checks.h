@@ -31,11 +31,12 @@ Result<std::optional<QuadReading>> findQuads(const TangentView& mesh, const Fram
 struct PrimitiveFacts {
     const ScenePrimitive& primitive;
     const CheckOptions& options;
-    bool is_gltf = true;     ///< others are seldom expected to hold tangents, and many cannot
-    UvReading reading = {};  ///< what the tangents should follow
-    TangentView mesh = {};   ///< over `reading`; without UVs where these are no authority
-    Surface surface = {};    ///< of `mesh`
-    QuadReading quads = {};  ///< holds the corners of `mesh` where its tangents were made on quads
+    bool is_gltf = true;          ///< others are seldom expected to hold tangents, and many cannot
+    UvReading reading = {};       ///< what the tangents should follow
+    TangentView mesh = {};        ///< over `reading`; without UVs where these are no authority
+    Surface surface = {};         ///< of `mesh`
+    std::vector<bool> used = {};  ///< vertices that triangles have
+    QuadReading quads = {};       ///< holds the corners of `mesh` where its tangents were made on quads
     std::vector<Finding> findings = {};
     std::vector<std::uint32_t> faults = {};  ///< of the tangents, as FrameHealth::faults; empty: none
     double wrong_sign_share = 0;             ///< as FrameHealth::wrong_sign_share

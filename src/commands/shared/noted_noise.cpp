@@ -16,7 +16,7 @@ double notedNoise(const MeshView& mesh, double position_step) {
     constexpr double kLeastNoise = 0.03;
     if (mesh.faceCount() < kLeastFaces) return 0;
     const Arena arena;  // freed as a whole: a thousand calls left holes in the heap, 63 MB of them
-    const Result<PositionNoise> found = measureSureNoise(mesh, {.allocator = arena.allocator()});
+    const Result<PositionNoise> found = measureSureNoise(mesh, kLeastNoise, {.allocator = arena.allocator()});
     if (!found || found->noise < kLeastNoise || found->noise * found->mean_edge < position_step) return 0;
     return double{found->noise};
 }

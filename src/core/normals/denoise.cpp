@@ -13,19 +13,7 @@
 
 namespace tspace {
 
-// Noise in positions, by samples: how far vertices lie from the quadratic surface through two rings around them, and whether
-// what normals do along edges looks like noise or like shape.
-
-namespace {
-
-constexpr std::size_t kEdgeSamples = 16384;
-constexpr std::size_t kMostVertexSamples = 4096, kLeastVertexSamples = 1024;  // a quarter of the vertices between these
-constexpr std::size_t kLeastFits = 200;
-constexpr double kNoisyShare = 0.15;  ///< of kinks, where positions hardly differ from a smooth surface
-
-/// Of `count` samples of [0, all) the one with this number: one per stretch of equal length, at a place in it that repeats
-/// with no period of the mesh.
-std::size_t sampleAt(std::size_t number, std::size_t count, std::size_t all) {
+std::size_t sampledPlace(std::size_t number, std::size_t count, std::size_t all) {
     if (count >= all) return number;
     const std::uint32_t turn = static_cast<std::uint32_t>(number) * 2654435769u;  // the golden ratio's
     const double within = (turn >> 8) * (1.0 / (1 << 24));
@@ -39,24 +27,28 @@ double medianOf(float* begin, float* end) {
     return *middle;
 }
 
+// Noise in positions, by samples: how far vertices lie from the quadratic surface through two rings around them, and whether
+// what normals do along edges looks like noise or like shape.
+
+namespace {
+
+constexpr std::size_t kEdgeSamples = 16384;
+constexpr std::size_t kMostVertexSamples = 4096, kLeastVertexSamples = 1024;  // a quarter of the vertices between these
+constexpr std::size_t kLeastFits = 200;
+
 /// 3 u^2 - 2 u^3 of the place between two values.
 double smoothStep(double low, double high, double value) {
     const double u = std::clamp((value - low) / (high - low), 0.0, 1.0);
     return u * u * (3 - 2 * u);
 }
 
-/// Of angles at edges, in degrees: that below which a quarter, and a half, of their length lies.
-struct Dihedrals {
-    double quarter = 0, median = 0;
-};
-
-/// Of the edges of some vertices.
-Dihedrals sampleDihedrals(const NormalGroups& groups, const Allocator* allocator) {
+/// Of the edges of some of the first `all` groups.
+Dihedrals sampleDihedrals(const NormalGroups& groups, std::size_t all, const Allocator* allocator) {
     constexpr std::size_t kVertices = 1024;
     struct Edge {
         double angle, length;
     };
-    const std::size_t samples = std::min(groups.count(), kVertices);
+    const std::size_t samples = std::min(all, kVertices);
     Buffer<Edge> edges(allocator, samples * RingWalk::kFan);
     std::size_t count = 0;
     double lengths = 0;
@@ -65,7 +57,7 @@ Dihedrals sampleDihedrals(const NormalGroups& groups, const Allocator* allocator
         return DVec3{v[0], v[1], v[2]};
     };
     for (std::size_t i = 0; i < samples; ++i) {
-        const std::size_t group = sampleAt(i, samples, groups.count());
+        const std::size_t group = sampledPlace(i, samples, all);
         const std::span<const NormalGroups::Ends> corners = groups.corners(group);
         if (corners.size() > RingWalk::kFan) continue;
         for (const NormalGroups::Ends& a : corners) {
@@ -94,7 +86,8 @@ Dihedrals sampleDihedrals(const NormalGroups& groups, const Allocator* allocator
 /// edges, is 78. Of decimated shapes with sharp edges, whose faces are flat, it is below 31.
 constexpr double kTurnOfNoise = 126, kLeastTurnOfNoise = 90;
 
-/// The part of sigma that is noise.
+}  // namespace
+
 double noisePart(double sigma, double kink_share, const Dihedrals& dihedrals) {
     constexpr double kLeast = 1e-3;  // of an edge: what a fit would gain is below what it costs
     if (!(sigma > 0) || !(dihedrals.median > 0)) return 0;
@@ -108,20 +101,19 @@ double noisePart(double sigma, double kink_share, const Dihedrals& dihedrals) {
     return part >= kLeast ? part : 0;
 }
 
-}  // namespace
+double kinkShare(const DVec3& edge, const DVec3& m, const DVec3& n, double flat) {
+    const double size = length(edge), kink = dot(edge, m + n) / size, bend = dot(edge, n - m) / size;
+    return kink * kink / (kink * kink + bend * bend + flat);
+}
 
-bool areClean(const PositionNoise& sampled) { return sampled.kink_share <= kNoisyShare / 2; }
-
-/// On a circle e . (m + n) is 0 for normals m and n at the ends of an edge e, and nearly so on everything that is smooth at the
-/// mesh's scale; e . (n - m) is what an even bend gives.
 PositionNoise sampleEdges(const NormalsCall& call) {
-    constexpr double kFlat = 1e-7;  // squares of sines: an edge that turns by less has no kink
+    constexpr double kFlat = 1e-7;
     const std::size_t corners = call.mesh.cornerCount(), samples = std::min(corners, kEdgeSamples);
     Buffer<float> shares(call.allocator, samples);
     std::size_t count = 0, edges = 0;
     double lengths = 0;
     for (std::size_t i = 0; i < samples; ++i) {
-        const auto corner = static_cast<std::uint32_t>(sampleAt(i, samples, corners));
+        const auto corner = static_cast<std::uint32_t>(sampledPlace(i, samples, corners));
         const std::uint32_t next = call.faces.next(corner);
         const DVec3 edge = toDouble(call.posed.positions[call.mesh.indices[next]]) -
                            toDouble(call.posed.positions[call.mesh.indices[corner]]);
@@ -131,8 +123,7 @@ PositionNoise sampleEdges(const NormalsCall& call) {
         lengths += size;
         if (call.out.count == 0) continue;
         const DVec3 m = toDouble(call.out[corner]), n = toDouble(call.out[next]);
-        const double kink = dot(edge, m + n) / size, bend = dot(edge, n - m) / size;
-        const double share = kink * kink / (kink * kink + bend * bend + kFlat);
+        const double share = kinkShare(edge, m, n, kFlat);
         if (std::isfinite(share)) shares[count++] = static_cast<float>(share);
     }
     PositionNoise found;
@@ -143,12 +134,11 @@ PositionNoise sampleEdges(const NormalsCall& call) {
 
 /// Each vertex without itself: r = |z(0)| / sqrt(1 + (A^-1)_00) has the spread of the noise, on every surface that two rings
 /// show as a quadratic. By the median, so that edges and corners of the shape do not count.
-double measureNoise(const NormalGroups& groups, const Allocator* allocator, PositionNoise& noise) {
-    const std::size_t all = groups.count();
+Roughness measureRoughness(const NormalGroups& groups, std::size_t all, const Allocator* allocator) {
     const std::size_t samples = std::min(all, std::clamp(all / 4, kLeastVertexSamples, kMostVertexSamples));
     Buffer<float> distances(allocator, samples);
     groups.forSome(
-        samples, [&](std::size_t i) { return sampleAt(i, samples, all); },
+        samples, [&](std::size_t i) { return sampledPlace(i, samples, all); },
         [&](std::size_t i, std::size_t group, std::uint32_t* marks) {
             distances[i] = -1;
             const Float4 normal = groups.areaNormal(group);
@@ -163,10 +153,14 @@ double measureNoise(const NormalGroups& groups, const Allocator* allocator, Posi
             distances[i] = static_cast<float>(std::fabs(height) / std::sqrt(1 + variance));
         });
     float* const end = std::remove_if(distances.begin(), distances.end(), [](float d) { return !(d >= 0); });
-    if (end - distances.begin() < static_cast<std::ptrdiff_t>(kLeastFits)) return 0;
+    if (end - distances.begin() < static_cast<std::ptrdiff_t>(kLeastFits)) return {};
     constexpr double kMedianOfNormal = 0.6745;  // of |x| for a normal distribution
-    const double sigma = medianOf(distances.begin(), end) / kMedianOfNormal;
-    const Dihedrals dihedrals = sampleDihedrals(groups, allocator);
+    return {medianOf(distances.begin(), end) / kMedianOfNormal, sampleDihedrals(groups, all, allocator), true};
+}
+
+double measureNoise(const NormalGroups& groups, const Allocator* allocator, PositionNoise& noise) {
+    const auto [sigma, dihedrals, is_known] = measureRoughness(groups, groups.count(), allocator);
+    if (!is_known) return 0;
     noise.sigma = static_cast<float>(std::min(sigma, dihedrals.median / kLeastTurnOfNoise));
     noise.noise = static_cast<float>(noisePart(sigma, noise.kink_share, dihedrals));
     return std::min(sigma, dihedrals.median / kTurnOfNoise);
@@ -178,13 +172,13 @@ double roughnessOf(const NormalsCall& call) {
     return measureNoise(NormalGroups(call, CornerGroups(call, {}), noise.mean_edge), call.allocator, noise);
 }
 
-PositionNoise noiseOf(const MeshView& mesh, const Execution& execution, Parallel& parallel, bool wants_sigma) {
+PositionNoise noiseOf(const MeshView& mesh, const Execution& execution, Parallel& parallel, double fewest_kinks) {
     Call<NormalOptions> options{{.weighting = NormalWeighting::best}, execution};
     Buffer<Vec3> normals(execution.allocator, mesh.cornerCount());
     const NormalsCall call(mesh, mesh, options, {normals.data(), normals.size()}, parallel);
     averageNormals(call);
     PositionNoise noise = sampleEdges(call);
-    if (!(noise.mean_edge > 0) || (!wants_sigma && areClean(noise))) return noise;
+    if (!(noise.mean_edge > 0) || noise.kink_share <= fewest_kinks) return noise;
     const CornerGroups corner_groups(call, {});
     measureNoise(NormalGroups(call, corner_groups, noise.mean_edge), execution.allocator, noise);
     return noise;
@@ -399,8 +393,9 @@ NormalReport denoisedNormals(NormalsCall& call) {
     call.components = &components;
     NormalReport report = averageNormals(call);
     PositionNoise noise =
-        is_whole ? sampleEdges(call) : noiseOf(call.mesh, call.options.execution, call.parallel, !by_guard);
-    if (!(noise.mean_edge > 0) || (by_guard && areClean(noise))) return report;
+        is_whole ? sampleEdges(call)
+                 : noiseOf(call.mesh, call.options.execution, call.parallel, by_guard ? kNoisyShare / 2 : -1);
+    if (!(noise.mean_edge > 0) || (by_guard && noise.kink_share <= kNoisyShare / 2)) return report;
     const CornerGroups corner_groups(call, std::move(components));
     const NormalGroups groups(call, corner_groups, noise.mean_edge);
     if (is_whole) measureNoise(groups, call.allocator, noise);

@@ -300,8 +300,9 @@ RingSums::Rest RingSums::eliminate() const {
 /// finite length; a call without results gives that alone. Takes 64 KB.
 PositionNoise sampleEdges(const NormalsCall& call);
 
-/// Whether edges alone show that nothing is noise.
-bool areClean(const PositionNoise& sampled);
+/// The share of kinks from which on all roughness is noise, where positions hardly differ from a smooth surface; up to half
+/// of it none is.
+inline constexpr double kNoisyShare = 0.15;
 
 /// Adds sigma, and what of it is noise. Returns the most noise that edges as flat as these may have. groups: in units of the
 /// mean edge
@@ -310,11 +311,46 @@ double measureNoise(const NormalGroups& groups, const Allocator* allocator, Posi
 /// The same of a call without normals: of the mesh, which its hard edges will be found on.
 double roughnessOf(const NormalsCall& call);
 
-/// As measurePositionNoise, but where edges alone show that nothing is noise, `sigma` stays 0.
-Result<PositionNoise> measureSureNoise(const MeshView& mesh, const Execution& execution);
+/// Of angles at edges, in degrees: that below which a quarter, and a half, of their length lies.
+struct Dihedrals {
+    double quarter = 0, median = 0;
+};
+/// How rough a surface is, whatever that is: sigma of PositionNoise, by fits alone, and its angles at edges.
+struct Roughness {
+    double sigma = 0;
+    Dihedrals dihedrals = {};
+    bool is_known = false;
+};
+/// Of the first `all` groups, some thousand of them. groups: in units of the mean edge
+Roughness measureRoughness(const NormalGroups& groups, std::size_t all, const Allocator* allocator);
 
-/// Of a mesh, without hard edges. `wants_sigma`: also where edges alone show that nothing is noise.
-PositionNoise noiseOf(const MeshView& mesh, const Execution& execution, Parallel& parallel, bool wants_sigma);
+/// What of sigma is noise.
+double noisePart(double sigma, double kink_share, const Dihedrals& dihedrals);
+
+/// Of the edge between two points with unit normals m and n. On a circle e . (m + n) is 0, and nearly so on everything that is
+/// smooth at the mesh's scale; e . (n - m) is what an even bend gives. flat: the square of a sine; an edge that turns by less
+/// has no kink
+double kinkShare(const DVec3& edge, const DVec3& m, const DVec3& n, double flat);
+
+/// Of `count` samples of [0, all) the one with this number: one per stretch of equal length, at a place in it that repeats
+/// with no period of the mesh.
+std::size_t sampledPlace(std::size_t number, std::size_t count, std::size_t all);
+/// Changes their order.
+double medianOf(float* begin, float* end);
+
+/// PositionNoise::noise of .03 and more, which is noted, needs a share of kinks of .22, whatever sigma is (noisePart).
+inline constexpr double kFewKinks = 0.2;
+
+/// Whether a mesh of triangles, which has been checked, may have so much noise (PositionNoise::noise). Where it says no, half
+/// a thousand edges and what is around them are far from it; yes means that it takes measurePositionNoise to tell. Takes no
+/// more memory than that and 64 KB. O(corners), a tenth of the time of `best`. Throws OutOfMemory.
+bool mayHaveNoise(const MeshView& mesh, double noise, const Execution& execution, Parallel& parallel);
+
+/// As measurePositionNoise, or all 0 where mayHaveNoise(least) says no.
+Result<PositionNoise> measureSureNoise(const MeshView& mesh, double least, const Execution& execution);
+
+/// Of a mesh, without hard edges. Where its share of kinks is no more than `fewest_kinks`, sigma and noise stay 0.
+PositionNoise noiseOf(const MeshView& mesh, const Execution& execution, Parallel& parallel, double fewest_kinks);
 
 /// averageNormals by `best`, then without noise. That of the mesh: in a pose it is no other, so that what does not move near
 /// a point leaves its normal alone. Takes NormalGroups and 76 bytes per group. Throws OutOfMemory.

@@ -94,22 +94,23 @@ Result<NormalReport> checkAndGenerate(const MeshView& mesh, const MeshView& pose
     return report;
 }
 
-Result<PositionNoise> measured(const MeshView& mesh, const Execution& execution, bool wants_sigma) {
-    return atBorder([&]() -> Result<PositionNoise> {
-        Parallel parallel(execution, kSlow * mesh.cornerCount());
-        if (Error e = checkMesh(mesh, &parallel); e.code != ErrorCode::ok) return e;
-        return noiseOf(mesh, execution, parallel, wants_sigma);
-    });
-}
-
 }  // namespace
 
 Result<PositionNoise> measurePositionNoise(const MeshView& mesh, const Execution& execution) {
-    return measured(mesh, execution, true);
+    return atBorder([&]() -> Result<PositionNoise> {
+        Parallel parallel(execution, kSlow * mesh.cornerCount());
+        if (Error e = checkMesh(mesh, &parallel); e.code != ErrorCode::ok) return e;
+        return noiseOf(mesh, execution, parallel, -1);
+    });
 }
 
-Result<PositionNoise> measureSureNoise(const MeshView& mesh, const Execution& execution) {
-    return measured(mesh, execution, false);
+Result<PositionNoise> measureSureNoise(const MeshView& mesh, double least, const Execution& execution) {
+    return atBorder([&]() -> Result<PositionNoise> {
+        Parallel parallel(execution, kSlow * mesh.cornerCount());
+        if (Error e = checkMesh(mesh, &parallel); e.code != ErrorCode::ok) return e;
+        if (PointItems::areTriangles(mesh) && !mayHaveNoise(mesh, least, execution, parallel)) return PositionNoise{};
+        return noiseOf(mesh, execution, parallel, kFewKinks);
+    });
 }
 
 Result<NormalReport> generateNormals(const MeshView& mesh, const NormalOptions& options, StridedSpan<Vec3> out,

@@ -10,6 +10,7 @@
 #include <map>
 
 #include "core/base/vec_math.h"
+#include "core/normals/denoise.h"
 #include "core/normals/normals_outcome.h"
 #include "core/normals/pose_normals.h"
 #include "scans.h"
@@ -325,6 +326,24 @@ TEST(PositionNoise, IsMeasuredOnSmoothShapes) {
         const Result<PositionNoise> clean = measurePositionNoise(accuracy::scan(shape(name), 56, 0, Random{1}).view());
         EXPECT_LT(clean->sigma, 0.01) << name;
         EXPECT_EQ(clean->noise, 0) << name;
+    }
+}
+
+TEST(PositionNoise, FromALeastOnIsWhatTheFullMeasureGives) {
+    constexpr double kLeast = 0.03;
+    for (const char* name : {"blob", "torus", "rounded box"}) {
+        for (const double noise : {0.0, 0.02, 0.035, 0.06, 0.3}) {
+            for (const int size : {24, 40, 56}) {
+                const Scan scan = accuracy::scan(shape(name), size, noise, Random{3});
+                const Result<PositionNoise> sure = measureSureNoise(scan.view(), kLeast, {});
+                const Result<PositionNoise> found = measurePositionNoise(scan.view());
+                ASSERT_TRUE(sure.ok() && found.ok());
+                if (found->noise >= kLeast)
+                    EXPECT_EQ(sure->noise, found->noise) << name << ' ' << noise << ' ' << size;
+                else
+                    EXPECT_LT(sure->noise, kLeast) << name << ' ' << noise << ' ' << size;
+            }
+        }
     }
 }
 

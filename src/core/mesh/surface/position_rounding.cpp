@@ -9,9 +9,9 @@
 #include <cstdint>
 #include <limits>
 #include <span>
-#include <tuple>
 #include <vector>
 
+#include "core/base/mesh_loops.h"
 #include "core/base/vec_math.h"
 #include "tspace/span.h"
 #include "tspace/vec.h"
@@ -45,16 +45,10 @@ double commonStep(std::vector<double>& distances, double slack, double least) {
 }
 
 /// The step that all values of an axis are whole multiples of, from one of them on, but for the rounding of floats; 0 where
-/// there is none, or it is next to that rounding. `axis`: 0 to 2. Linear.
-double latticeStep(StridedSpan<const Vec3> positions, std::size_t axis) {
+/// there is none, or it is next to that rounding. `axis`: 0 to 2. far: the largest size of a value. Linear.
+double latticeStep(StridedSpan<const Vec3> positions, std::size_t axis, double far) {
     constexpr std::size_t kFew = 256, kMostTries = 16;
     constexpr double kSlack = 4, kLeast = 32;  // of the distance between floats
-    double far = 0;
-    for (std::size_t v = 0; v < positions.count; ++v) {
-        const double value = std::fabs(valueAt(positions[v], axis));
-        if (!std::isfinite(value)) return 0;
-        far = std::max(far, value);
-    }
     if (positions.count == 0 || far == 0) return 0;
     const double ulp = std::ldexp(1.0, std::ilogb(far) - 23), first = valueAt(positions[0], axis);
     std::vector<double> few;
@@ -109,33 +103,20 @@ bool scattersByRounding(StridedSpan<const Vec3> positions, StridedSpan<const Vec
     // Parts of what is wanted. Lengths change less where edges are all about as many steps long.
     constexpr double kLeastSine = 0.17, kLeastTurn = 0.25, kLeastStretch = 0.07;
     constexpr std::size_t kLeastCount = 32;
-    struct Edge {
-        std::uint32_t low, high;
-        std::size_t triangle;
-        bool operator<(const Edge& other) const {
-            return std::tie(low, high, triangle) < std::tie(other.low, other.high, other.triangle);
-        }
-    };
     std::vector<TurnedDirection> triangles;
-    std::vector<Edge> edges;
+    std::vector<std::array<std::uint32_t, 3>> vertices;
     for (const std::span<const std::uint32_t> corners : corner_lists) {
         for (std::size_t i = 0; i + 2 < corners.size(); i += 3) {
             const TurnedDirection triangle = directionOf(positions, uvs, corners.data() + i, error);
             if (!(triangle.sine > kLeastSine)) continue;
-            for (std::size_t k = 0; k < 3; ++k) {
-                const auto [low, high] = std::minmax(corners[i + k], corners[i + (k + 1) % 3]);
-                edges.push_back({low, high, triangles.size()});
-            }
             triangles.push_back(triangle);
+            vertices.push_back({corners[i], corners[i + 1], corners[i + 2]});
         }
     }
-    std::sort(edges.begin(), edges.end());
     std::size_t count = 0;
     double turned = 0, stretched = 0, wanted = 0;
     std::array<double, 3> along_axes = {};
-    for (std::size_t i = 0; i + 1 < edges.size(); ++i) {
-        if (edges[i].low != edges[i + 1].low || edges[i].high != edges[i + 1].high) continue;
-        const TurnedDirection &a = triangles[edges[i].triangle], &b = triangles[edges[i + 1].triangle];
+    const auto compare = [&](const TurnedDirection& a, const TurnedDirection& b) {
         const DVec3 turn = a.direction - b.direction;
         const double sum = a.size + b.size, stretch = sum > 0 ? 2 * (a.size - b.size) / sum : 0;
         ++count;
@@ -146,7 +127,20 @@ bool scattersByRounding(StridedSpan<const Vec3> positions, StridedSpan<const Vec
         along_axes[1] += change.y * change.y;
         along_axes[2] += change.z * change.z;
         wanted += std::min(1.0, a.sine * a.sine + b.sine * b.sine);
-    }
+    };
+    const auto forHalves = [&](const auto& add) {
+        for (std::size_t triangle = 0; triangle < vertices.size(); ++triangle) {
+            for (std::size_t k = 0; k < 3; ++k) {
+                const auto [low, high] = std::minmax(vertices[triangle][k], vertices[triangle][(k + 1) % 3]);
+                add(low, high, static_cast<std::uint32_t>(triangle));
+            }
+        }
+    };
+    forEachEdge(positions.count, nullptr, forHalves,
+                [&](std::uint32_t, std::uint32_t, std::span<const HalfEdge> halves) {
+                    for (std::size_t i = 0; i + 1 < halves.size(); ++i)
+                        compare(triangles[cornerOf(halves[i])], triangles[cornerOf(halves[i + 1])]);
+                });
     const auto isMuch = [&](double sum, double least) { return sum > least * least * wanted; };
     for (std::size_t axis = 0; axis < 3; ++axis) {
         if (may_be_raster[axis] && !isMuch(along_axes[axis], kLeastTurn)) return false;
@@ -168,11 +162,14 @@ int lowestBit(float value) {
 struct Axis {
     float low = std::numeric_limits<float>::max(), high = -std::numeric_limits<float>::max();
     int lowest_bit = 128;
+    bool is_finite = true, is_fine = false;
     double spacing = 0;  // the one distance that edges have along it, but for 0
     bool is_even = true;
     std::uint64_t triangles = 0, flat = 0;
 
-    void addTriangle(float a, float b, float c) {
+    /// False: no other triangle changes what isRaster() says.
+    bool addTriangle(float a, float b, float c) {
+        if (!is_even) return false;
         ++triangles;
         flat += a == b && b == c ? 1U : 0U;
         for (const double distance : {std::fabs(double{b} - a), std::fabs(double{c} - b), std::fabs(double{a} - c)}) {
@@ -180,16 +177,20 @@ struct Axis {
             if (spacing == 0) spacing = distance;
             is_even = is_even && distance == spacing;
         }
+        return is_even;
     }
     /// Terrain in steps of a metre, say: all its triangles but walls are as wide along the axis. Where a gentle slope was
     /// rounded edges are as long too, but many triangles are flat.
     [[nodiscard]] bool isRaster() const { return is_even && spacing > 0 && 10 * flat <= triangles; }
     void add(float value) {
+        is_finite = is_finite && std::isfinite(value);
         if (!std::isfinite(value)) return;
         low = std::min(low, value);
         high = std::max(high, value);
-        if (value != 0) lowest_bit = std::min(lowest_bit, lowestBit(value));
+        if (!is_fine && value != 0) lowest_bit = std::min(lowest_bit, lowestBit(value));
     }
+    /// Whether values have all bits of floats as large as those so far: then step() does not depend on other lowest bits.
+    void lookAtBits() { is_fine = high >= low && far() > 0 && lowest_bit <= std::ilogb(far()) - 23; }
     [[nodiscard]] double far() const { return std::max(std::fabs(double{low}), std::fabs(double{high})); }
     [[nodiscard]] double step() const {
         // Models near the origin may lie on a grid on purpose. So many bits of an offset do not.
@@ -226,20 +227,24 @@ PositionRounding roundingOf(StridedSpan<const Vec3> positions, StridedSpan<const
         axes[0].add(p.x);
         axes[1].add(p.y);
         axes[2].add(p.z);
+        if (v % 256 != 255) continue;
+        for (Axis& axis : axes) axis.lookAtBits();
     }
     for (const std::span<const std::uint32_t> corners : corner_lists) {
-        for (std::size_t i = 0; i + 2 < corners.size(); i += 3) {
+        bool is_open = true;
+        for (std::size_t i = 0; is_open && i + 2 < corners.size(); i += 3) {
             const Vec3 a = positions[corners[i]], b = positions[corners[i + 1]], c = positions[corners[i + 2]];
-            axes[0].addTriangle(a.x, b.x, c.x);
-            axes[1].addTriangle(a.y, b.y, c.y);
-            axes[2].addTriangle(a.z, b.z, c.z);
+            is_open = axes[0].addTriangle(a.x, b.x, c.x);
+            is_open |= axes[1].addTriangle(a.y, b.y, c.y);
+            is_open |= axes[2].addTriangle(a.z, b.z, c.z);
         }
     }
     std::array<double, 3> steps;
     for (std::size_t i = 0; i < 3; ++i) steps[i] = std::max(axes[i].step(), stored_step);
     const PositionRounding stored = roundingBy(steps, axes);
     if (stored_step > 0 || uvs.count == 0) return stored;
-    for (std::size_t i = 0; i < 3; ++i) steps[i] = std::max(steps[i], latticeStep(positions, i));
+    for (std::size_t i = 0; i < 3; ++i)
+        if (axes[i].is_finite) steps[i] = std::max(steps[i], latticeStep(positions, i, axes[i].far()));
     PositionRounding before = roundingBy(steps, axes);
     before.was_before = true;
     const std::array<bool, 3> may_be_raster{axes[0].isRaster(), axes[1].isRaster(), axes[2].isRaster()};
