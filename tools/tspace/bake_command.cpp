@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// tspace bake: one low poly, one high poly.
+// tspace bake: one low poly and one high poly, or a table of them (bake_pairs.h).
 #include <chrono>
 #include <memory>
 
+#include "bake_pairs.h"
 #include "command_table.h"
 #include "commands/bake/bake_report.h"
 #include "commands/shared/request.h"
@@ -10,6 +11,7 @@
 #include "console.h"
 #include "interrupt.h"
 #include "jobs.h"
+#include "model/io/system_files.h"
 #include "output_files.h"
 
 namespace tspace::tool {
@@ -19,6 +21,9 @@ struct BakeArguments {
     std::string low = {}, high = {}, output = {};
     std::string report = {};  ///< a file for the JSON; empty: none
     BakeFileOptions options = {};
+    std::string pairs = {};        ///< a table, in place of `low` and `high`
+    std::string option_text = {};  ///< the options given that decide about results
+    BatchArguments batch = {};
     bool json = false;
     bool quiet = false;
 };
@@ -70,6 +75,28 @@ ExitCode runBake(const BakeArguments& arguments) {
     return printResult(text) ? exit_code : ExitCode::cannotReadOrWrite;
 }
 
+ExitCode runPairs(const BakeArguments& arguments) {
+    return runBakePairs({.table = arguments.pairs,
+                         .output = arguments.output,
+                         .report = arguments.report,
+                         .options = arguments.options,
+                         .option_text = arguments.option_text,
+                         .batch = arguments.batch,
+                         .json = arguments.json,
+                         .quiet = arguments.quiet});
+}
+
+/// Returns what makes no sense, or nothing.
+std::string finish(const Given& given, BakeArguments& arguments) {
+    arguments.option_text = resultOptions(given);
+    if (arguments.pairs.empty())
+        return arguments.low.empty() || arguments.high.empty() ? "LOW and --high HIGH are missing, or --pairs TABLE"
+                                                               : std::string();
+    if (!arguments.low.empty()) return "--pairs TABLE stands in place of LOW";
+    if (isModelFile(arguments.options.out_mesh)) return "with --pairs the models of --out-mesh go to a folder";
+    return kindOf(arguments.output) == PathKind::file ? "with --pairs the output is a folder" : "";
+}
+
 }  // namespace
 
 Command bakeCommand() {
@@ -78,7 +105,7 @@ Command bakeCommand() {
     arguments.options.execution.thread_count = kAllThreads;
     Command command{
         .summary = "bake the normal map of a low poly from a high poly",
-        .operands = "LOW --high HIGH -o OUT.png",
+        .operands = "{LOW --high HIGH | --pairs TABLE} -o OUT",
         .description =
             "Makes a normal map that lets a low poly look like a high poly: right for the frames that the low poly has "
             "in its file, filtered as renderers filter, and measured in degrees when it is done. Models of several "
@@ -86,24 +113,41 @@ Command bakeCommand() {
         .examples = {"tspace bake low.glb --high high.glb -o normal.png --size 2048",
                      "tspace bake low.glb --high scan.ply -o normal.png --size 1024 --bits 8 --convention unreal",
                      "tspace bake low.glb --high high.obj -o normal.png --misses misses.png --heat heat.png --report "
-                     "bake.json"},
+                     "bake.json",
+                     "tspace bake --pairs pairs.txt -o maps/ --jobs 4 --manifest done.jsonl --resume"},
+        .finish = [&arguments](const Given& given) { return finish(given, arguments); },
     };
     const char* group = kInputAndOutput;
-    command.add(group, operand("LOW", arguments.low, "The model that the map is for. It needs UVs."));
+    command.add(group, operand("LOW", arguments.low, "The model that the map is for. It needs UVs.")).is_required =
+        false;
     Option& high = command.add(group, text("--high", "HIGH", arguments.high,
                                            "The model with the detail, in the same place. It needs no UVs."));
-    high.is_file = high.is_required = true;
+    high.is_file = true;
     Option& output =
         command.add(group, text("-o, --output", "OUT", arguments.output,
                                 "Where to write: a file that ends in .png; or in .ktx2 or .dds: BC5 with all levels."));
     output.is_file = output.is_required = true;
+    Option& pairs = command.add(
+        group,
+        text("--pairs", "TABLE", arguments.pairs,
+             "Many bakes in one run: lines LOW = HIGH, or LOW = HIGH = NAME.png, with paths from the folder of the "
+             "table; what begins with # is left out. OUT is then a folder, of maps that are called as LOW is, or "
+             "NAME; so is that of --out-mesh."));
+    pairs.is_file = true;
+    pairs.excludes = {"--high", "--misses", "--heat", "--cage", "--skew"};
     command.add(bakeOptions(arguments.options));
+    addBatch(command, arguments.batch, true);
+    for (Option& option : command.options) {
+        if ((option.group == kManyFiles || option.name() == "--verbose") && option.needs.empty())
+            option.needs = "--pairs";
+        if (option.name() == "--manifest") option.excludes.clear();
+    }
     command.add(kReporting, text("--report", "JSON", arguments.report, "Also write the result as JSON to this file."))
         .is_file = true;
     addReporting(command, arguments.json, arguments.quiet);
     command.run = [owned] {
         owned->options.file.importer = importerPath();
-        return runBake(*owned);
+        return owned->pairs.empty() ? runBake(*owned) : runPairs(*owned);
     };
     return command;
 }

@@ -7,7 +7,6 @@
 #include <memory>
 #include <mutex>
 #include <optional>
-#include <set>
 
 #include "batch.h"
 #include "command_table.h"
@@ -101,23 +100,8 @@ class GenerateRun {
           wants_text_(!arguments.json && !arguments.quiet),
           progress_(jobs_.size(), !arguments.quiet) {}
 
-    /// Reads and opens the manifest. An error ends the run before anything was done.
-    Result<Done> openManifest() {
-        const BatchArguments& batch = arguments_.batch;
-        if (!arguments_.options.dry_run) removeLeftovers();
-        if (batch.manifest.empty()) return Done{};
-        if (batch.resume) {
-            Result<ManifestRecord> record = ManifestRecord::read(batch.manifest);
-            if (!record) return record.error();
-            record_ = std::move(*record);
-            for (const std::string& folder : outputFolders(jobs_)) removeAbandonedFiles(folder);
-        }
-        Result<ManifestWriter> writer = ManifestWriter::open(batch.manifest);
-        if (!writer) return writer.error();
-        writer_.emplace(std::move(*writer));
-        kept_.emplace(std::vector<std::string>{batch.manifest});
-        return Done{};
-    }
+    /// An error ends the run before anything was done.
+    Result<Done> openManifest() { return record_.open(arguments_.batch, jobs_, arguments_.options.dry_run); }
 
     ExitCode run() {
         runBatch(
@@ -138,15 +122,6 @@ class GenerateRun {
     }
 
   private:
-    /// Removes the temporary files that killed runs left beside the outputs.
-    void removeLeftovers() const {
-        std::set<std::string> folders;
-        for (const Job& job : jobs_) {
-            if (!job.output.empty() && job.output != "-") folders.insert(folderOf(job.output).string());
-        }
-        for (const std::string& folder : folders) removeAbandonedFiles(folder, false);
-    }
-
     Result<GenerateReport> generate(const Job& job) {
         if (job.error.code != ErrorCode::ok) return job.error;
         GenerateOptions options = arguments_.options;
@@ -171,7 +146,7 @@ class GenerateRun {
         const Job& job = jobs_[number];
         report::GenerateOutcome outcome{
             .input = job.input, .output = job.output, .is_dry_run = arguments_.options.dry_run};
-        if (job.error.code == ErrorCode::ok && record_ && record_->isDone(job, arguments_.option_text)) {
+        if (job.error.code == ErrorCode::ok && record_.isDone(job, arguments_.option_text)) {
             outcome.was_done_before = true;
             outcome.result = GenerateReport{};
         } else {
@@ -179,19 +154,16 @@ class GenerateRun {
         }
         outcome.seconds = secondsSince(start);
         const bool is_given_up = !outcome.result && wasInterrupted();
-        if (!arguments_.batch.manifest.empty() && !outcome.was_done_before && !is_given_up) record(job, outcome);
+        if (record_.isKept() && !outcome.was_done_before && !is_given_up) record(job, outcome);
         progress_.fileDone(outcome.result.ok());
         outcomes_[number] = std::move(outcome);
     }
 
     void record(const Job& job, const report::GenerateOutcome& outcome) {
         const ManifestEntry entry = manifestEntry(job, outcome, arguments_.option_text);
+        const ExitCode code = record_.append(entry);
         const std::lock_guard lock(mutex_);
-        if (!writer_) return;
-        const Result<Done> written = writer_->append(entry);
-        if (written) return;
-        exit_code_ = worse(exit_code_, printError(arguments_.batch.manifest, written.error()));
-        writer_.reset();
+        exit_code_ = worse(exit_code_, code);
     }
 
     /// Reports a file. Called in the order of the files, one at a time.
@@ -220,11 +192,8 @@ class GenerateRun {
     std::FILE* report_to_;
     bool wants_text_;
     ProgressLine progress_;
-    std::optional<ManifestRecord> record_;
-    std::optional<KeptFiles> kept_;
-    OneRun one_run_ = {};
-    std::mutex mutex_;  ///< for the next two
-    std::optional<ManifestWriter> writer_;
+    BatchRecord record_ = {};
+    std::mutex mutex_;  ///< for the next one
     ExitCode exit_code_ = ExitCode::done;
     std::atomic<bool> output_is_closed_ = false;
 };

@@ -8,8 +8,11 @@
 #include <ctime>
 #include <filesystem>
 #include <fstream>
+#include <set>
 
 #include "commands/shared/report.h"
+#include "console.h"
+#include "model/io/file_io.h"
 #include "model/io/system_files.h"
 #include "model/io/uri.h"
 #include "system.h"
@@ -182,6 +185,38 @@ Result<Done> ManifestWriter::append(const ManifestEntry& entry) {
         return fileError(ErrorCode::cannotWrite, path_);
     }
     return Done{};
+}
+
+Result<Done> BatchRecord::open(const BatchArguments& batch, const std::vector<Job>& jobs, bool is_dry_run) {
+    if (!is_dry_run) {
+        std::set<std::string> folders;
+        for (const Job& job : jobs) {
+            if (!job.output.empty() && job.output != "-") folders.insert(folderOf(job.output).string());
+        }
+        for (const std::string& folder : folders) removeAbandonedFiles(folder, false);
+    }
+    path_ = batch.manifest;
+    if (path_.empty()) return Done{};
+    if (batch.resume) {
+        Result<ManifestRecord> record = ManifestRecord::read(path_);
+        if (!record) return record.error();
+        record_ = std::move(*record);
+        for (const std::string& folder : outputFolders(jobs)) removeAbandonedFiles(folder);
+    }
+    Result<ManifestWriter> writer = ManifestWriter::open(path_);
+    if (!writer) return writer.error();
+    writer_.emplace(std::move(*writer));
+    kept_.emplace(std::vector<std::string>{path_});
+    return Done{};
+}
+
+report::ExitCode BatchRecord::append(const ManifestEntry& entry) {
+    const std::lock_guard lock(mutex_);
+    if (!writer_) return report::ExitCode::done;
+    const Result<Done> written = writer_->append(entry);
+    if (written) return report::ExitCode::done;
+    writer_.reset();
+    return printError(path_, written.error());
 }
 
 std::vector<HashedFile> hashFiles(const std::vector<std::string>& paths) {

@@ -4,11 +4,16 @@
 #pragma once
 
 #include <map>
+#include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "batch.h"
+#include "commands/shared/exit_code.h"
 #include "file_hash.h"
 #include "jobs.h"
+#include "model/io/atomic_output.h"
 #include "model/io/system_files.h"
 
 namespace tspace::tool {
@@ -51,6 +56,29 @@ class ManifestWriter {
   private:
     std::string path_;
     CFile file_;
+};
+
+/// The manifest of a batch while it runs, if it has one; and what all of its outputs keep off. Any thread may call.
+class BatchRecord {
+  public:
+    /// Removes the temporary files that killed runs left beside the outputs, but in a dry run; reads the manifest and opens it
+    /// as the arguments say. An error ends the run before anything was done.
+    Result<Done> open(const BatchArguments& batch, const std::vector<Job>& jobs, bool is_dry_run);
+    /// With --resume: whether it is done already.
+    [[nodiscard]] bool isDone(const Job& job, const std::string& options) const {
+        return record_ && record_->isDone(job, options);
+    }
+    [[nodiscard]] bool isKept() const { return !path_.empty(); }
+    /// Appends a line. Where that fails it is said, and no more is appended.
+    report::ExitCode append(const ManifestEntry& entry);
+
+  private:
+    std::string path_ = {};
+    std::optional<ManifestRecord> record_ = {};
+    std::optional<KeptFiles> kept_ = {};
+    OneRun one_run_ = {};
+    std::mutex mutex_ = {};  ///< for the writer
+    std::optional<ManifestWriter> writer_ = {};
 };
 
 /// Hashes files, in their order. Those that cannot be read are left out.

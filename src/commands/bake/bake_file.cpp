@@ -568,4 +568,18 @@ std::string bakeJson(const Outcome<BakeFileReport>& outcome, const std::string& 
     return jsonText(bakeDocument(outcome, high, exit_code));
 }
 
+std::string bakedPairsJson(const std::vector<BakedPair>& pairs, ExitCode exit_code, double seconds) {
+    Json json = documentJson("tspace.bake-pairs/1", exit_code == ExitCode::done, exit_code);
+    json["seconds"] = seconds;
+    json["pairs"] = listJson(pairs, [](const BakedPair& pair) {
+        Json entry = {{"low", pair.outcome.input},
+                      {"high", pair.high},
+                      {"output", pair.outcome.output},
+                      {"skipped", pair.outcome.was_done_before}};
+        entry["report"] = pair.outcome.was_done_before ? Json() : bakeDocument(pair.outcome, pair.high, pair.exit_code);
+        return entry;
+    });
+    return jsonText(json);
+}
+
 }  // namespace tspace::report

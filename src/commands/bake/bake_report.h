@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "commands/shared/report.h"
 #include "commands/shared/text.h"
@@ -14,6 +15,16 @@ Json bakeDocument(const Outcome<BakeFileReport>& outcome, const std::string& hig
 std::string bakeJson(const Outcome<BakeFileReport>& outcome, const std::string& high, ExitCode exit_code);
 /// Of a bake that was done. `out_mesh`: as BakeFileOptions::out_mesh.
 std::string bakeText(const Outcome<BakeFileReport>& outcome, const std::string& out_mesh);
+/// In one line, for one of several.
+std::string bakeLine(const Outcome<BakeFileReport>& outcome);
+
+/// One bake of several.
+struct BakedPair {
+    Outcome<BakeFileReport> outcome = {};
+    std::string high = {};
+    ExitCode exit_code = ExitCode::done;  ///< of this one
+};
+std::string bakedPairsJson(const std::vector<BakedPair>& pairs, ExitCode exit_code, double seconds);
 
 /// The rows of a bake that was done. `out_mesh`: as BakeFileOptions::out_mesh.
 void addBakedRows(const BakeFileReport& done, const std::string& out_mesh, Table& table);

@@ -106,4 +106,17 @@ std::string bakeText(const Outcome<BakeFileReport>& outcome, const std::string& 
     return fmt::format("{} -> {}\n{}", printable(outcome.input), printable(outcome.output), table.text("  "));
 }
 
+std::string bakeLine(const Outcome<BakeFileReport>& outcome) {
+    std::string line = fmt::format("{} -> {}: ", printable(outcome.input), printable(outcome.output));
+    if (outcome.was_done_before) return line + "done before, and nothing has changed\n";
+    const BakeFileReport& done = *outcome.result;
+    if (done.output_files.empty()) return line + "nothing is written\n";
+    line += counted(done.output_files.size(), "file");
+    if (!done.files.empty() && !done.files.front().path.empty())
+        line += fmt::format(", error mean {} degrees", degreesText(done.files.front().map.error.mean_deg));
+    if (!done.findings.empty()) line += "; " + counted(done.findings.size(), "finding");
+    if (!done.warnings.empty()) line += "; " + counted(done.warnings.size(), "warning");
+    return line + (done.findings.empty() && done.warnings.empty() ? "\n" : " (--verbose says which)\n");
+}
+
 }  // namespace tspace::report

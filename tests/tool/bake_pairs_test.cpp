@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+// tspace bake --pairs: many bakes in one run.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tool/baked_sheets.h"
+
+namespace tspace::test {
+namespace {
+
+using Json = nlohmann::json;
+
+class BakePairs : public BakeCommand {
+  protected:
+    void SetUp() override {
+        BakeCommand::SetUp();
+        folder.write("t/low.obj", folder.read("low.obj"));
+        folder.write("t/high.obj", folder.read("high.obj"));
+        folder.write("t/other.obj", sheet(40, 0.01, false));
+        folder.write("t/table.txt", "# props\nlow.obj = high.obj\n\n  low.obj=other.obj = second.png \r\n");
+    }
+    [[nodiscard]] Json pairs(const std::string& arguments, int exit_code = 0) const {
+        const ToolRun run = runTool(folder, "bake --size 32 --json " + arguments);
+        EXPECT_EQ(run.exit_code, exit_code) << run.err;
+        return Json::parse(run.out, nullptr, false);
+    }
+};
+
+TEST_F(BakePairs, GiveTheMapsThatSingleBakesGiveForAnyJobs) {
+    const Json json = pairs("--pairs t/table.txt -o two --jobs 2 --out-mesh models");
+    ASSERT_EQ(json["pairs"].size(), 2U);
+    EXPECT_EQ(json["pairs"][0]["output"], "two/low.png");
+    EXPECT_EQ(json["pairs"][1]["output"], "two/second.png");
+    ASSERT_EQ(runTool(folder, "bake t/low.obj --high t/other.obj -o one.png --size 32").exit_code, 0);
+    EXPECT_TRUE(folder.read("two/low.png") == folder.read("first.png"));
+    EXPECT_TRUE(folder.read("two/second.png") == folder.read("one.png"));
+}
+
+TEST_F(BakePairs, ResumeLeavesOutWhatIsDoneAndUnchanged) {
+    const std::string arguments = "--pairs t/table.txt -o two --manifest m.jsonl --resume";
+    (void)pairs(arguments);
+    Json json = pairs(arguments);
+    EXPECT_TRUE(json["pairs"][0]["skipped"].get<bool>() && json["pairs"][1]["skipped"].get<bool>());
+    folder.write("t/other.obj", sheet(40, 0.015, false));
+    json = pairs(arguments);
+    EXPECT_TRUE(json["pairs"][0]["skipped"].get<bool>());
+    EXPECT_FALSE(json["pairs"][1]["skipped"].get<bool>()) << "its high poly is another one";
+    json = pairs(arguments + " --bits 8");
+    EXPECT_FALSE(json["pairs"][0]["skipped"].get<bool>()) << "with other options";
+}
+
+TEST_F(BakePairs, OneThatFailsIsALineAndTheOthersAreBaked) {
+    folder.write("t/table.txt", "none.obj = high.obj\nlow.obj = high.obj\n");
+    const ToolRun run = runTool(folder, "bake --pairs t/table.txt -o two --size 32 --report r.json");
+    EXPECT_EQ(run.exit_code, 4);
+    EXPECT_EQ(run.errorLines(), 1);
+    EXPECT_TRUE(std::filesystem::exists(folder.path() / "two/low.png"));
+    EXPECT_FALSE(Json::parse(folder.read("r.json"))["pairs"][0]["report"]["ok"].get<bool>());
+}
+
+TEST_F(BakePairs, TablesThatMakeNoSenseAreOneLine) {
+    for (const auto& [table, code] :
+         {std::pair("low.obj\n", 3), std::pair("low.obj = high.obj = a.png = b\n", 3), std::pair("= high.obj\n", 3),
+          std::pair("", 3), std::pair("low.obj = high.obj\nlow.obj = other.obj\n", 2),
+          std::pair("low.obj = high.obj = ../t/high.obj\n", 3)}) {
+        folder.write("t/table.txt", table);
+        const ToolRun run = runTool(folder, "bake --pairs t/table.txt -o two --size 32");
+        EXPECT_EQ(run.exit_code, code) << table << run.err;
+        EXPECT_EQ(run.errorLines(), 1) << table << run.err;
+    }
+    for (const char* arguments :
+         {"bake -o a.png", "bake low.obj --pairs t/table.txt -o two", "bake --pairs t/table.txt --high high.obj -o two",
+          "bake --pairs t/table.txt -o low.obj", "bake low.obj --high high.obj -o a.png --jobs 2"})
+        EXPECT_EQ(runTool(folder, arguments).exit_code, 2) << arguments;
+}
+
+}  // namespace
+}  // namespace tspace::test

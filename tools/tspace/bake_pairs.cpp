@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: MIT
+// tspace bake --pairs: several bakes at one time; one that fails does not stop the others.
+#include "bake_pairs.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <filesystem>
+#include <mutex>
+#include <optional>
+#include <string_view>
+
+#include "commands/bake/bake_report.h"
+#include "console.h"
+#include "interrupt.h"
+#include "manifest.h"
+#include "model/io/file_error.h"
+#include "model/io/file_io.h"
+#include "output_files.h"
+
+namespace tspace::tool {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+std::string trimmed(std::string_view text) {
+    const std::size_t first = text.find_first_not_of(" \t\r"), last = text.find_last_not_of(" \t\r");
+    return first == std::string_view::npos ? std::string() : std::string(text.substr(first, last - first + 1));
+}
+
+std::string below(const Path& folder, const std::string& name) { return Path(fs::path(folder) / Path(name)).string(); }
+
+/// A line of the table.
+struct Pair {
+    Job job = {};
+    std::string high = {}, model = {};  ///< `model`: where the low poly goes with its maps; or empty
+};
+
+/// Throws FileError.
+std::vector<Pair> readTable(const BakePairsArguments& arguments) {
+    const Bytes bytes = readFile(arguments.table);
+    const Path folder = folderOf(arguments.table);
+    std::vector<Pair> pairs;
+    std::string_view rest(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    for (std::size_t number = 1; !rest.empty(); ++number) {
+        const std::size_t end = std::min(rest.find('\n'), rest.size());
+        std::string_view line = rest.substr(0, end);
+        rest.remove_prefix(std::min(end + 1, rest.size()));
+        if (const std::string text = trimmed(line); text.empty() || text[0] == '#') continue;
+        std::vector<std::string> words;
+        for (bool more = true; more;) {
+            const std::size_t equals = line.find('=');
+            more = equals != std::string_view::npos;
+            words.push_back(trimmed(line.substr(0, equals)));
+            if (more) line.remove_prefix(equals + 1);
+        }
+        const bool is_whole = words.size() <= 3 && std::find(words.begin(), words.end(), "") == words.end();
+        if (words.size() < 2 || !is_whole)
+            failFile(ErrorCode::invalidFile,
+                     "line " + std::to_string(number) + ": this is neither LOW = HIGH nor LOW = HIGH = NAME");
+        Pair& pair = pairs.emplace_back();
+        pair.job.name = words[0];
+        pair.job.input = below(folder, words[0]);
+        pair.high = below(folder, words[1]);
+        const std::string name = words.size() == 3 ? words[2] : stemOf(words[0]) + ".png";
+        pair.job.output = below(arguments.output, name);
+        if (!arguments.options.out_mesh.empty()) pair.model = below(arguments.options.out_mesh, stemOf(name) + ".glb");
+    }
+    if (pairs.empty()) failFile(ErrorCode::invalidFile, "there is no line LOW = HIGH");
+    return pairs;
+}
+
+class PairsRun {
+  public:
+    PairsRun(const BakePairsArguments& arguments, std::vector<Pair> pairs)
+        : arguments_(arguments),
+          pairs_(std::move(pairs)),
+          done_(pairs_.size()),
+          workers_(workerCount(arguments.batch, pairs_.size())),
+          progress_(pairs_.size(), !arguments.quiet) {}
+
+    /// An error ends the run before anything was done.
+    Result<Done> openManifest() {
+        std::vector<Job> jobs;
+        for (const Pair& pair : pairs_) jobs.push_back(pair.job);
+        return record_.open(arguments_.batch, jobs, false);
+    }
+
+    ExitCode run() {
+        runBatch(
+            pairs_.size(), workers_, [this](std::size_t pair) { work(pair); }, [this](std::size_t pair) { tell(pair); },
+            [this] { return wasInterrupted() || output_is_closed_; });
+        progress_.clear();
+        if (wasInterrupted()) endByInterrupt();
+        if (output_is_closed_) return ExitCode::cannotReadOrWrite;
+        const std::chrono::duration<double> took = Clock::now() - start_;
+        if (!arguments_.report.empty()) {
+            const Result<Done> written =
+                writeTextFile(arguments_.report, report::bakedPairsJson(done_, exit_code_, took.count()));
+            if (!written) exit_code_ = worse(exit_code_, printError(arguments_.report, written.error()));
+        }
+        if (!arguments_.json) return exit_code_;
+        return printResult(report::bakedPairsJson(done_, exit_code_, took.count())) ? exit_code_
+                                                                                    : ExitCode::cannotReadOrWrite;
+    }
+
+  private:
+    Result<BakeFileReport> bake(const Pair& pair, std::vector<std::string>& read) {
+        BakeFileOptions options = arguments_.options;
+        options.out_mesh = pair.model;
+        options.execution.thread_count = threadsPerFile(options.execution.thread_count, workers_);
+        std::mutex mutex;
+        options.file.opened = [&](const std::string& path) {
+            const std::lock_guard lock(mutex);
+            if (std::find(read.begin(), read.end(), path) == read.end()) read.push_back(path);
+        };
+        options.file.named = [](const std::string&) {};
+        options.progress = [&](const char* what, std::uint64_t done, std::uint64_t total) {
+            if (wasInterrupted()) throw Cancelled{};
+            progress_.update(pair.job.input, what, done, total);
+        };
+        return bakeFile(pair.job.input, pair.high, pair.job.output, options);
+    }
+
+    void work(std::size_t number) {
+        const Pair& pair = pairs_[number];
+        const Clock::time_point start = Clock::now();
+        report::BakedPair done{.high = pair.high};
+        done.outcome.input = pair.job.input;
+        done.outcome.output = pair.job.output;
+        std::vector<std::string> read = {pair.job.input, pair.high};
+        // What is baked from another high poly, or written elsewhere, is another result.
+        const std::string options =
+            arguments_.option_text + " high=" + pair.high + (pair.model.empty() ? "" : " model=" + pair.model);
+        if (record_.isDone(pair.job, options)) {
+            done.outcome.was_done_before = true;
+            done.outcome.result = BakeFileReport{};
+        } else {
+            done.outcome.result = bake(pair, read);
+        }
+        const std::chrono::duration<double> took = Clock::now() - start;
+        done.outcome.seconds = took.count();
+        const bool is_given_up = !done.outcome.result && wasInterrupted();
+        if (record_.isKept() && !done.outcome.was_done_before && !is_given_up) record(pair, options, read, done);
+        progress_.fileDone(done.outcome.result.ok());
+        done_[number] = std::move(done);
+    }
+
+    void record(const Pair& pair, const std::string& options, const std::vector<std::string>& read,
+                const report::BakedPair& done) {
+        ManifestEntry entry{.version = TSPACE_VERSION,
+                            .options = options,
+                            .job = pair.job,
+                            .changed = true,
+                            .seconds = done.outcome.seconds,
+                            .inputs = hashFiles(read)};
+        if (done.outcome.result) {
+            entry.outputs = hashFiles(done.outcome.result->output_files);
+        } else {
+            entry.job.error = done.outcome.result.error();
+        }
+        take(record_.append(entry));
+    }
+
+    void take(ExitCode code) {
+        const std::lock_guard lock(mutex_);
+        exit_code_ = worse(exit_code_, code);
+    }
+
+    /// Called in the order of the table, one at a time.
+    void tell(std::size_t number) {
+        report::BakedPair& done = done_[number];
+        progress_.clear();
+        if (wasInterrupted()) {
+            const char* state = done.outcome.result ? "done, then interrupted" : "interrupted; nothing was written";
+            printError(done.outcome.input, {ErrorCode::internal, state});
+            return;
+        }
+        if (!done.outcome.result) {
+            done.exit_code = printErrorOfFiles({done.outcome.input, done.high}, done.outcome.result.error());
+        } else {
+            const std::vector<std::string>& findings = done.outcome.result->findings;
+            if (!findings.empty()) done.exit_code = ExitCode::findings;
+            if (done.outcome.result->output_files.empty()) {
+                for (const std::string& finding : findings) printRemark(finding);
+            }
+            if (!arguments_.json && !arguments_.quiet && !output_is_closed_) {
+                output_is_closed_ = !printResult(arguments_.batch.verbose && !done.outcome.was_done_before
+                                                     ? report::bakeText(done.outcome, pairs_[number].model)
+                                                     : report::bakeLine(done.outcome));
+            }
+        }
+        take(done.exit_code);
+    }
+
+    const BakePairsArguments& arguments_;
+    const Clock::time_point start_ = Clock::now();
+    std::vector<Pair> pairs_;
+    std::vector<report::BakedPair> done_;
+    unsigned workers_;
+    ProgressLine progress_;
+    BatchRecord record_ = {};
+    std::mutex mutex_;  ///< for the next one
+    ExitCode exit_code_ = ExitCode::done;
+    std::atomic<bool> output_is_closed_ = false;
+};
+
+/// Keeps the pairs of the shard, which the name of the low poly in the table decides.
+void takePairsOf(const Shard& shard, std::vector<Pair>& pairs) {
+    std::vector<Job> jobs;
+    for (const Pair& pair : pairs) jobs.push_back(pair.job);
+    takeShard(jobs, shard);
+    std::erase_if(pairs, [&](const Pair& pair) {
+        return std::none_of(jobs.begin(), jobs.end(), [&](const Job& job) { return job.output == pair.job.output; });
+    });
+}
+
+}  // namespace
+
+ExitCode runBakePairs(const BakePairsArguments& arguments) {
+    std::vector<Pair> pairs;
+    if (const std::optional<Error> failure = tryFile([&] { pairs = readTable(arguments); }))
+        return printError(arguments.table, *failure);
+    std::vector<std::string> outputs = {arguments.batch.manifest, arguments.report}, inputs = {arguments.table};
+    for (const Pair& pair : pairs) {
+        outputs.insert(outputs.end(), {pair.job.output, pair.model});
+        inputs.insert(inputs.end(), {pair.job.input, pair.high});
+    }
+    if (const Result<Done> fit = prepareOutputs(outputs, inputs); !fit) return printUsageError(fit.error().message);
+    takePairsOf(arguments.batch.shard, pairs);
+    catchInterrupts();
+    PairsRun run(arguments, std::move(pairs));
+    if (const Result<Done> opened = run.openManifest(); !opened)
+        return printError(arguments.batch.manifest, opened.error());
+    return run.run();
+}
+
+}  // namespace tspace::tool
