@@ -34,7 +34,7 @@ async function colour(renderer, mirrored) {
   camera.position.z = 2;
   const target = new THREE.RenderTarget(4, 4);
   renderer.setRenderTarget(target);
-  await renderer.renderAsync(scene, camera);
+  renderer.render(scene, camera);
   return [...(await renderer.readRenderTargetPixelsAsync(target, 1, 1, 1, 1))].slice(0, 3);
 }
 /** What a lit material makes of a texel that leans along u, on a wall lit from the right, and from the left. */
@@ -55,7 +55,7 @@ async function lit(renderer, mirrored) {
   for (const x of [1, -1]) {
     light.position.set(x, 0, 1);
     renderer.setRenderTarget(target);
-    await renderer.renderAsync(scene, camera);
+    renderer.render(scene, camera);
     levels.push((await renderer.readRenderTargetPixelsAsync(target, 1, 1, 1, 1))[0]);
   }
   return levels;
