@@ -38,7 +38,7 @@ if(TARGET tspace_tool)
 endif()
 
 # The page that tspace view writes, where scripts/web has built it.
-install(FILES "${PROJECT_SOURCE_DIR}/build/web/view.html" DESTINATION "${CMAKE_INSTALL_DATADIR}/tspace" COMPONENT tspace_tool OPTIONAL)
+install(FILES "${PROJECT_SOURCE_DIR}/build/web/view.html" "${PROJECT_SOURCE_DIR}/build/web/learn.html" DESTINATION "${CMAKE_INSTALL_DATADIR}/tspace" COMPONENT tspace_tool OPTIONAL)
 
 install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/tspace" COMPONENT tspace_core)
 

@@ -5,6 +5,7 @@ import { App } from "./app.js";
 import { el, replaceChildren } from "./dom.js";
 import { chooseModel, droppedFiles, modelsIn, pickedFiles, Pile, type ModelFiles, type Named } from "./files.js";
 import { embeddedModel, pageOrigin } from "./embedded.js";
+import { lessonLink } from "./lesson.js";
 import { keepLink, linkedBy } from "./link.js";
 import { askedModel, askFirst, filesAt } from "./asked.js";
 import { faults, samples } from "./samples.js";
@@ -133,7 +134,7 @@ const header = el("header", { class: "bar" },
   el("h1", {}, "tspace ", el("span", {}, "view")),
   el("div", { class: "open" }, picker("Open model…", { accept: ".glb,.vrm,.gltf,.obj,.zip,.bin,.mtl,image/*", "aria-label": "Open model" }), picker("Folder…", { webkitdirectory: true, "aria-label": "Open folder" })),
   el("nav", { class: "samples", "aria-label": "Samples" }, el("span", { class: "quiet" }, "Samples"), ...sampleButtons, gallery),
-  others, title, back);
+  lessonLink() || null, others, title, back);
 const inspector = el("aside", { class: "inspector", "aria-label": "Inspector" }, look.element, texel.element, uvMap.element, motion.element, parts.element, mend.element, share.element);
 const main = el("main", {}, findings.element, stage.element, inspector);
 const footer = el("footer", {}, progress.element, el("span", { class: "quiet" }, `Drop a .glb, a .zip, a folder with a .gltf, or an .obj anywhere. ${asked ? `Nothing but a request to ${asked.host} can leave this computer.` : "Nothing leaves this computer."}`));

@@ -67,6 +67,33 @@ const averagedSeams = withTangents((tangents, read) => {
   }
 });
 
+/** A second UV set, turned by a quarter, and tangents along that; the textures are read with the first. */
+function wrongSet(): Uint8Array<ArrayBuffer> {
+  const { bytes, read } = crateArrays(), view = new DataView(bytes.buffer), textBytes = view.getUint32(12, true);
+  const json = JSON.parse(new TextDecoder().decode(bytes.subarray(20, 20 + textBytes)));
+  const tangents = read("TANGENT", 4), normals = read("NORMAL", 3), uvs = read("TEXCOORD_0", 2);
+  // u of the second set runs along B of the first: T' = B = w cross(N, T).
+  for (let v = 0; v < tangents.length / 4; ++v) {
+    const [x, y, z, w] = tangents.subarray(4 * v, 4 * v + 4), [nx, ny, nz] = normals.subarray(3 * v, 3 * v + 3);
+    tangents.set([w * (ny * z - nz * y), w * (nz * x - nx * z), w * (nx * y - ny * x)], 4 * v);
+  }
+  // v of glTF runs down, B up.
+  const second = Float32Array.from(uvs, (_, i) => (i % 2 === 0 ? 1 - uvs[i + 1] : uvs[i - 1]));
+  const old = bytes.subarray(28 + textBytes);
+  json.bufferViews.push({ buffer: 0, byteOffset: old.length, byteLength: second.byteLength });
+  json.accessors.push({ bufferView: json.bufferViews.length - 1, componentType: 5126, count: second.length / 2, type: "VEC2" });
+  json.meshes[0].primitives[0].attributes.TEXCOORD_1 = json.accessors.length - 1;
+  json.buffers[0].byteLength = old.length + second.byteLength;
+  const text = new TextEncoder().encode(JSON.stringify(json)), padded = Math.ceil(text.length / 4) * 4;
+  const made = new Uint8Array(28 + padded + old.length + second.byteLength).fill(0x20, 20, 20 + padded), words = new DataView(made.buffer);
+  [0x46546c67, 2, made.length, padded, 0x4e4f534a].forEach((word, i) => words.setUint32(4 * i, word, true));
+  [old.length + second.byteLength, 0x004e4942].forEach((word, i) => words.setUint32(20 + padded + 4 * i, word, true));
+  made.set(text, 20);
+  made.set(old, 28 + padded);
+  made.set(new Uint8Array(second.buffer), 28 + padded + old.length);
+  return made;
+}
+
 const sample = (name: string, file: string, hint: string, bytes: () => Uint8Array<ArrayBuffer>): Sample => ({
   name,
   file,
@@ -86,6 +113,7 @@ export const faults: readonly Sample[] = [
   sample("signs lost", "crate-signs-lost.glb", "The exporter forgot the fourth number of tangents", signsLost),
   sample("averaged over seams", "crate-seams-averaged.glb", "Tangents were averaged over both sides of seams of the UV map", averagedSeams),
   sample("T along N", "crate-along-normals.glb", "Tangents are the normals: cross(N, T) vanishes", alongNormals),
+  sample("wrong UV set", "crate-wrong-set.glb", "Tangents follow a second UV set, as of a light map, and not that of the normal map", wrongSet),
   sample("other axes", "crate-wrong-axes.glb", "The model was turned from Z up to Y up, and its tangents not", wrongAxes),
   sample("green points down", "ring-directx.glb", "A normal map made for DirectX", () => decoded(ring)),
 ];

@@ -183,7 +183,7 @@ test("an image that cannot be drawn takes itself away, and not the model", { ski
 
 test("each fault of the gallery is found, and mended by what is switched on", { skip: missing }, async () => {
   await withPage(async (tab) => {
-    const wanted = { "every sign inverted": "signsInverted", "signs lost": "signsWrong", "averaged over seams": "SeamAveraged", "T along N": "tangentsNotOrthogonal", "other axes": "directionsWrong", "green points down": "greenFlipped" };
+    const wanted = { "every sign inverted": "signsInverted", "signs lost": "signsWrong", "averaged over seams": "SeamAveraged", "T along N": "tangentsNotOrthogonal", "wrong UV set": "uvSetWrong", "other axes": "directionsWrong", "green points down": "greenFlipped" };
     await tab.locator(".mend > summary").click();
     for (const [name, code] of Object.entries(wanted)) {
       await tab.getByLabel("Faults of real files").selectOption({ label: name });

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 // What is in a file, and what one takes along: parts, images, the report as text, the picture with its words.
 import assert from "node:assert/strict";
-import { readFileSync } from "node:fs";
+import { execFileSync } from "node:child_process";
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { test } from "node:test";
+import { pathToFileURL } from "node:url";
 import { decode } from "fast-png";
-import { choose, drawn, missing, noShared, openFile, shared, shoot, withPage } from "./support.mjs";
+import { choose, drawn, missing, noShared, noTool, openFile, shared, shoot, tool, withPage } from "./support.mjs";
 
 const panel = (tab, name) => tab.locator(`details.${name} > summary`).click();
 
@@ -66,4 +69,23 @@ test("the picture is saved with the file, both sides and the version below it", 
     assert.ok(colors.size > 50, "the model is in it");
     await download.saveAs(join(process.env.TSPACE_SCREENSHOTS, "saved-picture.png"));
   });
+});
+
+test("a page that the tool made says when and by which command, and links to no lesson", { skip: noTool }, async () => {
+  const folder = mkdtempSync(join(tmpdir(), "tspace-view-"));
+  try {
+    const model = join(folder, "it's a crate.glb"), made = join(folder, "crate.html");
+    const crate = await withPage((tab) => tab.evaluate(() => [...window.tspaceView.model.bytes]));
+    writeFileSync(model, Buffer.from(crate));
+    execFileSync(tool, ["view", "-q", model, "-o", made], { env: { ...process.env, SOURCE_DATE_EPOCH: "1767225600" } });
+    await withPage(async (tab) => {
+      assert.equal(await tab.locator(".model-name").textContent(), "it's a crate.glb");
+      assert.equal(await tab.evaluate(() => document.documentElement.dataset.picture), "drawn");
+      const text = await tab.locator(".parts .made").textContent();
+      assert.match(text, /made on 2026-01-01 00:00 UTC by tspace \d+\.\d+\.\d+: tspace view -q '.*it'\\''s a crate\.glb' -o /);
+      assert.equal(await tab.locator("a.lesson").count(), 0, "it may be anywhere, without the lesson beside it");
+    }, { url: pathToFileURL(made).href });
+  } finally {
+    rmSync(folder, { recursive: true, force: true });
+  }
 });

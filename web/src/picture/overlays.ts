@@ -87,8 +87,20 @@ export interface Place {
   outline: Group;
   center: Vector3;
   radius: number;
-  /** The way out of the surface. */
-  normal: Vector3;
+  /** The way out of the surface, of each triangle, as long as its area. */
+  faces: Vector3[];
+}
+
+const steps = [-1, 0, 1];
+const directions = steps.flatMap((x) => steps.flatMap((y) => steps.map((z) => new Vector3(x, y, z)))).filter((v) => v.lengthSq() > 0).map((v) => v.normalize());
+
+/** From where most of some triangles is seen: from the eye's own side where that shows nearly as much; null: anywhere. */
+export function bestDirection(faces: Vector3[], toEye: Vector3): Vector3 | null {
+  const seenFrom = (direction: Vector3) => faces.reduce((sum, face) => sum + Math.max(0, face.dot(direction)), 0);
+  const out = faces.reduce((sum, face) => sum.add(face), new Vector3()).normalize(), eye = toEye.clone().normalize();
+  const all = [...directions, out], seen = all.map(seenFrom), most = Math.max(...seen);
+  if (!(most > 0)) return null;
+  return seenFrom(eye) > 0.75 * most ? eye : all[seen.indexOf(most)];
 }
 
 /** Of few triangles each edge is drawn, of many those at the rim of what they make together. */
@@ -117,16 +129,19 @@ export function outlineTriangles(drawn: Drawn, triangles: number[]): Place {
   const p = drawn.corners.positions, n = drawn.corners.normals;
   const edges: number[] = [], faces: number[] = [], points: Vector3[] = [];
   const matrix = drawn.part.places[0] ?? new Matrix4();
-  const normal = new Vector3(), own = new Vector3();
+  const outward: Vector3[] = [], own = new Vector3();
   for (const triangle of triangles) {
     const corner = [0, 1, 2].map((k) => new Vector3().fromArray(p, 9 * triangle + 3 * k).applyMatrix4(matrix));
     if (!corner.every((c) => Number.isFinite(c.x + c.y + c.z))) continue;
+    const face = new Vector3();
     corner.forEach((c, k) => {
       const next = corner[(k + 1) % 3];
       if (triangles.length <= kMostEdges) edges.push(c.x, c.y, c.z, next.x, next.y, next.z);
       faces.push(c.x, c.y, c.z);
-      if (Number.isFinite(own.fromArray(n, 9 * triangle + 3 * k).x)) normal.add(own.transformDirection(matrix));
+      if (Number.isFinite(own.fromArray(n, 9 * triangle + 3 * k).x)) face.add(own.transformDirection(matrix));
     });
+    const twiceArea = corner[1].clone().sub(corner[0]).cross(corner[2].clone().sub(corner[0])).length();
+    outward.push(face.setLength(twiceArea / 2));
     points.push(...corner);
   }
   if (triangles.length > kMostEdges) {
@@ -141,11 +156,11 @@ export function outlineTriangles(drawn: Drawn, triangles: number[]): Place {
   }
   const center = points.reduce((sum, point) => sum.add(point), new Vector3()).divideScalar(Math.max(1, points.length));
   const radius = points.reduce((most, point) => Math.max(most, point.distanceTo(center)), 0);
-  return { outline, center, radius, normal };
+  return { outline, center, radius, faces: outward };
 }
 
 /** A box around a part, at its first place. */
-export function outlinePart(drawn: Drawn): Omit<Place, "normal"> {
+export function outlinePart(drawn: Drawn): Omit<Place, "faces"> {
   const p = drawn.corners.positions, box = new Box3(), point = new Vector3();
   for (let i = 0; i < p.length; i += 3) if (Number.isFinite(point.fromArray(p, i).lengthSq())) box.expandByPoint(point);
   const helper = new Box3Helper(box);

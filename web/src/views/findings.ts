@@ -3,6 +3,7 @@
 // who made the tangents.
 import { count, el, plural, replaceChildren } from "../dom.js";
 import { remedyOptions } from "./advice.js";
+import { figureLink } from "../lesson.js";
 import meanings from "virtual:meanings";
 import type { CheckReport, Finding, Severity } from "tspace/gltf";
 
@@ -119,6 +120,7 @@ export class FindingsView {
       meaning && el("p", {}, el("strong", {}, "What it does: "), meaning.why, "."),
       el("p", { class: "mend" }, el("strong", {}, "Mend: "), first.remedy),
       remedyOptions(first) && el("button", { class: "plain mend-this", type: "button", onclick: () => this.choices.mend(first) }, "Set Mend to this"),
+      figureLink(code),
       isOne ? firstVertices(first) : this.#steps(findings));
     const button = el("button", { class: `finding ${severity}`, type: "button", "aria-expanded": "false", "data-code": code },
       el("span", { class: "message" }, isOne || !meaning ? first.message : meaning.what),

@@ -2,7 +2,7 @@
 // Shows findings in the picture: the look in which they are seen, outlines of all that they are about, and a flight to what is
 // only somewhere.
 import { Group, Vector3, type Object3D } from "three";
-import { outlinePart, outlineTriangles, trianglesAt, type Place } from "../picture/overlays.js";
+import { bestDirection, outlinePart, outlineTriangles, trianglesAt, type Place } from "../picture/overlays.js";
 import type { Drawn } from "../picture/scene.js";
 import type { Look } from "../picture/shader.js";
 import { replaceOverlay, type Viewport } from "../picture/viewport.js";
@@ -53,7 +53,7 @@ export class PlaceView {
       seen += 1;
       const triangles = trianglesOf(drawn, finding);
       // Without vertices the finding is about all of the primitive.
-      const place = triangles.length > 0 ? outlineTriangles(drawn, triangles) : { ...outlinePart(drawn), normal: new Vector3() };
+      const place = triangles.length > 0 ? outlineTriangles(drawn, triangles) : { ...outlinePart(drawn), faces: [] };
       outlined += triangles.length > 0 ? triangles.length : drawn.corners.positions.length / 9;
       if (place.radius > 0) outline.add(place.outline);
       places.push(place);
@@ -67,9 +67,9 @@ export class PlaceView {
   #fly(places: Omit<Place, "outline">[]): void {
     const center = places.reduce((sum, place) => sum.add(place.center), new Vector3()).divideScalar(places.length);
     const radius = Math.max(...places.map((place) => place.center.distanceTo(center) + place.radius));
-    const normal = places.reduce((sum, place) => sum.add(place.normal), new Vector3());
     if (!(radius > 0)) return;
-    const near = Math.max(radius * 1.5, this.viewport.scene.sphere().radius * 0.12);
-    this.viewport.fly(center, near, normal.lengthSq() > 0.01 ? normal.normalize() : null);
+    const near = Math.max(radius * 1.25, this.viewport.scene.sphere().radius * 0.12);
+    const toEye = this.viewport.camera.position.clone().sub(this.viewport.target);
+    this.viewport.fly(center, near, bestDirection(places.flatMap(({ faces }) => faces), toEye));
   }
 }

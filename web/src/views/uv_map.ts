@@ -164,8 +164,8 @@ export class UvMapView {
   #clicked(uv: [number, number]): void {
     const found = this.#trianglesAt(uv), drawn = this.#drawn;
     if (!drawn || found.length === 0) return;
-    const { center, radius, normal } = outlineTriangles(drawn, [found[this.#next++ % found.length]]);
-    if (radius > 0) this.viewport.fly(center, Math.max(3 * radius, 0.15 * this.viewport.scene.sphere().radius), normal.lengthSq() > 0 ? normal.normalize() : null);
+    const { center, radius, faces } = outlineTriangles(drawn, [found[this.#next++ % found.length]]);
+    if (radius > 0) this.viewport.fly(center, Math.max(3 * radius, 0.15 * this.viewport.scene.sphere().radius), faces[0]?.lengthSq() > 0 ? faces[0].normalize() : null);
   }
 
   /** Triangles of the map that a place lies in. Several share it where islands lie over each other. */

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+// The lesson, which lies beside the page: which of its figures shows what a finding means.
+import { el } from "./dom.js";
+import { pageOrigin } from "./embedded.js";
+
+/** Sections of learn.html, by how the name of a finding begins. */
+const sections: readonly (readonly [RegExp, string])[] = [
+  [/^signs/, "mirror"],
+  [/^(uvSeam|mirroredSeam|splitFrames)/, "seam"],
+  [/^(directions|uvSet|textureTransform|uvsDegenerate)/, "triangle"],
+  [/^(green|normalMap)/, "relief"],
+  [/^tangentsNotOrthogonal/, "average"],
+  [/^tangentsNotUnit/, "across"],
+  [/^tangents/, "relief"],
+];
+
+/** A page that the tool made may be anywhere, without the lesson beside it. */
+const isBeside = (): boolean => pageOrigin() === null;
+
+export const lessonLink = (): HTMLElement | false => isBeside() && el("a", { class: "lesson", href: "learn.html", title: "A lesson with figures to drag" }, "What is a tangent?");
+
+/** To the figure that shows what a kind of finding means. */
+export function figureLink(code: string): HTMLElement | false {
+  const section = sections.find(([pattern]) => pattern.test(code))?.[1];
+  return isBeside() && section !== undefined && el("a", { class: "lesson", href: `learn.html#${section}` }, "See it in the lesson");
+}
