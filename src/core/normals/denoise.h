@@ -307,7 +307,10 @@ bool areClean(const PositionNoise& sampled);
 /// mean edge
 double measureNoise(const NormalGroups& groups, const Allocator* allocator, PositionNoise& noise);
 
-/// The same of a call without normals: of the mesh, which its hard edges will be found on.
+/// In units of the mean edge as it were without the noise.
+PositionNoise withoutGrowth(PositionNoise noise);
+
+/// As measureNoise, of a call without normals: of the mesh, which its hard edges will be found on.
 double roughnessOf(const NormalsCall& call);
 
 /// As measurePositionNoise, but where edges alone show that nothing is noise, `sigma` stays 0.

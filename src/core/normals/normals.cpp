@@ -98,7 +98,7 @@ Result<PositionNoise> measured(const MeshView& mesh, const Execution& execution,
     return atBorder([&]() -> Result<PositionNoise> {
         Parallel parallel(execution, kSlow * mesh.cornerCount());
         if (Error e = checkMesh(mesh, &parallel); e.code != ErrorCode::ok) return e;
-        return noiseOf(mesh, execution, parallel, wants_sigma);
+        return withoutGrowth(noiseOf(mesh, execution, parallel, wants_sigma));
     });
 }
 
