@@ -19,7 +19,7 @@ struct PositionNoise {
     /// What of `sigma` is noise: so much NormalOptions::denoise removes where it goes by the mesh. 0: positions are not
     /// noisy. That is so, too, where most edges are flatter than noise would leave them.
     float noise = 0;
-    double mean_edge = 0;  ///< of a sample, in the unit of positions
+    double mean_edge = 0;  ///< of a sample, in the unit of positions, less what noise of sigma adds to it
 };
 
 /// Measures the noise in the positions of a mesh, by samples: up to 4096 vertices and 16384 edges. sigma is within 15 % of

@@ -125,7 +125,7 @@ typedef struct tspace_PositionNoise {
     /* What of `sigma` is noise: so much tspace_NormalOptions.denoise removes where it goes by the mesh. 0: positions
      * are not noisy. That is so, too, where most edges are flatter than noise would leave them. */
     float noise;
-    double mean_edge; /* of a sample, in the unit of positions */
+    double mean_edge; /* of a sample, in the unit of positions, less what noise of sigma adds to it */
 } tspace_PositionNoise;
 
 /* Measures the noise in the positions of a mesh, by samples: up to 4096 vertices and 16384 edges. sigma is within 15

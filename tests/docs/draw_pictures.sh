@@ -52,5 +52,9 @@ normals scan usual --normals angle --crease 30
 normals scan right --normals best --denoise auto --crease auto
 normals bevel usual --normals angle
 normals bevel right --normals best
+normals cad usual --normals angle
+normals cad right --normals best
+normals decimated usual --normals angle
+normals decimated right --normals best
 normals turned usual --normals angle
 normals turned right --normals angle --mend-winding

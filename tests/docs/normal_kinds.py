@@ -3,9 +3,11 @@
 """usage: normal_kinds.py FOLDER
 
 Writes the meshes of the pictures in docs/normals.md into FOLDER, as OBJ without normals: grid (surface nets of a field with
-noise), scan (points of a part with sharp edges, with noise), bevel (a box with narrow bevels) and turned (a torus of which some
-triangles are wound the wrong way).
+noise), scan (points of a part with sharp edges, with noise), bevel (a box with narrow bevels), cad (a disc with a fillet whose flat sides
+are fans from one vertex), decimated (of a smooth grid an eighth of the triangles) and turned (a torus of which some triangles are
+wound the wrong way).
 """
+import heapq
 import os
 import sys
 
@@ -132,16 +134,114 @@ def bevelled_box():
     return points, faces
 
 
+def circle(i, count):
+    """A point of the unit circle, by the half angle's tangent in each quarter: sines differ between machines."""
+    quarter, t = divmod(4 * i, count)
+    t = t / count * (1 + 0.05 * (1 - t / count))
+    c, s = (1 - t * t) / (1 + t * t), 2 * t / (1 + t * t)
+    return [(c, s), (-s, c), (-c, -s), (s, -c)][quarter]
+
+
+def filleted_disc():
+    """As CAD kernels write it: flat sides are fans from one vertex of the rim."""
+    sides, segments, fillet, half = 32, 2, 0.1, 0.25
+    profile = []
+    for side in (-1, 1):
+        for i in range(segments + 1):
+            c, s = circle(segments - i if side < 0 else i, 4 * segments)
+            profile.append((0.9 - fillet + fillet * c, side * (half - fillet + fillet * s)))
+    points = [[r * circle(i, sides)[0], z, -r * circle(i, sides)[1]] for r, z in profile for i in range(sides)]
+    faces = []
+    for ring in range(len(profile) - 1):
+        for i in range(sides):
+            a, b, above = ring * sides + i, ring * sides + (i + 1) % sides, sides
+            faces += [[a, b, b + above], [a, b + above, a + above]]
+    top = (len(profile) - 1) * sides
+    for i in range(1, sides - 1):
+        faces += [[0, i + 1, i], [top, top + i, top + i + 1]]
+    return points, faces
+
+
+def cross(a, b):
+    return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+
+
+def minus(a, b):
+    return [x - y for x, y in zip(a, b)]
+
+
+class Simplifier:
+    """Edges collapse to one of their ends, least error first (Garland and Heckbert 1997)."""
+
+    def __init__(self, points, quads):
+        self.points = points
+        self.faces = [face for q in quads for face in ([q[0], q[1], q[2]], [q[0], q[2], q[3]])]
+        self.around = [set() for _ in points]
+        self.errors = [[0] * 10 for _ in points]
+        for number, face in enumerate(self.faces):
+            a = self.area(face)
+            size = length(a) or 1
+            plane = [x / size for x in a]
+            plane.append(-sum(x * y for x, y in zip(plane, points[face[0]])))
+            products = [size * plane[i] * plane[j] for i in range(4) for j in range(i, 4)]
+            for v in face:
+                self.around[v].add(number)
+                self.errors[v] = [x + y for x, y in zip(self.errors[v], products)]
+
+    def area(self, face):
+        a, b, c = (self.points[v] for v in face)
+        return cross(minus(b, a), minus(c, a))
+
+    def cost(self, a, b):
+        """Of a moving to b."""
+        p = [*self.points[b], 1]
+        products = [p[i] * p[j] * (1 if i == j else 2) for i in range(4) for j in range(i, 4)]
+        return sum((x + y) * z for x, y, z in zip(self.errors[a], self.errors[b], products))
+
+    def may_move(self, a, b):
+        shared = {v for f in self.around[a] for v in self.faces[f]} & {v for f in self.around[b] for v in self.faces[f]}
+        if len(shared) != 4:
+            return False
+        for number in self.around[a] - self.around[b]:
+            before, after = self.area(self.faces[number]), self.area([b if v == a else v for v in self.faces[number]])
+            if sum(x * y for x, y in zip(before, after)) <= 0.2 * length(before) * length(after):
+                return False
+        return True
+
+    def run(self, wanted):
+        left = len(self.faces)
+        heap = [(self.cost(a, b), a, b) for f in self.faces for a, b in zip(f, f[1:] + f[:1])]
+        heap += [(self.cost(b, a), b, a) for _, a, b in heap]
+        heapq.heapify(heap)
+        while left > wanted and heap:
+            cost, a, b = heapq.heappop(heap)
+            if not self.around[a] & self.around[b] or cost != self.cost(a, b) or not self.may_move(a, b):
+                continue
+            for number in self.around[a]:
+                if number in self.around[b]:
+                    left -= 1
+                    for v in self.faces[number]:
+                        if v != a:
+                            self.around[v].discard(number)
+                    self.faces[number] = []
+                else:
+                    self.faces[number] = [b if v == a else v for v in self.faces[number]]
+                    self.around[b].add(number)
+            self.around[a] = set()
+            self.errors[b] = [x + y for x, y in zip(self.errors[a], self.errors[b])]
+            for v in sorted({v for f in self.around[b] for v in self.faces[f]} - {b}):
+                heapq.heappush(heap, (self.cost(v, b), v, b))
+                heapq.heappush(heap, (self.cost(b, v), b, v))
+        return self.points, [face for face in self.faces if face]
+
+
+def decimated(points, quads, share):
+    return Simplifier(points, quads).run(2 * share * len(quads))
+
+
 def turned_torus():
     """Triangles, of which those in some spots are wound the wrong way."""
     columns, rows = 64, 28
-
-    def circle(i, count):  # a point of the unit circle, by the half angle's tangent in each quarter
-        quarter, t = divmod(4 * i, count)
-        t = t / count * (1 + 0.05 * (1 - t / count))
-        c, s = (1 - t * t) / (1 + t * t), 2 * t / (1 + t * t)
-        return [(c, s), (-s, c), (-c, -s), (s, -c)][quarter]
-
     points, faces = [], []
     for i in range(columns):
         for j in range(rows):
@@ -171,6 +271,8 @@ def main():
     write(os.path.join(folder, "grid.obj"), nets(blob, 40, 0.2))
     write(os.path.join(folder, "scan.obj"), scan(part, 48, 0.1))
     write(os.path.join(folder, "bevel.obj"), bevelled_box())
+    write(os.path.join(folder, "cad.obj"), filleted_disc())
+    write(os.path.join(folder, "decimated.obj"), decimated(*nets(blob, 36, 0), 0.125))
     write(os.path.join(folder, "turned.obj"), turned_torus())
 
 

@@ -79,7 +79,7 @@ TEST(InspectNeeds, CountsNodesAndInstances) {
     EXPECT_EQ(bad.error().place, "/nodes/2/extensions/EXT_mesh_gpu_instancing/attributes/TRANSLATION");
 }
 
-/// A wavy sheet of irregular triangles, two units wide, whose positions are whole numbers; stored as such, or as floats.
+/// A wavy sheet of irregular triangles, five units wide, whose positions are whole numbers; stored as such, or as floats.
 GltfBuilder roundedSheet(bool as_floats) {
     constexpr int kSide = 60;
     GltfBuilder builder;
@@ -87,9 +87,9 @@ GltfBuilder roundedSheet(bool as_floats) {
     std::vector<std::uint16_t> indices;
     for (int y = 0; y < kSide; ++y) {
         for (int x = 0; x < kSide; ++x) {
-            const double at_x = 2 * (x + 0.3 * std::sin(7.0 * x + 12.0 * y)),
-                         at_y = 2 * (y + 0.3 * std::sin(5.0 * x * y));
-            const double height = 12 * std::sin(0.075 * at_x + 0.4) * std::cos(0.055 * at_y);
+            const double at_x = 5 * (x + 0.3 * std::sin(7.0 * x + 12.0 * y)),
+                         at_y = 5 * (y + 0.3 * std::sin(5.0 * x * y));
+            const double height = 60 * std::sin(0.03 * at_x + 0.4) * std::cos(0.022 * at_y);
             for (const double number : {at_x, at_y, height, 0.0})
                 rounded.push_back(static_cast<std::int16_t>(std::lround(number)));
             if (x + 1 == kSide || y + 1 == kSide) continue;

@@ -308,7 +308,10 @@ inline constexpr double kNoisyShare = 0.15;
 /// mean edge
 double measureNoise(const NormalGroups& groups, const Allocator* allocator, PositionNoise& noise);
 
-/// The same of a call without normals: of the mesh, which its hard edges will be found on.
+/// In units of the mean edge as it were without the noise.
+PositionNoise withoutGrowth(PositionNoise noise);
+
+/// As measureNoise, of a call without normals: of the mesh, which its hard edges will be found on.
 double roughnessOf(const NormalsCall& call);
 
 /// Of angles at edges, in degrees: that below which a quarter, and a half, of their length lies.

@@ -22,6 +22,7 @@ constexpr std::size_t kMostPoints = 32768;
 /// Bounds of what all vertices will give. Of sigma: three standard errors, each 5.3 % of the median of 480 distances that are
 /// noise and 1.8 % of one of 4096.
 constexpr double kSigmaError = 1.17, kDihedralError = 1.25, kKinkError = 1.1;
+constexpr double kMostGrowth = 1.2;  // by withoutGrowth
 
 bool areEqual(const Vec3& a, const Vec3& b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
 
@@ -103,7 +104,8 @@ class NoiseScreen {
         // Which share of the edges is flat, a sample does not tell.
         const double turned = kDihedralError * roughness->dihedrals.median;
         for (const double error : {1 / kSigmaError, 1.0, kSigmaError})
-            if (noisePart(error * roughness->sigma, kKinkError * kinks, {turned, turned}) >= noise) return true;
+            if (kMostGrowth * noisePart(error * roughness->sigma, kKinkError * kinks, {turned, turned}) >= noise)
+                return true;
         return false;
     }
 

@@ -100,7 +100,7 @@ Result<PositionNoise> measurePositionNoise(const MeshView& mesh, const Execution
     return atBorder([&]() -> Result<PositionNoise> {
         Parallel parallel(execution, kSlow * mesh.cornerCount());
         if (Error e = checkMesh(mesh, &parallel); e.code != ErrorCode::ok) return e;
-        return noiseOf(mesh, execution, parallel, -1);
+        return withoutGrowth(noiseOf(mesh, execution, parallel, -1));
     });
 }
 
@@ -109,7 +109,7 @@ Result<PositionNoise> measureSureNoise(const MeshView& mesh, double least, const
         Parallel parallel(execution, kSlow * mesh.cornerCount());
         if (Error e = checkMesh(mesh, &parallel); e.code != ErrorCode::ok) return e;
         if (PointItems::areTriangles(mesh) && !mayHaveNoise(mesh, least, execution, parallel)) return PositionNoise{};
-        return noiseOf(mesh, execution, parallel, kFewKinks);
+        return withoutGrowth(noiseOf(mesh, execution, parallel, kFewKinks));
     });
 }
 

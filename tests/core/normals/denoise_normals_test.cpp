@@ -347,6 +347,20 @@ TEST(PositionNoise, FromALeastOnIsWhatTheFullMeasureGives) {
     }
 }
 
+TEST(PositionNoise, IsMeasuredInEdgesAsTheyWereWithoutIt) {
+    for (const Shape& shape : accuracy::heldOutShapes()) {
+        if (shape.is_sharp) continue;
+        const double edge = measurePositionNoise(accuracy::scan(shape, 80, 0, Random{1}).view())->mean_edge;
+        for (const double noise : {0.03, 0.1, 0.2, 0.3}) {
+            const Result<PositionNoise> found =
+                measurePositionNoise(accuracy::scan(shape, 80, noise, Random{2}).view());
+            ASSERT_TRUE(found.ok());
+            EXPECT_NEAR(found->sigma, noise, 0.12 * noise) << shape.name;
+            EXPECT_NEAR(found->mean_edge, edge, 0.02 * edge) << shape.name << ' ' << noise;
+        }
+    }
+}
+
 TEST(PositionNoise, DependsNeitherOnSizeNorOnPlaceNorOnOrder) {
     const Scan scan = accuracy::scan(shape("blob"), 40, 0.1, Random{1});
     const float noise = measurePositionNoise(scan.view())->noise;
