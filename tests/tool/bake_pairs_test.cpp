@@ -37,6 +37,20 @@ TEST_F(BakePairs, GiveTheMapsThatSingleBakesGiveForAnyJobs) {
     EXPECT_TRUE(folder.read("two/second.png") == folder.read("one.png"));
 }
 
+TEST_F(BakePairs, MayBeTgaWithTheTexelsOfThePngOfEightBits) {
+    folder.write("t/table.txt", "low.obj = high.obj = a.tga\nlow.obj = high.obj = a.png\n");
+    (void)pairs("--pairs t/table.txt -o two --bits 8 --maps normal,ao");
+    const FloatImage png = imageOf(folder, "two/a.png");
+    const std::string tga = folder.read("two/a.tga");
+    ASSERT_EQ(tga.size(), 18 + 3 * png.texels.size() + 26);
+    for (std::size_t i = 0; i < png.texels.size(); ++i)
+        EXPECT_EQ(static_cast<std::uint8_t>(tga[18 + 3 * i + 2]), std::lround(255 * png.texels[i].x)) << i;
+    EXPECT_EQ(folder.read("two/a_ao.tga").size(), tga.size());
+    EXPECT_EQ(runTool(folder, "convert-map --flip-green two/a.png -o b.tga").exit_code, 0);
+    EXPECT_EQ(folder.read("b.tga").size(), tga.size());
+    EXPECT_EQ(runTool(folder, "bake low.obj --high high.obj -o c.tga --out-mesh c.glb").exit_code, 2);
+}
+
 TEST_F(BakePairs, ResumeLeavesOutWhatIsDoneAndUnchanged) {
     const std::string arguments = "--pairs t/table.txt -o two --manifest m.jsonl --resume";
     (void)pairs(arguments);

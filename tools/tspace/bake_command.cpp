@@ -123,9 +123,9 @@ Command bakeCommand() {
     Option& high = command.add(group, text("--high", "HIGH", arguments.high,
                                            "The model with the detail, in the same place. It needs no UVs."));
     high.is_file = true;
-    Option& output =
-        command.add(group, text("-o, --output", "OUT", arguments.output,
-                                "Where to write: a file that ends in .png; or in .ktx2 or .dds: BC5 with all levels."));
+    Option& output = command.add(group, text("-o, --output", "OUT", arguments.output,
+                                             "Where to write: a file that ends in .png, or in .tga (8 bits); or in "
+                                             ".ktx2 or .dds: BC5 with all levels."));
     output.is_file = output.is_required = true;
     Option& pairs = command.add(
         group,

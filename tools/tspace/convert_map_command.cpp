@@ -56,10 +56,10 @@ Command convertMapCommand() {
     };
     const char* group = kInputAndOutput;
     command.add(group, operand("IN", arguments.input, "An image: PNG, JPEG, WebP, EXR, KTX2 or DDS; - for stdin."));
-    Option output =
-        text("-o, --output", "OUT", arguments.output,
-             "Where to write: a file that ends in .png or .exr; or in .ktx2 or .dds: BC5 with all levels; - for "
-             "stdout, a PNG.");
+    Option output = text("-o, --output", "OUT", arguments.output,
+                         "Where to write: a file that ends in .png, .exr or .tga (8 bits); or in .ktx2 or .dds: BC5 "
+                         "with all levels; - for "
+                         "stdout, a PNG.");
     output.is_file = output.is_required = true;
     command.add(group, output);
     command.add(convertMapOptions(arguments.options));

@@ -16,6 +16,7 @@
 #include "commands/shared/noted_noise.h"
 #include "core/base/numbers.h"
 #include "images/float_image.h"
+#include "images/tga.h"
 #include "maps/map_surfaces.h"
 #include "maps/missed_cause.h"
 #include "model/io/atomic_output.h"
@@ -25,11 +26,18 @@
 namespace tspace {
 namespace {
 
+/// `name`: of the file, which says TGA or else PNG.
+std::vector<std::uint8_t> imageFileOf(const std::string& name, std::uint32_t width, std::uint32_t height,
+                                      std::vector<Vec3> texels, unsigned bits) {
+    const FloatImage image{.width = width, .height = height, .bits = bits, .texels = std::move(texels)};
+    std::optional<std::vector<std::uint8_t>> file =
+        lowerExtension(name) == ".tga" ? encodeTga(image) : encodePng(image, bits);
+    if (!file) failFile(ErrorCode::unsupportedFile, "this build of tspace writes no PNG");
+    return *std::move(file);
+}
+
 std::vector<std::uint8_t> pngOf(std::uint32_t width, std::uint32_t height, std::vector<Vec3> texels, unsigned bits) {
-    std::optional<std::vector<std::uint8_t>> png =
-        encodePng({.width = width, .height = height, .bits = bits, .texels = std::move(texels)}, bits);
-    if (!png) failFile(ErrorCode::unsupportedFile, "this build of tspace writes no PNG");
-    return *std::move(png);
+    return imageFileOf(".png", width, height, std::move(texels), bits);
 }
 
 /// The name of a material with all letters replaced that a file name should not have.
@@ -113,12 +121,18 @@ class FileBaking {
                                        " of an edge, and the map shows it: --denoise auto bakes normals without that");
     }
 
-    /// A .png; or a texture, whose blocks are fitted to what the texels of 16 bits are filtered to.
+    /// A .png; a .tga, of 8 bits; or a texture, whose blocks are fitted to what the texels of 16 bits are filtered to.
     void checkOutput() {
         if (lowerExtension(output_) == ".png") return;
+        if (lowerExtension(output_) == ".tga") {
+            if (!options_.out_mesh.empty())
+                failFile(ErrorCode::invalidOption, "a glTF model holds no TGA; bake a .png for it");
+            options_.map.bits = 8;
+            return;
+        }
         if (!isTextureName(output_))
             failFile(ErrorCode::unsupportedFile,
-                     "the output " + pathInQuotes(output_) + " ends in none of .png, .ktx2 and .dds");
+                     "the output " + pathInQuotes(output_) + " ends in none of .png, .tga, .ktx2 and .dds");
         if (!options_.layers.layers.empty() || !options_.layers.has_normal)
             failFile(ErrorCode::invalidOption, "other maps than normals are written as .png alone");
         if (!options_.out_mesh.empty())
@@ -132,7 +146,7 @@ class FileBaking {
     std::vector<std::uint8_t> takeNormalFile(BakedMap& map) const {
         std::vector<Vec3> texels = std::exchange(map.texels, {});
         if (isTextureName(output_)) return packTexture(output_, map.width, map.height, texels, options_.execution);
-        return pngOf(map.width, map.height, std::move(texels), map.bits);
+        return imageFileOf(output_, map.width, map.height, std::move(texels), map.bits);
     }
 
     /// A model that is written reads the map as glTF says.

@@ -179,9 +179,11 @@ void checkConversion(const ConvertMapReport& texels) {
 ImageFormat outputFormat(const std::string& output, const ConvertMapFileOptions& options) {
     const std::string extension = lowerExtension(output);
     const ImageFormat format = extension == ".exr" ? ImageFormat::exr : ImageFormat::png;
-    if (!options.sink && extension != ".png" && extension != ".exr")
+    const bool is_tga = !options.sink && extension == ".tga";
+    if (!options.sink && extension != ".png" && extension != ".exr" && !is_tga)
         failFile(ErrorCode::unsupportedFile,
-                 "the output " + pathInQuotes(output) + " ends in none of .png, .exr, .ktx2 and .dds");
+                 "the output " + pathInQuotes(output) + " ends in none of .png, .exr, .tga, .ktx2 and .dds");
+    if (is_tga && options.bits > 8) failFile(ErrorCode::invalidOption, "a TGA has 8 bits");
     if (const char* why_not = whyNotRead(format))
         failFile(ErrorCode::unsupportedFile, "the output cannot be written: " + std::string(why_not));
     return format;
@@ -233,7 +235,8 @@ ConvertMapFileReport convert(const std::string& input, const std::string& output
     if (options.content.data() == nullptr) inputs.add(input);
     const bool is_texture = !options.sink && isTextureName(output);
     const ImageFormat format = is_texture ? ImageFormat::ktx2 : outputFormat(output, options);
-    const unsigned bits = is_texture ? 16 : outputBits(format, options.bits);
+    const bool is_tga = !options.sink && lowerExtension(output) == ".tga";
+    const unsigned bits = is_texture ? 16 : outputBits(format, is_tga ? 8 : options.bits);
     FloatImage image = readMapImage(input, options.content, options.file);
     const std::string how_read = options.layout == MapLayout{} ? readTextureVectors(image) : std::string();
     const std::vector<Vec3> before = applyLayout(options.layout, image);

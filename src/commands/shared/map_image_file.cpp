@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "commands/shared/uv_reading.h"
+#include "images/tga.h"
 #include "maps/grey.h"
 #include "maps/uv_coverage.h"
 #include "model/io/file_error.h"
@@ -308,8 +309,10 @@ std::string fileNameOf(const std::string& path) {
 
 void writeMapImage(const FloatImage& image, ImageFormat format, unsigned bits, const std::string& output,
                    const OutputWay& way) {
-    const std::optional<std::vector<std::uint8_t>> file =
-        format == ImageFormat::png ? encodePng(image, bits) : encodeExr(image, bits);
+    const bool is_tga = !way.sink && lowerExtension(output) == ".tga";
+    const std::optional<std::vector<std::uint8_t>> file = is_tga                       ? encodeTga(image)
+                                                          : format == ImageFormat::png ? encodePng(image, bits)
+                                                                                       : encodeExr(image, bits);
     if (!file) failFile(ErrorCode::outOfMemory, "the image cannot be packed");
     AtomicOutput files(way);
     files.add(output, std::span<const std::uint8_t>(*file));

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+// "Truevision TGA File Format Specification", version 2.0 (1991): a head of 18 bytes, blue, green and red of each pixel, and a
+// foot that says which version it is.
+#include "images/tga.h"
+
+#include <cmath>
+#include <string_view>
+
+namespace tspace {
+namespace {
+
+std::optional<std::vector<std::uint8_t>> headOf(std::uint32_t width, std::uint32_t height, bool has_alpha) {
+    constexpr std::uint32_t kMostSide = 65535;
+    if (width > kMostSide || height > kMostSide) return {};
+    constexpr std::uint8_t kTrueColour = 2, kFromTheTop = 0x20, kAlphaBits = 8;
+    std::vector<std::uint8_t> file(18);
+    file.reserve(file.size() + std::size_t{has_alpha ? 4U : 3U} * width * height + 26);
+    file[2] = kTrueColour;
+    file[12] = static_cast<std::uint8_t>(width & 0xff);
+    file[13] = static_cast<std::uint8_t>(width >> 8);
+    file[14] = static_cast<std::uint8_t>(height & 0xff);
+    file[15] = static_cast<std::uint8_t>(height >> 8);
+    file[16] = has_alpha ? 32 : 24;
+    file[17] = has_alpha ? kFromTheTop | kAlphaBits : kFromTheTop;
+    return file;
+}
+
+/// Neither a developer's area nor extensions.
+void addFoot(std::vector<std::uint8_t>& file) {
+    constexpr std::string_view kSignature = "TRUEVISION-XFILE.";
+    file.insert(file.end(), 8, 0);
+    file.insert(file.end(), kSignature.begin(), kSignature.end());
+    file.push_back(0);
+}
+
+std::uint8_t byteOf(float channel) {
+    if (!(channel > 0)) return 0;  // also what is not a number
+    return channel >= 1 ? 255 : static_cast<std::uint8_t>(std::floor(channel * 255.0F + 0.5F));
+}
+
+}  // namespace
+
+std::optional<std::vector<std::uint8_t>> encodeTga(const FloatImage& image) {
+    const bool has_alpha = !image.alpha.empty();
+    std::optional<std::vector<std::uint8_t>> file = headOf(image.width, image.height, has_alpha);
+    if (!file) return {};
+    for (std::size_t i = 0; i < image.texels.size(); ++i) {
+        const Vec3& texel = image.texels[i];
+        for (const float channel : {texel.z, texel.y, texel.x})
+            file->push_back(std::isfinite(channel) ? byteOf(channel) : 0);
+        if (has_alpha) file->push_back(byteOf(image.alpha[i]));
+    }
+    addFoot(*file);
+    return file;
+}
+
+std::optional<std::vector<std::uint8_t>> encodeTga(const RgbImage& image) {
+    std::optional<std::vector<std::uint8_t>> file = headOf(image.width, image.height, false);
+    if (!file) return {};
+    for (std::size_t i = 0; i + 2 < image.rgb.size(); i += 3)
+        file->insert(file->end(), {image.rgb[i + 2], image.rgb[i + 1], image.rgb[i]});
+    addFoot(*file);
+    return file;
+}
+
+}  // namespace tspace
