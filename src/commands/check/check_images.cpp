@@ -423,9 +423,10 @@ void describeStorage(const Scene& scene, const NormalMap& map, const std::string
     };
     if (isEtc1s(facts) || isLossyWebp(image.bytes)) {
         std::string text = isEtc1s(facts) ? " is " + facts->name + ", which keeps one color for each 4 x 4 texels"
-                                          : " is a WebP with loss, which halves what tells x from y and z";
+                                          : " is a WebP with loss, which keeps colors at half the width and height";
         if (content == MapContent::normals)
-            text += "; so its texels are about " + shortNumber(std::max(0.1, std::round(10 * map.packing_deg) / 10)) +
+            text += std::string(isEtc1s(facts) ? "; so" : "; by the lengths of its vectors") +
+                    " its texels are about " + shortNumber(std::max(0.1, std::round(10 * map.packing_deg) / 10)) +
                     " degrees off, in the root of the mean square" +
                     (isEtc1s(facts) ? " (as UASTC our maps were off by a third of that at most)"
                                     : " (8 bits without loss: 0.2)");
