@@ -140,6 +140,7 @@ class ModelInWork {
             if (turned == 0 || share <= (known == before.end() ? 0 : known->second)) continue;
             right.push_back(mesh);
             report_.left_winding_count += turned;
+            if (lowerExtension(path_) == ".obj") break;
         }
         return right;
     }
