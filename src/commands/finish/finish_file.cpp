@@ -391,7 +391,7 @@ std::vector<std::string> doneTo(const FinishedModel& model) {
         std::string text = "normals made for " + std::to_string(totals.normals_generated) + " of " +
                            counted(totals.primitive_count, "primitive");
         if (totals.normals_replaced != 0)
-            text += ", in place of wrong ones for " + std::to_string(totals.normals_replaced);
+            text += ", in place of old ones for " + std::to_string(totals.normals_replaced);
         if (hard_count != 0)
             text += ", hard at edges sharper than " + shortNumber(least) +
                     (most > least ? " to " + shortNumber(most) : std::string()) + " degrees";
