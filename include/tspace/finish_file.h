@@ -39,7 +39,7 @@ struct FinishOptions {
     /// How maps are baked. Its models, `out_mesh`, file, execution and progress are set by the call.
     BakeFileOptions bake = allMaps();
     std::string page = {};  ///< where to write a page for people, with pictures before and after; empty: nowhere
-    FileOptions file = {};
+    FileOptions file = {};  ///< without `content`
     Execution execution = {};
     Progress progress = {};
 };

@@ -33,7 +33,7 @@ void addFoot(std::vector<std::uint8_t>& file) {
     file.push_back(0);
 }
 
-std::uint8_t byteOf(float channel) {
+std::uint8_t channelByte(float channel) {
     if (!(channel > 0)) return 0;  // also what is not a number
     return channel >= 1 ? 255 : static_cast<std::uint8_t>(std::floor(channel * 255.0F + 0.5F));
 }
@@ -47,8 +47,8 @@ std::optional<std::vector<std::uint8_t>> encodeTga(const FloatImage& image) {
     for (std::size_t i = 0; i < image.texels.size(); ++i) {
         const Vec3& texel = image.texels[i];
         for (const float channel : {texel.z, texel.y, texel.x})
-            file->push_back(std::isfinite(channel) ? byteOf(channel) : 0);
-        if (has_alpha) file->push_back(byteOf(image.alpha[i]));
+            file->push_back(std::isfinite(channel) ? channelByte(channel) : 0);
+        if (has_alpha) file->push_back(channelByte(image.alpha[i]));
     }
     addFoot(*file);
     return file;

@@ -140,6 +140,7 @@ class ModelInWork {
             if (turned == 0 || share <= (known == before.end() ? 0 : known->second)) continue;
             right.push_back(mesh);
             report_.left_winding_count += turned;
+            if (lowerExtension(path_) == ".obj") break;
         }
         return right;
     }
@@ -390,7 +391,7 @@ std::vector<std::string> doneTo(const FinishedModel& model) {
         std::string text = "normals made for " + std::to_string(totals.normals_generated) + " of " +
                            counted(totals.primitive_count, "primitive");
         if (totals.normals_replaced != 0)
-            text += ", in place of wrong ones for " + std::to_string(totals.normals_replaced);
+            text += ", in place of old ones for " + std::to_string(totals.normals_replaced);
         if (hard_count != 0)
             text += ", hard at edges sharper than " + shortNumber(least) +
                     (most > least ? " to " + shortNumber(most) : std::string()) + " degrees";
