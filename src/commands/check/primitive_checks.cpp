@@ -179,7 +179,8 @@ void checkFarNormals(PrimitiveFacts& facts, const Directions& directions) {
         ++far.total;
         // Normals that point to the back are another finding.
         const double cosine = nearest[equal.class_of[v]];
-        const double angle = polarAngle(cosine, std::sqrt(std::max(0.0, 1 - cosine * cosine))) * 180 / kPi;
+        const double sine = std::sqrt(std::max(0.0, 1 - cosine * cosine));
+        const auto angle = static_cast<float>(polarAngle(cosine, sine) * 180 / kPi);  // normals of faces are no better
         if (angle > kFarDeg && angle <= 90) far.add(v, facts.surface.vertex_areas[v], angle);
     }
     far.finish(facts.surface.area);
