@@ -167,7 +167,7 @@ std::vector<LegendEntry> tangentEntries(const TangentSources& sources, Method me
     return {{{}, {}, before + (sources.has_map ? "NO TANGENTS, FLAT" : "NO NORMAL MAP")}};
 }
 
-void append(std::vector<LegendEntry>& entries, const std::vector<LegendEntry>& more) {
+void appendEntries(std::vector<LegendEntry>& entries, const std::vector<LegendEntry>& more) {
     entries.insert(entries.end(), more.begin(), more.end());
 }
 
@@ -186,25 +186,25 @@ Legend legendOf(RenderShow show, const TangentSources& sources, Method method) {
     switch (show) {
         case RenderShow::lit:
             say("LIT BY ONE LAMP");
-            append(entries, tangents);
+            appendEntries(entries, tangents);
             break;
         case RenderShow::surface:
             say("METAL AND ROUGHNESS");
-            append(entries, tangents);
+            appendEntries(entries, tangents);
             break;
         case RenderShow::normals:
             say("NORMALS");
-            append(entries, axes);
+            appendEntries(entries, axes);
             break;
         case RenderShow::mapped:
             say("NORMALS WITH MAP");
-            append(entries, axes);
-            append(entries, tangents);
+            appendEntries(entries, axes);
+            appendEntries(entries, tangents);
             break;
         case RenderShow::tangents:
             entries = axes;
             sayMissing("NO TANGENTS");
-            if (sources.stored || sources.computed) append(entries, tangents);
+            if (sources.stored || sources.computed) appendEntries(entries, tangents);
             break;
         case RenderShow::sign:
             entries = {{kSignPlus, {}, "W = +1"},
@@ -213,7 +213,7 @@ Legend legendOf(RenderShow show, const TangentSources& sources, Method method) {
                        {kSignPlus, kSignWrong, "WRONG SIGN"},
                        {kSignNeither, {}, "NEITHER"}};
             sayMissing("NO TANGENTS");
-            if (sources.stored || sources.computed) append(entries, tangents);
+            if (sources.stored || sources.computed) appendEntries(entries, tangents);
             break;
         case RenderShow::error:
             legend.has_heat_scale = true;
@@ -233,7 +233,7 @@ Legend legendOf(RenderShow show, const TangentSources& sources, Method method) {
 
 Legend legendOfBoth(const TangentSources& left, const TangentSources& right, Method method) {
     Legend legend{.entries = tangentEntries(left, method, "LEFT: ")};
-    append(legend.entries, tangentEntries(right, method, "RIGHT: "));
+    appendEntries(legend.entries, tangentEntries(right, method, "RIGHT: "));
     return legend;
 }
 
