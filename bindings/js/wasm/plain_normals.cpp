@@ -11,5 +11,6 @@ NormalReport denoisedNormals(NormalsCall& call) { return averageNormals(call); }
 Creases findCreases(const MeshView&, const NormalOptions&, const Execution&, Parallel&) { return {}; }
 
 PositionNoise noiseOf(const MeshView&, const Execution&, Parallel&, bool) { return {}; }
+PositionNoise withoutGrowth(PositionNoise noise) { return noise; }
 
 }  // namespace tspace
