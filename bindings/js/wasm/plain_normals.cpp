@@ -11,6 +11,7 @@ NormalReport denoisedNormals(NormalsCall& call) { return averageNormals(call); }
 Creases findCreases(const MeshView&, const NormalOptions&, const Execution&, Parallel&) { return {}; }
 
 PositionNoise noiseOf(const MeshView&, const Execution&, Parallel&, double) { return {}; }
+PositionNoise withoutGrowth(PositionNoise noise) { return noise; }
 bool mayHaveNoise(const MeshView&, double, const Execution&, Parallel&) { return false; }
 
 }  // namespace tspace

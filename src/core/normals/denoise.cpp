@@ -166,10 +166,14 @@ double measureNoise(const NormalGroups& groups, const Allocator* allocator, Posi
     return std::min(sigma, dihedrals.median / kTurnOfNoise);
 }
 
+namespace {
+
 /// Noise of x lengthens edges by 2 x^2 (in units of their length without it: two of the three components of what it moves their
 /// ends apart lie across them). Of x in units of the longer edges, so many times as much it is in units of the others. Beyond
 /// .3, where this was looked at, no more.
 double growthOfEdges(double sigma) { return 2 / (1 + std::sqrt(1 - 8 * std::min(0.068, sigma * sigma))); }
+
+}  // namespace
 
 PositionNoise withoutGrowth(PositionNoise noise) {
     const double growth = growthOfEdges(noise.sigma);
