@@ -39,7 +39,9 @@ struct FinishOptions {
     /// How maps are baked. Its models, `out_mesh`, file, execution and progress are set by the call.
     BakeFileOptions bake = allMaps();
     std::string page = {};  ///< where to write a page for people, with pictures before and after; empty: nowhere
-    FileOptions file = {};  ///< without `content`
+    std::string page_date = {},
+                page_command = {};  ///< of the run, as the page says them: any text; empty: only the version
+    FileOptions file = {};          ///< without `content`
     Execution execution = {};
     Progress progress = {};
 };

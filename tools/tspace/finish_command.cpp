@@ -11,6 +11,7 @@
 #include "interrupt.h"
 #include "jobs.h"
 #include "output_files.h"
+#include "page_origin.h"
 
 namespace tspace::tool {
 namespace {
@@ -23,8 +24,10 @@ struct FinishArguments {
     bool quiet = false;
 };
 
-Result<FinishReport> finish(const FinishArguments& arguments, InputFiles& read) {
+Result<FinishReport> finish(const FinishArguments& arguments, InputFiles& read, const PageOrigin& origin) {
     FinishOptions options = arguments.options;
+    options.page_date = origin.date;
+    options.page_command = origin.command;
     read.watch(options.file);
     ProgressLine progress(1, !arguments.quiet);
     options.progress = [&](const char* what, std::uint64_t done, std::uint64_t total) {
@@ -46,10 +49,12 @@ ExitCode runFinish(const FinishArguments& arguments) {
     const Result<Done> fit =
         prepareOutputs({arguments.output, options.page, arguments.report}, {arguments.input, options.low});
     if (!fit) return printUsageError(fit.error().message);
+    const Result<PageOrigin> origin = pageOrigin();
+    if (!options.page.empty() && !origin) return printUsageError(origin.error().message);
     catchInterrupts();
     InputFiles read;
     const auto start = std::chrono::steady_clock::now();
-    const Result<FinishReport> result = finish(arguments, read);
+    const Result<FinishReport> result = finish(arguments, read, origin ? *origin : PageOrigin{});
     if (!result && wasInterrupted()) endByInterrupt();
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
     ExitCode exit_code = result ? exitCodeOf(*result) : printErrorOfFiles({about_low, arguments.input}, result.error());

@@ -330,7 +330,8 @@ class Finishing {
         report_.output_bytes = bytes.size();
         files_.add(output, bytes);
         if (!options_.page.empty()) {
-            const std::string html = finishPage(report_, output, bytes, options_.file);
+            const std::string html =
+                finishPage(report_, output, bytes, options_.file, {options_.page_date, options_.page_command});
             files_.add(options_.page, std::span(reinterpret_cast<const std::uint8_t*>(html.data()), html.size()));
         }
         report_.output_files = files_.files();

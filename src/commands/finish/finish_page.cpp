@@ -83,13 +83,12 @@ std::string mapsHtml(const BakeFileReport& bake) {
 }  // namespace
 
 std::string finishPage(const FinishReport& report, const std::string& output_path, std::span<const std::uint8_t> output,
-                       const FileOptions& file) {
+                       const FileOptions& file, const PageOrigin& origin) {
     FileOptions finished = file;
     finished.content = output;
     std::string html = pageHead("tspace finish");
-    html += "<h1>" + htmlText(output_path) +
-            "</h1>\n<p class=\"dim\">Made by tspace finish, version " TSPACE_VERSION_STRING
-            ". What is right stays as it was; tspace check says what is not.</p>\n";
+    html += "<h1>" + htmlText(output_path) + "</h1>\n" + originHtml(origin) +
+            "<p class=\"dim\">What is right stays as it was; tspace check says what is not.</p>\n";
     html +=
         "<div class=\"scroll\"><table><thead><tr><th>model</th><th class=\"n\">errors</th><th class=\"n\">warnings</th>"
         "<th class=\"n\">notes</th></tr></thead><tbody>\n";

@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 
+#include "commands/shared/page/page_parts.h"
 #include "commands/shared/report.h"
 #include "tspace/finish_file.h"
 
@@ -14,7 +15,7 @@ namespace tspace {
 /// One HTML file that needs nothing else: pictures before and after, what was done, and what check finds in the output.
 /// `output`: its bytes; pictures of the models as they were are drawn of their files, which are read once more. Throws FileError.
 std::string finishPage(const FinishReport& report, const std::string& output_path, std::span<const std::uint8_t> output,
-                       const FileOptions& file);
+                       const FileOptions& file, const PageOrigin& origin);
 
 }  // namespace tspace
 

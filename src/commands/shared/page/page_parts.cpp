@@ -50,8 +50,10 @@ std::string pageHead(std::string_view title) { return kBeforeTitle + std::string
 std::string pageEnd() { return "</main></body></html>\n"; }
 
 std::string originHtml(const PageOrigin& origin) {
-    return "<p class=\"dim\">tspace " TSPACE_VERSION_STRING ", " + htmlText(origin.date) + ": <code>" +
-           htmlText(origin.command) + "</code></p>\n";
+    std::string html = "<p class=\"dim\">tspace " TSPACE_VERSION_STRING;
+    if (!origin.date.empty()) html += ", " + htmlText(origin.date);
+    if (!origin.command.empty()) html += ": <code>" + htmlText(origin.command) + "</code>";
+    return html + "</p>\n";
 }
 
 std::string figureHtml(const std::vector<std::uint8_t>& png, std::uint32_t width, std::uint32_t height,
