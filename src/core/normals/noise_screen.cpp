@@ -194,15 +194,15 @@ class NoiseScreen {
         findPoints();
         std::size_t count = 0;
         forTrianglesThere([&](const auto&) { ++count; });
-        Buffer<std::uint16_t> corners(execution_.allocator, 3 * count);
-        std::uint16_t* to = corners.data();
+        Buffer<std::uint32_t> corners(execution_.allocator, 3 * count);
+        std::uint32_t* to = corners.data();
         forTrianglesThere([&](const std::uint32_t(&v)[3]) {
             for (const std::uint32_t vertex : v) *to++ = add(vertex);
         });
         if (is_full) return std::nullopt;
         MeshView around;
         around.positions = points_.list();
-        around.indices = IndexView(std::span<const std::uint16_t>(corners.data(), corners.size()));
+        around.indices = IndexView(std::span<const std::uint32_t>(corners.data(), corners.size()));
         Call<NormalOptions> options{{}, execution_};
         options.weld_positions = false;
         const NormalsCall call(around, around, options, {}, parallel_);
