@@ -42,7 +42,7 @@ class TSPACE_PT_panel(bpy.types.Panel):
         if found is None:
             return
         box = layout.box()
-        box.label(text=f"{len(found)} findings" if len(found) else "Nothing was found", icon="INFO")
+        box.label(text={0: "Nothing was found", 1: "1 finding"}.get(len(found), f"{len(found)} findings"), icon="INFO")
         for sentence, mend in list(zip(found, thing["tspace_mends"]))[:5]:
             for line in textwrap.wrap(sentence, 40) + textwrap.wrap(f"mend: {mend}", 40):
                 box.label(text=line)
