@@ -2,6 +2,7 @@
 #include "page_origin.h"
 
 #include <array>
+#include <chrono>
 #include <cstdint>
 #include <cstdlib>
 #include <ctime>
@@ -43,7 +44,10 @@ void rememberCommandLine(std::span<char* const> words) {
 
 Result<PageOrigin> pageOrigin() {
     const char* const given = std::getenv("SOURCE_DATE_EPOCH");
-    if (given == nullptr || *given == '\0') return PageOrigin{dateText(std::time(nullptr)), rememberedCommand()};
+    if (given == nullptr || *given == '\0') {
+        using Clock = std::chrono::system_clock;
+        return PageOrigin{dateText(Clock::to_time_t(Clock::now())), rememberedCommand()};
+    }
     constexpr std::uint64_t kMost = 253402300799;  // the last second of the year 9999
     std::uint64_t seconds = 0;
     if (!options::parseNumber(given, seconds) || seconds > kMost) {
