@@ -206,16 +206,6 @@ class PairsRun {
     std::atomic<bool> output_is_closed_ = false;
 };
 
-/// Keeps the pairs of the shard, which the name of the low poly in the table decides.
-void takePairsOf(const Shard& shard, std::vector<Pair>& pairs) {
-    std::vector<Job> jobs;
-    for (const Pair& pair : pairs) jobs.push_back(pair.job);
-    takeShard(jobs, shard);
-    std::erase_if(pairs, [&](const Pair& pair) {
-        return std::none_of(jobs.begin(), jobs.end(), [&](const Job& job) { return job.output == pair.job.output; });
-    });
-}
-
 }  // namespace
 
 ExitCode runBakePairs(const BakePairsArguments& arguments) {
@@ -228,7 +218,8 @@ ExitCode runBakePairs(const BakePairsArguments& arguments) {
         inputs.insert(inputs.end(), {pair.job.input, pair.high});
     }
     if (const Result<Done> fit = prepareOutputs(outputs, inputs); !fit) return printUsageError(fit.error().message);
-    takePairsOf(arguments.batch.shard, pairs);
+    // The name of the low poly in the table decides.
+    std::erase_if(pairs, [&](const Pair& pair) { return !isInShard(pair.job, arguments.batch.shard); });
     catchInterrupts();
     PairsRun run(arguments, std::move(pairs));
     if (const Result<Done> opened = run.openManifest(); !opened)

@@ -13,9 +13,12 @@
 
 namespace tspace::tool {
 
+bool isInShard(const Job& job, const Shard& shard) {
+    return shard.count <= 1 || hashText(job.name) % shard.count + 1 == shard.index;
+}
+
 void takeShard(std::vector<Job>& jobs, const Shard& shard) {
-    if (shard.count <= 1) return;
-    std::erase_if(jobs, [&](const Job& job) { return hashText(job.name) % shard.count + 1 != shard.index; });
+    std::erase_if(jobs, [&](const Job& job) { return !isInShard(job, shard); });
 }
 
 unsigned workerCount(const BatchArguments& batch, std::size_t job_count) {

@@ -26,8 +26,9 @@ struct BatchArguments {
     bool verbose = false;       ///< the details of every file, also where there are several
 };
 
-/// Keeps the jobs of the shard. The hash of a file's name below its input decides, so its shard does not depend on other
-/// files.
+/// The hash of a file's name below its input decides, so its shard does not depend on other files.
+bool isInShard(const Job& job, const Shard& shard);
+/// Keeps the jobs of the shard.
 void takeShard(std::vector<Job>& jobs, const Shard& shard);
 
 /// How many files are worked on at one time.

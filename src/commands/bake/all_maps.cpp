@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "commands/bake/all_maps.h"
 
-#include "images/tga.h"
-
 #include <algorithm>
 #include <numeric>
 
+#include "commands/shared/map_image_file.h"
 #include "commands/shared/picture/colors.h"
 #include "commands/shared/uv_reading.h"
 #include "core/base/disjoint_sets.h"
@@ -243,12 +242,11 @@ std::vector<std::uint8_t> layerPng(BakedLayer& layer, const BakedMap& map, unsig
     }
     const std::vector<float> values = std::exchange(layer.values, {});
     std::optional<std::vector<std::uint8_t>> png;
-    const bool is_tga = lowerExtension(file.path) == ".tga";
     if (has_bytes) {
         RgbImage image{.width = map.width, .height = map.height};
         image.rgb.reserve(values.size());
         for (const float value : values) image.rgb.push_back(file.is_srgb ? lightToSrgb(value) : storedByte(value));
-        png = is_tga ? encodeTga(image) : encodePng(image);
+        png = encodeByName(file.path, image);
     } else {
         FloatImage image{.width = map.width, .height = map.height, .bits = bits};
         image.texels.reserve(values.size() / layer.channel_count);
@@ -256,7 +254,7 @@ std::vector<std::uint8_t> layerPng(BakedLayer& layer, const BakedMap& map, unsig
             const bool is_grey = layer.channel_count == 1;
             image.texels.push_back({values[i], values[is_grey ? i : i + 1], values[is_grey ? i : i + 2]});
         }
-        png = is_tga ? encodeTga(image) : encodePng(image, bits);
+        png = encodeByName(file.path, image, bits);
     }
     if (!png) failFile(ErrorCode::unsupportedFile, "this build of tspace writes no PNG");
     return *std::move(png);

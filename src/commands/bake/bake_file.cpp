@@ -13,10 +13,10 @@
 #include "commands/bake/bake_step.h"
 #include "commands/bake/model_surfaces.h"
 #include "commands/compress_map/pack_texture.h"
+#include "commands/shared/map_image_file.h"
 #include "commands/shared/noted_noise.h"
 #include "core/base/numbers.h"
 #include "images/float_image.h"
-#include "images/tga.h"
 #include "maps/map_surfaces.h"
 #include "maps/missed_cause.h"
 #include "model/io/atomic_output.h"
@@ -29,9 +29,8 @@ namespace {
 /// `name`: of the file, which says TGA or else PNG.
 std::vector<std::uint8_t> imageFileOf(const std::string& name, std::uint32_t width, std::uint32_t height,
                                       std::vector<Vec3> texels, unsigned bits) {
-    const FloatImage image{.width = width, .height = height, .bits = bits, .texels = std::move(texels)};
     std::optional<std::vector<std::uint8_t>> file =
-        lowerExtension(name) == ".tga" ? encodeTga(image) : encodePng(image, bits);
+        encodeByName(name, {.width = width, .height = height, .bits = bits, .texels = std::move(texels)}, bits);
     if (!file) failFile(ErrorCode::unsupportedFile, "this build of tspace writes no PNG");
     return *std::move(file);
 }
@@ -124,7 +123,7 @@ class FileBaking {
     /// A .png; a .tga, of 8 bits; or a texture, whose blocks are fitted to what the texels of 16 bits are filtered to.
     void checkOutput() {
         if (lowerExtension(output_) == ".png") return;
-        if (lowerExtension(output_) == ".tga") {
+        if (isTgaName(output_)) {
             if (!options_.out_mesh.empty())
                 failFile(ErrorCode::invalidOption, "a glTF model holds no TGA; bake a .png for it");
             options_.map.bits = 8;

@@ -257,10 +257,8 @@ OptionList bakeOptions(BakeFileOptions& options) {
                      "For a high poly with noisy positions, such as a scan: its normals are made anew by more of the "
                      "surface around, so that noise is not baked. auto: as much as is measured, and nothing where that "
                      "is shape; 0 to 4: so many times the noise that is measured, also where it looks like shape."));
-    addThreads(list, options.execution,
-               "Number of threads; 0: as many as there are cores. Changes no bit of the result.");
-    addLimits(list, options.file);
-    addSync(list, options.file.sync);
+    addRunning(list, options.execution,
+               "Number of threads; 0: as many as there are cores. Changes no bit of the result.", options.file);
     return list;
 }
 
@@ -288,9 +286,8 @@ OptionList mapErrorOptions(MapErrorFileOptions& options) {
              "z is made from x and y, as of BC5 and DXT5nm; blue is not read."));
     addHighMapOptions(list, options.ignore_high_maps, options.high_green);
     addRayOptions(list, options.map.reach, options.map.rays, options.cage, options.skew);
-    addThreads(list, options.execution, "Number of threads; 0: as many as there are cores. Changes no figure.");
-    addLimits(list, options.file);
-    addSync(list, options.file.sync);
+    addRunning(list, options.execution, "Number of threads; 0: as many as there are cores. Changes no figure.",
+               options.file);
     return list;
 }
 

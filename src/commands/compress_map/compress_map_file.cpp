@@ -424,10 +424,8 @@ OptionList compressMapOptions(CompressMapFileOptions& options) {
     add(list, "Texture", number("--bits", options.bits, 16, "Bits of PNGs of normals: 8 or 16."));
     addRoughness(list, options);
     add(list, kInputAndOutput, flag("--dry-run", options.dry_run, "Do everything but write."));
-    addThreads(list, options.execution,
-               "Threads; 0: as many as there are cores. The output is the same for any number.");
-    addLimits(list, options.file);
-    addSync(list, options.file.sync);
+    addRunning(list, options.execution,
+               "Threads; 0: as many as there are cores. The output is the same for any number.", options.file);
     return list;
 }
 

@@ -179,7 +179,7 @@ void checkConversion(const ConvertMapReport& texels) {
 ImageFormat outputFormat(const std::string& output, const ConvertMapFileOptions& options) {
     const std::string extension = lowerExtension(output);
     const ImageFormat format = extension == ".exr" ? ImageFormat::exr : ImageFormat::png;
-    const bool is_tga = !options.sink && extension == ".tga";
+    const bool is_tga = !options.sink && isTgaName(output);
     if (!options.sink && extension != ".png" && extension != ".exr" && !is_tga)
         failFile(ErrorCode::unsupportedFile,
                  "the output " + pathInQuotes(output) + " ends in none of .png, .exr, .tga, .ktx2 and .dds");
@@ -235,7 +235,7 @@ ConvertMapFileReport convert(const std::string& input, const std::string& output
     if (options.content.data() == nullptr) inputs.add(input);
     const bool is_texture = !options.sink && isTextureName(output);
     const ImageFormat format = is_texture ? ImageFormat::ktx2 : outputFormat(output, options);
-    const bool is_tga = !options.sink && lowerExtension(output) == ".tga";
+    const bool is_tga = !options.sink && isTgaName(output);
     const unsigned bits = is_texture ? 16 : outputBits(format, is_tga ? 8 : options.bits);
     FloatImage image = readMapImage(input, options.content, options.file);
     const std::string how_read = options.layout == MapLayout{} ? readTextureVectors(image) : std::string();

@@ -47,6 +47,15 @@ bool asksForMorphNormals(const Finding& finding) {
     return finding.code == FindingCode::morphNormalsWrong && finding.severity == Severity::error;
 }
 
+/// What checkFile says of the bytes, or of the file where there are none.
+CheckReport checked(const std::string& name, ByteSpan content, const FinishOptions& options) {
+    CheckOptions check;
+    check.file = options.file;
+    check.file.content = content;
+    check.execution = options.execution;
+    return valueOrThrow(checkFile(name, check));
+}
+
 /// A model in work: a GLB in memory, and what is known of it.
 class ModelInWork {
   public:
@@ -63,7 +72,7 @@ class ModelInWork {
         runFirst(generate, {});
         if (std::vector<std::uint32_t> right = rightMeshes(); !right.empty()) {
             // Faces of OBJ files are one surface.
-            generate.mend_winding = lowerExtension(path_) != ".obj";
+            generate.mend_winding = !isObj();
             runFirst(generate, {.wound_meshes = std::move(right)});
         }
         const gltf::NormalWishes wishes = wishesOf();
@@ -84,6 +93,8 @@ class ModelInWork {
     [[nodiscard]] const CheckReport& checked() const { return check_; }
 
   private:
+    [[nodiscard]] bool isObj() const { return lowerExtension(path_) == ".obj"; }
+
     [[nodiscard]] FileOptions fileOf(ByteSpan content) const {
         FileOptions file = options_.file;
         file.content = content;
@@ -91,10 +102,7 @@ class ModelInWork {
     }
 
     [[nodiscard]] CheckReport check(const std::string& name, ByteSpan content) const {
-        CheckOptions check;
-        check.file = fileOf(content);
-        check.execution = options_.execution;
-        return valueOrThrow(checkFile(name, check));
+        return tspace::checked(name, content, options_);
     }
 
     [[nodiscard]] GenerateOptions generateOptions() const {
@@ -140,7 +148,7 @@ class ModelInWork {
             if (turned == 0 || share <= (known == before.end() ? 0 : known->second)) continue;
             right.push_back(mesh);
             report_.left_winding_count += turned;
-            if (lowerExtension(path_) == ".obj") break;
+            if (isObj()) break;
         }
         return right;
     }
@@ -157,7 +165,7 @@ class ModelInWork {
     [[nodiscard]] std::uint64_t turnedIn(std::uint32_t mesh) const {
         std::uint64_t count = 0;
         for (const MendedWindingReport& mended : report_.made.windings) {
-            if (mended.mesh == mesh || lowerExtension(path_) == ".obj") count += mended.winding.turned_count;
+            if (mended.mesh == mesh || isObj()) count += mended.winding.turned_count;
         }
         return count;
     }
@@ -182,12 +190,9 @@ class ModelInWork {
         gltf::NormalWishes wishes{.anew = std::vector<bool>(primitives.size(), all),
                                   .morphs = std::vector<bool>(primitives.size(), false)};
         for (const Finding& finding : check_.findings) {
-            const auto found =
-                std::find_if(primitives.begin(), primitives.end(), [&](const PrimitiveReport& primitive) {
-                    return primitive.mesh == finding.mesh && primitive.primitive == finding.primitive;
-                });
-            if (finding.place.empty() || found == primitives.end()) continue;
-            const auto i = static_cast<std::size_t>(found - primitives.begin());
+            const PrimitiveReport* const found = primitiveOf(finding);
+            if (found == nullptr) continue;
+            const auto i = static_cast<std::size_t>(found - primitives.data());
             if (asksForMorphNormals(finding)) wishes.morphs[i] = true;
             if (asksForNormals(finding, found->winding_mended_count != 0)) wishes.anew[i] = true;
         }
@@ -258,11 +263,7 @@ class Finishing {
         noteNoise();
         const Bytes baked = bake(input, output, low.bytes(), model.bytes());
         if (report_.bake->output_files.empty()) return std::move(report_);
-        CheckOptions check;
-        check.file = options_.file;
-        check.file.content = baked;
-        check.execution = options_.execution;
-        report_.check = valueOrThrow(checkFile(output, check));
+        report_.check = checked(output, baked, options_);
         sayWhatIsLeft(*report_.low);
         write(output, baked);
         return std::move(report_);

@@ -70,10 +70,8 @@ OptionList finishOptions(FinishOptions& options) {
         if (option.name() == "--high-green") option.excludes = {"--ignore-high-maps"};
         list.push_back(std::move(option));
     }
-    addThreads(list, options.execution,
-               "Number of threads; 0: as many as there are cores. Changes no bit of the result.");
-    addLimits(list, options.file);
-    addSync(list, options.file.sync);
+    addRunning(list, options.execution,
+               "Number of threads; 0: as many as there are cores. Changes no bit of the result.", options.file);
     return list;
 }
 

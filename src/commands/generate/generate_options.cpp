@@ -250,10 +250,8 @@ void addOtherOptions(OptionList& list, GenerateOptions& options) {
         flag("--orthogonalize", options.sanitize_options.orthogonalize_all,
              "Also make every sound tangent unit and orthogonal to its normal. The result then no "
              "longer matches bakes exactly where normals are not unit."));
-    addThreads(list, options.execution,
-               "Number of threads; 0: as many as there are cores. Changes no bit of the result.");
-    addLimits(list, options.file);
-    addSync(list, options.file.sync);
+    addRunning(list, options.execution,
+               "Number of threads; 0: as many as there are cores. Changes no bit of the result.", options.file);
 }
 
 }  // namespace

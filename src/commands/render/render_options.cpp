@@ -168,10 +168,8 @@ OptionList renderOptions(RenderOptions& options) {
         choice("--method", "NAME", kMethods, options.method, "Which tangents are computed, as for generate."));
     add(list, frames, readingOption(options));
     add(list, frames, setting("--no-textures", options.textures, false, "Leave out base colours and normal maps."));
-    addThreads(list, options.execution,
-               "Number of threads; 0: as many as there are cores. Changes no byte of the picture.");
-    addLimits(list, options.file);
-    addSync(list, options.file.sync);
+    addRunning(list, options.execution,
+               "Number of threads; 0: as many as there are cores. Changes no byte of the picture.", options.file);
     return list;
 }
 

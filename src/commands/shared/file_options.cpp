@@ -92,9 +92,7 @@ void addMaterialOfMap(OptionList& list, std::string& material) {
 
 void addMakingAnImage(OptionList& list, const char* group, Method& method, Execution& execution, FileOptions& file) {
     add(list, group, choice("--method", "NAME", kMethods, method, "How tangents are made for a model that has none."));
-    addThreads(list, execution, "Threads; 0: as many as there are cores. The output is the same for any number.");
-    addLimits(list, file);
-    addSync(list, file.sync);
+    addRunning(list, execution, "Threads; 0: as many as there are cores. The output is the same for any number.", file);
 }
 
 void addSync(OptionList& list, bool& sync) {
@@ -103,6 +101,12 @@ void addSync(OptionList& list, bool& sync) {
             "--no-sync", sync, false,
             "Do not wait until outputs are on the disk. By default they are there before they take the places of old "
             "files, so that a power cut leaves one or the other whole; many small files take longer for it."));
+}
+
+void addRunning(OptionList& list, Execution& execution, HelpText threads_help, FileOptions& file) {
+    addThreads(list, execution, std::move(threads_help));
+    addLimits(list, file);
+    addSync(list, file.sync);
 }
 
 }  // namespace tspace::options

@@ -41,6 +41,8 @@ void addMemoryLimit(OptionList& list, std::uint64_t& memory_limit_bytes);
 void addLimits(OptionList& list, FileOptions& file);
 /// FileOptions::sync, for calls that write.
 void addSync(OptionList& list, bool& sync);
+/// The three: threads, limits, and whether outputs are waited for.
+void addRunning(OptionList& list, Execution& execution, HelpText threads_help, FileOptions& file);
 /// Which primitives of a model show a map.
 void addMaterialOfMap(OptionList& list, std::string& material);
 /// The last options of calls that make an image by a model: how tangents are made where it has none (in `group`), and how

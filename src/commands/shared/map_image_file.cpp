@@ -307,12 +307,29 @@ std::string fileNameOf(const std::string& path) {
     return folder == std::string::npos ? path : path.substr(folder + 1);
 }
 
+bool isTgaName(const std::string& path) { return lowerExtension(path) == ".tga"; }
+
+namespace {
+
+std::vector<std::uint8_t> tgaOf(std::optional<std::vector<std::uint8_t>>&& file) {
+    if (!file) failFile(ErrorCode::tooLarge, "a TGA has 65535 pixels along a side at most");
+    return *std::move(file);
+}
+
+}  // namespace
+
+std::optional<std::vector<std::uint8_t>> encodeByName(const std::string& name, const FloatImage& image, unsigned bits) {
+    return isTgaName(name) ? tgaOf(encodeTga(image)) : encodePng(image, bits);
+}
+
+std::optional<std::vector<std::uint8_t>> encodeByName(const std::string& name, const RgbImage& image) {
+    return isTgaName(name) ? tgaOf(encodeTga(image)) : encodePng(image);
+}
+
 void writeMapImage(const FloatImage& image, ImageFormat format, unsigned bits, const std::string& output,
                    const OutputWay& way) {
-    const bool is_tga = !way.sink && lowerExtension(output) == ".tga";
-    const std::optional<std::vector<std::uint8_t>> file = is_tga                       ? encodeTga(image)
-                                                          : format == ImageFormat::png ? encodePng(image, bits)
-                                                                                       : encodeExr(image, bits);
+    const std::optional<std::vector<std::uint8_t>> file =
+        format == ImageFormat::exr ? encodeExr(image, bits) : encodeByName(way.sink ? "" : output, image, bits);
     if (!file) failFile(ErrorCode::outOfMemory, "the image cannot be packed");
     AtomicOutput files(way);
     files.add(output, std::span<const std::uint8_t>(*file));

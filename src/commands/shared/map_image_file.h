@@ -3,6 +3,7 @@
 // FileError.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -60,7 +61,14 @@ MapMesh readNamedMapMesh(const std::string& model, const MapMeshChoice& choice, 
 /// The path without folders.
 std::string fileNameOf(const std::string& path);
 
-/// The image as a PNG or EXR; by `way` as AtomicOutput writes.
+/// Whether an image of this name is a TGA.
+bool isTgaName(const std::string& path);
+/// The file of an image: a TGA where its name says so, which has 8 bits, else a PNG. Nothing where it cannot be packed. Throws
+/// FileError where it is too large for a TGA.
+std::optional<std::vector<std::uint8_t>> encodeByName(const std::string& name, const FloatImage& image, unsigned bits);
+std::optional<std::vector<std::uint8_t>> encodeByName(const std::string& name, const RgbImage& image);
+
+/// The image as a TGA where the output's name says so, else as a PNG or EXR; by `way` as AtomicOutput writes.
 void writeMapImage(const FloatImage& image, ImageFormat format, unsigned bits, const std::string& output,
                    const OutputWay& way);
 

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "commands/render/model_picture.h"
+#include "commands/shared/map_image_file.h"
 #include "commands/shared/page/check_page.h"
 #include "commands/shared/page/page_parts.h"
 #include "model/io/atomic_output.h"
@@ -78,7 +79,7 @@ std::string pictureHtml(const Path& input, const FileOptions& options) {
 
 /// For readers that run no script: mail, previews, text browsers.
 std::string stillHtml(const Path& input, const FileOptions& options, const PageOrigin& origin) {
-    const std::string name = input.string().substr(input.string().rfind('/') + 1);
+    const std::string name = fileNameOf(input.string());
     return "<noscript><div class=\"still\">\n" + originHtml(origin) + pictureHtml(input, options) +
            findingsHtml({.input = name, .result = checkFile(input.string(), {.file = options})}) +
            "</div></noscript>\n";

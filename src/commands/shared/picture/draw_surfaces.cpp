@@ -547,10 +547,7 @@ class Layers {
 }  // namespace
 
 void ErrorStatistics::add(double degrees) {
-    if (!std::isfinite(degrees)) return;
-    ++count;
-    sum_deg += degrees;
-    max_deg = std::max(max_deg, degrees);
+    if (std::isfinite(degrees)) add(ErrorStatistics{1, degrees, degrees});
 }
 
 void ErrorStatistics::add(const ErrorStatistics& other) {
