@@ -24,22 +24,13 @@ namespace {
 
 /// The functions of the library that is there at run time.
 struct Astc {
-    decltype(&astcenc_config_init) initConfig = nullptr;
-    decltype(&astcenc_context_alloc) allocateContext = nullptr;
-    decltype(&astcenc_context_free) freeContext = nullptr;
-    decltype(&astcenc_decompress_image) decompress = nullptr;
-    decltype(&astcenc_compress_image) compress = nullptr;
-    bool is_loaded = false;
-
-    Astc() {
-        LoadedLibrary library(TSPACE_ASTC_LIBRARY);
-        library.find(initConfig, "astcenc_config_init");
-        library.find(allocateContext, "astcenc_context_alloc");
-        library.find(freeContext, "astcenc_context_free");
-        library.find(decompress, "astcenc_decompress_image");
-        library.find(compress, "astcenc_compress_image");
-        is_loaded = library.hasAll();
-    }
+    LoadedLibrary library = LoadedLibrary(TSPACE_ASTC_LIBRARY);
+    decltype(&astcenc_config_init) initConfig = library.find("astcenc_config_init");
+    decltype(&astcenc_context_alloc) allocateContext = library.find("astcenc_context_alloc");
+    decltype(&astcenc_context_free) freeContext = library.find("astcenc_context_free");
+    decltype(&astcenc_decompress_image) decompress = library.find("astcenc_decompress_image");
+    decltype(&astcenc_compress_image) compress = library.find("astcenc_compress_image");
+    bool is_loaded = library.hasAll();
 };
 
 const Astc& astc() {

@@ -103,60 +103,35 @@ class ExrHeadReader {
 
 /// The functions of the library that is there at run time.
 struct OpenExr {
-    decltype(&exr_start_read) startRead = nullptr;
-    decltype(&exr_start_write) startWrite = nullptr;
-    decltype(&exr_finish) finish = nullptr;
-    decltype(&exr_get_storage) getStorage = nullptr;
-    decltype(&exr_get_channels) getChannels = nullptr;
-    decltype(&exr_get_data_window) getDataWindow = nullptr;
-    decltype(&exr_get_display_window) getDisplayWindow = nullptr;
-    decltype(&exr_get_scanlines_per_chunk) getScanlinesPerChunk = nullptr;
-    decltype(&exr_get_tile_sizes) getTileSizes = nullptr;
-    decltype(&exr_read_scanline_chunk_info) readScanlineChunkInfo = nullptr;
-    decltype(&exr_read_tile_chunk_info) readTileChunkInfo = nullptr;
-    decltype(&exr_decoding_initialize) decodingInitialize = nullptr;
-    decltype(&exr_decoding_choose_default_routines) decodingChooseDefaultRoutines = nullptr;
-    decltype(&exr_decoding_run) decodingRun = nullptr;
-    decltype(&exr_decoding_destroy) decodingDestroy = nullptr;
-    decltype(&exr_add_part) addPart = nullptr;
-    decltype(&exr_initialize_required_attr_simple) initializeRequiredAttrSimple = nullptr;
-    decltype(&exr_add_channel) addChannel = nullptr;
-    decltype(&exr_write_header) writeHeader = nullptr;
-    decltype(&exr_write_scanline_chunk_info) writeScanlineChunkInfo = nullptr;
-    decltype(&exr_encoding_initialize) encodingInitialize = nullptr;
-    decltype(&exr_encoding_choose_default_routines) encodingChooseDefaultRoutines = nullptr;
-    decltype(&exr_encoding_run) encodingRun = nullptr;
-    decltype(&exr_encoding_destroy) encodingDestroy = nullptr;
-    bool is_loaded = false;
-
-    OpenExr() {
-        LoadedLibrary library(TSPACE_OPENEXR_LIBRARY);
-        library.find(startRead, "exr_start_read");
-        library.find(startWrite, "exr_start_write");
-        library.find(finish, "exr_finish");
-        library.find(getStorage, "exr_get_storage");
-        library.find(getChannels, "exr_get_channels");
-        library.find(getDataWindow, "exr_get_data_window");
-        library.find(getDisplayWindow, "exr_get_display_window");
-        library.find(getScanlinesPerChunk, "exr_get_scanlines_per_chunk");
-        library.find(getTileSizes, "exr_get_tile_sizes");
-        library.find(readScanlineChunkInfo, "exr_read_scanline_chunk_info");
-        library.find(readTileChunkInfo, "exr_read_tile_chunk_info");
-        library.find(decodingInitialize, "exr_decoding_initialize");
-        library.find(decodingChooseDefaultRoutines, "exr_decoding_choose_default_routines");
-        library.find(decodingRun, "exr_decoding_run");
-        library.find(decodingDestroy, "exr_decoding_destroy");
-        library.find(addPart, "exr_add_part");
-        library.find(initializeRequiredAttrSimple, "exr_initialize_required_attr_simple");
-        library.find(addChannel, "exr_add_channel");
-        library.find(writeHeader, "exr_write_header");
-        library.find(writeScanlineChunkInfo, "exr_write_scanline_chunk_info");
-        library.find(encodingInitialize, "exr_encoding_initialize");
-        library.find(encodingChooseDefaultRoutines, "exr_encoding_choose_default_routines");
-        library.find(encodingRun, "exr_encoding_run");
-        library.find(encodingDestroy, "exr_encoding_destroy");
-        is_loaded = library.hasAll();
-    }
+    LoadedLibrary library = LoadedLibrary(TSPACE_OPENEXR_LIBRARY);
+    decltype(&exr_start_read) startRead = library.find("exr_start_read");
+    decltype(&exr_start_write) startWrite = library.find("exr_start_write");
+    decltype(&exr_finish) finish = library.find("exr_finish");
+    decltype(&exr_get_storage) getStorage = library.find("exr_get_storage");
+    decltype(&exr_get_channels) getChannels = library.find("exr_get_channels");
+    decltype(&exr_get_data_window) getDataWindow = library.find("exr_get_data_window");
+    decltype(&exr_get_display_window) getDisplayWindow = library.find("exr_get_display_window");
+    decltype(&exr_get_scanlines_per_chunk) getScanlinesPerChunk = library.find("exr_get_scanlines_per_chunk");
+    decltype(&exr_get_tile_sizes) getTileSizes = library.find("exr_get_tile_sizes");
+    decltype(&exr_read_scanline_chunk_info) readScanlineChunkInfo = library.find("exr_read_scanline_chunk_info");
+    decltype(&exr_read_tile_chunk_info) readTileChunkInfo = library.find("exr_read_tile_chunk_info");
+    decltype(&exr_decoding_initialize) decodingInitialize = library.find("exr_decoding_initialize");
+    decltype(&exr_decoding_choose_default_routines) decodingChooseDefaultRoutines =
+        library.find("exr_decoding_choose_default_routines");
+    decltype(&exr_decoding_run) decodingRun = library.find("exr_decoding_run");
+    decltype(&exr_decoding_destroy) decodingDestroy = library.find("exr_decoding_destroy");
+    decltype(&exr_add_part) addPart = library.find("exr_add_part");
+    decltype(&exr_initialize_required_attr_simple) initializeRequiredAttrSimple =
+        library.find("exr_initialize_required_attr_simple");
+    decltype(&exr_add_channel) addChannel = library.find("exr_add_channel");
+    decltype(&exr_write_header) writeHeader = library.find("exr_write_header");
+    decltype(&exr_write_scanline_chunk_info) writeScanlineChunkInfo = library.find("exr_write_scanline_chunk_info");
+    decltype(&exr_encoding_initialize) encodingInitialize = library.find("exr_encoding_initialize");
+    decltype(&exr_encoding_choose_default_routines) encodingChooseDefaultRoutines =
+        library.find("exr_encoding_choose_default_routines");
+    decltype(&exr_encoding_run) encodingRun = library.find("exr_encoding_run");
+    decltype(&exr_encoding_destroy) encodingDestroy = library.find("exr_encoding_destroy");
+    bool is_loaded = library.hasAll();
 };
 
 const OpenExr& openExr() {

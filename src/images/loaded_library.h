@@ -11,10 +11,24 @@ class LoadedLibrary {
   public:
     explicit LoadedLibrary(const char* name) : library_(dlopen(name, RTLD_NOW | RTLD_LOCAL)) {}
 
-    template <typename Function>
-    void find(Function& function, const char* name) {
-        if (library_ != nullptr) function = reinterpret_cast<Function>(dlsym(library_, name));
-        has_all_ = has_all_ && function != nullptr;
+    /// Becomes a pointer to a function, whose type the caller knows.
+    class Address {
+      public:
+        explicit Address(void* address) : address_(address) {}
+        template <typename Function>
+        operator Function*() const {
+            return reinterpret_cast<Function*>(address_);
+        }
+
+      private:
+        void* address_;
+    };
+
+    /// Null where it is not there.
+    Address find(const char* name) {
+        void* const address = library_ == nullptr ? nullptr : dlsym(library_, name);
+        has_all_ = has_all_ && address != nullptr;
+        return Address(address);
     }
 
     /// Whether the library is there, with every function that was looked for.

@@ -29,44 +29,26 @@ namespace {
 
 /// The functions of Embree that are used, from the library that is there at run time.
 struct Embree {
-    decltype(&rtcNewDevice) newDevice = nullptr;
-    decltype(&rtcReleaseDevice) releaseDevice = nullptr;
-    decltype(&rtcGetDeviceError) getDeviceError = nullptr;
-    decltype(&rtcNewScene) newScene = nullptr;
-    decltype(&rtcReleaseScene) releaseScene = nullptr;
-    decltype(&rtcSetSceneFlags) setSceneFlags = nullptr;
-    decltype(&rtcJoinCommitScene) joinCommitScene = nullptr;
-    decltype(&rtcNewGeometry) newGeometry = nullptr;
-    decltype(&rtcReleaseGeometry) releaseGeometry = nullptr;
-    decltype(&rtcSetSharedGeometryBuffer) setSharedGeometryBuffer = nullptr;
-    decltype(&rtcSetGeometryIntersectFilterFunction) setGeometryIntersectFilterFunction = nullptr;
-    decltype(&rtcCommitGeometry) commitGeometry = nullptr;
-    decltype(&rtcAttachGeometry) attachGeometry = nullptr;
-    decltype(&rtcIntersect1) intersect1 = nullptr;
-    decltype(&rtcSetGeometryOccludedFilterFunction) setGeometryOccludedFilterFunction = nullptr;
-    decltype(&rtcOccluded1) occluded1 = nullptr;
-    bool is_loaded = false;
-
-    Embree() {
-        LoadedLibrary library(TSPACE_EMBREE_LIBRARY);
-        library.find(newDevice, "rtcNewDevice");
-        library.find(releaseDevice, "rtcReleaseDevice");
-        library.find(getDeviceError, "rtcGetDeviceError");
-        library.find(newScene, "rtcNewScene");
-        library.find(releaseScene, "rtcReleaseScene");
-        library.find(setSceneFlags, "rtcSetSceneFlags");
-        library.find(joinCommitScene, "rtcJoinCommitScene");
-        library.find(newGeometry, "rtcNewGeometry");
-        library.find(releaseGeometry, "rtcReleaseGeometry");
-        library.find(setSharedGeometryBuffer, "rtcSetSharedGeometryBuffer");
-        library.find(setGeometryIntersectFilterFunction, "rtcSetGeometryIntersectFilterFunction");
-        library.find(commitGeometry, "rtcCommitGeometry");
-        library.find(attachGeometry, "rtcAttachGeometry");
-        library.find(intersect1, "rtcIntersect1");
-        library.find(setGeometryOccludedFilterFunction, "rtcSetGeometryOccludedFilterFunction");
-        library.find(occluded1, "rtcOccluded1");
-        is_loaded = library.hasAll();
-    }
+    LoadedLibrary library = LoadedLibrary(TSPACE_EMBREE_LIBRARY);
+    decltype(&rtcNewDevice) newDevice = library.find("rtcNewDevice");
+    decltype(&rtcReleaseDevice) releaseDevice = library.find("rtcReleaseDevice");
+    decltype(&rtcGetDeviceError) getDeviceError = library.find("rtcGetDeviceError");
+    decltype(&rtcNewScene) newScene = library.find("rtcNewScene");
+    decltype(&rtcReleaseScene) releaseScene = library.find("rtcReleaseScene");
+    decltype(&rtcSetSceneFlags) setSceneFlags = library.find("rtcSetSceneFlags");
+    decltype(&rtcJoinCommitScene) joinCommitScene = library.find("rtcJoinCommitScene");
+    decltype(&rtcNewGeometry) newGeometry = library.find("rtcNewGeometry");
+    decltype(&rtcReleaseGeometry) releaseGeometry = library.find("rtcReleaseGeometry");
+    decltype(&rtcSetSharedGeometryBuffer) setSharedGeometryBuffer = library.find("rtcSetSharedGeometryBuffer");
+    decltype(&rtcSetGeometryIntersectFilterFunction) setGeometryIntersectFilterFunction =
+        library.find("rtcSetGeometryIntersectFilterFunction");
+    decltype(&rtcCommitGeometry) commitGeometry = library.find("rtcCommitGeometry");
+    decltype(&rtcAttachGeometry) attachGeometry = library.find("rtcAttachGeometry");
+    decltype(&rtcIntersect1) intersect1 = library.find("rtcIntersect1");
+    decltype(&rtcSetGeometryOccludedFilterFunction) setGeometryOccludedFilterFunction =
+        library.find("rtcSetGeometryOccludedFilterFunction");
+    decltype(&rtcOccluded1) occluded1 = library.find("rtcOccluded1");
+    bool is_loaded = library.hasAll();
 };
 
 const Embree& embree() {
