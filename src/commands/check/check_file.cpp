@@ -162,8 +162,6 @@ Json checkedFileJson(const CheckOutcome& outcome) {
     Json json = fileJson(outcome);
     if (!outcome.result) return json;
     const CheckReport& report = *outcome.result;
-    json["format"] = report.format;
-    json["generator"] = report.generator;
     json["primitives"] = report.primitive_count;
     json["primitivesWithTangents"] = report.tangents_count;
     json["normalMaps"] = report.image_count;

@@ -391,14 +391,6 @@ std::string commandName(const Scene& scene, std::size_t image) {
 
 bool isDown(const NormalMap& map) { return map.test && map.test->verdict == GreenVerdict::down; }
 
-void placeAt(const MapPart& part, Finding& finding) {
-    finding.place = part.use->place;
-    finding.mesh = part.primitive->mesh;
-    finding.primitive = part.primitive->primitive;
-    finding.mesh_name = part.primitive->mesh_name;
-    finding.material_name = part.primitive->material_name;
-}
-
 /// Readers of the file know that green points down, and turn it.
 bool isDeclared(const NormalMap& map) {
     return std::all_of(map.parts.begin(), map.parts.end(),
@@ -477,7 +469,8 @@ std::vector<Finding> describe(const Scene& scene, const NormalMap& map) {
             if (finding.unit == "blocks") finding.confidence = map.test->confidence();
         }
     }
-    for (Finding& finding : findings) placeAt(partOf(map), finding);
+    const MapPart& part = partOf(map);
+    for (Finding& finding : findings) placeAt(*part.primitive, part.use->place, finding);
     return findings;
 }
 
@@ -543,7 +536,7 @@ std::vector<Finding> checkMapScales(const Scene& scene) {
                 use.scale == 0 ? "the scale of the normal map is 0, so nothing of it shows"
                                : "the scale of the normal map is below 0: it inverts red and green, so bumps are "
                                  "dents"));
-            placeAt({.primitive = &primitive, .use = &use}, findings.back());
+            placeAt(primitive, use.place, findings.back());
         }
     }
     return findings;

@@ -191,11 +191,7 @@ PackedFindings checkPacked(const Scene& scene, const CheckOptions& options) {
         Finding& finding =
             result.findings.emplace_back(info.is_readable ? differingPacking(*entry.packed, errors)
                                                           : unreadablePacking(*entry.primitive, *entry.packed));
-        finding.place = info.place;
-        finding.mesh = info.mesh;
-        finding.primitive = info.primitive;
-        finding.mesh_name = entry.primitive->mesh_name;
-        finding.material_name = entry.primitive->material_name;
+        placeAt(*entry.primitive, info.place, finding);
     }
     return result;
 }

@@ -194,11 +194,7 @@ class MeshSeams {
                             decimalText(seam.worst_deg) + " degrees at " + std::to_string(seam.likely.size()) +
                             " positions of their border, though the surface is smooth there: each has the "
                             "normals of its own triangles alone");
-        finding.place = first.place;
-        finding.mesh = first.mesh;
-        finding.primitive = first.primitive;
-        finding.mesh_name = first.mesh_name;
-        finding.material_name = first.material_name;
+        placeAt(first, first.place, finding);
         return finding;
     }
 
@@ -212,10 +208,8 @@ Finding notCompared(const ScenePrimitive& first, const std::string& why) {
     Finding finding =
         makeFinding(FindingCode::fileRemark, Severity::note, one, "meshes",
                     "normals at the borders of the primitives of this mesh were not compared: that " + why);
-    finding.place = first.place;
-    finding.mesh = first.mesh;
-    finding.primitive = first.primitive;
-    finding.mesh_name = first.mesh_name;
+    placeAt(first, first.place, finding);
+    finding.material_name.clear();  // it is about all of the mesh
     return finding;
 }
 

@@ -217,6 +217,14 @@ Finding makeFinding(FindingCode code, Severity severity, const Tally& tally, con
     return finding;
 }
 
+void placeAt(const ScenePrimitive& primitive, const std::string& place, Finding& finding) {
+    finding.place = place;
+    finding.mesh = primitive.mesh;
+    finding.primitive = primitive.primitive;
+    finding.mesh_name = primitive.mesh_name;
+    finding.material_name = primitive.material_name;
+}
+
 Severity onShare(Severity severity, double surface_share, const CheckOptions& options) {
     return severity == Severity::error && surface_share < options.error_share ? Severity::warning : severity;
 }

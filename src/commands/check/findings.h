@@ -12,6 +12,8 @@
 
 namespace tspace {
 
+struct ScenePrimitive;
+
 // How often something was met, on how much of the surface, and where first.
 
 struct Tally {
@@ -60,6 +62,9 @@ inline constexpr const char* kSignsFirst =
 
 /// A finding with the tally's numbers, without a place.
 Finding makeFinding(FindingCode code, Severity severity, const Tally& tally, const char* unit, std::string message);
+
+/// Says where the finding is: `place`, in that primitive.
+void placeAt(const ScenePrimitive& primitive, const std::string& place, Finding& finding);
 
 /// `severity`, but a warning where an error concerns less than `options.error_share` of the surface.
 Severity onShare(Severity severity, double surface_share, const CheckOptions& options);

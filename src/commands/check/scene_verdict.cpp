@@ -131,15 +131,13 @@ std::vector<Judged> judgeAll(const Scene& scene, const Work& work, const CheckOp
 
 /// A finding of the first primitive of its key, made one of this primitive.
 Finding placed(Finding finding, const ScenePrimitive& primitive, const ScenePrimitive& checked) {
-    if (finding.place.empty()) {
-        finding.place = primitive.place;
-    } else if (finding.place.rfind(checked.place, 0) == 0) {
-        finding.place = primitive.place + finding.place.substr(checked.place.size());
+    std::string place = finding.place;
+    if (place.empty()) {
+        place = primitive.place;
+    } else if (place.starts_with(checked.place)) {
+        place = primitive.place + place.substr(checked.place.size());
     }
-    finding.mesh = primitive.mesh;
-    finding.primitive = primitive.primitive;
-    finding.mesh_name = primitive.mesh_name;
-    finding.material_name = primitive.material_name;
+    placeAt(primitive, place, finding);
     return finding;
 }
 

@@ -169,8 +169,6 @@ Json identifiedJson(const IdentifyOutcome& outcome) {
     Json json = fileJson(outcome);
     if (!outcome.result) return json;
     const Identification& result = *outcome.result;
-    json["format"] = result.format;
-    json["generator"] = result.generator;
     json["verdict"] = result.verdict;
     json["explanations"] = listJson(result.explanations, explanationJson);
     json["primitives"] = listJson(result.primitives, identityJson);

@@ -392,8 +392,6 @@ Json inspectedJson(const InspectOutcome& outcome) {
     Json json = fileJson(outcome);
     if (!outcome.result) return json;
     const Inspection& file = *outcome.result;
-    json["format"] = file.format;
-    json["generator"] = file.generator;
     json["fileBytes"] = file.file_bytes;
     json["meshes"] = file.mesh_count;
     json["materials"] = file.material_count;

@@ -31,12 +31,16 @@ Json errorJson(const Error* error);
 Json mapMeshJson(const MapMeshReport& mesh);
 /// The members with which every document begins.
 Json documentJson(const char* schema, bool is_ok, ExitCode exit_code);
-/// The members with which the report of a file begins: its name, and the error if there is one.
+/// The members with which the report of a file begins: its name, the error if there is one, else what wrote it.
 template <class Value>
 Json fileJson(const Outcome<Value>& outcome) {
-    return {{"input", outcome.input},
-            {"ok", outcome.result.ok()},
-            {"error", errorJson(outcome.result ? nullptr : &outcome.result.error())}};
+    Json json = {{"input", outcome.input},
+                 {"ok", outcome.result.ok()},
+                 {"error", errorJson(outcome.result ? nullptr : &outcome.result.error())}};
+    if (!outcome.result) return json;
+    json["format"] = outcome.result->format;
+    json["generator"] = outcome.result->generator;
+    return json;
 }
 /// The members with which the document of a command begins that makes one file of one file.
 template <class Value>
