@@ -236,7 +236,7 @@ class SceneWriter {
     }
 
     std::size_t addSkin(const Skin& skin) {
-        const std::size_t matrices = builder_.addFloats(skin.inverse_bind, 16, "MAT4", 0);
+        const std::size_t matrices = builder_.addFloats(skin.inverse_bind, skin.joints.size(), "MAT4", gltf::kNoTarget);
         return builder_.append("skins", {{"joints", skin.joints}, {"inverseBindMatrices", matrices}});
     }
 
@@ -283,8 +283,9 @@ class SceneWriter {
         }
         if (times.empty()) return;
         const std::size_t width = values.size() / times.size();
-        const std::size_t input = builder_.addFloats(times, 1, "SCALAR", 0, true);
-        const std::size_t output = builder_.addFloats(values, width, "VEC" + std::to_string(width), 0);
+        const std::size_t input = builder_.addFloats(times, times.size(), "SCALAR", gltf::kNoTarget, true);
+        const std::size_t output =
+            builder_.addFloats(values, times.size(), "VEC" + std::to_string(width), gltf::kNoTarget);
         animation["samplers"].push_back({{"input", input}, {"output", output}, {"interpolation", "LINEAR"}});
         animation["channels"].push_back(
             {{"sampler", animation["samplers"].size() - 1}, {"target", {{"node", node}, {"path", path}}}});

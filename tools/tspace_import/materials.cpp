@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "mend.h"
@@ -127,7 +128,9 @@ class MaterialWriter {
         const auto* bytes = reinterpret_cast<const std::uint8_t*>(embedded->pcData);
         const char* type = mediaType(bytes, embedded->mWidth);
         if (type == nullptr) return {};
-        return Json{{"bufferView", builder_.addView({bytes, embedded->mWidth}, 0)}, {"mimeType", type}};
+        return Json{
+            {"bufferView", builder_.addView(std::as_bytes(std::span(bytes, embedded->mWidth)), 1, gltf::kNoTarget)},
+            {"mimeType", type}};
     }
 
     GlbBuilder& builder_;

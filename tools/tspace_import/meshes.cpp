@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <unordered_map>
@@ -15,8 +16,6 @@
 namespace tspace::import {
 
 namespace {
-
-constexpr unsigned kVertexTarget = 34962;
 
 /// One attribute: `components` floats per vertex.
 struct Attribute {
@@ -218,10 +217,13 @@ std::size_t addAttribute(GlbBuilder& builder, const Attribute& attribute, const 
     }
     const std::string type = "VEC" + std::to_string(attribute.components);
     if (attribute.name.starts_with("JOINTS")) {
-        return builder.addShorts(std::vector<std::uint16_t>(values.begin(), values.end()), attribute.components, type);
+        const std::vector<std::uint16_t> shorts(values.begin(), values.end());
+        const std::size_t view = builder.addView(std::as_bytes(std::span(shorts)), 2, gltf::kVertexTarget);
+        return builder.addAccessor(view, gltf::ComponentType::u16, kept.size(), type);
     }
     const bool bounds = attribute.name.ends_with("POSITION");
-    return builder.addFloats(values, attribute.components, type, is_target && !bounds ? 0 : kVertexTarget, bounds);
+    return builder.addFloats(values, kept.size(), type, is_target && !bounds ? gltf::kNoTarget : gltf::kVertexTarget,
+                             bounds);
 }
 
 }  // namespace

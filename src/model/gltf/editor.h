@@ -13,15 +13,11 @@
 
 #include "model/gltf/accessor.h"
 #include "model/gltf/document.h"
+#include "model/gltf/document_builder.h"
 #include "model/gltf/meshopt_views.h"
 #include "model/gltf/references.h"
 
 namespace tspace::gltf {
-
-inline constexpr unsigned kVertexTarget = 34962;  // ARRAY_BUFFER
-inline constexpr unsigned kIndexTarget = 34963;   // ELEMENT_ARRAY_BUFFER
-
-inline constexpr unsigned kNoTarget = 0;  // the parts of a sparse accessor
 
 /// Elements for a new or replaced accessor, tightly packed.
 struct ElementData {
