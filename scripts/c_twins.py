@@ -3,8 +3,8 @@
 
 C_HEADERS = ("tspace.h", "tspace_normals.h", "tspace_indexed_frames.h", "tspace_frame.h", "tspace_pack.h", "tspace_winding.h",
              "tspace_files.h")
-FILE_HEADERS = ("asset.h", "check.h", "diff.h", "flip_green.h", "identify.h", "map_compress_file.h",
-                "map_height_file.h")
+FILE_HEADERS = ("asset.h", "bake_file.h", "check.h", "diff.h", "finish_file.h", "flip_green.h", "identify.h",
+                "map_compress_file.h", "map_height_file.h")
 # Headers whose first comment is that of a C++ header.
 HEADS = {f"tspace_{name}": name for name in ("frame.h", "indexed_frames.h", "normals.h", "pack.h", "winding.h")}
 
@@ -52,6 +52,8 @@ CPP_ALONE = {
     r"removeAbandonedFiles": "a matter of the tool",
     r"[tT]extureError\w+": "a part of `tspace map-error`, which is for C++ and the tool",
     r"Cancelled": "C has no function that is told of progress",
+    r"mapErrorFile": "`tspace map-error`, which is for C++ and the tool",
+    r"allMaps": "the default of FinishOptions::bake",
 }
 
 # Fields whose default in C is zero (regular expressions) -> how it is that of C++.
@@ -66,6 +68,10 @@ PHRASES = {
     r"those of heightToNormal and of convertMapFile": "those of readers of models; CANNOT_READ, CANNOT_WRITE, "
     "UNSUPPORTED_FILE, INVALID_FILE (an image that cannot be read), INVALID_OPTION, TOO_LARGE, OUT_OF_MEMORY",
     r"those of convertMapFile, and invalidOption": "those of tspace_heightToNormalFile, and INVALID_OPTION",
+    r"those of bakeMap, but for rays that meet nothing, which are findings; and": "MISSING_ATTRIBUTE (a low poly without "
+    "UVs), INVALID_OPTION, OUT_OF_MEMORY; rays that meet nothing are findings. Also",
+    r"Error::element is a BakeInput: `high` for the input and `low` for the low poly\.": "tspace_Error.element is 1 where "
+    "it is about the input, and 0 where about the low poly.",
     r"`?(crease|denoise)_auto`?": "-1",
     r"mesh\.vertexCount\(\)": "mesh->positions.count",
     r"Returns null for any other name\.": "INVALID_OPTION for any other name.",

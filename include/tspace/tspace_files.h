@@ -159,6 +159,23 @@ tspace_ErrorCode tspace_compressMapFile(const char* input, const char* output, c
 tspace_ErrorCode tspace_compressMapBytes(const uint8_t* data, size_t size, const char* options, tspace_Bytes* output,
                                          tspace_Bytes* report, tspace_Error* error) TSPACE_NOEXCEPT;
 
+/* Bakes the maps of `low` from `high`; the normal map is `output`, a PNG. A low poly of several materials gives a
+ * file each: NAME.MATERIAL.png. All files appear at once or not at all. Errors: MISSING_ATTRIBUTE (a low poly
+ * without UVs), INVALID_OPTION, OUT_OF_MEMORY; rays that meet nothing are findings. Also CANNOT_READ, INVALID_FILE,
+ * UNSUPPORTED_FILE (also a build that writes no PNG), FORBIDDEN_PATH, TOO_LARGE, CANNOT_WRITE.
+ * In C: options of `tspace bake`, report tspace.bake/1. tspace_Error.element says which file it is about: 0 is the
+ * low poly, 1 the high poly, 2 the cage, 4 the image of skew. */
+tspace_ErrorCode tspace_bakeFile(const char* low, const char* high, const char* output, const char* options,
+                                 tspace_Bytes* report, tspace_Error* error) TSPACE_NOEXCEPT;
+
+/* Reads `input` (any format), and writes `output`, a GLB. Right normals and tangents stay; where nothing is wrong a
+ * GLB is copied byte for byte. Maps stand beside the output, OUT_normal.png, OUT_ao.png and so on, and those that
+ * glTF has a place for in it too. All files appear at once or not at all. Errors: those of tspace_generateFile and
+ * tspace_bakeFile; tspace_Error.element is 1 where it is about the input, and 0 where about the low poly.
+ * In C: options of `tspace finish`, report tspace.finish/1. */
+tspace_ErrorCode tspace_finishFile(const char* input, const char* output, const char* options, tspace_Bytes* report,
+                                   tspace_Error* error) TSPACE_NOEXCEPT;
+
 #ifdef __cplusplus
 }
 #endif

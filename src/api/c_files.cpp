@@ -3,9 +3,11 @@
 #include <chrono>
 
 #include "api/c_call.h"
+#include "commands/bake/bake_report.h"
 #include "commands/check/check_report.h"
 #include "commands/compress_map/compress_map_report.h"
 #include "commands/diff/diff_report.h"
+#include "commands/finish/finish_report.h"
 #include "commands/flip_green/flip_green_report.h"
 #include "commands/generate/generate_report.h"
 #include "commands/height_to_normal/height_to_normal_report.h"
@@ -18,6 +20,10 @@ using namespace tspace::c_files;  // NOLINT
 using report::ExitCode;
 
 namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 /// The value of a Result, which stays, or its error thrown.
 template <class Value>
@@ -44,12 +50,11 @@ void readGenerateOptions(const char* text, GenerateOptions& options) {
 }
 
 void generate(const std::string& input, const std::string& output, const GenerateOptions& options, tspace_Bytes* json) {
-    using Clock = std::chrono::steady_clock;
     const Clock::time_point start = Clock::now();
     report::GenerateOutcome outcome{.input = input, .output = output, .is_dry_run = options.dry_run};
     outcome.result = generateFile(input, output, options);
     throwError(outcome.result);
-    outcome.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    outcome.seconds = secondsSince(start);
     if (json != nullptr) giveReport(report::generateJson({outcome}, ExitCode::done, outcome.seconds), json);
 }
 
@@ -123,6 +128,16 @@ void readCompressMapOptions(const char* text, CompressMapFileOptions& options) {
 void readFlipGreenOptions(const char* text, FlipGreenOptions& options) {
     options::Given given;
     readOptions(options::flipGreenOptions(options), text, given);
+}
+
+void readBakeOptions(const char* text, BakeFileOptions& options) {
+    options::Given given;
+    readOptions(options::bakeOptions(options), text, given);
+}
+
+void readFinishOptions(const char* text, FinishOptions& options) {
+    options::Given given;
+    readOptions(options::finishOptions(options), text, given);
 }
 
 }  // namespace
@@ -302,6 +317,37 @@ tspace_ErrorCode tspace_compressMapBytes(const uint8_t* data, size_t size, const
         };
         compressMap("map", "map.ktx2", chosen, report);
         bytes.giveTo(output);
+    });
+}
+
+tspace_ErrorCode tspace_bakeFile(const char* low, const char* high, const char* output, const char* options,
+                                 tspace_Bytes* report, tspace_Error* error) noexcept {
+    return atCallBorder(error, {report}, [&] {
+        const std::string from = neededText(low, "low"), seen = neededText(high, "high");
+        const std::string to = neededText(output, "output");
+        BakeFileOptions chosen;
+        readBakeOptions(options, chosen);
+        const Clock::time_point start = Clock::now();
+        report::Outcome<BakeFileReport> outcome{.input = from, .output = to};
+        outcome.result = bakeFile(from, seen, to, chosen);
+        throwError(outcome.result);
+        outcome.seconds = secondsSince(start);
+        giveReport(report::bakeJson(outcome, seen, report::exitCodeOf(*outcome.result)), report);
+    });
+}
+
+tspace_ErrorCode tspace_finishFile(const char* input, const char* output, const char* options, tspace_Bytes* report,
+                                   tspace_Error* error) noexcept {
+    return atCallBorder(error, {report}, [&] {
+        const std::string from = neededText(input, "input"), to = neededText(output, "output");
+        FinishOptions chosen;
+        readFinishOptions(options, chosen);
+        const Clock::time_point start = Clock::now();
+        report::Outcome<FinishReport> outcome{.input = from, .output = to};
+        outcome.result = finishFile(from, to, chosen);
+        throwError(outcome.result);
+        outcome.seconds = secondsSince(start);
+        giveReport(report::finishJson(outcome, chosen.low, report::exitCodeOf(*outcome.result)), report);
     });
 }
 

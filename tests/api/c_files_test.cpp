@@ -4,30 +4,14 @@
 
 #include <functional>
 #include <map>
-#include <regex>
 
+#include "api/made_bytes.h"
 #include "model/json/json.h"
 #include "support/shared_data.h"
 #include "tool/run_tool.h"
-#include "tspace/tspace_files.h"
 
 namespace tspace::test {
 namespace {
-
-/// Bytes of the library, freed with this.
-struct Made {
-    tspace_Bytes bytes = {};
-    Made() = default;
-    Made(const Made&) = delete;
-    Made& operator=(const Made&) = delete;
-    ~Made() { tspace_destroyBytes(&bytes); }
-    [[nodiscard]] std::string text() const {
-        const std::string text(reinterpret_cast<const char*>(bytes.data), bytes.size);
-        EXPECT_EQ(reportFaults(text), "");
-        return text;
-    }
-    [[nodiscard]] bool isEmpty() const { return bytes.data == nullptr && bytes.size == 0; }
-};
 
 /// A model in memory with the files of its folder.
 class MemoryModel {
@@ -78,11 +62,6 @@ class MemoryModel {
 
     std::string name_, bytes_;
 };
-
-/// The seconds that something took are the only thing that differs from run to run.
-std::string withoutSeconds(const std::string& json) {
-    return std::regex_replace(json, std::regex("\"seconds\": [0-9.e+-]+"), "\"seconds\": 0");
-}
 
 std::vector<std::filesystem::path> someModels() {
     std::vector<std::filesystem::path> models;

@@ -53,7 +53,7 @@ ExitCode runBake(const BakeArguments& arguments) {
     if (!result && wasInterrupted()) endByInterrupt();
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
     ExitCode exit_code =
-        result ? (result->findings.empty() ? ExitCode::done : ExitCode::findings)
+        result ? report::exitCodeOf(*result)
                : printErrorOfFiles({arguments.low, arguments.high, options.cage, "", options.skew}, result.error());
     // Who reads no report shall see why there is no map.
     if (result && result->output_files.empty()) {

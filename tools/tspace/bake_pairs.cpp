@@ -181,7 +181,7 @@ class PairsRun {
             done.exit_code = printErrorOfFiles({done.outcome.input, done.high}, done.outcome.result.error());
         } else {
             const std::vector<std::string>& findings = done.outcome.result->findings;
-            if (!findings.empty()) done.exit_code = ExitCode::findings;
+            done.exit_code = report::exitCodeOf(*done.outcome.result);
             if (done.outcome.result->output_files.empty()) {
                 for (const std::string& finding : findings) printRemark(finding);
             }

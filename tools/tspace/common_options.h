@@ -11,9 +11,8 @@
 
 namespace tspace::tool {
 
-/// Headings in help. Options under these decide how a command runs, not what it finds or writes.
+/// A heading in help. Options under it decide how a command runs, not what it finds or writes.
 inline constexpr const char* kManyFiles = "Many files";
-inline constexpr const char* kReporting = "Reporting";
 
 void addInputs(Command& command, std::vector<std::string>& inputs);
 void addBatch(Command& command, BatchArguments& batch, bool with_manifest);

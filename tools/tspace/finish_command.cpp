@@ -38,11 +38,6 @@ Result<FinishReport> finish(const FinishArguments& arguments, InputFiles& read, 
     return finishFile(arguments.input, arguments.output, options);
 }
 
-ExitCode exitCodeOf(const FinishReport& report) {
-    const bool has_findings = report.check.error_count != 0 || (report.bake && !report.bake->findings.empty());
-    return has_findings ? ExitCode::findings : ExitCode::done;
-}
-
 ExitCode runFinish(const FinishArguments& arguments) {
     const FinishOptions& options = arguments.options;
     const std::string& about_low = options.low.empty() ? arguments.input : options.low;
@@ -57,7 +52,8 @@ ExitCode runFinish(const FinishArguments& arguments) {
     const Result<FinishReport> result = finish(arguments, read, origin ? *origin : PageOrigin{});
     if (!result && wasInterrupted()) endByInterrupt();
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
-    ExitCode exit_code = result ? exitCodeOf(*result) : printErrorOfFiles({about_low, arguments.input}, result.error());
+    ExitCode exit_code =
+        result ? report::exitCodeOf(*result) : printErrorOfFiles({about_low, arguments.input}, result.error());
     // Who reads no report shall see why there is no model.
     if (result && result->output_files.empty()) {
         for (const std::string& finding : result->bake->findings) printRemark(finding);
@@ -104,11 +100,6 @@ Command finishCommand() {
                                 "OUT_normal.png and so on; those that glTF has a place for are in it too."));
     output.is_file = output.is_required = true;
     command.add(finishOptions(arguments.options));
-    command
-        .add(kReporting, text("--html", "PAGE", arguments.options.page,
-                              "Also write a page for people, with pictures before and after, and what check finds. It "
-                              "needs no other file."))
-        .is_file = true;
     command.add(kReporting, text("--report", "JSON", arguments.report, "Also write the result as JSON to this file."))
         .is_file = true;
     addReporting(command, arguments.json, arguments.quiet);

@@ -2,6 +2,7 @@
 """The ctypes declarations against the C headers: every struct, field, number and count of parameters."""
 
 import ctypes
+import inspect
 import re
 import shutil
 import subprocess
@@ -72,13 +73,19 @@ class Names(unittest.TestCase):
                 "flipGreen": tspace.flip_green_bytes,
                 "heightToNormal": tspace.height_to_normal_file,
                 "compressMap": tspace.compress_map_file,
+                "bake": tspace.bake_file,
+                "finish": tspace.finish_file,
             }.get(verb)
             paths = ("none.png", "none.ktx2")
-            models = {"diff": (b"", b""), "heightToNormal": paths, "compressMap": paths}.get(verb, (b"",))
+            models = {"diff": (b"", b""), "heightToNormal": paths, "compressMap": paths}
+            models.update({"bake": ("none.glb", "none.glb", "none.png"), "finish": ("none.glb", "no_output.glb")})
+            models = models.get(verb, (b"",))
             has = {name for name in names if self.knows(call or getattr(tspace, verb), models, name)}
             self.assertEqual(has, set(known.split()), verb)
 
     def knows(self, call, models, option):
+        if option in inspect.signature(call).parameters:
+            return False  # a path of the call, such as `low`
         with mock.patch.object(_files, "_check_names"), self.assertRaises(tspace.Error) as caught:
             call(*models, **{option: "\1"})
         return "there is no option" not in str(caught.exception)

@@ -3,6 +3,7 @@
 
 import errno
 import gc
+import math
 import os
 import tempfile
 import unittest
@@ -130,6 +131,92 @@ class Generate(Files):
             tspace.compress_map_bytes(normal.read_bytes(), format="uastc")
 
 
+def sheet(cells, bump, with_uvs):
+    """An OBJ of cells x cells quads over the unit square, lifted by bumps."""
+    at = [(x / cells, y / cells) for y in range(cells + 1) for x in range(cells + 1)]
+    lines = ["s 1"] + [f"v {x} {y} {bump * math.sin(12 * x) * math.sin(9 * y)}" for x, y in at]
+    lines += [f"vt {x} {y}" for x, y in at] if with_uvs else []
+    for corner in (y * (cells + 1) + x + 1 for y in range(cells) for x in range(cells)):
+        vertices = (corner, corner + 1, corner + cells + 2, corner + cells + 1)
+        lines.append("f " + " ".join(f"{v}/{v}" if with_uvs else str(v) for v in vertices))
+    return "\n".join(lines) + "\n"
+
+
+class Bakes(Files):
+    def setUp(self):
+        super().setUp()
+        self.low, self.high = self.folder / "low.obj", self.folder / "high.obj"
+        self.low.write_text(sheet(4, 0, True))
+        self.high.write_text(sheet(40, 0.02, False))
+
+    def need_rays(self):
+        """Skips where Embree is not there."""
+        try:
+            tspace.bake_file(self.low, self.high, self.folder / "small.png", size=8)
+        except tspace.FileError as error:
+            if "Embree" not in str(error):
+                raise
+            self.skipTest(str(error))
+
+    def test_a_high_poly_becomes_maps(self):
+        self.need_rays()
+        normal = self.folder / "normal.png"
+        report = tspace.bake_file(self.low, str(self.high), normal, size="32x16", bits=8, maps=["normal", "ao"], samples=16)
+        baked = report.files[0]
+        self.assertEqual((report.exit_code, report.low_triangles, report.findings), (0, 32, []))
+        self.assertEqual((baked.width, baked.height, baked.bits, baked.texels.missed), (32, 16, 8, 0))
+        self.assertLess(baked.error.mean_deg, 5)
+        self.assertEqual([layer.map for layer in baked.maps], ["ao"])
+        self.assertEqual(report.output_files, [str(normal), str(self.folder / "normal_ao.png")])
+        for path in report.output_files:
+            self.assertEqual(Path(path).read_bytes()[1:4], b"PNG")
+        content = normal.read_bytes()
+        tspace.bake_file(self.low, self.high, normal, size="32x16", bits=8, threads=2)
+        self.assertEqual(normal.read_bytes(), content)
+
+    def test_a_bake_that_meets_nothing_says_why_and_writes_nothing(self):
+        self.need_rays()
+        far = self.folder / "far.obj"
+        far.write_text("".join(f"v {x} {y} 1000\n" for x, y in ((0, 0), (1, 0), (0, 1))) + "f 1 2 3\n")
+        report = tspace.bake_file(self.low, far, self.folder / "normal.png", size=32, reach=0.1)
+        self.assertEqual((report.exit_code, report.output_files), (1, []))
+        self.assertNotEqual(report.findings, [])
+        self.assertFalse((self.folder / "normal.png").exists())
+
+    def test_a_model_without_normals_is_finished(self):
+        output, page = self.folder / "out.glb", self.folder / "page.html"
+        report = tspace.finish_file(self.low, output, html=page)
+        self.assertEqual((report.exit_code, report.bake, report.low), (0, None, ""))
+        self.assertEqual(report.output_files, [str(output), str(page)])
+        self.assertEqual(report.output_bytes, output.stat().st_size)
+        model = report.models[0]
+        self.assertTrue(model.made.primitives[0].normals_generated)
+        self.assertEqual((model.made.exit_code, model.before.exit_code, report.check.exit_code), (0, 0, 0))
+        self.assertEqual([finding.code for finding in report.check], [finding.code for finding in tspace.check(output)])
+        self.assertEqual([finding.code for finding in model.before], [finding.code for finding in tspace.check(self.low)])
+
+    def test_a_low_poly_is_finished_with_all_maps(self):
+        self.need_rays()
+        output = self.folder / "out.glb"
+        report = tspace.finish_file(self.high, output, low=self.low, size=32, samples=4)
+        self.assertEqual((len(report.models), report.low, report.bake.files[0].width), (2, str(self.low), 32))
+        self.assertEqual(report.bake.high, str(self.high))
+        self.assertTrue(all(Path(path).exists() for path in report.output_files))
+
+    def test_wrong_calls_say_what_is_wrong(self):
+        out = self.folder / "out.png"
+        with self.assertRaisesRegex(tspace.UnknownOptionError, "size"):
+            tspace.bake_file(self.low, self.high, out, sise=32)
+        with self.assertRaisesRegex(tspace.UnknownOptionError, "crease"):
+            tspace.finish_file(self.high, self.folder / "out.glb", high=self.high)
+        with self.assertRaisesRegex(tspace.InputError, "^size 0: must"):
+            tspace.bake_file(self.low, self.high, out, size=0)
+        with self.assertRaises(tspace.FileError) as caught:
+            tspace.finish_file(self.high, self.folder / "out.gltf")
+        self.assertEqual(caught.exception.code, "unsupportedFile")
+        self.assertEqual(list(self.folder.glob("out*")), [])
+
+
 class Failures(Files):
     def test_what_is_not_there_is_a_file_not_found_error_with_its_name(self):
         missing = str(self.folder / "none.glb")
@@ -142,6 +229,8 @@ class Failures(Files):
             lambda: tspace.diff(missing, missing),
             lambda: tspace.flip_green_file(missing, self.folder / "out.png"),
             lambda: tspace.height_to_normal_file(missing, self.folder / "out.png"),
+            lambda: tspace.bake_file(missing, missing, self.folder / "out.png"),
+            lambda: tspace.finish_file(missing, output),
         )
         for call in calls:
             with self.assertRaises(FileNotFoundError) as caught:

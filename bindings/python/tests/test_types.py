@@ -25,6 +25,8 @@ reveal_type(tspace.generate_bytes(b"").report.json)
 reveal_type(tspace.generate_bytes(b"").report.totals.actions.generated)
 reveal_type(tspace.inspect("a.glb").primitives[0].tangent_uses)
 reveal_type(tspace.diff("a.glb", "b.glb").primitives[0].a)
+reveal_type(tspace.bake_file("a.glb", "b.glb", "c.png", maps=["ao"], size=64, bits=8).files[0].maps)
+reveal_type(tspace.finish_file("a.glb", "b.glb", low="c.glb").models[0].made.totals.primitives)
 open("a.glb", "wb").write(tspace.generate_bytes(b""))
 reveal_type(tspace.pack_frames(a, a))
 tspace.tangents(a.tolist(), a, [[1.0, 2.0]], [[0, 1, 2]], convention="gltf", threads="all")
@@ -42,6 +44,8 @@ tspace.split([0, 1, 2], 3, a)
 tspace.pack_frames(a, a, "frame31")
 tspace.check("a.glb", fail_onn="error")
 tspace.generate_file("a.glb", "b.glb", crease="60")
+tspace.bake_file("a.glb", "b.glb", "c.png", maps=["light"])
+tspace.finish_file("a.glb", "b.glb", high="c.glb")
 """
 # As numpy 1 and 2 have them, whose names for bits differ.
 FLOATS = "numpy.ndarray[Any, numpy.dtype[numpy.floating[numpy._typing._32Bit]]]"
@@ -57,6 +61,8 @@ REVEALED = [
     "builtins.int",
     "builtins.list[tspace._file_reports.TangentUse]",
     "Union[tspace._file_reports.DiffedSide, None]",
+    "builtins.list[tspace._file_reports.BakedLayer]",
+    "builtins.int",
     NUMBERS.format(8),
 ]
 
@@ -83,6 +89,7 @@ class FileCalls(unittest.TestCase):
         verbs = {"generate_file": "generate", "generate_bytes": "generate", "flip_green_file": "flipGreen"}
         verbs.update({"flip_green_bytes": "flipGreen", "height_to_normal_file": "heightToNormal"})
         verbs.update({"compress_map_file": "compressMap", "compress_map_bytes": "compressMap"})
+        verbs.update({"bake_file": "bake", "finish_file": "finish"})
         verbs.update({name: name for name in ("check", "identify", "inspect", "diff")})
         tree = ast.parse((Path(tspace.__file__).parent / "_file_calls.pyi").read_text())
         functions = {node.name: node for node in tree.body if isinstance(node, ast.FunctionDef)}

@@ -11,6 +11,10 @@
 
 namespace tspace::report {
 
+/// Of a bake that was done.
+inline ExitCode exitCodeOf(const BakeFileReport& report) {
+    return report.findings.empty() ? ExitCode::done : ExitCode::findings;
+}
 Json bakeDocument(const Outcome<BakeFileReport>& outcome, const std::string& high, ExitCode exit_code);
 std::string bakeJson(const Outcome<BakeFileReport>& outcome, const std::string& high, ExitCode exit_code);
 /// Of a bake that was done. `out_mesh`: as BakeFileOptions::out_mesh.

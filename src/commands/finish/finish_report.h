@@ -21,6 +21,11 @@ std::string finishPage(const FinishReport& report, const std::string& output_pat
 
 namespace tspace::report {
 
+/// Of a model that was finished.
+inline ExitCode exitCodeOf(const FinishReport& report) {
+    const bool has_findings = report.check.error_count != 0 || (report.bake && !report.bake->findings.empty());
+    return has_findings ? ExitCode::findings : ExitCode::done;
+}
 std::string finishJson(const Outcome<FinishReport>& outcome, const std::string& low, ExitCode exit_code);
 std::string finishText(const Outcome<FinishReport>& outcome);
 

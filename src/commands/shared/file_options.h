@@ -27,9 +27,10 @@ inline constexpr Named<Faces> kFaces[] = {
     {"auto", Faces::automatic},
 };
 
-/// Headings in help. What stands under the last decides how a call runs, not what it finds or writes.
+/// Headings in help. What stands under the last two decides how a call runs, not what it finds or writes.
 inline constexpr const char* kInputAndOutput = "Input and output";
 inline constexpr const char* kRunning = "Running";
+inline constexpr const char* kReporting = "Reporting";
 
 /// A program whose reading of normal maps is meant: the names of findMapReading.
 Option readingOption(const char* names, MapReading& target, HelpText help);

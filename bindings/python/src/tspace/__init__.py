@@ -53,6 +53,8 @@ Model files (glTF, GLB, OBJ), on disk or in memory
     flip_green_file, flip_green_bytes   inverts the green channel of a normal map
     height_to_normal_file               makes a normal map of a height map
     compress_map_file, compress_map_bytes   packs a normal map as a texture for engines
+    bake_file       bakes the maps of a low poly from a high poly
+    finish_file     makes a mesh of a generator or a scanner ready, with all maps
 
 Arrays
     Positions and normals have shape (vertices, 3), UVs (vertices, 2), indices (corners,) or (faces, k); units are yours, angles
@@ -78,10 +80,12 @@ from typing import TYPE_CHECKING as _TYPE_CHECKING
 from ._abi import library as _library
 from ._errors import Error, FileError, IndexRangeError, InputError, ReadWriteError, UnknownOptionError
 from ._files import (
+    BakeReport,
     CheckReport,
     CompressMapReport,
     DiffReport,
     Finding,
+    FinishReport,
     FlipGreenReport,
     HeightToNormalReport,
     Generated,
@@ -103,10 +107,12 @@ from ._winding import WindingResult, mend_winding
 # Type checkers see each option of the functions of files; at run time an unknown one is an error that lists them.
 if _TYPE_CHECKING:
     from ._file_calls import (
+        bake_file,
         check,
         compress_map_bytes,
         compress_map_file,
         diff,
+        finish_file,
         flip_green_bytes,
         flip_green_file,
         generate_bytes,
@@ -117,10 +123,12 @@ if _TYPE_CHECKING:
     )
 else:
     from ._files import (
+        bake_file,
         check,
         compress_map_bytes,
         compress_map_file,
         diff,
+        finish_file,
         flip_green_bytes,
         flip_green_file,
         generate_bytes,
@@ -134,6 +142,7 @@ _number = _library.tspace_version()
 __version__ = f"{_number // 10000}.{_number // 100 % 100}.{_number % 100}"
 
 __all__ = [
+    "BakeReport",
     "CheckReport",
     "CompressMapReport",
     "Convention",
@@ -141,6 +150,7 @@ __all__ = [
     "Error",
     "FileError",
     "Finding",
+    "FinishReport",
     "FlipGreenReport",
     "HeightToNormalReport",
     "GenerateReport",
@@ -168,10 +178,12 @@ __all__ = [
     "UnknownOptionError",
     "WindingReport",
     "WindingResult",
+    "bake_file",
     "check",
     "compress_map_bytes",
     "compress_map_file",
     "diff",
+    "finish_file",
     "flip_green_bytes",
     "flip_green_file",
     "generate_bytes",

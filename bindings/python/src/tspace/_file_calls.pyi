@@ -4,13 +4,24 @@ test compares the names."""
 
 from typing import Literal, Optional, Sequence, Union
 
-from ._file_reports import CompressMapReport, DiffReport, FlipGreenReport, HeightToNormalReport, InspectReport
+from ._file_reports import (
+    BakeReport,
+    CompressMapReport,
+    DiffReport,
+    FinishReport,
+    FlipGreenReport,
+    HeightToNormalReport,
+    InspectReport,
+)
 from ._files import BytesLike, CheckReport, FindFile, Generated, IdentifyReport, PathLike
 from ._generate_report import GenerateReport
 from ._types import DegreesOrAuto, MethodName, PairingName, PresetName
 
 Severity = Literal["note", "warning", "error"]
 Size = Union[int, str]
+MapName = Literal[
+    "normal", "ao", "bent", "curvature", "height", "position", "thickness", "id", "color", "orm", "emission"
+]
 
 def generate_file(
     input: PathLike,
@@ -221,3 +232,82 @@ def compress_map_bytes(
     memory_limit: Size = ...,
     import_seconds: float = ...,
 ) -> Generated[CompressMapReport]: ...
+def bake_file(
+    low: PathLike,
+    high: PathLike,
+    output: PathLike,
+    *,
+    match: PathLike = ...,
+    maps: Union[str, Sequence[MapName]] = ...,
+    samples: int = ...,
+    ao_distance: float = ...,
+    height_range: float = ...,
+    curvature_range: float = ...,
+    thickness_range: float = ...,
+    id: Literal["material", "object", "shell"] = ...,
+    size: Size = ...,
+    bits: Literal[8, 16] = ...,
+    padding: int = ...,
+    overlap: Literal["mean", "first", "larger"] = ...,
+    wrap: bool = ...,
+    high_green: Literal["up", "down"] = ...,
+    ignore_high_maps: bool = ...,
+    rays: Literal["outermost", "nearest"] = ...,
+    directions: Literal["auto", "averaged", "normals"] = ...,
+    cage_offset: float = ...,
+    reach: float = ...,
+    out_mesh: PathLike = ...,
+    misses: PathLike = ...,
+    heat: PathLike = ...,
+    space: Literal["tangent", "object"] = ...,
+    axes: str = ...,
+    convention: Union[PresetName, Literal["three"]] = ...,
+    unit: bool = ...,
+    fit: Literal["solve", "texel"] = ...,
+    udim: bool = ...,
+    skew: PathLike = ...,
+    cage: PathLike = ...,
+    method: MethodName = ...,
+    denoise: DegreesOrAuto = ...,
+    threads: int = ...,
+    no_sync: bool = ...,
+    allow_external: bool = ...,
+    memory_limit: Size = ...,
+    import_seconds: float = ...,
+) -> BakeReport: ...
+def finish_file(
+    input: PathLike,
+    output: PathLike,
+    *,
+    low: PathLike = ...,
+    html: PathLike = ...,
+    normals: Literal["missing", "all", "none"] = ...,
+    crease: DegreesOrAuto = ...,
+    denoise: DegreesOrAuto = ...,
+    keep_winding: bool = ...,
+    keep_coordinates: bool = ...,
+    match: PathLike = ...,
+    maps: Union[str, Sequence[MapName]] = ...,
+    samples: int = ...,
+    ao_distance: float = ...,
+    height_range: float = ...,
+    curvature_range: float = ...,
+    thickness_range: float = ...,
+    id: Literal["material", "object", "shell"] = ...,
+    size: Size = ...,
+    bits: Literal[8, 16] = ...,
+    padding: int = ...,
+    overlap: Literal["mean", "first", "larger"] = ...,
+    wrap: bool = ...,
+    high_green: Literal["up", "down"] = ...,
+    ignore_high_maps: bool = ...,
+    rays: Literal["outermost", "nearest"] = ...,
+    directions: Literal["auto", "averaged", "normals"] = ...,
+    cage_offset: float = ...,
+    reach: float = ...,
+    threads: int = ...,
+    no_sync: bool = ...,
+    allow_external: bool = ...,
+    memory_limit: Size = ...,
+    import_seconds: float = ...,
+) -> FinishReport: ...

@@ -6,10 +6,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import List, Optional, Tuple
 
-from ._report import Report
+from ._generate_report import GenerateReport
+from ._report import Findings, Report
 
 
-class CheckReport(Report):
+class CheckReport(Findings):
     #: Path of the input.
     input: str
     #: The file could be read; it may have findings.
@@ -518,3 +519,210 @@ class CompressMapReport(Report):
     warnings: List[str]
     #: That of the tool: 0, or 1 where something was found.
     exit_code: int
+
+
+class BakeReport(Report):
+    """Maps that were baked."""
+
+    schema: str
+    #: Version of the tool.
+    version: str
+    #: The bake was done; where no ray met anything nothing is written all the same.
+    ok: bool
+    #: Path of the low poly.
+    low: str
+    #: Path of the high poly.
+    high: str
+    #: Path of the output, as it was given.
+    output: str
+    #: Time of the whole run.
+    seconds: float
+    #: Null when ok.
+    error: None
+    low_triangles: int
+    high_triangles: int
+    #: The low poly lacked normals or tangents, which were made.
+    frames_made: bool
+    #: Objects of the low poly saw their own of the high poly alone.
+    matched_by_name: bool
+    #: Normal maps of the high poly that were baked through.
+    high_maps: List[HighMap]
+    #: One entry per map.
+    files: List[BakedMap]
+    #: Paths of everything that was written.
+    output_files: List[str]
+    #: What makes maps useless, with the cause where it was found; the exit code is 1 where there is one.
+    findings: List[str]
+    #: Sentences for a person.
+    warnings: List[str]
+    #: That of the tool: 0, or 1 where something was found.
+    exit_code: int
+
+
+class HighMap(Report):
+    #: Its URI or name in the high poly.
+    image: str
+    #: The first material that shows it; may be empty.
+    material: str
+    #: Of x and y.
+    scale: float
+    #: Which way green points.
+    green: str
+    #: How that is known: as the format has it, by "--high-green", by the file, or by the slopes of the map.
+    green_is: str
+    #: Triangles of the high poly that show it.
+    triangles: int
+
+
+class BakedMap(Report):
+    #: Path of the normal map; empty where "--maps" does not ask for it.
+    path: str
+    #: Its material's name; may be empty.
+    material: str
+    #: With "--udim" 1001 and on; else 0.
+    tile: int
+    width: int
+    height: int
+    #: Of a channel of the normal map.
+    bits: int
+    #: Of the low poly.
+    triangles: int
+    #: Texels by what became of them.
+    texels: BakedTexels
+    #: How far apart the normals are that triangles want in conflicting texels, in the mean; 0 without.
+    conflict_mean_deg: float
+    #: The largest of these angles.
+    conflict_max_deg: float
+    #: Triangles of the material with UVs outside of 0 to 1, which have no say.
+    outside_triangles: int
+    #: Triangles without UV area, or whose UVs are not finite.
+    degenerate_uvs: int
+    #: Which front counted: "outermost" or "nearest"; "cage": the first from the cage of its own.
+    rays: str
+    #: Where rays pointed: as "--directions", or by the image ("skew") or the cage ("cage").
+    directions: str
+    #: How far rays went from the low poly, in units of the models.
+    reach: float
+    #: How far from the low poly's faces rays began; 0 with a cage of its own.
+    cage_offset: float
+    #: The angles between what the map shows and the outermost front of the high poly; null without a normal map.
+    error: Optional[MapAngles]
+    #: With "--rays nearest" the angles to what its own rays met; else null.
+    own_error: Optional[MapAngles]
+    #: With "--heat": what white stands for; else 0.
+    heat_top_deg: float
+    #: The other maps that "--maps" asks for, in its order.
+    maps: List[BakedLayer]
+
+
+class BakedTexels(Report):
+    #: Texels whose centre lies in a triangle and whose line met the high poly.
+    baked: int
+    #: Those whose line met nothing; filled from around.
+    missed: int
+    #: Texels that continue the nearest triangle.
+    padding: int
+    #: Texels whose centre lies inside of several triangles.
+    overlapping: int
+    #: Those of them whose triangles want normals over 2 degrees apart.
+    conflicting: int
+
+
+class MapAngles(Report):
+    #: Points that met the high poly.
+    points: int
+    #: Points whose ray met no front of it; each counts as 90 degrees.
+    missed: int
+    #: Points whose ray met another front of the high poly further out than the one that counts.
+    hidden: int
+    #: Points whose ray went through a back of the high poly before the front that counts, or met backs alone.
+    backs: int
+    #: Points that met a front whose normal points inwards.
+    inward: int
+    #: The mean of the angles between shaded normal and high poly, of all points.
+    mean_deg: float
+    #: The mean of the points that met the high poly.
+    met_mean_deg: float
+    #: What 99 % of them are below.
+    p99_deg: float
+    #: The largest.
+    max_deg: float
+    #: Points within a texel of a border of the UV map.
+    seam_points: int
+    #: Their mean.
+    seam_mean_deg: float
+    #: That of the others.
+    inside_mean_deg: float
+
+
+class BakedLayer(Report):
+    #: Which map: its name in "--maps".
+    map: str
+    #: Path of its file.
+    path: str
+    #: Of a channel.
+    bits: int
+    #: Its numbers have the sRGB curve.
+    srgb: bool
+    #: What 0 of each of the three channels stands for: lengths in units of the models, of "curvature" 1 / length.
+    black: List[float]
+    #: What the largest number of each channel stands for.
+    white: List[float]
+    #: Of "id": how many materials, objects or shells the high poly has; else 0.
+    id_count: int
+    #: Of "id": the first 256 of them; else empty.
+    ids: List[BakedId]
+
+
+class BakedId(Report):
+    #: Of the material or object; empty for shells.
+    name: str
+    #: Its colour in the map: "#rrggbb".
+    color: str
+
+
+class FinishReport(Report):
+    """A model that was made ready: "tspace finish" (finish)."""
+
+    schema: str
+    #: Version of the tool.
+    version: str
+    #: Nothing failed; where no ray of a bake met anything nothing is written all the same.
+    ok: bool
+    #: Path of the input.
+    input: str
+    #: Path of the low poly; empty without.
+    low: str
+    #: Path of the output, as it was given.
+    output: str
+    #: Time of the whole run.
+    seconds: float
+    #: Null when ok.
+    error: None
+    #: The input, and with "--low" the low poly.
+    models: List[FinishedModel]
+    #: What "check" finds in the output; null where nothing was written.
+    check: Optional[CheckReport]
+    #: With "--low" the report of the bake, as tspace.bake/1; else null.
+    bake: Optional[BakeReport]
+    #: Paths of everything that was written, the model first, but for the file of "--report".
+    output_files: List[str]
+    #: Of the model.
+    output_bytes: int
+    #: What could not be done, and what does it: sentences for a person.
+    remarks: List[str]
+    #: That of the tool: 0, or 1 where something was found.
+    exit_code: int
+
+
+class FinishedModel(Report):
+    #: Winding, normals and tangents that were made; names no output.
+    made: GenerateReport
+    #: What "check" finds in the file as it was.
+    before: CheckReport
+    #: The same in sentences for a person.
+    done: List[str]
+    #: Primitives with triangles and without UVs.
+    without_uvs: int
+    #: Triangles that stay as they are wound, because the normals that are there fit them so.
+    left_winding: int

@@ -1,18 +1,28 @@
 # SPDX-License-Identifier: MIT
-"""Model files: generate, check, identify, diff, inspect, flip green, heights to normals, textures. Each is one function of the C API."""
+"""Model files: generate, check, identify, diff, inspect, finish, and normal maps. Each is one function of the C API."""
 
 import ctypes
 import json
 import os
 import re
 from ctypes import byref
-from typing import Any, Callable, Dict, Generic, Iterator, List, Mapping, Optional, TypeVar, Union
+from typing import Any, Callable, Dict, Generic, List, Mapping, Optional, TypeVar, Union
 
 import numpy
 
 from . import _abi, _file_reports, _files_abi
 from ._errors import InputError, UnknownOptionError, raise_error, shown
-from ._file_reports import CompressMapReport, DiffReport, Finding, FlipGreenReport, HeightToNormalReport, InspectReport
+from ._file_reports import (
+    BakeReport,
+    CheckReport,
+    CompressMapReport,
+    DiffReport,
+    FinishReport,
+    Finding,
+    FlipGreenReport,
+    HeightToNormalReport,
+    InspectReport,
+)
 from ._generate_report import GenerateReport
 from ._report import Report
 
@@ -27,6 +37,10 @@ _NAME_IT = b'. An OBJ is told by its name: name="model.obj"'
 
 # What each function takes, by the name in its C functions.
 _LIMITS = "allow_external memory_limit import_seconds"
+_BAKED = (
+    "match maps samples ao_distance height_range curvature_range thickness_range id size bits padding overlap wrap high_green"
+    " ignore_high_maps rays directions cage_offset reach"
+)
 _OPTIONS = {
     "generate": "all only_missing overwrite repair strip method faces pairing threshold frame refine texture_transform"
     " bitangents convention format pack pack_drop normals crease denoise normals_per_primitive overwrite_normals morph_normals compress flip_green mend_maps"
@@ -39,17 +53,9 @@ _OPTIONS = {
     "heightToNormal": f"strength mesh material clamp convention bits method dry_run threads no_sync {_LIMITS}",
     "compressMap": "format quality signed mips no_levels zstd bits roughness roughness_output roughness_factor"
     " dry_run threads no_sync memory_limit import_seconds",
+    "bake": f"{_BAKED} out_mesh misses heat space axes convention unit fit udim skew cage method denoise threads no_sync {_LIMITS}",
+    "finish": f"low html normals crease denoise keep_winding keep_coordinates {_BAKED} threads no_sync {_LIMITS}",
 }
-
-
-class CheckReport(_file_reports.CheckReport):
-    """What `check` found: `for finding in tspace.check(path): ...`; `len` counts findings, so none is False."""
-
-    def __iter__(self) -> Iterator[Finding]:
-        return iter(self.findings)
-
-    def __len__(self) -> int:
-        return len(self.json["findings"])
 
 
 class IdentifyReport(_file_reports.IdentifyReport):
@@ -384,3 +390,49 @@ def compress_map_bytes(data: BytesLike, **options: Any) -> Generated[CompressMap
     view = call.buffer("data", data)
     output, document = call.run("tspace_compressMapBytes", view.ctypes.data, view.size, options=options, has_output=True)
     return Generated.of(output, CompressMapReport(document))
+
+
+def bake_file(low: PathLike, high: PathLike, output: PathLike, **options: Any) -> BakeReport:
+    """Bakes the normal map of a low poly from a high poly, and other maps with it.
+
+    low:     path of the model that the map is for; it needs UVs
+    high:    path of the model with the detail, in the same place
+    output:  path of the normal map, .png; other maps stand beside it
+    options: those of `tspace bake` (docs/bake.md), with underscores:
+             size=2048, maps=["normal", "ao"], samples=256, convention="unreal", out_mesh="low_with_maps.glb"
+
+    `files` of the report says of each map how far it is off, in degrees. A bake whose rays meet nothing writes nothing and is
+    no error: `findings` says why, and `exit_code` is 1.
+    """
+    call = _Call()
+    paths = call.path("low", low), call.path("high", high), call.path("output", output)
+    return BakeReport(call.run("tspace_bakeFile", *paths, options=options))
+
+
+def finish_file(input: PathLike, output: PathLike, **options: Any) -> FinishReport:
+    """Makes a mesh of a generator or a scanner ready: winding, normals, tangents, and with a low poly all maps.
+
+    input:   path of a GLB, glTF or OBJ
+    output:  path of the result, .glb, which may not be the input
+    options: those of `tspace finish` (docs/finish.md), with underscores:
+             low="retopo.glb", size=2048, normals="all", html="page.html"
+
+    `check` of the report is what `tspace.check` finds in the output, `models[0].before` what it finds in the input, and
+    `remarks` says what could not be done.
+    """
+    call = _Call()
+    paths = call.path("input", input), call.path("output", output)
+    return FinishReport(_with_exit_codes(call.run("tspace_finishFile", *paths, options=options)))
+
+
+def _with_exit_codes(document: Dict[str, Any]) -> Dict[str, Any]:
+    """What finish says of single steps, with the exit codes that calls of their own would give."""
+
+    def checked(report: Optional[Dict[str, Any]]) -> Optional[Dict[str, Any]]:
+        return report and {**report, "exitCode": 1 if report["counts"]["error"] else 0}
+
+    models = [
+        {**model, "made": {**model["made"], "exitCode": 0}, "before": checked(model["before"])}
+        for model in document["models"]
+    ]
+    return {**document, "models": models, "check": checked(document["check"])}

@@ -50,6 +50,8 @@ SIGNATURES = {
     "tspace_heightToNormalFile": (c_uint32, _PATH, _PATH, _OPTIONS, *_BACK),
     "tspace_compressMapFile": (c_uint32, _PATH, _PATH, _OPTIONS, *_BACK),
     "tspace_compressMapBytes": (c_uint32, c_void_p, c_size_t, _OPTIONS, POINTER(Bytes), *_BACK),
+    "tspace_bakeFile": (c_uint32, _PATH, _PATH, _PATH, _OPTIONS, *_BACK),
+    "tspace_finishFile": (c_uint32, _PATH, _PATH, _OPTIONS, *_BACK),
     "tspace_flipGreenBytes": (c_uint32, c_void_p, c_size_t, _OPTIONS, POINTER(Bytes), *_BACK),
 }
 

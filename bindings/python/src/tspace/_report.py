@@ -4,7 +4,10 @@
 import re
 from dataclasses import is_dataclass
 from functools import lru_cache
-from typing import Any, Dict, List, Type, get_args, get_type_hints
+from typing import TYPE_CHECKING, Any, Dict, Iterator, List, Type, get_args, get_type_hints
+
+if TYPE_CHECKING:
+    from ._file_reports import Finding
 
 
 class Report:
@@ -34,6 +37,16 @@ class Report:
         """One line: what is long, lists and objects, by how much there is of it."""
         shown = ", ".join(f"{_snake_case(name)}={_brief(value)}" for name, value in self.json.items())
         return f"{type(self).__name__}({shown})"
+
+
+class Findings(Report):
+    """What `check` found: `for finding in tspace.check(path): ...`; `len` counts findings, so none is False."""
+
+    def __iter__(self) -> Iterator["Finding"]:
+        return iter(self.findings)
+
+    def __len__(self) -> int:
+        return len(self.json["findings"])
 
 
 def _brief(value: Any) -> str:

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// What calls of the C API of files gave.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <regex>
+#include <string>
+
+#include "support/report_schema.h"
+#include "tspace/tspace_files.h"
+
+namespace tspace::test {
+
+/// Bytes of the library, freed with this.
+struct Made {
+    tspace_Bytes bytes = {};
+    Made() = default;
+    Made(const Made&) = delete;
+    Made& operator=(const Made&) = delete;
+    ~Made() { tspace_destroyBytes(&bytes); }
+    [[nodiscard]] std::string text() const {
+        const std::string text(reinterpret_cast<const char*>(bytes.data), bytes.size);
+        EXPECT_EQ(reportFaults(text), "");
+        return text;
+    }
+    [[nodiscard]] bool isEmpty() const { return bytes.data == nullptr && bytes.size == 0; }
+};
+
+/// The seconds that something took are the only thing that differs from run to run.
+inline std::string withoutSeconds(const std::string& json) {
+    return std::regex_replace(json, std::regex("\"seconds\": [0-9.e+-]+"), "\"seconds\": 0");
+}
+
+}  // namespace tspace::test
