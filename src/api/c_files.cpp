@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // C API of files: each function reads its options, calls the C++ function of its name, and gives its report as JSON.
 #include <chrono>
+#include <new>
 
 #include "api/c_call.h"
 #include "commands/bake/bake_report.h"
@@ -35,6 +36,16 @@ void giveReport(const std::string& json, tspace_Bytes* to) {
     if (to != nullptr) GrowingBytes(json).giveTo(to);
 }
 
+/// As giveReport, of a call whose output is written: it is done, also where no memory is left to say so.
+template <class MakeJson>
+void giveReportOfOutput(const MakeJson& makeJson, tspace_Bytes* to) {
+    try {
+        if (to != nullptr) giveReport(makeJson(), to);
+    } catch (const std::bad_alloc&) {
+        // `to` stays empty.
+    }
+}
+
 /// "a.b/helmet.gltf" without ".gltf".
 std::string withoutEnding(const std::string& name) {
     const std::size_t dot = name.rfind('.'), slash = name.rfind('/');
@@ -55,7 +66,7 @@ void generate(const std::string& input, const std::string& output, const Generat
     outcome.result = generateFile(input, output, options);
     throwError(outcome.result);
     outcome.seconds = secondsSince(start);
-    if (json != nullptr) giveReport(report::generateJson({outcome}, ExitCode::done, outcome.seconds), json);
+    giveReportOfOutput([&] { return report::generateJson({outcome}, ExitCode::done, outcome.seconds); }, json);
 }
 
 void readCheckOptions(const char* text, options::CheckRequest& request) {
@@ -116,7 +127,7 @@ void compressMap(const std::string& input, const std::string& output, const Comp
     report::Outcome<CompressMapFileReport> outcome{.input = input, .output = output, .is_dry_run = options.dry_run};
     outcome.result = compressMapFile(input, output, options);
     throwError(outcome.result);
-    giveReport(report::compressMapJson(outcome, ExitCode::done), json);
+    giveReportOfOutput([&] { return report::compressMapJson(outcome, ExitCode::done); }, json);
 }
 
 void readCompressMapOptions(const char* text, CompressMapFileOptions& options) {
@@ -275,7 +286,7 @@ tspace_ErrorCode tspace_flipGreenFile(const char* input, const char* output, con
         report::Outcome<FlipGreenReport> outcome{.input = from, .output = to, .is_dry_run = chosen.dry_run};
         outcome.result = flipGreenFile(from, to, chosen);
         throwError(outcome.result);
-        giveReport(report::flipGreenJson(outcome, ExitCode::done), report);
+        giveReportOfOutput([&] { return report::flipGreenJson(outcome, ExitCode::done); }, report);
     });
 }
 
@@ -288,7 +299,7 @@ tspace_ErrorCode tspace_heightToNormalFile(const char* input, const char* output
         report::Outcome<HeightToNormalFileReport> outcome{.input = from, .output = to, .is_dry_run = chosen.dry_run};
         outcome.result = heightToNormalFile(from, to, chosen);
         throwError(outcome.result);
-        giveReport(report::heightToNormalJson(outcome, ExitCode::done), report);
+        giveReportOfOutput([&] { return report::heightToNormalJson(outcome, ExitCode::done); }, report);
     });
 }
 
@@ -332,7 +343,8 @@ tspace_ErrorCode tspace_bakeFile(const char* low, const char* high, const char* 
         outcome.result = bakeFile(from, seen, to, chosen);
         throwError(outcome.result);
         outcome.seconds = secondsSince(start);
-        giveReport(report::bakeJson(outcome, seen, report::exitCodeOf(*outcome.result)), report);
+        giveReportOfOutput([&] { return report::bakeJson(outcome, seen, report::exitCodeOf(*outcome.result)); },
+                           report);
     });
 }
 
@@ -347,7 +359,8 @@ tspace_ErrorCode tspace_finishFile(const char* input, const char* output, const 
         outcome.result = finishFile(from, to, chosen);
         throwError(outcome.result);
         outcome.seconds = secondsSince(start);
-        giveReport(report::finishJson(outcome, chosen.low, report::exitCodeOf(*outcome.result)), report);
+        giveReportOfOutput([&] { return report::finishJson(outcome, chosen.low, report::exitCodeOf(*outcome.result)); },
+                           report);
     });
 }
 
@@ -361,7 +374,7 @@ tspace_ErrorCode tspace_flipGreenBytes(const uint8_t* data, size_t size, const c
         FlippedImage flipped = valueOrThrow(flipGreen({data, size}, chosen));
         report::Outcome<FlipGreenReport> outcome{.is_dry_run = chosen.dry_run};
         outcome.result = std::move(flipped.report);
-        giveReport(report::flipGreenJson(outcome, ExitCode::done), report);
+        giveReportOfOutput([&] { return report::flipGreenJson(outcome, ExitCode::done); }, report);
         if (!chosen.dry_run) GrowingBytes(flipped.bytes).giveTo(output);
     });
 }

@@ -27,8 +27,9 @@ bool goesToTerminal(const Arguments& arguments) {
 /// call(options), with stdout in the place of a file where `output` is "-".
 template <class Options, class Call>
 auto callWithOutput(const std::string& output, Options options, const Call& call) -> decltype(call(options)) {
+    if (output != "-") return call(options);
     StandardOutput standard_output;
-    if (output == "-") options.sink = [&](std::span<const std::uint8_t> part) { return standard_output.write(part); };
+    options.sink = [&](std::span<const std::uint8_t> part) { return standard_output.write(part); };
     auto report = call(options);
     if (const Result<Done> closed = standard_output.close(); !closed) return closed.error();
     return report;

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+// A folder of models, and calls of which each allocation fails in turn.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <map>
+#include <set>
+#include <string>
+#include <string_view>
+
+#include "failures/failing_memory.h"
+#include "support/temp_folder.h"
+#include "tspace/asset.h"
+
+namespace tspace::test {
+
+inline std::array<char, 200> last_message = {};
+
+template <class Value>
+ErrorCode codeOf(const Result<Value>& result) {
+    if (result) return ErrorCode::ok;
+    std::snprintf(last_message.data(), last_message.size(), "%s", result.error().message.c_str());
+    return result.error().code;
+}
+
+/// Calls call() with an allocation that fails, the first, the second and so on, until one comes back that needed fewer; once
+/// with that one alone, once with all that follow. call() gives an ErrorCode; look(k) is asked after each.
+template <class Call, class Look>
+void failEachAllocation(const char* name, const Call& call, const Look& look) {
+    for (const bool all_after : {false, true}) {
+        constexpr long kMost = 200000;
+        long k = 1, failures = 0;
+        // Beyond some thousand not every one, for time's sake.
+        for (; k < kMost; k += 1 + k / 1000) {
+            failAllocation(k, all_after);
+            const ErrorCode code = call();
+            const bool was_reached = stopFailing();
+            if (!was_reached && code != ErrorCode::ok)
+                FAIL() << name << ": " << errorName(code) << " without a failure";
+            if (!was_reached) {
+                look(k, code);
+                break;
+            }
+            failures += code != ErrorCode::ok;
+            // What one can do without is left out; nothing else than memory may be blamed.
+            // Embree does not always know why it fails.
+            const bool is_embree =
+                code == ErrorCode::internal && std::string_view(last_message.data()).starts_with("Embree");
+            ASSERT_TRUE(code == ErrorCode::ok || code == ErrorCode::outOfMemory || is_embree)
+                << name << ", allocation " << k << ": " << errorName(code) << ": " << last_message.data();
+            look(k, code);
+            if (::testing::Test::HasFailure()) return;
+        }
+        EXPECT_LT(k, kMost) << name;
+        // Small meshes of the C API find room in what a thread keeps.
+        EXPECT_TRUE(failures > 0 || k == 1) << name << ": no allocation failed";
+    }
+}
+
+inline constexpr const char* kObj =
+    "mtllib folded.mtl\no folded\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 1 0 -1\nv 1 1 -1\n"
+    "vt 0 0\nvt 0.5 0\nvt 0.5 1\nvt 0 1\nvt 1 0\nvt 1 1\nusemtl skin\nf 1/1 2/2 3/3 4/4\nf 2/2 5/5 6/6 3/3\n";
+
+class FailingMemory : public ::testing::Test {
+  protected:
+    FailingMemory() {
+        folder_.write("folded.obj", kObj);
+        folder_.write("folded.mtl", "newmtl skin\n");
+        GenerateOptions all;
+        all.all = true;
+        EXPECT_TRUE(generateFile(at("folded.obj"), at("plain.glb"), all));
+        EXPECT_TRUE(generateFile(at("folded.obj"), at("plain.gltf"), all));
+        all.tangents.method = Method::angle;
+        all.existing = ExistingTangents::replace;
+        EXPECT_TRUE(generateFile(at("plain.glb"), at("other.glb"), all));
+    }
+    /// Takes memory the first time only. `name` is short enough to take none.
+    const std::string& at(const std::string& name) {
+        const auto known = paths_.find(name);
+        return known != paths_.end() ? known->second : paths_.emplace(name, folder_.path(name).string()).first->second;
+    }
+
+    /// The call must change no file, and leave none.
+    template <class Call>
+    void onlyReads(const char* name, const Call& call) {
+        const std::set<std::string> files = folder_.files();
+        ASSERT_EQ(call(), ErrorCode::ok) << name;
+        failEachAllocation(name, call,
+                           [&](long k, ErrorCode) { EXPECT_EQ(folder_.files(), files) << name << " " << k; });
+    }
+    /// The call writes the file `output` alone, whole or not at all.
+    template <class Call>
+    void writesOne(const char* name, const std::string& output, const Call& call) {
+        std::filesystem::remove(at(output));
+        ASSERT_EQ(call(), ErrorCode::ok) << name;
+        const std::string whole = folder_.read(output);
+        const std::set<std::string> files = folder_.files();
+        folder_.write(output, std::string("old"));
+        failEachAllocation(name, call, [&](long k, ErrorCode code) {
+            EXPECT_EQ(folder_.files(), files) << name << " " << k;
+            EXPECT_TRUE(folder_.read(output) == (code == ErrorCode::ok ? whole : "old"))
+                << name << " " << k << ": " << errorName(code) << ", " << folder_.read(output).size() << " bytes";
+            folder_.write(output, std::string("old"));
+        });
+        folder_.write(output, whole);
+    }
+
+    TempFolder folder_;
+    std::map<std::string, std::string> paths_;
+};
+
+}  // namespace tspace::test
