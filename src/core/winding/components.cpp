@@ -291,12 +291,16 @@ namespace {
 
 class Flood {
   public:
-    Flood(const WindingCall& call, std::uint32_t begin, Buffer<std::uint32_t>& order, Buffer<std::uint8_t>& reached)
+    /// at_border: of each point; empty, or pairs whose edge is at a border with both its ends are followed late.
+    Flood(const WindingCall& call, std::uint32_t begin, Buffer<std::uint32_t>& order, Buffer<std::uint8_t>& reached,
+          const Buffer<std::uint8_t>& at_border)
         : call_(call),
           faces_(call.surface.faces),
           order_(order),
           reached_(reached),
+          at_border_(at_border),
           end_(begin),
+          late_(begin),
           even_(begin),
           odd_(begin) {}
 
@@ -317,14 +321,18 @@ class Flood {
                     if (partner == c) continue;
                     const std::uint32_t other = faces_.of(partner & ~kAgainst);
                     const bool differs = (partner & kAgainst) != 0;
-                    if (reached_[other] == 0) reach(other, isTurned(face) != differs);
                     before += differs ? 1U : 0U;
+                    if (reached_[other] == 0) {
+                        if (isLate(c)) continue;
+                        reach(other, isTurned(face) != differs);
+                    }
                     after += ((isTurned(face) != isTurned(other)) != differs) ? 1U : 0U;
                 }
             }
-        } while (goOn(even_, 0) || goOn(odd_, kOdd));
+        } while (goOnLate() || goOn(even_, 0) || goOn(odd_, kOdd));
         component.end = end_;
         component.conflicts_before = (before + doubtfulConflicts(component)) / 2;
+        if (!at_border_.empty()) after = sureConflicts(component);
         component.conflicts_after = after / 2;
         return component;
     }
@@ -344,6 +352,40 @@ class Flood {
         reached_[face] = is_turned ? kTurned : kReached;
         call_.turned[face] = is_turned ? 1 : 0;
         order_[end_++] = face;
+    }
+
+    [[nodiscard]] bool isLate(std::uint32_t corner) const {
+        return !at_border_.empty() && at_border_[call_.surface.pointOf(corner)] != 0 &&
+               at_border_[call_.surface.pointOf(faces_.next(corner))] != 0;
+    }
+    /// Reaches one more face over a pair that was left out; false where there is none. Before late_ there is none already.
+    bool goOnLate() {
+        for (; !at_border_.empty() && late_ < end_; ++late_) {
+            const std::uint32_t face = order_[late_];
+            for (std::uint32_t c = faces_.first(face); c < faces_.past(face); ++c) {
+                const std::uint32_t partner = call_.pairs.sure[c];
+                if (partner == kNoPartner || partner == c) continue;
+                const std::uint32_t other = faces_.of(partner & ~kAgainst);
+                if (reached_[other] != 0) continue;
+                reach(other, isTurned(face) != ((partner & kAgainst) != 0));
+                return true;
+            }
+        }
+        return false;
+    }
+    /// Twice the number of sure pairs in conflict.
+    [[nodiscard]] std::uint64_t sureConflicts(const Component& component) const {
+        std::uint64_t count = 0;
+        for (std::uint32_t at = component.begin; at < end_; ++at) {
+            const std::uint32_t face = order_[at];
+            for (std::uint32_t c = faces_.first(face); c < faces_.past(face); ++c) {
+                const std::uint32_t partner = call_.pairs.sure[c];
+                if (partner == kNoPartner || partner == c) continue;
+                const bool is_apart = isTurned(face) != isTurned(faces_.of(partner & ~kAgainst));
+                count += is_apart != ((partner & kAgainst) != 0) ? 1U : 0U;
+            }
+        }
+        return count;
     }
 
     /// body(face, corner, partner) for the doubtful pairs of a face, as long as it returns true.
@@ -386,15 +428,40 @@ class Flood {
     const MeshFaces& faces_;
     Buffer<std::uint32_t>& order_;
     Buffer<std::uint8_t>& reached_;
-    std::uint32_t end_;         ///< of what was reached, in the order
-    std::uint32_t even_, odd_;  ///< where doubtful pairs were looked at up to
+    const Buffer<std::uint8_t>& at_border_;
+    std::uint32_t end_;                ///< of what was reached, in the order
+    std::uint32_t late_, even_, odd_;  ///< where pairs that are late, and doubtful ones, were looked at up to
 };
+
+Buffer<std::uint8_t> pointsAtBorders(const WindingCall& call) {
+    const Surface& surface = call.surface;
+    Buffer<std::uint8_t> at_border(call.allocator(), surface.mesh.vertexCount(), 0);
+    forEachFace(surface.mesh, [&](std::size_t, std::size_t first, std::uint32_t size) {
+        for (std::size_t c = first; c < first + size; ++c) {
+            if (call.pairs.sure[c] != kNoPartner) continue;
+            const std::size_t next = c + 1 < first + size ? c + 1 : first;
+            at_border[surface.points[c]] = at_border[surface.points[next]] = 1;
+        }
+    });
+    return at_border;
+}
 
 }  // namespace
 
-Component flood(const WindingCall& call, std::uint32_t first, std::uint32_t begin, Buffer<std::uint32_t>& order,
-                Buffer<std::uint8_t>& reached) {
-    return Flood(call, begin, order, reached).run(first);
+Component flood(const WindingCall& call, std::uint32_t first, std::uint32_t begin, FloodMemory& memory) {
+    const Buffer<std::uint8_t> anywhere;
+    const auto run = [&](const Buffer<std::uint8_t>& at_border) {
+        return Flood(call, begin, memory.order, memory.reached, at_border).run(first);
+    };
+    const Component component = run(anywhere);
+    if (component.is_closed || component.conflicts_after == 0) return component;
+    const auto again = [&](const Buffer<std::uint8_t>& at_border) {
+        for (std::uint32_t i = begin; i < component.end; ++i) memory.reached[memory.order[i]] = 0;
+        return run(at_border);
+    };
+    if (memory.at_border.empty()) memory.at_border = pointsAtBorders(call);
+    const Component careful = again(memory.at_border);
+    return careful.conflicts_after < component.conflicts_after ? careful : again(anywhere);
 }
 
 void measure(const WindingCall& call, const Buffer<std::uint32_t>& order, Component& component) {

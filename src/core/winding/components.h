@@ -162,11 +162,22 @@ struct WindingCall {
     }
 };
 
+struct FloodMemory {
+    Buffer<std::uint32_t> order;
+    Buffer<std::uint8_t> reached;    ///< of faces
+    Buffer<std::uint8_t> at_border;  ///< of points; empty until it is asked for
+
+    FloodMemory(const Allocator* allocator, std::size_t face_count)
+        : order(allocator, face_count), reached(allocator, face_count, 0) {}
+};
+
 /// Reaches the faces of a component from `first`, winds them alike and writes them to order[begin...]. Faces that were
 /// reached are in `reached`. Over doubtful pairs it goes only to what sure pairs do not lead to: those of an even
 /// number of faces first. Those that contradict the others are no pairs.
-Component flood(const WindingCall& call, std::uint32_t first, std::uint32_t begin, Buffer<std::uint32_t>& order,
-                Buffer<std::uint8_t>& reached);
+/// Where an edge had four faces and holes took two, the others may be no neighbours. Such a pair puts all that is reached
+/// over it on the wrong side, and contradicts the pairs around. So a component that has borders and contradicts itself is
+/// reached again, first over the pairs whose edge touches no border or with one end; the way with fewer conflicts stays.
+Component flood(const WindingCall& call, std::uint32_t first, std::uint32_t begin, FloodMemory& memory);
 
 /// Sums of a component.
 void measure(const WindingCall& call, const Buffer<std::uint32_t>& order, Component& component);

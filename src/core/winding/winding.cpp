@@ -186,8 +186,7 @@ class Mending {
     Mending(const winding::WindingCall& call, WindingReport& report)
         : call_(call),
           report_(report),
-          order_(call.allocator(), call.surface.mesh.faceCount()),
-          reached_(call.allocator(), call.surface.mesh.faceCount(), 0),
+          memory_(call.allocator(), call.surface.mesh.faceCount()),
           closed_(call.allocator(), call.surface.mesh.faceCount() / kFewest + 1) {}
 
     void run() {
@@ -195,8 +194,8 @@ class Mending {
         const auto count = static_cast<std::uint32_t>(call_.surface.mesh.faceCount());
         std::uint32_t done = 0;
         for (std::uint32_t face = 0; face < count; ++face) {
-            if (reached_[face] != 0 || !faces.isUsed(face)) continue;
-            Component component = flood(call_, face, done, order_, reached_);
+            if (memory_.reached[face] != 0 || !faces.isUsed(face)) continue;
+            Component component = flood(call_, face, done, memory_);
             done = component.end;
             decide(component);
         }
@@ -209,13 +208,13 @@ class Mending {
         report_.conflict_count_before += component.conflicts_before;
         if (component.size() < kFewest) return leave(component, report_.small_count);
         if (component.conflicts_after != 0 && component.conflicts_after >= component.conflicts_before) {
-            for (std::uint32_t i = component.begin; i < component.end; ++i) call_.turned[order_[i]] = 0;
+            for (std::uint32_t i = component.begin; i < component.end; ++i) call_.turned[memory_.order[i]] = 0;
             component.conflicts_after = component.conflicts_before;
             // A body with holes may have an edge that had four faces, and two now that are no neighbours.
-            const double number = component.is_closed ? 0 : ownWindingNumber(call_, order_, component);
+            const double number = component.is_closed ? 0 : ownWindingNumber(call_, memory_.order, component);
             return finish(component, number < -kLeastWindingNumber, report_.one_sided_count);
         }
-        measure(call_, order_, component);
+        measure(call_, memory_.order, component);
         // Half of the area has normals, and four fifths of that agree.
         if (component.faced > 0.5 * component.area && std::fabs(component.facing) > 0.6 * component.faced) {
             finish(component, component.facing < 0, report_.by_normals_count);
@@ -229,7 +228,7 @@ class Mending {
 
     /// Nothing is turned.
     void leave(const Component& component, std::uint64_t& counter) {
-        for (std::uint32_t i = component.begin; i < component.end; ++i) call_.turned[order_[i]] = 0;
+        for (std::uint32_t i = component.begin; i < component.end; ++i) call_.turned[memory_.order[i]] = 0;
         ++counter;
         report_.conflict_count_after += component.conflicts_before;
     }
@@ -239,7 +238,7 @@ class Mending {
         std::uint32_t turned = component.turned_count;
         if (is_inside_out) {
             turned = component.size() - turned;
-            for (std::uint32_t i = component.begin; i < component.end; ++i) call_.turned[order_[i]] ^= 1;
+            for (std::uint32_t i = component.begin; i < component.end; ++i) call_.turned[memory_.order[i]] ^= 1;
         }
         ++counter;
         report_.turned_count += turned;
@@ -255,7 +254,7 @@ class Mending {
     }
 
     void decideOpen(const Component& component) {
-        const double number = ownWindingNumber(call_, order_, component);
+        const double number = ownWindingNumber(call_, memory_.order, component);
         if (std::fabs(number) > kLeastWindingNumber) {
             finish(component, number < 0, report_.by_winding_number_count);
         } else {
@@ -267,7 +266,7 @@ class Mending {
     void decideClosed() {
         constexpr double kClear = 0.2;
         Buffer<std::uint8_t> inside(call_.allocator(), closed_count_, 0);
-        findNested(call_, order_, closed_, closed_count_, inside);
+        findNested(call_, memory_.order, closed_, closed_count_, inside);
         for (std::size_t i = 0; i < closed_count_; ++i) {
             const Component& component = closed_[i];
             const bool is_negative = component.volume < 0;
@@ -283,8 +282,7 @@ class Mending {
 
     const winding::WindingCall& call_;
     WindingReport& report_;
-    Buffer<std::uint32_t> order_;
-    Buffer<std::uint8_t> reached_;
+    winding::FloodMemory memory_;
     Buffer<Component> closed_;
     std::size_t closed_count_ = 0;
 };

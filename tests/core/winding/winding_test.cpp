@@ -285,24 +285,43 @@ TEST(MendWinding, ContinuesStraightOnWhereAFinMeetsASurface) {
     EXPECT_EQ(1, shareRight(sheet, damaged, mended));
 }
 
-/// Their nets have edges of four faces; where a face is missing, the two of three that lie straightest are no neighbours.
+/// The net of a shape on a noisy field, without each tenth face. Where an edge had four faces, three or two may be left of
+/// which no two are neighbours.
+NamedBodies netWithHoles(const accuracy::Shape& shape, int cells, unsigned seed) {
+    const accuracy::Scan net = accuracy::surfaceNets(shape, cells, 0.1, accuracy::Random{seed});
+    NamedBodies net_with_holes{shape.name, {}};
+    Bodies& body = net_with_holes.bodies;
+    std::mt19937 random(seed + 2);
+    body.mesh.positions = net.positions;
+    for (std::size_t c = 0; c < net.indices.size(); c += 3) {
+        const std::uint32_t* const v = net.indices.data() + c;
+        if (random() % 10 != 0) body.mesh.addTriangle(v[0], v[1], v[2]);
+    }
+    body.closeBody();
+    return net_with_holes;
+}
+
 TEST(MendWinding, MendsGridsWithEdgesOfFourFacesAndHoles) {
     for (const char* name : {"part", "gear"}) {
-        const accuracy::Scan net = accuracy::surfaceNets(shape(name), 32, 0.1, accuracy::Random{1});
-        NamedBodies body{name, {}};
-        std::mt19937 random(3);
-        body.bodies.mesh.positions = net.positions;
-        for (std::size_t c = 0; c < net.indices.size(); c += 3) {
-            const std::uint32_t* const v = net.indices.data() + c;
-            if (random() % 10 != 0) body.bodies.mesh.addTriangle(v[0], v[1], v[2]);
-        }
-        body.bodies.closeBody();
+        const NamedBodies body = netWithHoles(shape(name), 32, 1);
         for (const double share : {0.0, 0.3, 1.0}) {
             const Bodies damaged = turnedByChance(body.bodies, share, 1);
             const Mended mended = mend(damaged.view());
             // Of islands of two and three faces, and of an edge that had four and lost two.
             EXPECT_LE(mended.report.conflict_count_after, 4u) << name << ' ' << share;
             EXPECT_GE(shareRight(body.bodies, damaged, mended), 0.99) << name << ' ' << share;
+        }
+    }
+}
+
+/// What is reached over such an edge is wound against all that is beside it.
+TEST(MendWinding, ReachesFacesByOtherEdgesThanThoseThatLostTwoOfFour) {
+    std::vector<NamedBodies> bodies{netWithHoles(shape("gear"), 48, 4)};
+    for (const accuracy::Shape& shape : accuracy::heldOutShapes()) bodies.push_back(netWithHoles(shape, 48, 4));
+    for (const NamedBodies& body : bodies) {
+        for (const double share : {0.17, 0.3, 0.5}) {
+            const Bodies damaged = turnedByChance(body.bodies, share, 4);
+            EXPECT_GE(shareRight(body.bodies, damaged, mend(damaged.view())), 0.99) << body.name << ' ' << share;
         }
     }
 }
