@@ -358,16 +358,18 @@ class Flood {
         return !at_border_.empty() && at_border_[call_.surface.pointOf(corner)] != 0 &&
                at_border_[call_.surface.pointOf(faces_.next(corner))] != 0;
     }
-    /// Reaches one more face over a pair that was left out; false where there is none. Before late_ there is none already.
+    /// Reaches one more face over a pair that was left out; false where there is none. Before late_ there is none already,
+    /// nor at the first late_corners_ of its face, which may have very many.
     bool goOnLate() {
-        for (; !at_border_.empty() && late_ < end_; ++late_) {
+        for (; !at_border_.empty() && late_ < end_; ++late_, late_corners_ = 0) {
             const std::uint32_t face = order_[late_];
-            for (std::uint32_t c = faces_.first(face); c < faces_.past(face); ++c) {
+            for (std::uint32_t c = faces_.first(face) + late_corners_; c < faces_.past(face); ++c) {
                 const std::uint32_t partner = call_.pairs.sure[c];
                 if (partner == kNoPartner || partner == c) continue;
                 const std::uint32_t other = faces_.of(partner & ~kAgainst);
                 if (reached_[other] != 0) continue;
                 reach(other, isTurned(face) != ((partner & kAgainst) != 0));
+                late_corners_ = c + 1 - faces_.first(face);
                 return true;
             }
         }
@@ -431,6 +433,7 @@ class Flood {
     const Buffer<std::uint8_t>& at_border_;
     std::uint32_t end_;                ///< of what was reached, in the order
     std::uint32_t late_, even_, odd_;  ///< where pairs that are late, and doubtful ones, were looked at up to
+    std::uint32_t late_corners_ = 0;
 };
 
 Buffer<std::uint8_t> pointsAtBorders(const WindingCall& call) {
