@@ -230,6 +230,15 @@ class CreaseFinder {
         return angles.lengths[0] + angles.lengths[1] < angles.all / 2;
     }
 
+    /// Whether less than a quarter of the edges, by length, is flat within 8 degrees. Of shapes with sharp edges, decimated
+    /// to 1 % and less so, a quarter is within 4; of smooth ones with so few triangles that no gap shows none is within 12
+    /// (scripts/accuracy --kinds): their edges turn by 40 degrees and more, and are soft.
+    [[nodiscard]] static bool isBentEverywhere(const Histogram& angles) {
+        double flat = 0;
+        for (std::size_t bin = 0; bin < 8; ++bin) flat += angles.lengths[bin];
+        return flat < angles.all / 4;
+    }
+
     /// The middle of the widest run of degrees in which there are the fewest edges, by length.
     [[nodiscard]] double angleInGap(const Histogram& angles) const {
         constexpr int kBlur = 6;
@@ -251,7 +260,8 @@ class CreaseFinder {
         for (int bin = first; bin < end; ++bin) least = std::min(least, density[static_cast<std::size_t>(bin)]);
         // Grids cut the edges of shapes, by all angles: then no gap shows, and this one is right on all that were tried.
         constexpr double kAngleOfGrids = 30;
-        if (noise_deg_ <= kLeastFilteredDeg && least > 3e-4 * all) return kAngleOfGrids;
+        if (noise_deg_ <= kLeastFilteredDeg && least > 3e-4 * all)
+            return isBentEverywhere(angles) ? kMost : kAngleOfGrids;
         const double limit = least + 5e-5 * all;
         int best_begin = first, best_end = first;
         for (int begin = first; begin < end; ++begin) {

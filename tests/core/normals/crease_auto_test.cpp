@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <span>
 
 #include "core/base/vec_math.h"
 #include "core/normals/normals_outcome.h"
@@ -78,6 +79,36 @@ TEST(AutomaticCreases, AreNoneOnSmoothShapes) {
             const double by_mesh = shadedError(scan, bestOf(scan.view(), kAuto).normals, 2000, Random{5});
             const double without = shadedError(scan, bestOf(scan.view(), 180).normals, 2000, Random{5});
             EXPECT_LT(by_mesh, 1.03 * without) << name << ' ' << noise;
+        }
+    }
+}
+
+/// Their edges turn by 40 degrees and more, by all angles.
+TEST(AutomaticCreases, HarmNoSmoothShapesThatWereDecimatedToSomeHundredTriangles) {
+    for (const std::span<const Shape> all : {accuracy::shapes(), accuracy::heldOutShapes()}) {
+        for (const Shape& shape : all) {
+            if (shape.is_sharp) continue;
+            const Scan net = accuracy::surfaceNets(shape, 64, 0, Random{1});
+            for (const double share : {0.03, 0.01}) {
+                const Scan scan = decimated(net, share);
+                if (scan.indices.empty()) GTEST_SKIP() << "without meshoptimizer";
+                const double by_mesh = shadedError(scan, bestOf(scan.view(), kAuto).normals, 2000, Random{5});
+                const double without = shadedError(scan, bestOf(scan.view(), 180).normals, 2000, Random{5});
+                EXPECT_LT(by_mesh, 1.15 * without) << shape.name << ' ' << share;
+            }
+        }
+    }
+}
+
+/// They have flat parts, and their edges are found.
+TEST(AutomaticCreases, AreFoundOnPartsThatWereDecimatedToSomeHundredTriangles) {
+    for (const std::span<const Shape> all : {accuracy::shapes(), accuracy::heldOutShapes()}) {
+        for (const Shape& shape : all) {
+            if (!shape.is_sharp) continue;
+            const Scan scan = decimated(accuracy::surfaceNets(shape, 64, 0, Random{1}), 0.01);
+            if (scan.indices.empty()) GTEST_SKIP() << "without meshoptimizer";
+            const Outcome found = bestOf(scan.view(), kAuto);
+            EXPECT_LE(found.report.crease_angle_deg, 30) << shape.name;
         }
     }
 }
