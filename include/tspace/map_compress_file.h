@@ -52,10 +52,11 @@ struct CompressMapFileReport {
     std::uint64_t output_bytes = 0;  ///< of the normal map
     std::uint64_t roughness_bytes = 0;
     /// Between the map as three channels of full depth and as the texture, of the first level: bilinear, then unit, at 3 x 3
-    /// points a texel (of some rows, where it is large). What rebuilding z after the filter costs is in it.
+    /// points a texel (of some rows, where it is large). What rebuilding z after the filter costs is in it, and what looks below
+    /// the horizon.
     double mean_error_deg = 0, p99_error_deg = 0, max_error_deg = 0;
     double max_error_x = 0, max_error_y = 0;  ///< where, in texels from the top left corner
-    std::uint64_t below_horizon = 0;          ///< texels whose z is below 0, which two channels cannot say
+    std::uint64_t below_horizon = 0;          ///< texels whose z is below 0: of two channels laid on the horizon
     std::uint64_t not_unit = 0;               ///< texels that are a tenth or more longer or shorter than unit vectors
     /// Means of the roughness of the last level, as plain means and as written; 0 without roughness.
     double mean_roughness = 0, mean_widened_roughness = 0;
@@ -70,7 +71,8 @@ Result<CompressMapFileReport> compressMapFile(const std::string& input, const st
                                               const CompressMapFileOptions& options = {});
 
 struct TextureErrorOptions {
-    FileOptions file = {};  ///< limits for the images: as ConvertMapFileOptions::file
+    FileOptions file = {};      ///< limits for the images: as ConvertMapFileOptions::file
+    bool two_channels = false;  ///< z is made from red and green of the texture, whatever its format; blue is not read
     Execution execution = {};
 };
 

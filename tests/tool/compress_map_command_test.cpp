@@ -212,6 +212,40 @@ TEST(MapErrorCommand, SaysOfATextureBesideItsSourceWhatCompressMapSaid) {
         EXPECT_NE(runTool(folder, "map-error " + arguments).exit_code, 0) << arguments;
 }
 
+TEST(MapErrorCommand, SaysOfATextureWhatItsFigureDoesNot) {
+    const TempFolder folder;
+    writeWaves(folder);
+    const auto beside = [&](const std::string& arguments) {
+        const ToolRun run = runTool(folder, "map-error --json " + arguments + " --source n16.png");
+        EXPECT_EQ(run.exit_code, 0) << run.err;
+        return Json::parse(run.out);
+    };
+    std::string why;
+    const auto map = decodeFloatImage(bytesOf(folder.read("n8.png")), 1 << 20, why);
+    FloatImage flat_blue = *map, grey = *map;
+    for (Vec3& texel : flat_blue.texels) texel.z = 0;
+    for (Vec3& texel : grey.texels) texel = {texel.x, texel.x, texel.x};
+    folder.write("rg.png", std::span<const std::uint8_t>(*encodePng(flat_blue, 8)));
+    folder.write("r.png", std::span<const std::uint8_t>(*encodePng(grey, 8)));
+    EXPECT_GT(beside("rg.png")["meanErrorDeg"], 90);
+    const Json made = beside("rg.png --two-channels");
+    EXPECT_LT(made["meanErrorDeg"], 0.2);
+    EXPECT_EQ(made["makesZ"], true);
+    EXPECT_EQ(beside("n8.png")["warnings"].size(), 0u);
+    ASSERT_EQ(beside("r.png")["warnings"].size(), 1u);
+    EXPECT_NE(beside("r.png")["warnings"][0].get<std::string>().find("holds no vectors"), std::string::npos);
+    // What it does not look at is refused, and errors name a file once.
+    for (const std::string arguments : {"--heat h.png", "--space object", "--material A", "--convention unreal"}) {
+        const ToolRun run = runTool(folder, "map-error n8.png --source n16.png " + arguments);
+        EXPECT_EQ(run.exit_code, 2) << arguments;
+        EXPECT_EQ(run.errorLines(), 1) << run.err;
+    }
+    folder.write("broken.dds", "DDS ");
+    EXPECT_EQ(runTool(folder, "map-error broken.dds --source n16.png").err, "tspace: broken.dds: it is a broken DDS\n");
+    EXPECT_NE(runTool(folder, "map-error n8.png --source broken.dds").err.find("the source 'broken.dds'"),
+              std::string::npos);
+}
+
 TEST(ConvertMapCommand, WritesTheSameBlocksAsCompressMapDoes) {
     const TempFolder folder;
     writeWaves(folder);
@@ -293,6 +327,19 @@ TEST(CompressMapCommand, SaysWhatTwoChannelsDoNotHold) {
     const Json report = reportOf(folder, "n.png -o n.dds");
     EXPECT_EQ(report["belowHorizon"], 64);
     EXPECT_EQ(report["warnings"].size(), 2u) << report["warnings"];
+    // The error is that against the map as it is, as map-error says, and not against what was laid on the horizon.
+    EXPECT_NEAR(report["meanErrorDeg"].get<double>(), std::atan2(0.4, 0.9) * 57.29577951308232, 0.5);
+    const Json beside = Json::parse(runTool(folder, "map-error --json n.dds --source n.png").out);
+    EXPECT_NEAR(beside["meanErrorDeg"].get<double>(), report["meanErrorDeg"].get<double>(), 1e-6);
+    // PNGs have three channels, and say all.
+    const Json of_pngs = reportOf(folder, "n.png -o levels/");
+    EXPECT_EQ(of_pngs["belowHorizon"], 64);
+    EXPECT_EQ(of_pngs["warnings"].size(), 1u) << of_pngs["warnings"];
+    EXPECT_LT(of_pngs["meanErrorDeg"], 0.01);
+    std::string why;
+    const auto level = decodeFloatImage(bytesOf(folder.read("levels/n.2.png")), 1 << 20, why);
+    ASSERT_TRUE(level) << why;
+    EXPECT_LT(level->texels[0].z, 0.4);
     for (const std::string arguments : {"n.png -o n.png", "none.png -o n.dds", "n.png"}) {
         const ToolRun run = runTool(folder, "compress-map " + arguments);
         EXPECT_NE(run.exit_code, 0);

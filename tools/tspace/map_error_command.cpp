@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // tspace map-error: one normal map.
 #include <memory>
+#include <set>
 
 #include "command_table.h"
 #include "commands/map_error/map_error_report.h"
@@ -22,8 +23,10 @@ struct MapErrorArguments {
 };
 
 ExitCode runBesideSource(const MapErrorArguments& arguments) {
-    const Result<TextureErrorReport> result = textureErrorFile(
-        arguments.map, arguments.source, {.file = arguments.options.file, .execution = arguments.options.execution});
+    const Result<TextureErrorReport> result = textureErrorFile(arguments.map, arguments.source,
+                                                               {.file = arguments.options.file,
+                                                                .two_channels = arguments.options.two_channels,
+                                                                .execution = arguments.options.execution});
     const ExitCode exit_code = result ? ExitCode::done : printError(arguments.map, result.error());
     const report::Outcome<TextureErrorReport> outcome{.input = arguments.map, .result = result};
     std::string text;
@@ -64,6 +67,17 @@ ExitCode runMapError(const MapErrorArguments& arguments) {
     return printResult(text) ? exit_code : ExitCode::cannotReadOrWrite;
 }
 
+/// What a comparison with a source does not look at, which stands among the options of a comparison with a high poly.
+std::vector<std::string> onlyWithHigh(const OptionList& of_high) {
+    const std::set<std::string> shared = {"--two-channels", "--threads", "--no-sync", "--memory-limit",
+                                          "--import-seconds"};
+    std::vector<std::string> names = {"--high", "LOW"};
+    for (const Option& option : of_high) {
+        if (!shared.contains(option.name())) names.push_back(option.name());
+    }
+    return names;
+}
+
 }  // namespace
 
 Command mapErrorCommand() {
@@ -92,9 +106,10 @@ Command mapErrorCommand() {
     Option source = text("--source", "IMAGE", arguments.source,
                          "The normal map that the texture MAP was made of: compares with it, in place of a high poly.");
     source.is_file = true;
-    source.excludes = {"--high", "LOW"};
+    const OptionList of_high = mapErrorOptions(arguments.options);
+    source.excludes = onlyWithHigh(of_high);
     command.add(group, source);
-    command.add(mapErrorOptions(arguments.options));
+    command.add(of_high);
     addReporting(command, arguments.json, arguments.quiet);
     command.finish = [owned](const Given&) {
         if (!owned->source.empty()) return std::string();

@@ -34,21 +34,26 @@ Container containerOf(const std::string& output, bool takes_png) {
                                              (takes_png ? ", .png" : "") + " and / (a folder of PNGs)");
 }
 
-/// Unit vectors with z of at least 0, and what of the image was none.
+/// Unit vectors, and how many texels of the image were none or look below the horizon.
 NormalLevel normalsOf(const FloatImage& image, CompressMapFileReport& report) {
     constexpr double kMostOff = 0.1;
     NormalLevel level{image.width, image.height, std::vector<Vec3>(image.texels.size()), {}};
     for (std::size_t i = 0; i < image.texels.size(); ++i) {
         DVec3 vector = decodeTexel(image.texels[i], {});
-        const double size = length(vector);
-        if (std::fabs(size - 1) > kMostOff) ++report.not_unit;
-        if (vector.z < 0) {
-            ++report.below_horizon;
-            vector.z = 0;
-        }
+        if (std::fabs(length(vector) - 1) > kMostOff) ++report.not_unit;
+        if (vector.z < 0) ++report.below_horizon;
         level.normals[i] = normalize(vector) ? toFloat(vector) : Vec3{0, 0, 1};
     }
     return level;
+}
+
+/// Lays vectors that look below the horizon on it, where two channels can say them.
+void layOnHorizon(NormalLevel& level) {
+    for (Vec3& normal : level.normals) {
+        if (normal.z >= 0) continue;
+        DVec3 laid{normal.x, normal.y, 0};
+        normal = normalize(laid) ? toFloat(laid) : Vec3{0, 0, 1};
+    }
 }
 
 /// A level as it is written, and as it is decoded.
@@ -127,6 +132,10 @@ class MapCompression {
         NormalLevel first = normalsOf(image, report_);
         addWarnings(image);
         image = {};
+        if (report_.below_horizon > 0 && container_ != Container::folder) {
+            truth_ = first;
+            layOnHorizon(first);
+        }
         if (options_.levels || !options_.roughness.empty()) {
             levels_ = makeNormalLevels(std::move(first), parallel_, !options_.roughness.empty());
         } else {
@@ -186,8 +195,8 @@ class MapCompression {
     void addWarnings(const FloatImage& image) {
         const auto warn = [&](std::string text) { report_.warnings.push_back(std::move(text)); };
         const std::uint64_t total = image.texels.size();
-        if (!image.alpha.empty()) warn("the image has alpha, which the output has no room for");
-        if (report_.below_horizon > 0)
+        if (!image.alpha.empty()) warn("the image has alpha, which is left out");
+        if (report_.below_horizon > 0 && container_ != Container::folder)
             warn(std::to_string(report_.below_horizon) +
                  " texels look below the horizon, which two channels cannot say");
         if (report_.not_unit > total / 10)
@@ -210,7 +219,8 @@ class MapCompression {
         report_.format = std::string(texelFormat(texture.kind).name) + (texture.kind == TexelKind::astc ? " 4x4" : "");
         for (const NormalLevel& level : levels_) {
             PackedLevel packed = packLevel(level, options_, parallel_);
-            if (texture.levels.empty()) takeError(measureFiltered(level, packed.texels, true, parallel_));
+            if (texture.levels.empty())
+                takeError(measureFiltered(truth_.normals.empty() ? level : truth_, packed.texels, true, parallel_));
             texture.levels.push_back(std::move(packed.bytes));
         }
         report_.output_bytes = addTexture(texture, container_, output_, files);
@@ -309,6 +319,7 @@ class MapCompression {
     InputFiles inputs_ = {};
     Container container_ = Container::ktx2, roughness_container_ = Container::png;
     std::vector<NormalLevel> levels_ = {};
+    NormalLevel truth_ = {};  ///< the first level before vectors were laid on the horizon; empty where none were
     CompressMapFileReport report_ = {};
 };
 

@@ -12,11 +12,12 @@
 namespace tspace {
 namespace {
 
-FloatImage readNamed(const std::string& path, const FileOptions& file) {
+/// Errors name the source: those of a call are printed with the name of the texture.
+FloatImage readSource(const std::string& path, const FileOptions& file) {
     try {
         return readMapImage(path, {}, file);
     } catch (FileError& failure) {
-        failure.error.message = pathInQuotes(path) + ": " + failure.error.message;
+        failure.error.message = "the source " + pathInQuotes(path) + ": " + failure.error.message;
         throw;
     }
 }
@@ -25,13 +26,26 @@ std::string sizeText(const FloatImage& image) {
     return std::to_string(image.width) + " x " + std::to_string(image.height);
 }
 
+/// What the figure does not say of the texture.
+void addWarnings(const FloatImage& packed, std::vector<std::string>& warnings) {
+    if (packed.texture.is_srgb)
+        warnings.emplace_back(
+            "the file says that its numbers have the sRGB curve: they were read without it, and renderers that take "
+            "the "
+            "file's word turn all normals");
+    if (packed.texture.layout == MapLayout{} && isGreyImage(packed))
+        warnings.emplace_back(
+            "its channels are equal, or nearly: it is a height map or one channel of a map, and holds no vectors");
+}
+
 TextureErrorReport measure(const std::string& texture, const std::string& source, const TextureErrorOptions& options) {
-    FloatImage packed = readNamed(texture, options.file), map = readNamed(source, options.file);
+    FloatImage packed = readMapImage(texture, {}, options.file), map = readSource(source, options.file);
     TextureErrorReport report{.width = packed.width, .height = packed.height, .format = packed.texture.name};
     if (packed.width != map.width || packed.height != map.height)
         failFile(ErrorCode::countMismatch, "its " + sizeText(packed) + " texels are not the " + sizeText(map) +
                                                " of the source: only the first level is compared");
-    report.makes_z = packed.texture.layout.z.channel == MapChannel::none;
+    addWarnings(packed, report.warnings);
+    report.makes_z = options.two_channels || packed.texture.layout.z.channel == MapChannel::none;
     for (FloatImage* image : {&packed, &map}) {
         if (std::string how_read = readTextureVectors(*image); !how_read.empty())
             report.warnings.push_back(std::move(how_read));
