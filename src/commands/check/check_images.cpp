@@ -205,7 +205,7 @@ void chooseXAndY(const RgbImage& image, std::span<const std::uint8_t> alpha, con
     if (agreement(other) > agreement(layout) + kClear) layout = other;
 }
 
-/// What the texels of a texture file look like that says nothing of x and y, and has alpha. Green and alpha may as well hold
+/// What the texels of an image look like that says nothing of x and y, and has alpha. Green and alpha may as well hold
 /// them where all colours are one.
 MapLayout guessedLayout(std::span<const TexelBytes> texels, const RgbImage& image, std::span<const std::uint8_t> alpha,
                         const TexelMask& inside) {
@@ -267,6 +267,11 @@ void lookAtContent(const Scene& scene, const TexelMask& inside, NormalMap& map, 
     if (map.look.content == MapContent::normals && areXAndYExchanged(image, inside)) {
         map.look.content = MapContent::exchanged;
         std::swap(map.look.layout.x, map.look.layout.y);
+    }
+    // Grey with alpha: only slopes tell whether x is in the colours or in alpha.
+    if (!facts && map.look.content == MapContent::xInAlpha) {
+        const MapLayout guess = guessedLayout(texels, image, alpha, inside);
+        if (!(guess == MapLayout{})) map.look.layout = guess;
     }
     if (facts) lookAtTexture(facts->layout, texels, image, alpha, inside, map.look);
     if (holdsNormals(map.look.content) && !(map.look.layout == MapLayout{}))

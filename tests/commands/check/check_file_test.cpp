@@ -258,6 +258,18 @@ TEST(CheckFile, FindsXAndYInOtherChannelsOfATexture) {
         const CheckReport report = model.check();
         ASSERT_EQ(codes(report), Codes{"warning normalMapChannels"}) << says;
         EXPECT_NE(report.findings[0].message.find(says), std::string::npos) << report.findings[0].message;
+        FloatImage png{256, 256, 8, {}, {}};
+        for (std::size_t i = 0; i < data.size(); i += 4) {
+            const auto part = [&](std::size_t k) {
+                return static_cast<float>(static_cast<unsigned char>(data[i + k])) / 255.0F;
+            };
+            png.texels.push_back({part(0), part(1), part(2)});
+            png.alpha.push_back(part(3));
+        }
+        model.folder.write("normal.png", std::span<const std::uint8_t>(*encodePng(png, 8)));
+        const CheckReport of_png = model.check();
+        ASSERT_EQ(codes(of_png), Codes{"warning normalMapChannels"}) << says;
+        EXPECT_NE(of_png.findings[0].message.find(says), std::string::npos) << of_png.findings[0].message;
     }
 }
 
