@@ -5,15 +5,18 @@
 """
 
 import math
+import os
+import pathlib
 import sys
 
 import bpy
 import numpy
 
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import add_on  # noqa: E402
+
 arguments = sys.argv[sys.argv.index("--") + 1 :]
-bpy.ops.preferences.addon_install(filepath=arguments[0], overwrite=True)
-bpy.ops.preferences.addon_enable(module="tspace_addon")
-import tspace_addon.tool  # noqa: E402  (it is there now)
+module = add_on.install(arguments[0])
 
 
 def check(condition, words):
@@ -144,12 +147,12 @@ texture.image = baked
 bpy.ops.tspace.check()
 check(not any("green" in line for line in low["tspace"]), "and not where it points up")
 
-where = tspace_addon.tool.path()
-check("tspace_addon" in where, "the add-on brings its program")
-preferences = bpy.context.preferences.addons["tspace_addon"].preferences
+where = pathlib.Path(add_on.part(module, "tool").path())
+check(add_on.folder(module) in where.parents, "the add-on brings its program")
+preferences = bpy.context.preferences.addons[module].preferences
 preferences.program = "/no/such/program"
 fails(bpy.ops.tspace.check, "/no/such/program")
 preferences.program = ""
-bpy.ops.preferences.addon_disable(module="tspace_addon")
+bpy.ops.preferences.addon_disable(module=module)
 check(not hasattr(bpy.types.Scene, "tspace"), "nothing stays when it is switched off")
-print("all is well")
+print(f"all is well in Blender {bpy.app.version_string}, module {module}")

@@ -9,9 +9,13 @@ import sys
 import traceback
 
 import bpy
+import numpy
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import add_on  # noqa: E402
 
 bpy.context.preferences.view.show_splash = False
-add_on, picture = sys.argv[sys.argv.index("--") + 1 :]
+archive, picture = sys.argv[sys.argv.index("--") + 1 :]
 
 
 def area_of_view():
@@ -21,8 +25,7 @@ def area_of_view():
 
 
 def check_a_ring():
-    bpy.ops.preferences.addon_install(filepath=add_on, overwrite=True)
-    bpy.ops.preferences.addon_enable(module="tspace_addon")
+    add_on.install(archive)
     window, area, region = area_of_view()
     with bpy.context.temp_override(window=window, area=area, region=region):
         for thing in list(bpy.data.objects):
@@ -50,8 +53,15 @@ def check_a_ring():
 def take_the_picture():
     window, area, region = area_of_view()
     with bpy.context.temp_override(window=window, area=area, region=region):
+        bpy.ops.wm.redraw_timer(type="DRAW_WIN_SWAP", iterations=2)
         bpy.ops.screen.screenshot(filepath=picture)
-    print(f"ok: {picture}")
+    pixels = numpy.empty(len(drawn := bpy.data.images.load(picture).pixels), numpy.float32)
+    drawn.foreach_get(pixels)
+    red, green, blue, _ = pixels.reshape(-1, 4).T
+    count = int(((red > 2 * green) & (red > 2 * blue) & (red > 0.3)).sum())
+    if count < 1000:
+        raise SystemExit(f"FAILED: {count} pixels of the window are red, which the wrong faces should be")
+    print(f"ok: {count} pixels are red in {picture}")
     return None
 
 
