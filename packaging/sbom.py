@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""Prints what the packages of a release need, as SPDX 2.3: sbom.py VERSION FOLDER.
+"""Prints what the packages of a release need and contain, as SPDX 2.3: sbom.py VERSION FOLDER.
 
 Read from the packages themselves: the fields Depends and Recommends of .deb files, Requires-Dist of wheels, dependencies
-of npm archives. The time is SOURCE_DATE_EPOCH, so that the same packages give the same bytes.
+of npm archives; and of the libraries that wheels and npm archives have in them, the names of their licences. Versions of these
+are those of Debian's packages here, where the release is made. The time is SOURCE_DATE_EPOCH, so that the same packages give the same bytes.
 """
 import datetime
 import email
@@ -15,6 +16,7 @@ import sys
 import tarfile
 import zipfile
 from pathlib import Path
+from urllib.parse import quote
 
 
 def debian_needs(path):
@@ -39,6 +41,40 @@ def npm_needs(path):
             yield "npm", needed
 
 
+def wheel_contents(path):
+    with zipfile.ZipFile(path) as wheel:
+        for name in wheel.namelist():
+            if found := re.search(r"/notices/([^/]+)\.txt$", name):
+                yield found[1]
+
+
+def npm_contents(path):
+    with tarfile.open(path) as archive:
+        if "package/bin/LICENSES.txt" in archive.getnames():
+            licences = archive.extractfile("package/bin/LICENSES.txt").read().decode()
+            yield from re.findall(r"^==== (\S+) ====$", licences, re.MULTILINE)
+
+
+def debian_versions():
+    """Of packages, and of the sources that they are made of."""
+    try:
+        listed = subprocess.run(["dpkg-query", "-W", "-f", "${Package} ${source:Package} ${source:Version}\n"], capture_output=True, text=True)
+    except FileNotFoundError:
+        return {}
+    versions = {}
+    for line in listed.stdout.splitlines():
+        package, source, version = line.split()
+        versions[package] = versions[source] = version
+    return versions
+
+
+def purl(registry, name, version=None):
+    """A package URL, in which an npm scope's @ is %40, and so are : and + of versions escaped."""
+    place = "deb/debian" if registry == "deb" else registry
+    return f"pkg:{place}/{quote(name, safe='/')}" + (f"@{quote(version, safe='')}" if version else "")
+
+
+CONTENTS = {".whl": wheel_contents, ".tgz": npm_contents}
 READERS = {".deb": debian_needs, ".whl": wheel_needs, ".tgz": npm_needs}
 
 
@@ -51,7 +87,7 @@ def package(name, identifier, **more):
 
 
 def main(version, folder):
-    ours, needed, relations = [], {}, []
+    ours, needed, relations, versions = [], {}, [], debian_versions()
     for path in sorted(path for path in Path(folder).rglob("*") if path.is_file()):
         if path.name == "SHA256SUMS" or path.suffix == ".json":
             continue
@@ -64,8 +100,14 @@ def main(version, folder):
             identifier = spdx_id(registry, what)
             needed[identifier] = package(what, identifier, externalRefs=[{
                 "referenceCategory": "PACKAGE-MANAGER", "referenceType": "purl",
-                "referenceLocator": f"pkg:{'deb/debian' if registry == 'deb' else registry}/{what}"}])
+                "referenceLocator": purl(registry, what)}])
             relations.append((spdx_id(name), "DEPENDS_ON", identifier))
+        for what in CONTENTS.get(path.suffix, lambda _: ())(path):
+            identifier = spdx_id("inside", what)
+            release = versions.get(what) or versions.get(f"lib{what}")  # the source of zstd is libzstd
+            needed[identifier] = package(what, identifier, **({"versionInfo": release} if release else {}), externalRefs=[{
+                "referenceCategory": "PACKAGE-MANAGER", "referenceType": "purl", "referenceLocator": purl("deb", what, release)}])
+            relations.append((spdx_id(name), "CONTAINS", identifier))
     time = datetime.datetime.fromtimestamp(int(os.environ["SOURCE_DATE_EPOCH"]), datetime.timezone.utc)
     everything = hashlib.sha256("".join(one["checksums"][0]["checksumValue"] for one in ours).encode()).hexdigest()
     json.dump({
