@@ -64,6 +64,9 @@ export class App {
   /** Parts of the file that Mend has made. */
   #mended: Part[] = [];
   #mendedFile: ModelFiles | null = null;
+  #mendedScene: Scene | null = null;
+  /** The mended file has other normals or triangles, so it is drawn by itself. */
+  #hasOtherShape = false;
   /** What the model was mended from. */
   #before: ModelFiles | null = null;
   /** Images of normal maps by material, and those of them whose green points down, as `check` says. */
@@ -102,6 +105,8 @@ export class App {
     place.clear();
     this.#mended = [];
     this.#mendedFile = null;
+    this.#mendedScene?.dispose();
+    this.#mendedScene = null;
     this.#normalImages = [];
     this.#greenDown.clear();
     this.#variant = -1;
@@ -186,7 +191,7 @@ export class App {
       place.clear();
       await this.#draw(model, isCurrent, true);
       if (!isCurrent()) return;
-      if (this.#mendedFile) this.#mended = (await loadModel(this.#mendedFile, this.work, variant)).parts;
+      if (this.#mendedFile) await this.#loadMended(this.#mendedFile, isCurrent);
       await this.compare(look.right, 0.3, 1);
       if (isCurrent()) progress.done("");
     } catch (error) {
@@ -296,15 +301,28 @@ export class App {
     }
   }
 
-  /** Puts the file that Mend has made right of the slider: its frames and its normal maps, as they are in it. */
-  async showMended(model: ModelFiles): Promise<void> {
-    const generation = this.#generation;
-    const { parts } = await loadModel(model, this.work, this.#variant);
-    if (generation !== this.#generation) return;
-    this.#mended = parts;
+  /** Puts the file that Mend has made right of the slider: its frames and its normal maps, as they are in it; its normals and triangles, too, where these are others. */
+  async showMended(model: ModelFiles, hasOtherShape: boolean): Promise<void> {
+    const generation = this.#generation, isCurrent = () => generation === this.#generation;
+    this.#hasOtherShape = hasOtherShape;
+    if (!(await this.#loadMended(model, isCurrent))) return;
     this.#mendedFile = model;
     this.views.look.offerMended(true);
     await this.setRight("mended");
+  }
+
+  async #loadMended(model: ModelFiles, isCurrent: () => boolean): Promise<boolean> {
+    const { parts, motion } = await loadModel(model, this.work, this.#variant);
+    // What moves would have to move on both sides.
+    const scene = this.#hasOtherShape && !motion ? new Scene() : null;
+    for (const [i, part] of scene ? parts.entries() : []) {
+      if (triangleCount(part.arrays) > 0) scene!.add(i, part, await this.work.run("corners", { part: null, arrays: copyOf(part.arrays) }));
+    }
+    if (!isCurrent()) return false;
+    this.#mended = parts;
+    this.#mendedScene?.dispose();
+    this.#mendedScene = scene;
+    return true;
   }
 
   /** Other frames for the slider and the error. */
@@ -329,6 +347,7 @@ export class App {
       scene.setRight(drawn, frames, (mended ?? drawn.part).normalMap);
       stage.viewport.ask();
     }
+    stage.viewport.showRight(right === "mended" ? this.#mendedScene : null);
     this.#showGreen();
     look.showFigures();
     look.showLines();

@@ -11,7 +11,7 @@ import { askedModel, askFirst, filesAt } from "./asked.js";
 import { faults, samples } from "./samples.js";
 import { FindingsView } from "./views/findings.js";
 import { LookView } from "./views/look.js";
-import { MendView, mendedName, type Mended } from "./views/mend.js";
+import { changesShape, MendView, mendedName, type Mended } from "./views/mend.js";
 import { MotionView } from "./views/motion.js";
 import { PartsView } from "./views/parts.js";
 import { PlaceView } from "./views/place.js";
@@ -21,6 +21,7 @@ import { Stage } from "./views/stage.js";
 import { TexelView } from "./views/texel.js";
 import { UvMapView } from "./views/uv_map.js";
 import { Work } from "./worker/client.js";
+import type { GenerateReport } from "tspace/gltf";
 
 // The library is read and compiled by the worker while WebGL starts, which holds this thread up for longer than all else.
 const work = new Work();
@@ -46,7 +47,7 @@ const mend = new MendView(
     const { report, bytes } = await app.generate(model, options);
     const mended = { name: mendedName(model.name), bytes, others: model.others };
     const checked = await app.checkMended(mended);
-    void app.showMended(mended).catch((error: Error) => stage.say(`The mended file cannot be drawn: ${error.message}`));
+    void app.showMended(mended, changesShape(report as GenerateReport)).catch((error: Error) => stage.say(`The mended file cannot be drawn: ${error.message}`));
     return { report, checked, ...mended };
   },
   ({ name, bytes, others }) => void app.openMended({ name, bytes, others }),

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Models that scripts/web makes, and faults put into them. They are in the page, since nothing is loaded later.
 import { fromBase64 } from "./base64.js";
+import { bear } from "./bear.js";
 import ring from "../samples/ring-directx.glb?inline";
 import crate from "../samples/crate.glb?inline";
 
@@ -53,17 +54,14 @@ const wrongAxes = withTangents((tangents) => {
   for (let i = 0; i < tangents.length; i += 4) [tangents[i + 1], tangents[i + 2]] = [-tangents[i + 2], tangents[i + 1]];
 });
 
-/** Means over all vertices at a place, on both sides of seams of the UV map. */
-const averagedSeams = withTangents((tangents, read) => {
-  const positions = read("POSITION", 3), normals = read("NORMAL", 3), sums = new Map<string, number[]>();
+/** Both sides of seams of the UV map share one tangent, as written through the index list from before the split; each keeps its sign. */
+const sharedSeams = withTangents((tangents, read) => {
+  const positions = read("POSITION", 3), normals = read("NORMAL", 3), firsts = new Map<string, number>();
   const key = (v: number) => [...positions.subarray(3 * v, 3 * v + 3), ...normals.subarray(3 * v, 3 * v + 3)].map((x) => x.toFixed(5)).join();
   for (let v = 0; v < tangents.length / 4; ++v) {
-    const sum = sums.get(key(v)) ?? [0, 0, 0];
-    sums.set(key(v), sum.map((x, k) => x + tangents[4 * v + k]));
-  }
-  for (let v = 0; v < tangents.length / 4; ++v) {
-    const sum = sums.get(key(v))!, length = Math.hypot(...sum);
-    if (length > 0.01) tangents.set(sum.map((x) => x / length), 4 * v);
+    const first = firsts.get(key(v)) ?? v;
+    firsts.set(key(v), first);
+    tangents.copyWithin(4 * v, 4 * first, 4 * first + 3);
   }
 });
 
@@ -111,9 +109,10 @@ export const samples: readonly Sample[] = [
 export const faults: readonly Sample[] = [
   sample("every sign inverted", "crate-signs-inverted.glb", "MikkTSpace was fed with v as glTF stores it", signsInverted),
   sample("signs lost", "crate-signs-lost.glb", "The exporter forgot the fourth number of tangents", signsLost),
-  sample("averaged over seams", "crate-seams-averaged.glb", "Tangents were averaged over both sides of seams of the UV map", averagedSeams),
+  sample("shared over seams", "crate-seams-shared.glb", "Both sides of seams of the UV map share one tangent: it was written through the index list from before the split", sharedSeams),
   sample("T along N", "crate-along-normals.glb", "Tangents are the normals: cross(N, T) vanishes", alongNormals),
   sample("wrong UV set", "crate-wrong-set.glb", "Tangents follow a second UV set, as of a light map, and not that of the normal map", wrongSet),
   sample("other axes", "crate-wrong-axes.glb", "The model was turned from Z up to Y up, and its tangents not", wrongAxes),
+  sample("mesh by AI", "bear-by-ai.glb", "As generators of meshes leave them: rough by chance, and patches of triangles wound against the others", bear),
   sample("green points down", "ring-directx.glb", "A normal map made for DirectX", () => decoded(ring)),
 ];

@@ -181,22 +181,6 @@ test("an image that cannot be drawn takes itself away, and not the model", { ski
   }
 });
 
-test("each fault of the gallery is found, and mended by what is switched on", { skip: missing }, async () => {
-  await withPage(async (tab) => {
-    const wanted = { "every sign inverted": "signsInverted", "signs lost": "signsWrong", "averaged over seams": "SeamAveraged", "T along N": "tangentsNotOrthogonal", "wrong UV set": "uvSetWrong", "other axes": "directionsWrong", "green points down": "greenFlipped" };
-    await tab.locator(".mend > summary").click();
-    for (const [name, code] of Object.entries(wanted)) {
-      await tab.getByLabel("Faults of real files").selectOption({ label: name });
-      await settled(tab);
-      const codes = await tab.locator(".finding").evaluateAll((items) => items.map((item) => item.dataset.code));
-      assert.ok(codes.some((one) => one.includes(code)), `${name}: ${codes.join()}`);
-      await shoot(tab, `fault-${name.replaceAll(" ", "-")}`);
-      await mended(tab);
-      assert.match(await tab.locator(".result .counts").textContent(), /→ 0 errors|→ 0 warnings/, name);
-    }
-  });
-});
-
 test("the address says what is seen, and shows it again", { skip: missing }, async () => {
   let address;
   await withPage(async (tab) => {

@@ -7,6 +7,9 @@ import { environmentFor } from "./environment.js";
 import { setValues, type Look, type PictureValues } from "./shader.js";
 import type { MapCorners } from "../worker/protocol.js";
 
+/** Looks with two sides. */
+export const hasSplit = (look: Look): boolean => look === "lit" || look === "normals" || look === "signs";
+
 export interface Settings {
   look: Look;
   map: 0 | 1 | 2;
@@ -47,6 +50,8 @@ export class Viewport {
   readonly camera = new PerspectiveCamera(35, 1, 0.01, 100);
   readonly overlay = new ThreeScene();
   scene = new Scene();
+  /** What stands right of the line in the place of the scene: a file with other normals or triangles. */
+  #right: Scene | null = null;
   /** Where light comes from, as the camera sees it: x right, y up, z to the eye. */
   readonly light = new Vector3(-0.45, 0.55, 0.7).normalize();
   onDrawn: () => void = () => {};
@@ -86,10 +91,22 @@ export class Viewport {
   }
 
   show(scene: Scene): void {
+    this.showRight(null);
     this.#world.remove(this.scene.root);
     this.scene.dispose();
     this.scene = scene;
     this.#world.add(scene.root);
+    this.ask();
+  }
+
+  /** Another file right of the line, or none: then the scene itself stands there, in its right frames. */
+  showRight(right: Scene | null): void {
+    if (this.#right) this.#world.remove(this.#right.root);
+    this.#right = right;
+    if (right) {
+      right.root.visible = false;
+      this.#world.add(right.root);
+    }
     this.ask();
   }
 
@@ -266,13 +283,38 @@ export class Viewport {
     const wantsSurface = values.look === "lit" && values.usesColors && !values.isWire, isSurface = wantsSurface && this.#hasDrawn;
     if (isSurface) this.#world.environment ??= environmentFor(renderer);
     else if (wantsSurface && this.scene.drawn.length > 0) this.ask();
-    this.scene.show(isSurface);
     renderer.clear();
-    renderer.render(this.#world, this.camera);
-    this.scene.show(false);
+    if (this.#right && hasSplit(values.look)) this.#drawSides(renderer, this.#right, values, isSurface);
+    else this.#drawScene(renderer, this.scene, isSurface);
     renderer.render(this.overlay, this.camera);
     if (this.scene.drawn.length > 0 && !this.#hasDrawn) performance.mark("first picture");
     this.#hasDrawn ||= this.scene.drawn.length > 0;
+  }
+
+  #drawScene(renderer: WebGLRenderer, scene: Scene, isSurface: boolean): void {
+    scene.show(isSurface);
+    renderer.render(this.#world, this.camera);
+    scene.show(false);
+  }
+
+  /** Left of the line the scene, right of it the other file as that is: its own frames. */
+  #drawSides(renderer: WebGLRenderer, right: Scene, values: PictureValues, isSurface: boolean): void {
+    const { x: width, y: height } = renderer.getSize(new Vector2()), line = Math.round(width * Math.min(1, this.settings.split));
+    for (const one of right.drawn) {
+      setValues(one.material, { ...values, split: Infinity });
+      one.isHidden = this.scene.find(one.part.mesh, one.part.primitive)?.isHidden ?? false;
+    }
+    renderer.setScissorTest(true);
+    for (const [scene, from, to] of [[this.scene, 0, line], [right, line, width]] as const) {
+      if (from === to) continue;
+      this.scene.root.visible = scene === this.scene;
+      right.root.visible = scene === right;
+      renderer.setScissor(from, 0, to - from, height);
+      this.#drawScene(renderer, scene, isSurface);
+    }
+    renderer.setScissorTest(false);
+    this.scene.root.visible = true;
+    right.root.visible = false;
   }
 
   #move(now: number): void {

@@ -10,25 +10,36 @@ export interface Extras {
   flipGreen: boolean;
   mendMaps: boolean;
   overwriteNormals: boolean;
+  /** All normals anew, by what tells noise of positions from their shape. */
+  denoise: boolean;
+  mendWinding: boolean;
+  /** Tangents that no material needs are taken away. */
+  strip: boolean;
   morphNormals: "missing" | "all" | null;
 }
-export const noExtras: Extras = { flipGreen: false, mendMaps: false, overwriteNormals: false, morphNormals: null };
+export const noExtras: Extras = { flipGreen: false, mendMaps: false, overwriteNormals: false, denoise: false, mendWinding: false, strip: false, morphNormals: null };
 
 /** What a remedy's command does, or null where this page cannot do it. */
 export function remedyOptions({ code, remedy }: Finding): (Partial<Extras> & { tangents?: Tangents }) | null {
   // Of these the remedy says that both or neither is to be mended, which is more than one command.
   if (code === "greenFlipped") return { flipGreen: true };
-  const words = /tspace generate((?: --[a-z-]+(?: (?:missing|all))?)+)/.exec(remedy)?.[1].trim();
+  const words = /tspace generate((?: --[a-z-]+(?: (?:missing|all|best|auto))?)+)/.exec(remedy)?.[1].trim();
   if (words === undefined) return null;
   const options: Partial<Extras> & { tangents?: Tangents } = {};
-  for (const [, name, value] of words.matchAll(/--([a-z-]+)(?: (missing|all))?/g)) {
+  for (const [, name, value] of words.matchAll(/--([a-z-]+)(?: (missing|all|best|auto))?/g)) {
     if (name === "repair" || name === "overwrite") options.tangents = name;
     else if (name === "flip-green") options.flipGreen = true;
     else if (name === "mend-maps") options.mendMaps = true;
     else if (name === "overwrite-normals") options.overwriteNormals = true;
+    else if (name === "mend-winding") options.mendWinding = true;
+    else if (name === "strip") options.strip = true;
+    else if (name === "denoise" && value === "auto") options.denoise = true;
+    else if (name === "normals" && value === "best") continue; // which --denoise goes with
     else if (name === "morph-normals") options.morphNormals = value as "missing" | "all";
     else return null;
   }
+  // Normals without the noise are all made anew.
+  if (options.denoise) delete options.overwriteNormals;
   return options;
 }
 
@@ -63,6 +74,10 @@ export function adviceFor(report: CheckReport | null, tangents: Tangents, isTurn
   if (options.some((one) => one?.mendMaps)) {
     extras.mendMaps = true;
     reasons.push("A normal map holds something else than glTF wants: converting it is switched on.");
+  }
+  if (options.some((one) => one?.mendWinding)) {
+    extras.mendWinding = true;
+    reasons.push("Triangles are wound against their neighbours: turning them is switched on.");
   }
   const morph = options.map((one) => one?.morphNormals).filter(Boolean);
   if (morph.length > 0) {

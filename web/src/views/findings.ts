@@ -86,7 +86,7 @@ export class FindingsView {
       const n = file.counts[severity];
       summary.append(el("span", { class: `badge ${severity}${n === 0 ? " none" : ""}` }, plural(n, severity)));
     }
-    const looked = `${plural(file.primitives, "primitive")}, ${count(file.primitivesWithTangents)} with tangents; looked at ${plural(file.normalMaps, "normal map")}: what the channels hold, and which way green points (told by ${count(file.normalMapsWithGreen)}).`;
+    const looked = `${plural(file.primitives, "primitive")}, ${count(file.primitivesWithTangents)} with tangents; ${file.normalMaps === 0 ? "no normal map to look at." : `looked at ${plural(file.normalMaps, "normal map")}: what the channels hold, and which way green points (told by ${count(file.normalMapsWithGreen)}).`}`;
     this.#filter.value = "";
     replaceChildren(this.#list, summary, el("p", { class: "quiet" }, looked), file.findings.length >= kFilterFrom && this.#filter);
     if (groups.length === 0) this.#list.append(el("p", { class: "fine" }, "Nothing is wrong."));
@@ -107,7 +107,7 @@ export class FindingsView {
   #applyFilter(): void {
     const wanted = this.#filter.value.trim().toLowerCase();
     for (const { group, element } of this.#groups) {
-      const text = group.findings.map((finding) => `${finding.code} ${finding.message} ${placeOf(finding)}`).join(" ");
+      const text = group.findings.map((finding) => `${finding.code} ${finding.message} ${placeOf(finding)} ${finding.place}`).join(" ");
       element.hidden = !text.toLowerCase().includes(wanted);
     }
   }
@@ -125,7 +125,7 @@ export class FindingsView {
     const button = el("button", { class: `finding ${severity}`, type: "button", "aria-expanded": "false", "data-code": code },
       el("span", { class: "message" }, isOne || !meaning ? first.message : meaning.what),
       el("span", { class: "quiet" }, isOne ? placeOf(first) : `${plural(findings.length, "place")}, the first: ${placeOf(first)}`),
-      el("span", { class: "code" }, code));
+      el("span", { class: "code" }, isOne && first.place !== "" ? `${code} ${first.place}` : code));
     button.addEventListener("click", () => this.#toggle(button, details, findings));
     return [button, details];
   }
@@ -159,9 +159,9 @@ export class FindingsView {
 
 const firstVertices = ({ vertices }: Finding): HTMLElement | false => vertices.length > 0 && el("p", { class: "quiet" }, `First at vertices ${vertices.join(", ")}.`);
 
-/** Where, in words: the names that a person gave, and the place in the file. */
+/** Where, in words: the names that a person gave. */
 function placeOf({ mesh, primitive, meshName, materialName, place }: Finding): string {
   if (place === "") return "";
-  const parts = [mesh >= 0 && `mesh ${mesh}${meshName ? ` “${meshName}”` : ""}, primitive ${primitive}`, materialName && `material “${materialName}”`];
-  return [...parts.filter(Boolean), `at ${place}`].join(", ");
+  const parts = [mesh >= 0 && `mesh ${mesh}${meshName ? ` “${meshName}”` : ""}, primitive ${primitive}`, materialName && `material “${materialName}”`].filter(Boolean);
+  return parts.length > 0 ? parts.join(", ") : `at ${place}`;
 }

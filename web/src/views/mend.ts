@@ -2,7 +2,7 @@
 // Mends the model as `tspace generate` does: what to do, the same as a command line, what changed, and the file. Each model
 // begins with what its own findings ask for.
 import { folderOf, zipOf } from "../model/folder.js";
-import { checkbox, choice, count, el, replaceChildren, select } from "../dom.js";
+import { checkbox, choice, count, el, plural, replaceChildren, select } from "../dom.js";
 import type { ModelFiles } from "../files.js";
 import type { CheckReport, Finding, GeneratedPrimitive, GenerateReport, JudgedMap } from "tspace/gltf";
 import { methods, type Method } from "../worker/protocol.js";
@@ -25,12 +25,15 @@ const actions: Record<string, string> = {
   impossible: "impossible",
   removed: "taken away",
 };
-/** Switches in the order of the panel. Those of the last three are seen where a finding asks for them. */
+/** Switches in the order of the panel. All but the first are seen where a finding asks for them. */
 const switches: readonly (readonly [keyof Extras, string])[] = [
   ["flipGreen", "Turn green of maps where it points down"],
   ["mendMaps", "Convert maps that hold something else"],
   ["morphNormals", "Make normals of morph targets"],
   ["overwriteNormals", "Make all normals anew"],
+  ["mendWinding", "Turn triangles that are wound against others"],
+  ["denoise", "Make all normals anew, without the noise of positions"],
+  ["strip", "Take away tangents that no material needs"],
 ];
 
 export class MendView {
@@ -124,7 +127,7 @@ export class MendView {
 
   /** Options of the package, which are those of the tool in camelCase. */
   #options(): Record<string, unknown> {
-    const { flipGreen, mendMaps, overwriteNormals, morphNormals } = this.#extras;
+    const { flipGreen, mendMaps, overwriteNormals, denoise, mendWinding, strip, morphNormals } = this.#extras;
     return {
       ...(this.#tangents === "repair" && { repair: true }),
       ...(this.#tangents === "overwrite" && { overwrite: true }),
@@ -133,7 +136,10 @@ export class MendView {
       ...(flipGreen && { flipGreen: true }),
       ...(mendMaps && { mendMaps: true }),
       ...(morphNormals && { morphNormals }),
-      ...(overwriteNormals && { overwriteNormals: true }),
+      ...(mendWinding && { mendWinding: true }),
+      ...((overwriteNormals || denoise) && { overwriteNormals: true }),
+      ...(denoise && { normals: "best", denoise: "auto" }),
+      ...(strip && { strip: true }),
       ...(this.#isCompressed && { compress: "none" }),
     };
   }
@@ -196,6 +202,7 @@ export class MendView {
     replaceChildren(this.#result,
       el("p", { class: sentence.isGood ? "fine" : "quiet" }, sentence.what),
       sentence.findings && el("p", { class: sentence.isWorse ? "failure" : "counts", role: sentence.isWorse ? "alert" : undefined }, sentence.findings),
+      asksForAnew(mended.checked) && this.#tangents !== "overwrite" && el("p", { class: "quiet" }, "What stays is kept by a repair, since it is a little off: all anew mends it."),
       changeTable(file.primitives),
       file.normalMaps.length > 0 ? mapTable(file.normalMaps) : null,
       ...file.warnings.map((warning) => el("p", { class: "quiet" }, warning)),
@@ -205,6 +212,11 @@ export class MendView {
 
 const changesTangents = ({ action, mendedVertices }: GeneratedPrimitive): boolean => mendedVertices > 0 || ["generated", "replaced", "removed"].includes(action);
 
+const asksForAnew = (checked: CheckReport | null): boolean => checked !== null && checked.findings.some((finding) => finding.severity !== "note" && remedyOptions(finding)?.tangents === "overwrite");
+
+/** Normals or triangles are other ones, which frames alone do not show. */
+export const changesShape = ({ primitives }: GenerateReport): boolean => primitives.some(({ normalsGenerated, windingMended }) => normalsGenerated || windingMended > 0);
+
 /** What the mend did, and what `check` says before and after it. */
 function verdictOf(mended: Mended, before: CheckReport | null): { what: string; findings: string | null; isGood: boolean; isWorse: boolean } {
   const file = mended.report as GenerateReport, after = mended.checked;
@@ -212,9 +224,13 @@ function verdictOf(mended: Mended, before: CheckReport | null): { what: string; 
   const worse = before !== null && after !== null && isWorse(before.counts, after.counts);
   if (!file.changed) return { what: "Nothing had to change: the file is the same, byte for byte.", findings, isGood: false, isWorse: false };
   const sizes = `${count(file.inputBytes)} bytes in, ${count(file.outputBytes)} out.`;
-  const hasOther = file.normalMaps.some(({ flipped, mended: isMended }) => flipped || isMended) || file.primitives.some(({ normalsGenerated, morphNormals }) => normalsGenerated || morphNormals > 0);
+  const others = [
+    file.normalMaps.some(({ flipped, mended: isMended }) => flipped || isMended) && "normal maps",
+    file.primitives.some(({ normalsGenerated, morphNormals }) => normalsGenerated || morphNormals > 0) && "normals",
+    file.primitives.some(({ windingMended }) => windingMended > 0) && "triangles",
+  ].filter(Boolean);
   if (file.primitives.some(changesTangents)) return { what: `Done: ${sizes}`, findings, isGood: !worse, isWorse: worse };
-  return { what: `No tangent has changed${hasOther ? "; maps or normals have" : ""}: ${sizes}`, findings, isGood: hasOther && !worse, isWorse: worse };
+  return { what: `No tangent has changed${others.length > 0 ? `; ${others.join(" and ")} have` : ""}: ${sizes}`, findings, isGood: others.length > 0 && !worse, isWorse: worse };
 }
 
 /** Words of a command line that are not broken at their hyphens. */
@@ -237,7 +253,7 @@ const changeTable = (primitives: GeneratedPrimitive[]): HTMLElement =>
     const mended = one.mendedVertices > 0 ? `, ${count(one.mendedVertices)} ${one.mendedVertices === 1 ? "vertex" : "vertices"} mended` : "";
     const vertices = one.verticesBefore === one.verticesAfter ? count(one.verticesBefore) : `${count(one.verticesBefore)} → ${count(one.verticesAfter)}`;
     return {
-      cells: [`${one.mesh}/${one.primitive} ${one.meshName || one.materialName}`, `${actions[one.action] ?? one.action}${mended}${one.normalsGenerated ? ", normals made" : ""}`, vertices],
+      cells: [`${one.mesh}/${one.primitive} ${one.meshName || one.materialName}`, `${actions[one.action] ?? one.action}${mended}${one.normalsGenerated ? ", normals made" : ""}${one.windingMended > 0 ? `, ${plural(one.windingMended, "triangle")} turned` : ""}`, vertices],
       title: [one.reason, ...one.notes].join(" "),
     };
   }));

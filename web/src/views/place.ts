@@ -21,14 +21,37 @@ const kFarDegrees = 5;
 /** Of a finding on more of the surface than this the picture stays where it is. */
 const kEverywhere = 0.5;
 
-/** The triangles that a finding is about, as the comparison with right frames has them; else those at the vertices it names. */
-function trianglesOf(drawn: Drawn, finding: Finding): number[] {
-  const errors = drawn.frames?.errors, found: number[] = [];
-  const isSign = /^signs(Inverted|Wrong)/.test(finding.code), isDirection = /^(directions|uvSet|mirroredSeam|uvSeam)/.test(finding.code);
-  if (errors && (isSign || isDirection)) {
-    const isFar = (corner: number) => (isSign ? errors[2 * corner + 1] > 0.5 : errors[2 * corner] > kFarDegrees);
-    for (let t = 0; t < errors.length / 6; ++t) if (isFar(3 * t) || isFar(3 * t + 1) || isFar(3 * t + 2)) found.push(t);
+/** Where a tangent is not unit, and a normal points to the back: as `check` has it. */
+const kUnit = 0.00674, kBack = -0.1;
+
+/** What holds for each triangle that a finding is about, by how its name begins; null where the picture cannot tell. */
+function testFor({ code }: Finding, { corners: { positions: p, normals: n, tangents: t, islands }, frames }: Drawn): ((triangle: number) => boolean) | null {
+  const errors = frames?.errors, isAny = (holds: (corner: number) => boolean) => (triangle: number) => holds(3 * triangle) || holds(3 * triangle + 1) || holds(3 * triangle + 2);
+  if (errors && /^signs(Inverted|Wrong)/.test(code)) return isAny((corner) => errors[2 * corner + 1] > 0.5);
+  if (errors && /^(directions|uvSet|mirroredSeam|uvSeam)/.test(code)) return isAny((corner) => errors[2 * corner] > kFarDegrees);
+  if (t && code === "signsMixed") return (triangle) => Math.sign(t[12 * triangle + 3]) !== Math.sign(t[12 * triangle + 7]) || Math.sign(t[12 * triangle + 3]) !== Math.sign(t[12 * triangle + 11]);
+  if (t && code === "tangentsNotUnit") return isAny((corner) => Math.abs(Math.hypot(t[4 * corner], t[4 * corner + 1], t[4 * corner + 2]) - 1) > kUnit);
+  if (code === "uvsDegenerate") return (triangle) => islands[6 * triangle + 1] === 0.5;
+  if (code === "normalsAgainstWinding") return (triangle) => facing(p, n, triangle) < kBack;
+  return null;
+}
+
+/** The cosine between a triangle's own normal and the sum of those at its corners. */
+function facing(p: Float32Array, n: Float32Array, triangle: number): number {
+  const i = 9 * triangle, own = [0, 0, 0], sum = [0, 0, 0], edge = (k: number, axis: number) => p[i + 3 * k + axis] - p[i + axis];
+  for (let axis = 0; axis < 3; ++axis) {
+    const y = (axis + 1) % 3, z = (axis + 2) % 3;
+    own[axis] = edge(1, y) * edge(2, z) - edge(1, z) * edge(2, y);
+    sum[axis] = n[i + axis] + n[i + 3 + axis] + n[i + 6 + axis];
   }
+  const size = Math.hypot(...own) * Math.hypot(...sum);
+  return size > 0 ? (own[0] * sum[0] + own[1] * sum[1] + own[2] * sum[2]) / size : 0;
+}
+
+/** All triangles that a finding is about; else those at the vertices it names. */
+function trianglesOf(drawn: Drawn, finding: Finding): number[] {
+  const holds = testFor(finding, drawn), count = drawn.corners.positions.length / 9;
+  const found = holds ? Array.from({ length: count }, (_, triangle) => triangle).filter(holds) : [];
   return found.length > 0 ? found : trianglesAt(drawn, finding.vertices);
 }
 
@@ -46,13 +69,14 @@ export class PlaceView {
     this.clear();
     this.setLook(lookOf(findings[0]));
     const { scene } = this.viewport, outline = new Group(), places: Omit<Place, "outline">[] = [];
-    let outlined = 0, seen = 0;
+    let outlined = 0, seen = 0, isWhole = false;
     for (const finding of findings) {
       const drawn = finding.place === "" ? undefined : scene.find(finding.mesh, finding.primitive);
       if (!drawn) continue;
       seen += 1;
       const triangles = trianglesOf(drawn, finding);
       // Without vertices the finding is about all of the primitive.
+      isWhole = triangles.length === 0 && scene.drawn.length === 1;
       const place = triangles.length > 0 ? outlineTriangles(drawn, triangles) : { ...outlinePart(drawn), faces: [] };
       outlined += triangles.length > 0 ? triangles.length : drawn.corners.positions.length / 9;
       if (place.radius > 0) outline.add(place.outline);
@@ -60,7 +84,7 @@ export class PlaceView {
     }
     this.#outline = replaceOverlay(this.viewport, null, outline);
     const share = isOne ? findings[0].surfaceShare : seen / Math.max(1, scene.drawn.length);
-    if (seen > 0 && (isOne ? scene.drawn.length > 1 || share < kEverywhere : share < kEverywhere)) this.#fly(places);
+    if (seen > 0 && !isWhole && (isOne ? scene.drawn.length > 1 || share < kEverywhere : share < kEverywhere)) this.#fly(places);
     return outlined;
   }
 

@@ -2,7 +2,7 @@
 // The middle of the page: the picture, what is to be seen in it, the slider between both frames, and the light.
 import { choice, el } from "../dom.js";
 import type { Look } from "../picture/shader.js";
-import { Viewport } from "../picture/viewport.js";
+import { hasSplit, Viewport } from "../picture/viewport.js";
 import { nameOf, type Right } from "../worker/protocol.js";
 import { Legend } from "./legend.js";
 
@@ -17,8 +17,6 @@ const lookNames: readonly (readonly [Look, string])[] = [
 ];
 
 const isTyping = ({ target, ctrlKey, metaKey, altKey }: KeyboardEvent): boolean => ctrlKey || metaKey || altKey || target instanceof HTMLSelectElement || (target instanceof HTMLInputElement && target.type === "text");
-
-const hasSplit = (look: Look): boolean => look === "lit" || look === "normals" || look === "signs";
 
 /** Of the normal maps right of the slider: how many have their green turned. */
 export type TurnedGreen = "none" | "some" | "all";

@@ -139,6 +139,12 @@ export async function computeFrames(arrays: Arrays, method: Method): Promise<Fra
 export function otherFrames(arrays: Arrays, others: Arrays): Frames | null {
   const vertices = cornerVertices(arrays), theirs = cornerVertices(others);
   if (!others.tangents || theirs.length !== vertices.length) return null;
+  // A triangle that was turned has its second and third corner exchanged.
+  const isAt = (a: number, b: number) => [0, 1, 2].every((k) => arrays.positions[3 * vertices[a] + k] === others.positions[3 * theirs[b] + k]);
+  for (let second = 1; second < theirs.length; second += 3) {
+    const third = second + 1;
+    if (!isAt(second, second) && isAt(second, third) && isAt(third, second)) [theirs[second], theirs[third]] = [theirs[third], theirs[second]];
+  }
   return compared(gather(others.tangents, 4, theirs), arrays, vertices);
 }
 

@@ -81,7 +81,8 @@ export interface TexturePixels {
 export interface Calls {
   report: { ask: { verb: Verb; model: ModelFiles }; answer: unknown };
   generate: { ask: { model: ModelFiles; options: Record<string, unknown> }; answer: { report: unknown; bytes: Uint8Array<ArrayBuffer> } };
-  corners: { ask: { part: number; arrays: Arrays }; answer: Corners };
+  /** `part`: what it is called in later questions, or null. */
+  corners: { ask: { part: number | null; arrays: Arrays }; answer: Corners };
   /** The map of other UVs for a part. */
   map: { ask: { arrays: Arrays }; answer: MapCorners };
   frames: { ask: { part: number; method: Method }; answer: Frames };

@@ -22,7 +22,7 @@ async function answerTo(question: Question): Promise<{ answer: unknown; transfer
     case "generate":
       return { answer: await generateModel(question.ask.model, question.ask.options) };
     case "corners": {
-      parts.set(question.ask.part, question.ask.arrays);
+      if (question.ask.part !== null) parts.set(question.ask.part, question.ask.arrays);
       const answer = await cornersOf(question.ask.arrays);
       const buffers = [answer.positions, answer.normals, answer.islands, answer.uvs, answer.tangents].map((array) => array?.buffer);
       return { answer, transfer: [...new Set(buffers)].filter((buffer) => buffer !== undefined) };
