@@ -68,7 +68,7 @@ export function showLight(host: HTMLElement, rows: HTMLElement, canvas: HTMLCanv
     const inSpace = add(add(scale(n[0], tangent), scale(n[1], bitangent)), scale(n[2], normal));
     const colour = n.map((v) => Math.round(255 * (0.5 * v + 0.5)));
 
-    for (const [plane, words] of [[kLight, "light, from above"], [kFrame, "frame: turn the texture"], [kTexel, "texel"]] as const) {
+    for (const [plane, words] of [[kLight, "light"], [kFrame, "turn the texture"], [kTexel, "texel"]] as const) {
       const [cx, cy] = Figure.at(plane, [0, 0]);
       const disc = figure.add("circle", { class: "face", cx, cy, r: plane.unit });
       if (plane === kTexel) disc.setAttribute("style", `fill: rgb(${colour.join(",")})`);

@@ -205,7 +205,7 @@ export class App {
     progress.at("Drawing", 0.1);
     stage.say("");
     try {
-      const { parts, motion, normalImages, variants, remarks: own } = await loadModel(model, this.work, this.#variant);
+      const { parts, tree, motion, normalImages, variants, remarks: own } = await loadModel(model, this.work, this.#variant);
       const remarks = [...this.#remarks, ...own];
       if (!isCurrent()) return;
       this.#normalImages = normalImages;
@@ -228,7 +228,7 @@ export class App {
         this.views.offered(variants);
       }
       this.views.uvMap.reset();
-      this.views.parts.reset();
+      this.views.parts.reset(tree);
       this.views.motion.reset(motion);
       this.views.look.showLines();
       if (scene.drawn.length === 0) remarks.push("There is nothing to draw in this file.");

@@ -115,6 +115,28 @@ test("surfaces look as their materials say: colours of vertices, what mirrors, w
   }, { allowMessages: true });
 });
 
+test("surroundings are mirrored, and shadows only take light away", { skip: noShared }, async () => {
+  await withPage(async (tab) => {
+    await openFile(tab, join(shared, "models/khronos/Lantern.glb"));
+    await tab.locator(".split").fill("1000");
+    const seen = new Map();
+    for (const name of ["room", "studio", "sky", "sunset"]) {
+      await choose(tab, name, ".look");
+      const image = await pixelsOf(tab);
+      for (const [other, before] of seen) assert.ok(shareOf(image, (i) => farApart(image.data, i, before.data, i) > 6) > 0.03, `${name} is not ${other}`);
+      seen.set(name, image);
+    }
+    await choose(tab, "room", ".look");
+    const room = seen.get("room"), again = await pixelsOf(tab);
+    assert.equal(shareOf(room, (i) => farApart(room.data, i, again.data, i) > 1), 0, "and back again");
+    await tab.getByLabel("Shadows").check();
+    const shaded = await pixelsOf(tab), light = ({ data }, i) => data[i] + data[i + 1] + data[i + 2];
+    assert.ok(shareOf(shaded, (i) => light(shaded, i) < light(room, i) - 12) > 0.002, "the roof keeps the lamp off what is below it");
+    assert.ok(shareOf(shaded, (i) => light(shaded, i) > light(room, i) + 6) < 0.0005);
+    await shoot(tab, "shadows");
+  }, { allowMessages: true, width: 1000, height: 700 });
+});
+
 test("animations move what bones, nodes and weights move, and end where they began", { skip: noShared }, async () => {
   await withPage(async (tab) => {
     for (const [name, isSkin] of [["Fox.glb", true], ["AnimatedMorphCube.glb", false]]) {

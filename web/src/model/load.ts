@@ -8,7 +8,7 @@ import { arraysOf, uvsOf } from "./arrays.js";
 import { Motion } from "./motion.js";
 import { poseOf } from "./pose.js";
 import { giveDecoders } from "./compressed.js";
-import type { Model, Part } from "./part.js";
+import type { Model, Part, TreeNode } from "./part.js";
 import { materialIn, putOn, variantsOf, type Origin } from "./variants.js";
 import { missingImages, normalImagesOf, readTextureFiles } from "./textures.js";
 
@@ -117,6 +117,19 @@ function moveToOrigin(parts: Iterable<Part>): void {
   for (const place of places) place.premultiply(new Matrix4().makeTranslation(-x, -y, -z));
 }
 
+/** The nodes that draw something. Of a chain in which each has nothing but the next, the last is there. */
+function treeOf(roots: readonly Object3D[], drawnBy: Map<Object3D, TreeNode["draws"][number]>): TreeNode[] {
+  const nodeOf = (object: Object3D): TreeNode | null => {
+    const own = drawnBy.get(object), children = object.children.map(nodeOf).filter((node) => node !== null);
+    if (!own && children.length === 0) return null;
+    if (!own && children.length === 1) return { ...children[0], name: children[0].name || object.name };
+    return { name: object.name, draws: own ? [own] : [], children };
+  };
+  const tops = roots.map(nodeOf).filter((node) => node !== null);
+  // The scene itself is no node.
+  return tops.flatMap((top) => (top.draws.length === 0 ? top.children : [top]));
+}
+
 async function sceneOf(gltf: GLTF, remarks: string[]): Promise<Object3D[]> {
   const roots: Object3D[] = gltf.scene ? [gltf.scene] : gltf.scenes;
   let hasMesh = false;
@@ -140,7 +153,7 @@ export async function loadModel(model: ModelFiles, work: Work, variant = -1): Pr
     const gltf = await loader.parseAsync(isText ? new TextDecoder().decode(buffer) : buffer, "");
     const parts = new Map<string, Part>(), normalImages = normalImagesOf(gltf);
     let corners = 0, left = 0;
-    const roots = await sceneOf(gltf, remarks), objects: [Part, Mesh][] = [];
+    const roots = await sceneOf(gltf, remarks), objects: [Part, Mesh][] = [], drawnBy = new Map<Object3D, TreeNode["draws"][number]>();
     const lost = await putOn(gltf, variant, roots, originOf);
     if (lost) remarks.push(lost);
     for (const root of roots) {
@@ -156,7 +169,9 @@ export async function loadModel(model: ModelFiles, work: Work, variant = -1): Pr
         if (corners > kMostCorners) return void (left += 1);
         if (!parts.has(key)) objects.push([known, object]);
         parts.set(key, known);
+        const first = known.places.length;
         known.places.push(...placesOf(object));
+        drawnBy.set(object, { part: known, first, count: known.places.length - first });
       });
     }
     moveToOrigin(parts.values());
@@ -164,7 +179,7 @@ export async function loadModel(model: ModelFiles, work: Work, variant = -1): Pr
     remarks.push(...(await missingImages(gltf, why)));
     const isMoving = gltf.animations.length > 0 || gltf.cameras.length > 0 || objects.some(([, { morphTargetInfluences }]) => morphTargetInfluences);
     const motion = isMoving && roots.length > 0 ? new Motion(roots, gltf.animations, gltf.cameras, objects) : null;
-    return { parts: [...parts.values()], motion, normalImages, variants: variantsOf(gltf), remarks };
+    return { parts: [...parts.values()], tree: treeOf(roots, drawnBy), motion, normalImages, variants: variantsOf(gltf), remarks };
   } finally {
     for (const url of urls) URL.revokeObjectURL(url);
   }

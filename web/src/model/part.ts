@@ -37,8 +37,17 @@ export interface Part {
   moved: Matrix4;
 }
 
+/** A node that draws something, by itself or below it. */
+export interface TreeNode {
+  name: string;
+  /** What it draws: places of parts, by their numbers. */
+  draws: { part: Part; first: number; count: number }[];
+  children: TreeNode[];
+}
+
 export interface Model {
   parts: Part[];
+  tree: TreeNode[];
   motion: Motion | null;
   /** For each material of the file the index of its normal map's image, or -1. */
   normalImages: number[];

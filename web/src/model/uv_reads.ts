@@ -15,6 +15,8 @@ export interface UvRead {
 }
 
 const names: Record<string, string> = { normalMap: "normal map", map: "base colour", metalnessMap: "metal and roughness", roughnessMap: "metal and roughness", aoMap: "occlusion", emissiveMap: "emission" };
+/** What a property of a material of three.js is called. */
+export const nameOfMap = (property: string): string => names[property] ?? property.replace(/Map$/, "");
 const kMostSets = 4;
 
 /** What reads a set in one way: `key` says which set and which transform. */
@@ -31,7 +33,7 @@ function textureReads(part: Part): Map<string, Read> {
   const rank = (property: string) => (property === "normalMap" ? 0 : property === "map" ? 1 : 2);
   textures.sort(([a], [b]) => rank(a) - rank(b) || a.localeCompare(b, "en"));
   for (const [property, texture] of textures) {
-    const name = names[property] ?? property.replace(/Map$/, ""), matrix = texture.matrix.equals(new Matrix3()) ? null : texture.matrix;
+    const name = nameOfMap(property), matrix = texture.matrix.equals(new Matrix3()) ? null : texture.matrix;
     const key = keyOf(texture.channel, matrix);
     const read = reads.get(key) ?? { channel: texture.channel, matrix, images: [], names: [] };
     const image = texture.image as UvRead["images"][number]["image"] | null;

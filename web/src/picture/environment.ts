@@ -1,23 +1,47 @@
 // SPDX-License-Identifier: MIT
-// What surfaces mirror: a grey room with three lamps, made here.
+// What surfaces mirror: a grey room with three lamps, or one of others, made here.
 import { BackSide, BoxGeometry, Color, Float32BufferAttribute, Mesh, MeshBasicMaterial, PMREMGenerator, Scene, SphereGeometry, type Texture, type WebGLRenderer } from "three";
 
-/** Place, size and brightness of the lamps; the largest is above and to the left, where the lamp of the page is at first. */
-const lamps: readonly { at: [number, number, number]; size: [number, number, number]; light: number }[] = [
-  { at: [-4, 6, 3], size: [4, 0.2, 4], light: 9 },
-  { at: [6, 2, 2], size: [0.2, 3, 3], light: 4 },
-  { at: [0, 1, -7], size: [6, 2, 0.2], light: 2 },
-];
-const kAbove = new Color(0.62, 0.64, 0.68), kBelow = new Color(0.16, 0.15, 0.14);
+export const surroundings = ["room", "studio", "sky", "sunset"] as const;
+export type Surroundings = (typeof surroundings)[number];
 
-function room(): Scene {
+interface Lamp {
+  at: [number, number, number];
+  size: [number, number, number];
+  light: number;
+  color?: [number, number, number];
+}
+
+/** Colours from below to above, and lamps: their places, sizes and brightness. */
+const kinds: Record<Surroundings, { below: Color; level?: Color; above: Color; lamps: readonly Lamp[] }> = {
+  // The largest lamp is above and to the left, where the lamp of the page is at first.
+  room: {
+    below: new Color(0.16, 0.15, 0.14), above: new Color(0.62, 0.64, 0.68),
+    lamps: [{ at: [-4, 6, 3], size: [4, 0.2, 4], light: 9 }, { at: [6, 2, 2], size: [0.2, 3, 3], light: 4 }, { at: [0, 1, -7], size: [6, 2, 0.2], light: 2 }],
+  },
+  // Dark, with tall lamps at both sides and one above: rims and long highlights.
+  studio: {
+    below: new Color(0.02, 0.02, 0.02), above: new Color(0.1, 0.1, 0.11),
+    lamps: [{ at: [-7, 1, 1], size: [0.2, 9, 2], light: 14 }, { at: [7, 1, -1], size: [0.2, 9, 2], light: 9 }, { at: [0, 8, 1], size: [4, 0.2, 2], light: 8 }],
+  },
+  sky: {
+    below: new Color(0.2, 0.18, 0.15), level: new Color(0.85, 0.92, 1), above: new Color(0.22, 0.42, 0.85),
+    lamps: [{ at: [-6, 9, 6], size: [1.6, 1.6, 1.6], light: 55, color: [1, 0.95, 0.86] }],
+  },
+  sunset: {
+    below: new Color(0.08, 0.06, 0.06), level: new Color(1.1, 0.5, 0.22), above: new Color(0.12, 0.16, 0.36),
+    lamps: [{ at: [-11, 1.6, 3], size: [1.8, 1.8, 1.8], light: 45, color: [1, 0.55, 0.25] }],
+  },
+};
+
+function sceneOf({ below, level, above, lamps }: (typeof kinds)[Surroundings]): Scene {
   const scene = new Scene();
   const sphere = new SphereGeometry(20, 32, 16), heights = sphere.getAttribute("position");
-  const colors = Array.from({ length: heights.count }, (_, i) => kBelow.clone().lerp(kAbove, 0.5 + 0.5 * (heights.getY(i) / 20)).toArray()).flat();
-  sphere.setAttribute("color", new Float32BufferAttribute(colors, 3));
+  const colorAt = (y: number) => (!level ? below.clone().lerp(above, 0.5 + 0.5 * y) : y < 0 ? level.clone().lerp(below, Math.min(1, -6 * y)) : level.clone().lerp(above, Math.sqrt(y)));
+  sphere.setAttribute("color", new Float32BufferAttribute(Array.from({ length: heights.count }, (_, i) => colorAt(heights.getY(i) / 20).toArray()).flat(), 3));
   scene.add(new Mesh(sphere, new MeshBasicMaterial({ vertexColors: true, side: BackSide })));
-  for (const { at, size, light } of lamps) {
-    const lamp = new Mesh(new BoxGeometry(...size), new MeshBasicMaterial({ color: new Color(light, light, light) }));
+  for (const { at, size, light, color: [r, g, b] = [1, 1, 1] } of lamps) {
+    const lamp = new Mesh(new BoxGeometry(...size), new MeshBasicMaterial({ color: new Color(light * r, light * g, light * b) }));
     lamp.position.set(...at);
     scene.add(lamp);
   }
@@ -25,8 +49,8 @@ function room(): Scene {
 }
 
 /** As PMREM has it: blurred for each roughness. */
-export function environmentFor(renderer: WebGLRenderer): Texture {
-  const generator = new PMREMGenerator(renderer), scene = room();
+export function environmentFor(renderer: WebGLRenderer, name: Surroundings = "room"): Texture {
+  const generator = new PMREMGenerator(renderer), scene = sceneOf(kinds[name]);
   const { texture } = generator.fromScene(scene, 0.02);
   generator.dispose();
   scene.traverse((object) => {

@@ -25,8 +25,8 @@ export interface Drawn {
   surface: Material;
   meshes: Mesh[];
   surfaces: Mesh[];
-  /** A person has hidden it. */
-  isHidden: boolean;
+  /** The places that a person has hidden. */
+  hidden: Set<number>;
   /** Number of its first triangle among all that are drawn, per place. */
   firstTriangles: number[];
 }
@@ -69,7 +69,7 @@ function draw(number: number, part: Part, corners: Corners): Drawn {
   );
   const { uSplit, uMap, uHasTangents, uHasRight, uRightGreen, uRightMap } = material.uniforms;
   const surface = surfaceFor(part.surface, { uSplit, uMap, uHasTangents, uHasRight, uRightGreen, uRightMap });
-  return { number, part, corners, frames: null, rest: null, rightMap: corners.uvs && part.normalMap, turnsGreen: false, geometry, material, surface, meshes: [], surfaces: [], isHidden: false, firstTriangles: [] };
+  return { number, part, corners, frames: null, rest: null, rightMap: corners.uvs && part.normalMap, turnsGreen: false, geometry, material, surface, meshes: [], surfaces: [], hidden: new Set(), firstTriangles: [] };
 }
 
 function placed(mesh: Mesh, place: Matrix4): Mesh {
@@ -106,6 +106,7 @@ export class Scene {
       };
       drawn.meshes.push(mesh);
       surface.visible = false;
+      surface.castShadow = surface.receiveShadow = true;
       drawn.surfaces.push(surface);
       this.root.add(mesh, surface);
     }
@@ -162,9 +163,9 @@ export class Scene {
 
   /** Shows either the surfaces, as people know the model, or the materials of our own. */
   show(isSurface: boolean): void {
-    for (const { meshes, surfaces, isHidden } of this.drawn) {
-      for (const mesh of meshes) mesh.visible = !isSurface && !isHidden;
-      for (const mesh of surfaces) mesh.visible = isSurface && !isHidden;
+    for (const { meshes, surfaces, hidden } of this.drawn) {
+      for (const [place, mesh] of meshes.entries()) mesh.visible = !isSurface && !hidden.has(place);
+      for (const [place, mesh] of surfaces.entries()) mesh.visible = isSurface && !hidden.has(place);
     }
   }
 

@@ -3,7 +3,7 @@
 import { BufferAttribute, Color, DirectionalLight, Matrix4, NeutralToneMapping, NoBlending, PerspectiveCamera, Scene as ThreeScene, Vector2, Vector3, WebGLRenderer, WebGLRenderTarget, type Object3D } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { Scene } from "./scene.js";
-import { environmentFor } from "./environment.js";
+import { environmentFor, type Surroundings } from "./environment.js";
 import { setValues, type Look, type PictureValues } from "./shader.js";
 import type { MapCorners } from "../worker/protocol.js";
 
@@ -17,6 +17,10 @@ export interface Settings {
   usesColors: boolean;
   /** 0 to 1 from the left: where frames of the file end and right ones begin. */
   split: number;
+  /** What surfaces mirror. */
+  surroundings: Surroundings;
+  /** Whether parts keep the lamp off others. */
+  hasShadows: boolean;
 }
 
 /** One attribute for each array, so that what was sent to the graphics card stays there. */
@@ -44,7 +48,7 @@ function rendererFor(canvas: HTMLCanvasElement): WebGLRenderer | null {
 
 export class Viewport {
   readonly canvas: HTMLCanvasElement;
-  readonly settings: Settings = { look: "lit", map: 1, isWire: false, usesColors: true, split: 0.5 };
+  readonly settings: Settings = { look: "lit", map: 1, isWire: false, usesColors: true, split: 0.5, surroundings: "room", hasShadows: false };
   /** Null where the browser has no WebGL: then nothing is drawn, and all else works. */
   readonly renderer: WebGLRenderer | null;
   readonly camera = new PerspectiveCamera(35, 1, 0.01, 100);
@@ -77,6 +81,7 @@ export class Viewport {
     canvas.addEventListener("webglcontextrestored", () => this.ask());
     new ResizeObserver(() => this.#resize()).observe(canvas);
     this.camera.position.set(0, 0, 4);
+    this.#lamp.shadow.mapSize.set(2048, 2048);
     this.#world.add(this.#lamp, this.#lamp.target);
     this.#resize();
   }
@@ -120,6 +125,31 @@ export class Viewport {
       this.#draw();
       this.onDrawn();
     });
+  }
+
+  setSurroundings(name: Surroundings): void {
+    this.settings.surroundings = name;
+    this.#world.environment?.dispose();
+    this.#world.environment = null; // made when it is drawn
+    this.ask();
+  }
+
+  setShadows(on: boolean): void {
+    this.settings.hasShadows = this.#lamp.castShadow = on;
+    if (this.renderer) this.renderer.shadowMap.enabled = on;
+    this.ask();
+  }
+
+  /** The lamp stands outside of the scene, and its shadows take in all of it. */
+  #placeLamp(light: Vector3): void {
+    this.#lamp.position.copy(light);
+    if (!this.settings.hasShadows) return void this.#lamp.target.position.set(0, 0, 0);
+    const { center, radius } = this.scene.sphere(), { camera } = this.#lamp.shadow;
+    this.#lamp.target.position.copy(center);
+    this.#lamp.position.multiplyScalar(2 * radius).add(center);
+    Object.assign(camera, { left: -radius, right: radius, top: radius, bottom: -radius, near: 0.5 * radius, far: 3.5 * radius });
+    camera.updateProjectionMatrix();
+    this.#lamp.shadow.normalBias = 0.006 * radius; // about three texels of the shadow map
   }
 
   /** Puts the eye at a place, looking at another. */
@@ -259,7 +289,7 @@ export class Viewport {
     return copy;
   }
 
-  #values(): PictureValues {
+  #values(): PictureValues & Settings {
     const light = this.light.clone().transformDirection(this.camera.matrixWorld);
     return { ...this.settings, split: this.settings.split * this.canvas.width, light, eye: this.camera.position };
   }
@@ -278,10 +308,10 @@ export class Viewport {
     this.camera.updateMatrixWorld();
     const values = this.#values();
     for (const { material } of this.scene.drawn) setValues(material, values);
-    this.#lamp.position.copy(values.light);
+    this.#placeLamp(values.light);
     // The first picture does not wait for the environment, which is blurred for each roughness.
     const wantsSurface = values.look === "lit" && values.usesColors && !values.isWire, isSurface = wantsSurface && this.#hasDrawn;
-    if (isSurface) this.#world.environment ??= environmentFor(renderer);
+    if (isSurface) this.#world.environment ??= environmentFor(renderer, values.surroundings);
     else if (wantsSurface && this.scene.drawn.length > 0) this.ask();
     renderer.clear();
     if (this.#right && hasSplit(values.look)) this.#drawSides(renderer, this.#right, values, isSurface);
@@ -302,7 +332,7 @@ export class Viewport {
     const { x: width, y: height } = renderer.getSize(new Vector2()), line = Math.round(width * Math.min(1, this.settings.split));
     for (const one of right.drawn) {
       setValues(one.material, { ...values, split: Infinity });
-      one.isHidden = this.scene.find(one.part.mesh, one.part.primitive)?.isHidden ?? false;
+      one.hidden = this.scene.find(one.part.mesh, one.part.primitive)?.hidden ?? new Set();
     }
     renderer.setScissorTest(true);
     for (const [scene, from, to] of [[this.scene, 0, line], [right, line, width]] as const) {

@@ -2,6 +2,7 @@
 // How the model is looked at: the method of the right frames, the normal map, lines and edges.
 import { checkbox, choice, count, el, replaceChildren, select } from "../dom.js";
 import { frameLines, usualEdge, type Axis } from "../picture/overlays.js";
+import { surroundings } from "../picture/environment.js";
 import { replaceOverlay, type Viewport } from "../picture/viewport.js";
 import { methods, nameOf, type Right } from "../worker/protocol.js";
 import type { Stage } from "./stage.js";
@@ -45,6 +46,8 @@ export class LookView {
       this.#isRight = value === "right";
       this.showLines();
     });
+    const around = choice("Surroundings", surroundings.map((name) => [name, name] as const), "room", (name) => viewport.setSurroundings(name));
+    const shadows = checkbox("Shadows", false, (on) => viewport.setShadows(on));
     const ground = choice("Ground", [["grey", "grey"], ["light", "light"], ["dark", "dark"]] as const, "grey", (value) => stage.setGround(value));
     const length = el("input", { type: "range", min: "-10", max: "10", value: "0", "aria-label": "Length of the lines" });
     length.addEventListener("input", () => {
@@ -53,8 +56,8 @@ export class LookView {
     });
     this.element.append(
       el("div", { class: "rows" }, this.#variants, frames.element, this.#figures, map.element,
-        el("div", { class: "row" }, wire.element, colors.element),
-        el("div", { class: "row lines" }, ...axes, length), whose.element, ground.element));
+        el("div", { class: "row" }, wire.element, colors.element, shadows.element),
+        el("div", { class: "row lines" }, ...axes, length), whose.element, around.element, ground.element));
     this.offerMended(false);
   }
 

@@ -2,11 +2,14 @@
 // What the file holds: numbers, its parts to show and hide, and its images with their channels.
 import { checkbox, choice, count, el, plural, replaceChildren, select } from "../dom.js";
 import type { PageOrigin } from "../embedded.js";
+import { nameOfMap } from "../model/uv_reads.js";
+import type { Part, TreeNode } from "../model/part.js";
+import type { Drawn } from "../picture/scene.js";
 import type { Viewport } from "../picture/viewport.js";
 import type { InspectReport } from "tspace/gltf";
 import type { Texture } from "three";
 
-const kMostParts = 500;
+const kMostParts = 500, kMostDepth = 6;
 const kShown = 512;
 type Channel = "rgb" | "r" | "g" | "b" | "a";
 
@@ -24,6 +27,7 @@ export class PartsView {
   #channel: Channel = "rgb";
   #chosen = 0;
   #shown: ShownImage[] = [];
+  #drawnOf = new Map<Part, Drawn>();
 
   /** `origin`: of the page, where the tool made it. */
   constructor(private viewport: Viewport, origin: PageOrigin | null) {
@@ -48,14 +52,28 @@ export class PartsView {
   }
 
   /** Another model in the picture. */
-  reset(): void {
-    const { drawn } = this.viewport.scene;
-    const boxes = drawn.slice(0, kMostParts).map((one) => checkbox(`${one.part.mesh}/${one.part.primitive} ${one.part.name || one.part.materialName}`, true, (on) => {
-      one.isHidden = !on;
-      this.viewport.ask();
-    }).element);
-    const rest = drawn.length - boxes.length;
-    replaceChildren(this.#list, ...(drawn.length > 1 ? boxes : []), rest > 0 && el("p", { class: "quiet" }, `and ${count(rest)} more`));
+  reset(tree: TreeNode[] = []): void {
+    this.#drawnOf = new Map(this.viewport.scene.drawn.map((drawn) => [drawn.part, drawn]));
+    const rows: HTMLElement[] = [];
+    let left = 0;
+    const add = (node: TreeNode, depth: number): HTMLInputElement[] => {
+      const [own] = node.draws, shown = own && this.#drawnOf.get(own.part);
+      if (own ? !shown : node.children.length === 0) return [];
+      const below: HTMLInputElement[] = [], { part } = own ?? {};
+      const name = part ? `${part.mesh}/${part.primitive} ${[...new Set([node.name || part.name, part.materialName].filter(Boolean))].join(", ")}${own.count > 1 ? ` (${count(own.count)} times)` : ""}` : node.name || "node";
+      const { element, input } = checkbox(name, true, (on) => {
+        for (let place = own?.first ?? 0; own && place < own.first + own.count; ++place) on ? shown!.hidden.delete(place) : shown!.hidden.add(place);
+        for (const one of below) if (one.checked !== on) one.click();
+        this.viewport.ask();
+      });
+      element.style.paddingLeft = `${Math.min(depth, kMostDepth)}rem`;
+      if (rows.length < kMostParts) rows.push(element);
+      else left += 1;
+      for (const child of node.children) below.push(...add(child, depth + 1));
+      return [input];
+    };
+    for (const node of tree) add(node, 0);
+    replaceChildren(this.#list, ...(rows.length > 1 ? rows : []), left > 0 && el("p", { class: "quiet" }, `and ${count(left)} more`));
     this.#collect();
     this.#chosen = 0;
     const images = this.#shown.map(({ name, image }, i) => [String(i), `${name}, ${image.width} x ${image.height}`] as const);
@@ -80,7 +98,7 @@ export class PartsView {
         const image = (value as Texture | null)?.isTexture ? ((value as Texture).image as ShownImage["image"] | null) : null;
         if (!image?.width || seen.has(image)) continue;
         seen.add(image);
-        this.#shown.push({ name: `${name}${part.materialName ? ` of ${part.materialName}` : ""}`, image });
+        this.#shown.push({ name: `${nameOfMap(name)}${part.materialName ? ` of ${part.materialName}` : ""}`, image });
       }
     }
   }
