@@ -119,7 +119,7 @@ class Baking {
         tellOfFitting();
         sharpenTexels(plan, texels, parallel_, allocator_);
         if (has_integers) {
-            addSmoothCells(plan, texels, options_, parallel_, system);
+            addSmoothCells(plan, texels, sampling.points, options_, parallel_, system);
             const IntegerChoice choice{.is_two_channel = options_.reading.two_channels};
             chooseIntegers(system, choice, texels, kIntegerRounds, parallel_, allocator_);
             return;

@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "core/base/vec_math.h"
+#include "maps/eight_lanes.h"
 
 namespace tspace {
 
@@ -239,7 +240,7 @@ class IntegerTexel {
         : choice_(choice),
           step_(2.0f / static_cast<float>(choice.most)),
           half_(static_cast<float>(choice.most) / 2),
-          last_(static_cast<float>(choice.most) - 1),
+          last_(static_cast<float>(choice.most)),
           m_(m),
           h_(h) {
         // The best real numbers x and y beside a z lie on a line.
@@ -250,12 +251,36 @@ class IntegerTexel {
         slope_y_ = factor * (m[1] * m[2] - m[0] * m[4]);
     }
 
-    Vec3 best(const Vec3& start) {
-        best_ = start;
-        if (choice_.is_two_channel) {
-            tryTwoChannels(start.z);
-            return best_;
-        }
+    Vec3 best(const Vec3& start) const { return choice_.is_two_channel ? bestOfTwo(start) : bestOfThree(start); }
+
+  private:
+    /// The squared length of the texels around, times their part in what is mixed.
+    static constexpr float kOthers = 0.4F;
+
+    [[nodiscard]] int indexOf(float value) const { return static_cast<int>(std::floor((value + 1) / step_ + 0.5f)); }
+    [[nodiscard]] bool isInside(float real) const { return real >= -1 && real <= 1; }
+    /// The increase of the energy over its value for real numbers, by an error of dx and dy.
+    [[nodiscard]] float added(float dx, float dy) const { return dx * (m_[0] * dx + 2 * m_[1] * dy) + m_[3] * dy * dy; }
+
+    /// Integers beside those of z, in steps: the nearest x, and of the y beside it the one with the least error.
+    template <class Number>
+    struct Beside {
+        Number x, y, error_x, error_y;
+    };
+    template <class Number>
+    [[nodiscard]] Beside<Number> beside(const Number& z) const {
+        const auto nearest = [&](const Number& real) { return whole(between(real + 0.5F, Number(0), Number(last_))); };
+        const Number real_x = Number((start_x_ - slope_x_ + 1) * half_) + Number(slope_x_) * z,
+                     real_y = Number((start_y_ - slope_y_ + 1) * half_) + Number(slope_y_) * z;
+        Beside<Number> found;
+        found.x = nearest(real_x);
+        found.error_x = found.x - real_x;
+        found.y = nearest(real_y - Number(m_[1] / m_[3]) * found.error_x);
+        found.error_y = found.y - real_y;
+        return found;
+    }
+
+    [[nodiscard]] Vec3 bestOfThree(const Vec3& start) const {
         // The value is a sum of squares, up to a constant that only the neighbours change. For the best real numbers it
         // is taken to be next to nothing: this much, squared, of a sample of which the texel is half.
         constexpr float kLeftOver = 2e-6F;
@@ -269,82 +294,64 @@ class IntegerTexel {
         const float a = slope * choice_.least_length, b = slope * choice_.most_length;
         const int first = std::max(0, indexOf(std::min(a, b)) - 1);
         const int last = std::min(static_cast<int>(choice_.most), indexOf(std::max(a, b)) + 1);
-        for (int i = first; i <= last; i += static_cast<int>(kPlanes))
-            tryPlanes(i, last, start.z, rest, linear, square);
-        return best_;
+
+        // From here on all lengths are in steps, and squares of them in squares of steps.
+        const float squares = half_ * half_, start_z = (start.z + 1) * half_;
+        const Eight least_square = choice_.least_length * choice_.least_length * squares,
+                    most_square = choice_.most_length * choice_.most_length * squares;
+        Eight z, least = 1e6F, chosen = -1;
+        for (std::size_t lane = 0; lane < 8; ++lane) z.set(lane, static_cast<float>(first + static_cast<int>(lane)));
+        for (int i = first; i <= last; i += 8, z = z + 8) {
+            const Beside<Eight> at = beside(z);
+            const Eight moved = z - start_z;
+            const Eight value = rest * squares + moved * (linear * half_ + moved * square);
+            const Eight error =
+                at.error_x * (m_[0] * at.error_x + 2 * m_[1] * at.error_y) + m_[3] * (at.error_y * at.error_y);
+            const Eight column = at.x - half_, row = at.y - half_, plane = z - half_;
+            const Eight squared = column * column + row * row + plane * plane;
+            // Angles are errors in parts of the length of what is mixed: of the texel, and of those around.
+            Eight score = (value + error) / (squared + kOthers * squares);
+            score = whereLess(squared, least_square, 1e20F, score);
+            score = whereLess(most_square, squared, 1e20F, score);
+            score = whereLess(last_, z, 1e20F, score);
+            chosen = whereLess(score, least, z, chosen);
+            least = smaller(score, least);
+        }
+        return vectorOf(least, chosen, start);
     }
 
-  private:
-    /// Candidates for z that are tried together, in loops without branches, which compilers vectorise.
-    static constexpr std::size_t kPlanes = 8;
-    using Planes = std::array<float, kPlanes>;
-    /// The squared length of the texels around, times their part in what is mixed.
-    static constexpr float kOthers = 0.4F;
-
-    [[nodiscard]] int indexOf(float value) const { return static_cast<int>(std::floor((value + 1) / step_ + 0.5f)); }
-
-    /// The integer below a real number, and the number that it stands for; so that the next one is an integer too.
-    [[nodiscard]] float below(float real) const {
-        const auto index = static_cast<float>(static_cast<int>((real + 1) * half_));
-        return std::max(0.0F, std::min(index, last_)) * step_ - 1;
-    }
-    [[nodiscard]] bool isInside(float real) const { return real >= -1 && real <= 1; }
-    /// The increase of the energy over its value for real numbers, by an error of dx and dy.
-    [[nodiscard]] float added(float dx, float dy) const { return dx * (m_[0] * dx + 2 * m_[1] * dy) + m_[3] * dy * dy; }
-
-    /// The four integers around the best x and y beside the z from `first` on, where real numbers have the value
-    /// rest + moved (linear + moved square).
-    void tryPlanes(int first, int last, float start_z, float rest, float linear, float square) {
-        Planes z, x, y, left, top, value;
-        for (std::size_t i = 0; i < kPlanes; ++i) {
-            z[i] = static_cast<float>(std::min(first + static_cast<int>(i), last)) * step_ - 1;
-            x[i] = start_x_ + slope_x_ * z[i];
-            y[i] = start_y_ + slope_y_ * z[i];
-            left[i] = below(x[i]);
-            top[i] = below(y[i]);
-            const float moved = z[i] - start_z;
-            value[i] = rest + moved * (linear + moved * square);
+    /// The vector of the least score, of equal ones that of the least z; `start` where none is allowed.
+    [[nodiscard]] Vec3 vectorOf(const Eight& scores, const Eight& planes, const Vec3& start) const {
+        float least = 1e6F, z = -1;
+        for (std::size_t lane = 0; lane < 8; ++lane) {
+            if (!(scores[lane] < least || (scores[lane] == least && planes[lane] < z))) continue;
+            least = scores[lane];
+            z = planes[lane];
         }
-        const float least_square = choice_.least_length * choice_.least_length,
-                    most_square = choice_.most_length * choice_.most_length;
-        std::array<Planes, 4> scores;
-        Planes lowest;
-        lowest.fill(INFINITY);
-        for (std::size_t corner = 0; corner < 4; ++corner) {
-            const float right = corner % 2 == 0 ? 0 : step_, down = corner < 2 ? 0 : step_;
-            for (std::size_t i = 0; i < kPlanes; ++i) {
-                const float column = left[i] + right, row = top[i] + down;
-                const float squared = column * column + row * row + z[i] * z[i];
-                // A penalty excludes vectors of a forbidden length, without a branch.
-                const float beyond = std::max(0.0F, least_square - squared) + std::max(0.0F, squared - most_square) +
-                                     std::max(0.0F, std::fabs(x[i]) - 1) + std::max(0.0F, std::fabs(y[i]) - 1);
-                // Angles are errors in parts of the length of what is mixed: of the texel, and of those around.
-                scores[corner][i] =
-                    (value[i] + added(column - x[i], row - y[i])) / (squared + kOthers) + 1e20F * beyond;
-                lowest[i] = std::min(lowest[i], scores[corner][i]);
-            }
-        }
-        if (!(*std::min_element(lowest.begin(), lowest.end()) < least_)) return;
-        for (std::size_t corner = 0; corner < 4; ++corner) {
-            for (std::size_t i = 0; i < kPlanes; ++i) {
-                if (!(scores[corner][i] < std::min(least_, 1e6F))) continue;
-                least_ = scores[corner][i];
-                best_ = {left[i] + (corner % 2 == 0 ? 0 : step_), top[i] + (corner < 2 ? 0 : step_), z[i]};
-            }
-        }
+        if (z < 0) return start;
+        const Beside<Eight> at = beside(Eight(z));
+        return {at.x[0] * step_ - 1, at.y[0] * step_ - 1, z * step_ - 1};
     }
 
-    /// As above where z follows from x and y: only errors of x and y count.
-    void tryTwoChannels(float z) {
-        const float x = start_x_ + slope_x_ * z, y = start_y_ + slope_y_ * z;
-        if (!isInside(x) || !isInside(y)) return;
+    /// Where z follows from x and y, only errors of x and y count.
+    [[nodiscard]] Vec3 bestOfTwo(const Vec3& start) const {
+        const float x = start_x_ + slope_x_ * start.z, y = start_y_ + slope_y_ * start.z;
+        if (!isInside(x) || !isInside(y)) return start;
+        // The integer below a real number; so that the next one is an integer too.
+        const auto below = [&](float real) {
+            const auto index = static_cast<float>(static_cast<int>((real + 1) * half_));
+            return std::max(0.0F, std::min(index, last_ - 1)) * step_ - 1;
+        };
+        Vec3 best = start;
+        float least = INFINITY;
         for (int corner = 0; corner < 4; ++corner) {
             const float column = below(x) + (corner % 2 == 0 ? 0 : step_), row = below(y) + (corner < 2 ? 0 : step_);
             const float flat = column * column + row * row, score = added(column - x, row - y);
-            if (flat > 1 || !(score < least_)) continue;
-            least_ = score;
-            best_ = {column, row, std::sqrt(1 - flat)};
+            if (flat > 1 || !(score < least)) continue;
+            least = score;
+            best = {column, row, std::sqrt(1 - flat)};
         }
+        return best;
     }
 
     const IntegerChoice& choice_;
@@ -352,8 +359,6 @@ class IntegerTexel {
     SymmetricBlock m_;
     Vec3 h_;
     float start_x_ = 0, slope_x_ = 0, start_y_ = 0, slope_y_ = 0;
-    Vec3 best_ = {};
-    float least_ = INFINITY;
 };
 
 /// The sample that holds an integer vector where no other sample constrains it.

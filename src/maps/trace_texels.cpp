@@ -53,6 +53,15 @@ FitSample sampleOf(const BakeOptions& options, const Vec3& wanted) {
     return acrossSample(wanted, options.bits == 8 ? 0.0F : kAlong, kWantedLength);
 }
 
+FitSample weighted(float weight, FitSample sample) {
+    for (float& part : sample.metric) part *= weight;
+    sample.side = weight * sample.side;
+    return sample;
+}
+
+/// Whether rays say what is wanted in a cell.
+bool isTraced(TexelCell cell) { return cell == TexelCell::asked || cell == TexelCell::rough; }
+
 class Tracing {
   public:
     Tracing(const MapSurfaces& surfaces, const TexelTriangles& triangles, const BakeOptions& options,
@@ -182,6 +191,32 @@ void traceTexels(const MapSurfaces& surfaces, const TexelTriangles& triangles, c
     Tracing(surfaces, triangles, options, work, traced).run();
 }
 
+namespace {
+
+/// Where points lie at 1/4 and 3/4 of the way from a centre to the next, the centres take part too, such that the integral of
+/// the square of any linear function over a cell is exact: a corner counts an eighth of such a point.
+constexpr float kCornerOfCell = 0.125F;
+
+void addCentres(const TracedTexels& traced, const TexelPlan& plan, const BakeOptions& options, Parallel& parallel,
+                TexelSystem& system) {
+    const std::size_t width = plan.width;
+    parallel.forRanges(plan.height, 8, [&](std::size_t begin, std::size_t end) {
+        for (auto y = static_cast<std::uint32_t>(begin); y < end; ++y) {
+            const std::size_t here = y * width, above = system.above(y) * width;
+            for (std::uint32_t x = 0; x < plan.width; ++x) {
+                if (traced.origins[here + x] != TexelOrigin::hit) continue;
+                const std::uint32_t left = system.left(x);
+                float weight = 0;
+                for (const std::size_t cell : {here + x, here + left, above + x, above + left})
+                    weight += isTraced(plan.cells[cell]) ? kCornerOfCell : 0;
+                if (weight > 0) system.add(x, y, 0, 0, weighted(weight, sampleOf(options, traced.wanted[here + x])));
+            }
+        }
+    });
+}
+
+}  // namespace
+
 void traceBetween(const MapSurfaces& surfaces, const TracedTexels& traced, const TexelPlan& plan, std::uint32_t n,
                   const BakeOptions& options, const MapWork& work, TexelSystem& system) {
     // What lies nearest to a texel counts as its centre does.
@@ -202,7 +237,7 @@ void traceBetween(const MapSurfaces& surfaces, const TracedTexels& traced, const
                                 y = betweenTexels(sample.row, n, options.height, options.wrap_v);
             const TexelCell cell = plan.cells[std::size_t{y.texel} * options.width + x.texel];
             Vec3 wanted;
-            if (cell == TexelCell::outside || cell == TexelCell::smooth) return;
+            if (!isTraced(cell)) return;
             if (!counts(sample.triangle, x, y)) return;
             if (!vectors.at(sample.triangle, sample.weights(), wanted)) return;
             system.add(x.texel, y.texel, x.part, y.part, sampleOf(options, wanted));
@@ -212,12 +247,15 @@ void traceBetween(const MapSurfaces& surfaces, const TracedTexels& traced, const
     forApart(bands.bandCount(), [&](std::size_t begin, std::size_t number) {
         forTasksTold(work, number, "tracing between texels", [&](std::size_t i) { traceBand(begin + 2 * i); });
     });
+    if (n == 2) addCentres(traced, plan, options, work.parallel, system);
 }
 
-void addSmoothCells(const TexelPlan& plan, std::span<const Vec3> texels, const BakeOptions& options, Parallel& parallel,
-                    TexelSystem& system) {
+void addSmoothCells(const TexelPlan& plan, std::span<const Vec3> texels, std::uint32_t points,
+                    const BakeOptions& options, Parallel& parallel, TexelSystem& system) {
     // Gauss's two points of a line, twice: the integral over the cell, since what is asked is a product of two filters.
-    constexpr float kNear = 0.21132487F, kFar = 1 - kNear, kPointsOfTexel = 9.0F / 4;
+    constexpr float kNear = 0.21132487F, kFar = 1 - kNear;
+    // As much in all as the points of a cell that rays are shot at, with its corners.
+    const float weight = points == 2 ? 1 + kCornerOfCell : static_cast<float>(points * points) / 4;
     const auto addCell = [&](std::uint32_t x, std::uint32_t y) {
         const std::size_t here = std::size_t{y} * plan.width, below = std::size_t{system.below(y)} * plan.width;
         if (plan.cells[here + x] != TexelCell::smooth) return;
@@ -227,10 +265,7 @@ void addSmoothCells(const TexelPlan& plan, std::span<const Vec3> texels, const B
             const Vec3 right_side = (1 - fy) * texels[here + right] + fy * texels[below + right];
             for (const float fx : {kNear, kFar}) {
                 const Vec3 mixed = (1 - fx) * left_side + fx * right_side;
-                FitSample sample = sampleOf(options, (1 / length(mixed)) * mixed);
-                for (float& part : sample.metric) part *= kPointsOfTexel;
-                sample.side = kPointsOfTexel * sample.side;
-                system.add(x, y, fx, fy, sample);
+                system.add(x, y, fx, fy, weighted(weight, sampleOf(options, (1 / length(mixed)) * mixed)));
             }
         }
     };

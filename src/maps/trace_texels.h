@@ -26,13 +26,15 @@ void traceTexels(const MapSurfaces& surfaces, const TexelTriangles& triangles, c
 
 struct TexelPlan;
 
-/// Rays at n x n points a texel in the cells of the plan that are asked or rough; what they say is added to the system.
+/// Rays at n x n points a texel in the cells of the plan that are asked or rough; what they say is added to the system, and what
+/// the centres say that are none of these points.
 void traceBetween(const MapSurfaces& surfaces, const TracedTexels& traced, const TexelPlan& plan, std::uint32_t n,
                   const BakeOptions& options, const MapWork& work, TexelSystem& system);
 
-/// Adds what `texels`, filtered, say in the smooth cells of the plan.
-void addSmoothCells(const TexelPlan& plan, std::span<const Vec3> texels, const BakeOptions& options, Parallel& parallel,
-                    TexelSystem& system);
+/// Adds what `texels`, filtered, say in the smooth cells of the plan, as much as rays at `points` x `points` points a texel say in
+/// others.
+void addSmoothCells(const TexelPlan& plan, std::span<const Vec3> texels, std::uint32_t points,
+                    const BakeOptions& options, Parallel& parallel, TexelSystem& system);
 
 /// Gives texels that have an origin but no vector one, ring by ring: the first ring what the slope before it leads to, the
 /// others the mean of their neighbours; flat ones where there is none.

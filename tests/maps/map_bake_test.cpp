@@ -75,6 +75,18 @@ TEST_F(MapBake, TheRimOfAnOpenSurfaceIsAsNearAsItsInside) {
     EXPECT_LT(solved.seam_mean_deg, 1.2 * solved.inside_mean_deg);
 }
 
+TEST_F(MapBake, FewerRaysOfLargeMapsCostNextToNothing) {
+    // Above 1024 x 1024 texels, four rays a texel and its centre say what nine rays say in smaller maps.
+    const LowMesh low = bench::makeLow(surfaceNamed("saddle"), Charts::one);
+    const HighMesh high = bench::makeHigh(surfaceNamed("saddle"), 400, true);
+    const auto errorOf = [&](std::uint32_t height, unsigned bits) {
+        BakeOptions options = sized(1024, bits);
+        options.height = height;
+        return baked(low.view(), high.view(), options).error.mean_deg;
+    };
+    EXPECT_LT(errorOf(1028, 8), 1.01 * errorOf(1024, 8));
+}
+
 TEST_F(MapBake, SolvedIntegersBeatPlainRoundingWith8Bits) {
     for (const bool relief : {false, true}) {
         const LowMesh low = bench::makeLow(surfaceNamed("torus"), Charts::one);

@@ -104,6 +104,44 @@ TEST(SolveTexels, IntegersCancelEachOthersErrors) {
     }
 }
 
+TEST(SolveTexels, IntegersBesideTheChosenOnesAreHardlyBetter) {
+    // The last texel of every second row is chosen when all around it are.
+    constexpr std::uint32_t kWidth = 5, kHeight = 400;
+    const std::vector<Sample> samples = waves(kWidth, kHeight);
+    const TexelSystem system = systemOf(samples, kWidth, kHeight, 0);
+    std::vector<Vec3> texels = centres(samples);
+    Parallel parallel({.thread_count = 1});
+    chooseIntegers(system, {}, texels, 1, parallel, nullptr);
+    double chosen_sum = 0, least_sum = 0;
+    for (std::uint32_t y = 1; y < kHeight; y += 2) {
+        const std::uint32_t x = kWidth - 1;
+        const TexelRow& row = system.row(system.rowOf(x, y));
+        const Vec3 rest = system.aroundTexel(x, y, [&](std::uint32_t column, std::uint32_t line) {
+            return texels[std::size_t{line} * kWidth + column];
+        }) - row.side;
+        const Vec3 chosen = texels[std::size_t{y} * kWidth + x];
+        // Up to a constant: that of the best real numbers beside this z.
+        const auto energyOf = [&](double dx, double dy) {
+            const DVec3 q{chosen.x + dx, chosen.y + dy, chosen.z};
+            const SymmetricBlock& m = row.blocks[0];
+            return q.x * (m[0] * q.x + 2 * (m[1] * q.y + m[2] * q.z + rest.x)) +
+                   q.y * (m[3] * q.y + 2 * (m[4] * q.z + rest.y));
+        };
+        const SymmetricBlock& m = row.blocks[0];
+        const double factor = 1 / (static_cast<double>(m[0]) * m[3] - static_cast<double>(m[1]) * m[1]);
+        const double side_x = m[2] * chosen.z + rest.x, side_y = m[4] * chosen.z + rest.y;
+        const double of_real = energyOf(factor * (m[1] * side_y - m[3] * side_x) - chosen.x,
+                                        factor * (m[1] * side_x - m[0] * side_y) - chosen.y);
+        double least = INFINITY;
+        for (const int dx : {-1, 0, 1}) {
+            for (const int dy : {-1, 0, 1}) least = std::fmin(least, energyOf(dx / 127.5, dy / 127.5) - of_real);
+        }
+        chosen_sum += energyOf(0, 0) - of_real;
+        least_sum += least;
+    }
+    EXPECT_LT(chosen_sum, 1.05 * least_sum);
+}
+
 TEST(SolveTexels, FreerLengthsAreNoWorseWhereDetailIsFine) {
     // A few texels a wave: no vectors are right between them, and a short one leaves those beside it what it does not take.
     constexpr std::uint32_t kWidth = 22, kHeight = 17;
