@@ -25,7 +25,7 @@
 namespace tspace::bench {
 namespace {
 
-constexpr std::uint32_t kSeed = 11;
+constexpr std::uint32_t kSeed = 11;  ///< of the tables in docs/compress-map.md
 constexpr double kDegrees = 57.29577951308232;
 
 /// x and y of a map in a format.
@@ -293,14 +293,29 @@ class LevelShading {
     std::mt19937 engine_;
 };
 
-void printLevels(const std::vector<CompressedCase>& cases, Parallel& parallel) {
+/// The unit vector that a renderer sees there, in texels; whole numbers are corners of texels.
+DVec3 filteredAt(const NormalLevel& level, double x, double y) {
+    const double left = std::floor(x - 0.5), top = std::floor(y - 0.5), right = x - 0.5 - left, down = y - 0.5 - top;
+    const auto at = [&](double column, double row) {
+        const auto wrap = [](double place, std::uint32_t size) {
+            return static_cast<std::size_t>(place + size) % size;
+        };
+        return toDouble(level.normals[wrap(row, level.height) * level.width + wrap(column, level.width)]);
+    };
+    DVec3 sum = (1 - down) * ((1 - right) * at(left, top) + right * at(left + 1, top)) +
+                down * ((1 - right) * at(left, top + 1) + right * at(left + 1, top + 1));
+    normalize(sum);
+    return sum;
+}
+
+void printLevels(const std::vector<CompressedCase>& cases, std::uint32_t seed, Parallel& parallel) {
     constexpr std::size_t kTexels = 24, kMostNormals = 256;
     std::printf(
         "\nLevels 1 to 5, geometric means over maps and levels: the error of what is shaded with the roughness "
         "widened, in "
         "parts of that with the roughness as it was; and the error of the lobe's width, |ln|, of both.\n\n"
         "| roughness | error | width as it was | width, widened |\n|---|---|---|---|\n");
-    std::mt19937 engine(kSeed);
+    std::mt19937 engine(seed);
     for (const double roughness : {0.1, 0.3, 0.6}) {
         double ratio = 0, count = 0;
         std::array<double, 2> widths{};
@@ -313,12 +328,17 @@ void printLevels(const std::vector<CompressedCase>& cases, Parallel& parallel) {
                     const std::size_t texel = engine() % level.normals.size();
                     const std::size_t x = texel % level.width << k, y = texel / level.width << k;
                     std::vector<DVec3> normals;
-                    const std::size_t all = std::size_t{1} << 2 * k,
+                    // Between texels a renderer sees what the filter makes; on large footprints texels are enough.
+                    const std::size_t points = k <= 2 ? 4 : k == 3 ? 2 : 1;
+                    const std::size_t side = points << k, all = side * side,
                                       step = std::max<std::size_t>(1, all / kMostNormals);
                     for (std::size_t j = 0; j < all; j += step) {
                         const std::size_t n = step == 1 ? j : j + engine() % step;
-                        normals.push_back(toDouble(one.level.normals[(y + (n >> k)) * one.level.width + x +
-                                                                     (n & ((std::size_t{1} << k) - 1))]));
+                        const auto part = [&](std::size_t of) {
+                            return (static_cast<double>(of) + 0.5) / static_cast<double>(points);
+                        };
+                        normals.push_back(filteredAt(one.level, static_cast<double>(x) + part(n % side),
+                                                     static_cast<double>(y) + part(n / side)));
                     }
                     LevelShading shading(std::move(normals), toDouble(level.normals[texel]),
                                          static_cast<double>(level.spreads[texel]), roughness, engine());
@@ -342,17 +362,28 @@ void printLevels(const std::vector<CompressedCase>& cases, Parallel& parallel) {
 }  // namespace tspace::bench
 
 int main(int argc, char** argv) {
-    const bool writes = argc > 2 && std::string_view(argv[1]) == "--write";
-    const int at = writes ? 3 : 1;
-    const std::uint32_t size = argc > at ? static_cast<std::uint32_t>(std::atoi(argv[at])) : 512;
-    if (size < 64 || size % 64 != 0) {
-        std::fprintf(stderr, "usage: tspace_compress_bench [--write FOLDER] [SIZE]: a multiple of 64\n");
+    const char* folder = nullptr;
+    std::uint32_t seed = tspace::bench::kSeed, size = 512;
+    bool is_wrong = false;
+    for (int i = 1; i < argc; ++i) {
+        const std::string_view argument = argv[i];
+        if (argument == "--write" && i + 1 < argc) {
+            folder = argv[++i];
+        } else if (argument == "--seed" && i + 1 < argc) {
+            seed = static_cast<std::uint32_t>(std::atoi(argv[++i]));
+        } else {
+            size = static_cast<std::uint32_t>(std::atoi(argv[i]));
+            is_wrong = is_wrong || size < 64 || size % 64 != 0;
+        }
+    }
+    if (is_wrong) {
+        std::fprintf(stderr, "usage: tspace_compress_bench [--write FOLDER] [--seed N] [SIZE]: a multiple of 64\n");
         return 2;
     }
     tspace::Parallel parallel(tspace::Execution{.thread_count = 1});
-    const auto cases = tspace::bench::compressedCases(size, tspace::bench::kSeed);
-    if (writes) return tspace::bench::writeMaps(cases, argv[2]) ? 0 : 1;
+    const auto cases = tspace::bench::compressedCases(size, seed);
+    if (folder != nullptr) return tspace::bench::writeMaps(cases, folder) ? 0 : 1;
     tspace::bench::printFormats(cases, parallel);
-    tspace::bench::printLevels(cases, parallel);
+    tspace::bench::printLevels(cases, seed, parallel);
     return 0;
 }
