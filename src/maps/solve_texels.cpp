@@ -127,9 +127,9 @@ class Gradients {
           second_(allocator, tasks_) {}
 
     void run() {
-        // Each step takes the error down by a factor of about 2; what is left after these is far below a 16-bit step.
+        // Each step takes the error down by a factor of about 2; what is left at the end is below what 16 bits show.
         constexpr int kMostSteps = 24;
-        constexpr double kSmall = 1e-6;
+        constexpr double kSmall = 1e-4;
         begin();
         double product = first_.total();
         const double enough = kSmall * product;

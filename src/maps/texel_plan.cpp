@@ -137,7 +137,7 @@ CellSampling samplingOf(const BakeOptions& options) {
     const bool is_large = std::uint64_t{options.width} * options.height > kLarge;
     // At 1/4 and 3/4 of a texel, the two points of large maps, a chord has lost half of its largest distance from a parabola.
     if (options.bits == 8) return {.tolerance = 2e-3F, .points = is_large ? 2U : 3U};
-    if (is_large) return {.tolerance = 3.5e-4F, .points = 2};
+    if (is_large) return {.tolerance = 6e-4F, .points = 2};
     return {};
 }
 
