@@ -73,6 +73,22 @@ TEST_F(BakePairs, OneThatFailsIsALineAndTheOthersAreBaked) {
     EXPECT_FALSE(Json::parse(folder.read("r.json"))["pairs"][0]["report"]["ok"].get<bool>());
 }
 
+TEST_F(BakePairs, NamesInATableStayInTheFolderOfTheOutput) {
+    const std::string absolute = (folder.path() / "absolute.png").string();
+    for (const std::string& name : {std::string("../up.png"), std::string("sub/../../up.png"), absolute}) {
+        folder.write("t/table.txt", "low.obj = high.obj = first.png\nlow.obj = high.obj = " + name + "\n");
+        const ToolRun run = runTool(folder, "bake --pairs t/table.txt -o in/two --size 32 --out-mesh in/models");
+        EXPECT_EQ(run.exit_code, 3) << name << run.err;
+        EXPECT_EQ(run.errorLines(), 1) << name << run.err;
+        EXPECT_NE(run.err.find("line 2"), std::string::npos) << run.err;
+        EXPECT_FALSE(std::filesystem::exists(folder.path() / "in")) << name << ": nothing is written";
+        EXPECT_FALSE(std::filesystem::exists(absolute));
+    }
+    folder.write("t/table.txt", "../t/low.obj = ../high.obj = sub/deep.png\n");
+    (void)pairs("--pairs t/table.txt -o in/two --out-mesh in/models");
+    EXPECT_TRUE(std::filesystem::exists(folder.path() / "in/two/sub/deep.png")) << "models may lie anywhere";
+}
+
 TEST_F(BakePairs, TablesThatMakeNoSenseAreOneLine) {
     for (const auto& [table, code] :
          {std::pair("low.obj\n", 3), std::pair("low.obj = high.obj = a.png = b\n", 3), std::pair("= high.obj\n", 3),

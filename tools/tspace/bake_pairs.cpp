@@ -16,6 +16,7 @@
 #include "manifest.h"
 #include "model/io/file_error.h"
 #include "model/io/file_io.h"
+#include "model/io/folder_rule.h"
 #include "output_files.h"
 
 namespace tspace::tool {
@@ -59,6 +60,9 @@ std::vector<Pair> readTable(const BakePairsArguments& arguments) {
         if (words.size() < 2 || !is_whole)
             failFile(ErrorCode::invalidFile,
                      "line " + std::to_string(number) + ": this is neither LOW = HIGH nor LOW = HIGH = NAME");
+        if (words.size() == 3 && leadsAway(fs::path(Path(words[2]))) != nullptr)
+            failFile(ErrorCode::forbiddenPath, "line " + std::to_string(number) + ": the output " + inQuotes(words[2]) +
+                                                   " does not lie in the folder that -o names");
         Pair& pair = pairs.emplace_back();
         pair.job.name = words[0];
         pair.job.input = below(folder, words[0]);
