@@ -63,7 +63,8 @@ void addSurface(const accuracy::Surface& surface, Charts charts, bool relief, st
     const LowMesh low = makeLow(surface, charts);
     const HighMesh high = makeHigh(surface, relief ? 512 : 256, relief);
     const auto baked = [&](unsigned bits, MapFit fit) {
-        const BakeOptions options{.width = size, .height = size, .bits = bits, .fit = fit};
+        const BakeOptions options{
+            .width = size, .height = size, .bits = bits, .fit = fit, .lengths = TexelLengths::free};
         const auto start = std::chrono::steady_clock::now();
         Result<BakedMap> map = bakeMap(low.view(), high.view(), options, {.thread_count = 2});
         if (!map) stop(surface.name, map.error());

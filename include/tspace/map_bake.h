@@ -12,7 +12,7 @@ namespace tspace {
 /// How texels are found.
 enum class MapFit : std::uint32_t {
     /// All together, so that the bilinear-filtered map is right between texels too: least squares, counted across the wanted
-    /// direction. Integers are chosen so too: with 8 bits with any length from 0.7 to 1.1. Rays at each texel's centre, and at
+    /// direction. Integers are chosen so too. Rays at each texel's centre, and at
     /// 2 x 2 or 3 x 3 points a texel where what lies between centres does not follow from them.
     solve = 0,
     texel = 1,  ///< each alone: right at its centre
@@ -26,6 +26,13 @@ enum class MapOverlap : std::uint32_t {
     larger = 2,  ///< those of the piece with the larger surface
 };
 
+/// How long the vectors of maps of 8 bits may be, of which there are so few that a longer or shorter one often points better.
+enum class TexelLengths : std::uint32_t {
+    even =
+        0,  ///< 0.9 to 1: means of several texels, as in smaller levels, are then nearly as right as those of 16 bits
+    free = 1,  ///< 0.7 to 1.1: the first level errs by up to a third less, and smaller ones lean to the longer texels
+};
+
 struct BakeOptions {
     std::uint32_t width = 1024, height = 1024;  ///< 1 to 16384
     unsigned bits = 16;                         ///< of a channel: 8 or 16
@@ -36,8 +43,9 @@ struct BakeOptions {
     TextureWrap wrap_u = TextureWrap::repeat, wrap_v = TextureWrap::repeat;
     MapFit fit = MapFit::solve;
     MapOverlap overlap = MapOverlap::mean;
-    std::uint32_t padding = 16;  ///< texels around the triangles that continue them; 0 to 256
-    double reach = 0;            ///< as MapErrorOptions::reach
+    TexelLengths lengths = TexelLengths::even;  ///< with 8 bits and three channels
+    std::uint32_t padding = 16;                 ///< texels around the triangles that continue them; 0 to 256
+    double reach = 0;                           ///< as MapErrorOptions::reach
     RayOptions rays = {};
     bool heat = false;  ///< MapError::heat
     /// Most memory that the call may take: bakeBytes is compared with it before any work (tooLarge). 0: no limit.

@@ -26,6 +26,15 @@ constexpr std::uint32_t kFilterTexels = 2;
 constexpr std::uint32_t kLeastSolved = 4;
 constexpr unsigned kIntegerRounds = 3;
 
+struct LengthRange {
+    float least = 0, most = 0;
+};
+
+/// Narrower ranges than `even` do no more for smaller levels, and cost the first one more: docs/bake-theory.md has the figures.
+LengthRange lengthRange(TexelLengths lengths) {
+    return lengths == TexelLengths::free ? LengthRange{0.7F, 1.1F} : LengthRange{0.9F, 1.0F};
+}
+
 class Baking {
   public:
     /// `layers`: what is made beside the normal map. `shared`: null, or the surface of the high poly, which is left there; the map
@@ -120,7 +129,10 @@ class Baking {
         sharpenTexels(plan, texels, parallel_, allocator_);
         if (has_integers) {
             addSmoothCells(plan, texels, sampling.points, options_, parallel_, system);
-            const IntegerChoice choice{.is_two_channel = options_.reading.two_channels};
+            const LengthRange range = lengthRange(options_.lengths);
+            const IntegerChoice choice{.least_length = range.least,
+                                       .most_length = range.most,
+                                       .is_two_channel = options_.reading.two_channels};
             chooseIntegers(system, choice, texels, kIntegerRounds, parallel_, allocator_);
             return;
         }
@@ -141,7 +153,8 @@ class Baking {
     }
 
     void takeNearest() {
-        const IntegerVectors numbers{.is_two_channel = options_.reading.two_channels};
+        const IntegerVectors numbers{.least_length = static_cast<double>(lengthRange(options_.lengths).least),
+                                     .is_two_channel = options_.reading.two_channels};
         Buffer<Vec3>& texels = traced_.wanted;
         parallel_.forRanges(texels.size(), 64, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i)

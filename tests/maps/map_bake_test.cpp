@@ -217,6 +217,58 @@ TEST_F(MapBake, GroupsSeeTheirOwnTrianglesAlone) {
     EXPECT_EQ(bakeMap(low_view, high_view, sized(16)).error().code, ErrorCode::countMismatch);
 }
 
+/// The mean angle between the directions of blocks of `side` texels of two maps, of blocks without background.
+double levelError(const BakedMap& map, const BakedMap& truth, std::uint32_t side) {
+    double sum = 0;
+    std::size_t count = 0;
+    for (std::uint32_t y = 0; y + side <= map.height; y += side) {
+        for (std::uint32_t x = 0; x + side <= map.width; x += side) {
+            DVec3 mean, wanted;
+            bool is_whole = true;
+            for (std::uint32_t i = 0; i < side * side; ++i) {
+                const std::size_t at = std::size_t{y + i / side} * map.width + x + i % side;
+                const auto vectorOf = [at](const BakedMap& of) {
+                    const DVec3 texel = toDouble(of.texels[at]);
+                    return DVec3{2 * texel.x - 1, 2 * texel.y - 1, 2 * texel.z - 1};
+                };
+                is_whole = is_whole && map.origins[at] == TexelOrigin::hit;
+                DVec3 unit_wanted = vectorOf(truth);
+                normalize(unit_wanted);
+                mean = mean + vectorOf(map);
+                wanted = wanted + unit_wanted;
+            }
+            if (!is_whole) continue;
+            normalize(mean);
+            normalize(wanted);
+            sum += std::acos(std::min(1.0, dot(mean, wanted)));
+            ++count;
+        }
+    }
+    return sum / static_cast<double>(count) * 180 / kPi;
+}
+
+TEST_F(MapBake, EvenLengthsLeaveSmallerLevelsRightAndFreeOnesTheFirst) {
+    const LowMesh low = bench::makeLow(surfaceNamed("saddle"), Charts::one);
+    const HighMesh high = bench::makeHigh(surfaceNamed("saddle"), 256, true);
+    const BakedMap truth = baked(low.view(), high.view(), sized(256, 16, MapFit::texel));
+    for (const MapFit fit : {MapFit::solve, MapFit::texel}) {
+        BakeOptions options = sized(256, 8, fit);
+        const BakedMap even = baked(low.view(), high.view(), options);
+        options.lengths = TexelLengths::free;
+        const BakedMap free = baked(low.view(), high.view(), options);
+        EXPECT_LT(free.error.mean_deg, even.error.mean_deg);
+        EXPECT_LT(levelError(even, truth, 4), levelError(free, truth, 4));
+        EXPECT_LT(levelError(even, truth, 8), 0.75 * levelError(free, truth, 8));
+        for (std::size_t i = 0; i < even.texels.size(); ++i) {
+            if (even.origins[i] != TexelOrigin::hit) continue;
+            const Vec3 texel = even.texels[i];
+            const auto size = static_cast<double>(length(Vec3{2 * texel.x - 1, 2 * texel.y - 1, 2 * texel.z - 1}));
+            EXPECT_GT(size, 0.89);
+            EXPECT_LT(size, 1.01);
+        }
+    }
+}
+
 TEST_F(MapBake, TwoChannelMapsHaveUnitTexels) {
     const LowMesh low = bench::makeLow(surfaceNamed("torus"), Charts::one);
     const HighMesh high = bench::makeHigh(surfaceNamed("torus"), 96, true);
