@@ -12,8 +12,8 @@ namespace tspace {
 /// How texels are found.
 enum class MapFit : std::uint32_t {
     /// All together, so that the bilinear-filtered map is right between texels too: least squares, counted across the wanted
-    /// direction. Integers are chosen so too. Rays at each texel's centre, and at
-    /// 2 x 2 or 3 x 3 points a texel where what lies between centres does not follow from them.
+    /// direction. Integers are chosen so too. Rays at each texel's centre, and at 2 x 2 or 3 x 3 points a texel where what lies
+    /// between centres does not follow from them.
     solve = 0,
     texel = 1,  ///< each alone: right at its centre
 };
@@ -28,8 +28,7 @@ enum class MapOverlap : std::uint32_t {
 
 /// How long the vectors of maps of 8 bits may be, of which there are so few that a longer or shorter one often points better.
 enum class TexelLengths : std::uint32_t {
-    even =
-        0,  ///< 0.9 to 1: means of several texels, as in smaller levels, are then nearly as right as those of 16 bits
+    even = 0,  ///< 0.9 to 1: means of several texels, as in smaller levels, are nearly as right as those of 16 bits
     free = 1,  ///< 0.7 to 1.1: the first level errs by up to a third less, and smaller ones lean to the longer texels
 };
 

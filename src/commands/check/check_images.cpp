@@ -407,6 +407,10 @@ bool mayBeHeights(const NormalMap& map) {
                        [](const MapPart& part) { return part.use->may_be_heights; });
 }
 
+bool readsLevels(const NormalMap& map) {
+    return std::any_of(map.parts.begin(), map.parts.end(), [](const MapPart& part) { return part.use->reads_levels; });
+}
+
 /// How the file stores the map: what is lost, what it says of its numbers, and its levels.
 void describeStorage(const Scene& scene, const NormalMap& map, const std::string& name,
                      std::vector<Finding>& findings) {
@@ -440,7 +444,7 @@ void describeStorage(const Scene& scene, const NormalMap& map, const std::string
             "Pack it anew, as linear; or, as a PNG: tspace generate --mend-maps. The image alone: tspace convert-map " +
             commandName(scene, map.image) + " -o OUT.png";
     }
-    if (facts->has_blocks && facts->level_count == 1 && claimedSize(image.bytes).pixels() > 1)
+    if (facts->has_blocks && facts->level_count == 1 && claimedSize(image.bytes).pixels() > 1 && readsLevels(map))
         add(FindingCode::normalMapLevels, Severity::note,
             " (" + facts->name +
                 ") has blocks and no smaller levels, which renderers do not make of blocks: from afar it "

@@ -70,14 +70,25 @@ std::optional<std::size_t> imageOf(const Document& document, const Json& texture
 }
 
 /// `key`: "wrapS" or "wrapT".
+/// The member `key` of the sampler of a texture; null where there is none.
+const Json* samplerMember(const Document& document, const Json& texture, const char* key) {
+    const Json* samplers = findMember(document.json, "samplers");
+    if (samplers == nullptr || !samplers->is_array()) return nullptr;
+    const auto sampler = indexBelow(texture, "sampler", samplers->size());
+    return sampler ? findMember((*samplers)[*sampler], key) : nullptr;
+}
+
 TextureWrap wrapOf(const Document& document, const Json& texture, const char* key) {
     constexpr int kClamp = 33071, kMirror = 33648;
-    const Json* samplers = findMember(document.json, "samplers");
-    if (samplers == nullptr || !samplers->is_array()) return TextureWrap::repeat;
-    const auto sampler = indexBelow(texture, "sampler", samplers->size());
-    const Json* wrap = sampler ? findMember((*samplers)[*sampler], key) : nullptr;
+    const Json* wrap = samplerMember(document, texture, key);
     if (wrap != nullptr && *wrap == kClamp) return TextureWrap::clamp;
     return wrap != nullptr && *wrap == kMirror ? TextureWrap::mirror : TextureWrap::repeat;
+}
+
+bool readsLevels(const Document& document, const Json& texture) {
+    constexpr int kNearest = 9728, kLinear = 9729;
+    const Json* filter = samplerMember(document, texture, "minFilter");
+    return filter == nullptr || (*filter != kNearest && *filter != kLinear);
 }
 
 }  // namespace
@@ -89,6 +100,7 @@ TextureReading readTexture(const Document& document, const Json& texture, const 
         reading.image = imageOf(document, *entry);
         reading.wrap_u = wrapOf(document, *entry, "wrapS");
         reading.wrap_v = wrapOf(document, *entry, "wrapT");
+        reading.reads_levels = readsLevels(document, *entry);
     }
     return reading;
 }
@@ -211,6 +223,7 @@ class MaterialUses {
         use.image = reading.image;
         use.wrap_u = reading.wrap_u;
         use.wrap_v = reading.wrap_v;
+        use.reads_levels = reading.reads_levels;
         // A value that is no number is ignored, as viewers do: tangents do not depend on it.
         if (const Json* scale = findMember(*texture, "scale"); scale != nullptr && scale->is_number())
             use.scale = scale->get<double>();

@@ -41,6 +41,7 @@ struct TextureReading {
     UvTransform transform = {};
     std::optional<std::size_t> image = {};  ///< index into the file's images
     TextureWrap wrap_u = TextureWrap::repeat, wrap_v = TextureWrap::repeat;
+    bool reads_levels = true;  ///< false: the sampler asks for the largest level alone
 };
 
 // Why a primitive needs tangents: one texture or parameter of a material that is shaded in tangent space.
@@ -57,6 +58,7 @@ struct TangentUse {
     double scale = 1;               ///< of a normal map: what x and y are multiplied by
     bool is_declared_down = false;  ///< the file says that green of its normal maps points down, as its readers know
     bool may_be_heights = false;    ///< the format takes a grey image for a height map there (map_bump of OBJ)
+    bool reads_levels = true;       ///< as in TextureReading
     std::size_t material = 0;
     bool only_in_variant = false;  ///< the material is one of KHR_materials_variants, not the primitive's own
 };

@@ -170,6 +170,13 @@ TEST(CheckFile, LooksAtKtx2AndDds) {
     model.folder.write("normal.png", ddsFile(83, 256, 256, bc5Blocks(normalMapOf(256, bumps, true))));
     EXPECT_EQ(codes(model.check()),
               (Codes{"warning normalMapTwoChannels", "warning greenFlipped", "note normalMapLevels"}));
+    // A sampler that reads the largest level alone misses none.
+    model.builder.json()["textures"][0]["sampler"] = 0;
+    for (const auto& [filter, reads_levels] : {std::pair(9729, false), std::pair(9987, true)}) {
+        model.builder.json()["samplers"] = Json::array({{{"minFilter", filter}}});
+        const Codes found = codes(model.check());
+        EXPECT_EQ(std::count(found.begin(), found.end(), "note normalMapLevels"), reads_levels ? 1 : 0) << filter;
+    }
 }
 
 /// What a finding says that texels are off by.

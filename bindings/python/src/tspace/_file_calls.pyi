@@ -264,6 +264,7 @@ def bake_file(
     convention: Union[PresetName, Literal["three"]] = ...,
     unit: bool = ...,
     fit: Literal["solve", "texel"] = ...,
+    lengths: Literal["even", "free"] = ...,
     udim: bool = ...,
     skew: PathLike = ...,
     cage: PathLike = ...,
