@@ -37,7 +37,7 @@ Result<ImageFileFormat> readableFormat(ByteSpan bytes) {
                      "it is EXR, whose green is inverted by convertMapFile (tspace convert-map)"};
     if (format == ImageFormat::tga)
         return Error{ErrorCode::unsupportedFile,
-                     "it is TGA, which becomes a PNG here, and a TGA by convertMapFile (tspace convert-map)"};
+                     "it is TGA, of which a PNG is made here; convertMapFile (tspace convert-map) makes a TGA"};
     return fileFormat(format);
 }
 
