@@ -124,7 +124,7 @@ struct CheckOptions {
     double error_share = 0.001;
     /// Whose signs are right for the data as they are in the file. The default is what glTF files hold.
     Convention convention = conventions::gltf;
-    /// Look at normal maps (PNG, JPEG and WebP, where tspace was built with their decoders; KTX2 and DDS).
+    /// Look at normal maps (PNG, JPEG and WebP, where tspace was built with their decoders; KTX2 and DDS; TGA, but not in glTF).
     bool images = true;
     /// Images of more pixels are not looked at. The default is 8192 x 8192.
     std::uint64_t most_pixels = std::uint64_t{1} << 26;

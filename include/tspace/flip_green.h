@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Images of normal maps. CMake target tspace::asset. Reads PNG (8 and 16 bits), JPEG and WebP, told apart by content, where
-// tspace was built with their libraries; KTX2 and DDS always.
+// tspace was built with their libraries; KTX2, DDS and TGA (which becomes a PNG) always.
 //
 // All functions are thread-safe, and give the same bytes each time.
 #pragma once

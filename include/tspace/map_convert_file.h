@@ -67,7 +67,7 @@ struct ConvertMapFileReport {
     std::vector<std::string> warnings = {};  ///< one sentence each
 };
 
-/// Converts the image `input` (PNG, JPEG, WebP, EXR, KTX2, DDS) into `output` (.png or .exr), which appears at once, or not at all. Alpha stays. The
+/// Converts the image `input` (PNG, JPEG, WebP, EXR, KTX2, DDS, TGA) into `output` (.png or .exr), which appears at once, or not at all. Alpha stays. The
 /// output has no word on colours. In tangent space the scale that a model's material gives the map counts on its side.
 ///
 /// Errors: those of convertMap and of readers of models; cannotRead, cannotWrite, unsupportedFile, invalidFile (an image that

@@ -35,7 +35,7 @@ struct HeightToNormalFileReport {
     std::vector<std::string> warnings = {};  ///< one sentence each
 };
 
-/// Makes a normal map, `output` (.png), of the height map `input` (PNG, JPEG, WebP, EXR, KTX2, DDS; of colours the mean counts).
+/// Makes a normal map, `output` (.png), of the height map `input` (PNG, JPEG, WebP, EXR, KTX2, DDS, TGA; of colours the mean counts).
 /// Errors: those of heightToNormal and of convertMapFile. Thread-safe.
 Result<HeightToNormalFileReport> heightToNormalFile(const std::string& input, const std::string& output,
                                                     const HeightToNormalFileOptions& options = {});

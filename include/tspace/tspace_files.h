@@ -140,9 +140,9 @@ tspace_ErrorCode tspace_flipGreenBytes(const uint8_t* data, size_t size, const c
 tspace_ErrorCode tspace_flipGreenFile(const char* input, const char* output, const char* options, tspace_Bytes* report,
                                       tspace_Error* error) TSPACE_NOEXCEPT;
 
-/* Makes a normal map, `output` (.png), of the height map `input` (PNG, JPEG, WebP, EXR, KTX2, DDS; of colours the
- * mean counts). Errors: those of readers of models; CANNOT_READ, CANNOT_WRITE, UNSUPPORTED_FILE, INVALID_FILE (an
- * image that cannot be read), INVALID_OPTION, TOO_LARGE, OUT_OF_MEMORY. Thread-safe.
+/* Makes a normal map, `output` (.png), of the height map `input` (PNG, JPEG, WebP, EXR, KTX2, DDS, TGA; of colours
+ * the mean counts). Errors: those of readers of models; CANNOT_READ, CANNOT_WRITE, UNSUPPORTED_FILE, INVALID_FILE
+ * (an image that cannot be read), INVALID_OPTION, TOO_LARGE, OUT_OF_MEMORY. Thread-safe.
  * In C: options of `tspace height-to-normal`, report tspace.height-to-normal/1. */
 tspace_ErrorCode tspace_heightToNormalFile(const char* input, const char* output, const char* options,
                                            tspace_Bytes* report, tspace_Error* error) TSPACE_NOEXCEPT;

@@ -46,6 +46,17 @@ std::optional<FloatImage> decodeFloatTexture(ByteSpan bytes, std::uint64_t most_
 /// One byte a pixel; nothing where it is broken or has no alpha.
 std::vector<std::uint8_t> decodeTextureAlpha(ByteSpan bytes);
 
+/// By the head alone, which must be right in every field, and the file not too short for it.
+bool isTga(ByteSpan bytes);
+ImageClaim claimOfTga(ByteSpan bytes);
+std::optional<RgbImage> decodeTga(ByteSpan bytes, std::uint64_t most_pixels, std::string& why);
+struct TgaImage {
+    RgbImage image = {};
+    std::vector<std::uint8_t> alpha = {};  ///< one byte a pixel, or empty: opaque
+    bool is_grey = false;
+};
+std::optional<TgaImage> decodeTgaPixels(ByteSpan bytes, std::uint64_t most_pixels, std::string& why);
+
 /// Whether OpenEXR is there at run time; without it nothing else of EXR may be called but claimOfExr.
 bool hasOpenExr();
 std::optional<FloatImage> decodeExr(ByteSpan bytes, std::uint64_t most_pixels, std::string& why);

@@ -35,6 +35,9 @@ Result<ImageFileFormat> readableFormat(ByteSpan bytes) {
     if (format == ImageFormat::exr)
         return Error{ErrorCode::unsupportedFile,
                      "it is EXR, whose green is inverted by convertMapFile (tspace convert-map)"};
+    if (format == ImageFormat::tga)
+        return Error{ErrorCode::unsupportedFile,
+                     "it is TGA, of which a PNG is made here; convertMapFile (tspace convert-map) makes a TGA"};
     return fileFormat(format);
 }
 
@@ -56,6 +59,30 @@ Result<ImageFileFormat> outputFormat(ImageFileFormat input, const FlipGreenOptio
 void invertGreen(ChannelImage& image) {
     for (std::size_t i = 1; i < image.pixels.size(); i += image.channels) image.pixels[i] ^= 0xff;
 }
+
+#if defined(TSPACE_HAS_IMAGES) && !defined(TSPACE_SMALL)
+Result<FlippedImage> flipTgaToPng(ByteSpan bytes) {
+    std::string why;
+    std::optional<TgaImage> tga = decodeTgaPixels(bytes, ~std::uint64_t{0}, why);
+    if (!tga) return Error{ErrorCode::invalidFile, why};
+    if (tga->is_grey)
+        return Error{ErrorCode::unsupportedFile, "it is a grey TGA, which has no green channel of its own"};
+    ChannelImage image{tga->image.width, tga->image.height, 3, std::move(tga->image.rgb)};
+    if (!tga->alpha.empty()) {
+        const std::vector<std::uint8_t> rgb = std::move(image.pixels);
+        image.channels = 4;
+        image.pixels = {};
+        image.pixels.reserve(4 * tga->alpha.size());
+        for (std::size_t i = 0; i < tga->alpha.size(); ++i)
+            image.pixels.insert(image.pixels.end(), {rgb[3 * i], rgb[3 * i + 1], rgb[3 * i + 2], tga->alpha[i]});
+    }
+    invertGreen(image);
+    Result<std::vector<std::uint8_t>> written = writePng(image);
+    if (!written) return written.error();
+    return FlippedImage{*std::move(written),
+                        {.format = ImageFileFormat::png, .width = image.width, .height = image.height}};
+}
+#endif
 
 /// Pixels of a JPEG or WebP.
 Result<ChannelImage> readPixels([[maybe_unused]] ByteSpan bytes, ImageFileFormat format) {
@@ -115,6 +142,7 @@ std::uint64_t flipWorkBytes(ByteSpan bytes) {
             return claim.work_bytes + 24 * claim.size.pixels();
         case ImageFormat::ktx2:
         case ImageFormat::dds:
+        case ImageFormat::tga:
             return claim.work_bytes + 24 * claim.size.pixels();
         default:
             return 0;
@@ -132,6 +160,9 @@ std::uint64_t flipUnpackedBytes(ByteSpan bytes) {
 }
 
 Result<FlippedImage> flipImage(ByteSpan bytes, const FlipGreenOptions& options) {
+#if defined(TSPACE_HAS_IMAGES) && !defined(TSPACE_SMALL)
+    if (options.format == ImageFileFormat::png && imageFormat(bytes) == ImageFormat::tga) return flipTgaToPng(bytes);
+#endif
     const Result<ImageFileFormat> input = readableFormat(bytes);
     if (!input) return input.error();
     const Result<ImageFileFormat> output = outputFormat(*input, options);

@@ -29,6 +29,13 @@ std::optional<FloatImage> decodeFloatImage(ByteSpan bytes, std::uint64_t most_pi
     if (format == ImageFormat::exr && whyNotRead(format) == nullptr) return decodeExr(bytes, most_pixels, why);
 #endif
     if (format == ImageFormat::ktx2 || format == ImageFormat::dds) return decodeFloatTexture(bytes, most_pixels, why);
+    if (format == ImageFormat::tga) {
+        const std::optional<TgaImage> tga = decodeTgaPixels(bytes, most_pixels, why);
+        if (!tga) return {};
+        FloatImage out = floatsOf(tga->image);
+        for (const std::uint8_t alpha : tga->alpha) out.alpha.push_back(static_cast<float>(alpha) / 255.0f);
+        return out;
+    }
     const std::optional<RgbImage> image = decodeImage(bytes, most_pixels, why);
     if (!image) return {};
     return floatsOf(*image);

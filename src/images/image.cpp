@@ -96,7 +96,11 @@ bool has(ByteSpan bytes, std::size_t at, std::string_view text) {
 struct Codec {
     const char* name = "";
     const char* mime_type = "";
+#ifdef TSPACE_SMALL
     const char* why_not = "it is neither PNG, JPEG, WebP, KTX2 nor DDS";
+#else
+    const char* why_not = "it is neither PNG, JPEG, WebP, KTX2, DDS nor TGA";
+#endif
     ImageClaim (*claim)(ByteSpan) = nullptr;
     std::optional<RgbImage> (*decode)(ByteSpan, std::uint64_t, std::string&) = nullptr;
 };
@@ -156,6 +160,10 @@ Codec codecOf(ImageFormat format) {
             return {"AVIF", "image/avif", "it is AVIF, which is not read"};
         case ImageFormat::exr:
             return exrCodec();
+        case ImageFormat::tga:
+#ifndef TSPACE_SMALL
+            return {"TGA", "", nullptr, claimOfTga, decodeTga};
+#endif
         case ImageFormat::unknown:
             break;
     }
@@ -173,6 +181,9 @@ ImageFormat imageFormat(ByteSpan bytes) {
     if (has(bytes, 0, "DDS ")) return ImageFormat::dds;
     if (has(bytes, 0, "\x76\x2f\x31\x01")) return ImageFormat::exr;
     if (has(bytes, 4, "ftypavif")) return ImageFormat::avif;
+#ifndef TSPACE_SMALL
+    if (isTga(bytes)) return ImageFormat::tga;
+#endif
     return ImageFormat::unknown;
 }
 
@@ -211,6 +222,13 @@ std::optional<RgbImage> decodeImage(ByteSpan bytes, std::uint64_t most_pixels, s
 std::vector<std::uint8_t> decodeAlpha([[maybe_unused]] ByteSpan bytes) {
     const ImageFormat format = imageFormat(bytes);
     if (format == ImageFormat::ktx2 || format == ImageFormat::dds) return decodeTextureAlpha(bytes);
+#ifndef TSPACE_SMALL
+    if (format == ImageFormat::tga) {
+        std::string why;
+        std::optional<TgaImage> image = decodeTgaPixels(bytes, ~std::uint64_t{0}, why);
+        return image ? std::move(image->alpha) : std::vector<std::uint8_t>();
+    }
+#endif
     std::vector<std::uint8_t> pixels;
 #ifdef TSPACE_HAS_IMAGES
     if (format == ImageFormat::png) pixels = decodePngRgba(bytes);

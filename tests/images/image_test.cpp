@@ -69,7 +69,7 @@ TEST(DecodeImage, SaysWhyItDoesNotLook) {
     EXPECT_EQ(whyNot(png, 1000), "it has more pixels than are looked at");
     EXPECT_EQ(whyNot(jpeg, 1000), "it has more pixels than are looked at");
     EXPECT_EQ(whyNot("RIFF????WEBP"), "it is a broken WebP");
-    EXPECT_EQ(whyNot(""), "it is neither PNG, JPEG, WebP, KTX2 nor DDS");
+    EXPECT_EQ(whyNot(""), "it is neither PNG, JPEG, WebP, KTX2, DDS nor TGA");
     EXPECT_EQ(whyNot("\xabKTX 20\xbb\r\n\x1a\n"), "it is a broken KTX2");
     EXPECT_EQ(whyNot(std::string("sB\x13\0\x4d\0", 6)), "it is a Basis Universal file, which is not read");
     EXPECT_EQ(whyNot("DDS |"), "it is a broken DDS");

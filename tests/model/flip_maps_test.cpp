@@ -378,7 +378,7 @@ TEST(FlipMaps, SaysWhyAMapWasLeftAlone) {
     EXPECT_EQ(report.normal_maps[0].reason, "it could not be looked at (see tspace check)");
     const GenerateReport all =
         generate(folder.path("in.glb").string(), folder.path("out.glb").string(), {.flip_green = FlipGreen::all});
-    EXPECT_EQ(all.normal_maps[0].reason, "it is neither PNG, JPEG, WebP, KTX2 nor DDS");
+    EXPECT_EQ(all.normal_maps[0].reason, "it is neither PNG, JPEG, WebP, KTX2, DDS nor TGA");
 }
 
 }  // namespace

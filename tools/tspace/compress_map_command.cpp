@@ -59,7 +59,8 @@ Command compressMapCommand() {
                      "tspace compress-map normal.png -o normal.ktx2 --roughness orm.png -o2 orm.ktx2"},
     };
     const char* group = kInputAndOutput;
-    command.add(group, operand("IN", arguments.input, "An image: PNG, JPEG, WebP, EXR, KTX2 or DDS; - for stdin."));
+    command.add(group,
+                operand("IN", arguments.input, "An image: PNG, JPEG, WebP, EXR, KTX2, DDS or TGA; - for stdin."));
     Option output = text("-o, --output", "OUT", arguments.output,
                          "Where to write: a file that ends in .ktx2 or .dds, or a folder of PNGs (ends in /); - for "
                          "stdout, a KTX2.");

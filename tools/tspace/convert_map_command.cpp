@@ -55,7 +55,8 @@ Command convertMapCommand() {
         .finish = [&arguments](const Given& given) { return finish(given, arguments.options); },
     };
     const char* group = kInputAndOutput;
-    command.add(group, operand("IN", arguments.input, "An image: PNG, JPEG, WebP, EXR, KTX2 or DDS; - for stdin."));
+    command.add(group,
+                operand("IN", arguments.input, "An image: PNG, JPEG, WebP, EXR, KTX2, DDS or TGA; - for stdin."));
     Option output = text("-o, --output", "OUT", arguments.output,
                          "Where to write: a file that ends in .png, .exr or .tga (8 bits); or in .ktx2 or .dds: BC5 "
                          "with all levels; - for "

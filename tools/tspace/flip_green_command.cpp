@@ -60,7 +60,8 @@ Command flipGreenCommand() {
         .finish = [&arguments](const Given&) { return finish(arguments); },
     };
     const char* group = kInputAndOutput;
-    command.add(group, operand("IN", arguments.input, "An image: PNG, JPEG, WebP, KTX2 or DDS; - for stdin."));
+    command.add(group, operand("IN", arguments.input,
+                               "An image: PNG, JPEG, WebP, KTX2, DDS or TGA (which becomes a PNG); - for stdin."));
     command
         .add(group, text("-o, --output", "OUT", arguments.output,
                          "Where to write: a file that ends in .png, .jpg, .jpeg, .webp, .ktx2 or .dds, or - for "

@@ -56,7 +56,7 @@ Command heightToNormalCommand() {
     command.add(
         group,
         operand("IN", arguments.input,
-                "A height map: PNG (8 or 16 bits), JPEG, WebP, EXR, KTX2 or DDS; - for stdin. Of colors the mean "
+                "A height map: PNG (8 or 16 bits), JPEG, WebP, EXR, KTX2, DDS or TGA; - for stdin. Of colors the mean "
                 "counts."));
     Option output =
         text("-o, --output", "OUT", arguments.output, "Where to write: a file that ends in .png; - for stdout.");

@@ -97,7 +97,7 @@ Command mapErrorCommand() {
                      "tspace map-error normal.ktx2 --source normal.png"},
     };
     const char* group = kInputAndOutput;
-    command.add(group, operand("MAP", arguments.map, "A normal map: PNG, JPEG, WebP, EXR, KTX2 or DDS."));
+    command.add(group, operand("MAP", arguments.map, "A normal map: PNG, JPEG, WebP, EXR, KTX2, DDS or TGA."));
     Option& low = command.add(group, operand("LOW", arguments.low, "The model that the map is for."));
     low.is_required = false;
     Option& high =

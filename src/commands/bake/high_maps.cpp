@@ -42,7 +42,7 @@ const HighMapReading::Image& HighMapReading::imageOf(std::size_t number) {
     };
     const std::vector<std::uint8_t>& bytes = scene_.images[number].bytes;
     if (bytes.empty()) {
-        leaveOut("it cannot be read");
+        leaveOut(scene_.images[number].why_empty);
         return image;
     }
     FloatImage read;

@@ -320,7 +320,7 @@ double etc1sDegrees(const RgbImage& image) {
 void lookAt(const Scene& scene, const CheckOptions& options, NormalMap& map) {
     const SceneImage& image = scene.images[map.image];
     if (image.bytes.empty()) {
-        map.why_not = "it cannot be read";
+        map.why_not = image.why_empty;
         return;
     }
     const std::uint64_t bytes = workBytes(scene, map);

@@ -67,7 +67,7 @@ std::string whyItStays(GreenSide side, bool is_cancelled, bool is_declared, cons
 Bytes flipSceneImage(const Scene& scene, std::size_t image, std::string& why) {
     const std::vector<std::uint8_t>& bytes = scene.images[image].bytes;
     if (bytes.empty()) {
-        why = "it cannot be read";
+        why = scene.images[image].why_empty;
         return {};
     }
     Bytes flipped = flipImage(bytes, *scene.memory, why);
@@ -85,7 +85,10 @@ Bytes flipImage(std::span<const std::uint8_t> bytes, const MemoryBudget& budget,
     }
     Bytes made;
     const std::optional<Error> failure = tryFile([&] {
-        const FlippedImage flipped = valueOrThrow(flipGreen(bytes, {.memory_limit_bytes = kNoMemoryLimit}));
+        const bool is_tga = imageFormat(bytes) == ImageFormat::tga;  // which glTF does not know
+        const ImageFileFormat format = is_tga ? ImageFileFormat::png : ImageFileFormat::sameAsInput;
+        const FlippedImage flipped =
+            valueOrThrow(flipGreen(bytes, {.format = format, .memory_limit_bytes = kNoMemoryLimit}));
         made.assign(flipped.bytes.begin(), flipped.bytes.end());
     });
     if (!failure) return made;

@@ -160,7 +160,7 @@ std::optional<PictureTexture> ModelTextures::decode(const Wanted& wanted) {
     std::string why, how_read;
     std::optional<PictureTexture> texture;
     if (source.bytes.empty()) {
-        why = "it cannot be read";
+        why = source.why_empty;
     } else if (scene_.memory && !scene_.memory->has(needed)) {
         why = "it " + scene_.memory->whyNot(needed);
     } else {

@@ -154,8 +154,8 @@ std::optional<DataUri> loadImage(Document& document, const std::string& uri, con
         document.input_files.push_back(path.string());
         image.mime_type = declared;
     }
-    const ImageFormat format = imageFormat(image.bytes);
-    if (format != ImageFormat::unknown) image.mime_type = mimeType(format);
+    const std::string found = mimeType(imageFormat(image.bytes));
+    if (!found.empty()) image.mime_type = found;
     if (image.bytes.empty() || image.mime_type.empty()) {
         warnings.push_back("the image " + inQuotes(uri, 60) + " has no known type and stays outside of the GLB");
         return {};

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "core/base/numbers.h"
+#include "images/image.h"
 #include "model/gltf/accessor.h"
 #include "model/gltf/document.h"
 #include "model/gltf/material_needs.h"
@@ -427,6 +428,11 @@ class PrimitiveLoader {
     DecodedArrays& arrays_;
 };
 
+/// TGA, which no viewer of glTF shows. What was imported may name it.
+bool isForbidden(const Document& document, const Bytes& bytes) {
+    return !document.imported && imageFormat(bytes) == ImageFormat::tga;
+}
+
 Bytes readImageBytes(const Document& document, const Json& image, const std::string& place) {
     const auto view = readIndex(image, "bufferView", place, rootArray(document, "bufferViews").size(), "buffer view");
     if (view) {
@@ -447,6 +453,7 @@ Bytes readImageBytes(const Document& document, const Json& image, const std::str
 Bytes tryReadImage(const Document& document, std::size_t image) {
     Bytes bytes;
     tryFile([&] { bytes = readImageBytes(document, rootArray(document, "images")[image], join("/images", image)); });
+    if (isForbidden(document, bytes)) return {};
     return bytes;
 }
 
@@ -468,6 +475,10 @@ void readImages(const Document& document, const std::set<std::size_t>& wanted, S
         const std::string uri = readString(list[i], "uri", place);
         const std::optional<Error> failure = tryFile([&] {
             const Bytes bytes = readImageBytes(document, list[i], place);
+            if (isForbidden(document, bytes)) {
+                scene.images[i].why_empty = "it is TGA, which glTF does not have";
+                return;
+            }
             // A file that many entries name has its bytes once.
             const bool is_file = !uri.empty() && uriKind(uri) == UriKind::path;
             if (is_file && files.insert(uri).second) document.memory->allow(bytes.size());

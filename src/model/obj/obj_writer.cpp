@@ -103,8 +103,9 @@ class ImageBuilder {
         int number = -1;
         const std::optional<Error> failure = tryFile([&] {
             const Path path = named_.resolve(texture.folder, percentEncode(texture.file), "material");
-            const Bytes bytes = named_.read(path);
+            const Bytes read = named_.read(path);
             sources_.push_back(path.string());
+            const Bytes& bytes = flipped == nullptr ? read : *flipped;
             // Told by content, because names can be wrong. Core glTF allows no other formats.
             const ImageFormat format = imageFormat(bytes);
             if (format != ImageFormat::png && format != ImageFormat::jpeg) {
@@ -117,9 +118,8 @@ class ImageBuilder {
                 warnings_.push_back("the texture '" + texture.file + "' was left out: its head is broken");
                 return;
             }
-            number = static_cast<int>(append(flipped == nullptr
-                                                 ? imageJson(path, bytes, mimeType(format), names_by_uri_)
-                                                 : imageJson(path, *flipped, mimeType(imageFormat(*flipped)), false)));
+            number =
+                static_cast<int>(append(imageJson(path, bytes, mimeType(format), names_by_uri_ && flipped == nullptr)));
         });
         if (failure) warnings_.push_back("a texture was left out: " + failure->message);
         return number;

@@ -370,7 +370,7 @@ def flip_green_bytes(data: BytesLike, **options: Any) -> Generated[FlipGreenRepo
 def compress_map_file(input: PathLike, output: PathLike, **options: Any) -> CompressMapReport:
     """Packs a normal map as a texture for engines: BC5, EAC RG11, ASTC or RG8, with all levels.
 
-    input:   path of a normal map in tangent space: PNG, JPEG, WebP, EXR, KTX2 or DDS; 16 bits give more than 8
+    input:   path of a normal map in tangent space: PNG, JPEG, WebP, EXR, KTX2, DDS or TGA; 16 bits give more than 8
     output:  path of the texture, .ktx2 or .dds; or a folder for PNGs, which ends in /
     options: those of `tspace compress-map` (docs/compress-map.md), with underscores:
              format="eac-rg11", quality="best", roughness="orm.png", roughness_output="orm.ktx2"

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: MIT
+// TGA as it is read, after "Truevision TGA File Format Specification", version 2.0 (1991). A file has no mark at its beginning, and
+// one of version 1 none at its end either, so its head must be right in every field.
+#include <algorithm>
+#include <array>
+
+#include "core/base/numbers.h"
+#include "images/codecs.h"
+
+namespace tspace {
+namespace {
+
+constexpr std::size_t kHeadBytes = 18, kMostOfPacket = 128;
+
+enum class TgaKind : std::uint8_t { palette = 1, colors = 2, grey = 3 };
+
+struct TgaHead {
+    TgaKind kind = TgaKind::colors;
+    bool is_packed = false, is_from_the_top = false, is_from_the_right = false;
+    ImageSize size = {};
+    unsigned pixel_bits = 0, entry_bits = 0, alpha_bits = 0;
+    std::size_t first_entry = 0, entry_count = 0;
+    std::size_t palette_at = 0, pixels_at = 0;
+
+    [[nodiscard]] std::size_t pixelBytes() const { return pixel_bits / 8; }
+    /// Of a pixel, or of an entry of the palette, which are stored alike.
+    [[nodiscard]] unsigned storedBits() const { return kind == TgaKind::palette ? entry_bits : pixel_bits; }
+    [[nodiscard]] bool hasAlpha() const {
+        const bool is_bit = kind != TgaKind::grey && storedBits() == 16;
+        return is_bit ? alpha_bits == 1 : storedBits() == (kind == TgaKind::grey ? 16 : 32);
+    }
+};
+
+bool areBitsRight(const TgaHead& head) {
+    const auto is_color = [](unsigned bits) { return bits == 16 || bits == 24 || bits == 32; };
+    const unsigned pixel = head.pixel_bits, alpha = head.alpha_bits;
+    if (alpha != 0 && alpha != 8 && !(alpha == 1 && head.kind != TgaKind::grey && head.storedBits() == 16))
+        return false;
+    switch (head.kind) {
+        case TgaKind::palette:
+            return pixel == 8 && is_color(head.entry_bits) && head.entry_count != 0;
+        case TgaKind::colors:
+            return is_color(pixel);
+        case TgaKind::grey:
+            return pixel == 8 || pixel == 16;
+    }
+    return false;
+}
+
+/// The fewest bytes that its pixels can have: packets of 128 equal ones where they are packed.
+std::uint64_t leastBytes(const TgaHead& head) {
+    const std::uint64_t pixels = head.size.pixels();
+    if (!head.is_packed) return pixels * head.pixelBytes();
+    return (pixels + kMostOfPacket - 1) / kMostOfPacket * (1 + head.pixelBytes());
+}
+
+/// Nothing where it is no TGA that is read, or has too few bytes for its pixels.
+std::optional<TgaHead> readTgaHead(ByteSpan bytes) {
+    constexpr std::uint8_t kPacked = 8, kFromTheRight = 0x10, kFromTheTop = 0x20, kReserved = 0xc0, kAlphaBits = 0x0f;
+    if (bytes.size() < kHeadBytes) return {};
+    const auto number = [&](std::size_t at) { return loadLittleEndian<std::uint16_t>(bytes.data() + at); };
+    const unsigned kind = bytes[2] & ~unsigned{kPacked};
+    if (kind < 1 || kind > 3) return {};
+    const bool has_palette = kind == 1;
+    const bool has_entries = bytes[3] != 0 || bytes[4] != 0 || bytes[5] != 0 || bytes[6] != 0 || bytes[7] != 0;
+    if (bytes[1] != (has_palette ? 1 : 0) || (has_entries && !has_palette)) return {};
+    TgaHead head{.kind = static_cast<TgaKind>(kind), .is_packed = (bytes[2] & kPacked) != 0};
+    const std::uint8_t descriptor = bytes[17];
+    head.is_from_the_top = (descriptor & kFromTheTop) != 0;
+    head.is_from_the_right = (descriptor & kFromTheRight) != 0;
+    head.size = {number(12), number(14)};
+    head.pixel_bits = bytes[16];
+    head.entry_bits = bytes[7];
+    head.alpha_bits = descriptor & kAlphaBits;
+    head.first_entry = number(3);
+    head.entry_count = number(5);
+    head.palette_at = kHeadBytes + bytes[0];
+    head.pixels_at = head.palette_at + head.entry_count * (head.entry_bits / 8);
+    if ((descriptor & kReserved) != 0 || head.size.pixels() == 0 || !areBitsRight(head)) return {};
+    if (bytes.size() < head.pixels_at || bytes.size() - head.pixels_at < leastBytes(head)) return {};
+    return head;
+}
+
+struct Texel {
+    std::uint8_t red = 0, green = 0, blue = 0, alpha = 255;
+    bool is_there = true;  ///< false: the palette has no such entry
+};
+
+/// Five bits a channel become the nearest of eight.
+std::uint8_t widened(unsigned bits) { return static_cast<std::uint8_t>((bits * 255 + 15) / 31); }
+
+Texel colorOf(const std::uint8_t* at, unsigned bits) {
+    if (bits == 16) {
+        const unsigned word = loadLittleEndian<std::uint16_t>(at);
+        const auto alpha = static_cast<std::uint8_t>((word >> 15) * 255);
+        return {widened(word >> 10 & 31), widened(word >> 5 & 31), widened(word & 31), alpha};
+    }
+    return {at[2], at[1], at[0], bits == 32 ? at[3] : std::uint8_t{255}};
+}
+
+class TgaReader {
+  public:
+    TgaReader(ByteSpan bytes, const TgaHead& head) : bytes_(bytes), head_(head) {
+        if (head.kind != TgaKind::palette) return;
+        palette_.fill({.is_there = false});
+        for (std::size_t i = 0; i < head.entry_count && head.first_entry + i < palette_.size(); ++i)
+            palette_[head.first_entry + i] =
+                colorOf(bytes.data() + head.palette_at + i * (head.entry_bits / 8), head.entry_bits);
+    }
+
+    /// False: it is broken.
+    bool read(TgaImage& out) {
+        const std::uint64_t pixels = head_.size.pixels();
+        const std::size_t step = head_.pixelBytes();
+        out.image = {head_.size.width, head_.size.height, std::vector<std::uint8_t>(3 * pixels)};
+        if (head_.hasAlpha()) out.alpha.resize(pixels);
+        std::size_t at = head_.pixels_at;
+        for (std::uint64_t i = 0; i < pixels;) {
+            std::uint64_t count = pixels;
+            bool is_run = false;
+            if (head_.is_packed) {
+                if (at == bytes_.size()) return false;
+                constexpr std::uint8_t kRun = 0x80;
+                is_run = (bytes_[at] & kRun) != 0;
+                count = std::uint64_t{bytes_[at++]} % kRun + 1;
+                if (count > pixels - i || bytes_.size() - at < (is_run ? 1 : count) * step) return false;
+            }
+            for (const std::uint64_t end = i + count; i < end; ++i) {
+                if (!put(bytes_.data() + at, out)) return false;
+                if (!is_run) at += step;
+            }
+            if (is_run) at += step;
+        }
+        return true;
+    }
+
+  private:
+    [[nodiscard]] Texel texelAt(const std::uint8_t* at) const {
+        if (head_.kind == TgaKind::palette) return palette_[*at];
+        if (head_.kind == TgaKind::grey)
+            return {at[0], at[0], at[0], head_.pixel_bits == 16 ? at[1] : std::uint8_t{255}};
+        return colorOf(at, head_.pixel_bits);
+    }
+
+    bool put(const std::uint8_t* at, TgaImage& out) {
+        const Texel texel = texelAt(at);
+        const std::size_t x = head_.is_from_the_right ? head_.size.width - 1 - column_ : column_;
+        const std::size_t y = head_.is_from_the_top ? row_ : head_.size.height - 1 - row_;
+        const std::size_t to = y * head_.size.width + x;
+        out.image.rgb[3 * to] = texel.red;
+        out.image.rgb[3 * to + 1] = texel.green;
+        out.image.rgb[3 * to + 2] = texel.blue;
+        if (!out.alpha.empty()) out.alpha[to] = texel.alpha;
+        if (++column_ == head_.size.width) {
+            column_ = 0;
+            ++row_;
+        }
+        return texel.is_there;
+    }
+
+    ByteSpan bytes_;
+    const TgaHead& head_;
+    std::array<Texel, 256> palette_ = {};
+    std::size_t column_ = 0, row_ = 0;  ///< of the next pixel, from the corner where the file begins
+};
+
+}  // namespace
+
+bool isTga(ByteSpan bytes) { return readTgaHead(bytes).has_value(); }
+
+ImageClaim claimOfTga(ByteSpan bytes) {
+    const std::optional<TgaHead> head = readTgaHead(bytes);
+    if (!head) return {};
+    return {head->size, 4 * head->size.pixels()};
+}
+
+std::optional<TgaImage> decodeTgaPixels(ByteSpan bytes, std::uint64_t most_pixels, std::string& why) {
+    why = "it is a broken TGA";
+    const std::optional<TgaHead> head = readTgaHead(bytes);
+    if (!head || isTooLarge(head->size, bytes.size(), most_pixels, why)) return {};
+    TgaImage out;
+    if (!TgaReader(bytes, *head).read(out)) return {};
+    // Programs that do not know what the fourth byte is leave 0, and say that there is no alpha. Others forget to say that there is.
+    const bool is_said = head->alpha_bits != 0;
+    const bool is_nothing = std::all_of(out.alpha.begin(), out.alpha.end(), [](std::uint8_t a) { return a == 0; });
+    if (!is_said && is_nothing) out.alpha = {};
+    out.is_grey = head->kind == TgaKind::grey;
+    return out;
+}
+
+std::optional<RgbImage> decodeTga(ByteSpan bytes, std::uint64_t most_pixels, std::string& why) {
+    std::optional<TgaImage> image = decodeTgaPixels(bytes, most_pixels, why);
+    if (!image) return {};
+    return std::move(image->image);
+}
+
+}  // namespace tspace
