@@ -2,7 +2,8 @@
 """Compiles the shared libraries with CMake and puts them into the package. All else stands in pyproject.toml.
 
 In the repository the C++ sources are two folders up; a source distribution has them in cpp/. TSPACE_CMAKE_FOLDER names the
-folder that CMake builds in, so that a second build compiles what changed.
+folder that CMake builds in, so that a second build compiles what changed; TSPACE_LIBRARIES names one that has the libraries,
+and then nothing is compiled.
 """
 
 import os
@@ -91,7 +92,8 @@ class BuildWithLibraries(build_py):
         shutil.rmtree(target, ignore_errors=True)
         target.mkdir(parents=True)
         folder = Path(os.environ.get("TSPACE_CMAKE_FOLDER") or WORK / "cmake").resolve()
-        libraries = compile_libraries(folder)
+        built = os.environ.get("TSPACE_LIBRARIES")
+        libraries = [Path(built) / name for name in LIBRARIES.values()] if built else compile_libraries(folder)
         others = {path.name: path.resolve() for library in libraries for path in bundled(library)}
         for name, path in {**{library.name: library for library in libraries}, **others}.items():
             shutil.copyfile(path, target / name)
