@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "model/io/atomic_output.h"
+#include "tool/folder_files.h"
 #include "tool/run_tool.h"
 
 namespace tspace::test {
@@ -227,20 +228,6 @@ TEST(Batch, ResumeInPlaceLooksAtWhatWasWritten) {
     const std::string command = "generate models --in-place --overwrite --json --manifest m.jsonl --resume";
     EXPECT_EQ(countOf(doneBy(runTool(folder, command)), "written"), 3U);
     EXPECT_EQ(countOf(doneBy(runTool(folder, command)), "skipped"), 3U);
-}
-
-/// Writes the file that a run on `target` would have left when it was killed.
-void leaveTemporaryFile(const TempFolder& folder, const std::string& target) {
-    const pid_t child = fork();
-    if (child == 0) {
-        folder.write(target, "half");
-        std::error_code ignored;
-        const std::filesystem::path file = folder.path(target);
-        std::filesystem::rename(file, besideName(Path(file.string()), kTemporaryEnding).string(), ignored);
-        _exit(0);
-    }
-    int status = 0;
-    ASSERT_EQ(waitpid(child, &status, 0), child);
 }
 
 TEST(Batch, ResumeRemovesTemporaryFilesOfKilledRuns) {

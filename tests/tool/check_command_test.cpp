@@ -2,17 +2,11 @@
 // tspace check as a user meets it.
 #include <gtest/gtest.h>
 
+#include "tool/folder_files.h"
 #include "tool/run_tool.h"
 
 namespace tspace::test {
 namespace {
-
-/// Tangents of another convention are inverted signs to glTF.
-void writeInverted(const TempFolder& folder, const std::string& name) {
-    writeFoldedObj(folder, "folded.obj");
-    writeBumpMap(folder);
-    ASSERT_EQ(runTool(folder, "generate folded.obj -q --convention opengl -o " + name).exit_code, 0);
-}
 
 void writeGood(const TempFolder& folder, const std::string& name) {
     writeFoldedObj(folder, "folded.obj");

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "tool/folder_files.h"
 #include "tool/run_tool.h"
 #include "tool/sarif_schema.h"
 #include "tspace/check.h"
@@ -13,13 +14,6 @@ namespace tspace::test {
 namespace {
 
 using Json = nlohmann::json;
-
-/// `name` with one error, signsInverted; folded.obj with two notes, normalsMissing and tangentsMissing.
-void writeInverted(const TempFolder& folder, const std::string& name) {
-    writeFoldedObj(folder, "folded.obj");
-    writeBumpMap(folder);
-    ASSERT_EQ(runTool(folder, "generate folded.obj -q --convention opengl -o '" + name + "'").exit_code, 0);
-}
 
 TEST(CheckLeavesOut, CodesThatAreIgnored) {
     const TempFolder folder;

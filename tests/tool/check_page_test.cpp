@@ -23,11 +23,11 @@ void writeSquare(const TempFolder& folder, const std::string& name, float sign) 
     builder.json()["materials"][0]["normalTexture"] = {{"index", addTexture(builder, plainImage(200, 128, 220))}};
     folder.write(name, std::span<const std::uint8_t>(builder.glb()));
 }
-void writeInverted(const TempFolder& folder, const std::string& name) { writeSquare(folder, name, -1); }
+void writeInvertedSquare(const TempFolder& folder, const std::string& name) { writeSquare(folder, name, -1); }
 
 TEST(CheckPage, ShowsEachFindingBeforeAndAfter) {
     const TempFolder folder;
-    writeInverted(folder, "sheet.glb");
+    writeInvertedSquare(folder, "sheet.glb");
     const ToolRun run = runTool(folder, "check sheet.glb --html report.html");
     EXPECT_EQ(run.exit_code, 1);
     const std::string page = folder.read("report.html");
@@ -40,7 +40,7 @@ TEST(CheckPage, ShowsEachFindingBeforeAndAfter) {
 
 TEST(CheckPage, TextOfFilesIsText) {
     const TempFolder folder;
-    writeInverted(folder, "a<b>&.glb");
+    writeInvertedSquare(folder, "a<b>&.glb");
     runTool(folder, "check -q 'a<b>&.glb' --html report.html");
     const std::string page = folder.read("report.html");
     EXPECT_EQ(page.find("<script"), std::string::npos);
@@ -51,7 +51,7 @@ TEST(CheckPage, TextOfFilesIsText) {
 
 TEST(CheckPage, SaysWhenAndByWhichCommandItWasMade) {
     const TempFolder folder;
-    writeInverted(folder, "it's a sheet.glb");
+    writeInvertedSquare(folder, "it's a sheet.glb");
     const std::string arguments = "check -q \"it's a sheet.glb\" --html report.html";
     const auto pageAt = [&](const char* epoch) {
         EXPECT_EQ(runTool(folder, arguments, std::string("SOURCE_DATE_EPOCH=") + epoch).exit_code, 1);
@@ -73,7 +73,7 @@ TEST(CheckPage, SaysWhenAndByWhichCommandItWasMade) {
 
 TEST(CheckPage, SeveralFilesHaveAnOverview) {
     const TempFolder folder;
-    writeInverted(folder, "models/wrong.glb");
+    writeInvertedSquare(folder, "models/wrong.glb");
     writeSquare(folder, "models/right.glb", 1);
     folder.write("models/broken.glb", std::string("glTF"));
     runTool(folder, "check -q models --html report.html");
@@ -85,7 +85,7 @@ TEST(CheckPage, SeveralFilesHaveAnOverview) {
 
 TEST(CheckPage, WhatCannotBeWrittenIsSaid) {
     const TempFolder folder;
-    writeInverted(folder, "sheet.glb");
+    writeInvertedSquare(folder, "sheet.glb");
     const ToolRun run = runTool(folder, "check -q sheet.glb --html sheet.glb/report.html");
     EXPECT_EQ(run.exit_code, 4);
     EXPECT_EQ(folder.files(), (std::set<std::string>{"sheet.glb"}));

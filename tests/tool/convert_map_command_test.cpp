@@ -9,20 +9,13 @@
 #include "core/base/vec_math.h"
 #include "images/float_image.h"
 #include "images/images.h"
-#include "run_tool.h"
+#include "tool/folder_files.h"
+#include "tool/run_tool.h"
 
 namespace tspace::test {
 namespace {
 
 using Json = nlohmann::json;
-
-FloatImage imageIn(const TempFolder& folder, const std::string& name) {
-    std::string why;
-    const std::string file = folder.read(name);
-    const std::optional<FloatImage> image = decodeFloatImage(bytesOf(file), 1 << 22, why);
-    EXPECT_TRUE(image) << name << ": " << why;
-    return image ? *image : FloatImage{};
-}
 
 /// bump.png, and a bent sheet with uneven UVs that shows it: a.glb with tangents, b.glb with those of another method.
 void writeSheet(const TempFolder& folder) {

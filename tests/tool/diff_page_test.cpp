@@ -7,7 +7,7 @@
 namespace tspace::test {
 namespace {
 
-void writeSquare(const TempFolder& folder, const std::string& name, float sign) {
+void writePlainSquare(const TempFolder& folder, const std::string& name, float sign) {
     SquareModel model;
     for (std::size_t i = 3; i < model.tangents.size(); i += 4) model.tangents[i] = sign;
     GltfBuilder builder = model.build();
@@ -24,8 +24,8 @@ std::size_t pictureCount(const std::string& page) {
 
 TEST(DiffPage, ShowsAnglesAndTheWorstPlaces) {
     const TempFolder folder;
-    writeSquare(folder, "a.glb", 1);
-    writeSquare(folder, "b.glb", -1);
+    writePlainSquare(folder, "a.glb", 1);
+    writePlainSquare(folder, "b.glb", -1);
     const ToolRun plain = runTool(folder, "diff a.glb b.glb");
     const ToolRun run = runTool(folder, "diff a.glb b.glb --html report.html");
     EXPECT_EQ(run.exit_code, 1);
@@ -40,7 +40,7 @@ TEST(DiffPage, ShowsAnglesAndTheWorstPlaces) {
 
 TEST(DiffPage, TextOfFilesIsTextAndNothingIsLoaded) {
     const TempFolder folder;
-    writeSquare(folder, "a<b>&.glb", 1);
+    writePlainSquare(folder, "a<b>&.glb", 1);
     runTool(folder, "diff -q 'a<b>&.glb' 'a<b>&.glb' --html report.html");
     const std::string page = folder.read("report.html");
     EXPECT_EQ(page.find("<script"), std::string::npos);
@@ -51,7 +51,7 @@ TEST(DiffPage, TextOfFilesIsTextAndNothingIsLoaded) {
 
 TEST(DiffPage, EqualModelsHaveNoWorstPlaces) {
     const TempFolder folder;
-    writeSquare(folder, "a.glb", 1);
+    writePlainSquare(folder, "a.glb", 1);
     const ToolRun run = runTool(folder, "diff -q a.glb a.glb --html report.html");
     EXPECT_EQ(run.exit_code, 0);
     EXPECT_EQ(run.out, "");
@@ -60,7 +60,7 @@ TEST(DiffPage, EqualModelsHaveNoWorstPlaces) {
 
 TEST(DiffPage, ThereIsNoneOfWhatCannotBeRead) {
     const TempFolder folder;
-    writeSquare(folder, "a.glb", 1);
+    writePlainSquare(folder, "a.glb", 1);
     folder.write("broken.glb", std::string("glTF"));
     for (const auto& [command, code] : {std::pair<const char*, int>{"diff a.glb none.glb --html report.html", 4},
                                         {"diff broken.glb a.glb --html report.html", 3},

@@ -10,7 +10,8 @@
 #include "images/images.h"
 #include "images/textures.h"
 #include "maps/shading.h"
-#include "run_tool.h"
+#include "tool/folder_files.h"
+#include "tool/run_tool.h"
 #include "tspace/map_layout.h"
 
 namespace tspace::test {
@@ -36,14 +37,6 @@ void writeImage(const TempFolder& folder, const std::string& name, const FloatIm
     folder.write(name, std::string(file->begin(), file->end()));
 }
 
-FloatImage imageIn(const TempFolder& folder, const std::string& name) {
-    std::string why;
-    const std::string file = folder.read(name);
-    const std::optional<FloatImage> image = decodeFloatImage(bytesOf(file), 1 << 22, why);
-    EXPECT_TRUE(image) << name << ": " << why;
-    return image ? *image : FloatImage{};
-}
-
 double meanError(const FloatImage& a, const FloatImage& b) {
     double sum = 0;
     if (a.texels.size() != b.texels.size()) return 180;
@@ -61,7 +54,7 @@ void writeSquare(const TempFolder& folder, const std::string& name) {
     ASSERT_EQ(runTool(folder, "generate -q " + name + ".obj -o " + name + ".gltf").exit_code, 0);
 }
 
-Json findingsOf(const TempFolder& folder, const std::string& file) {
+Json findingsIn(const TempFolder& folder, const std::string& file) {
     const Json json = Json::parse(runTool(folder, "check --json " + file).out, nullptr, false);
     return json.is_object() ? json["files"][0]["findings"] : Json::array({"not read"});
 }
@@ -125,7 +118,7 @@ TEST(MendMaps, WhatCheckNamesMendsTheModelAndTheImage) {
         writeImage(folder, "map.png", wrong);
         writeSquare(folder, "map");
         const std::string old_file = folder.read("map.png");
-        const Json found = findingsOf(folder, "map.gltf");
+        const Json found = findingsIn(folder, "map.gltf");
         ASSERT_EQ(found.size(), 1U) << kind.code << found.dump(1);
         EXPECT_EQ(found[0]["code"], kind.code);
         const std::string remedy = found[0]["remedy"];
@@ -134,14 +127,14 @@ TEST(MendMaps, WhatCheckNamesMendsTheModelAndTheImage) {
         EXPECT_TRUE(remedy.ends_with("tspace " + command)) << remedy;
 
         ASSERT_EQ(runTool(folder, "generate --mend-maps map.gltf -o mended.gltf").exit_code, 0);
-        EXPECT_EQ(findingsOf(folder, "mended.gltf"), Json::array()) << kind.code;
+        EXPECT_EQ(findingsIn(folder, "mended.gltf"), Json::array()) << kind.code;
         EXPECT_LT(meanError(imageIn(folder, "map-mended.png"), right), 1) << kind.code;
         EXPECT_TRUE(folder.read("map.png") == old_file) << "the old one stays";
 
         ASSERT_EQ(runTool(folder, command).exit_code, 0) << command;
         EXPECT_LT(meanError(imageIn(folder, "OUT.png"), right), 1) << kind.code;
         writeSquare(folder, "OUT");
-        EXPECT_EQ(findingsOf(folder, "OUT.gltf"), Json::array()) << kind.code;
+        EXPECT_EQ(findingsIn(folder, "OUT.gltf"), Json::array()) << kind.code;
     }
 }
 
@@ -167,7 +160,7 @@ TEST(MendMaps, TexturesBecomePngsThatTheModelNamesPlainly) {
         model["textures"][0] = {{"extensions", {{kind.extension, {{"source", 0}}}}}};
         model["extensionsUsed"] = model["extensionsRequired"] = {kind.extension};
         folder.write("t.gltf", model.dump());
-        const Json findings = findingsOf(folder, "t.gltf");
+        const Json findings = findingsIn(folder, "t.gltf");
         ASSERT_FALSE(findings.empty());
         EXPECT_EQ(findings[0]["code"], kind.code);
         EXPECT_NE(findings[0]["remedy"].get<std::string>().find("generate --mend-maps"), std::string::npos);
@@ -179,7 +172,7 @@ TEST(MendMaps, TexturesBecomePngsThatTheModelNamesPlainly) {
         const std::string name = mended["images"][0]["uri"];
         EXPECT_EQ(name.substr(name.size() - 11), "-mended.png");
         EXPECT_LT(meanError(imageIn(folder, name), imageIn(folder, kind.truth)), 0.01);
-        EXPECT_EQ(findingsOf(folder, "mended.gltf"), Json::array()) << run.out;
+        EXPECT_EQ(findingsIn(folder, "mended.gltf"), Json::array()) << run.out;
     }
 }
 
@@ -198,15 +191,15 @@ TEST(MendMaps, MendsRedAndGreenThatWereExchanged) {
     FloatImage wrong = right;
     writeImage(folder, "map.png", right);
     writeSquare(folder, "map");
-    EXPECT_EQ(findingsOf(folder, "map.gltf"), Json::array());
+    EXPECT_EQ(findingsIn(folder, "map.gltf"), Json::array());
     for (Vec3& texel : wrong.texels) std::swap(texel.x, texel.y);
     writeImage(folder, "map.png", wrong);
-    const Json found = findingsOf(folder, "map.gltf");
+    const Json found = findingsIn(folder, "map.gltf");
     ASSERT_EQ(found.size(), 1U) << found.dump(1);
     EXPECT_EQ(found[0]["code"], "normalMapChannels");
     EXPECT_TRUE(found[0]["remedy"].get<std::string>().ends_with("--channels grb")) << found[0]["remedy"];
     ASSERT_EQ(runTool(folder, "generate --mend-maps map.gltf -o mended.gltf").exit_code, 0);
-    EXPECT_EQ(findingsOf(folder, "mended.gltf"), Json::array());
+    EXPECT_EQ(findingsIn(folder, "mended.gltf"), Json::array());
     EXPECT_LT(meanError(imageIn(folder, "map-mended.png"), right), 1);
 }
 
@@ -217,7 +210,7 @@ TEST(MendMaps, OneCommandMendsChannelsAndGreen) {
     for (Vec3& texel : wrong.texels) texel = {texel.x, 1 - texel.y, 1};
     writeImage(folder, "map.png", wrong);
     writeSquare(folder, "map");
-    const Json found = findingsOf(folder, "map.gltf");
+    const Json found = findingsIn(folder, "map.gltf");
     ASSERT_EQ(found.size(), 2U) << found.dump(1);
     EXPECT_EQ(found[0]["code"], "normalMapTwoChannels");
     EXPECT_EQ(found[1]["code"], "greenFlipped");
@@ -225,7 +218,7 @@ TEST(MendMaps, OneCommandMendsChannelsAndGreen) {
     EXPECT_NE(remedy.find("tspace generate --mend-maps --flip-green does it"), std::string::npos) << remedy;
     EXPECT_TRUE(remedy.ends_with("convert-map map.png -o OUT.png --channels rg --flip-green")) << remedy;
     ASSERT_EQ(runTool(folder, "generate --mend-maps --flip-green map.gltf -o mended.gltf").exit_code, 0);
-    EXPECT_EQ(findingsOf(folder, "mended.gltf"), Json::array());
+    EXPECT_EQ(findingsIn(folder, "mended.gltf"), Json::array());
     EXPECT_LT(meanError(imageIn(folder, "map-mended.png"), right), 1);
     ASSERT_EQ(runTool(folder, "convert-map map.png -o OUT.png --channels rg --flip-green").exit_code, 0);
     EXPECT_LT(meanError(imageIn(folder, "OUT.png"), right), 1);
@@ -256,17 +249,17 @@ TEST(MendMaps, TakesAMapOutOfObjectSpace) {
     }
     folder.write("tube.obj", obj);
     ASSERT_EQ(runTool(folder, "generate -q tube.obj -o tube.gltf").exit_code, 0);
-    ASSERT_EQ(findingsOf(folder, "tube.gltf"), Json::array());
+    ASSERT_EQ(findingsIn(folder, "tube.gltf"), Json::array());
     const FloatImage right = imageIn(folder, "map.png");
     ASSERT_EQ(runTool(folder, "convert-map map.png --mesh tube.gltf --to object --bits 8 -o object.png").exit_code, 0);
     folder.write("map.png", folder.read("object.png"));
-    const Json found = findingsOf(folder, "tube.gltf");
+    const Json found = findingsIn(folder, "tube.gltf");
     ASSERT_EQ(found.size(), 1U);
     EXPECT_EQ(found[0]["code"], "normalMapInObjectSpace");
     EXPECT_TRUE(
         found[0]["remedy"].get<std::string>().ends_with("convert-map map.png -o OUT.png --from object --mesh MODEL"));
     ASSERT_EQ(runTool(folder, "generate --mend-maps tube.gltf -o mended.gltf").exit_code, 0);
-    EXPECT_EQ(findingsOf(folder, "mended.gltf"), Json::array());
+    EXPECT_EQ(findingsIn(folder, "mended.gltf"), Json::array());
     EXPECT_LT(meanError(imageIn(folder, "map-mended.png"), right), 1);
     ASSERT_EQ(runTool(folder, "convert-map map.png -o OUT.png --from object --mesh tube.gltf").exit_code, 0);
     EXPECT_LT(meanError(imageIn(folder, "OUT.png"), right), 1);
@@ -280,7 +273,7 @@ TEST(MendMaps, NamesBothCausesOfACurlTheWrongWayRound) {
         for (Vec3& texel : wrong.texels) (is_red ? texel.x : texel.y) = 1 - (is_red ? texel.x : texel.y);
         writeImage(folder, "map.png", wrong);
         writeSquare(folder, "map");
-        const Json found = findingsOf(folder, "map.gltf");
+        const Json found = findingsIn(folder, "map.gltf");
         ASSERT_EQ(found.size(), 1U);
         EXPECT_EQ(found[0]["code"], "greenFlipped");
         EXPECT_NE(found[0]["message"].get<std::string>().find("red or green is inverted"), std::string::npos);
@@ -293,7 +286,7 @@ TEST(MendMaps, NamesBothCausesOfACurlTheWrongWayRound) {
                   0);
         EXPECT_LT(meanError(imageIn(folder, "OUT.png"), right), .1);
         writeSquare(folder, "OUT");
-        EXPECT_EQ(findingsOf(folder, "OUT.gltf"), Json::array());
+        EXPECT_EQ(findingsIn(folder, "OUT.gltf"), Json::array());
     }
 }
 
@@ -301,12 +294,12 @@ TEST(MendMaps, ReadsWhatTheFileDeclares) {
     const TempFolder folder;
     writeImage(folder, "map.png", floatsOf(soundMap(true)));
     writeSquare(folder, "map");
-    EXPECT_EQ(findingsOf(folder, "map.gltf").size(), 1U);
+    EXPECT_EQ(findingsIn(folder, "map.gltf").size(), 1U);
     Json json = Json::parse(folder.read("map.gltf"));
     json["extensionsUsed"] = {"ASOBO_normal_map_convention"};
     json["asset"]["extensions"]["ASOBO_normal_map_convention"]["tangent_space_convention"] = "DirectX";
     folder.write("declared.gltf", json.dump());
-    EXPECT_EQ(findingsOf(folder, "declared.gltf"), Json::array());
+    EXPECT_EQ(findingsIn(folder, "declared.gltf"), Json::array());
     const ToolRun run = runTool(folder, "generate --json --flip-green declared.gltf -o out/out.gltf");
     const Json map = Json::parse(run.out)["files"][0]["normalMaps"][0];
     EXPECT_EQ(map["flipped"], false);
@@ -321,7 +314,7 @@ TEST(MendMaps, NotesAScaleThatIsNotAboveZero) {
         Json json = Json::parse(folder.read("map.gltf"));
         json["materials"][0]["normalTexture"]["scale"] = scale;
         folder.write("map.gltf", json.dump());
-        const Json found = findingsOf(folder, "map.gltf");
+        const Json found = findingsIn(folder, "map.gltf");
         ASSERT_EQ(found.size(), scale > 0 ? 0U : 1U);
         if (scale <= 0) {
             EXPECT_EQ(found[0]["code"], "normalMapScale");

@@ -57,7 +57,7 @@ void writeTorus(const TempFolder& folder, bool with_normals, bool damaged = true
     folder.write("a.obj", torus(with_normals, damaged));
 }
 
-Json reportOf(const TempFolder& folder, const std::string& arguments) {
+Json fileReport(const TempFolder& folder, const std::string& arguments) {
     const ToolRun run = runTool(folder, arguments + " --json");
     EXPECT_EQ(0, run.exit_code) << arguments << run.err;
     const Json json = Json::parse(run.out, nullptr, false);
@@ -86,7 +86,7 @@ bool findsNormalsAgainstWinding(const TempFolder& folder, const std::string& fil
 TEST(MendWindingOfFiles, TurnsFacesOfObjBeforeNormalsAreMade) {
     TempFolder folder;
     writeTorus(folder, false);
-    const Json report = reportOf(folder, "generate --all --normals angle --mend-winding a.obj -o b.glb");
+    const Json report = fileReport(folder, "generate --all --normals angle --mend-winding a.obj -o b.glb");
     expectMended(report, kTurned);
     EXPECT_EQ(1, report["windings"][0]["byVolume"].get<int>());
     for (const Json& primitive : report["primitives"]) EXPECT_EQ(0, primitive["normalsBehind"].get<int>());
@@ -110,14 +110,14 @@ TEST(MendWindingOfFiles, LeavesCheckNothingToFindWhateverTheFileIsPackedAs) {
         const ToolRun found = runTool(folder, "check --verbose b.glb");
         EXPECT_NE(std::string::npos, (found.out + found.err).find("tspace generate --mend-winding")) << found.out;
         for (const std::string more : {"", " --compress none", " --compress meshopt"}) {
-            const Json report = reportOf(folder, "generate --mend-winding" + more + " b.glb -o c.glb");
+            const Json report = fileReport(folder, "generate --mend-winding" + more + " b.glb -o c.glb");
             // Draco rounds the positions of each primitive on a lattice of its own, so they meet nowhere.
             const int components = packed == "draco" ? 2 : 1;
             expectMended(report, kTurned, components);
             EXPECT_EQ(components, report["windings"][0]["byNormals"].get<int>());
             EXPECT_FALSE(findsNormalsAgainstWinding(folder, "c.glb")) << packed << more;
             EXPECT_EQ(0,
-                      reportOf(folder, "generate --mend-winding c.glb -o d.glb")["windings"][0]["turned"].get<int>());
+                      fileReport(folder, "generate --mend-winding c.glb -o d.glb")["windings"][0]["turned"].get<int>());
         }
     }
 }
@@ -126,7 +126,7 @@ TEST(MendWindingOfFiles, FollowsTheVolumeWhereNormalsAreMadeAnew) {
     TempFolder folder;
     writeTorus(folder, true);
     ASSERT_EQ(0, runTool(folder, "generate -q --all a.obj -o a.glb").exit_code);
-    const Json report = reportOf(folder, "generate --mend-winding --overwrite-normals a.glb -o b.glb");
+    const Json report = fileReport(folder, "generate --mend-winding --overwrite-normals a.glb -o b.glb");
     expectMended(report, kTurned);
     EXPECT_EQ(1, report["windings"][0]["byVolume"].get<int>());
     EXPECT_FALSE(findsNormalsAgainstWinding(folder, "b.glb"));
@@ -181,8 +181,8 @@ TEST(MendWindingOfFiles, MakesListsOfStripsAndOfWhatHasNone) {
     folder.write("one.gltf", tetrahedron(4, {0, 2, 1, 0, 3, 1, 0, 3, 2, 1, 2, 3}, true));
     for (const auto& [name, turned] : {std::pair{"strip", 4}, std::pair{"bare", 4}, std::pair{"one", 1}}) {
         const std::string from = std::string(name) + ".gltf", to = std::string(name) + "2.gltf";
-        expectMended(reportOf(folder, "generate --mend-winding " + from + " -o " + to), turned);
-        expectMended(reportOf(folder, "generate --mend-winding " + to + " -o again.gltf"), 0);
+        expectMended(fileReport(folder, "generate --mend-winding " + from + " -o " + to), turned);
+        expectMended(fileReport(folder, "generate --mend-winding " + to + " -o again.gltf"), 0);
         const Json json = Json::parse(folder.read(to));
         const Json& primitive = json["meshes"][0]["primitives"][0];
         EXPECT_EQ(4u, primitive["mode"].get<unsigned>());

@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "model/io/atomic_output.h"
+#include "tool/folder_files.h"
 #include "tool/run_tool.h"
 
 namespace tspace::test {
@@ -16,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::map<std::string, std::string> contentsOf(const TempFolder& folder) {
+std::map<std::string, std::string> treeOf(const TempFolder& folder) {
     std::map<std::string, std::string> contents;
     for (const auto& entry : fs::recursive_directory_iterator(folder.path())) {
         const std::string name = entry.path().lexically_relative(folder.path()).string();
@@ -63,7 +64,7 @@ TEST(LongNames, InAModelAreBadInput) {
           {"a.bin", std::string(300, 'n') + ".png", "/images/0/uri"},
           {"a.bin", deep + "bump.png", "/images/0/uri"}}) {
         folder.write("a.gltf", triangle(buffer, image));
-        const auto before = contentsOf(folder);
+        const auto before = treeOf(folder);
         for (const char* command :
              {"check a.gltf", "check a.gltf --html a.html --allow-external", "inspect a.gltf", "identify a.gltf",
               "diff a.gltf a.gltf", "generate a.gltf -o x.glb", "generate a.gltf -o sub/x.gltf",
@@ -77,7 +78,7 @@ TEST(LongNames, InAModelAreBadInput) {
             EXPECT_LT(run.err.size(), 500U) << command << run.err;
             EXPECT_NE(run.err.find(place), std::string::npos) << command << run.err;
             fs::remove(folder.path("a.html"));
-            EXPECT_TRUE(contentsOf(folder) == before) << command;
+            EXPECT_TRUE(treeOf(folder) == before) << command;
         }
     }
 }
@@ -91,7 +92,7 @@ TEST(LongNames, OnTheCommandLineCannotBeReadOrWritten) {
     std::string deep;
     for (int i = 0; i < 30; ++i) deep += std::string(200, 'b') + "/";
     for (const std::string& name : {std::string(300, 'n'), deep + "n", std::string(300, 'n') + "/n"}) {
-        const auto before = contentsOf(folder);
+        const auto before = treeOf(folder);
         for (const auto& [begin, end] : {std::pair("check ", ".glb"),
                                          {"inspect ", ".gltf"},
                                          {"identify ", ".obj"},
@@ -120,7 +121,7 @@ TEST(LongNames, OnTheCommandLineCannotBeReadOrWritten) {
             const ToolRun run = runTool(folder, command + " -q");
             EXPECT_EQ(run.exit_code, 4) << begin << end << run.exit_code << run.err;
             EXPECT_EQ(run.errorLines(), 1) << begin << end << run.err;
-            EXPECT_TRUE(contentsOf(folder) == before) << begin << end;
+            EXPECT_TRUE(treeOf(folder) == before) << begin << end;
         }
     }
 }
@@ -204,12 +205,12 @@ TEST(Reports, ThatCannotBeWrittenCostNothingElse) {
           Case{"check a.glb -q --html h --sarif file/r", {"h"}}, Case{"diff a.glb a.glb -q --html file/h", {}},
           Case{"generate a.gltf --all -q -o file/x.glb --manifest r", {"r"}, true},
           Case{"generate a.gltf --all -q -o file/x.gltf --manifest r", {"r"}, true}}) {
-        const auto before = contentsOf(folder);
+        const auto before = treeOf(folder);
         const ToolRun run = runTool(folder, one.command);
         EXPECT_EQ(run.exit_code, 4) << one.command << run.err;
         EXPECT_GE(run.errorLines(), 1) << one.command;
         std::set<std::string> made;
-        for (const auto& [name, bytes] : contentsOf(folder)) {
+        for (const auto& [name, bytes] : treeOf(folder)) {
             if (!before.contains(name)) made.insert(name);
         }
         EXPECT_EQ(made, one.made) << one.command;
@@ -259,11 +260,11 @@ TEST(OneRun, ChangesInPlaceWhatNoOtherModelNeeds) {
         ASSERT_EQ(runTool(folder, "generate x.gltf -q --all -o a.gltf").exit_code, 0);
         ASSERT_TRUE(folder.has("a.tspace.bin"));
         folder.write("b.gltf", folder.read("a.gltf"));
-        const auto before = contentsOf(folder);
+        const auto before = treeOf(folder);
         const ToolRun run = runTool(folder, std::string("generate --in-place -q --overwrite --all --method area --pack "
                                                         "frame32 --bitangents ") +
                                                 order);
-        if (contentsOf(folder).at("a.tspace.bin") != before.at("a.tspace.bin")) {
+        if (treeOf(folder).at("a.tspace.bin") != before.at("a.tspace.bin")) {
             EXPECT_EQ(run.exit_code, 4) << order << run.err;
         }
         // Both fit their buffer: the reader finds what the JSON says.
@@ -293,7 +294,7 @@ TEST(FilesThatAModelNames, AreInputsAlsoWhereTheyAreNotRead) {
     folder.write("a.bin", triangleBytes());
     folder.write("a.gltf", triangle("a.bin", "named.png"));
     ASSERT_EQ(runTool(folder, "generate a.gltf -q -o b.glb").exit_code, 0);
-    const auto before = contentsOf(folder);
+    const auto before = treeOf(folder);
     for (const char* command :
          {"convert-map bump.png --mesh a.gltf --to object -o named.png",
           "convert-map bump.png --mesh b.glb --to-mesh a.gltf -o named.png",
@@ -306,7 +307,7 @@ TEST(FilesThatAModelNames, AreInputsAlsoWhereTheyAreNotRead) {
         const ToolRun run = runTool(folder, command + std::string(" -q"));
         EXPECT_EQ(run.exit_code, 4) << command << run.exit_code << run.err;
         EXPECT_NE(run.err.find("it is an input"), std::string::npos) << command << run.err;
-        EXPECT_TRUE(contentsOf(folder) == before) << command;
+        EXPECT_TRUE(treeOf(folder) == before) << command;
     }
     // What is not there yet can be made: a model may name the map that is to be baked for it.
     folder.write("c.gltf", triangle("a.bin", "new.png"));
@@ -347,20 +348,6 @@ TEST(FilesThatAModelNames, AreBakedAnewWhereTheyAreNotRead) {
     }
 }
 
-/// Writes the file that a run on `target` would have left when it was killed.
-void leaveTemporaryFile(const TempFolder& folder, const std::string& target) {
-    const pid_t child = fork();
-    if (child == 0) {
-        folder.write(target, "half");
-        std::error_code ignored;
-        fs::rename(folder.path(target), besideName(Path(folder.path(target).string()), kTemporaryEnding).string(),
-                   ignored);
-        _exit(0);
-    }
-    int status = 0;
-    ASSERT_EQ(waitpid(child, &status, 0), child);
-}
-
 TEST(DryRuns, TidyAndMakeNothing) {
     const TempFolder folder;
     writeBumpMap(folder);
@@ -376,9 +363,9 @@ TEST(DryRuns, TidyAndMakeNothing) {
           "flip-green bump.png -o sub/n.png", "render a.glb -o sub/n.png", "generate a.glb -o sub/n.glb",
           "convert-map bump.png --mesh a.glb --to object -o new/n.png", "height-to-normal bump.png -o new/n.png",
           "height-to-normal bump.png -o n.png", "flip-green bump.png -o new/n.png", "render a.glb -o new/n.png"}) {
-        const auto before = contentsOf(folder);
+        const auto before = treeOf(folder);
         EXPECT_EQ(runTool(folder, std::string(command) + " -q --dry-run").exit_code, 0) << command;
-        EXPECT_TRUE(contentsOf(folder) == before) << command;
+        EXPECT_TRUE(treeOf(folder) == before) << command;
     }
     fs::create_symlink("a.glb", folder.path("link.png"));
     EXPECT_EQ(runTool(folder, "render a.glb -o link.png --dry-run").exit_code, 2) << "what the run would refuse";

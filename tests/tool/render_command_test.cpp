@@ -9,7 +9,7 @@
 namespace tspace::test {
 namespace {
 
-std::string writeSheet(const TempFolder& folder) {
+std::string writeBentSheet(const TempFolder& folder) {
     return writeModel(folder, "sheet.glb", {withTangents(bentSheet(4), Method::mikktspace)});
 }
 
@@ -19,7 +19,7 @@ ImageSize sizeOf(const std::string& png) {
 
 TEST(RenderCommand, DrawsAPicture) {
     const TempFolder folder;
-    writeSheet(folder);
+    writeBentSheet(folder);
     for (const char* show : {"lit", "normals", "tangents", "sign", "error", "uv", "mapped"}) {
         const ToolRun run =
             runTool(folder, std::string("render sheet.glb -o out/") + show + ".png --size 80x40 --show " + show);
@@ -36,7 +36,7 @@ TEST(RenderCommand, DrawsAPicture) {
 
 TEST(RenderCommand, ReportsAsJson) {
     const TempFolder folder;
-    writeSheet(folder);
+    writeBentSheet(folder);
     const auto json =
         nlohmann::json::parse(runTool(folder, "render --json sheet.glb -o a.png --size 64 --show error").out);
     EXPECT_EQ(json["schema"], "tspace.render/1");
@@ -51,14 +51,14 @@ TEST(RenderCommand, ReportsAsJson) {
 
 TEST(RenderCommand, TakesPipes) {
     const TempFolder folder;
-    writeSheet(folder);
+    writeBentSheet(folder);
     ASSERT_EQ(runTool(folder, "render -q sheet.glb -o a.png --size 64").exit_code, 0);
     EXPECT_EQ(runTool(folder, "render -q - -o - --size 64 < sheet.glb").out, folder.read("a.png"));
 }
 
 TEST(RenderCommand, NamedViewsAreAngles) {
     const TempFolder folder;
-    writeSheet(folder);
+    writeBentSheet(folder);
     runTool(folder, "render -q sheet.glb -o a.png --size 64 --view left --light 0,0");
     runTool(folder, "render -q sheet.glb -o b.png --size 64 --view=-90,0 --light 0,0,2");
     EXPECT_EQ(folder.read("a.png"), folder.read("b.png"));
@@ -66,7 +66,7 @@ TEST(RenderCommand, NamedViewsAreAngles) {
 
 TEST(RenderCommand, ALegendIsThereUnlessItIsLeftOut) {
     const TempFolder folder;
-    writeSheet(folder);
+    writeBentSheet(folder);
     ASSERT_EQ(runTool(folder, "render -q sheet.glb -o with.png --size 400").exit_code, 0);
     ASSERT_EQ(runTool(folder, "render -q sheet.glb -o without.png --size 400 --no-legend").exit_code, 0);
     EXPECT_NE(folder.read("with.png"), folder.read("without.png"));
@@ -75,7 +75,7 @@ TEST(RenderCommand, ALegendIsThereUnlessItIsLeftOut) {
 
 TEST(RenderCommand, WrongUseIsOneLineAndNoFile) {
     const TempFolder folder;
-    writeSheet(folder);
+    writeBentSheet(folder);
     for (const char* arguments :
          {"render sheet.glb", "render sheet.glb -o a.jpg", "render sheet.glb -o a.png --size 8",
           "render sheet.glb -o a.png --view up", "render sheet.glb -o a.png --view 10,91",

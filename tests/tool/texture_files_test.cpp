@@ -7,19 +7,13 @@
 #include "images/float_image.h"
 #include "images/images.h"
 #include "images/textures.h"
-#include "run_tool.h"
+#include "tool/folder_files.h"
+#include "tool/run_tool.h"
 
 namespace tspace::test {
 namespace {
 
 using Json = nlohmann::json;
-
-FloatImage imageIn(const TempFolder& folder, const std::string& name) {
-    std::string why;
-    const std::optional<FloatImage> image = decodeFloatImage(bytesOf(folder.read(name)), 1 << 22, why);
-    EXPECT_TRUE(image) << name << ": " << why;
-    return image.value_or(FloatImage{});
-}
 
 /// A flat square that shows `map`, in front of bumps.
 void writeModels(const TempFolder& folder, const std::string& map) {

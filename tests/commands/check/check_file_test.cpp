@@ -74,7 +74,7 @@ std::multiset<std::string> codes(const CheckReport& report) {
     return result;
 }
 
-using Codes = std::multiset<std::string>;
+using CodeCounts = std::multiset<std::string>;
 
 /// Frames belong to the mesh's own space.
 TEST(CheckFile, DoesNotLookAtNodesThatMoveScaleOrMirror) {
@@ -95,7 +95,7 @@ TEST(CheckFile, DoesNotLookAtNodesThatMoveScaleOrMirror) {
 
 TEST(CheckFile, FindsNothingInAGoodFile) {
     const CheckReport report = TestModel().check();
-    EXPECT_EQ(codes(report), Codes{});
+    EXPECT_EQ(codes(report), CodeCounts{});
     EXPECT_EQ(report.primitive_count, 1u);
     EXPECT_EQ(report.tangents_count, 1u);
     EXPECT_EQ(report.image_count, 1u);
@@ -104,7 +104,7 @@ TEST(CheckFile, FindsNothingInAGoodFile) {
 
 TEST(CheckFile, SaysWhereAndInWhat) {
     const CheckReport report = TestModel(false, true).check();
-    ASSERT_EQ(codes(report), Codes{"error signsInverted"});
+    ASSERT_EQ(codes(report), CodeCounts{"error signsInverted"});
     const Finding& finding = report.findings[0];
     EXPECT_EQ(finding.place, "/meshes/0/primitives/0");
     EXPECT_EQ(finding.mesh_name, "patch");
@@ -117,22 +117,22 @@ TEST(CheckFile, SaysWhereAndInWhat) {
 
 TEST(CheckFile, FindsANormalMapWhoseGreenPointsDown) {
     const CheckReport report = TestModel(true).check();
-    ASSERT_EQ(codes(report), Codes{"warning greenFlipped"});
+    ASSERT_EQ(codes(report), CodeCounts{"warning greenFlipped"});
     EXPECT_EQ(report.findings[0].place, "/materials/0/normalTexture");
     EXPECT_GT(report.findings[0].confidence, 0.9);
     EXPECT_NE(report.findings[0].message.find("'normal.png'"), std::string::npos);
-    EXPECT_EQ(codes(TestModel(true).check({.images = false})), Codes{});
+    EXPECT_EQ(codes(TestModel(true).check({.images = false})), CodeCounts{});
 }
 
 TEST(CheckFile, KnowsThatInvertedSignsAndGreenDownCancelOut) {
     const CheckReport report = TestModel(true, true).check();
-    EXPECT_EQ(codes(report), (Codes{"warning signsInverted", "note greenFlipped"}));
+    EXPECT_EQ(codes(report), (CodeCounts{"warning signsInverted", "note greenFlipped"}));
     for (const Finding& finding : report.findings) {
         EXPECT_NE(finding.message.find("cancel out"), std::string::npos) << finding.message;
     }
     TestModel mixed(true, true);
     addPatch(mixed.builder, goodPatch());
-    EXPECT_EQ(codes(mixed.check()), (Codes{"warning signsInverted", "warning greenFlipped"}))
+    EXPECT_EQ(codes(mixed.check()), (CodeCounts{"warning signsInverted", "warning greenFlipped"}))
         << "not in the other patch";
 }
 
@@ -141,7 +141,7 @@ TEST(CheckFile, NamesTheFormatOfAnImageThatIsNotRead) {
     model.folder.write("normal.png", "\xabKTX 20\xbb\r\n\x1a\n");
     model.builder.json()["textures"] = Json::parse(R"([{"extensions":{"KHR_texture_basisu":{"source":0}}}])");
     const CheckReport report = model.check();
-    ASSERT_EQ(codes(report), Codes{"note normalMapUnreadable"});
+    ASSERT_EQ(codes(report), CodeCounts{"note normalMapUnreadable"});
     EXPECT_NE(report.findings[0].message.find("it is a broken KTX2"), std::string::npos);
 }
 
@@ -158,23 +158,23 @@ TEST(CheckFile, LooksAtKtx2AndDds) {
     TestModel model;
     model.builder.json()["textures"] = Json::parse(R"([{"extensions":{"KHR_texture_basisu":{"source":0}}}])");
     model.folder.write("normal.png", plainKtx2(false));
-    EXPECT_EQ(codes(model.check()), Codes{});
+    EXPECT_EQ(codes(model.check()), CodeCounts{});
     model.folder.write("normal.png", plainKtx2(true));
-    EXPECT_EQ(codes(model.check()), Codes{"warning greenFlipped"});
+    EXPECT_EQ(codes(model.check()), CodeCounts{"warning greenFlipped"});
     model.builder.json()["textures"] = Json::parse(R"([{"extensions":{"MSFT_texture_dds":{"source":0}}}])");
     model.folder.write("normal.png", ddsFile(83, 256, 256, bc5Blocks(normalMapOf(256, bumps))));
     const CheckReport report = model.check();
-    ASSERT_EQ(codes(report), (Codes{"warning normalMapTwoChannels", "note normalMapLevels"}));
+    ASSERT_EQ(codes(report), (CodeCounts{"warning normalMapTwoChannels", "note normalMapLevels"}));
     EXPECT_NE(report.findings[0].message.find("it is BC5 in a DDS"), std::string::npos);
     EXPECT_NE(report.findings[0].remedy.find("--mend-maps"), std::string::npos) << report.findings[0].remedy;
     model.folder.write("normal.png", ddsFile(83, 256, 256, bc5Blocks(normalMapOf(256, bumps, true))));
     EXPECT_EQ(codes(model.check()),
-              (Codes{"warning normalMapTwoChannels", "warning greenFlipped", "note normalMapLevels"}));
+              (CodeCounts{"warning normalMapTwoChannels", "warning greenFlipped", "note normalMapLevels"}));
     // A sampler that reads the largest level alone misses none.
     model.builder.json()["textures"][0]["sampler"] = 0;
     for (const auto& [filter, reads_levels] : {std::pair(9729, false), std::pair(9987, true)}) {
         model.builder.json()["samplers"] = Json::array({{{"minFilter", filter}}});
-        const Codes found = codes(model.check());
+        const CodeCounts found = codes(model.check());
         EXPECT_EQ(std::count(found.begin(), found.end(), "note normalMapLevels"), reads_levels ? 1 : 0) << filter;
     }
 }
@@ -210,16 +210,16 @@ TEST(CheckFile, SaysAboutHowFarVectorsAreOffThatWerePackedAsColors) {
     model.builder.json()["textures"] = Json::parse(R"([{"extensions":{"EXT_texture_webp":{"source":0}}}])");
     const RgbImage map = normalMapOf(256, bumps);
     model.folder.write("normal.png", webpFile(map, true));
-    EXPECT_EQ(codes(model.check()), Codes{});
+    EXPECT_EQ(codes(model.check()), CodeCounts{});
     const std::string webp = webpFile(map, false), etc1s = bytesOfHex(kEtc1sNormals);
     model.folder.write("normal.png", webp);
     const CheckReport lossy = model.check();
-    ASSERT_EQ(codes(lossy), Codes{"note normalMapLossy"});
+    ASSERT_EQ(codes(lossy), CodeCounts{"note normalMapLossy"});
     EXPECT_NEAR(degreesIn(lossy.findings[0]) / degreesOff(webp, 256), 0.9, 0.25) << lossy.findings[0].message;
     model.builder.json()["textures"] = Json::parse(R"([{"extensions":{"KHR_texture_basisu":{"source":0}}}])");
     model.folder.write("normal.png", etc1s);
     const CheckReport coarse = model.check();
-    ASSERT_EQ(codes(coarse), (Codes{"note normalMapLossy", "note normalMapLevels"}));
+    ASSERT_EQ(codes(coarse), (CodeCounts{"note normalMapLossy", "note normalMapLevels"}));
     EXPECT_NE(coarse.findings[0].message.find("ETC1S"), std::string::npos);
     EXPECT_NEAR(degreesIn(coarse.findings[0]) / degreesOff(etc1s, 64), 0.9, 0.25) << coarse.findings[0].message;
 }
@@ -233,7 +233,7 @@ TEST(CheckFile, FindsATextureThatClaimsTheSrgbCurveOfLinearNumbers) {
     model.builder.json()["textures"] = Json::parse(R"([{"extensions":{"KHR_texture_basisu":{"source":0}}}])");
     model.folder.write("normal.png", ktx2File(parts));
     const CheckReport report = model.check();
-    ASSERT_EQ(codes(report), Codes{"warning normalMapIsSrgb"});
+    ASSERT_EQ(codes(report), CodeCounts{"warning normalMapIsSrgb"});
     EXPECT_NE(report.findings[0].remedy.find("linear"), std::string::npos) << report.findings[0].remedy;
     // Where the numbers have the curve too, that is one finding, of the numbers.
     for (char& byte : parts.levels[0]) {
@@ -242,7 +242,7 @@ TEST(CheckFile, FindsATextureThatClaimsTheSrgbCurveOfLinearNumbers) {
         byte = static_cast<char>(static_cast<unsigned char>(255 * coded + 0.5));
     }
     model.folder.write("normal.png", ktx2File(parts));
-    EXPECT_EQ(codes(model.check()), Codes{"warning normalMapIsSrgb"});
+    EXPECT_EQ(codes(model.check()), CodeCounts{"warning normalMapIsSrgb"});
 }
 
 TEST(CheckFile, FindsXAndYInOtherChannelsOfATexture) {
@@ -263,7 +263,7 @@ TEST(CheckFile, FindsXAndYInOtherChannelsOfATexture) {
                                      {in_green, "x in alpha and y in green"}}) {
         model.folder.write("normal.png", ddsFile(28, 256, 256, data));
         const CheckReport report = model.check();
-        ASSERT_EQ(codes(report), Codes{"warning normalMapChannels"}) << says;
+        ASSERT_EQ(codes(report), CodeCounts{"warning normalMapChannels"}) << says;
         EXPECT_NE(report.findings[0].message.find(says), std::string::npos) << report.findings[0].message;
         FloatImage png{256, 256, 8, {}, {}};
         for (std::size_t i = 0; i < data.size(); i += 4) {
@@ -275,7 +275,7 @@ TEST(CheckFile, FindsXAndYInOtherChannelsOfATexture) {
         }
         model.folder.write("normal.png", std::span<const std::uint8_t>(*encodePng(png, 8)));
         const CheckReport of_png = model.check();
-        ASSERT_EQ(codes(of_png), Codes{"warning normalMapChannels"}) << says;
+        ASSERT_EQ(codes(of_png), CodeCounts{"warning normalMapChannels"}) << says;
         EXPECT_NE(of_png.findings[0].message.find(says), std::string::npos) << of_png.findings[0].message;
     }
 }
@@ -284,7 +284,7 @@ TEST(CheckFile, LooksAtWebp) {
     TestModel model;
     model.folder.write("normal.png", webpFile(normalMapOf(256, bumps, true), false));
     model.builder.json()["textures"] = Json::parse(R"([{"extensions":{"EXT_texture_webp":{"source":0}}}])");
-    EXPECT_EQ(codes(model.check()), (Codes{"warning greenFlipped", "note normalMapLossy"}));
+    EXPECT_EQ(codes(model.check()), (CodeCounts{"warning greenFlipped", "note normalMapLossy"}));
 }
 
 /// A map whose left half points up and whose right half points down.
@@ -334,17 +334,17 @@ CheckReport checkHalves(const TempFolder& folder, bool with_left, bool with_righ
 
 TEST(CheckFile, ReadsTheTexelsOfAMapThatTrianglesShow) {
     const TempFolder folder;
-    EXPECT_EQ(codes(checkHalves(folder, true, false)), Codes{}) << "the other half may hold anything";
-    EXPECT_EQ(codes(checkHalves(folder, false, true)), Codes{"warning greenFlipped"});
-    EXPECT_EQ(codes(checkHalves(folder, false, true, R"({"offset":[0.5,0]})")), Codes{})
+    EXPECT_EQ(codes(checkHalves(folder, true, false)), CodeCounts{}) << "the other half may hold anything";
+    EXPECT_EQ(codes(checkHalves(folder, false, true)), CodeCounts{"warning greenFlipped"});
+    EXPECT_EQ(codes(checkHalves(folder, false, true, R"({"offset":[0.5,0]})")), CodeCounts{})
         << "which moves to the left half";
-    EXPECT_EQ(codes(checkHalves(folder, true, false, R"({"offset":[-0.5,7]})")), Codes{"warning greenFlipped"});
+    EXPECT_EQ(codes(checkHalves(folder, true, false, R"({"offset":[-0.5,7]})")), CodeCounts{"warning greenFlipped"});
 }
 
 TEST(CheckFile, SaysWhichPartOfAMixedMapPointsDown) {
     const TempFolder folder;
     const CheckReport report = checkHalves(folder, true, true);
-    ASSERT_EQ(codes(report), Codes{"warning greenMixed"});
+    ASSERT_EQ(codes(report), CodeCounts{"warning greenMixed"});
     const Finding& finding = report.findings[0];
     EXPECT_EQ(finding.primitive, 1u) << "the right half";
     EXPECT_EQ(finding.place, "/materials/0/normalTexture");
@@ -366,12 +366,12 @@ TEST(CheckFile, LeavesOpenWhatAMapThatItCannotReadWouldCancel) {
         TestModel model(false, true);
         model.folder.write("normal.png", content);
         const CheckReport report = model.check();
-        EXPECT_EQ(codes(report), (Codes{"warning signsInverted", "note normalMapUnreadable"})) << content;
+        EXPECT_EQ(codes(report), (CodeCounts{"warning signsInverted", "note normalMapUnreadable"})) << content;
         EXPECT_EQ(report.findings[0].remedy.find("tspace generate"), std::string::npos);
         std::filesystem::remove(model.folder.path("normal.png"));
-        EXPECT_EQ(codes(model.check()), (Codes{"warning signsInverted", "note normalMapUnreadable"}));
+        EXPECT_EQ(codes(model.check()), (CodeCounts{"warning signsInverted", "note normalMapUnreadable"}));
     }
-    EXPECT_EQ(codes(TestModel(false, true).check({.images = false})), Codes{"warning signsInverted"});
+    EXPECT_EQ(codes(TestModel(false, true).check({.images = false})), CodeCounts{"warning signsInverted"});
 }
 
 /// Who names another convention says which signs are right.
@@ -379,13 +379,13 @@ TEST(CheckFile, LeavesNothingOpenWhereAnotherConventionIsAskedFor) {
     TestModel model;
     model.folder.write("normal.png", "no image");
     EXPECT_EQ(codes(model.check({.convention = conventions::opengl})),
-              (Codes{"error signsInverted", "note normalMapUnreadable"}));
-    EXPECT_EQ(codes(model.check()), Codes{"note normalMapUnreadable"});
+              (CodeCounts{"error signsInverted", "note normalMapUnreadable"}));
+    EXPECT_EQ(codes(model.check()), CodeCounts{"note normalMapUnreadable"});
 }
 
 TEST(CheckFile, TakesGreenThatPointsDownForRightWhereTheConventionHasItSo) {
     const CheckReport report = TestModel(true, true).check({.convention = conventions::directx});
-    ASSERT_EQ(codes(report), Codes{"note greenFlipped"});
+    ASSERT_EQ(codes(report), CodeCounts{"note greenFlipped"});
     EXPECT_EQ(report.findings[0].remedy.find("tspace"), std::string::npos);
 }
 
@@ -393,7 +393,7 @@ TEST(CheckFile, NamesNoCommandForAMapThatHalfOfItsMeshesAreMadeFor) {
     TestModel model(true, true);
     addPatch(model.builder, goodPatch(Seam::turned));
     const CheckReport report = model.check();
-    ASSERT_EQ(codes(report), (Codes{"warning signsInverted", "warning greenFlipped"}));
+    ASSERT_EQ(codes(report), (CodeCounts{"warning signsInverted", "warning greenFlipped"}));
     for (const Finding& finding : report.findings) EXPECT_EQ(finding.remedy.find("tspace"), std::string::npos);
 }
 
@@ -404,7 +404,8 @@ TEST(CheckFile, WeighsEveryNormalMapOfAPrimitive) {
     model.builder.json()["textures"].push_back(Json{{"source", 1}});
     model.builder.json()["materials"][0]["extensions"]["KHR_materials_clearcoat"]["clearcoatNormalTexture"] =
         Json{{"index", 1}};
-    EXPECT_EQ(codes(model.check()), (Codes{"warning signsInverted", "note greenFlipped"})) << "one of two is cancelled";
+    EXPECT_EQ(codes(model.check()), (CodeCounts{"warning signsInverted", "note greenFlipped"}))
+        << "one of two is cancelled";
 }
 
 TEST(CheckFile, SaysOnceThatTangentsAreNotNeeded) {
@@ -413,7 +414,7 @@ TEST(CheckFile, SaysOnceThatTangentsAreNotNeeded) {
     for (int i = 0; i < 3; ++i) primitives.push_back(primitives[0]);
     for (std::size_t i = 1; i < 4; ++i) primitives[i].erase("material");
     const CheckReport report = model.check();
-    ASSERT_EQ(codes(report), (Codes{"error signsInverted", "note tangentsUnused"}));
+    ASSERT_EQ(codes(report), (CodeCounts{"error signsInverted", "note tangentsUnused"}));
     EXPECT_EQ(report.findings[1].count, 3u);
     EXPECT_EQ(report.findings[1].total, 4u);
     EXPECT_EQ(report.findings[1].unit, "primitives");
@@ -427,12 +428,12 @@ TEST(CheckFile, AdvisesNothingThatCannotBeDone) {
     Json& primitive = model.builder.json()["meshes"][0]["primitives"][0];
     primitive["targets"] = Json::array({Json{{"TANGENT", primitive["attributes"]["NORMAL"]}}});
     primitive.erase("material");
-    EXPECT_EQ(codes(model.check()), Codes{}) << "--strip leaves them";
+    EXPECT_EQ(codes(model.check()), CodeCounts{}) << "--strip leaves them";
     TestModel no_uvs;
     no_uvs.builder.json()["meshes"][0]["primitives"][0]["attributes"].erase("TEXCOORD_0");
     no_uvs.builder.json()["meshes"][0]["primitives"][0]["attributes"].erase("TANGENT");
     const CheckReport report = no_uvs.check();
-    EXPECT_EQ(codes(report), (Codes{"error uvsMissing", "warning tangentsMissing"}));
+    EXPECT_EQ(codes(report), (CodeCounts{"error uvsMissing", "warning tangentsMissing"}));
     for (const Finding& finding : report.findings) {
         EXPECT_EQ(finding.remedy.find("tspace generate"), std::string::npos) << finding.remedy;
     }
@@ -441,17 +442,17 @@ TEST(CheckFile, AdvisesNothingThatCannotBeDone) {
 TEST(CheckFile, LooksAtNothingThatAnUnlitMaterialDoesNotUse) {
     TestModel model(false, true);
     model.builder.json()["materials"][0]["extensions"]["KHR_materials_unlit"] = Json::object();
-    EXPECT_EQ(codes(model.check()), Codes{"note tangentsUnused"});
+    EXPECT_EQ(codes(model.check()), CodeCounts{"note tangentsUnused"});
 }
 
 TEST(CheckFile, SaysThatAnImageWasNotLookedAt) {
     TestModel model;
     model.folder.write("normal.png", "RIFF0000WEBP");
     CheckReport report = model.check();
-    EXPECT_EQ(codes(report), Codes{"note normalMapUnreadable"});
+    EXPECT_EQ(codes(report), CodeCounts{"note normalMapUnreadable"});
     EXPECT_EQ(report.image_count, 0u);
     std::filesystem::remove(model.folder.path("normal.png"));
-    EXPECT_EQ(codes(model.check()), Codes{"note normalMapUnreadable"});
+    EXPECT_EQ(codes(model.check()), CodeCounts{"note normalMapUnreadable"});
 }
 
 TEST(CheckFile, GivesEachPrimitiveItsOwnFindings) {
@@ -462,7 +463,7 @@ TEST(CheckFile, GivesEachPrimitiveItsOwnFindings) {
     primitives.push_back(primitives[0]);
     primitives[3].erase("material");
     const CheckReport report = model.check();
-    EXPECT_EQ(codes(report), (Codes{"error signsInverted", "error signsInverted", "note tangentsUnused"}));
+    EXPECT_EQ(codes(report), (CodeCounts{"error signsInverted", "error signsInverted", "note tangentsUnused"}));
     EXPECT_EQ(report.findings[0].place, "/meshes/0/primitives/0");
     EXPECT_EQ(report.findings[1].place, "/meshes/0/primitives/1");
     EXPECT_EQ(report.findings[1].primitive, 1u);
@@ -494,7 +495,7 @@ TEST(CheckFile, LooksAtAnObjWithoutComplainingThatItHasNoTangents) {
                                           "usemtl a\nf 1/1/1 2/2/1 3/3/1\n");
     const Result<CheckReport> report = checkFile(file);
     ASSERT_TRUE(report);
-    EXPECT_EQ(codes(*report), (Codes{"note tangentsMissing", "warning greenFlipped"}));
+    EXPECT_EQ(codes(*report), (CodeCounts{"note tangentsMissing", "warning greenFlipped"}));
     EXPECT_EQ(report->findings[0].place, "usemtl a");
 }
 
@@ -505,7 +506,7 @@ TEST(CheckFile, PassesOnWhatReadingHadToSay) {
                                           "f 1/1/1 2/2/1 3/9/1\n");
     const Result<CheckReport> report = checkFile(file);
     ASSERT_TRUE(report);
-    ASSERT_EQ(codes(*report), Codes{"note fileRemark"});
+    ASSERT_EQ(codes(*report), CodeCounts{"note fileRemark"});
     EXPECT_NE(report->findings[0].message.find("texture coordinates that do not exist: 1, the first in line 7"),
               std::string::npos)
         << report->findings[0].message;

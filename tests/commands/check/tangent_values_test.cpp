@@ -11,7 +11,7 @@ namespace tspace::test {
 namespace {
 
 using Codes = std::set<std::string>;
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+constexpr float kNotANumber = std::numeric_limits<float>::quiet_NaN();
 
 /// The second half without UV area, and tangents in its surface.
 ScenePrimitive halfWithoutUvArea() {
@@ -64,7 +64,7 @@ TEST(Check, FindsBrokenValuesAtVerticesThatNoTriangleUses) {
     EXPECT_EQ(codesOf(patch), Codes{});
     edit(patch.tangents, [](auto& tangents) { tangents.back() = {0, 0, 0, 0}; });
     EXPECT_EQ(codesOf(patch), (Codes{"warning tangentsNotUnit", "warning signsNotOne"}));
-    edit(patch.tangents, [](auto& tangents) { tangents.back() = {kNan, 0, 0, 1}; });
+    edit(patch.tangents, [](auto& tangents) { tangents.back() = {kNotANumber, 0, 0, 1}; });
     EXPECT_EQ(codesOf(patch), Codes{"warning tangentsNotFinite"}) << "nobody sees it";
 }
 

@@ -8,12 +8,12 @@
 namespace tspace::test {
 namespace {
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity(), kNan = std::numeric_limits<float>::quiet_NaN();
+constexpr float kInfinity = std::numeric_limits<float>::infinity(), kNoNumber = std::numeric_limits<float>::quiet_NaN();
 constexpr RenderShow kAllShows[] = {RenderShow::lit,   RenderShow::normals, RenderShow::tangents, RenderShow::sign,
                                     RenderShow::error, RenderShow::uv,      RenderShow::mapped};
 
 TEST(HostileRender, AnyFloatsAreDrawnOrLeftOut) {
-    for (const float bad : {kNan, kInfinity, -kInfinity, 3.4e38f, -3.4e38f, 1e-45f, 0.0f}) {
+    for (const float bad : {kNoNumber, kInfinity, -kInfinity, 3.4e38f, -3.4e38f, 1e-45f, 0.0f}) {
         for (int what = 0; what < 4; ++what) {
             SquareModel model;
             std::vector<float>* arrays[] = {&model.positions, &model.normals, &model.tangents, &model.uvs};
@@ -35,7 +35,7 @@ TEST(HostileRender, AnyFloatsAreDrawnOrLeftOut) {
 
 TEST(HostileRender, OneWildVertexLeavesTheRest) {
     SquareModel model;
-    model.positions.insert(model.positions.end(), {kNan, 0, 0});
+    model.positions.insert(model.positions.end(), {kNoNumber, 0, 0});
     model.normals.insert(model.normals.end(), {0, 0, 1});
     model.tangents.insert(model.tangents.end(), {1, 0, 0, 1});
     model.uvs.insert(model.uvs.end(), {0, 0});

@@ -9,7 +9,7 @@
 namespace tspace::test {
 namespace {
 
-int byteOf(double component) { return static_cast<int>(std::lround(255 * (0.5 * component + 0.5))); }
+int byteOfSigned(double component) { return static_cast<int>(std::lround(255 * (0.5 * component + 0.5))); }
 bool isNearTo(const Pixel& a, const Pixel& b, int most) {
     return std::abs(a[0] - b[0]) <= most && std::abs(a[1] - b[1]) <= most && std::abs(a[2] - b[2]) <= most;
 }
@@ -49,7 +49,7 @@ TEST(Render, NormalsOfASphereAreItsFormula) {
                 EXPECT_EQ(drawn.at(column, row), kBackgroundPixel);
             }
             if (r > 0.9) continue;
-            const Pixel expected{byteOf(x), byteOf(y), byteOf(std::sqrt(1 - r))};
+            const Pixel expected{byteOfSigned(x), byteOfSigned(y), byteOfSigned(std::sqrt(1 - r))};
             EXPECT_TRUE(isNearTo(drawn.at(column, row), expected, 1)) << column << ' ' << row;
             ++compared;
         }
@@ -156,7 +156,7 @@ TEST(Render, MappedNormalsAreThoseOfTheShadingReference) {
     builder.json()["materials"][0]["normalTexture"]["scale"] = 0.5;
     const DVec3 vector{0.5 * (2.0 * 128 / 255 - 1), 0.5 * (2.0 * 218 / 255 - 1), 2.0 * 218 / 255 - 1};
     const double size = length(vector);
-    const Pixel expected{byteOf(vector.x / size), byteOf(vector.y / size), byteOf(vector.z / size)};
+    const Pixel expected{byteOfSigned(vector.x / size), byteOfSigned(vector.y / size), byteOfSigned(vector.z / size)};
     EXPECT_TRUE(isNearTo(draw(builder, plainView(RenderShow::mapped)).centre(), expected, 1));
 }
 

@@ -62,7 +62,7 @@ constexpr DVec3 kFar{456123.2, 5261789.2, 412};
 /// The middle, rounded to the model's size; heights lose nothing that matters.
 constexpr DVec3 kOffset{456124, 5261790, 0};
 
-struct Made {
+struct FarModel {
     GenerateReport report = {};
     gltf::Document document = {};
     std::vector<gltf::Primitive> primitives = {};
@@ -81,11 +81,11 @@ struct Made {
     }
 };
 
-Made make(const TempFolder& folder, const std::string& name, const std::string& obj, bool keep = false) {
+FarModel makeFar(const TempFolder& folder, const std::string& name, const std::string& obj, bool keep = false) {
     GenerateOptions options;
     options.all = true;
     options.file.keep_coordinates = keep;
-    Made made{.input = folder.write(name + ".obj", obj), .output = (folder.path() / (name + ".glb")).string()};
+    FarModel made{.input = folder.write(name + ".obj", obj), .output = (folder.path() / (name + ".glb")).string()};
     Result<GenerateReport> report = generateFile(made.input, made.output, options);
     EXPECT_TRUE(report) << (report ? "" : report.error().message);
     if (!report) return made;
@@ -95,20 +95,20 @@ Made make(const TempFolder& folder, const std::string& name, const std::string& 
     return made;
 }
 
-double degreesBetween(const Vec3& a, const Vec3& b) {
+double degreesApart(const Vec3& a, const Vec3& b) {
     const DVec3 p = toDouble(a), q = toDouble(b);
     return std::atan2(length(cross(p, q)), dot(p, q)) * 180 / 3.14159265358979323846;
 }
 
 double worstAngle(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
     double worst = 0;
-    for (std::size_t i = 0; i < a.size(); ++i) worst = std::max(worst, degreesBetween(a[i], b[i]));
+    for (std::size_t i = 0; i < a.size(); ++i) worst = std::max(worst, degreesApart(a[i], b[i]));
     return worst;
 }
 
 TEST(FarCoordinates, AScanHasTheShapeThatItHasNearTheOrigin) {
     const TempFolder folder;
-    const Made near = make(folder, "near", scan({0, 0, 0})), far = make(folder, "far", scan(kFar));
+    const FarModel near = makeFar(folder, "near", scan({0, 0, 0})), far = makeFar(folder, "far", scan(kFar));
     EXPECT_EQ(far.translation().dump(), "[456124.0,5261790.0,0.0]");
     EXPECT_EQ(far.report.coordinate_offset[0], kOffset.x);
     EXPECT_EQ(far.report.coordinate_offset[1], kOffset.y);
@@ -125,7 +125,7 @@ TEST(FarCoordinates, AScanHasTheShapeThatItHasNearTheOrigin) {
 TEST(FarCoordinates, NearTheOriginNothingIsTakenOut) {
     const TempFolder folder;
     for (const DVec3& place : {DVec3{0, 0, 0}, DVec3{3, -2, 1}, DVec3{100, 0, 0}}) {
-        const Made made = make(folder, "near", scan(place));
+        const FarModel made = makeFar(folder, "near", scan(place));
         EXPECT_TRUE(made.translation().is_null());
         EXPECT_TRUE(made.report.warnings.empty());
         EXPECT_EQ(made.report.coordinate_offset[0], 0);
@@ -135,26 +135,26 @@ TEST(FarCoordinates, NearTheOriginNothingIsTakenOut) {
 
 TEST(FarCoordinates, WhatFloatsHoldExactlyStays) {
     const TempFolder folder;
-    const Made made =
-        make(folder, "whole", "v 5000000 0 0\nv 5000001 0 0\nv 5000000 1 0.5\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n");
+    const FarModel made = makeFar(
+        folder, "whole", "v 5000000 0 0\nv 5000001 0 0\nv 5000000 1 0.5\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n");
     EXPECT_TRUE(made.translation().is_null());
     EXPECT_EQ(made.vec3("POSITION")[1], (Vec3{5000001, 0, 0}));
 }
 
 TEST(FarCoordinates, KeptCoordinatesAreRoundedAndSaidToBe) {
     const TempFolder folder;
-    const Made made = make(folder, "far", scan(kFar), true);
+    const FarModel made = makeFar(folder, "far", scan(kFar), true);
     EXPECT_TRUE(made.translation().is_null());
     EXPECT_EQ(made.report.coordinate_offset[1], 0);
     EXPECT_EQ(made.vec3("POSITION")[0], toFloat(kFar));
     EXPECT_TRUE(made.warns("--keep-coordinates"));
     EXPECT_FALSE(made.warns("no effect"));
-    EXPECT_TRUE(make(folder, "near", scan({0, 0, 0}), true).warns("--keep-coordinates has no effect"));
+    EXPECT_TRUE(makeFar(folder, "near", scan({0, 0, 0}), true).warns("--keep-coordinates has no effect"));
 }
 
 TEST(FarCoordinates, AllObjectsOfAFileShareOneOffset) {
     const TempFolder folder;
-    const Made made = make(folder, "two", "o a\n" + scan(kFar) + "o b\n" + scan(kFar + DVec3{40, 25, 0}));
+    const FarModel made = makeFar(folder, "two", "o a\n" + scan(kFar) + "o b\n" + scan(kFar + DVec3{40, 25, 0}));
     ASSERT_EQ(made.document.json["nodes"].size(), 2U);
     ASSERT_FALSE(made.translation(0).is_null());
     EXPECT_EQ(made.translation(0), made.translation(1));
@@ -162,7 +162,7 @@ TEST(FarCoordinates, AllObjectsOfAFileShareOneOffset) {
 
 TEST(FarCoordinates, AFaceThatWasLeftAtTheOriginIsNoHindrance) {
     const TempFolder folder;
-    const Made made = make(folder, "stray", scan(kFar) + "v 0 0 0\nv 1 0 0\nv 0 1 0\nf -3 -2 -1\n");
+    const FarModel made = makeFar(folder, "stray", scan(kFar) + "v 0 0 0\nv 1 0 0\nv 0 1 0\nf -3 -2 -1\n");
     EXPECT_EQ(made.translation().dump(), "[456124.0,5261790.0,0.0]");
 }
 
@@ -172,27 +172,27 @@ TEST(FarCoordinates, ASmallPartThatLiesElsewhereIsNoHindrance) {
     std::string strays;
     const auto faces = static_cast<std::size_t>(std::count(far.begin(), far.end(), 'f'));
     for (std::size_t i = 0; i < faces / 10; ++i) strays += "v 0 0 0\nv 1 0 0\nv 0 1 0\nf -3 -2 -1\n";
-    const Made made = make(folder, "part", far + strays);
+    const FarModel made = makeFar(folder, "part", far + strays);
     EXPECT_FALSE(made.translation().is_null());
 }
 
 TEST(FarCoordinates, PartsThatNoOffsetBringsTogetherAreSaidToBeRounded) {
     const TempFolder folder;
-    const Made made = make(folder, "spread", "o a\n" + scan(kFar) + "o b\n" + scan(-1.0 * kFar));
+    const FarModel made = makeFar(folder, "spread", "o a\n" + scan(kFar) + "o b\n" + scan(-1.0 * kFar));
     EXPECT_TRUE(made.translation().is_null());
     EXPECT_TRUE(made.warns("no common offset"));
 }
 
 TEST(FarCoordinates, PositionsThatAreNotFiniteDecideNothing) {
     const TempFolder folder;
-    const Made made = make(folder, "nan", scan(kFar) + "v 1e999 0 0\nf -1 -2 -3\n");
+    const FarModel made = makeFar(folder, "nan", scan(kFar) + "v 1e999 0 0\nf -1 -2 -3\n");
     EXPECT_FALSE(made.translation().is_null());
     EXPECT_TRUE(made.warns("not finite"));
 }
 
 TEST(FarCoordinates, EveryReaderSeesTheSamePlace) {
     const TempFolder folder;
-    const Made made = make(folder, "far", scan(kFar));
+    const FarModel made = makeFar(folder, "far", scan(kFar));
     const Result<Inspection> inspection = inspectFile(made.input);
     ASSERT_TRUE(inspection);
     EXPECT_EQ(inspection->coordinate_offset[1], kOffset.y);

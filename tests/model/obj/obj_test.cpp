@@ -36,7 +36,7 @@ std::string flatPng() {
 }
 
 /// The result of generating from an OBJ text, read back.
-struct Made {
+struct ObjModel {
     GenerateReport report = {};
     gltf::Document document = {};
     std::vector<gltf::Primitive> primitives = {};
@@ -59,11 +59,11 @@ Result<GenerateReport> tryMake(const TempFolder& folder, const std::string& obj,
     return generateFile(folder.write("in/model.obj", obj), (folder.path() / "out.glb").string(), options);
 }
 
-Made make(const TempFolder& folder, const std::string& obj, const GenerateOptions& options = everything()) {
+ObjModel make(const TempFolder& folder, const std::string& obj, const GenerateOptions& options = everything()) {
     Result<GenerateReport> report = tryMake(folder, obj, options);
     EXPECT_TRUE(report) << (report ? "" : report.error().message);
     if (!report) return {};
-    Made made{.report = *report, .document = gltf::loadDocument(folder.path() / "out.glb", {})};
+    ObjModel made{.report = *report, .document = gltf::loadDocument(folder.path() / "out.glb", {})};
     made.primitives = gltf::readPrimitives(made.document);
     return made;
 }
@@ -91,7 +91,7 @@ TEST(Obj, KeepsPolygonsOfAnySizeUntilFramesAreComputed) {
         face << ' ' << i << '/' << i;
     }
     const TempFolder folder;
-    const Made made = make(folder, obj.str() + "f" + face.str() + "\n");
+    const ObjModel made = make(folder, obj.str() + "f" + face.str() + "\n");
     ASSERT_EQ(made.primitives.size(), 1U);
     EXPECT_EQ(made.corners().size(), (kCorners - 2) * 3U);
     EXPECT_EQ(made.vec3("POSITION").size(), std::size_t{kCorners});
@@ -99,7 +99,7 @@ TEST(Obj, KeepsPolygonsOfAnySizeUntilFramesAreComputed) {
 
 TEST(Obj, EqualTriplesOfIndicesBecomeOneVertexInOrderOfFirstUse) {
     const TempFolder folder;
-    const Made made = make(folder, std::string(kQuad) + "vn 0 0 1\nf 4/4/1 1/1/1 2/2/1\nf 4/4/1 2/2/1 3/3/1\n");
+    const ObjModel made = make(folder, std::string(kQuad) + "vn 0 0 1\nf 4/4/1 1/1/1 2/2/1\nf 4/4/1 2/2/1 3/3/1\n");
     EXPECT_EQ(made.corners(), (std::vector<std::uint32_t>{0, 1, 2, 0, 2, 3}));
     EXPECT_EQ(made.vec3("POSITION").front(), (Vec3{0, 1, 0}));
     EXPECT_EQ(made.document.json["accessors"][0]["max"], Json({1.0, 1.0, 0.0}));
@@ -134,7 +134,7 @@ TEST(Obj, LineEndsContinuationsCommentsAndMarksMakeNoDifference) {
 
 TEST(Obj, TextureCoordinatesAreTurnedToRunDown) {
     const TempFolder folder;
-    const Made made = make(folder, std::string(kQuad) + "f 1/1 2/2 3/3 4/4\n");
+    const ObjModel made = make(folder, std::string(kQuad) + "f 1/1 2/2 3/3 4/4\n");
     const std::vector<Vec2> uvs = gltf::readUvs(made.document, made.primitives[0], 0);
     EXPECT_EQ(uvs, (std::vector<Vec2>{{0, 1}, {1, 1}, {1, 0}, {0, 0}}));
     for (const Vec4& t : gltf::readTangents(made.document, made.primitives[0])) EXPECT_EQ(t, (Vec4{1, 0, 0, 1}));
@@ -143,7 +143,7 @@ TEST(Obj, TextureCoordinatesAreTurnedToRunDown) {
 TEST(Obj, AMaterialThatStatesNoColourIsWhite) {
     const TempFolder folder;
     folder.write("in/m.mtl", "newmtl a\nNs 10\nnewmtl b\nKd 0 0 0\n");
-    const Made made =
+    const ObjModel made =
         make(folder, "mtllib m.mtl\n" + std::string(kQuad) + "usemtl a\nf 1/1 2/2 3/3\nusemtl b\nf 1/1 3/3 4/4\n");
     const Json& materials = made.document.json["materials"];
     EXPECT_FALSE(materials[0]["pbrMetallicRoughness"].contains("baseColorFactor"));
@@ -153,9 +153,9 @@ TEST(Obj, AMaterialThatStatesNoColourIsWhite) {
 TEST(Obj, EachShapeIsAMeshAndEachMaterialInItAPrimitive) {
     const TempFolder folder;
     folder.write("in/m.mtl", "newmtl red\nKd 1 0 0\nnewmtl blue\nKd 0 0 1\nd 0.5\n");
-    const Made made = make(folder, "mtllib m.mtl\n" + std::string(kQuad) +
-                                       "o first\nusemtl red\nf 1/1 2/2 3/3\nusemtl blue\nf 1/1 3/3 4/4\n"
-                                       "o second\nf 1/1 2/2 3/3\no first\nusemtl red\nf 2/2 3/3 4/4\n");
+    const ObjModel made = make(folder, "mtllib m.mtl\n" + std::string(kQuad) +
+                                           "o first\nusemtl red\nf 1/1 2/2 3/3\nusemtl blue\nf 1/1 3/3 4/4\n"
+                                           "o second\nf 1/1 2/2 3/3\no first\nusemtl red\nf 2/2 3/3 4/4\n");
     const Json& json = made.document.json;
     ASSERT_EQ(made.primitives.size(), 3U);
     EXPECT_EQ(json["meshes"].size(), 2U);
@@ -184,7 +184,7 @@ TEST(Obj, SmoothingGroupsDecideWhereNormalsAreMissing) {
                   .vec3("NORMAL")
                   .size(),
               8U);
-    const Made smooth = make(folder, folded("s 1\n"));
+    const ObjModel smooth = make(folder, folded("s 1\n"));
     EXPECT_TRUE(smooth.report.primitives[0].normals_generated);
     EXPECT_NEAR(smooth.vec3("NORMAL")[1].x, std::sqrt(0.5), 1e-6);
 }
@@ -202,22 +202,23 @@ TEST(Obj, OptionsDecideAboutNormalsWhenGroupsAreNotAskedFor) {
 
 TEST(Obj, SmoothingGoesAcrossMaterialsAndObjects) {
     const TempFolder folder;
-    const Made made = make(folder, std::string(kQuad) + "v 1 0 -1\nv 1 1 -1\ns 1\no a\nusemtl x\nf 1/1 2/2 3/3 4/4\n" +
-                                       "o b\nusemtl y\nf 2/2 5/1 6/4 3/3\n");
+    const ObjModel made =
+        make(folder, std::string(kQuad) + "v 1 0 -1\nv 1 1 -1\ns 1\no a\nusemtl x\nf 1/1 2/2 3/3 4/4\n" +
+                         "o b\nusemtl y\nf 2/2 5/1 6/4 3/3\n");
     ASSERT_EQ(made.primitives.size(), 2U);
     EXPECT_EQ(made.vec3("NORMAL", 0)[1], made.vec3("NORMAL", 1)[0]);
 }
 
 TEST(Obj, GivenNormalsStayAndOnlyThoseThatAreNotUnitAreScaled) {
     const TempFolder folder;
-    const Made made = make(folder, std::string(kQuad) + "vn 0 0.6 0.8\nvn 0 0 2\nf 1/1/1 2/2/2 3/3/1\n");
+    const ObjModel made = make(folder, std::string(kQuad) + "vn 0 0.6 0.8\nvn 0 0 2\nf 1/1/1 2/2/2 3/3/1\n");
     EXPECT_EQ(made.vec3("NORMAL"), (std::vector<Vec3>{{0, 0.6f, 0.8f}, {0, 0, 1}, {0, 0.6f, 0.8f}}));
     EXPECT_FALSE(made.report.primitives[0].normals_generated);
 }
 
 TEST(Obj, FacesWithoutTextureCoordinatesAreAPrimitiveOfTheirOwn) {
     const TempFolder folder;
-    const Made made = make(folder, std::string(kQuad) + "f 1/1 2/2 3/3\nf 1 3 4\n");
+    const ObjModel made = make(folder, std::string(kQuad) + "f 1/1 2/2 3/3\nf 1 3 4\n");
     ASSERT_EQ(made.report.primitives.size(), 2U);
     EXPECT_EQ(made.report.primitives[0].action, PrimitiveAction::generated);
     EXPECT_EQ(made.report.primitives[1].action, PrimitiveAction::impossible);
@@ -243,8 +244,8 @@ TEST(Obj, FacesWithoutTextureCoordinatesGetTheirMaterialWithoutTextures) {
     const TempFolder folder;
     folder.write("in/m.mtl", "newmtl a\nmap_Kd n.png\nnorm n.png\nNs 10\nd 0.5\nnewmtl b\nmap_Kd n.png\n");
     folder.write("in/n.png", kPng);
-    const Made made = make(folder, "mtllib m.mtl\n" + std::string(kQuad) +
-                                       "usemtl a\nf 1/1 2/2 3/3\nf 1 3 4\nusemtl b\nf 1 2 4\nf 2 3 4\n");
+    const ObjModel made = make(folder, "mtllib m.mtl\n" + std::string(kQuad) +
+                                           "usemtl a\nf 1/1 2/2 3/3\nf 1 3 4\nusemtl b\nf 1 2 4\nf 2 3 4\n");
     const Json& json = made.document.json;
     expectTexturesToHaveUvs(json);
     ASSERT_EQ(json["materials"].size(), 3U) << "b is shown without textures alone, and needs no second one";
@@ -262,7 +263,7 @@ TEST(Obj, TangentsAreMadeWhereTheMaterialHasANormalMap) {
         const TempFolder folder;
         folder.write("in/m.mtl", std::string("newmtl plain\nnewmtl rough\n") + keyword + " -bm 0.5 n.png\n");
         folder.write("in/n.png", flatPng());
-        const Made made = make(
+        const ObjModel made = make(
             folder,
             "mtllib m.mtl\n" + std::string(kQuad) + "usemtl plain\nf 1/1 2/2 3/3\nusemtl rough\nf 1/1 3/3 4/4\n", {});
         ASSERT_EQ(made.report.primitives.size(), 2U) << keyword;
@@ -282,7 +283,8 @@ TEST(Obj, OptionsOfTexturesDoNotSwallowTheName) {
                 const TempFolder folder;
                 folder.write("in/m.mtl", std::string("newmtl a\n") + keyword + ' ' + options + ' ' + name + "\n");
                 folder.write(std::string("in/") + name, flatPng());
-                const Made made = make(folder, "mtllib m.mtl\n" + std::string(kQuad) + "usemtl a\nf 1/1 2/2 3/3\n", {});
+                const ObjModel made =
+                    make(folder, "mtllib m.mtl\n" + std::string(kQuad) + "usemtl a\nf 1/1 2/2 3/3\n", {});
                 EXPECT_EQ(made.report.primitives[0].action, PrimitiveAction::generated) << keyword << options << name;
                 EXPECT_TRUE(made.document.json.contains("images")) << keyword << options << name;
             }
@@ -294,7 +296,7 @@ TEST(Obj, ABrokenHeightMapIsLeftOutWithAWarning) {
     const TempFolder folder;
     folder.write("in/m.mtl", "newmtl a\nmap_bump -bm 0.5 n.png\n");
     folder.write("in/n.png", kPng);
-    const Made made = make(folder, "mtllib m.mtl\n" + std::string(kQuad) + "usemtl a\nf 1/1 2/2 3/3\n", {});
+    const ObjModel made = make(folder, "mtllib m.mtl\n" + std::string(kQuad) + "usemtl a\nf 1/1 2/2 3/3\n", {});
     EXPECT_FALSE(made.document.json["materials"][0].contains("normalTexture"));
     EXPECT_TRUE(mentions(made.report.warnings, "'n.png' was left out, and no normal map was made of it"));
 }
@@ -304,7 +306,7 @@ TEST(Obj, ImagesWithoutASizeAreLeftOut) {
         const TempFolder folder;
         folder.write("in/m.mtl", "newmtl a\nnorm n.png\n");
         folder.write("in/n.png", bytes);
-        const Made made = make(folder, "mtllib m.mtl\n" + std::string(kQuad) + "usemtl a\nf 1/1 2/2 3/3\n", {});
+        const ObjModel made = make(folder, "mtllib m.mtl\n" + std::string(kQuad) + "usemtl a\nf 1/1 2/2 3/3\n", {});
         EXPECT_FALSE(made.document.json.contains("images"));
         EXPECT_TRUE(mentions(made.report.warnings, "its head is broken"));
     }
@@ -315,7 +317,7 @@ TEST(Obj, TexturesThatAreMovedGiveAWarning) {
         const TempFolder folder;
         folder.write("in/m.mtl", std::string("newmtl a\nnorm -s ") + (moves ? "2 2" : "1 1") + " n.png\n");
         folder.write("in/n.png", kPng);
-        const Made made = make(folder, "mtllib m.mtl\n" + std::string(kQuad) + "usemtl a\nf 1/1 2/2 3/3\n", {});
+        const ObjModel made = make(folder, "mtllib m.mtl\n" + std::string(kQuad) + "usemtl a\nf 1/1 2/2 3/3\n", {});
         const auto& warnings = made.report.warnings;
         EXPECT_EQ(
             std::any_of(warnings.begin(), warnings.end(),
@@ -330,7 +332,7 @@ TEST(Obj, ImagesBesideTheOutputAreNamedAndOthersAreEmbedded) {
     folder.write("in/maps/base color.png", kPng);
     folder.write("in/n.jpg", kJpeg);
     const std::string obj = "mtllib m.mtl\n" + std::string(kQuad) + "usemtl a\nf 1/1 2/2 3/3\n";
-    const Made embedded = make(folder, obj, {});
+    const ObjModel embedded = make(folder, obj, {});
     ASSERT_EQ(embedded.document.json["images"].size(), 2U);
     EXPECT_EQ(embedded.document.json["images"][0]["mimeType"], "image/png");
     const std::size_t view = embedded.document.json["images"][0]["bufferView"].get<std::size_t>();
@@ -352,7 +354,7 @@ TEST(Obj, TexturesThatAreMissingForbiddenOrNoImagesAreLeftOutWithAWarning) {
         folder.write("secret.png", kPng);
         folder.write("in/text.png", "no image");
         folder.write("in/m.mtl", "newmtl a\nnorm " + name + "\n");
-        const Made made = make(folder, "mtllib m.mtl\n" + std::string(kQuad) + "usemtl a\nf 1/1 2/2 3/3\n", {});
+        const ObjModel made = make(folder, "mtllib m.mtl\n" + std::string(kQuad) + "usemtl a\nf 1/1 2/2 3/3\n", {});
         EXPECT_FALSE(made.document.json.contains("images")) << name;
         EXPECT_TRUE(mentions(made.report.warnings, "left out")) << name;
         EXPECT_EQ(made.report.primitives[0].action, PrimitiveAction::generated) << "the material still asks for them";
@@ -362,7 +364,7 @@ TEST(Obj, TexturesThatAreMissingForbiddenOrNoImagesAreLeftOutWithAWarning) {
     folder.write("in/m.mtl", "newmtl a\nnorm ../secret.png\n");
     GenerateOptions options;
     options.file.allow_external = true;
-    const Made made = make(folder, "mtllib m.mtl\n" + std::string(kQuad) + "usemtl a\nf 1/1 2/2 3/3\n", options);
+    const ObjModel made = make(folder, "mtllib m.mtl\n" + std::string(kQuad) + "usemtl a\nf 1/1 2/2 3/3\n", options);
     EXPECT_TRUE(made.document.json.contains("images"));
 }
 
@@ -370,7 +372,7 @@ TEST(Obj, MaterialLibrariesOutsideTheFolderAreNotRead) {
     const TempFolder folder;
     folder.write("m.mtl", "newmtl a\nnorm n.png\n");
     const std::string obj = "mtllib ../m.mtl\n" + std::string(kQuad) + "usemtl a\nf 1/1 2/2 3/3\n";
-    Made made = make(folder, obj, {});
+    ObjModel made = make(folder, obj, {});
     EXPECT_TRUE(mentions(made.report.warnings, "material library left out"));
     EXPECT_EQ(made.report.primitives[0].action, PrimitiveAction::notNeeded);
     GenerateOptions options;
@@ -385,7 +387,7 @@ TEST(Obj, NamesOfMaterialLibrariesMayHaveSpacesOrBeSeveral) {
     folder.write("in/x.mtl", "newmtl x\n");
     folder.write("in/y.mtl", "newmtl b \nnorm n.png\n");
     const std::string faces = std::string(kQuad) + "usemtl a\nf 1/1 2/2 3/3\nusemtl b \nf 1/1 3/3 4/4\n";
-    const Made made = make(folder, "mtllib my file.mtl\nmtllib x.mtl y.mtl\n" + faces, {});
+    const ObjModel made = make(folder, "mtllib my file.mtl\nmtllib x.mtl y.mtl\n" + faces, {});
     EXPECT_EQ(made.report.primitives[0].action, PrimitiveAction::generated);
     EXPECT_EQ(made.report.primitives[1].action, PrimitiveAction::generated);
 }
@@ -398,7 +400,7 @@ TEST(Obj, IndicesAreSixteenBitsWhereTheySuffice) {
             obj << "v " << i << " 0 0\nv " << i << ".5 0 0\nv " << i << " 1 0\nf -3/1 -2/2 -1/3\n";
         }
         const TempFolder folder;
-        const Made made = make(folder, obj.str());
+        const ObjModel made = make(folder, obj.str());
         return made.document.json["accessors"][*made.primitives[0].indices]["componentType"].get<int>();
     };
     EXPECT_EQ(componentType(21845), 5123);  // 65535 vertices
@@ -407,7 +409,7 @@ TEST(Obj, IndicesAreSixteenBitsWhereTheySuffice) {
 
 TEST(Obj, WhatGlTfCannotHoldIsMendedAndSaid) {
     const TempFolder folder;
-    const Made made =
+    const ObjModel made =
         make(folder, "v nan 0 0\nv 1e400 0 0\nv 0 1 0\nvt inf 0\nvt 1e60 0\nvt 0 1\nf 1/1 2/2 3/3\nf 1 2\n");
     EXPECT_TRUE(mentions(made.report.warnings, "cannot be read"));
     EXPECT_TRUE(mentions(made.report.warnings, "not finite"));
@@ -447,7 +449,7 @@ TEST(Obj, FacesThatNameUvsOrNormalsThatAreNotThereHaveNone) {
 
 TEST(Obj, IndicesThatNameNothingAreCountedAndSaid) {
     const TempFolder folder;
-    const Made made =
+    const ObjModel made =
         make(folder, std::string(kQuad) + "f 1/1/1 2/5/2 3/-9/3\nf 1/-5 2/2 3/3\n# ahead:\nf 1/5/1 3/3/1 4/4/1\n");
     EXPECT_TRUE(mentions(made.report.warnings, "texture coordinates that do not exist: 4, the first in line 9;"));
     EXPECT_TRUE(mentions(made.report.warnings, "normals that do not exist: 6, the first in line 9;"));

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+// Files that several tests of the tool lay into a folder, and images that they read from it.
+#pragma once
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "images/float_image.h"
+#include "images/images.h"
+#include "model/io/atomic_output.h"
+#include "tool/run_tool.h"
+
+namespace tspace::test {
+
+/// The image of a file, which must be one.
+inline FloatImage imageIn(const TempFolder& folder, const std::string& name) {
+    std::string why;
+    const std::string file = folder.read(name);
+    const std::optional<FloatImage> image = decodeFloatImage(bytesOf(file), 1 << 22, why);
+    EXPECT_TRUE(image) << name << ": " << why;
+    return image.value_or(FloatImage{});
+}
+
+/// `name` with one error, signsInverted, since tangents of another convention are inverted signs to glTF; folded.obj with two
+/// notes, normalsMissing and tangentsMissing.
+inline void writeInverted(const TempFolder& folder, const std::string& name) {
+    writeFoldedObj(folder, "folded.obj");
+    writeBumpMap(folder);
+    ASSERT_EQ(runTool(folder, "generate folded.obj -q --convention opengl -o '" + name + "'").exit_code, 0);
+}
+
+/// Writes the file that a run on `target` would have left when it was killed.
+inline void leaveTemporaryFile(const TempFolder& folder, const std::string& target) {
+    const pid_t child = fork();
+    if (child == 0) {
+        folder.write(target, "half");
+        std::error_code ignored;
+        const std::filesystem::path file = folder.path(target);
+        std::filesystem::rename(file, besideName(Path(file.string()), kTemporaryEnding).string(), ignored);
+        _exit(0);
+    }
+    int status = 0;
+    ASSERT_EQ(waitpid(child, &status, 0), child);
+}
+
+}  // namespace tspace::test
