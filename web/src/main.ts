@@ -87,6 +87,8 @@ function showName(model: ModelFiles | null, before: ModelFiles | null): void {
   back.textContent = before ? `Back to ${before.name}` : "";
   document.title = model ? `${model.name} – tspace view` : "tspace view";
   for (const button of sampleButtons) button.setAttribute("aria-pressed", String(model !== null && button.dataset.file === model.name));
+  // Two faults may be of one file, so what was chosen stays where it still fits.
+  if (gallery.value !== "" && faults[Number(gallery.value)].file !== model?.name) gallery.value = "";
 }
 
 let pile = new Pile();
