@@ -9,12 +9,20 @@ import { after, before, test } from "node:test";
 import { deflateSync } from "node:zlib";
 import { decode } from "fast-png";
 import { Glb } from "./glb.mjs";
-import { noShared, noTool, openFile, shared, shoot, tool, withPage } from "./support.mjs";
+import { noShared, noTool, openFile, pixelsOf, shared, shareOf, shoot, tool, withPage } from "./support.mjs";
 
 let folder;
 before(() => (folder = mkdtempSync(join(tmpdir(), "tspace-textures-"))));
 after(() => rmSync(folder, { recursive: true, force: true }));
 const run = (...args) => execFileSync(tool, args, { stdio: ["ignore", "pipe", "pipe"] });
+
+/** A KTX2 of one block of ASTC, which the page's decoders leave out. */
+function astc() {
+  const file = ktx2(4, 4, Buffer.alloc(16), 0);
+  file.writeUInt32LE(157, 12);
+  file[104 + 12] = 162;
+  return file;
+}
 
 /** What the page's decoders make of a file. */
 const decoded = (tab, path) => tab.evaluate(async (text) => {
@@ -97,6 +105,21 @@ test("a model with KTX2 is drawn with its images, and no sentence says that they
   }, { allowMessages: true });
 });
 
+test("a KTX2 is drawn, and the image beside it only where the KTX2 is broken", { skip: noShared }, async () => {
+  // The bottle is yellow, and the image beside the KTX2 one blue texel.
+  const bottle = join(shared, "models/assets/ycb_mustard_bottle.glb"), broken = readFileSync(bottle);
+  broken.writeUInt32LE(0x7fffffff, broken.indexOf("KTX 20") - 1 + 12);
+  writeFileSync(join(folder, "broken.glb"), broken);
+  await withPage(async (tab) => {
+    for (const [path, isYellow] of [[bottle, true], [join(folder, "broken.glb"), false]]) {
+      assert.equal(await openFile(tab, path), "ready");
+      assert.equal(await tab.locator(".remark").isVisible(), false, await tab.locator(".remark").textContent());
+      const image = await pixelsOf(tab), share = shareOf(image, (i) => image.data[i] > image.data[i + 2] + 60);
+      assert.ok(isYellow ? share > 0.1 : share === 0, `${path}: ${share} of the picture is yellow`);
+    }
+  }, { allowMessages: true });
+});
+
 test("broken textures of hostile files end with a sentence", { skip: noTool }, async () => {
   await withPage(async (tab) => {
     const path = join(shared, "models/khronos/AnisotropyBarnLamp/AnisotropyBarnLamp_normalbump.ktx2"), whole = readFileSync(path);
@@ -114,5 +137,6 @@ test("broken textures of hostile files end with a sentence", { skip: noTool }, a
       assert.match(await failed(broken), /./);
     }
     for (const sentence of said) assert.match(sentence, /^it is /);
+    assert.equal(await failed(astc()), "it is a KTX2 of ASTC, which this build of tspace does not read");
   }, { allowMessages: true });
 });

@@ -45,8 +45,9 @@ interface ImageLoader {
 }
 
 /**
- * Textures whose only image is KTX2 or DDS are decoded by the worker; the loader of three.js would refuse the whole model. So are those that name such an
- * image as their source, without the extension for it. Returns why images were not decoded, by their number.
+ * Textures with a KTX2, and those whose only image is a DDS, are decoded by the worker; the loader of three.js would refuse the whole model. So are those that
+ * name such an image as their source, without the extension for it. The image beside a KTX2 may be a stand-in of one texel, so it is drawn only where the KTX2
+ * cannot be. Returns why images were not decoded, by their number.
  */
 export function readTextureFiles(loader: GLTFLoader, work: Work): Map<number, string> {
   const why = new Map<number, string>();
@@ -59,13 +60,21 @@ export function readTextureFiles(loader: GLTFLoader, work: Work): Map<number, st
     loader.register((parser: GLTFParser) => ({
       name,
       loadTexture: (index: number) => {
-        const texture = parser.json.textures[index] as TextureJson, source = texture.source ?? texture.extensions?.[name]?.source;
+        const texture = parser.json.textures[index] as TextureJson, extended = texture.extensions?.[name]?.source;
+        const source = name === kBasis ? extended ?? texture.source : texture.source ?? extended;
         if (source === undefined || (source === texture.source && !isTextureFile(parser.json.images?.[source]))) return null;
         const own: ImageLoader = {
           isImageBitmapLoader: true,
           load: (url, done, _, failed) => void pixels(url).then(done).catch((error: Error) => (why.set(source, error.message), failed(error))),
         };
-        return parser.loadTextureImage(index, source, own as unknown as Parameters<GLTFParser["loadTextureImage"]>[2]) as ReturnType<GLTFParser["loadTexture"]>;
+        const wanted = parser.loadTextureImage(index, source, own as unknown as Parameters<GLTFParser["loadTextureImage"]>[2]) as ReturnType<GLTFParser["loadTexture"]>;
+        const beside = texture.source;
+        if (beside === undefined || beside === source || isTextureFile(parser.json.images?.[beside])) return wanted;
+        return wanted.then((found) => {
+          if (found) return found;
+          why.delete(source);
+          return parser.loadTextureImage(index, beside, parser.textureLoader as unknown as Parameters<GLTFParser["loadTextureImage"]>[2]) as ReturnType<GLTFParser["loadTexture"]>;
+        });
       },
     }));
   }
