@@ -34,8 +34,8 @@ void failEachAllocation(const char* name, const Call& call, const Look& look) {
     for (const bool all_after : {false, true}) {
         constexpr long kMost = 200000;
         long k = 1, failures = 0;
-        // Beyond some thousand not every one, for time's sake.
-        for (; k < kMost; k += 1 + k / 1000) {
+        // Beyond so many not every one, for time's sake: the calls make up to 10,000.
+        for (; k < kMost; k += 1 + k / TSPACE_EVERY_ALLOCATION_UP_TO) {
             failAllocation(k, all_after);
             const ErrorCode code = call();
             const bool was_reached = stopFailing();
