@@ -94,7 +94,10 @@ class DdsReader {
         for (std::uint32_t i = 0; i < count; ++i) {
             const auto side = [&](std::uint32_t texels) { return std::max<std::uint32_t>(texels >> i, 1); };
             const std::uint64_t wanted = texture_.format.bytesOf(side(texture_.size.width), side(texture_.size.height));
-            if (wanted > bytes_.size() - at) return;
+            if (wanted > bytes_.size() - at) {
+                texture_.cut_count = count - i;
+                return;
+            }
             texture_.levels.push_back({at, static_cast<std::size_t>(wanted)});
             at += static_cast<std::size_t>(wanted);
         }

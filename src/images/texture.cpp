@@ -263,6 +263,10 @@ Result<FlippedImage> flipTexture(ByteSpan bytes, ImageFileFormat format) {
     if (facts.is_guessed && facts.layout.y.channel == MapChannel::alpha)
         flipped.report.warnings.emplace_back(
             "its texels look as if it held x in red and y in alpha: alpha is inverted");
+    if (texture->cut_count != 0)
+        flipped.report.warnings.push_back("the file ends before the last " + std::to_string(texture->cut_count) +
+                                          " of " + std::to_string(texture->levels.size() + texture->cut_count) +
+                                          " levels: what is there of them stays as it was");
     for (const TextureFile::Place& level : texture->levels) {
         for (std::size_t at = 0; at + texels.block_bytes <= level.bytes; at += texels.block_bytes)
             texels.invert(texels, flipped.bytes.data() + level.at + at, source);

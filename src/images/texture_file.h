@@ -90,6 +90,7 @@ struct TextureFile {
         std::size_t at = 0, bytes = 0;
     };
     std::vector<Place> levels = {};                  ///< where all of them are in the file
+    std::uint32_t cut_count = 0;                     ///< levels of which the head speaks, and that the file ends before
     ByteSpan global = {};                            ///< code books of BasisLZ
     bool is_srgb = false;                            ///< the file says that its numbers have the sRGB curve
     bool turns_columns = false, turns_rows = false;  ///< the first texel is not the top left one

@@ -134,6 +134,18 @@ TEST(FlipGreen, IsExactInTheBlocksOfATexture) {
     }
 }
 
+TEST(FlipGreen, SaysOfADdsThatIsCutShortWhatStaysAsItWas) {
+    const std::string blocks(16 * 64, '\x55');
+    const Result<FlippedImage> whole = flipGreen(bytesOf(ddsFile(83, 32, 32, blocks + blocks, 2)));
+    ASSERT_TRUE(whole);
+    EXPECT_TRUE(whole->report.warnings.empty());
+    const Result<FlippedImage> cut = flipGreen(bytesOf(ddsFile(83, 32, 32, blocks + "half of a level", 3)));
+    ASSERT_TRUE(cut);
+    ASSERT_EQ(cut->report.warnings.size(), 1U);
+    EXPECT_NE(cut->report.warnings[0].find("the last 2 of 3 levels"), std::string::npos) << cut->report.warnings[0];
+    EXPECT_EQ(std::string(cut->bytes.end() - 15, cut->bytes.end()), "half of a level");
+}
+
 TEST(FlipGreen, IsExactInPlainTextures) {
     const Bytes8 random = noise(16 * 16 * 16);
     for (const auto& [format, bytes] : {std::pair(16U, 2),
