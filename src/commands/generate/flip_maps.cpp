@@ -85,10 +85,12 @@ Bytes flipImage(std::span<const std::uint8_t> bytes, const MemoryBudget& budget,
     }
     Bytes made;
     const std::optional<Error> failure = tryFile([&] {
-        const bool is_tga = imageFormat(bytes) == ImageFormat::tga;  // which glTF does not know
-        const ImageFileFormat format = is_tga ? ImageFileFormat::png : ImageFileFormat::sameAsInput;
-        const FlippedImage flipped =
-            valueOrThrow(flipGreen(bytes, {.format = format, .memory_limit_bytes = kNoMemoryLimit}));
+        FlipGreenOptions options{.memory_limit_bytes = kNoMemoryLimit};
+#ifndef TSPACE_SMALL
+        // glTF does not know TGA.
+        if (imageFormat(bytes) == ImageFormat::tga) options.format = ImageFileFormat::png;
+#endif
+        const FlippedImage flipped = valueOrThrow(flipGreen(bytes, options));
         made.assign(flipped.bytes.begin(), flipped.bytes.end());
     });
     if (!failure) return made;

@@ -428,9 +428,13 @@ class PrimitiveLoader {
     DecodedArrays& arrays_;
 };
 
-/// TGA, which no viewer of glTF shows. What was imported may name it.
-bool isForbidden(const Document& document, const Bytes& bytes) {
+/// TGA, which no viewer of glTF shows. What was imported may name it. JavaScript's module does not know it.
+bool isForbidden([[maybe_unused]] const Document& document, [[maybe_unused]] const Bytes& bytes) {
+#ifdef TSPACE_SMALL
+    return false;
+#else
     return !document.imported && imageFormat(bytes) == ImageFormat::tga;
+#endif
 }
 
 Bytes readImageBytes(const Document& document, const Json& image, const std::string& place) {
