@@ -22,14 +22,20 @@ using report::ExitCode;
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
-
 /// The value of a Result, which stays, or its error thrown.
 template <class Value>
 void throwError(const Result<Value>& result) {
     if (!result) throw FileError{result.error()};
+}
+
+/// Gives an outcome the result of call() and its seconds, or throws its error.
+template <class Outcome, class Call>
+void timeCall(Outcome& outcome, const Call& call) {
+    using Clock = std::chrono::steady_clock;
+    const Clock::time_point start = Clock::now();
+    outcome.result = call();
+    throwError(outcome.result);
+    outcome.seconds = std::chrono::duration<double>(Clock::now() - start).count();
 }
 
 void giveReport(const std::string& json, tspace_Bytes* to) {
@@ -61,11 +67,8 @@ void readGenerateOptions(const char* text, GenerateOptions& options) {
 }
 
 void generate(const std::string& input, const std::string& output, const GenerateOptions& options, tspace_Bytes* json) {
-    const Clock::time_point start = Clock::now();
     report::GenerateOutcome outcome{.input = input, .output = output, .is_dry_run = options.dry_run};
-    outcome.result = generateFile(input, output, options);
-    throwError(outcome.result);
-    outcome.seconds = secondsSince(start);
+    timeCall(outcome, [&] { return generateFile(input, output, options); });
     giveReportOfOutput([&] { return report::generateJson({outcome}, ExitCode::done, outcome.seconds); }, json);
 }
 
@@ -338,11 +341,8 @@ tspace_ErrorCode tspace_bakeFile(const char* low, const char* high, const char* 
         const std::string to = neededText(output, "output");
         BakeFileOptions chosen;
         readBakeOptions(options, chosen);
-        const Clock::time_point start = Clock::now();
         report::Outcome<BakeFileReport> outcome{.input = from, .output = to};
-        outcome.result = bakeFile(from, seen, to, chosen);
-        throwError(outcome.result);
-        outcome.seconds = secondsSince(start);
+        timeCall(outcome, [&] { return bakeFile(from, seen, to, chosen); });
         giveReportOfOutput([&] { return report::bakeJson(outcome, seen, report::exitCodeOf(*outcome.result)); },
                            report);
     });
@@ -354,11 +354,8 @@ tspace_ErrorCode tspace_finishFile(const char* input, const char* output, const 
         const std::string from = neededText(input, "input"), to = neededText(output, "output");
         FinishOptions chosen;
         readFinishOptions(options, chosen);
-        const Clock::time_point start = Clock::now();
         report::Outcome<FinishReport> outcome{.input = from, .output = to};
-        outcome.result = finishFile(from, to, chosen);
-        throwError(outcome.result);
-        outcome.seconds = secondsSince(start);
+        timeCall(outcome, [&] { return finishFile(from, to, chosen); });
         giveReportOfOutput([&] { return report::finishJson(outcome, chosen.low, report::exitCodeOf(*outcome.result)); },
                            report);
     });
