@@ -4,17 +4,10 @@ test compares the names."""
 
 from typing import Literal, Optional, Sequence, Union
 
-from ._file_reports import (
-    BakeReport,
-    CompressMapReport,
-    DiffReport,
-    FinishReport,
-    FlipGreenReport,
-    HeightToNormalReport,
-    InspectReport,
-)
+from ._file_reports import BakeReport, DiffReport, FinishReport, InspectReport
 from ._files import BytesLike, CheckReport, FindFile, Generated, IdentifyReport, PathLike
 from ._generate_report import GenerateReport
+from ._map_reports import CompressMapReport, FlipGreenReport, HeightToNormalReport
 from ._types import DegreesOrAuto, MethodName, PairingName, PresetName
 
 Severity = Literal["note", "warning", "error"]

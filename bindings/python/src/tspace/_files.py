@@ -15,15 +15,13 @@ from ._errors import InputError, UnknownOptionError, raise_error, shown
 from ._file_reports import (
     BakeReport,
     CheckReport,
-    CompressMapReport,
     DiffReport,
     FinishReport,
     Finding,
-    FlipGreenReport,
-    HeightToNormalReport,
     InspectReport,
 )
 from ._generate_report import GenerateReport
+from ._map_reports import CompressMapReport, FlipGreenReport, HeightToNormalReport
 from ._report import Report
 
 PathLike = Union[str, "os.PathLike[str]"]
