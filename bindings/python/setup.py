@@ -99,6 +99,9 @@ class BuildWithLibraries(build_py):
             shutil.copyfile(path, target / name)
         copy_notices(list(others.values()), target / "notices")
         shutil.copyfile(SOURCES / "LICENSE", package / "LICENSE")
+        # The wheel keeps the rights of files, which in the sources are what somebody's umask left.
+        for path in [package, *package.rglob("*")]:
+            path.chmod(0o755 if path.is_dir() else 0o644)
 
 
 class WheelForAllPythons(bdist_wheel):
