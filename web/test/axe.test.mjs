@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+// Page and lesson as people use them who cannot see, or cannot use a mouse: axe-core finds nothing, whatever is open.
+import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
+import { join } from "node:path";
+import { fileURLToPath, pathToFileURL } from "node:url";
+import { test } from "node:test";
+import { choose, drawn, mended, missing, named, noShared, openFile, settled, shared, withPage } from "./support.mjs";
+
+const lesson = process.env.TSPACE_LESSON;
+const axe = (() => {
+  try {
+    return readFileSync(fileURLToPath(import.meta.resolve("axe-core/axe.min.js")), "utf8");
+  } catch {
+    return null;
+  }
+})();
+const skip = missing || (!axe && "axe-core is not installed");
+
+/** What axe-core objects to: the rule, and where. Its script is given to the tab past the page's policy, which would refuse it. */
+async function objections(tab) {
+  if (!(await tab.evaluate(() => "axe" in window))) await tab.evaluate(axe);
+  const { violations } = await tab.evaluate(() => window.axe.run(document, { resultTypes: ["violations"] }));
+  return violations.flatMap(({ id, nodes }) => nodes.map(({ target, failureSummary }) => `${id}: ${target.join(" ")}: ${failureSummary.split("\n").slice(1).join(";").trim()}`));
+}
+
+test("axe-core objects where a control has lost its name", { skip }, async () => {
+  await withPage(async (tab) => {
+    await tab.evaluate(() => document.querySelector(".split").removeAttribute("aria-label"));
+    assert.match((await objections(tab)).join(), /^label: \.split/);
+  });
+});
+
+const looks = ["Lit", "Difference", "Normals", "Signs", "Mirrored", "Error", "Islands"];
+const sizes = ["light", "dark"].flatMap((scheme) => [[390, 844], [1280, 800]].map(([width, height]) => ({ scheme, width, height })));
+
+for (const { scheme, width, height } of sizes) {
+  test(`axe-core objects to nothing on the page at ${width} pixels, ${scheme}`, { skip }, async () => {
+    await withPage(async (tab) => {
+      const found = [], look = async (where) => found.push(...(await objections(tab)).map((text) => `${where}: ${text}`));
+      for (const name of looks) {
+        await choose(tab, name);
+        await drawn(tab);
+        await look(name);
+      }
+      await tab.evaluate(() => document.querySelectorAll("details").forEach((details) => (details.open = true)));
+      await tab.locator(".finding").first().click();
+      await drawn(tab);
+      await look("all open, and a finding");
+      await mended(tab);
+      await look("mended");
+      await tab.locator(".uv button", { hasText: "Large" }).click();
+      await drawn(tab);
+      await look("large UV map");
+      await tab.getByRole("button", { name: "Ring", exact: true }).click();
+      await settled(tab);
+      await look("ring");
+      await tab.locator(".faults").selectOption({ label: "mesh by AI" });
+      await settled(tab);
+      await look("mesh by AI");
+      for (const name of noShared ? [] : ["khronos/AnimatedMorphCube.glb", "blender/18_variants/18_variants.gltf"]) {
+        const path = join(shared, "models", name);
+        await openFile(tab, path, { others: named(path) });
+        await tab.evaluate(() => document.querySelectorAll("details").forEach((details) => (details.open = true)));
+        await look(name);
+      }
+      await tab.evaluate(() => window.tspaceView.fail("This file cannot be opened: it ends before its JSON does."));
+      await look("failure");
+      assert.deepEqual(found, []);
+    }, { width, height, scheme, allowMessages: true });
+  });
+
+  test(`axe-core objects to nothing in the lesson at ${width} pixels, ${scheme}`, { skip: skip || (!lesson && "the lesson was not built") }, async () => {
+    await withPage(async (tab) => {
+      assert.deepEqual(await objections(tab), []);
+      await tab.evaluate(() => document.querySelectorAll("details").forEach((details) => (details.open = true)));
+      assert.deepEqual(await objections(tab), []);
+    }, { width, height, scheme, url: pathToFileURL(lesson).href });
+  });
+}
