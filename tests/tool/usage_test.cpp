@@ -4,7 +4,9 @@
 
 #include <fstream>
 #include <iterator>
+#include <regex>
 #include <sstream>
+#include <utility>
 #include <vector>
 
 #include "tool/run_tool.h"
@@ -266,6 +268,30 @@ TEST(Usage, HelpOfGenerateNamesEveryOptionUnitAndDefault) {
     for (const char* name : {"mikktspace", "lengyel", "uniform", "angle", "area", "flat", "basis", "corrected",
                              "angle-area", "max", "opengl", "directx", "unreal", "unity", "blender", "godot"}) {
         EXPECT_NE(run.out.find(name), std::string::npos) << "no " << name;
+    }
+}
+
+/// Pairs of the long name of an option and the default that the help of a command gives for it.
+std::vector<std::pair<std::string, std::string>> defaultsInHelp(const std::string& command) {
+    std::vector<std::pair<std::string, std::string>> found;
+    std::istringstream lines(runTool(TempFolder(), command + " --help").out);
+    std::string option;
+    for (std::string line; std::getline(lines, line);) {
+        std::smatch matched;
+        if (std::regex_search(line, matched, std::regex("^  (?:-\\w, )?(--\\S+)"))) option = matched[1];
+        if (std::regex_search(line, matched, std::regex("Default: (\\S+)\\.$"))) found.emplace_back(option, matched[1]);
+    }
+    return found;
+}
+
+TEST(Usage, EveryOptionTakesTheDefaultThatHelpGivesForIt) {
+    for (const std::string command :
+         {"generate", "check", "diff", "identify", "finish", "bake", "compress-map", "render"}) {
+        const auto defaults = defaultsInHelp(command);
+        EXPECT_GT(defaults.size(), 0U) << command;
+        for (const auto& [option, value] : defaults)
+            EXPECT_EQ(runTool(TempFolder(), command + " " + option + "=" + value).err.find(option), std::string::npos)
+                << command << " refuses " << option << "=" << value;
     }
 }
 

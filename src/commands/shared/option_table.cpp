@@ -137,7 +137,7 @@ Option option(const char* names, const char* value_name, Take take, HelpText hel
 
 Option numberOrAuto(const char* names, const char* value_name, const char* noun, float& target, float automatic,
                     int most, HelpText help) {
-    const double default_value = target;
+    const float default_value = target;
     const auto take = [&target, noun, automatic, most](const std::string& given) -> std::string {
         double number = 0;
         if (given == "auto") {
@@ -150,7 +150,7 @@ Option numberOrAuto(const char* names, const char* value_name, const char* noun,
         return {};
     };
     Option made = option(names, value_name, take, std::move(help));
-    made.default_text = std::to_string(static_cast<int>(default_value));
+    made.default_text = default_value == automatic ? "auto" : std::to_string(static_cast<int>(default_value));
     return made;
 }
 
