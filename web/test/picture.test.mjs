@@ -5,6 +5,7 @@ import { test } from "node:test";
 import { join } from "node:path";
 import { choose, drawn, farApart, missing, noShared, openFile, pixelsOf, settled, shared, shareOf, shares, shoot, withPage } from "./support.mjs";
 
+const red = [214, 32, 60];
 const aboveLegend = { left: 0, top: 0, right: 1, bottom: 0.88 };
 const settings = (tab) => tab.evaluate(() => ({ ...window.tspaceView.views.stage.viewport.settings }));
 
@@ -23,6 +24,61 @@ test("the line between both sides is dragged, and a held key shows the right sid
     assert.ok(Math.abs((await settings(tab)).split - 0.25) < 0.01);
   });
 });
+
+/** Presses, moves and lets go, by the mouse or by a finger. */
+async function drag(tab, isTouch, from, to) {
+  if (!isTouch) {
+    await tab.mouse.move(from.x, from.y);
+    await tab.mouse.down();
+    await tab.mouse.move(to.x, to.y, { steps: 4 });
+    return tab.mouse.up();
+  }
+  const session = await tab.context().newCDPSession(tab), send = (type, touchPoints) => session.send("Input.dispatchTouchEvent", { type, touchPoints });
+  await send("touchStart", [from]);
+  for (const t of [0.25, 0.5, 0.75, 1]) await send("touchMove", [{ x: from.x + t * (to.x - from.x), y: from.y + t * (to.y - from.y) }]);
+  await send("touchEnd", []);
+  await session.detach();
+}
+
+for (const [width, height] of [[390, 844], [820, 1180]]) {
+  test(`at ${width} pixels line, model and light follow mouse and finger, and the colours change at the line`, { skip: missing }, async () => {
+    await withPage(async (tab) => {
+      await choose(tab, "Signs");
+      const box = await tab.evaluate(() => document.querySelector(".frame").getBoundingClientRect().toJSON());
+      const at = (x, y) => ({ x: box.left + x * box.width, y: box.top + y * box.height });
+      const eye = () => tab.evaluate(() => window.tspaceView.views.stage.viewport.camera.position.toArray());
+      const near = (a, b, part) => Math.hypot(...a.map((x, k) => x - b[k])) < part * Math.hypot(...b);
+      const start = await eye();
+      let share = 0.5;
+      for (const isTouch of [false, true]) {
+        // A finger hits beside the line, and it is the line that moves, not the model.
+        for (const next of [0.7, 0.35]) {
+          const off = isTouch ? 14 / box.width : 0;
+          await drag(tab, isTouch, at(share + off, 0.4), at(next, 0.45));
+          assert.ok(Math.abs((await settings(tab)).split - next) < 0.01, `${isTouch ? "finger" : "mouse"}: ${(await settings(tab)).split}, not ${next}`);
+          share = next;
+          assert.ok(near(await eye(), start, 1e-6), "the model stays");
+          const line = await tab.locator(".split-line").boundingBox();
+          assert.ok(Math.abs(line.x + line.width / 2 - at(share, 0).x) < 1, "the line is drawn where the colours change");
+          // Left of it the crate's lost signs, striped red; right of it none.
+          const left = await shares(tab, { red }, { left: 0, top: 0.1, right: share - 0.01, bottom: 0.85 }), right = await shares(tab, { red }, { left: share + 0.01, top: 0.1, right: 1, bottom: 0.85 });
+          assert.ok(left.red > 0.005 && right.red < 0.001, `${left.red} left of ${share}, ${right.red} right of it`);
+        }
+        await drag(tab, isTouch, at(0.6, 0.5), at(0.75, 0.4));
+        const turned = await eye();
+        assert.ok(!near(turned, start, 0.05), "beside the line the model turns");
+        await tab.locator(".frame canvas").focus();
+        await tab.keyboard.press("0");
+        await tab.waitForFunction((start) => window.tspaceView.views.stage.viewport.camera.position.toArray().every((x, k) => Math.abs(x - start[k]) < 1e-6), start);
+        const light = await tab.locator(".light").boundingBox(), text = () => tab.locator(".light").getAttribute("aria-valuetext"), before = await text();
+        const inLight = (x, y) => ({ x: light.x + x * light.width, y: light.y + y * light.height });
+        await drag(tab, isTouch, inLight(0.5, 0.5), isTouch ? inLight(0.2, 0.3) : inLight(0.8, 0.7));
+        assert.notEqual(await text(), before, "the light moves");
+      }
+      assert.equal(await tab.evaluate(() => scrollY), 0, "the page does not scroll under the finger");
+    }, { width, height, hasTouch: true });
+  });
+}
 
 test("difference of lighting is nothing where frames are the same, and a half turn where signs are lost", { skip: missing }, async () => {
   await withPage(async (tab) => {

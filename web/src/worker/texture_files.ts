@@ -27,6 +27,10 @@ async function zstdDecoder(): Promise<ZSTDDecoder> {
 /** KTX2 says at byte 44 what its levels are packed with. */
 const isZstd = (file: Uint8Array): boolean => file.length > 48 && file[0] === 0xab && new DataView(file.buffer, file.byteOffset).getUint32(44, true) === 2;
 
+/** What the page cannot read and the tool, with other libraries, can: said with what to do. */
+const inWords = (why: string): string =>
+  why.includes("ASTC") ? "it is a KTX2 of ASTC, which the page cannot show: export it as PNG, JPEG or WebP, or as KTX2 of UASTC or ETC1S" : why;
+
 /** A new instance for each file: what a hostile one leaves behind is thrown away with it. */
 export async function decodeTexture(file: Uint8Array<ArrayBuffer>): Promise<TexturePixels> {
   compiled ??= load(wasm).then((bytes) => WebAssembly.compile(bytes));
@@ -54,7 +58,7 @@ export async function decodeTexture(file: Uint8Array<ArrayBuffer>): Promise<Text
   const head = exports.decodeTexture(place, file.length);
   if (head === 0) {
     const text = exports.errorText(), all = new Uint8Array(exports.memory.buffer);
-    throw new Error(new TextDecoder().decode(all.slice(text, all.indexOf(0, text))));
+    throw new Error(inWords(new TextDecoder().decode(all.slice(text, all.indexOf(0, text)))));
   }
   const [width, height, pixels] = new Uint32Array(exports.memory.buffer, head, 3);
   return { width, height, rgba: new Uint8ClampedArray(exports.memory.buffer, pixels, 4 * width * height).slice() };
