@@ -131,7 +131,7 @@ void chooseByPosition(const MapSide& side, const UvTriangles& triangles, const T
     Buffer<double> distances(allocator, places.kinds.size(), static_cast<double>(INFINITY));
     for (std::size_t triangle = 0; triangle < other.uvs.count / 3; ++triangle) {
         forEachTexel(other_triangles, triangle, shape, [&](std::size_t texel, const TexelPlace& place) {
-            if (places.kinds[texel] != TexelKind::inside) return;
+            if (places.kinds[texel] != TexelCoverage::inside) return;
             const DVec3 apart = positionAt(other, other_triangles, shape, place) -
                                 positionAt(side, triangles, shape, places.places[texel]);
             const double distance = dot(apart, apart);
@@ -266,9 +266,9 @@ class Conversion {
         out_[texel] = before;
         ShadingFrame from{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, to = from;
         if (!main_.uvs.empty()) {
-            const TexelKind kind = places_.kinds[texel];
-            const bool is_shown = kind == TexelKind::inside || places_.is_read[texel] ||
-                                  (kind == TexelKind::beside && options_.padding > 0);
+            const TexelCoverage kind = places_.kinds[texel];
+            const bool is_shown = kind == TexelCoverage::inside || places_.is_read[texel] ||
+                                  (kind == TexelCoverage::beside && options_.padding > 0);
             if (!is_shown) {
                 ++sums.background;
                 return;
@@ -312,7 +312,7 @@ class Conversion {
         };
         for (std::size_t triangle = 0; triangle < main_.uvs.count / 3; ++triangle) {
             forEachTexel(triangles, triangle, shape, [&](std::size_t texel, const TexelPlace& place) {
-                if (places_.kinds[texel] != TexelKind::inside || !places_.overlaps[texel] || counted[texel]) return;
+                if (places_.kinds[texel] != TexelCoverage::inside || !places_.overlaps[texel] || counted[texel]) return;
                 const TexelPlace& first = places_.places[texel];
                 if (first.triangle == triangle) return;
                 counted[texel] = degreesBetween(directionAt(texel, first), directionAt(texel, place)) > kApartDeg;

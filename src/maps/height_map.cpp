@@ -94,7 +94,7 @@ class Heights {
         double sum = 0;
         for (std::size_t i = 0; i < places_.places.size(); ++i) {
             TexelEdges edges;
-            if (places_.kinds[i] != TexelKind::inside || !edgesOf(mesh_, places_.places[i].triangle, map_, edges))
+            if (places_.kinds[i] != TexelCoverage::inside || !edgesOf(mesh_, places_.places[i].triangle, map_, edges))
                 continue;
             sum += edges.size();
             ++report_.on_mesh;
@@ -124,7 +124,7 @@ class Heights {
     /// Along T, B and N of the mesh; false where no triangle tells.
     [[nodiscard]] bool onMesh(const UvTriangles& triangles, std::size_t texel, const Slope& slope,
                               DVec3& vector) const {
-        if (mesh_.uvs.empty() || places_.kinds[texel] == TexelKind::none) return false;
+        if (mesh_.uvs.empty() || places_.kinds[texel] == TexelCoverage::none) return false;
         const TexelPlace& place = places_.places[texel];
         TexelEdges edges;
         if (!edgesOf(mesh_, place.triangle, map_, edges)) return false;

@@ -17,8 +17,8 @@ DVec3 turned(const PlaneAxes& axes, const DVec3& normal, const DVec3& direction)
 
 }  // namespace
 
-Surroundings lookAround(const MapSurfaces& surfaces, const SurfaceHit& hit, const SurroundingsOptions& options,
-                        std::uint32_t x, std::uint32_t y) {
+Occlusion occlusionAt(const MapSurfaces& surfaces, const SurfaceHit& hit, const OcclusionOptions& options,
+                      std::uint32_t x, std::uint32_t y) {
     const RaySurface& rays = *surfaces.surface();
     const double begin = kBegin * rays.size(), far = 4 * rays.size();
     const double sky = options.sky_distance > 0 ? std::min(options.sky_distance, far) : far;
@@ -42,7 +42,7 @@ Surroundings lookAround(const MapSurfaces& surfaces, const SurfaceHit& hit, cons
             thickness += inside.distance * dot(direction, normal);
         }
     }
-    Surroundings result;
+    Occlusion result;
     result.open = over > 0 ? static_cast<double>(open) / over : 1;
     result.bent = normalize(bent) ? bent : normal;
     result.solid = over > 0 ? static_cast<double>(solid) / over : 0;

@@ -96,7 +96,7 @@ class Planning {
     }
 
     [[nodiscard]] bool isRead(std::size_t texel) const {
-        return triangles_.kinds[texel] == TexelKind::inside || triangles_.is_read[texel];
+        return triangles_.kinds[texel] == TexelCoverage::inside || triangles_.is_read[texel];
     }
 
     /// Bit 0: the row of four texels from the left neighbour on is nearly a parabola; bit 1: the column from the upper one on.

@@ -20,7 +20,7 @@ constexpr std::size_t kMostLarge = std::size_t{1} << 16;
 /// Texels that cost a step.
 constexpr std::uint64_t kTexelsOfStep = 16;
 /// While rings are made: will get a triangle in this ring, and is further away than the padding.
-constexpr auto kPending = static_cast<TexelKind>(3), kRefused = static_cast<TexelKind>(4);
+constexpr auto kPending = static_cast<TexelCoverage>(3), kRefused = static_cast<TexelCoverage>(4);
 
 struct RowRange {
     std::int32_t first = 0, last = -1;
@@ -43,7 +43,7 @@ class TriangleSearch {
         const std::size_t texels = std::size_t{shape_.width} * shape_.height;
         if (!listBands()) return false;
         found_.places = Buffer<TexelPlace>(allocator_, texels, TexelPlace{});
-        found_.kinds = Buffer<TexelKind>(allocator_, texels, TexelKind::none);
+        found_.kinds = Buffer<TexelCoverage>(allocator_, texels, TexelCoverage::none);
         found_.overlaps = Buffer<bool>(allocator_, texels, false);
         found_.is_read = Buffer<bool>(allocator_, texels, false);
         if (near_ > 0) distances_ = Buffer<float>(allocator_, texels, static_cast<float>(near_ * near_));
@@ -170,8 +170,8 @@ class TriangleSearch {
         forRows(rows, band, [&](std::int64_t row, std::size_t image_row) {
             forColumns(placed.columns(row), [&](std::int64_t column, std::size_t image_column) {
                 const std::size_t texel = image_row * shape_.width + image_column;
-                if (found_.kinds[texel] == TexelKind::none) {
-                    found_.kinds[texel] = TexelKind::inside;
+                if (found_.kinds[texel] == TexelCoverage::none) {
+                    found_.kinds[texel] = TexelCoverage::inside;
                     found_.places[texel] = placeOf(triangle, column, row);
                 } else if (!found_.overlaps[texel]) {
                     found_.overlaps[texel] = placed.isInner(column, row) || isInner(found_.places[texel]);
@@ -203,13 +203,13 @@ class TriangleSearch {
         forRows(rows_[triangle], band, [&](std::int64_t row, std::size_t image_row) {
             forColumns(nearColumns(corners, row), [&](std::int64_t column, std::size_t image_column) {
                 const std::size_t texel = image_row * shape_.width + image_column;
-                if (found_.kinds[texel] == TexelKind::inside) return;
+                if (found_.kinds[texel] == TexelCoverage::inside) return;
                 const double x = static_cast<double>(column) + 0.5, y = static_cast<double>(row) + 0.5;
                 const auto distance = static_cast<float>(corners.squaredDistance(x, y));
                 if (distance < 2 && !found_.is_read[texel]) found_.is_read[texel] = corners.isReadAt(x, y);
-                const bool is_first = found_.kinds[texel] == TexelKind::none;
+                const bool is_first = found_.kinds[texel] == TexelCoverage::none;
                 if (is_first ? distance > distances_[texel] : distance >= distances_[texel]) return;
-                found_.kinds[texel] = TexelKind::beside;
+                found_.kinds[texel] = TexelCoverage::beside;
                 found_.places[texel] = placeOf(triangle, column, row);
                 distances_[texel] = distance;
             });
@@ -256,7 +256,7 @@ class TriangleSearch {
             });
             for (std::size_t i = 0; i < ring.size(); ++i) {
                 const bool is_far = places[i].triangle == kNoTriangle;
-                found_.kinds[ring[i]] = is_far ? kRefused : TexelKind::beside;
+                found_.kinds[ring[i]] = is_far ? kRefused : TexelCoverage::beside;
                 if (!is_far) found_.places[ring[i]] = places[i];
             }
             next.clear();
@@ -268,7 +268,7 @@ class TriangleSearch {
     }
 
     [[nodiscard]] bool hasTriangle(std::size_t texel) const {
-        return found_.kinds[texel] == TexelKind::inside || found_.kinds[texel] == TexelKind::beside;
+        return found_.kinds[texel] == TexelCoverage::inside || found_.kinds[texel] == TexelCoverage::beside;
     }
 
     /// visit(neighbour, dx, dy) for the up to eight texels around.
@@ -294,7 +294,7 @@ class TriangleSearch {
 
     void pushNeighbours(std::size_t texel, std::vector<std::size_t>& ring) {
         forNeighbours(texel, [&](std::size_t other, int, int) {
-            if (found_.kinds[other] != TexelKind::none) return;
+            if (found_.kinds[other] != TexelCoverage::none) return;
             found_.kinds[other] = kPending;
             ring.push_back(other);
         });
@@ -328,10 +328,10 @@ class TriangleSearch {
     void countTexels() {
         TexelTriangleCounts& counts = found_.counts;
         for (std::size_t texel = 0; texel < found_.kinds.size(); ++texel) {
-            TexelKind& kind = found_.kinds[texel];
-            if (kind == kRefused) kind = TexelKind::none;
-            counts.inside += kind == TexelKind::inside ? 1 : 0;
-            counts.beside += kind == TexelKind::beside ? 1 : 0;
+            TexelCoverage& kind = found_.kinds[texel];
+            if (kind == kRefused) kind = TexelCoverage::none;
+            counts.inside += kind == TexelCoverage::inside ? 1 : 0;
+            counts.beside += kind == TexelCoverage::beside ? 1 : 0;
             counts.overlapping += found_.overlaps[texel] ? 1 : 0;
         }
     }

@@ -15,7 +15,7 @@ inline constexpr std::uint32_t kNoTriangle = 0xffffffffu;
 /// A padding without limit: every texel has a triangle, if there is one at all.
 inline constexpr std::uint32_t kAllTexels = 0xffffffffu;
 
-enum class TexelKind : std::uint8_t {
+enum class TexelCoverage : std::uint8_t {
     none,    ///< no triangle within the padding
     inside,  ///< the centre lies in the triangle or on its edge
     beside   ///< the nearest triangle, whose plane goes on
@@ -40,7 +40,7 @@ struct TexelTriangleCounts {
 struct TexelTriangles {
     TextureShape shape = {};
     Buffer<TexelPlace> places = {};  ///< width * height, as kinds
-    Buffer<TexelKind> kinds = {};
+    Buffer<TexelCoverage> kinds = {};
     Buffer<bool> overlaps = {};  ///< whether several triangles claim the texel
     Buffer<bool> is_read =
         {};  ///< not inside, but bilinear filtering inside of a triangle reads it; needs a padding of 2

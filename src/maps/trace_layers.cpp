@@ -118,7 +118,7 @@ class LayerTracing {
             double guess = 0;
             const std::size_t end = std::min<std::size_t>((task + 1) * kRows * shape.width, met_.size());
             for (std::size_t texel = task * kRows * shape.width; texel < end; ++texel) {
-                if (triangles_.kinds[texel] == TexelKind::none) continue;
+                if (triangles_.kinds[texel] == TexelCoverage::none) continue;
                 const TexelPlace& place = triangles_.places[texel];
                 const std::array<double, 3> weights = weightsAt(triangles, shape, place);
                 SurfaceHit hit;
@@ -142,14 +142,14 @@ class LayerTracing {
             set(MapLayer::curvature, texel, curvature);
         }
         if (has(MapLayer::id)) set(MapLayer::id, texel, idColor(layers_.ids[hit.triangle]));
-        const SurroundingsOptions look{.ray_count = layers_.ray_count,
-                                       .sky_distance = layers_.sky_distance,
-                                       .has_sky = has(MapLayer::ao) || has(MapLayer::bent),
-                                       .has_thickness = has(MapLayer::thickness)};
+        const OcclusionOptions look{.ray_count = layers_.ray_count,
+                                    .sky_distance = layers_.sky_distance,
+                                    .has_sky = has(MapLayer::ao) || has(MapLayer::bent),
+                                    .has_thickness = has(MapLayer::thickness)};
         if (look.has_sky || look.has_thickness) {
-            const Surroundings around =
-                lookAround(surfaces_, hit, look, static_cast<std::uint32_t>(texel % options_.width),
-                           static_cast<std::uint32_t>(texel / options_.width));
+            const Occlusion around =
+                occlusionAt(surfaces_, hit, look, static_cast<std::uint32_t>(texel % options_.width),
+                            static_cast<std::uint32_t>(texel / options_.width));
             set(MapLayer::ao, texel, around.open);
             if (has(MapLayer::bent)) set(MapLayer::bent, texel, told(triangle, weights, around.bent));
             set(MapLayer::thickness, texel, around.thickness);
@@ -211,7 +211,7 @@ class LayerTracing {
         if (!roles_.empty()) return roles_;
         roles_ = Buffer<TexelRole>(work_.allocator, met_.size(), TexelRole::apart);
         for (std::size_t i = 0; i < roles_.size(); ++i) {
-            const bool is_read = triangles_.kinds[i] == TexelKind::inside || triangles_.is_read[i];
+            const bool is_read = triangles_.kinds[i] == TexelCoverage::inside || triangles_.is_read[i];
             if (is_read && met_[i] == TexelState::known) roles_[i] = TexelRole::unknown;
         }
         return roles_;
@@ -397,7 +397,7 @@ class LayerTracing {
     Buffer<std::uint16_t> sample_count_ = {};
     Buffer<TexelRole> roles_ = {};
     Buffer<float> curvature_ = {};
-    Buffer<float> solid_ = {};  ///< Surroundings::solid of each texel
+    Buffer<float> solid_ = {};  ///< Occlusion::solid of each texel
 };
 
 }  // namespace

@@ -160,7 +160,8 @@ class Tracing {
             WantedVectors vectors(surfaces_, options_);
             const std::size_t end = std::min<std::size_t>((task + 1) * kRows * shape.width, votes_.size());
             for (std::size_t texel = task * kRows * shape.width; texel < end; ++texel) {
-                if (triangles_.kinds[texel] != TexelKind::beside || traced_.origins[texel] != TexelOrigin::background)
+                if (triangles_.kinds[texel] != TexelCoverage::beside ||
+                    traced_.origins[texel] != TexelOrigin::background)
                     continue;
                 const TexelPlace& place = triangles_.places[texel];
                 traced_.origins[texel] = TexelOrigin::padding;

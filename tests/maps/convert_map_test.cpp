@@ -122,7 +122,7 @@ std::vector<DVec3> shown(const std::vector<Vec3>& texels, const Corners& side) {
     const auto places = findTexelTriangles(triangles, size, size, 0, parallel);
     std::vector<DVec3> directions(texels.size());
     for (std::size_t i = 0; i < texels.size(); ++i) {
-        if (places->kinds[i] != TexelKind::inside) continue;
+        if (places->kinds[i] != TexelCoverage::inside) continue;
         const TexelPlace& place = places->places[i];
         CornerFrames frames;
         for (std::size_t c = 0; c < 3; ++c) {

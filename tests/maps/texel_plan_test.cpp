@@ -24,7 +24,7 @@ struct Field {
     explicit Field(const Of& of) {
         const std::size_t count = std::size_t{kFieldSide} * kFieldSide;
         triangles.shape = {kFieldSide, kFieldSide};
-        triangles.kinds = Buffer<TexelKind>(nullptr, count, TexelKind::inside);
+        triangles.kinds = Buffer<TexelCoverage>(nullptr, count, TexelCoverage::inside);
         triangles.is_read = Buffer<bool>(nullptr, count, false);
         triangles.overlaps = Buffer<bool>(nullptr, count, false);
         traced.wanted = Buffer<Vec3>(nullptr, count, Vec3{});
@@ -33,7 +33,7 @@ struct Field {
             for (std::uint32_t x = 0; x < kFieldSide; ++x) {
                 traced.wanted[y * kFieldSide + x] = toFloat(of(x, y));
                 if (x > 0 && y > 0 && x + 1 < kFieldSide && y + 1 < kFieldSide) continue;
-                triangles.kinds[y * kFieldSide + x] = TexelKind::beside;
+                triangles.kinds[y * kFieldSide + x] = TexelCoverage::beside;
                 triangles.is_read[y * kFieldSide + x] = true;
                 traced.origins[y * kFieldSide + x] = TexelOrigin::padding;
             }

@@ -72,7 +72,7 @@ RC_GTEST_PROP(TexelTriangles, AreInsideWhereTheCoverageSays, ()) {
     const TexelTriangles found = find(map, width, height, 0);
     for (std::size_t texel = 0; texel < found.kinds.size(); ++texel) {
         const bool has_area = found.counts.without_area == 0;
-        const bool is_inside = found.kinds[texel] == TexelKind::inside;
+        const bool is_inside = found.kinds[texel] == TexelCoverage::inside;
         if (has_area)
             RC_ASSERT(is_inside ==
                       mask.has(static_cast<std::uint32_t>(texel % width), static_cast<std::uint32_t>(texel / width)));
@@ -85,7 +85,7 @@ RC_GTEST_PROP(TexelTriangles, GiveTheCentreOfEachTexel, ()) {
     const TexelTriangles found =
         find(map, *rc::gen::inRange<std::uint32_t>(4, 40), *rc::gen::inRange<std::uint32_t>(4, 90), 2);
     for (std::size_t texel = 0; texel < found.kinds.size(); ++texel) {
-        if (found.kinds[texel] == TexelKind::none) continue;
+        if (found.kinds[texel] == TexelCoverage::none) continue;
         const auto weights = weightsAt(map.triangles(), found.shape, found.places[texel]);
         const double least = std::min({weights[0], weights[1], weights[2]});
         if (least > -0.999) expectCentre(map, found, texel);
@@ -124,9 +124,9 @@ RC_GTEST_PROP(TexelTriangles, TakeTheNearestTriangleBesideThem, ()) {
     const auto padding = *rc::gen::inRange<std::uint32_t>(1, 7);
     const TexelTriangles found = find(map, 14, 11, padding);
     for (std::size_t texel = 0; texel < found.kinds.size(); ++texel) {
-        if (found.kinds[texel] == TexelKind::inside) continue;
+        if (found.kinds[texel] == TexelCoverage::inside) continue;
         const double nearest = nearestOf(map, found.shape, texel);
-        if (found.kinds[texel] == TexelKind::none) {
+        if (found.kinds[texel] == TexelCoverage::none) {
             RC_ASSERT(nearest > std::min<double>(padding, 1.5) - 1e-4);
             RC_ASSERT(nearest > padding - 1.0);
             continue;

@@ -267,8 +267,8 @@ TEST(CheckFile, FindsXAndYInOtherChannelsOfATexture) {
         EXPECT_NE(report.findings[0].message.find(says), std::string::npos) << report.findings[0].message;
         FloatImage png{256, 256, 8, {}, {}};
         for (std::size_t i = 0; i < data.size(); i += 4) {
-            const auto part = [&](std::size_t k) {
-                return static_cast<float>(static_cast<unsigned char>(data[i + k])) / 255.0F;
+            const auto part = [texel = data.data() + i](std::size_t k) {
+                return static_cast<float>(static_cast<unsigned char>(texel[k])) / 255.0F;
             };
             png.texels.push_back({part(0), part(1), part(2)});
             png.alpha.push_back(part(3));

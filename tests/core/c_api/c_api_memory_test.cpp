@@ -41,7 +41,7 @@ void runInReverse(void* user, std::size_t count, void (*task)(void*, std::size_t
 
 TEST(CApi, UsesTheCallersExecutorAndAllocator) {
     const RandomMesh mesh(6, 6000);
-    Outputs expected(mesh.cornerCount()), c(mesh.cornerCount());
+    CApiOutputs expected(mesh.cornerCount()), c(mesh.cornerCount());
     ASSERT_TRUE(generateTangents(mesh.view(), {.convention = conventions::opengl}, expected.view()));
     int run_count = 0;
     CountingMemory memory;
@@ -63,7 +63,7 @@ TEST(CApi, UsesTheCallersExecutorAndAllocator) {
 
 TEST(CApi, AnArenaServesASecondCallFromWhatItHolds) {
     const RandomMesh mesh(8, 600);
-    Outputs expected(mesh.cornerCount()), c(mesh.cornerCount());
+    CApiOutputs expected(mesh.cornerCount()), c(mesh.cornerCount());
     ASSERT_TRUE(generateTangents(mesh.view(), {.convention = conventions::opengl}, expected.view()));
     tspace_Arena* arena = nullptr;
     ASSERT_EQ(TSPACE_OK, tspace_createArena(&arena, nullptr));
@@ -96,7 +96,7 @@ TEST(CApi, AnArenaServesASecondCallFromWhatItHolds) {
 
 TEST(CApi, APlanOutlivesTheStructsItWasMadeWith) {
     const RandomMesh mesh(7, 60);
-    Outputs expected(mesh.cornerCount()), c(mesh.cornerCount());
+    CApiOutputs expected(mesh.cornerCount()), c(mesh.cornerCount());
     ASSERT_TRUE(generateTangents(mesh.view(), {.convention = conventions::opengl}, expected.view()));
     CountingMemory memory;
     tspace_TangentPlan* plan = nullptr;
@@ -129,7 +129,7 @@ TEST(CApi, APlanOutlivesTheStructsItWasMadeWith) {
 TEST(CApi, EveryAllocationThatFailsGivesOutOfMemoryAndLeaksNothing) {
     const RandomMesh mesh(8, 60);
     const tspace_Mesh c_mesh = mesh.c();
-    Outputs c(mesh.cornerCount());
+    CApiOutputs c(mesh.cornerCount());
     const tspace_TangentOutput out = c.c();
     tspace_ErrorCode code = TSPACE_ERROR_OUT_OF_MEMORY;
     std::size_t allowed = 0;

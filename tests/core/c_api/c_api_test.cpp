@@ -35,7 +35,7 @@ void expectSame(const TangentReport& cpp, const tspace_TangentReport& c) {
 TEST(CApi, GivesTheTangentsOfTheCppApiForEveryMethod) {
     const RandomMesh mesh(1, 60);
     for (std::uint32_t method = TSPACE_METHOD_MIKKTSPACE; method <= TSPACE_METHOD_BASIS; ++method) {
-        Outputs cpp(mesh.cornerCount()), c(mesh.cornerCount());
+        CApiOutputs cpp(mesh.cornerCount()), c(mesh.cornerCount());
         TangentOptions options{.convention = conventions::opengl};
         options.method = static_cast<Method>(method);
         options.angular_threshold_deg = 70.0f;
@@ -71,7 +71,7 @@ TEST(CApi, GivesTangentsPerVertexAsTheCppApi) {
     pose.positions = c_mesh.positions;
     pose.normals = c_mesh.normals;
     for (const Method method : {Method::lengyel, Method::basis}) {
-        Outputs cpp(vertex_count), c(vertex_count);
+        CApiOutputs cpp(vertex_count), c(vertex_count);
         ASSERT_TRUE(generateTangents(
             mesh.view(), {.method = method, .convention = conventions::opengl, .domain = OutputDomain::vertex},
             cpp.view()));
@@ -94,7 +94,7 @@ TEST(CApi, GivesTangentsPerVertexAsTheCppApi) {
 
 TEST(CApi, DefaultsOfTangentsAreThoseOfCpp) {
     const RandomMesh mesh(2, 60);
-    Outputs cpp(mesh.cornerCount()), c(mesh.cornerCount());
+    CApiOutputs cpp(mesh.cornerCount()), c(mesh.cornerCount());
     ASSERT_TRUE(generateTangents(mesh.view(), {.convention = conventions::opengl}, cpp.view()));
     const tspace_Mesh c_mesh = mesh.c();
     const tspace_TangentOutput out = c.c();
@@ -151,7 +151,7 @@ TEST(CApi, WindingIsMendedAsInCpp) {
 
 TEST(CApi, TheConventionHasNoDefault) {
     const RandomMesh mesh(2, 60);
-    Outputs c(mesh.cornerCount());
+    CApiOutputs c(mesh.cornerCount());
     const tspace_Mesh c_mesh = mesh.c();
     const tspace_TangentOutput out = c.c();
     tspace_TangentOptions options;
@@ -215,7 +215,7 @@ Struct zerosWithSize() {
 
 TEST(CApi, TangentOptionsOfZerosAreRefused) {
     const RandomMesh mesh(2, 60);
-    Outputs c(mesh.cornerCount());
+    CApiOutputs c(mesh.cornerCount());
     const tspace_Mesh c_mesh = mesh.c();
     const tspace_TangentOutput out = c.c();
     auto options = zerosWithSize<tspace_TangentOptions>();
@@ -290,7 +290,7 @@ TEST(CApi, ZerosAreTheDefaultsOfExecutionAndOfSanitizing) {
 TEST(CApi, ZeroDegreesCanBeSaid) {
     const RandomMesh mesh(6, 60);
     const tspace_Mesh c_mesh = mesh.c();
-    Outputs cpp(mesh.cornerCount()), c(mesh.cornerCount());
+    CApiOutputs cpp(mesh.cornerCount()), c(mesh.cornerCount());
     ASSERT_TRUE(
         generateTangents(mesh.view(), {.convention = conventions::opengl, .angular_threshold_deg = 0}, cpp.view()));
     tspace_TangentOptions options = tangentOptions();
@@ -347,7 +347,7 @@ TEST(CApi, GivesTheNormalsOfTheCppApi) {
 TEST(CApi, RefinesTangentsAsTheCppApi) {
     const RandomMesh mesh(5, 60);
     for (const std::uint32_t refine : {0u, 1u, 2u}) {
-        Outputs cpp(mesh.cornerCount()), c(mesh.cornerCount());
+        CApiOutputs cpp(mesh.cornerCount()), c(mesh.cornerCount());
         ASSERT_TRUE(generateTangents(
             mesh.view(), {.method = Method::best, .convention = conventions::opengl, .refine = refine}, cpp.view()));
         tspace_TangentOptions options = tangentOptions();
@@ -474,7 +474,7 @@ TEST(CApi, MendsAsTheCppApi) {
 
 TEST(CApi, SplitsAndTriangulatesAsTheCppApi) {
     const RandomMesh mesh(5, 60);
-    Outputs outputs(mesh.cornerCount());
+    CApiOutputs outputs(mesh.cornerCount());
     ASSERT_TRUE(generateTangents(mesh.view(), {.convention = conventions::opengl}, outputs.view()));
     const CornerAttribute attribute = cornerAttribute(StridedSpan<const Vec4>(outputs.tangents), 1e-5f);
     const auto expected =

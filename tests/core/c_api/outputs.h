@@ -4,17 +4,17 @@
 
 #include <gtest/gtest.h>
 
-#include <cstring>
 #include <vector>
 
+#include "support/same_bits.h"
 #include "tspace/tspace.h"
 #include "tspace/tspace.hpp"
 
 namespace tspace::test {
 
 /// Results of all kinds for one mesh.
-struct Outputs {
-    explicit Outputs(std::size_t n) : tangents(n), bitangents(n), magnitudes_s(n), magnitudes_t(n) {}
+struct CApiOutputs {
+    explicit CApiOutputs(std::size_t n) : tangents(n), bitangents(n), magnitudes_s(n), magnitudes_t(n) {}
 
     TangentOutput view() { return {tangents, bitangents, magnitudes_s, magnitudes_t}; }
     tspace_TangentOutput c() {
@@ -32,12 +32,7 @@ struct Outputs {
     std::vector<float> magnitudes_s, magnitudes_t;
 };
 
-template <class T>
-bool sameBits(const std::vector<T>& a, const std::vector<T>& b) {
-    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
-}
-
-inline void expectSame(const Outputs& a, const Outputs& b) {
+inline void expectSame(const CApiOutputs& a, const CApiOutputs& b) {
     EXPECT_TRUE(sameBits(a.tangents, b.tangents));
     EXPECT_TRUE(sameBits(a.bitangents, b.bitangents));
     EXPECT_TRUE(sameBits(a.magnitudes_s, b.magnitudes_s));

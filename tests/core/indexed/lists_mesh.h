@@ -4,20 +4,15 @@
 
 #include <array>
 #include <cstdint>
-#include <cstring>
 #include <map>
 #include <random>
 #include <span>
 #include <vector>
 
+#include "support/same_bits.h"
 #include "support/simple_mesh.h"
 
 namespace tspace::test {
-
-template <class T>
-bool sameBits(const std::vector<T>& a, const std::vector<T>& b) {
-    return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
-}
 
 struct ListsMesh : SimpleMesh {
     std::vector<std::uint32_t> uv_indices;

@@ -14,9 +14,9 @@ RC_GTEST_PROP(ComputeFrames, ReproducesItselfOnItsOwnOutput, ()) {
     const VertexPool pool = anyPool();
     const std::vector<PrimitiveGeometry> primitives = anyFaces(pool);
     const GenerateOptions options = anyOptions();
-    const Outcome first = compute(pool, primitives, options);
+    const PoolOutcome first = compute(pool, primitives, options);
     const VertexPool written = rebuilt(pool, first.frames);
-    const Outcome second = compute(written, rebuilt(first.frames), options);
+    const PoolOutcome second = compute(written, rebuilt(first.frames), options);
     RC_ASSERT(!second.frames.wasSplit(written.positions.size()));
     RC_ASSERT(second.frames.indices == first.frames.indices);
     RC_ASSERT(sameBits(second.frames.tangents, first.frames.tangents));
@@ -43,7 +43,7 @@ RC_GTEST_PROP(ComputeFrames, WritesOnlyUnitTangentsWithOneSignPerFace, ()) {
     GenerateOptions options = anyOptions();
     options.tangents.method = *rc::gen::element(options.tangents.method, Method::lengyel);
     options.sanitize = true;
-    const Outcome result = compute(pool, anyTriangles(pool), options);
+    const PoolOutcome result = compute(pool, anyTriangles(pool), options);
     for (const Vec4& t : result.frames.tangents) {
         const double length = std::sqrt(double{t.x} * t.x + double{t.y} * t.y + double{t.z} * t.z);
         RC_ASSERT(std::abs(length - 1) <= 5e-4);
@@ -59,7 +59,7 @@ RC_GTEST_PROP(ComputeFrames, WritesOnlyUnitTangentsWithOneSignPerFace, ()) {
 RC_GTEST_PROP(ComputeFrames, KeepsEveryCornerAtItsVertexAndCopiesBehind, ()) {
     const VertexPool pool = anyPool();
     const std::vector<PrimitiveGeometry> primitives = anyTriangles(pool);
-    const Outcome result = compute(pool, primitives, anyOptions());
+    const PoolOutcome result = compute(pool, primitives, anyOptions());
     for (std::size_t v = 0; v < pool.positions.size(); ++v) RC_ASSERT(result.frames.source_vertices[v] == v);
     for (std::size_t p = 0; p < primitives.size(); ++p) {
         Indices sources;
@@ -75,9 +75,9 @@ RC_GTEST_PROP(ComputeFrames, ComputesEachPrimitiveAsAMeshOfItsOwn, ()) {
     const VertexPool pool = anyPool();
     const std::vector<PrimitiveGeometry> primitives = anyTriangles(pool);
     const GenerateOptions options = anyOptions();
-    const Outcome together = compute(pool, primitives, options);
+    const PoolOutcome together = compute(pool, primitives, options);
     for (std::size_t p = 0; p < primitives.size(); ++p) {
-        const Outcome alone = compute(pool, {primitives[p]}, options);
+        const PoolOutcome alone = compute(pool, {primitives[p]}, options);
         for (std::size_t c = 0; c < primitives[p].indices.size(); ++c) {
             const Vec4& a = together.frames.tangents[together.frames.indices[p][c]];
             const Vec4& b = alone.frames.tangents[alone.frames.indices[0][c]];
@@ -89,7 +89,7 @@ RC_GTEST_PROP(ComputeFrames, ComputesEachPrimitiveAsAMeshOfItsOwn, ()) {
 TEST(ComputeFrames, StoresTheSignOfTheConvention) {
     const std::vector<PrimitiveGeometry> primitives{{.indices = {0, 1, 2, 2, 1, 3}}};
     for (const Method method : {Method::mikktspace, Method::lengyel, Method::flat, Method::angle}) {
-        const Outcome result = compute(square(), primitives, withMethod(method));
+        const PoolOutcome result = compute(square(), primitives, withMethod(method));
         EXPECT_FALSE(result.frames.wasSplit(4));
         EXPECT_EQ(result.frames.indices[0], (Indices{0, 1, 2, 2, 1, 3}));
         // V runs up in the pool's numbers; glTF reads them as running down.
@@ -106,7 +106,7 @@ TEST(ComputeFrames, LaysTangentsIntoTheSurfaceWhereUvsHaveNoArea) {
         pool.uvs.push_back({0.5f, 0.5f});
     }
     const std::vector<PrimitiveGeometry> primitives{{.indices = {0, 1, 2, 2, 1, 3, 4, 5, 6}}};
-    const Outcome mended = compute(pool, primitives, {}), raw = compute(pool, primitives, {.sanitize = false});
+    const PoolOutcome mended = compute(pool, primitives, {}), raw = compute(pool, primitives, {.sanitize = false});
     EXPECT_EQ(mended.reports[0].sanitize.placeholder_count, 3u);
     for (std::size_t v = 0; v < 4; ++v) EXPECT_EQ(mended.frames.tangents[v], raw.frames.tangents[v]);
     for (std::size_t v = 4; v < 7; ++v) {
@@ -120,7 +120,7 @@ TEST(ComputeFrames, SplitsTheVerticesOfAMirroredSeam) {
     pool.positions.push_back({2, 0, 0});
     pool.normals.push_back({0, 0, 1});
     pool.uvs.push_back({0, 0});
-    const Outcome result = compute(pool, {{.indices = {0, 1, 2, 2, 1, 3, 1, 4, 3}}}, {});
+    const PoolOutcome result = compute(pool, {{.indices = {0, 1, 2, 2, 1, 3, 1, 4, 3}}}, {});
     EXPECT_EQ(result.frames.source_vertices, (Indices{0, 1, 2, 3, 4, 1, 3}));
     EXPECT_EQ(result.frames.indices[0], (Indices{0, 1, 2, 2, 1, 3, 5, 4, 6}));
     EXPECT_EQ(result.frames.tangents[1], (Vec4{1, 0, 0, -1}));
@@ -134,7 +134,7 @@ TEST(ComputeFrames, GivesVerticesThatNoCornerUsesAFrame) {
         pool.normals.push_back(normal);
         pool.uvs.push_back({});
     }
-    const Outcome result = compute(pool, {{.indices = {0, 1, 2}}}, {});
+    const PoolOutcome result = compute(pool, {{.indices = {0, 1, 2}}}, {});
     ASSERT_EQ(result.frames.tangents.size(), 7u);
     for (const Vec4& t : result.frames.tangents) {
         EXPECT_NEAR(std::hypot(t.x, t.y, t.z), 1.0f, 1e-6f);
@@ -148,7 +148,7 @@ TEST(ComputeFrames, GeneratesNormalsEvenWithoutUvs) {
     pool.normals.clear();
     pool.uvs.clear();
     pool.positions[3].z = 1;
-    const Outcome result = compute(pool, {{.indices = {0, 1, 2, 2, 1, 3}}}, {});
+    const PoolOutcome result = compute(pool, {{.indices = {0, 1, 2, 2, 1, 3}}}, {});
     EXPECT_TRUE(result.frames.normals_generated);
     EXPECT_TRUE(result.reports[0].normals_generated);
     EXPECT_TRUE(result.frames.tangents.empty());
@@ -166,7 +166,7 @@ TEST(ComputeFrames, TakesSmoothingGroupsFromThePrimitive) {
     options.normals.weighting = NormalWeighting::angle;
     PrimitiveGeometry primitive{.indices = {0, 1, 2, 2, 1, 3}, .smoothing_groups = {1, 1}};
     const auto distinctNormals = [&] {
-        const Outcome result = compute(pool, {primitive}, options);
+        const PoolOutcome result = compute(pool, {primitive}, options);
         const Indices& corners = result.frames.indices[0];
         return result.frames.normals[corners[1]] != result.frames.normals[corners[4]];
     };
@@ -184,7 +184,7 @@ TEST(ComputeFrames, CutsPolygonsAndLeavesFacesWithoutAreaOut) {
         pool.uvs.push_back({x, y});
     }
     const PrimitiveGeometry primitive{.indices = {5, 4, 0, 1, 2, 3, 4, 5, 0, 2, 1, 3}, .face_sizes = {2, 6, 1, 3}};
-    const Outcome result = compute(pool, {primitive}, {});
+    const PoolOutcome result = compute(pool, {primitive}, {});
     const Indices& corners = result.frames.indices[0];
     ASSERT_EQ(corners.size(), 15u);
     EXPECT_EQ(result.reports[0].triangle_count, 5u);
@@ -199,7 +199,7 @@ TEST(ComputeFrames, CutsPolygonsAndLeavesFacesWithoutAreaOut) {
 TEST(ComputeFrames, AcceptsPoolsAndPrimitivesWithNothingInThem) {
     EXPECT_TRUE(compute({}, {}, {}).frames.source_vertices.empty());
     EXPECT_TRUE(compute({}, {{}}, {}).frames.indices[0].empty());
-    const Outcome unused = compute(square(), {{}, {.indices = {0, 1}, .face_sizes = {2, 0}}}, {});
+    const PoolOutcome unused = compute(square(), {{}, {.indices = {0, 1}, .face_sizes = {2, 0}}}, {});
     EXPECT_EQ(unused.frames.tangents.size(), 4u);
     EXPECT_TRUE(unused.frames.indices[1].empty());
 }

@@ -61,13 +61,13 @@ TEST(Faces, QuadsGiveTheTangentsOfThePolygons) {
 TEST(Faces, OfTheirOwnAccordAreTriangles) {
     const ModelData data = trianglesOf(hills(9), kFan);
     const PrimitiveGeometry geometry{.indices = data.indices};
-    const Outcome plain = compute(poolOf(data), {geometry}, GenerateOptions{});
-    const Outcome automatic = compute(poolOf(data), {geometry}, onFaces(Faces::automatic));
+    const PoolOutcome plain = compute(poolOf(data), {geometry}, GenerateOptions{});
+    const PoolOutcome automatic = compute(poolOf(data), {geometry}, onFaces(Faces::automatic));
     EXPECT_EQ(plain.reports[0].faces, Faces::triangles);
     EXPECT_EQ(plain.reports[0].quad_count, 0U);
     EXPECT_EQ(automatic.reports[0].faces, Faces::triangles);
     EXPECT_TRUE(sameBits(plain.frames.tangents, automatic.frames.tangents));
-    const Outcome quads = compute(poolOf(data), {geometry}, onFaces(Faces::quads));
+    const PoolOutcome quads = compute(poolOf(data), {geometry}, onFaces(Faces::quads));
     EXPECT_EQ(quads.reports[0].faces, Faces::quads);
     EXPECT_EQ(quads.reports[0].quad_count, 81U);
     EXPECT_EQ(quads.reports[0].triangle_count, 162U);
@@ -80,7 +80,7 @@ TEST(Faces, OfTheirOwnAccordAreTriangles) {
 TEST(Faces, PolygonsOfAFileAreQuadsAsTheyAre) {
     const PolygonMesh mesh = hills(5, 3);
     const PrimitiveGeometry geometry{.indices = mesh.corners, .face_sizes = mesh.sizes};
-    const Outcome quads = compute(poolOf(mesh.data), {geometry}, onFaces(Faces::quads));
+    const PoolOutcome quads = compute(poolOf(mesh.data), {geometry}, onFaces(Faces::quads));
     const auto count = static_cast<std::uint64_t>(std::count(mesh.sizes.begin(), mesh.sizes.end(), 4U));
     EXPECT_EQ(quads.reports[0].quad_count, count);
     // Cut by MikkTSpace's own rule, so triangles give the same here, but for the last bits of sums.
@@ -102,7 +102,7 @@ TEST(Faces, MorphTargetsTakeTheQuadsOfTheirBase) {
     pool.targets = {
         1, [&](std::size_t) -> Result<MorphOffsets> { return MorphOffsets{.positions = offsets, .normals = turns}; }};
     const PrimitiveGeometry geometry{.indices = data.indices};
-    const Outcome morphed = compute(pool, {geometry}, onFaces(Faces::quads));
+    const PoolOutcome morphed = compute(pool, {geometry}, onFaces(Faces::quads));
     ASSERT_EQ(morphed.frames.morphs.size(), 1U);
     // What the moved shape gives on quads of its own.
     for (std::size_t v = 0; v < moved.positions.size(); ++v) {
@@ -110,7 +110,7 @@ TEST(Faces, MorphTargetsTakeTheQuadsOfTheirBase) {
         const Vec3 n = moved.normals[v] + turns[v];
         moved.normals[v] = (1 / length(n)) * n;
     }
-    const Outcome own = compute(poolOf(moved), {geometry}, onFaces(Faces::quads));
+    const PoolOutcome own = compute(poolOf(moved), {geometry}, onFaces(Faces::quads));
     const VertexOffsets& deltas = morphed.frames.morphs[0].tangents;
     std::vector<Vec3> sums(morphed.frames.tangents.size());
     for (std::size_t v = 0; v < sums.size(); ++v) sums[v] = xyz(morphed.frames.tangents[v]);
@@ -128,7 +128,7 @@ TEST(Faces, ChangeNothingWithTheNumberOfThreads) {
     const PrimitiveGeometry geometry{.indices = data.indices};
     GenerateOptions options = onFaces(Faces::quads);
     options.execution.thread_count = 1;
-    const Outcome one = compute(poolOf(data), {geometry}, options);
+    const PoolOutcome one = compute(poolOf(data), {geometry}, options);
     options.execution.thread_count = 4;
     EXPECT_TRUE(sameBits(one.frames.tangents, compute(poolOf(data), {geometry}, options).frames.tangents));
 }

@@ -218,7 +218,7 @@ RC_GTEST_PROP(MorphFrames, AreThoseOfTheMovedShapeWithTheGroupsOfTheBase, ()) {
     const std::vector<PrimitiveGeometry> primitives = options.sanitize ? anyTriangles(pool) : anyFaces(pool);
     const Targets targets = anyTargets(pool);
     pool.targets = reading(targets);
-    const Outcome result = compute(pool, primitives, options);
+    const PoolOutcome result = compute(pool, primitives, options);
     const VertexPool written = rebuilt(pool, result.frames);
     const Targets moved = rebuiltTargets(targets, result.frames);
     RC_ASSERT(result.frames.morphs.size() == targets.size());
@@ -248,11 +248,11 @@ RC_GTEST_PROP(MorphFrames, ReproduceThemselvesOnTheirOwnOutput, ()) {
     const GenerateOptions options = anyOptions();
     const Targets targets = anyTargets(pool);
     pool.targets = reading(targets);
-    const Outcome first = compute(pool, primitives, options);
+    const PoolOutcome first = compute(pool, primitives, options);
     VertexPool written = rebuilt(pool, first.frames);
     const Targets moved = rebuiltTargets(targets, first.frames);
     written.targets = reading(moved);
-    const Outcome second = compute(written, rebuilt(first.frames), options);
+    const PoolOutcome second = compute(written, rebuilt(first.frames), options);
     RC_ASSERT(!second.frames.wasSplit(written.positions.size()));
     RC_ASSERT(second.frames.indices == first.frames.indices);
     RC_ASSERT(sameBits(second.frames.tangents, first.frames.tangents));
@@ -266,10 +266,10 @@ RC_GTEST_PROP(MorphFrames, LeaveTheBaseAsItIsWithoutTargetsButForSplits, ()) {
     VertexPool pool = anyPoolWithTwins();
     const std::vector<PrimitiveGeometry> primitives = anyFaces(pool);
     const GenerateOptions options = anyOptions();
-    const Outcome plain = compute(pool, primitives, options);
+    const PoolOutcome plain = compute(pool, primitives, options);
     const Targets targets = anyTargets(pool);
     pool.targets = reading(targets);
-    const Outcome morphed = compute(pool, primitives, options);
+    const PoolOutcome morphed = compute(pool, primitives, options);
     for (std::size_t p = 0; p < primitives.size(); ++p) {
         RC_ASSERT(plain.frames.indices[p].size() == morphed.frames.indices[p].size());
         for (std::size_t c = 0; c < plain.frames.indices[p].size(); ++c) {
@@ -334,7 +334,7 @@ TEST(MorphFrames, TurnWithTheShape) {
             if (has_normals) targets[0].normals = movedBy(sheets.pool.normals, turned);
             if (!has_normals) sheets.pool.normals.clear();
             sheets.pool.targets = reading(targets);
-            const Outcome result = compute(sheets.pool, {sheets.primitive}, withMethod(method));
+            const PoolOutcome result = compute(sheets.pool, {sheets.primitive}, withMethod(method));
             const std::size_t count = result.frames.source_vertices.size();
             const std::vector<Vec3> offsets = dense(result.frames.morphs[0].tangents, count);
             const std::vector<Vec3> normals = dense(result.frames.morphs[0].normals, count);
@@ -360,7 +360,7 @@ TEST(MorphFrames, AddNothingWhereNothingMoves) {
         for (std::uint32_t v = 0; v < Sheets::kPerSheet; ++v)
             targets[1].positions[v] = {0, 0, 0.1f * static_cast<float>(v)};
         sheets.pool.targets = reading(targets);
-        const Outcome result = compute(sheets.pool, {sheets.primitive}, {});
+        const PoolOutcome result = compute(sheets.pool, {sheets.primitive}, {});
         EXPECT_TRUE(result.frames.morphs[0].tangents.vertices.empty());
         EXPECT_TRUE(result.frames.morphs[0].normals.vertices.empty());
         EXPECT_EQ(result.frames.morphs[1].normals.vertices.empty(), has_normals);
@@ -378,7 +378,7 @@ TEST(MorphFrames, SplitWhatLiesInOnePlaneAndIsBentByATarget) {
     Targets targets(2);
     targets[1].positions = {{}, {}, {}, {0, 0, 1}};
     pool.targets = reading(targets);
-    const Outcome flat = compute(pool, {{.indices = {0, 1, 2, 2, 1, 3}}}, {});
+    const PoolOutcome flat = compute(pool, {{.indices = {0, 1, 2, 2, 1, 3}}}, {});
     EXPECT_EQ(flat.frames.source_vertices, (Indices{0, 1, 2, 3, 2, 1}));
     EXPECT_EQ(flat.frames.indices[0], (Indices{0, 1, 2, 4, 5, 3}));
     EXPECT_EQ(flat.frames.normals, std::vector<Vec3>(6, Vec3{0, 0, 1}));
@@ -390,7 +390,7 @@ TEST(MorphFrames, SplitWhatLiesInOnePlaneAndIsBentByATarget) {
     GenerateOptions smooth;
     smooth.normals.weighting = NormalWeighting::angle;
     smooth.normals.crease_angle_deg = 30;
-    const Outcome whole = compute(pool, {{.indices = {0, 1, 2, 2, 1, 3}}}, smooth);
+    const PoolOutcome whole = compute(pool, {{.indices = {0, 1, 2, 2, 1, 3}}}, smooth);
     EXPECT_FALSE(whole.frames.wasSplit(4)) << "smooth on the base is smooth in every target";
 }
 
@@ -425,7 +425,7 @@ TEST(MorphFrames, SplitGroupsThatOnlyLookAlikeOnTheBase) {
     targets[0].positions[4] = {1, 1, 0};
     targets[1].positions.assign(5, Vec3{0, 0, 3});
     pool.targets = reading(targets);
-    const Outcome result = compute(pool, primitives, {});
+    const PoolOutcome result = compute(pool, primitives, {});
     EXPECT_EQ(result.frames.source_vertices, (Indices{0, 1, 2, 3, 4, 0}));
     EXPECT_EQ(result.frames.morphs[0].tangents.vertices, (Indices{3, 4, 5}));
     for (const Vec3& offset : result.frames.morphs[0].tangents.offsets) {
@@ -441,7 +441,7 @@ TEST(MorphFrames, KeepTheTangentWhereFacesCollapse) {
     targets[1] = targets[0];
     targets[1].normals.assign(4, {1, 0, 0});  // leaning towards the tangent
     pool.targets = reading(targets);
-    const Outcome result = compute(pool, {{.indices = {0, 1, 2, 2, 1, 3}}}, {});
+    const PoolOutcome result = compute(pool, {{.indices = {0, 1, 2, 2, 1, 3}}}, {});
     EXPECT_TRUE(result.frames.morphs[0].tangents.vertices.empty());
     ASSERT_EQ(result.frames.morphs[1].tangents.vertices.size(), 4u);
     for (const Vec3& offset : result.frames.morphs[1].tangents.offsets) {
@@ -464,17 +464,17 @@ TEST(MorphFrames, AreAddedToKeptTangentsThatAgree) {
     Targets targets(1);
     targets[0].positions = movedBy(sheets.pool.positions, turned);
     sheets.pool.targets = reading(targets);
-    Outcome computed = compute(sheets.pool, {sheets.primitive}, {});
+    PoolOutcome computed = compute(sheets.pool, {sheets.primitive}, {});
     VertexPool written = rebuilt(sheets.pool, computed.frames);
     const Targets moved = rebuiltTargets(targets, computed.frames);
     written.targets = reading(moved);
     written.kept_tangents = computed.frames.tangents;
-    const Outcome kept = compute(written, rebuilt(computed.frames), {});
+    const PoolOutcome kept = compute(written, rebuilt(computed.frames), {});
     EXPECT_EQ(kept.frames.differing_count, 0u);
     EXPECT_TRUE(sameBits(kept.frames.morphs[0].tangents.offsets, computed.frames.morphs[0].tangents.offsets));
 
     written.kept_tangents[3].w *= -1;
-    const Outcome other = compute(written, rebuilt(computed.frames), {});
+    const PoolOutcome other = compute(written, rebuilt(computed.frames), {});
     const Indices& corners = computed.frames.indices[0];
     EXPECT_EQ(other.frames.differing_count, static_cast<std::uint64_t>(std::count(corners.begin(), corners.end(), 3u)));
     EXPECT_TRUE(other.frames.morphs.empty());

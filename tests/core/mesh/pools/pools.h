@@ -7,27 +7,22 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <vector>
 
 #include "core/mesh/pools/primitive.h"
+#include "support/same_bits.h"
 
 namespace tspace::test {
 
 using Indices = std::vector<std::uint32_t>;
 
-template <class T>
-bool sameBits(const std::vector<T>& a, const std::vector<T>& b) {
-    return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
-}
-
-struct Outcome {
+struct PoolOutcome {
     PoolFrames frames;
     std::vector<PrimitiveReport> reports;
 };
 
-inline Outcome compute(const VertexPool& pool, const std::vector<PrimitiveGeometry>& primitives,
-                       const GenerateOptions& options) {
+inline PoolOutcome compute(const VertexPool& pool, const std::vector<PrimitiveGeometry>& primitives,
+                           const GenerateOptions& options) {
     std::vector<PrimitiveReport> reports(primitives.size());
     Result<PoolFrames> frames = computeFrames(pool, primitives, options, reports);
     EXPECT_TRUE(frames.ok()) << (frames.ok() ? "" : frames.error().message);
