@@ -144,6 +144,29 @@ TEST(AutomaticCreases, HaveTheSameBitsForAnyNumberOfThreads) {
     }
 }
 
+TEST(AutomaticCreases, HaveTheSameBitsBesideAFaceThatIsNoTriangle) {
+    // Then noise is smoothed face by face, and not four triangles at a time.
+    for (const double noise : {0.025, 0.05, 0.1}) {
+        Scan scan = accuracy::scan(shape("part"), 24, noise, Random{7});
+        for (int left = 0; left < 4; ++left) {  // any number of triangles in the last four, some of them at a rim
+            std::vector<std::uint32_t> sizes(scan.indices.size() / 3, 3), indices = scan.indices;
+            MeshView triangles = scan.view();
+            triangles.face_sizes = sizes;
+            const Outcome fours = bestOf(triangles, kAuto);
+            sizes.push_back(1);
+            indices.push_back(0);
+            MeshView mixed{.positions = scan.positions, .indices = {indices}};
+            mixed.face_sizes = sizes;
+            Outcome singles = bestOf(mixed, kAuto);
+            singles.normals.pop_back();
+            EXPECT_LT(fours.report.crease_angle_deg, 180);
+            EXPECT_EQ(fours.report.crease_angle_deg, singles.report.crease_angle_deg);
+            EXPECT_TRUE(areSame(fours.normals, singles.normals)) << noise << ", " << left;
+            scan.indices.resize(scan.indices.size() - 3);
+        }
+    }
+}
+
 TEST(AutomaticCreases, WorkWithEveryWeightingAndWithGroups) {
     const SimpleMesh mesh = tube(48);
     for (const NormalWeighting weighting :
