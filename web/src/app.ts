@@ -3,7 +3,7 @@
 // that is no longer the current one is dropped.
 import { loadModel } from "./model/load.js";
 import { glbOfObj } from "./model/obj.js";
-import { triangleCount, type Part } from "./model/part.js";
+import { triangleCount, type Model, type Part } from "./model/part.js";
 import { missingFiles, Refusal, type ModelFiles } from "./files.js";
 import type { MotionView } from "./views/motion.js";
 import type { PartsView } from "./views/parts.js";
@@ -124,7 +124,7 @@ export class App {
 
   /** The mended file as the model, and the way back from it. */
   openMended(mended: ModelFiles): Promise<void> {
-    return this.open(async () => mended, this.model);
+    return this.open(async () => mended, { before: this.model });
   }
 
   /** To what the model was mended from; false where there is nothing to go back to. */
@@ -134,7 +134,8 @@ export class App {
     return before !== null;
   }
 
-  async open(choose: () => Promise<ModelFiles>, before: ModelFiles | null = null): Promise<void> {
+  /** `before`: what the model was mended from. `read`: the model as the loader has read it already; its picture is then there before its numbers are. */
+  async open(choose: () => Promise<ModelFiles>, { before = null, read }: { before?: ModelFiles | null; read?: Promise<Model> } = {}): Promise<void> {
     const generation = ++this.#generation;
     const isCurrent = () => generation === this.#generation;
     const { findings, progress, opened } = this.views;
@@ -155,13 +156,13 @@ export class App {
       this.#before = before;
       this.#clear();
       opened(model, before);
-      this.reports.inspect = await this.work.run("report", { verb: "inspect", model });
+      if (!read) await this.#inspect(model, isCurrent);
       if (!isCurrent()) return;
-      this.views.inspected(this.reports.inspect as InspectReport);
-      this.views.parts.describe(this.reports.inspect as InspectReport);
       this.#remarks = isObj ? ["An OBJ is shown and judged as the GLB that it becomes."] : [];
       if (missing.length > 0) this.#remarks.push(lacking(missing));
-      await this.#draw(model, isCurrent);
+      await this.#draw(model, isCurrent, { read });
+      if (!isCurrent()) return;
+      if (read) await this.#inspect(model, isCurrent);
       await this.#judge(model, isCurrent);
     } catch (error) {
       if (!isCurrent()) return;
@@ -169,6 +170,14 @@ export class App {
       const sentence = error instanceof WorkError || error instanceof Refusal ? sentenceOf(error) : `This file cannot be opened: ${sentenceOf(error)}`;
       this.fail(missing.length > 0 ? `${lacking(missing)} (${sentence})` : sentence);
     }
+  }
+
+  async #inspect(model: ModelFiles, isCurrent: () => boolean): Promise<void> {
+    const report = await this.work.run("report", { verb: "inspect", model });
+    if (!isCurrent()) return;
+    this.reports.inspect = report;
+    this.views.inspected(report as InspectReport);
+    this.views.parts.describe(report as InspectReport);
   }
 
   #stopped(): void {
@@ -189,7 +198,7 @@ export class App {
     this.#variant = variant;
     try {
       place.clear();
-      await this.#draw(model, isCurrent, true);
+      await this.#draw(model, isCurrent, { isOther: true });
       if (!isCurrent()) return;
       if (this.#mendedFile) await this.#loadMended(this.#mendedFile, isCurrent);
       await this.compare(look.right, 0.3, 1);
@@ -200,12 +209,12 @@ export class App {
   }
 
   /** The picture. It may fail where the verdict does not: then there is a sentence in its place. */
-  async #draw(model: ModelFiles, isCurrent: () => boolean, isOther = false): Promise<void> {
+  async #draw(model: ModelFiles, isCurrent: () => boolean, { isOther = false, read }: { isOther?: boolean; read?: Promise<Model> } = {}): Promise<void> {
     const { stage, progress } = this.views;
     progress.at("Drawing", 0.1);
     stage.say("");
     try {
-      const { parts, tree, motion, normalImages, variants, remarks: own } = await loadModel(model, this.work, this.#variant);
+      const { parts, tree, motion, normalImages, variants, remarks: own } = await (read ?? loadModel(model, this.work, this.#variant));
       const remarks = [...this.#remarks, ...own];
       if (!isCurrent()) return;
       this.#normalImages = normalImages;

@@ -8,7 +8,8 @@ import { embeddedModel, pageOrigin } from "./embedded.js";
 import { lessonLink } from "./lesson.js";
 import { keepLink, linkedBy } from "./link.js";
 import { askedModel, askFirst, filesAt } from "./asked.js";
-import { faults, samples } from "./samples.js";
+import { faults, samples, type Sample } from "./samples.js";
+import { loadModel } from "./model/load.js";
 import { FindingsView } from "./views/findings.js";
 import { LookView } from "./views/look.js";
 import { changesShape, MendView, mendedName, type Mended } from "./views/mend.js";
@@ -23,8 +24,14 @@ import { UvMapView } from "./views/uv_map.js";
 import { Work } from "./worker/client.js";
 import type { GenerateReport } from "tspace/gltf";
 
-// The library is read and compiled by the worker while WebGL starts, which holds this thread up for longer than all else.
+// The library is read and compiled by the worker while WebGL starts, which holds this thread up for longer than all else. Until
+// the worker runs, this thread reads the page's own sample: nobody has to say first whether that is sound.
 const work = new Work();
+const own = embeddedModel(), asked = own ? null : askedModel(), first = linkedBy(location.hash);
+const firstSample = own ? null : ([...samples, ...faults].find(({ file }) => file === first.sample) ?? samples[0]);
+const firstFiles = firstSample && filesOf(firstSample);
+const firstRead = firstFiles && loadModel(firstFiles, work);
+firstRead?.catch(() => {}); // said where it would be drawn
 await work.started;
 const largeMap = el("section", { class: "large-map", "aria-label": "UV map", hidden: true });
 const stage = new Stage(largeMap);
@@ -66,7 +73,6 @@ const share = new ShareView({
 });
 
 /** The first model is shown as the address says; from then on the address says what is shown. */
-const own = embeddedModel(), asked = own ? null : askedModel(), first = linkedBy(location.hash);
 let linked = asked ? {} : first;
 const keep = keepLink(stage, () => findings.chosen, () => (pile.isEmpty && app.model !== own ? (app.model?.name ?? null) : null));
 stage.viewport.onDrawn = () => document.documentElement.dataset.state === "ready" && keep();
@@ -116,21 +122,24 @@ function picker(text: string, properties: Record<string, unknown>): HTMLElement 
   return el("span", { class: "picker" }, input, el("button", { type: "button", onclick: () => input.click() }, text));
 }
 
-function openSample(name: string, bytes: Uint8Array<ArrayBuffer>): void {
-  pile = new Pile();
-  others.hidden = true;
-  void app.open(async () => ({ name, bytes, others: new Map() }));
+function filesOf({ file, bytes }: Sample): ModelFiles {
+  return { name: file, bytes: bytes(), others: new Map() };
 }
 
-const sampleButtons = samples.map(({ name, file, bytes, hint }) =>
-  el("button", { type: "button", class: "sample", "data-file": file, title: hint, "aria-pressed": "false", onclick: () => openSample(file, bytes()) }, name));
+function openSample(sample: Sample): void {
+  pile = new Pile();
+  others.hidden = true;
+  void app.open(async () => filesOf(sample));
+}
+
+const sampleButtons = samples.map((sample) =>
+  el("button", { type: "button", class: "sample", "data-file": sample.file, title: sample.hint, "aria-pressed": "false", onclick: () => openSample(sample) }, sample.name));
 
 const gallery = el("select", { class: "faults", "aria-label": "Faults of real files" }, el("option", { value: "" }, "Faults…"),
   ...faults.map(({ name, hint }, i) => el("option", { value: i, title: hint }, name)));
 gallery.addEventListener("change", () => {
   if (gallery.value === "") return;
-  const { file, bytes } = faults[Number(gallery.value)];
-  openSample(file, bytes());
+  openSample(faults[Number(gallery.value)]);
 });
 
 const header = el("header", { class: "bar" },
@@ -170,10 +179,7 @@ addEventListener("drop", (event) => {
 });
 
 if (own) void app.open(async () => own);
-else {
-  const sample = [...samples, ...faults].find(({ file }) => file === first.sample) ?? samples[0];
-  openSample(sample.file, sample.bytes());
-}
+else if (firstFiles && firstRead) void app.open(async () => firstFiles, { read: firstRead });
 
 /** For tests, and for those who look with the browser's console. */
 Object.assign(window, { tspaceView: app });

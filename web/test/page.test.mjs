@@ -20,7 +20,8 @@ test("the page is one file of at most 1.2 MB gzipped", () => {
 
 test("the broken crate is shown at once: wrong signs are found, and its triangles are outlined", { skip: missing }, async (t) => {
   await withPage(async (tab) => {
-    const ms = await tab.evaluate(() => performance.getEntriesByName("first picture")[0].startTime);
+    // On a busy machine a frame may come after the findings.
+    const ms = await tab.waitForFunction(() => performance.getEntriesByName("first picture")[0]?.startTime).then((mark) => mark.jsonValue());
     t.diagnostic(`first picture ${Math.round(ms)} ms after the page was asked for; load of the machine ${loadavg()[0].toFixed(1)}`);
     assert.equal(await tab.evaluate(() => document.documentElement.dataset.picture), "drawn");
     assert.deepEqual(await codes(tab), ["signsWrong"]);

@@ -304,7 +304,8 @@ export class Viewport {
 
   #draw(): void {
     const { renderer } = this;
-    if (!renderer) return;
+    // An empty canvas is what is there before the first model, and the graphics card has enough to do then.
+    if (!renderer || (this.scene.drawn.length === 0 && !this.#hasDrawn)) return;
     this.camera.updateMatrixWorld();
     const values = this.#values();
     for (const { material } of this.scene.drawn) setValues(material, values);
