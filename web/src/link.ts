@@ -28,6 +28,33 @@ export function linkedBy(hash: string): Linked {
   return linked;
 }
 
+/** Each model lies in memory, so only some are kept; of others the address knows samples. */
+const kMostVisited = 6;
+
+/** Models of this visit by places of the browser's history, so that its Back and Forward go through them. */
+export class Visited<Model> {
+  #models = new Map<string, Model>();
+
+  /** What this place of the history calls its model. */
+  get #name(): string | undefined {
+    return (history.state as { model?: string } | null)?.model;
+  }
+
+  /** What is shown at this place of the history, where that is known. */
+  get current(): Model | undefined {
+    return this.#models.get(this.#name ?? "");
+  }
+
+  /** Another model is shown. The first one has the place that the page has, and so has one whose address was typed. */
+  add(model: Model): void {
+    const state = { model: crypto.getRandomValues(new Uint32Array(4)).join() };
+    if (this.#models.size === 0 || this.#name === undefined) history.replaceState(state, "");
+    else history.pushState(state, "", "#");
+    this.#models.set(state.model, model);
+    if (this.#models.size > kMostVisited) this.#models.delete(this.#models.keys().next().value!);
+  }
+}
+
 const short = (x: number): string => String(Number(x.toPrecision(5)));
 
 /** Keeps the address in step with what is seen. */

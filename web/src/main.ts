@@ -6,7 +6,7 @@ import { el, replaceChildren } from "./dom.js";
 import { chooseModel, droppedFiles, modelsIn, pickedFiles, Pile, type ModelFiles, type Named } from "./files.js";
 import { embeddedModel, pageOrigin } from "./embedded.js";
 import { lessonLink } from "./lesson.js";
-import { keepLink, linkedBy } from "./link.js";
+import { keepLink, linkedBy, Visited } from "./link.js";
 import { askedModel, askFirst, filesAt } from "./asked.js";
 import { faults, samples, type Sample } from "./samples.js";
 import { loadModel } from "./model/load.js";
@@ -28,7 +28,8 @@ import type { GenerateReport } from "tspace/gltf";
 // the worker runs, this thread reads the page's own sample: nobody has to say first whether that is sound.
 const work = new Work();
 const own = embeddedModel(), asked = own ? null : askedModel(), first = linkedBy(location.hash);
-const firstSample = own ? null : ([...samples, ...faults].find(({ file }) => file === first.sample) ?? samples[0]);
+const sampleNamed = (name: string | undefined): Sample | undefined => [...samples, ...faults].find(({ file }) => file === name);
+const firstSample = own ? null : (sampleNamed(first.sample) ?? samples[0]);
 const firstFiles = firstSample && filesOf(firstSample);
 const firstRead = firstFiles && loadModel(firstFiles, work);
 firstRead?.catch(() => {}); // said where it would be drawn
@@ -85,7 +86,21 @@ function followLink(): void {
   if (camera) stage.viewport.lookFrom(camera);
 }
 
+/** Models that were shown, what each was mended from, and the files that came with it. */
+const visited = new Visited<{ model: ModelFiles; before: ModelFiles | null; pile: Pile }>();
+addEventListener("popstate", () => {
+  linked = linkedBy(location.hash);
+  const { current } = visited, sample = current ? undefined : sampleNamed(linked.sample);
+  if (current && current.model !== app.model) {
+    pile = current.pile;
+    others.hidden = true;
+    void app.open(async () => current.model, { before: current.before });
+  } else if (sample && sample.file !== app.model?.name) openSample(sample);
+  else followLink();
+});
+
 function showName(model: ModelFiles | null, before: ModelFiles | null): void {
+  if (model && visited.current?.model !== model) visited.add({ model, before, pile });
   mend.reset(model);
   texel.reset();
   replaceChildren(title, model ? model.name : "");

@@ -203,3 +203,38 @@ test("the address says what is seen, and shows it again", { skip: missing }, asy
     assert.ok(now.eye.every((x, i) => Math.abs(x - eye[i]) < 1e-3), `${now.eye} and ${eye}`);
   }, { url: address });
 });
+
+test("the browser's Back and Forward go from model to model, each as it was seen, and an address that is typed is followed", { skip: missing }, async () => {
+  await withPage(async (tab) => {
+    const look = () => tab.evaluate(() => window.tspaceView.views.stage.viewport.settings.look);
+    const shows = async (name) => {
+      await tab.waitForFunction((name) => document.querySelector(".model-name").textContent === name, name);
+      assert.equal(await settled(tab), "ready");
+    };
+    await choose(tab, "Signs");
+    await tab.waitForFunction(() => /look=signs/.test(location.hash));
+    await sample(tab, "Ring");
+    await choose(tab, "Islands");
+    await tab.waitForFunction(() => /sample=ring.*look=islands/.test(location.hash));
+    await tab.evaluate(() => void window.tspaceView.open(async () => ({ ...window.tspaceView.model, name: "mine.glb" })));
+    await shows("mine.glb");
+    await tab.evaluate(() => history.back());
+    await shows("ring-directx.glb");
+    assert.equal(await look(), "islands");
+    await tab.evaluate(() => history.back());
+    await shows("crate-signs-lost.glb");
+    assert.equal(await look(), "signs");
+    await tab.evaluate(() => history.go(2));
+    await shows("mine.glb");
+    await tab.evaluate(() => (location.hash = "#sample=crate.glb&look=mirrored"));
+    await shows("crate.glb");
+    assert.equal(await look(), "mirrored");
+    await tab.evaluate(() => history.back());
+    await shows("mine.glb");
+    await tab.evaluate(() => history.forward());
+    await shows("crate.glb");
+    await tab.evaluate(() => (location.hash = "#sample=crate.glb&look=normals&split=0.25"));
+    await tab.waitForFunction(() => window.tspaceView.views.stage.viewport.settings.look === "normals");
+    assert.equal(await tab.evaluate(() => window.tspaceView.views.stage.viewport.settings.split), 0.25, "the model stays, and is seen as the address says");
+  });
+});

@@ -65,10 +65,10 @@ export class FindingsView {
     replaceChildren(this.#verdict, text);
   }
 
-  /** Opens the entry of a finding, by its number in the report. */
+  /** Opens the entry of a finding, by its number in the report, where it is not open. */
   openFinding(number: number): void {
     const finding = this.#findings[number], found = this.#groups.find(({ group }) => group.findings.includes(finding));
-    found?.element.querySelector("button")?.click();
+    if (found && !(this.#open && found.element.contains(this.#open.button))) found.element.querySelector("button")?.click();
   }
 
   /** The number of the first finding of the entry that is open. */
