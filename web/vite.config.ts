@@ -95,7 +95,7 @@ export default defineConfig({
   base: "./",
   assetsInclude: ["**/*.glb"],
   build: { target: "es2022", assetsInlineLimit: 1 << 30, cssCodeSplit: false, modulePreload: false, chunkSizeWarningLimit: 8000 },
-  resolve: { alias: { "#core": insideOf("core"), "#gltf": insideOf("gltf") } },
+  resolve: { alias: { "#core": insideOf("core"), "#gltf": insideOf("gltf"), "#textures": insideOf("textures") } },
   worker: { format: "iife", plugins: () => [packedWasm(), nodeModules] },
   define: { __VERSION__: JSON.stringify(JSON.parse(readFileSync(resolve(import.meta.dirname, "node_modules/tspace/package.json"), "utf8")).version) },
   plugins: [packedWasm(), meanings(), oneFile()],

@@ -304,11 +304,12 @@ struct BasisParts {
     ByteSpan image = {}, ends = {}, selectors = {}, tables = {};
 };
 
-std::optional<BasisParts> findParts(ByteSpan data, std::size_t images) {
+/// `image`: the number of the one that is wanted, below `images`.
+std::optional<BasisParts> findParts(ByteSpan data, std::size_t images, std::size_t image) {
     constexpr std::size_t kHead = 20, kImage = 20;
     if (data.size() < kHead || images > (data.size() - kHead) / kImage) return {};
     BasisParts parts{.end_count = little16(data.data()), .selector_count = little16(data.data() + 2)};
-    parts.image = data.subspan(kHead, kImage);
+    parts.image = data.subspan(kHead + kImage * image, kImage);
     std::size_t at = kHead + kImage * images;
     std::size_t place = 4;
     for (ByteSpan* part : {&parts.ends, &parts.selectors, &parts.tables}) {
@@ -325,7 +326,7 @@ std::optional<BasisParts> findParts(ByteSpan data, std::size_t images) {
 
 bool unpackBasisLz(const TextureFile& texture, std::span<std::uint8_t> blocks) {
     constexpr std::size_t kSlice = 8;
-    const std::optional<BasisParts> parts = findParts(texture.global, texture.levels.size());
+    const std::optional<BasisParts> parts = findParts(texture.global, texture.levels.size(), texture.level_number);
     if (!parts) return false;
     BasisTables tables;
     tables.ends = readEnds(parts->ends, parts->end_count);

@@ -40,9 +40,10 @@ std::vector<std::uint8_t> decodePngRgba(ByteSpan bytes);
 std::optional<RgbImage> decodeJpeg(ByteSpan bytes, std::uint64_t most_pixels, std::string& why);
 std::optional<RgbImage> decodeWebp(ByteSpan bytes, std::uint64_t most_pixels, std::string& why);
 
-/// KTX2 and DDS: their first level.
+/// KTX2 and DDS: their first level, or another one.
 std::optional<RgbImage> decodeTexture(ByteSpan bytes, std::uint64_t most_pixels, std::string& why);
-std::optional<FloatImage> decodeFloatTexture(ByteSpan bytes, std::uint64_t most_pixels, std::string& why);
+std::optional<FloatImage> decodeFloatTexture(ByteSpan bytes, std::uint64_t most_pixels, std::string& why,
+                                             std::size_t level = 0);
 /// One byte a pixel; nothing where it is broken or has no alpha.
 std::vector<std::uint8_t> decodeTextureAlpha(ByteSpan bytes);
 

@@ -95,8 +95,21 @@ std::uint8_t byteOf(float part) {
     return part > 0 ? static_cast<std::uint8_t>(std::min(part, 1.0F) * 255.0F + 0.5F) : std::uint8_t{0};
 }
 
-std::optional<TextureFile> openTexture(ByteSpan bytes, std::uint64_t most_pixels, std::string& why) {
+std::optional<TextureFile> openTexture(ByteSpan bytes, std::uint64_t most_pixels, std::string& why,
+                                       std::size_t level = 0) {
     std::optional<TextureFile> texture = readTextureHead(bytes, why);
+    if (texture && level != 0) {
+        if (level >= texture->levels.size()) {
+            why = "it has no level " + std::to_string(level) + "; its last one is " +
+                  std::to_string(texture->levels.size() - 1);
+            return {};
+        }
+        const TextureFile::Place& place = texture->levels[level];
+        texture->level = bytes.subspan(place.at, place.bytes);
+        texture->level_number = level;
+        for (std::uint32_t* side : {&texture->size.width, &texture->size.height})
+            *side = std::max<std::uint32_t>(*side >> level, 1);
+    }
     if (texture && isTooLarge(texture->size, bytes.size(), most_pixels, why)) return {};
     return texture;
 }
@@ -162,8 +175,9 @@ ImageClaim claimOfTexture(ByteSpan bytes) {
     return {texture->size, pixel_bytes * texture->size.pixels() + unpacked + rowBytes(*texture)};
 }
 
-std::optional<FloatImage> decodeFloatTexture(ByteSpan bytes, std::uint64_t most_pixels, std::string& why) {
-    const std::optional<TextureFile> texture = openTexture(bytes, most_pixels, why);
+std::optional<FloatImage> decodeFloatTexture(ByteSpan bytes, std::uint64_t most_pixels, std::string& why,
+                                             std::size_t level_number) {
+    const std::optional<TextureFile> texture = openTexture(bytes, most_pixels, why, level_number);
     if (!texture) return {};
     TextureLevel level(*texture);
     why = brokenTexture(*texture);

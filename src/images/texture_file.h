@@ -86,6 +86,7 @@ struct TextureFile {
     Repacking repacking = Repacking::none;
     /// The first, which is the largest, as it lies in the file. Of a KTX2 that is packed once more any number of bytes.
     ByteSpan level = {};
+    std::size_t level_number = 0;  ///< which one `level` and `size` are of: 0, but where another was asked for
     struct Place {
         std::size_t at = 0, bytes = 0;
     };

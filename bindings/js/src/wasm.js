@@ -82,6 +82,11 @@ export class Wasm {
     }
   }
 
+  /** The next call gets a new instance. */
+  drop() {
+    this.#instance = undefined;
+  }
+
   /** body(call), and the end of what it allocated. */
   run(body) {
     const call = new Call(this.exports);

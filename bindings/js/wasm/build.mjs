@@ -32,7 +32,7 @@ const notHere = new Set([
   ...["astc", "basis_lz", "bc7", "dds", "ktx2", "texel_format", "texture", "uastc", "unpack_level", "write_texture"].map((name) => `images/${name}.cpp`),
   "images/exr.cpp", "images/float_image.cpp", "images/jpeg.cpp", "images/png.cpp", "images/read_tga.cpp", "images/webp.cpp", "maps/rays.cpp",
   "commands/generate/convert_maps.cpp", "commands/generate/mend_maps.cpp", "commands/diff/diff_words.cpp",
-  "commands/shared/map_image_file.cpp", "commands/flip_green/texture_png.cpp",
+  "commands/shared/map_image_file.cpp", "commands/shared/texture_vectors.cpp", "commands/flip_green/texture_png.cpp",
   ...["bake/all_maps", "bake/bake_file", "bake/high_maps", "bake/match_meshes", "bake/model_maps", "bake/model_surfaces", "convert_map/convert_map_file",
     "height_to_normal/height_to_normal_file", "render/model_picture", "render/render_file"]
     .map((name) => `commands/${name}.cpp`),
@@ -59,10 +59,13 @@ const modules = {
     sources: ["memory.cpp", "common.cpp", "mikktspace.cpp"], isFast: true, defines: ["TSPACE_MIKKTSPACE_ONLY"], rooms, kernels: ["tangents"], without: notPlain,
   },
   pack: { sources: ["memory.cpp", "pack.cpp"], isFast: true, defines: [], rooms: ["core/base", "core/pack"], kernels: ["pack"] },
-  /// Not of the package: the page draws KTX2 and DDS by it.
   textures: {
-    sources: ["memory.cpp", "textures.cpp"], isFast: false, defines: [], rooms: [], kernels: [], imports: ["endCall", "unpack"],
-    files: ["astc", "basis_lz", "bc7", "dds", "image", "ktx2", "texel_format", "texture", "uastc"].map((name) => `images/${name}.cpp`),
+    sources: ["memory.cpp", "textures.cpp"], isFast: true, hot: /fit_blocks|filtered_error/, defines: [], rooms: [], kernels: [], imports: ["canUnpack", "endCall", "unpack"],
+    files: [
+      ...["astc", "basis_lz", "bc7", "dds", "image", "ktx2", "texel_format", "texture", "uastc", "write_texture"].map((name) => `images/${name}.cpp`),
+      ...["filtered_error", "fit_blocks", "map_layout", "normal_levels", "roughness_levels", "shading"].map((name) => `maps/${name}.cpp`),
+      "commands/compress_map/texture_levels.cpp", "commands/shared/texture_vectors.cpp",
+    ],
   },
   gltf: {
     sources: ["heap.cpp", "c_library.cpp", "throw.cpp", "only_memory.cpp", "codecs.cpp", "images.cpp", "obj_parser.cpp", "gltf.cpp"], isFast: false,
@@ -126,7 +129,7 @@ function sourcesOf(name, module) {
   const sources = Object.entries(libraries).flatMap(([library, list]) =>
     inBatches(`${name}_${library}`, list, module.isFast, library === "api" ? module.more : [], module.without));
   for (const room of module.kernels) sources.push(...kernelSources(room, module.isFast));
-  for (const file of module.files ?? []) sources.push({ path: join(root, "src", file) });
+  for (const file of module.files ?? []) sources.push({ path: join(root, "src", file), flags: module.hot?.test(file) ? fastFlags : undefined });
   // The parser of OBJ lets exponents of numbers overflow.
   for (const file of ["new.cpp", "state.cpp", ...module.sources])
     sources.push({ path: join(here, file), flags: file === "obj_parser.cpp" ? ["-fwrapv", ...smallFlags] : undefined });

@@ -8,13 +8,10 @@
 
 #include "commands/compress_map/compress_map_report.h"
 #include "commands/compress_map/pack_texture.h"
+#include "commands/compress_map/texture_levels.h"
 #include "commands/shared/file_options.h"
 #include "commands/shared/map_image_file.h"
 #include "commands/shared/request.h"
-#include "images/write_texture.h"
-#include "maps/filtered_error.h"
-#include "maps/fit_blocks.h"
-#include "maps/roughness_levels.h"
 #include "maps/shading.h"
 #include "model/io/atomic_output.h"
 #include "model/io/file_error.h"
@@ -34,84 +31,7 @@ Container containerOf(const std::string& output, bool takes_png) {
                                              (takes_png ? ", .png" : "") + " and / (a folder of PNGs)");
 }
 
-/// Unit vectors, and how many texels of the image were none or look below the horizon.
-NormalLevel normalsOf(const FloatImage& image, CompressMapFileReport& report) {
-    constexpr double kMostOff = 0.1;
-    NormalLevel level{image.width, image.height, std::vector<Vec3>(image.texels.size()), {}};
-    for (std::size_t i = 0; i < image.texels.size(); ++i) {
-        DVec3 vector = decodeTexel(image.texels[i], {});
-        if (std::fabs(length(vector) - 1) > kMostOff) ++report.not_unit;
-        if (vector.z < 0) ++report.below_horizon;
-        level.normals[i] = normalize(vector) ? toFloat(vector) : Vec3{0, 0, 1};
-    }
-    return level;
-}
-
-/// Lays vectors that look below the horizon on it, where two channels can say them.
-void layOnHorizon(NormalLevel& level) {
-    for (Vec3& normal : level.normals) {
-        if (normal.z >= 0) continue;
-        DVec3 laid{normal.x, normal.y, 0};
-        normal = normalize(laid) ? toFloat(laid) : Vec3{0, 0, 1};
-    }
-}
-
-/// A level as it is written, and as it is decoded.
-struct PackedLevel {
-    std::vector<std::uint8_t> bytes = {};
-    std::vector<Vec3> texels = {};
-};
-
-PackedLevel roundLevel(const NormalLevel& level, bool is_signed) {
-    PackedLevel packed;
-    packed.bytes.reserve(2 * level.normals.size());
-    packed.texels.reserve(level.normals.size());
-    const double half = is_signed ? 127 : 127.5, zero = is_signed ? 0 : 127.5;
-    const auto add = [&](float part) {
-        const double number = std::floor(static_cast<double>(part) * half + zero + 0.5);
-        packed.bytes.push_back(static_cast<std::uint8_t>(static_cast<int>(number)));
-        return static_cast<float>((number - zero) / half);
-    };
-    for (const Vec3& normal : level.normals) {
-        const float x = add(normal.x), y = add(normal.y);
-        packed.texels.push_back({x, y, 0});
-    }
-    return packed;
-}
-
-PackedLevel packByAstcenc(const NormalLevel& level, TextureQuality quality, Parallel& parallel) {
-    std::vector<Vec2> texels = fitTexels(level, parallel);
-    const AstcEffort effort = quality == TextureQuality::quick  ? AstcEffort::quick
-                              : quality == TextureQuality::best ? AstcEffort::best
-                                                                : AstcEffort::fast;
-    std::optional<std::vector<std::uint8_t>> blocks = packAstc(level.width, level.height, effort, texels, parallel);
-    if (!blocks) failFile(ErrorCode::outOfMemory, "the library astcenc fails to pack the levels");
-    PackedLevel packed{*std::move(blocks), {}};
-    for (const Vec2& texel : texels) packed.texels.push_back({texel.x, texel.y, 0});
-    return packed;
-}
-
-PackedLevel packLevel(const NormalLevel& level, const CompressMapFileOptions& options, Parallel& parallel) {
-    if (options.format == TextureFormat::rg8) return roundLevel(level, options.is_signed);
-    if (options.format == TextureFormat::astc4x4) return packByAstcenc(level, options.quality, parallel);
-    BlockOptions how{.is_signed = options.is_signed};
-    if (options.format == TextureFormat::eacRg11) how.format = BlockFormat::eacRg11;
-    if (options.quality == TextureQuality::best) how.quality = BlockQuality::best;
-    if (options.quality == TextureQuality::quick) how.quality = BlockQuality::quick;
-    FittedLevel fitted = fitBlocks(level, how, parallel);
-    PackedLevel packed{std::move(fitted.blocks), {}};
-    packed.texels.reserve(fitted.texels.size());
-    for (const Vec2& texel : fitted.texels) packed.texels.push_back({texel.x, texel.y, 0});
-    return packed;
-}
-
-TexelKind kindOf(const CompressMapFileOptions& options) {
-    constexpr TexelKind kKinds[][2] = {{TexelKind::bc5, TexelKind::bc5s},
-                                       {TexelKind::eacRg, TexelKind::eacRgs},
-                                       {TexelKind::rg8, TexelKind::rg8s},
-                                       {TexelKind::astc, TexelKind::astc}};
-    return kKinds[static_cast<std::size_t>(options.format)][options.is_signed ? 1 : 0];
-}
+[[noreturn]] void failAstcenc() { failFile(ErrorCode::outOfMemory, "the library astcenc fails to pack the levels"); }
 
 class MapCompression {
   public:
@@ -123,29 +43,16 @@ class MapCompression {
         if (options_.content.data() == nullptr) inputs_.add(input_);
         if (!options_.roughness.empty()) inputs_.add(options_.roughness);
         FloatImage image = readMapImage(input_, options_.content, options_.file);
-        report_.width = image.width;
-        report_.height = image.height;
-        report_.bits_before = image.bits;
-        if (std::string how_read = readTextureVectors(image); !how_read.empty())
-            report_.warnings.push_back(std::move(how_read));
-        RoughnessLevel roughness = readRoughness(image);
-        NormalLevel first = normalsOf(image, report_);
-        addWarnings(image);
-        image = {};
-        if (report_.below_horizon > 0 && container_ != Container::folder) {
-            truth_ = first;
-            layOnHorizon(first);
-        }
-        if (options_.levels || !options_.roughness.empty()) {
-            levels_ = makeNormalLevels(std::move(first), parallel_, !options_.roughness.empty());
-        } else {
-            levels_.push_back(std::move(first));
-        }
+        beginReport(image, report_);
+        const bool has_roughness = !options_.roughness.empty();
+        const RoughnessLevel roughness = readRoughness(image);
+        map_ = makeMapLevels(std::move(image), options_, has_roughness, container_ == Container::folder, parallel_,
+                             report_);
         AtomicOutput files(
             {.sink = options_.sink, .is_dry_run = options_.dry_run, .sync = options_.file.sync, .inputs = &inputs_});
-        if (!options_.roughness.empty()) writeRoughness(roughness, files);
-        if (!options_.levels) levels_.resize(1);
-        report_.level_count = static_cast<std::uint32_t>(levels_.size());
+        if (has_roughness) writeRoughness(roughness, files);
+        if (!options_.levels) map_.levels.resize(1);
+        report_.level_count = static_cast<std::uint32_t>(map_.levels.size());
         writeNormals(files);
         files.commit();
         return std::move(report_);
@@ -160,16 +67,9 @@ class MapCompression {
         if (options_.sink && !options_.roughness.empty())
             failFile(ErrorCode::invalidOption, "two outputs do not fit one stream");
         if (!options_.roughness.empty()) roughness_container_ = containerOf(options_.roughness_output, true);
-        if (!(options_.roughness_factor >= 0 && options_.roughness_factor <= 1))
-            failFile(ErrorCode::invalidOption, "the factor of roughness must be from 0 to 1");
         if (options_.bits != 8 && options_.bits != 16) failFile(ErrorCode::invalidOption, "a PNG has 8 or 16 bits");
-        if (options_.format == TextureFormat::astc4x4) {
-            if (options_.is_signed) failFile(ErrorCode::invalidOption, "ASTC has no numbers with a sign");
-            if (const char* why_not = whyNoAstcWritten()) failFile(ErrorCode::unsupportedFile, why_not);
-        }
-        if (container_ == Container::dds) {
-            if (const char* why_not = whyNotDds(kindOf(options_))) failFile(ErrorCode::invalidOption, why_not);
-        }
+        if (std::optional<Error> fault = textureFault(options_, container_ == Container::dds))
+            throw FileError{*std::move(fault)};
         if (options_.zstd_level == 0) return;
         if (options_.zstd_level > kMostZstd) failFile(ErrorCode::invalidOption, "levels of Zstandard are 1 to 22");
         if (const char* why_not = whyNotZstd()) failFile(ErrorCode::unsupportedFile, why_not);
@@ -192,46 +92,14 @@ class MapCompression {
         }
     }
 
-    void addWarnings(const FloatImage& image) {
-        const auto warn = [&](std::string text) { report_.warnings.push_back(std::move(text)); };
-        const std::uint64_t total = image.texels.size();
-        if (!image.alpha.empty()) warn("the image has alpha, which is left out");
-        if (report_.below_horizon > 0 && container_ != Container::folder)
-            warn(std::to_string(report_.below_horizon) +
-                 " texels look below the horizon, which two channels cannot say");
-        if (report_.not_unit > total / 10)
-            warn(std::to_string(report_.not_unit) + " of " + std::to_string(total) +
-                 " texels are no unit vectors: is it a normal map in tangent space?");
-        if (container_ == Container::folder) {
-            if (options_.format != TextureFormat::bc5 || options_.is_signed)
-                warn("PNGs hold three channels, whatever format was asked for");
-        } else if (options_.format == TextureFormat::rg8 && options_.quality != TextureQuality::fast) {
-            warn("the quality does not matter for RG8, which is rounded");
-        }
-    }
-
     void writeNormals(AtomicOutput& files) {
         if (container_ == Container::folder) {
             writeFolder(files);
             return;
         }
-        Texture texture{.width = report_.width, .height = report_.height, .kind = kindOf(options_), .levels = {}};
-        report_.format = std::string(texelFormat(texture.kind).name) + (texture.kind == TexelKind::astc ? " 4x4" : "");
-        for (const NormalLevel& level : levels_) {
-            PackedLevel packed = packLevel(level, options_, parallel_);
-            if (texture.levels.empty())
-                takeError(measureFiltered(truth_.normals.empty() ? level : truth_, packed.texels, true, parallel_));
-            texture.levels.push_back(std::move(packed.bytes));
-        }
-        report_.output_bytes = addTexture(texture, container_, output_, files);
-    }
-
-    void takeError(const FilteredError& error) {
-        report_.mean_error_deg = error.mean_deg;
-        report_.p99_error_deg = error.p99_deg;
-        report_.max_error_deg = error.max_deg;
-        report_.max_error_x = error.max_x;
-        report_.max_error_y = error.max_y;
+        const std::optional<Texture> texture = packLevels(map_, options_, parallel_, report_);
+        if (!texture) failAstcenc();
+        report_.output_bytes = addTexture(*texture, container_, output_, files);
     }
 
     std::uint64_t addTexture(const Texture& texture, Container container, const std::string& output,
@@ -266,25 +134,20 @@ class MapCompression {
         report_.format = options_.bits == 8 ? "PNG of 8 bits" : "PNG of 16 bits";
         const float most = options_.bits == 8 ? 255.0F : 65535.0F;
         const auto rounded = [&](float part) { return std::floor((0.5F * part + 0.5F) * most + 0.5F) / most; };
-        for (std::size_t i = 0; i < levels_.size(); ++i) {
-            FloatImage image{levels_[i].width, levels_[i].height, options_.bits, {}, {}};
-            for (const Vec3& normal : levels_[i].normals)
+        for (std::size_t i = 0; i < map_.levels.size(); ++i) {
+            const NormalLevel& level = map_.levels[i];
+            FloatImage image{level.width, level.height, options_.bits, {}, {}};
+            for (const Vec3& normal : level.normals)
                 image.texels.push_back({rounded(normal.x), rounded(normal.y), rounded(normal.z)});
             report_.output_bytes += addPng(image, options_.bits, levelPath(output_, input_, i), files);
             if (i > 0) continue;
             for (Vec3& texel : image.texels) texel = 2.0F * texel - Vec3{1, 1, 1};
-            takeError(measureFiltered(levels_[0], image.texels, false, parallel_));
+            keepError(measureFiltered(level, image.texels, false, parallel_), report_);
         }
     }
 
     void writeRoughness(const RoughnessLevel& first, AtomicOutput& files) {
-        std::vector<RoughnessLevel> levels =
-            makeRoughnessLevels(first, static_cast<float>(options_.roughness_factor), levels_, parallel_);
-        double sum = 0;
-        for (const Vec3& texel : first.texels) sum += static_cast<double>(texel.y);
-        report_.mean_roughness = options_.roughness_factor * sum / static_cast<double>(first.texels.size());
-        report_.mean_widened_roughness = static_cast<double>(levels.back().texels.front().y);
-        if (!options_.levels) levels.resize(1);
+        std::vector<RoughnessLevel> levels = makeRoughness(first, options_, map_, parallel_, report_);
         const std::string& output = options_.roughness_output;
         if (roughness_container_ == Container::png || roughness_container_ == Container::folder) {
             const bool is_folder = roughness_container_ == Container::folder;
@@ -301,16 +164,7 @@ class MapCompression {
             }
             return;
         }
-        Texture texture{.width = first.width, .height = first.height, .kind = TexelKind::rgba8, .levels = {}};
-        for (const RoughnessLevel& level : levels) {
-            std::vector<std::uint8_t>& bytes = texture.levels.emplace_back();
-            bytes.reserve(4 * level.texels.size());
-            for (const Vec3& texel : level.texels) {
-                for (const float part : {texel.x, texel.y, texel.z, 1.0F})
-                    bytes.push_back(static_cast<std::uint8_t>(std::clamp(part, 0.0F, 1.0F) * 255 + 0.5F));
-            }
-        }
-        report_.roughness_bytes = addTexture(texture, roughness_container_, output, files);
+        report_.roughness_bytes = addTexture(roughnessTexture(levels), roughness_container_, output, files);
     }
 
     const std::string &input_, &output_;
@@ -318,8 +172,7 @@ class MapCompression {
     Parallel parallel_;
     InputFiles inputs_ = {};
     Container container_ = Container::ktx2, roughness_container_ = Container::png;
-    std::vector<NormalLevel> levels_ = {};
-    NormalLevel truth_ = {};  ///< the first level before vectors were laid on the horizon; empty where none were
+    MapLevels map_ = {};
     CompressMapFileReport report_ = {};
 };
 
@@ -338,7 +191,7 @@ std::vector<std::uint8_t> packTexture(const std::string& name, std::uint32_t wid
     Parallel parallel(execution);
     Texture texture{.width = width, .height = height, .kind = TexelKind::bc5, .levels = {}};
     for (const NormalLevel& level : makeNormalLevels(std::move(first), parallel))
-        texture.levels.push_back(packLevel(level, {}, parallel).bytes);
+        texture.levels.push_back(packLevel(level, {}, parallel)->bytes);
     if (lowerExtension(name) == ".dds") return writeDds(texture);
     std::optional<std::vector<std::uint8_t>> file = writeKtx2(texture);
     if (!file) failFile(ErrorCode::outOfMemory, "the levels cannot be packed");
@@ -389,7 +242,7 @@ Option factorOption(double& factor) {
     Option option = options::option("--roughness-factor", "NUMBER", take,
                                     "The material's roughnessFactor, which becomes a part of the texture: set it to 1 "
                                     "in the material then.");
-    option.default_text = "1";
+    option.default_text = std::string("1");  // GCC 12 warns of a literal here
     option.needs = "--roughness";
     return option;
 }

@@ -10,6 +10,7 @@
 #include "commands/shared/file_options.h"
 #include "commands/shared/map_image_file.h"
 #include "commands/shared/request.h"
+#include "commands/shared/texture_vectors.h"
 #include "maps/shading.h"
 #include "maps/texture_sample.h"
 #include "model/io/atomic_output.h"

@@ -8,6 +8,7 @@
 
 #include "commands/generate/map_references.h"
 #include "commands/shared/map_image_file.h"
+#include "commands/shared/texture_vectors.h"
 #include "maps/convert_texel.h"
 #include "maps/uv_coverage.h"
 #include "model/gltf/material_needs.h"

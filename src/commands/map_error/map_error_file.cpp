@@ -7,6 +7,7 @@
 #include "commands/bake/model_surfaces.h"
 #include "commands/map_error/map_error_report.h"
 #include "commands/shared/map_image_file.h"
+#include "commands/shared/texture_vectors.h"
 #include "core/base/numbers.h"
 #include "maps/shading.h"
 #include "model/io/atomic_output.h"

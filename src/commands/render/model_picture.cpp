@@ -10,6 +10,7 @@
 #include "commands/generate/flip_maps.h"
 #include "commands/shared/map_image_file.h"
 #include "commands/shared/picture/colors.h"
+#include "commands/shared/texture_vectors.h"
 #include "commands/shared/uv_reading.h"
 #include "core/base/vec_math.h"
 #include "core/mesh/surface/surface.h"

@@ -336,24 +336,6 @@ void writeMapImage(const FloatImage& image, ImageFormat format, unsigned bits, c
     files.commit();
 }
 
-std::string readTextureVectors(FloatImage& image) {
-    const MapLayout layout = image.texture.layout;
-    if (layout == MapLayout{}) return {};
-    const auto readsAlpha = [](const MapComponent& component) { return component.channel == MapChannel::alpha; };
-    for (std::size_t i = 0; i < image.texels.size(); ++i)
-        image.texels[i] = readTexel(image.texels[i], image.alpha.empty() ? 1 : image.alpha[i], layout);
-    if (readsAlpha(layout.x) || readsAlpha(layout.y)) image.alpha.clear();
-    image.texture.layout = {};
-    constexpr const char* kNames[] = {"red", "green", "blue", "alpha", ""};
-    const auto nameOf = [&](const MapComponent& component) {
-        return kNames[static_cast<std::size_t>(component.channel)];
-    };
-    const std::string where = std::string("x is read from ") + nameOf(layout.x) + " and y from " + nameOf(layout.y) +
-                              (layout.z.channel == MapChannel::none ? ", and z is made of them" : "");
-    return "the map is " + image.texture.name +
-           (image.texture.is_guessed ? ", whose texels look as if it held x and y alone: " : ": ") + where;
-}
-
 bool isGreyImage(const FloatImage& image) {
     return isGrey(image.texels.size(), [&](std::size_t i) {
         const Vec3& texel = image.texels[i];

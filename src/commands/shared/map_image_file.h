@@ -72,10 +72,6 @@ std::optional<std::vector<std::uint8_t>> encodeByName(const std::string& name, c
 void writeMapImage(const FloatImage& image, ImageFormat format, unsigned bits, const std::string& output,
                    const OutputWay& way);
 
-/// Where the format of a texture file (KTX2, DDS) has x and y alone, or its texels look so: puts x, y and a z made of them in red,
-/// green and blue. Gives one sentence that says so; empty where nothing is done.
-std::string readTextureVectors(FloatImage& image);
-
 /// Whether the channels of all texels are equal, or nearly: a height map, or an image without colors.
 bool isGreyImage(const FloatImage& image);
 /// The mean of the three channels.

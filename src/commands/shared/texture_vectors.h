@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+// Texture files as normal maps: two channels become vectors.
+#pragma once
+
+#include <string>
+
+#include "images/float_image.h"
+
+namespace tspace {
+
+/// Where the format of a texture file (KTX2, DDS) has x and y alone, or its texels look so: puts x, y and a z made of them in red,
+/// green and blue. Gives one sentence that says so; empty where nothing is done.
+std::string readTextureVectors(FloatImage& image);
+
+}  // namespace tspace
