@@ -89,6 +89,18 @@ TEST_F(BakePairs, NamesInATableStayInTheFolderOfTheOutput) {
     EXPECT_TRUE(std::filesystem::exists(folder.path() / "in/two/sub/deep.png")) << "models may lie anywhere";
 }
 
+TEST_F(BakePairs, LowPolysOfOneNameInTwoFoldersTakeNamesOfTheirOwn) {
+    folder.write("t/a/low.obj", folder.read("low.obj"));
+    folder.write("t/table.txt", "# props\nlow.obj = high.obj\na/low.obj = high.obj\n");
+    const ToolRun run = runTool(folder, "bake --pairs t/table.txt -o two --size 32");
+    EXPECT_EQ(run.exit_code, 2);
+    EXPECT_EQ(run.errorLines(), 1) << run.err;
+    EXPECT_NE(run.err.find("lines 2 and 3"), std::string::npos) << run.err;
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "two")) << "nothing is baked";
+    folder.write("t/table.txt", "low.obj = high.obj\na/low.obj = high.obj = a/low.png\n");
+    EXPECT_EQ(pairs("--pairs t/table.txt -o two")["pairs"].size(), 2U);
+}
+
 TEST_F(BakePairs, TablesThatMakeNoSenseAreOneLine) {
     for (const auto& [table, code] :
          {std::pair("low.obj\n", 3), std::pair("low.obj = high.obj = a.png = b\n", 3), std::pair("= high.obj\n", 3),

@@ -6,6 +6,7 @@
 #include <atomic>
 #include <chrono>
 #include <filesystem>
+#include <map>
 #include <mutex>
 #include <optional>
 #include <string_view>
@@ -35,6 +36,7 @@ std::string below(const Path& folder, const std::string& name) { return Path(fs:
 /// A line of the table.
 struct Pair {
     Job job = {};
+    std::size_t line = 0;
     std::string high = {}, model = {};  ///< `model`: where the low poly goes with its maps; or empty
 };
 
@@ -64,6 +66,7 @@ std::vector<Pair> readTable(const BakePairsArguments& arguments) {
             failFile(ErrorCode::forbiddenPath, "line " + std::to_string(number) + ": the output " + inQuotes(words[2]) +
                                                    " does not lie in the folder that -o names");
         Pair& pair = pairs.emplace_back();
+        pair.line = number;
         pair.job.name = words[0];
         pair.job.input = below(folder, words[0]);
         pair.high = below(folder, words[1]);
@@ -73,6 +76,18 @@ std::vector<Pair> readTable(const BakePairsArguments& arguments) {
     }
     if (pairs.empty()) failFile(ErrorCode::invalidFile, "there is no line LOW = HIGH");
     return pairs;
+}
+
+/// A sentence where two lines name the same output, or nothing.
+std::string sharedOutput(const std::vector<Pair>& pairs) {
+    std::map<std::string, std::size_t> lines;
+    for (const Pair& pair : pairs) {
+        const auto [first, is_new] = lines.emplace(pair.job.output, pair.line);
+        if (!is_new)
+            return "lines " + std::to_string(first->second) + " and " + std::to_string(pair.line) +
+                   " of the table both bake " + pair.job.output + "; LOW = HIGH = NAME gives one of them another name";
+    }
+    return {};
 }
 
 class PairsRun {
@@ -216,6 +231,7 @@ ExitCode runBakePairs(const BakePairsArguments& arguments) {
     std::vector<Pair> pairs;
     if (const std::optional<Error> failure = tryFile([&] { pairs = readTable(arguments); }))
         return printError(arguments.table, *failure);
+    if (const std::string shared = sharedOutput(pairs); !shared.empty()) return printUsageError(shared);
     std::vector<std::string> outputs = {arguments.batch.manifest, arguments.report}, inputs = {arguments.table};
     for (const Pair& pair : pairs) {
         outputs.insert(outputs.end(), {pair.job.output, pair.model});
