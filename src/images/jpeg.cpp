@@ -20,6 +20,8 @@ using Decompressor = std::unique_ptr<void, Destroy>;
 struct JpegHead {
     ImageSize size = {};  ///< 0: broken
     int color_space = 0;
+
+    [[nodiscard]] bool isForPrint() const { return color_space == TJCS_CMYK || color_space == TJCS_YCCK; }
 };
 
 JpegHead readHead(const Decompressor& decompressor, ByteSpan bytes) {
@@ -48,6 +50,10 @@ std::optional<RgbImage> decodeJpeg(ByteSpan bytes, std::uint64_t most_pixels, st
     const Decompressor decompressor(tjInitDecompress());
     const JpegHead head = readHead(decompressor, bytes);
     if (head.size.pixels() == 0 || isTooLarge(head.size, bytes.size(), most_pixels, why)) return {};
+    if (head.isForPrint()) {
+        why = "it is a JPEG for print (CMYK), which is not read";
+        return {};
+    }
     RgbImage image{head.size.width, head.size.height, {}};
     if (!decompress(decompressor, bytes, head.size, image.rgb)) return {};
     return image;
@@ -60,7 +66,7 @@ Result<ChannelImage> readJpegPixels(ByteSpan bytes) {
     if (head.color_space == TJCS_GRAY) {
         return Error{ErrorCode::unsupportedFile, "it is a grey JPEG, which has no green channel of its own"};
     }
-    if (head.color_space == TJCS_CMYK || head.color_space == TJCS_YCCK) {
+    if (head.isForPrint()) {
         return Error{ErrorCode::unsupportedFile, "it is a JPEG for print (CMYK)"};
     }
     ChannelImage image{head.size.width, head.size.height, 3, {}};

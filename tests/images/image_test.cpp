@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "images/images.h"
+#include "images/textures.h"
 
 namespace tspace::test {
 namespace {
@@ -75,6 +76,10 @@ TEST(DecodeImage, SaysWhyItDoesNotLook) {
     EXPECT_EQ(whyNot("DDS |"), "it is a broken DDS");
     EXPECT_EQ(whyNot(png.substr(0, png.size() / 2)), "it is a broken PNG");
     EXPECT_EQ(whyNot(jpeg.substr(0, 10)), "it is a broken JPEG");
+    // A head of four components.
+    EXPECT_EQ(whyNot(bytesOfHex("ffd8ffc0001408000800080401110002110003110004110"
+                                "0ffda000e0401000200030004000003f000000")),
+              "it is a JPEG for print (CMYK), which is not read");
 }
 
 TEST(DecodeImage, RefusesAFewBytesThatClaimManyPixels) {

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "images/codecs.h"
 #include "images/float_image.h"
 #include "images/images.h"
 #include "images/known_blocks.h"
@@ -342,6 +343,24 @@ TEST(Texture, RefusesAFewBytesThatClaimManyPixels) {
     EXPECT_EQ(whyNot(ktx2File(parts), std::uint64_t{1} << 40), "it claims far more pixels than its bytes can hold");
     EXPECT_EQ(whyNot(ddsFile(83, 1 << 20, 1 << 20, std::string(64, 'x')), std::uint64_t{1} << 60),
               "it is a broken DDS");
+}
+
+TEST(Texture, ReadsTheLevelThatIsAskedFor) {
+    // Red tells levels apart; 4 x 2, 2 x 1 and 1 x 1 texels of two bytes.
+    const std::vector<std::string> levels = {std::string(16, '\x10'), std::string(4, '\x20'), std::string(2, '\x30')};
+    const std::string ktx2 = ktx2File({.format = 16, .width = 4, .height = 2, .levels = levels});
+    for (std::size_t level = 0; level < levels.size(); ++level) {
+        std::string why;
+        const std::optional<FloatImage> image = decodeFloatTexture(bytesOf(ktx2), 1 << 20, why, level);
+        ASSERT_TRUE(image) << why;
+        EXPECT_EQ(image->width, 4U >> level);
+        EXPECT_EQ(image->height, level == 0 ? 2U : 1U);
+        EXPECT_FLOAT_EQ(image->texels.back().x, static_cast<float>(0x10 * (level + 1)) / 255);
+    }
+    std::string why;
+    EXPECT_FALSE(decodeFloatTexture(bytesOf(ktx2), 1 << 20, why, 3));
+    EXPECT_EQ(why, "it has no level 3; its last one is 2");
+    EXPECT_FALSE(decodeFloatTexture(bytesOf(ktx2), 0, why, 2));
 }
 
 TEST(Texture, TurnsAndSwizzlesAsTheFileSays) {
