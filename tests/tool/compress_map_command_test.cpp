@@ -347,5 +347,30 @@ TEST(CompressMapCommand, SaysWhatTwoChannelsDoNotHold) {
     }
 }
 
+/// Texels that lean to all sides, as long as `sizes` says in turns.
+std::string vectorsOfSizes(std::array<double, 2> sizes) {
+    FloatImage image{64, 64, 8, {}, {}};
+    for (std::uint32_t i = 0; i < 64 * 64; ++i) {
+        const double x = 0.4 * std::sin(0.3 * (i % 64)), y = 0.3 * std::sin(0.2 * (i / 64)), size = sizes[i % 2];
+        image.texels.push_back({static_cast<float>(0.5 + 0.5 * size * x), static_cast<float>(0.5 + 0.5 * size * y),
+                                static_cast<float>(0.5 + 0.5 * size * std::sqrt(1 - x * x - y * y))});
+    }
+    const auto file = encodePng(image, 8);
+    return {file->begin(), file->end()};
+}
+
+TEST(CompressMapCommand, DoubtsVectorsThatNoNormalMapHasAndNotThoseOfOurMapsOf8Bits) {
+    const TempFolder folder;
+    folder.write("free.png", vectorsOfSizes({0.7, 1.1}));
+    folder.write("other.png", vectorsOfSizes({0.5, 1}));
+    const Json of_ours = reportOf(folder, "free.png -o n.dds"), of_other = reportOf(folder, "other.png -o n.dds");
+    EXPECT_GT(of_ours["notUnit"], 1000);
+    EXPECT_TRUE(of_ours["warnings"].empty()) << of_ours["warnings"];
+    ASSERT_EQ(of_other["warnings"].size(), 1u);
+    EXPECT_NE(of_other["warnings"][0].get<std::string>().find("2048 of 4096 texels are no unit vectors"),
+              std::string::npos)
+        << of_other["warnings"];
+}
+
 }  // namespace
 }  // namespace tspace::test

@@ -12,13 +12,16 @@
 namespace tspace {
 namespace {
 
-/// Unit vectors, and how many texels of the image were none or look below the horizon.
-NormalLevel normalsOf(const FloatImage& image, CompressMapFileReport& report) {
-    constexpr double kMostOff = 0.1;
+/// Unit vectors, and how many texels of the image were none or look below the horizon. `far_off`: how many are so far from unit that no
+/// normal map has them: `bake --lengths free` and `convert-map --bits 8` write lengths from .7 to 1.1, rounded.
+NormalLevel normalsOf(const FloatImage& image, std::uint64_t& far_off, CompressMapFileReport& report) {
+    constexpr double kMostOff = 0.1, kShortest = 0.65, kLongest = 1.15;
     NormalLevel level{image.width, image.height, std::vector<Vec3>(image.texels.size()), {}};
     for (std::size_t i = 0; i < image.texels.size(); ++i) {
         DVec3 vector = decodeTexel(image.texels[i], {});
-        if (std::fabs(length(vector) - 1) > kMostOff) ++report.not_unit;
+        const double size = length(vector);
+        if (std::fabs(size - 1) > kMostOff) ++report.not_unit;
+        if (size < kShortest || size > kLongest) ++far_off;
         if (vector.z < 0) ++report.below_horizon;
         level.normals[i] = normalize(vector) ? toFloat(vector) : Vec3{0, 0, 1};
     }
@@ -63,15 +66,15 @@ std::optional<PackedLevel> packByAstcenc(const NormalLevel& level, TextureQualit
     return packed;
 }
 
-void addWarnings(const FloatImage& image, const CompressMapFileOptions& options, bool has_three,
+void addWarnings(const FloatImage& image, std::uint64_t far_off, const CompressMapFileOptions& options, bool has_three,
                  CompressMapFileReport& report) {
     const auto warn = [&](std::string text) { report.warnings.push_back(std::move(text)); };
     const std::uint64_t total = image.texels.size();
     if (!image.alpha.empty()) warn("the image has alpha, which is left out");
     if (report.below_horizon > 0 && !has_three)
         warn(std::to_string(report.below_horizon) + " texels look below the horizon, which two channels cannot say");
-    if (report.not_unit > total / 10)
-        warn(std::to_string(report.not_unit) + " of " + std::to_string(total) +
+    if (far_off > total / 10)
+        warn(std::to_string(far_off) + " of " + std::to_string(total) +
              " texels are no unit vectors: is it a normal map in tangent space?");
     if (has_three) {
         if (options.format != TextureFormat::bc5 || options.is_signed)
@@ -130,8 +133,9 @@ void beginReport(FloatImage& image, CompressMapFileReport& report) {
 MapLevels makeMapLevels(FloatImage image, const CompressMapFileOptions& options, bool has_roughness, bool has_three,
                         Parallel& parallel, CompressMapFileReport& report) {
     MapLevels made;
-    NormalLevel first = normalsOf(image, report);
-    addWarnings(image, options, has_three, report);
+    std::uint64_t far_off = 0;
+    NormalLevel first = normalsOf(image, far_off, report);
+    addWarnings(image, far_off, options, has_three, report);
     image = {};
     if (report.below_horizon > 0 && !has_three) {
         made.truth = first;
