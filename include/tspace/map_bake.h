@@ -6,6 +6,7 @@
 #pragma once
 
 #include "tspace/map_error.h"
+#include "tspace/texel_lengths.h"
 
 namespace tspace {
 
@@ -24,12 +25,6 @@ enum class MapOverlap : std::uint32_t {
     mean = 0,    ///< the mean of all: equally wrong on each
     first = 1,   ///< those of the piece whose triangles come first in the mesh
     larger = 2,  ///< those of the piece with the larger surface
-};
-
-/// How long the vectors of maps of 8 bits may be, of which there are so few that a longer or shorter one often points better.
-enum class TexelLengths : std::uint32_t {
-    even = 0,  ///< 0.9 to 1: means of several texels, as in smaller levels, are nearly as right as those of 16 bits
-    free = 1,  ///< 0.7 to 1.1: the first level errs by up to a third less, and smaller ones lean to the longer texels
 };
 
 struct BakeOptions {

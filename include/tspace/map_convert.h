@@ -13,6 +13,7 @@
 #include "tspace/map_reading.h"
 #include "tspace/result.h"
 #include "tspace/span.h"
+#include "tspace/texel_lengths.h"
 
 namespace tspace {
 
@@ -33,9 +34,11 @@ struct MapSide {
 };
 
 struct ConvertMapOptions {
-    /// 8 or 16: texels that change are numbers n / (2^bits - 1), n whole. With 8 the length of each is chosen such that it
-    /// points as well as it can, 0.7 at least, and closer to what it was where the texels around point elsewhere. 32: as computed.
+    /// 8 or 16: texels that change are numbers n / (2^bits - 1), n whole. 32: as computed.
     unsigned bits = 16;
+    /// With 8 bits and three channels, of vectors that had such lengths. Others keep theirs, within a twentieth, and so do those
+    /// beside vectors over 9 degrees away.
+    TexelLengths lengths = TexelLengths::even;
     /// Texels around the triangles that are converted with the nearest one. 0: those alone that bilinear filtering reads.
     std::uint32_t padding = 0;
 };
@@ -69,7 +72,8 @@ struct ConvertMapReport {
 ///
 /// - Texels keep their lengths, but for those that would not fit, and with 8 bits.
 /// - With 16 bits between tangent and object space, lengths change by up to half a hundredth such that vectors point better, and
-///   neighbours make good under the filter what is rounded off. Otherwise a channel goes to the nearest integer.
+///   neighbours make good under the filter what is rounded off. So they do with 8 bits and three channels, where lengths change as
+///   `lengths` says. Otherwise a channel goes to the nearest integer.
 /// - Sides that read a texel alike leave it as it is, bit for bit; where only green differs it becomes 1 - G exactly.
 /// - Without a mesh on both sides, readings alone are converted, of all texels; they may differ in green, scale and channels.
 /// - With a mesh on one side, the other side is in object space, or has the same frames.
@@ -79,7 +83,7 @@ struct ConvertMapReport {
 /// Errors: nullData, countMismatch, strideTooSmall, misaligned, invalidOption (bits; a scale that is 0 or not finite),
 /// missingAttribute (a mesh, normals or tangents that are needed), tooLarge (more than 2^32 texels, or UVs that show the image
 /// far too often), outOfMemory, cancelled. Time: linear. Memory: about 30 bytes a texel, 55 with 16 bits between
-/// tangent and object space. The same bits for any number of threads. Thread-safe.
+/// tangent and object space, 45 and 20,000 a column with 8 bits. The same bits for any number of threads. Thread-safe.
 Result<ConvertMapReport> convertMap(const MapImage& map, const MapSide& from, const MapSide& to,
                                     const ConvertMapOptions& options, std::span<Vec3> out,
                                     const Execution& execution = {}, const Progress& progress = {});

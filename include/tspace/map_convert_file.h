@@ -36,7 +36,8 @@ struct ConvertMapFileOptions {
     MapLayout layout = {};
     /// Bits of a channel: 8 or 16 in a PNG; 16 (half) or 32 (float) in an EXR. 0: the most that the format has.
     unsigned bits = 0;
-    std::uint32_t padding = 0;  ///< ConvertMapOptions::padding
+    TexelLengths lengths = TexelLengths::even;  ///< ConvertMapOptions::lengths
+    std::uint32_t padding = 0;                  ///< ConvertMapOptions::padding
     /// For meshes without tangents, which get them as generateFile gives them.
     TangentOptions tangents{.convention = conventions::gltf};
     /// How models and the image are read. A limit on memory counts for the image too; without one, images of up to 2^24

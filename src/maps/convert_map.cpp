@@ -11,6 +11,7 @@
 #include "core/base/sort.h"
 #include "core/base/unique_index.h"
 #include "core/base/vec_math.h"
+#include "maps/choose_lengths.h"
 #include "maps/convert_texel.h"
 #include "maps/map_surfaces.h"
 #include "maps/solve_texels.h"
@@ -169,11 +170,10 @@ class Conversion {
             }
         }
         const std::size_t texels = map_.texels.size(), tasks = (texels + kTexelsOfTask - 1) / kTexelsOfTask;
-        if (options_.bits == 8) findSpreads();
         if (from_.space == MapSpace::tangent && to_.space == MapSpace::object && places_.counts.overlapping > 0)
             countConflicts();
-        if (options_.bits == 16 && from_.space != to_.space) {
-            vectors_ = Buffer<Vec3>(allocator_, texels);
+        if (choosesTogether()) {
+            vectors_ = Buffer<Vec3>(allocator_, texels, Vec3{});
             keeps_ = Buffer<bool>(allocator_, texels, true);
         }
         Buffer<Sums> sums(allocator_, tasks, Sums{});
@@ -188,7 +188,7 @@ class Conversion {
         }
         Sums all;
         for (const Sums& part : sums) all.add(part);
-        if (vectors_.size() > 0) all.changed = roundTogether();
+        if (vectors_.size() > 0) all.changed = chooseTogether(all.changed);
         return reportOf(all);
     }
 
@@ -215,46 +215,31 @@ class Conversion {
         return true;
     }
 
-    /// Computed from the input before any texel is written: `out_` may be the input.
-    void findSpreads() {
-        const std::size_t rows = map_.height;
-        spreads_ = Buffer<float>(allocator_, map_.texels.size());
-        parallel_.forRanges(rows, 16, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t y = begin; y < end; ++y) {
-                for (std::size_t x = 0; x < map_.width; ++x) spreads_[y * map_.width + x] = spreadAt(x, y);
-            }
-        });
+    /// Whether integers are chosen such that neighbours make good what is rounded off: where vectors lie anywhere between
+    /// integers, as those from another space do, and where integers are few. The third of two channels follows from x and y.
+    [[nodiscard]] bool choosesTogether() const {
+        return options_.bits == 16 ? from_.space != to_.space : options_.bits == 8 && !to_.reading.two_channels;
     }
 
-    /// Root of the mean square of the angles to the four texels around, or nearly.
-    [[nodiscard]] float spreadAt(std::size_t x, std::size_t y) const {
-        const auto at = [&](std::int64_t column, std::int64_t row) {
-            const std::size_t wrapped = wrappedTexel(column, map_.width, map_.wrap_u) +
-                                        std::size_t{wrappedTexel(row, map_.height, map_.wrap_v)} * map_.width;
-            DVec3 direction = decodeTexel(map_.texels[wrapped], readingOf(from_));
-            return normalize(direction) ? direction : DVec3{};
-        };
-        const auto column = static_cast<std::int64_t>(x), row = static_cast<std::int64_t>(y);
-        const DVec3 here = at(column, row);
-        double sum = 0;
-        for (const auto& [right, below] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {
-            const DVec3 apart = at(column + right, row + below) - here;
-            sum += dot(apart, apart);
-        }
-        return std::isfinite(sum) ? static_cast<float>(std::sqrt(sum / 4)) : 0.0F;
-    }
-
-    /// Vectors from another space lie anywhere between integers: rounding is chosen so that neighbours compensate each
-    /// other's errors. Returns how many texels changed.
-    std::uint64_t roundTogether() {
+    /// `changed`: how many texels are others already. Returns how many are then.
+    std::uint64_t chooseTogether(std::uint64_t changed) {
         const std::span<Vec3> vectors(vectors_.data(), vectors_.size());
-        roundTexels(vectors, map_.width,
-                    {.keeps_lengths = to_.reading.two_channels, .keeps = {keeps_.data(), keeps_.size()}}, parallel_,
-                    allocator_);
-        std::uint64_t changed = 0;
+        const std::span<const bool> keeps(keeps_.data(), keeps_.size());
+        if (options_.bits == 16) {
+            roundTexels(vectors, map_.width, {.keeps_lengths = to_.reading.two_channels, .keeps = keeps}, parallel_,
+                        allocator_);
+        } else {
+            chooseLengths({.vectors = vectors,
+                           .keeps = keeps,
+                           .width = map_.width,
+                           .wrap_u = map_.wrap_u,
+                           .wrap_v = map_.wrap_v,
+                           .scale = to_.reading.scale},
+                          options_.lengths, parallel_, allocator_);
+        }
         for (std::size_t i = 0; i < vectors.size(); ++i) {
             if (keeps_[i]) continue;
-            const Vec3 texel = channelsOf(toDouble(vectors[i]), {.bits = 16});
+            const Vec3 texel = channelsOf(toDouble(vectors[i]), {.bits = options_.bits});
             changed += texel == out_[i] ? 0 : 1;
             out_[i] = texel;
         }
@@ -278,23 +263,23 @@ class Conversion {
                 return;
             }
         }
-        const double spread = spreads_.size() == 0 ? 0 : static_cast<double>(spreads_[texel]);
-        const bool is_rounded_later = vectors_.size() > 0;
+        const bool is_chosen_later = vectors_.size() > 0;
         const auto converted = convertTexel(before, from, readingOf(from_), to, readingOf(to_),
-                                            {.bits = is_rounded_later ? 32 : options_.bits, .spread = spread});
+                                            {.bits = options_.bits, .are_chosen = is_chosen_later});
         if (!converted) {
             ++sums.without_frame;
             return;
         }
-        if (is_rounded_later) {
+        if (is_chosen_later) {
             const Vec3& channels = converted->texel;
             vectors_[texel] = {2 * channels.x - 1, 2 * channels.y - 1, 2 * channels.z - 1};
-            keeps_[texel] = channels == before;
-        } else {
+            keeps_[texel] = converted->stays;
+        }
+        if (!is_chosen_later || converted->stays) {
             out_[texel] = converted->texel;
+            sums.changed += converted->texel == before ? 0 : 1;
         }
         ++sums.converted;
-        sums.changed += converted->texel == before ? 0 : 1;
         sums.below_horizon += converted->is_below_horizon ? 1 : 0;
         sums.change += converted->change_deg;
         sums.most_change = std::max(sums.most_change, converted->change_deg);
@@ -392,10 +377,9 @@ class Conversion {
     const MapSide &main_, &other_;  ///< texels go by the triangles of the first
     CornerTriangles main_corners_, other_corners_;
     TexelTriangles places_ = {}, other_places_ = {};
-    /// With 16 bits from space to space: vectors as computed, and which texels stay as they are.
+    /// Where integers are chosen together: vectors as computed, and which texels stay as they are by then.
     Buffer<Vec3> vectors_ = {};
     Buffer<bool> keeps_ = {};
-    Buffer<float> spreads_ = {};  ///< TexelNumbers::spread of each texel, with 8 bits
     std::uint64_t conflict_count_ = 0;
     double size_ = 0;                     ///< of the mesh, where both sides have positions
     Buffer<std::uint32_t> matches_ = {};  ///< triangles of the other side, by those of the main one

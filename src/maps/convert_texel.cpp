@@ -17,14 +17,6 @@ namespace {
 /// double.
 constexpr double kSameVector = 1e-7;
 
-/// Lengths that texels of 8 bits may have.
-constexpr double kLeastLength = 0.7;
-
-/// Weight of an error in length beside an error in angle: under the bilinear filter an angle of one texel is an error
-/// of 2/3 of it (root of the mean square over the texels around), a length one of about 0.2 times the angle between
-/// neighbours.
-constexpr double kLengthBesideAngle = 0.3;
-
 bool isOnGrid(float channel, unsigned most) {
     const double scaled = static_cast<double>(channel) * most;
     // A float n / most is off by half a unit in its last place, and by somewhat more after 1 - n / most.
@@ -41,22 +33,15 @@ bool isOnGrid(const Vec3& texel, const TexelNumbers& numbers) {
 Vec3 storedTexel(const DVec3& vector, const MapReading& reading, const TexelNumbers& numbers) {
     const DVec3 encoded = encodeTexel(vector, reading);
     DVec3 stored{2 * encoded.x - 1, 2 * encoded.y - 1, 2 * encoded.z - 1};
-    if (numbers.bits == 8) {
+    if (numbers.bits == 8 && !numbers.are_chosen) {
         DVec3 direction = stored;
-        const double size = length(stored);
-        if (normalize(direction)) {
-            stored = nearestIntegers({.most = numbers.most(),
-                                      .least_length = kLeastLength,
-                                      .is_two_channel = reading.two_channels,
-                                      .scale = reading.scale,
-                                      .wanted_length = std::clamp(size, kLeastLength, 1.0),
-                                      .length_cost = kLengthBesideAngle * numbers.spread},
-                                     direction);
-        }
+        if (normalize(direction))
+            stored = nearestIntegers(
+                {.most = numbers.most(), .is_two_channel = reading.two_channels, .scale = reading.scale}, direction);
     }
     const double largest = std::max({std::fabs(stored.x), std::fabs(stored.y), std::fabs(stored.z)});
     if (largest > 1) stored = (1 / largest) * stored;
-    return channelsOf(stored, numbers);
+    return channelsOf(stored, numbers.are_chosen ? TexelNumbers{.bits = 32} : numbers);
 }
 
 /// Whether a vector is stored alike, but for green.
@@ -92,7 +77,8 @@ std::optional<ConvertedTexel> convertTexel(const Vec3& texel, const ShadingFrame
     if (length(after - before) <= kSameVector * size && storesAlike(from_reading, to_reading)) {
         converted.texel = texel;
         if (from_reading.green != to_reading.green) converted.texel.y = 1 - texel.y;
-        if (isOnGrid(converted.texel, numbers)) return converted;
+        converted.stays = isOnGrid(converted.texel, numbers);
+        if (converted.stays) return converted;
     }
     if (to_reading.two_channels && after.z < 0) {
         after.z = 0;

@@ -16,9 +16,8 @@ namespace tspace {
 
 /// The numbers in which the output is stored.
 struct TexelNumbers {
-    unsigned bits = 16;  ///< 8, 16, or 32: no integers
-    /// With 8 bits: the angle to the texels around, in radians. Filtering gives a longer one more weight among them.
-    double spread = 0;
+    unsigned bits = 16;       ///< 8, 16, or 32: no integers
+    bool are_chosen = false;  ///< the integers are chosen later: what changes stays as it was computed
     [[nodiscard]] unsigned most() const { return (1U << bits) - 1; }  ///< of 8 or 16
 };
 
@@ -26,6 +25,7 @@ struct ConvertedTexel {
     Vec3 texel = {};
     double change_deg = 0;  ///< between what it shows, and what the texel before would show on the new side
     bool is_below_horizon = false;
+    bool stays = false;  ///< but for green: both sides read it alike, and integers stand for it
 };
 
 /// The nearest channels for a vector as an image stores it.

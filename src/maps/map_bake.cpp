@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "core/base/border.h"
+#include "maps/choose_lengths.h"
 #include "maps/map_surfaces.h"
 #include "maps/missed_cause.h"
 #include "maps/quantize.h"
@@ -25,15 +26,6 @@ constexpr std::uint32_t kFilterTexels = 2;
 /// Smaller images have texels that are their own neighbours.
 constexpr std::uint32_t kLeastSolved = 4;
 constexpr unsigned kIntegerRounds = 3;
-
-struct LengthRange {
-    float least = 0, most = 0;
-};
-
-/// Narrower ranges than `even` do no more for smaller levels, and cost the first one more: docs/bake-theory.md has the figures.
-LengthRange lengthRange(TexelLengths lengths) {
-    return lengths == TexelLengths::free ? LengthRange{0.7F, 1.1F} : LengthRange{0.9F, 1.0F};
-}
 
 class Baking {
   public:
@@ -129,10 +121,8 @@ class Baking {
         sharpenTexels(plan, texels, parallel_, allocator_);
         if (has_integers) {
             addSmoothCells(plan, texels, sampling.points, options_, parallel_, system);
-            const LengthRange range = lengthRange(options_.lengths);
-            const IntegerChoice choice{.least_length = range.least,
-                                       .most_length = range.most,
-                                       .is_two_channel = options_.reading.two_channels};
+            IntegerChoice choice = integerChoice(options_.lengths);
+            choice.is_two_channel = options_.reading.two_channels;
             chooseIntegers(system, choice, texels, kIntegerRounds, parallel_, allocator_);
             return;
         }
@@ -153,7 +143,7 @@ class Baking {
     }
 
     void takeNearest() {
-        const IntegerVectors numbers{.least_length = static_cast<double>(lengthRange(options_.lengths).least),
+        const IntegerVectors numbers{.least_length = static_cast<double>(integerChoice(options_.lengths).least_length),
                                      .is_two_channel = options_.reading.two_channels};
         Buffer<Vec3>& texels = traced_.wanted;
         parallel_.forRanges(texels.size(), 64, [&](std::size_t begin, std::size_t end) {

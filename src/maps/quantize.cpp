@@ -82,8 +82,7 @@ DVec3 nearestIntegers(const IntegerVectors& numbers, const DVec3& direction) {
             const DVec3 candidate{vector[0], vector[1], vector[2]};
             const double squared = dot(candidate, candidate);
             if (squared > 1 || squared < numbers.least_length * numbers.least_length) continue;
-            const double off = numbers.length_cost * (std::sqrt(squared) / numbers.wanted_length - 1);
-            const double error = distance(scaled(candidate, numbers.scale), seen) + off * off;
+            const double error = distance(scaled(candidate, numbers.scale), seen);
             if (!(error < least)) continue;
             least = error;
             best = candidate;

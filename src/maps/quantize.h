@@ -13,8 +13,6 @@ struct IntegerVectors {
     double least_length = 0.7;
     bool is_two_channel = false;  ///< z follows from x and y, whose vector is unit
     double scale = 1;             ///< readers multiply x and y by it
-    /// Another length than this counts as an angle of that many radians times the part that it is off. 0: any will do.
-    double wanted_length = 1, length_cost = 0;
 };
 
 /// Each component to the nearest that an integer stands for.

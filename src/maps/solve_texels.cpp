@@ -361,6 +361,36 @@ class IntegerTexel {
     float start_x_ = 0, slope_x_ = 0, start_y_ = 0, slope_y_ = 0;
 };
 
+/// What texels that are not chosen yet are taken to be long.
+float usualLength(const IntegerChoice& choice) { return (choice.least_length + choice.most_length) / 2; }
+
+bool keepsLength(const IntegerChoice& choice, const Vec3& wanted) {
+    // A unit vector may be longer by what its numbers are rounded.
+    constexpr float kSlack = 1e-5F;
+    return choice.keeps_lengths && std::fabs(length(wanted) - 1) > kSlack;
+}
+
+/// The choice is made plane by plane of z: of a vector that has most of its length along x or y that one takes its place.
+Vec3 bestIntegers(IntegerChoice choice, const SymmetricBlock& m, const Vec3& h, Vec3 wanted) {
+    if (keepsLength(choice, wanted)) {
+        const float size = length(wanted);
+        choice.least_length = std::max(0.95F * size, std::min(choice.least_length, size));
+        choice.most_length = std::min(1.05F * size, std::max(choice.most_length, size));
+    } else if (!choice.is_two_channel) {
+        wanted = usualLength(choice) * wanted;
+    }
+    const float x = std::fabs(wanted.x), y = std::fabs(wanted.y), z = std::fabs(wanted.z);
+    if (choice.is_two_channel || (z >= x && z >= y)) return IntegerTexel(choice, m, h).best(wanted);
+    if (x > y) {
+        const Vec3 best = IntegerTexel(choice, {m[3], m[4], m[1], m[5], m[2], m[0]}, {h.y, h.z, h.x})
+                              .best({wanted.y, wanted.z, wanted.x});
+        return {best.z, best.x, best.y};
+    }
+    const Vec3 best = IntegerTexel(choice, {m[5], m[2], m[4], m[0], m[1], m[3]}, {h.z, h.x, h.y})
+                          .best({wanted.z, wanted.x, wanted.y});
+    return {best.y, best.z, best.x};
+}
+
 /// The sample that holds an integer vector where no other sample constrains it.
 FitSample holdAt(const IntegerChoice& choice, const Vec3& wanted) {
     return choice.is_two_channel ? twoChannelSample(wanted) : acrossSample(wanted, 1e-6F, 0.95F);
@@ -371,17 +401,23 @@ FitSample holdAt(const IntegerChoice& choice, const Vec3& wanted) {
 void chooseIntegers(const TexelSystem& system, const IntegerChoice& choice, std::span<Vec3> texels, unsigned rounds,
                     Parallel& parallel, const Allocator* allocator) {
     const std::uint32_t width = system.width(), height = system.height();
-    // Texels that are not chosen yet are taken to have the usual length of a chosen one.
-    constexpr float kUsualLength = 0.9F;
-    if (!choice.is_two_channel) {
-        for (Vec3& texel : texels) texel = kUsualLength * texel;
-    }
     Buffer<Vec3> wanted(allocator, texels.size());
     std::copy(texels.begin(), texels.end(), wanted.begin());
+    const auto isFixed = [&](std::size_t row) { return row != 0 && !system.isUnknown(row); };
+    // Texels that are not chosen yet are taken to have the usual length of a chosen one.
+    if (!choice.is_two_channel) {
+        for (std::size_t i = 0; i < texels.size(); ++i) {
+            const auto x = static_cast<std::uint32_t>(i % width), y = static_cast<std::uint32_t>(i / width);
+            if (isFixed(system.rowOf(x, y)) || keepsLength(choice, texels[i])) continue;
+            texels[i] = usualLength(choice) * texels[i];
+        }
+    }
     const auto chooseRow = [&](std::uint32_t y) {
         for (std::uint32_t x = 0; x < width; ++x) {
             const std::size_t at = std::size_t{y} * width + x;
-            const TexelRow& row = system.row(system.rowOf(x, y));
+            const std::uint32_t number = system.rowOf(x, y);
+            if (isFixed(number)) continue;
+            const TexelRow& row = system.row(number);
             // A weak pull to its own direction, for texels that no sample constrains.
             DVec3 unit_wanted = toDouble(wanted[at]);
             if (!normalize(unit_wanted)) continue;
@@ -392,7 +428,7 @@ void chooseIntegers(const TexelSystem& system, const IntegerChoice& choice, std:
                 return texels[std::size_t{line} * width + column];
             });
             const Vec3 rest = around - row.side - kHold * hold.side;
-            texels[at] = IntegerTexel(choice, block, rest).best(wanted[at]);
+            texels[at] = bestIntegers(choice, block, rest, wanted[at]);
         }
     };
     for (unsigned round = 0; round < rounds; ++round) forRowsApart(parallel, height, chooseRow);

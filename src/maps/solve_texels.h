@@ -133,10 +133,11 @@ struct IntegerChoice {
     unsigned most = 255;
     float least_length = 0.7F, most_length = 1.1F;  ///< of vectors; no component may be over 1
     bool is_two_channel = false;                    ///< z follows from x and y, whose vector is unit
+    bool keeps_lengths = false;                     ///< a vector that is not unit keeps its length, within a twentieth
 };
 
 /// Makes of `texels` vectors that integers stand for, one after the other, such that what the samples ask is met as well as
-/// it can be with those around; `rounds` times. The same bits for any number of threads.
+/// it can be with those around; `rounds` times. Fixed ones stay. The same bits for any number of threads.
 void chooseIntegers(const TexelSystem& system, const IntegerChoice& choice, std::span<Vec3> texels, unsigned rounds,
                     Parallel& parallel, const Allocator* allocator);
 

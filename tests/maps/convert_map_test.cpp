@@ -350,6 +350,61 @@ TEST(ConvertMap, TakesTheBestLengthsWithEightBits) {
     for (const Vec3& texel : best) EXPECT_GE(length(decodeTexel(texel, {})), 0.69);
 }
 
+/// Angles between the means of n x n texels of two maps, in the mean over those whose texels the mesh shows.
+double meansApart(const std::vector<Vec3>& a, const std::vector<Vec3>& b, std::uint32_t n) {
+    double sum = 0;
+    int count = 0;
+    for (std::uint32_t y = 4; y + n <= kSize - 4; y += n) {
+        for (std::uint32_t x = 4; x + n <= kSize - 4; x += n) {
+            DVec3 of_a{}, of_b{};
+            for (std::uint32_t i = 0; i < n * n; ++i) {
+                const std::size_t texel = std::size_t{y + i / n} * kSize + x + i % n;
+                of_a = of_a + decodeTexel(a[texel], {});
+                of_b = of_b + decodeTexel(b[texel], {});
+            }
+            sum += degreesBetween(of_a, of_b);
+            ++count;
+        }
+    }
+    return sum / count;
+}
+
+// As baked ones do: with 8 bits means of texels are what smaller levels show.
+TEST(ConvertMap, EvenLengthsLeanLessInSmallerLevelsThanFreeOnes) {
+    const Corners from = cornersOf({}), to = cornersOf({.twist = 0.3, .lean = 0.2});
+    const auto texels = gentleTexels(), exact = converted(texels, from.side(), to.side(), {.bits = 32});
+    const auto even = converted(texels, from.side(), to.side(), {.bits = 8}),
+               free = converted(texels, from.side(), to.side(), {.bits = 8, .lengths = TexelLengths::free});
+    for (std::size_t i = 0; i < texels.size(); ++i) {
+        if (even[i] == texels[i]) continue;
+        EXPECT_TRUE(lengthOf(even[i]) > 0.8999 && lengthOf(even[i]) < 1.0001) << lengthOf(even[i]);
+        EXPECT_TRUE(lengthOf(free[i]) > 0.6999 && lengthOf(free[i]) < 1.1001) << lengthOf(free[i]);
+    }
+    EXPECT_LT(meansApart(exact, even, 4), 0.8 * meansApart(exact, free, 4));
+    EXPECT_LT(meansApart(exact, free, 1), 0.8 * meansApart(exact, even, 1));
+}
+
+// Neighbours make good under the filter what is rounded off, whichever way vectors point.
+TEST(ConvertMap, ChoosesIntegersOfEightBitsTogether) {
+    const MapAxes turns[] = {
+        {}, {{0, 1, 0}, {0, 0, 1}, {1, 0, 0}}, {{0, 0, 1}, {1, 0, 0}, {0, 1, 0}}, {{0, 0, -1}, {0, 1, 0}, {1, 0, 0}}};
+    const Corners mesh = cornersOf({.twist = 0.3, .lean = 0.2});
+    const auto texels = gentleTexels();
+    for (const MapAxes& turn : turns) {
+        const std::vector<MapAxes> axes(mesh.uvs.size() / 3, turn);
+        const MapSide object{.space = MapSpace::object, .axes = axes};
+        const auto exact = converted(texels, mesh.side(), object, {.bits = 32}),
+                   out = converted(texels, mesh.side(), object, {.bits = 8, .lengths = TexelLengths::free});
+        std::vector<Vec3> alone = exact;
+        for (Vec3& texel : alone) {
+            DVec3 direction = decodeTexel(texel, {});
+            normalize(direction);
+            texel = toFloat(0.5 * (nearestIntegers({}, direction) + DVec3{1, 1, 1}));
+        }
+        EXPECT_LT(meansApart(exact, out, 2), 0.75 * meansApart(exact, alone, 2));
+    }
+}
+
 // Filtering weighs texels by their lengths: where neighbours point elsewhere, another length is an error between them.
 TEST(ConvertMap, KeepsLengthsWithEightBitsWhereNeighboursPointElsewhere) {
     const Corners from = cornersOf({}), to = cornersOf({.twist = 0.3, .lean = 0.2});

@@ -17,7 +17,6 @@ constexpr Named<RayDirections> kDirections[] = {
     {"auto", RayDirections::automatic}, {"averaged", RayDirections::averaged}, {"normals", RayDirections::normals}};
 constexpr Named<MapOverlap> kOverlaps[] = {
     {"mean", MapOverlap::mean}, {"first", MapOverlap::first}, {"larger", MapOverlap::larger}};
-constexpr Named<TexelLengths> kLengths[] = {{"even", TexelLengths::even}, {"free", TexelLengths::free}};
 constexpr Named<unsigned> kMapBits[] = {{"8", 8}, {"16", 16}};
 
 constexpr Named<BakeIds> kIds[] = {
@@ -180,11 +179,7 @@ void addBakedMapOptions(OptionList& list, BakeFileOptions& options) {
         choice("--fit", "HOW", kFits, map.fit,
                "solve: all texels together, such that the filtered map is right between texels too; texel: each alone, "
                "right at its centre, which is faster."));
-    add(list, group,
-        choice(
-            "--lengths", "HOW", kLengths, map.lengths,
-            "Lengths of vectors in maps of 8 bits. even: 0.9 to 1, for textures whose smaller levels are made of the "
-            "map, as engines do; free: 0.7 to 1.1, which errs less close up, and more in smaller levels."));
+    addLengths(list, group, map.lengths);
     add(list, group,
         number("--padding", map.padding, kMostPadding,
                "Texels around the triangles that continue them, so that filters and smaller mip levels meet no "

@@ -257,7 +257,8 @@ ConvertMapFileReport convert(const std::string& input, const std::string& output
                        .texels = image.texels,
                        .wrap_u = any == nullptr ? TextureWrap::repeat : any->wrap_u,
                        .wrap_v = any == nullptr ? TextureWrap::repeat : any->wrap_v};
-    const ConvertMapOptions chosen{.bits = format == ImageFormat::png ? bits : 32, .padding = options.padding};
+    const ConvertMapOptions chosen{
+        .bits = format == ImageFormat::png ? bits : 32, .lengths = options.lengths, .padding = options.padding};
     const MapAxes axes = axesOf(image, meshes, options, report.warnings);
     const std::vector<MapAxes> of_triangles(any == nullptr || axes == MapAxes{} ? 0 : any->uvs.size() / 3, axes);
     const MapSides sides = sidesOf(meshes, options, of_triangles);
@@ -422,6 +423,7 @@ OptionList convertMapOptions(ConvertMapFileOptions& options) {
             "--bits", "BITS", kBitCounts, options.bits,
             "Of a channel of the output: 8 or 16 in a PNG; 16 (half) or 32 (float) in an EXR. Default: the most that "
             "the format has."));
+    addLengths(list, group, options.lengths);
     add(list, group,
         number(
             "--padding", options.padding, 65536,

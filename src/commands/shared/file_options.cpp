@@ -83,6 +83,15 @@ void addLimits(OptionList& list, FileOptions& file) {
             "more for each MiB of the file."));
 }
 
+void addLengths(OptionList& list, const char* group, TexelLengths& lengths) {
+    static constexpr Named<TexelLengths> kLengths[] = {{"even", TexelLengths::even}, {"free", TexelLengths::free}};
+    add(list, group,
+        choice(
+            "--lengths", "HOW", kLengths, lengths,
+            "Lengths of vectors in maps of 8 bits. even: 0.9 to 1, for textures whose smaller levels are made of the "
+            "map, as engines do; free: 0.7 to 1.1, which errs less close up, and more in smaller levels."));
+}
+
 void addMaterialOfMap(OptionList& list, std::string& material) {
     add(list, kInputAndOutput,
         text("--material", "NAME", material,

@@ -8,6 +8,7 @@
 #include "commands/shared/option_table.h"
 #include "tspace/asset.h"
 #include "tspace/map_reading.h"
+#include "tspace/texel_lengths.h"
 
 namespace tspace::options {
 
@@ -44,6 +45,8 @@ void addLimits(OptionList& list, FileOptions& file);
 void addSync(OptionList& list, bool& sync);
 /// The three: threads, limits, and whether outputs are waited for.
 void addRunning(OptionList& list, Execution& execution, HelpText threads_help, FileOptions& file);
+/// --lengths, of maps of 8 bits.
+void addLengths(OptionList& list, const char* group, TexelLengths& lengths);
 /// Which primitives of a model show a map.
 void addMaterialOfMap(OptionList& list, std::string& material);
 /// The last options of calls that make an image by a model: how tangents are made where it has none (in `group`), and how
