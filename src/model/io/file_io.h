@@ -53,6 +53,15 @@ struct UnsetAllocator {
 /// Bytes(n) and resize(n) leave new bytes unset; say Bytes(n, 0) for zeros.
 using Bytes = std::vector<std::uint8_t, UnsetAllocator<std::uint8_t>>;
 
+}  // namespace tspace
+
+// Its functions are in file_io.cpp, optimised. Without this each program has one copy of all that its files make of them, and
+// where one file is not optimised it may be that copy: a destructor there walks over every byte, which took 40 % of
+// model_golden_test.
+extern template class std::vector<std::uint8_t, tspace::UnsetAllocator<std::uint8_t>>;
+
+namespace tspace {
+
 /// Reads a regular file, a large one with all threads. Fails with cannotRead, or with invalidFile when `place` (where a
 /// model names the file) is not empty.
 Bytes readFile(const Path& path, const std::string& place = {}, const Execution& execution = {.thread_count = 1});
