@@ -7,6 +7,7 @@
 #include <cstring>
 #include <numeric>
 
+#include "core/base/vec_math.h"
 #include "core/normals/pose_normals.h"
 #include "support/random_values.h"
 #include "support/simple_mesh.h"
@@ -21,8 +22,6 @@ using test::randomInt;
 using test::randomUnit;
 using test::randomVec3;
 using test::SimpleMesh;
-
-constexpr double kPi = 3.14159265358979323846;
 
 std::vector<Vec3> normalsOf(const MeshView& mesh, const NormalOptions& options) {
     std::vector<Vec3> out(mesh.cornerCount());

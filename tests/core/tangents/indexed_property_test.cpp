@@ -13,7 +13,6 @@
 namespace tspace {
 namespace {
 
-using test::dot;
 using test::isUnit;
 using test::randomGarbage;
 using test::randomGarbageVec3;

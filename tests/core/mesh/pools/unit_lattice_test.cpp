@@ -18,7 +18,7 @@ Vec3 randomUnit() {
     return {static_cast<float>(r * std::cos(a)), static_cast<float>(r * std::sin(a)), static_cast<float>(z)};
 }
 
-double length(const Vec3& v) { return std::sqrt(double{v.x} * v.x + double{v.y} * v.y + double{v.z} * v.z); }
+double lengthInDoubles(const Vec3& v) { return std::sqrt(double{v.x} * v.x + double{v.y} * v.y + double{v.z} * v.z); }
 
 /// What docs/gltf.md states. A search over 20 million directions found 0.3639 and 0.00124.
 double mostDegrees(VectorFormat format) { return format == VectorFormat::snorm8 ? 0.37 : 0.0013; }
@@ -28,9 +28,9 @@ RC_GTEST_PROP(UnitLattice, KeepsLengthWithinWhatTheValidatorAllows, ()) {
     for (const VectorFormat format : kFormats) {
         Vec3 rounded = unit;
         roundUnits({&rounded, 1}, format);
-        RC_ASSERT(std::abs(length(rounded) - 1) <= 0.0067);
+        RC_ASSERT(std::abs(lengthInDoubles(rounded) - 1) <= 0.0067);
         const double cosine = (double{unit.x} * rounded.x + double{unit.y} * rounded.y + double{unit.z} * rounded.z) /
-                              (length(unit) * length(rounded));
+                              (lengthInDoubles(unit) * lengthInDoubles(rounded));
         const double degrees = std::acos(std::min(1.0, cosine)) * 57.29577951308232;
         RC_ASSERT(degrees < mostDegrees(format));
     }
@@ -45,10 +45,10 @@ TEST(UnitLattice, KeepsLengthAllOverTheSphere) {
                             static_cast<float>(z)};
             Vec3 rounded = unit;
             roundUnits({&rounded, 1}, VectorFormat::snorm8);
-            worst = std::max(worst, std::abs(length(rounded) - 1));
+            worst = std::max(worst, std::abs(lengthInDoubles(rounded) - 1));
             const double cosine =
                 (double{unit.x} * rounded.x + double{unit.y} * rounded.y + double{unit.z} * rounded.z) /
-                length(rounded);
+                lengthInDoubles(rounded);
             worst_degrees = std::max(worst_degrees, std::acos(std::min(1.0, cosine)) * 57.29577951308232);
         }
     }
