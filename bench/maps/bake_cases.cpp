@@ -103,16 +103,17 @@ LowMesh makeLow(const Surface& surface, Charts charts, Method method) {
     return low;
 }
 
-HighMesh makeHigh(const Surface& surface, int cells, bool relief) {
+HighMesh makeHigh(const Surface& surface, int cells, bool relief, int beyond) {
     HighMesh high;
-    const auto side = static_cast<std::uint32_t>(cells + 1);
+    const auto side = static_cast<std::uint32_t>(cells + 2 * beyond + 1);
     const double size =
         relief
             ? length(accuracy::exactFrame(surface, 1, 1, 1).position - accuracy::exactFrame(surface, 0, 0, -1).position)
             : 0;
     for (std::uint32_t row = 0; row < side; ++row) {
         for (std::uint32_t column = 0; column < side; ++column) {
-            const double s = static_cast<double>(column) / cells, t = static_cast<double>(row) / cells;
+            const double s = (static_cast<double>(column) - beyond) / cells,
+                         t = (static_cast<double>(row) - beyond) / cells;
             constexpr double kStep = 1e-5;
             high.positions.push_back(toFloat(lifted(surface, s, t, size)));
             const DVec3 ds = lifted(surface, s + kStep, t, size) - lifted(surface, s - kStep, t, size);

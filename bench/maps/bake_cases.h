@@ -39,6 +39,8 @@ struct HighMesh {
 LowMesh makeLow(const accuracy::Surface& surface, Charts charts, Method method = Method::mikktspace);
 
 /// `cells` x `cells` x 2 triangles. `relief`: waves and rings that lean by about 10 degrees in the mean.
-HighMesh makeHigh(const accuracy::Surface& surface, int cells, bool relief);
+/// `beyond`: cells that it goes on by on each side. Chords of a curved border lie outside of it, and rays from there would meet
+/// nothing.
+HighMesh makeHigh(const accuracy::Surface& surface, int cells, bool relief, int beyond = 0);
 
 }  // namespace tspace::bench

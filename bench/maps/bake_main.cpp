@@ -61,7 +61,7 @@ struct CaseMeans {
 
 void addSurface(const accuracy::Surface& surface, Charts charts, bool relief, std::uint32_t size, CaseMeans& means) {
     const LowMesh low = makeLow(surface, charts);
-    const HighMesh high = makeHigh(surface, relief ? 512 : 256, relief);
+    const HighMesh high = makeHigh(surface, relief ? 512 : 256, relief, 1);
     const auto baked = [&](unsigned bits, MapFit fit) {
         const BakeOptions options{
             .width = size, .height = size, .bits = bits, .fit = fit, .lengths = TexelLengths::free};
@@ -181,7 +181,7 @@ void writeModels(const std::string& folder, const char* name, bool relief, int c
                 cage[i] = cage[i] + static_cast<float>(reach) * low.normals[i];
             writeObj(folder + "/low.obj", low.positions, low.normals, low.uvs, low.corners);
             writeObj(folder + "/cage.obj", cage, low.normals, low.uvs, low.corners);
-            const HighMesh high = makeHigh(*surface, cells, relief);
+            const HighMesh high = makeHigh(*surface, cells, relief, 1);
             writeObj(folder + "/high.obj", high.positions, high.normals, {}, high.corners);
             return;
         }

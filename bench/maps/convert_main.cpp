@@ -161,7 +161,7 @@ struct Rows {
 
 void measure(const accuracy::Surface& surface, Charts charts, bool relief, std::uint32_t size, Rows& rows) {
     const LowMesh mikk = makeLow(surface, charts), best = makeLow(surface, charts, Method::best);
-    const HighMesh high = makeHigh(surface, relief ? 512 : 256, relief);
+    const HighMesh high = makeHigh(surface, relief ? 512 : 256, relief, 1);
     const MapSide from = sideOf(mikk), to = sideOf(best);
     BakeOptions options{.width = size, .height = size, .bits = 16, .fit = MapFit::texel};
     const BakedMap baked = orStop(bakeMap(mikk.view(), high.view(), options, {.thread_count = kAllThreads}));
