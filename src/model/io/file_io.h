@@ -57,8 +57,10 @@ using Bytes = std::vector<std::uint8_t, UnsetAllocator<std::uint8_t>>;
 
 // Its functions are in file_io.cpp, optimised. Without this each program has one copy of all that its files make of them, and
 // where one file is not optimised it may be that copy: a destructor there walks over every byte, which took 40 % of
-// model_golden_test.
+// model_golden_test. (Modules of WebAssembly have no file_io.cpp.)
+#ifndef __EMSCRIPTEN__
 extern template class std::vector<std::uint8_t, tspace::UnsetAllocator<std::uint8_t>>;
+#endif
 
 namespace tspace {
 
