@@ -24,9 +24,9 @@ struct VectorMap {
     float scale = 1;  ///< readers multiply x and y by it
 };
 
-/// Makes of vectors ones that integers stand for: those by which the filtered map points where it did. One whose length is not of
-/// the asked ones keeps it, within a twentieth; and so do those beside vectors over 9 degrees away. Memory: 150 bytes a texel, of 130 rows at a time. The same bits for any number of
-/// threads.
+/// Makes of vectors ones that integers stand for: those by which the filtered map points where it did. One whose length is not
+/// of the asked ones keeps it, within a twentieth; and so do those beside vectors over 9 degrees away.
+/// Memory: 150 bytes a texel, of 130 rows at a time. The same bits for any number of threads.
 void chooseLengths(const VectorMap& map, TexelLengths lengths, Parallel& parallel, const Allocator* allocator);
 
 }  // namespace tspace

@@ -81,6 +81,7 @@ TEST(CheckPage, SeveralFilesHaveAnOverview) {
     EXPECT_EQ(countOf(page, "<a href=\"#file-"), 3U);
     for (const char* id : {"id=\"file-1\"", "id=\"file-2\"", "id=\"file-3\"", "not read", "nothing found"})
         EXPECT_NE(page.find(id), std::string::npos) << id;
+    EXPECT_NE(page.find("<div class=\"scroll\" tabindex=\"0\">"), std::string::npos) << "it scrolls by keys too";
 }
 
 TEST(CheckPage, WhatCannotBeWrittenIsSaid) {

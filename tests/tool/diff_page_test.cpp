@@ -36,6 +36,7 @@ TEST(DiffPage, ShowsAnglesAndTheWorstPlaces) {
     EXPECT_NE(page.find("<th>T median</th>"), std::string::npos);
     EXPECT_EQ(pictureCount(page), 2U + 3 * 4) << "the heat map from two sides, and three pictures of each vertex";
     EXPECT_LT(page.size(), 2000000U);
+    EXPECT_EQ(page.find("<div class=\"scroll\">"), std::string::npos) << "wide tables scroll by keys too";
 }
 
 TEST(DiffPage, TextOfFilesIsTextAndNothingIsLoaded) {

@@ -24,13 +24,14 @@ struct Tally {
     double area = 0;
     double surface_share = 0;  ///< of the mesh's area, once finish() was called
     double worst_deg = 0;
-    std::vector<std::uint32_t> vertices = {};  ///< the first
+    std::vector<std::uint32_t> vertices = {};  ///< the first, each once
 
     void add(std::uint32_t vertex, double its_area, double deg = 0) {
         ++count;
         area += its_area;
         worst_deg = std::max(worst_deg, deg);
-        if (vertices.size() < kMostVertices) vertices.push_back(vertex);
+        if (vertices.size() < kMostVertices && std::find(vertices.begin(), vertices.end(), vertex) == vertices.end())
+            vertices.push_back(vertex);
     }
     /// Adds a tally of the same total.
     void include(const Tally& other) {
@@ -40,6 +41,7 @@ struct Tally {
         worst_deg = std::max(worst_deg, other.worst_deg);
         vertices.insert(vertices.end(), other.vertices.begin(), other.vertices.end());
         sortList(vertices.begin(), vertices.end());
+        vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
         if (vertices.size() > kMostVertices) vertices.resize(kMostVertices);
     }
     [[nodiscard]] double share() const {

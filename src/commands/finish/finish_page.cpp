@@ -75,7 +75,8 @@ std::string mapsHtml(const BakeFileReport& bake) {
         }
         for (const BakedLayerFile& layer : map.layers) add(layerName(layer.layer), layer.path, size);
     }
-    return "<h2>Maps</h2>\n<div class=\"scroll\"><table><thead><tr><th>file</th><th>what</th><th></th></tr></thead>"
+    return "<h2>Maps</h2>\n" + std::string(kWideTable) +
+           "<thead><tr><th>file</th><th>what</th><th></th></tr></thead>"
            "<tbody>\n" +
            rows + "</tbody></table></div>\n";
 }
@@ -89,8 +90,9 @@ std::string finishPage(const FinishReport& report, const std::string& output_pat
     std::string html = pageHead("tspace finish");
     html += "<h1>" + htmlText(output_path) + "</h1>\n" + originHtml(origin) +
             "<p class=\"dim\">What is right stays as it was; tspace check says what is not.</p>\n";
+    html += kWideTable;
     html +=
-        "<div class=\"scroll\"><table><thead><tr><th>model</th><th class=\"n\">errors</th><th class=\"n\">warnings</th>"
+        "<thead><tr><th>model</th><th class=\"n\">errors</th><th class=\"n\">warnings</th>"
         "<th class=\"n\">notes</th></tr></thead><tbody>\n";
     html += countsRow(report.model.path + ", as it was", report.model.before);
     if (report.low) html += countsRow(report.low->path + ", as it was", report.low->before);

@@ -235,8 +235,9 @@ std::string fileHtml(const report::CheckOutcome& outcome, std::size_t number, Pi
 }
 
 std::string overviewHtml(const std::vector<report::CheckOutcome>& outcomes) {
-    std::string html =
-        "<div class=\"scroll\"><table><thead><tr><th>file</th><th class=\"n\">errors</th><th class=\"n\">warnings</th>"
+    std::string html(kWideTable);
+    html +=
+        "<thead><tr><th>file</th><th class=\"n\">errors</th><th class=\"n\">warnings</th>"
         "<th class=\"n\">notes</th></tr></thead><tbody>\n";
     for (std::size_t i = 0; i < outcomes.size(); ++i) {
         html += "<tr><td><a href=\"#" + anchorOf(i) + "\">" + htmlText(outcomes[i].input) + "</a></td>";

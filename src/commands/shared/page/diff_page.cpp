@@ -83,7 +83,7 @@ namespace {
 
 std::string tableHtml(const report::TextTable& table) {
     if (table.size() < 2) return {};
-    std::string html = "<div class=\"scroll\"><table>\n";
+    std::string html = std::string(kWideTable) + "\n";
     for (std::size_t i = 0; i < table.size(); ++i) {
         const std::string name = i == 0 ? "th" : "td";
         html += "<tr>";
@@ -96,7 +96,7 @@ std::string tableHtml(const report::TextTable& table) {
 std::string histogramHtml(const AngleStatistics& tangents) {
     if (tangents.count == 0) return {};
     const std::uint64_t most = *std::max_element(tangents.histogram.begin(), tangents.histogram.end());
-    std::string html = "<h2>T, degrees and corners</h2>\n<div class=\"scroll\"><table>\n";
+    std::string html = "<h2>T, degrees and corners</h2>\n" + std::string(kWideTable) + "\n";
     for (std::size_t i = 0; i < kAngleBins.size(); ++i) {
         const std::uint64_t count = tangents.histogram[i];
         // In thousandths of the longest bar, a thousandth at least.

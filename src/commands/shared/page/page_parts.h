@@ -35,6 +35,9 @@ std::string noFigureHtml(std::string_view sentence);
 /// Figures side by side; nothing for none.
 std::string figuresHtml(const std::string& figures);
 
+/// Opens a table that scrolls where a window is narrow, by keys too; closed by </table></div>.
+inline constexpr std::string_view kWideTable = "<div class=\"scroll\" tabindex=\"0\"><table>";
+
 /// Text from a file or of a user, fit to stand in HTML or in quotation marks as a value. Bytes that are no UTF-8 are for
 /// the browser to replace.
 std::string htmlText(std::string_view text);
