@@ -51,10 +51,10 @@ for (const [width, height] of [[390, 844], [820, 1180]]) {
       const start = await eye();
       let share = 0.5;
       for (const isTouch of [false, true]) {
-        // A finger hits beside the line, and it is the line that moves, not the model.
+        // A finger hits beside the handle, and it is the line that moves, not the model.
         for (const next of [0.7, 0.35]) {
           const off = isTouch ? 14 / box.width : 0;
-          await drag(tab, isTouch, at(share + off, 0.4), at(next, 0.45));
+          await drag(tab, isTouch, at(share + off, isTouch ? 0.62 : 0.4), at(next, 0.6));
           assert.ok(Math.abs((await settings(tab)).split - next) < 0.01, `${isTouch ? "finger" : "mouse"}: ${(await settings(tab)).split}, not ${next}`);
           share = next;
           assert.ok(near(await eye(), start, 1e-6), "the model stays");
