@@ -2,7 +2,7 @@
 // What callers hand over is looked at before anything is copied. The module checks counts and indices, not types.
 import { TspaceError, typeError } from "./error.js";
 
-const isMissing = (value) => value === undefined || value === null;
+export const isMissing = (value) => value === undefined || value === null;
 
 export const fail = (code, message, element) => {
   throw code === "wrongType" ? typeError(code, message) : new TspaceError(code, message, element);

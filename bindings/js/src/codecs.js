@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What callers of "tspace/gltf" may hand in beside the model: codecs from npm, and what decodes images. The module asks for
 // them while a call runs.
-import { fail, failType, object } from "./check.js";
+import { fail, failType, isMissing, object } from "./check.js";
 import { decodeDraco, encodeDraco } from "./draco.js";
 
 /** In the order of the module's numbers (wasm/codecs.h). */
@@ -10,8 +10,6 @@ const codecs = ["meshoptDecoder", "meshoptEncoder", "dracoDecoder", "dracoEncode
 /** In the order of tspace's enumerations. */
 const modes = ["ATTRIBUTES", "TRIANGLES", "INDICES"];
 const filters = ["NONE", "OCTAHEDRAL", "QUATERNION", "EXPONENTIAL", "COLOR"];
-
-const isMissing = (value) => value === undefined || value === null;
 
 /** Codecs by the names above, out of an option { decoder, encoder }. */
 function pairOf(option, value, { decoder: decoding, encoder: encoding }, from) {

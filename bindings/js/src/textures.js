@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The entry "tspace/textures": KTX2 and DDS as pixels, and normal maps as such files.
 import { source } from "#textures";
-import { boolean, bytes as bytesOf, choice, count, fail, failType, number, object } from "./check.js";
+import { boolean, bytes as bytesOf, choice, count, fail, failType, isMissing, number, object } from "./check.js";
 import { textAt, Wasm } from "./wasm.js";
 
 export { TspaceError } from "./error.js";
@@ -27,12 +27,16 @@ const wasm = new Wasm({
 });
 export const ready = wasm.start(source);
 
-const isMissing = (value) => value === undefined || value === null;
 const unpacking = ["unzstd", "unzlib"];
+
+/** A function of the caller, or nothing. */
+function checkFunction(value, option) {
+  if (!isMissing(value) && typeof value !== "function") failType(value, option, "a function");
+}
 
 /** wasm.run, with what unpacks; the instance is dropped after it, since its memory never shrinks. */
 function run(options, body) {
-  for (const name of unpacking) if (!isMissing(options[name]) && typeof options[name] !== "function") failType(options[name], name, "a function");
+  for (const name of unpacking) checkFunction(options[name], name);
   const before = unpackers;
   unpackers = options;
   try {
@@ -125,7 +129,7 @@ const ofCompression = ["format", "quality", "signed", "noLevels", "container", "
 export function compressMap(image, options = {}) {
   object(options, "options", ofCompression);
   const { decodeImage } = options;
-  if (!isMissing(decodeImage) && typeof decodeImage !== "function") failType(decodeImage, "decodeImage", "a function");
+  checkFunction(decodeImage, "decodeImage");
   const format = choice(options.format ?? "bc5", "format", formats), quality = choice(options.quality ?? "fast", "quality", qualities);
   const isSigned = boolean(options.signed ?? false, "signed"), hasLevels = !boolean(options.noLevels ?? false, "noLevels");
   const isDds = choice(options.container ?? "ktx2", "container", containers) === 1;
