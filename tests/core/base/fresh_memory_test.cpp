@@ -35,7 +35,7 @@ TEST(FreshMemory, ChangesNoNormal) {
         for (const unsigned char byte : kFillings) {
             const FilledMemory memory(byte);
             EXPECT_TRUE(
-                test::areSame(expected.normals, normalsOf(noisyScan().view(), options, memory.execution(2)).normals));
+                test::sameBits(expected.normals, normalsOf(noisyScan().view(), options, memory.execution(2)).normals));
         }
     }
 }

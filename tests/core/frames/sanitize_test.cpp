@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include "tspace/sanitize.h"
-#include "support/thread_team.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -12,6 +11,8 @@
 #include <new>
 #include <vector>
 
+#include "support/same_bits.h"
+#include "support/thread_team.h"
 #include "tspace/split.h"
 
 namespace tspace {
@@ -21,10 +22,8 @@ using Indices = std::vector<std::uint32_t>;
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 constexpr float kInf = std::numeric_limits<float>::infinity();
 
+using test::sameBits;
 bool sameBits(const Vec4& a, const Vec4& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
-bool sameBits(const std::vector<Vec4>& a, const std::vector<Vec4>& b) {
-    return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(Vec4)) == 0);
-}
 
 struct Scene {
     std::vector<Vec3> positions, normals;

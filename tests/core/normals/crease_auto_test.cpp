@@ -22,9 +22,9 @@ namespace {
 using accuracy::Random;
 using accuracy::Scan;
 using accuracy::Shape;
-using test::areSame;
 using test::normalsOf;
 using test::Outcome;
+using test::sameBits;
 using test::shape;
 using test::SimpleMesh;
 
@@ -60,7 +60,7 @@ TEST(AutomaticCreases, AreTheRimOfATubeAndNotItsSides) {
     for (const std::uint32_t sides : {24u, 48u, 96u}) {
         const SimpleMesh mesh = tube(sides);
         const Outcome found = bestOf(mesh.view(), kAuto), wanted = bestOf(mesh.view(), 60);
-        EXPECT_TRUE(areSame(found.normals, wanted.normals)) << sides;
+        EXPECT_TRUE(sameBits(found.normals, wanted.normals)) << sides;
         EXPECT_GT(found.report.crease_angle_deg, 360.0f / static_cast<float>(sides)) << sides;
         EXPECT_LT(found.report.crease_angle_deg, 90) << sides;
         EXPECT_EQ(wanted.report.crease_angle_deg, 60);
@@ -69,7 +69,7 @@ TEST(AutomaticCreases, AreTheRimOfATubeAndNotItsSides) {
 
 TEST(AutomaticCreases, OfACubeAreItsEdges) {
     for (const SimpleMesh& cube : {test::quadCube(), test::triangleCube(0b101101)})
-        EXPECT_TRUE(areSame(bestOf(cube.view(), kAuto).normals, bestOf(cube.view(), 60).normals));
+        EXPECT_TRUE(sameBits(bestOf(cube.view(), kAuto).normals, bestOf(cube.view(), 60).normals));
 }
 
 TEST(AutomaticCreases, AreNoneOnSmoothShapes) {
@@ -139,7 +139,7 @@ TEST(AutomaticCreases, HaveTheSameBitsForAnyNumberOfThreads) {
     for (const unsigned threads : {2u, 4u, 7u}) {
         const Outcome many =
             bestOf(scan.view(), kAuto, NormalOptions::denoise_auto, {.executor = test::threadTeam(threads)});
-        EXPECT_TRUE(areSame(one.normals, many.normals)) << threads;
+        EXPECT_TRUE(sameBits(one.normals, many.normals)) << threads;
         EXPECT_EQ(one.report.crease_angle_deg, many.report.crease_angle_deg);
     }
 }
@@ -161,7 +161,7 @@ TEST(AutomaticCreases, HaveTheSameBitsBesideAFaceThatIsNoTriangle) {
             singles.normals.pop_back();
             EXPECT_LT(fours.report.crease_angle_deg, 180);
             EXPECT_EQ(fours.report.crease_angle_deg, singles.report.crease_angle_deg);
-            EXPECT_TRUE(areSame(fours.normals, singles.normals)) << noise << ", " << left;
+            EXPECT_TRUE(sameBits(fours.normals, singles.normals)) << noise << ", " << left;
             scan.indices.resize(scan.indices.size() - 3);
         }
     }
@@ -171,13 +171,13 @@ TEST(AutomaticCreases, WorkWithEveryWeightingAndWithGroups) {
     const SimpleMesh mesh = tube(48);
     for (const NormalWeighting weighting :
          {NormalWeighting::uniform, NormalWeighting::area, NormalWeighting::angle, NormalWeighting::max}) {
-        EXPECT_TRUE(areSame(normalsOf(mesh.view(), {.weighting = weighting, .crease_angle_deg = kAuto}).normals,
-                            normalsOf(mesh.view(), {.weighting = weighting, .crease_angle_deg = 60}).normals));
+        EXPECT_TRUE(sameBits(normalsOf(mesh.view(), {.weighting = weighting, .crease_angle_deg = kAuto}).normals,
+                             normalsOf(mesh.view(), {.weighting = weighting, .crease_angle_deg = 60}).normals));
     }
     std::vector<std::uint32_t> groups(mesh.indices.size() / 3);
     for (std::size_t f = 0; f < groups.size(); ++f) groups[f] = 1 + static_cast<std::uint32_t>(f / 200 % 2);
-    EXPECT_TRUE(areSame(normalsOf(mesh.view(), {.crease_angle_deg = kAuto, .smoothing_groups = groups}).normals,
-                        normalsOf(mesh.view(), {.crease_angle_deg = 60, .smoothing_groups = groups}).normals));
+    EXPECT_TRUE(sameBits(normalsOf(mesh.view(), {.crease_angle_deg = kAuto, .smoothing_groups = groups}).normals,
+                         normalsOf(mesh.view(), {.crease_angle_deg = 60, .smoothing_groups = groups}).normals));
 }
 
 TEST(AutomaticCreases, AreThoseOfTheMeshInEveryPose) {
@@ -191,7 +191,7 @@ TEST(AutomaticCreases, AreThoseOfTheMeshInEveryPose) {
     };
     pose(kAuto, by_mesh);
     pose(60, by_angle);
-    EXPECT_TRUE(areSame(by_mesh, by_angle));
+    EXPECT_TRUE(sameBits(by_mesh, by_angle));
 }
 
 TEST(AutomaticCreases, OfBrokenMeshesGiveUnitNormals) {

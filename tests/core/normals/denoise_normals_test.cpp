@@ -26,9 +26,9 @@ namespace {
 using accuracy::Random;
 using accuracy::Scan;
 using accuracy::Shape;
-using test::areSame;
 using test::normalsOf;
 using test::Outcome;
+using test::sameBits;
 using test::shape;
 using test::SimpleMesh;
 
@@ -138,7 +138,7 @@ TEST(DenoisedNormals, HaveTheBitsOfBestWhereNothingIsNoise) {
     const auto expectSame = [](const MeshView& mesh, const char* name) {
         for (const float crease : {180.0f, 45.0f}) {
             const Outcome denoised = bestOf(mesh, kAuto, crease);
-            EXPECT_TRUE(areSame(denoised.normals, bestOf(mesh, 0, crease).normals)) << name;
+            EXPECT_TRUE(sameBits(denoised.normals, bestOf(mesh, 0, crease).normals)) << name;
             EXPECT_EQ(denoised.report.noise, 0) << name;
         }
     };
@@ -168,7 +168,7 @@ TEST(DenoisedNormals, HaveTheSameBitsForAnyNumberOfThreads) {
         EXPECT_GT(one.report.noise, 0);
         for (const unsigned threads : {2u, 4u, 7u}) {
             const Outcome many = bestOf(scan.view(), kAuto, crease, {.executor = test::threadTeam(threads)});
-            EXPECT_TRUE(areSame(one.normals, many.normals)) << threads;
+            EXPECT_TRUE(sameBits(one.normals, many.normals)) << threads;
             EXPECT_EQ(one.report.noise, many.report.noise);
         }
     }
@@ -194,9 +194,9 @@ TEST(DenoisedNormals, TakeAFactorOnTheNoiseThatIsMeasured) {
     const Scan scan = accuracy::scan(shape("torus"), 40, 0.1, Random{4});
     const Outcome automatic = bestOf(scan.view(), kAuto), once = bestOf(scan.view(), 1),
                   thrice = bestOf(scan.view(), 3);
-    EXPECT_TRUE(areSame(automatic.normals, once.normals));  // all of it is noise
+    EXPECT_TRUE(sameBits(automatic.normals, once.normals));  // all of it is noise
     EXPECT_FLOAT_EQ(thrice.report.noise, 3 * once.report.noise);
-    EXPECT_FALSE(areSame(once.normals, thrice.normals));
+    EXPECT_FALSE(sameBits(once.normals, thrice.normals));
     for (const float wrong : {-0.5f, -2.0f, 4.5f, std::numeric_limits<float>::quiet_NaN()}) {
         std::vector<Vec3> out(scan.indices.size());
         const Result<NormalReport> result =
@@ -209,7 +209,7 @@ TEST(DenoisedNormals, TakeAFactorOnTheNoiseThatIsMeasured) {
 TEST(DenoisedNormals, AreNotLookedAtByOtherWeightings) {
     const Scan scan = accuracy::scan(shape("torus"), 24, 0.1, Random{4});
     const NormalOptions angle{.weighting = NormalWeighting::angle, .denoise = kAuto};
-    EXPECT_TRUE(areSame(normalsOf(scan.view(), angle).normals, normalsOf(scan.view(), {}).normals));
+    EXPECT_TRUE(sameBits(normalsOf(scan.view(), angle).normals, normalsOf(scan.view(), {}).normals));
 }
 
 TEST(DenoisedNormals, OfAPoseKeepTheirBitsWhereNothingMoves) {
@@ -232,7 +232,7 @@ TEST(DenoisedNormals, OfAPoseKeepTheirBitsWhereNothingMoves) {
         ++far;
     }
     EXPECT_GT(far, 1000u);
-    EXPECT_FALSE(areSame(posed, still.normals));
+    EXPECT_FALSE(sameBits(posed, still.normals));
 }
 
 TEST(DenoisedNormals, OfPolygonsAreBetterToo) {

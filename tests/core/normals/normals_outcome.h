@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "scans.h"
+#include "support/same_bits.h"
 #include "tspace/normals.h"
 
 namespace tspace::test {
@@ -26,9 +27,6 @@ inline Outcome normalsOf(const MeshView& mesh, const NormalOptions& options, con
     return outcome;
 }
 
-inline bool areSame(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
-    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Vec3)) == 0;
-}
 inline const accuracy::Shape& shape(const char* name) {
     const auto all = accuracy::shapes();
     return *std::find_if(all.begin(), all.end(),

@@ -10,6 +10,7 @@
 #include "core/base/vec_math.h"
 #include "core/normals/pose_normals.h"
 #include "support/random_values.h"
+#include "support/same_bits.h"
 #include "support/simple_mesh.h"
 #include "tspace/normals.h"
 
@@ -21,16 +22,13 @@ using test::randomFloat;
 using test::randomInt;
 using test::randomUnit;
 using test::randomVec3;
+using test::sameBits;
 using test::SimpleMesh;
 
 std::vector<Vec3> normalsOf(const MeshView& mesh, const NormalOptions& options) {
     std::vector<Vec3> out(mesh.cornerCount());
     RC_ASSERT(generateNormals(mesh, options, out).ok());
     return out;
-}
-
-bool sameBits(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
-    return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(Vec3)) == 0);
 }
 
 struct D3 {
