@@ -15,7 +15,7 @@ namespace tspace::accuracy {
 
 namespace {
 
-using Point = std::array<double, 2>;  ///< radius and height
+using ProfilePoint = std::array<double, 2>;  ///< radius and height
 
 std::uint32_t addPoint(Scan& to, const DVec3& p) {
     to.positions.push_back(toFloat(p));
@@ -23,10 +23,10 @@ std::uint32_t addPoint(Scan& to, const DVec3& p) {
 }
 
 /// The profile turned about z, in quads cut in two. Its ends, unless it is closed, are fans from one vertex.
-Scan turnedAboutZ(const Shape& shape, const std::vector<Point>& profile, std::uint32_t sides, bool is_closed) {
+Scan turnedAboutZ(const Shape& shape, const std::vector<ProfilePoint>& profile, std::uint32_t sides, bool is_closed) {
     Scan made{&shape};
     const auto rings = static_cast<std::uint32_t>(profile.size());
-    for (const Point& p : profile) {
+    for (const ProfilePoint& p : profile) {
         for (std::uint32_t i = 0; i < sides; ++i) {
             const auto [sine, cosine] = sineCosine(2 * kPi * i / sides);
             addPoint(made, {p[0] * cosine, p[0] * sine, p[1]});
@@ -46,7 +46,7 @@ Scan turnedAboutZ(const Shape& shape, const std::vector<Point>& profile, std::ui
 }
 
 Scan lathed(std::uint32_t around, std::uint32_t across) {
-    std::vector<Point> circle;
+    std::vector<ProfilePoint> circle;
     for (std::uint32_t i = 0; i < across; ++i) {
         const auto [sine, cosine] = sineCosine(2 * kPi * i / across);
         circle.push_back({0.6 + 0.25 * cosine, 0.25 * sine});
@@ -55,7 +55,7 @@ Scan lathed(std::uint32_t around, std::uint32_t across) {
 }
 
 Scan filleted(std::uint32_t sides, std::uint32_t segments) {
-    std::vector<Point> profile;
+    std::vector<ProfilePoint> profile;
     for (const double side : {-1.0, 1.0}) {
         for (std::uint32_t i = 0; i <= segments; ++i) {
             const auto [sine, cosine] = sineCosine(0.5 * kPi * (side < 0 ? segments - i : i) / segments);
@@ -96,7 +96,7 @@ Scan slab(std::uint32_t strips) {
 
 std::vector<Scan> drawnMeshes(bool is_sharp) {
     if (!is_sharp) return {lathed(96, 12), lathed(12, 64), filleted(48, 5), filleted(16, 2)};
-    const std::vector<Point> side = {{0.8, -0.8}, {0.8, 0.8}};
+    const std::vector<ProfilePoint> side = {{0.8, -0.8}, {0.8, 0.8}};
     return {turnedAboutZ(drawnShapes()[2], side, 48, false), turnedAboutZ(drawnShapes()[2], side, 16, false), slab(1),
             slab(40)};
 }

@@ -57,7 +57,7 @@ SurfacePoint mirroredFolds(const Dual& s, const Dual& t, int side) {
             {side * from * (1.0 + 0.3 * t), t + 0.2 * (from * from) * t}};
 }
 
-constexpr Surface kSurfaces[] = {
+constexpr Surface kHeldOutSurfaces[] = {
     {"catenoid", catenoid},   {"enneper", enneper},
     {"shell", shell},         {.name = "swirl", .at = swirl, .is_flat = true},
     {"tractroid", tractroid}, {"ellipsoid", ellipsoid},
@@ -66,6 +66,6 @@ constexpr Surface kSurfaces[] = {
 
 }  // namespace
 
-std::span<const Surface> heldOutSurfaces() { return kSurfaces; }
+std::span<const Surface> heldOutSurfaces() { return kHeldOutSurfaces; }
 
 }  // namespace tspace::accuracy

@@ -42,7 +42,7 @@ std::vector<aiVector3D> firstVertices(const aiScene& scene) {
         const aiMesh& mesh = *scene.mMeshes[m];
         const aiVector3D* const begin = mesh.mVertices;
         const aiVector3D* const end = begin + mesh.mNumVertices;
-        const aiVector3D* const found = std::find_if(begin, end, isFinite);
+        const aiVector3D* const found = std::find_if(begin, end, [](const aiVector3D& v) { return isFinite(v); });
         if (found != end) first[m] = *found;
     }
     return first;

@@ -16,8 +16,6 @@
 #include "model/io/system_files.h"
 #include "model/io/uri.h"
 
-template class std::vector<std::uint8_t, tspace::UnsetAllocator<std::uint8_t>>;
-
 namespace tspace {
 
 namespace fs = std::filesystem;

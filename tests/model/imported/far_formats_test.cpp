@@ -11,6 +11,7 @@
 
 #include "far_files.h"
 #include "model/gltf/primitive_reader.h"
+#include "model/imported/with_importer.h"
 #include "model/read/read_scene.h"
 #include "support/shared_data.h"
 #include "support/temp_folder.h"
@@ -21,7 +22,6 @@ namespace {
 
 using gltf::Json;
 
-const FileOptions kWithImporter{.importer = TSPACE_IMPORTER};
 constexpr DVec3 kFar{500000, 5200000, 412}, kNegative{-500000.3, -5200000.7, -30};
 constexpr int kSide = 20;
 

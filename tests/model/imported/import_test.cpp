@@ -12,6 +12,7 @@
 
 #include "model/gltf/primitive_reader.h"
 #include "model/imported/import_document.h"
+#include "model/imported/with_importer.h"
 #include "model/read/read_scene.h"
 #include "support/scene_file.h"
 #include "support/shared_data.h"
@@ -19,8 +20,6 @@
 
 namespace tspace::test {
 namespace {
-
-const FileOptions kWithImporter{.importer = TSPACE_IMPORTER};
 
 /// A file in Assimp's format `format` with what the glTF file holds.
 std::string exported(const TempFolder& folder, const std::string& gltf, const std::string& format,

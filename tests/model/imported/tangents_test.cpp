@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "model/imported/with_importer.h"
 #include "model/read/read_scene.h"
 #include "support/temp_folder.h"
 #include "tool/run_tool.h"
@@ -17,8 +18,6 @@
 
 namespace tspace::test {
 namespace {
-
-const FileOptions kWithImporter{.importer = TSPACE_IMPORTER};
 
 std::string layer(const std::string& kind, const std::string& values_name, const std::string& values,
                   std::size_t count) {

@@ -16,21 +16,22 @@ namespace tspace::import {
 
 namespace {
 
-struct Format {
+struct FormatReader {
     const char* extension;
     Coordinates (*coordinates)(std::vector<char>);
     std::vector<ExactPlace> (*places)(const std::vector<char>&);
 };
 
-constexpr std::array kFormats = {Format{".ply", readPly, nullptr}, Format{".stl", readStl, nullptr},
-                                 Format{".dae", readCollada, placesInCollada}, Format{".fbx", readFbx, placesInFbx}};
+constexpr std::array kFormats = {FormatReader{".ply", readPly, nullptr}, FormatReader{".stl", readStl, nullptr},
+                                 FormatReader{".dae", readCollada, placesInCollada},
+                                 FormatReader{".fbx", readFbx, placesInFbx}};
 
-const Format* formatOf(const std::string& path) {
+const FormatReader* formatOf(const std::string& path) {
     std::string extension = std::filesystem::path(path).extension().string();
     std::transform(extension.begin(), extension.end(), extension.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     const auto* const found = std::find_if(kFormats.begin(), kFormats.end(),
-                                           [&](const Format& format) { return extension == format.extension; });
+                                           [&](const FormatReader& format) { return extension == format.extension; });
     return found == kFormats.end() ? nullptr : found;
 }
 
@@ -103,7 +104,7 @@ bool hasMoreThanFloats(const std::vector<const VertexList*>& lists, const std::v
 bool isReadInDouble(const std::string& path) { return formatOf(path) != nullptr; }
 
 std::optional<NearFile> nearOrigin(const std::string& path) {
-    const Format* const format = formatOf(path);
+    const FormatReader* const format = formatOf(path);
     if (format == nullptr) return {};
     const Coordinates file = format->coordinates(bytesOf(path));
     if (file == nullptr) return {};
@@ -132,7 +133,7 @@ std::optional<NearFile> nearOrigin(const std::string& path) {
 }
 
 std::vector<ExactPlace> exactPlaces(const std::string& path) {
-    const Format* const format = formatOf(path);
+    const FormatReader* const format = formatOf(path);
     if (format == nullptr || format->places == nullptr) return {};
     return format->places(bytesOf(path));
 }

@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: MIT
+// Options with the importer that is tested.
+#pragma once
+
+#include "tspace/asset.h"
+
+namespace tspace::test {
+
+inline const FileOptions kWithImporter{.importer = TSPACE_IMPORTER};
+
+}  // namespace tspace::test
