@@ -18,6 +18,8 @@ function(tspace_configure_target target)
     if(TSPACE_SANITIZE)
         target_compile_options(${target} PRIVATE -fsanitize=${TSPACE_SANITIZE} -fno-omit-frame-pointer
                                                  -fno-sanitize-recover=all)
+        # GCC and Clang have no macro in common for it.
+        target_compile_definitions(${target} PRIVATE TSPACE_SANITIZED)
         target_link_options(${target} PUBLIC -fsanitize=${TSPACE_SANITIZE})
     endif()
 endfunction()

@@ -71,7 +71,7 @@ bool confineFiles(const std::vector<std::string>&) { return false; }
 #endif
 
 // The run-time libraries of sanitizers start threads, and read what the kernel says of this process.
-#if (defined(__x86_64__) || defined(__aarch64__)) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#if (defined(__x86_64__) || defined(__aarch64__)) && !defined(TSPACE_SANITIZED)
 
 #ifdef __x86_64__
 constexpr std::uint32_t kMachine = AUDIT_ARCH_X86_64;

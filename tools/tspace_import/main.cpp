@@ -47,7 +47,7 @@ void limitAll(rlim_t bytes, rlim_t processor_seconds, unsigned seconds) {
     limit(RLIMIT_CPU, processor_seconds, processor_seconds + 1);
     // One second after the parent would have ended it: for a parent that is not there to do it.
     alarm(seconds + 1);
-#if defined(RLIMIT_AS) && !defined(__SANITIZE_ADDRESS__)  // which reserves terabytes of addresses
+#if defined(RLIMIT_AS) && !defined(TSPACE_SANITIZED)  // which reserves terabytes of addresses
     limit(RLIMIT_AS, bytes, bytes);
 #else
     static_cast<void>(bytes);

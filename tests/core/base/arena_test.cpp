@@ -128,7 +128,7 @@ TEST(Arena, SaysNoToWhatNoSystemHas) {
     giveBack(arena, take(arena, 100, 1));
 }
 
-#if defined(__linux__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#if defined(__linux__) && !defined(TSPACE_SANITIZED)
 TEST(Arena, LeavesAddressesToOthersWhereTheyAreLimited) {
     const auto use = [] {
         const rlimit limit{std::size_t{1} << 30, std::size_t{1} << 30};
@@ -214,7 +214,7 @@ void computeAll(const Torus& torus, Method method, const Allocator* allocator) {
     ASSERT_TRUE(sanitizeTangents(torus.view(), {}, tangents, execution));
 }
 
-#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#if defined(__GLIBC__) && !defined(TSPACE_SANITIZED)
 TEST(Arena, IsWhatKeepsMemoryAndNoThreadDoes) {
     mallopt(M_MMAP_THRESHOLD, 131072);  // and glibc does not change it any more: each large buffer has fresh pages
     const Torus torus(100);

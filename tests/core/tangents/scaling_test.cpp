@@ -60,7 +60,7 @@ TEST_P(Scaling, TimePerTriangleStaysBounded) {
 }
 
 TEST_P(Scaling, AStackOf64KilobytesIsEnough) {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#ifdef TSPACE_SANITIZED
     constexpr std::size_t kStack = 1 << 20;  // sanitizers pad every frame
 #else
     constexpr std::size_t kStack = 64 << 10;

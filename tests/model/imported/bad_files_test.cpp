@@ -31,7 +31,7 @@ void expectModelOrError(const std::string& path, const std::string& from) {
 
 /// What the importers of this process took at most. The limit of a small file is 192 MiB of addresses.
 void expectLittleMemory() {
-#ifndef __SANITIZE_ADDRESS__  // under which the importer has no such limit
+#ifndef TSPACE_SANITIZED  // under which the importer has no such limit
     rusage usage{};
     getrusage(RUSAGE_CHILDREN, &usage);
     EXPECT_LT(usage.ru_maxrss, 200 << 10) << "KiB";

@@ -216,7 +216,7 @@ TEST(ImportProcess, IsConfinedBeforeItLooksAtTheModel) {
         return says("NoNewPrivs:\t1");
     };
     EXPECT_TRUE(soon(isConfined)) << status;
-#ifndef __SANITIZE_ADDRESS__  // which needs more than a parser
+#ifndef TSPACE_SANITIZED  // which needs more than a parser
     if (!says("Seccomp:")) GTEST_SKIP() << "this kernel has no filter of system calls";
     EXPECT_TRUE(soon([&] { return isConfined() && says("Seccomp:\t2"); })) << status;
 #endif
