@@ -68,7 +68,7 @@ TEST(GenerateGltf, SplitsAndCarriesEveryAttributeAlong) {
 
 TEST(GenerateGltf, KeepsVertexAttributesAlignedTo4Bytes) {
     GltfBuilder builder = gridModel(Grid(4));
-    const std::size_t color = builder.addAccessor(Bytes(25 * 4), kU8, "VEC3", 25);
+    const std::size_t color = builder.addAccessor(Bytes(25 * 4, 0), kU8, "VEC3", 25);
     builder.json()["bufferViews"].back()["byteStride"] = 4;
     builder.json()["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"] = color;
     const GenerateRun outcome = run(builder);
