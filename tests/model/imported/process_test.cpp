@@ -137,7 +137,15 @@ class RunningTool {
         pointers.push_back(nullptr);
         std::string variable = "TMPDIR=" + (folder_ / "tmp").string();
         char* environment[] = {variable.data(), nullptr};
-        EXPECT_EQ(posix_spawn(&tool_, TSPACE_TOOL, nullptr, nullptr, pointers.data(), environment), 0);
+        // Tests may run under nohup, and the tool leaves signals ignored that are.
+        posix_spawnattr_t attributes;
+        sigset_t all;
+        sigfillset(&all);
+        EXPECT_EQ(posix_spawnattr_init(&attributes), 0);
+        posix_spawnattr_setsigdefault(&attributes, &all);
+        posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
+        EXPECT_EQ(posix_spawn(&tool_, TSPACE_TOOL, nullptr, &attributes, pointers.data(), environment), 0);
+        posix_spawnattr_destroy(&attributes);
     }
     ~RunningTool() {
         for (const pid_t importer : importers()) kill(importer, SIGKILL);
