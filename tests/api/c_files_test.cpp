@@ -459,7 +459,8 @@ TEST(CFilesCompressMap, FilesAndBytesAreThoseOfTheTool) {
               TSPACE_ERROR_INVALID_OPTION);
     EXPECT_NE(std::string(error.message).find("basisu"), std::string::npos) << error.message;
     EXPECT_EQ(tspace_compressMapFile("bump.png", nullptr, nullptr, nullptr, &error), TSPACE_ERROR_NULL_DATA);
-    EXPECT_EQ(tspace_compressMapBytes(nullptr, 0, nullptr, &output.bytes, nullptr, &error), TSPACE_ERROR_NULL_DATA);
+    Made nothing;
+    EXPECT_EQ(tspace_compressMapBytes(nullptr, 0, nullptr, &nothing.bytes, nullptr, &error), TSPACE_ERROR_NULL_DATA);
 }
 
 TEST(CFilesFlipGreen, FilesAndBytesAreThoseOfTheTool) {
