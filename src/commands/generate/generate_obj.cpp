@@ -19,7 +19,6 @@
 #include "model/obj/obj_reader.h"
 #include "model/obj/obj_writer.h"
 #include "tspace/asset.h"
-#include "tspace/triangulate.h"
 
 namespace tspace::obj {
 namespace {
@@ -153,27 +152,27 @@ bool decide(const Material& material, const ObjPrimitive& primitive, const Gener
     return false;
 }
 
-FinishedPrimitive finishWithFrames(ObjGeometry geometry, const GenerateOptions& options, PrimitiveReport& report) {
-    PoolFrames frames = valueOrThrow(computeFrames(geometry.pool, {&geometry.polygons, 1}, options, {&report, 1}));
+FinishedPrimitive finishWithFrames(OwnedMesh mesh, const GenerateOptions& options, PrimitiveReport& report) {
+    const PrimitiveGeometry polygons{.indices = std::move(mesh.indices), .face_sizes = std::move(mesh.face_sizes)};
+    PoolFrames frames = valueOrThrow(computeFrames(mesh, {&polygons, 1}, options, {&report, 1}));
     FinishedPrimitive finished;
-    finished.positions = gather(std::span<const Vec3>(geometry.pool.positions), frames.source_vertices);
-    finished.normals = gather(std::span<const Vec3>(geometry.pool.normals), frames.source_vertices);
-    finished.uvs = gather(std::span<const Vec2>(geometry.pool.uvs), frames.source_vertices);
+    finished.positions = gather(std::span<const Vec3>(mesh.positions), frames.source_vertices);
+    finished.normals = gather(std::span<const Vec3>(mesh.normals), frames.source_vertices);
+    finished.uvs = gather(std::span<const Vec2>(mesh.uvs), frames.source_vertices);
     finished.tangents = std::move(frames.tangents);
     finished.bitangents = std::move(frames.bitangents);
     finished.indices = std::move(frames.indices.front());
     return finished;
 }
 
-FinishedPrimitive finishWithoutFrames(ObjGeometry geometry, PrimitiveReport& report) {
-    const Triangulation triangles = valueOrThrow(triangulate(geometry.view()));
+FinishedPrimitive finishWithoutFrames(OwnedMesh mesh, PrimitiveReport& report) {
     FinishedPrimitive finished;
-    finished.indices = gather(spanOf(geometry.polygons.indices), triangles.corners);
+    finished.indices = triangleCorners(mesh);
     report.triangle_count = finished.indices.size() / 3;
-    report.vertices_before = report.vertices_after = geometry.pool.positions.size();
-    finished.positions = std::move(geometry.pool.positions);
-    finished.normals = std::move(geometry.pool.normals);
-    finished.uvs = std::move(geometry.pool.uvs);
+    report.vertices_before = report.vertices_after = mesh.positions.size();
+    finished.positions = std::move(mesh.positions);
+    finished.normals = std::move(mesh.normals);
+    finished.uvs = std::move(mesh.uvs);
     return finished;
 }
 
@@ -205,12 +204,12 @@ FinishedPrimitive finish(const Model& model, const ObjPrimitive& primitive, bool
     report.mesh = primitive.shape;
     report.mesh_name = model.shape_names[primitive.shape];
     report.material_name = material.name;
-    ObjGeometry geometry = buildGeometry(model, primitive);
+    OwnedMesh mesh = buildMesh(model, primitive);
     // Before tangents are computed: they belong to the normals that are written.
-    if (primitive.normals_generated) roundUnits(geometry.pool.normals, options.format);
+    if (primitive.normals_generated) roundUnits(mesh.normals, options.format);
     const bool computes = decide(material, primitive, options, report);
-    FinishedPrimitive finished = computes ? finishWithFrames(std::move(geometry), options, report)
-                                          : finishWithoutFrames(std::move(geometry), report);
+    FinishedPrimitive finished = computes ? finishWithFrames(std::move(mesh), options, report)
+                                          : finishWithoutFrames(std::move(mesh), report);
     report.normals_generated = primitive.normals_generated;
     report.normals_replaced = replaced;
     if (primitive.normals_generated) countFaults(finished.positions, finished.normals, finished.indices, true, report);

@@ -185,7 +185,7 @@ std::string warnOfRounding(const PoolView& vertices, std::span<const PrimitiveGe
 
 /// Leaves the first of the vertices that only their frames keep apart. `copies` gets them, and must outlive `vertices`.
 void weld(const WeldedVertices& welded, std::vector<PrimitiveGeometry>& geometries, PoolView& vertices,
-          VertexPool& copies) {
+          OwnedMesh& copies) {
     copies.positions = gather(vertices.positions, welded.kept);
     copies.uvs = gather(vertices.uvs, welded.kept);
     vertices.positions = copies.positions;
@@ -327,7 +327,7 @@ PoolElements PoolComputer::computeOne(const Pool& pool, const Execution& executi
     vertices.makes_tangents = pool.makes_tangents;
     std::vector<PrimitiveGeometry> geometries = readGeometries(arrays_, primitives_, pool);
     WeldedVertices welded;
-    VertexPool copies;
+    OwnedMesh copies;
     if (pool.overwrites_normals) welded = weldVertices(document_, first);
     const bool was_welded = welded.kept.size() != welded.number_of.size();
     if (was_welded) weld(welded, geometries, vertices, copies);

@@ -416,12 +416,13 @@ Result<PoolFrames> computeWithMorphedNormals(const PoolView& pool, std::span<con
     if (Result<Done> done = generatePoolNormals(pool, primitives, options, reports, made); !done) {
         return std::move(done).error();
     }
-    PoolView with_normals = made.pool;
+    PoolView with_normals = made.vertices;
+    with_normals.targets = made.targets;
     with_normals.makes_tangents = pool.makes_tangents;
     Result<PoolFrames> frames = FrameComputer(with_normals, made.primitives, options, reports).compute();
     if (!frames) return frames;
     frames->normals_generated = true;
-    frames->normals = gather(std::span<const Vec3>(made.pool.normals), frames->source_vertices);
+    frames->normals = gather(std::span<const Vec3>(made.vertices.normals), frames->source_vertices);
     for (std::size_t i = 0; i < pool.targets.count; ++i) {
         frames->morphs[i].normals = spread(made.offsets[i], frames->source_vertices, made.source_vertices.size());
     }
