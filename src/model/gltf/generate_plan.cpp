@@ -331,12 +331,12 @@ class MeshPieces {
                 const NearVertex source{at.piece, corners_[at.piece][3 * std::size_t{at.triangle} + k]};
                 const auto [entry, is_new] = number_of.try_emplace(source, static_cast<std::uint32_t>(sources.size()));
                 if (is_new) sources.push_back(source);
-                result->indices.push_back(entry->second);
+                result->mesh.indices.push_back(entry->second);
             }
         }
         for (const NearVertex& source : sources)
-            result->positions.push_back(vertices_[lists_[source.piece]][source.vertex]);
-        takeNormals(sources, makes_normals, *result);
+            result->mesh.positions.push_back(vertices_[lists_[source.piece]][source.vertex]);
+        takeNormals(sources, makes_normals, result->mesh.normals);
         // Both directions of the budget's books: what stays is small beside the mesh.
         document_.memory->take(64 * sources.size() + 12 * triangles.size(), primitives_[numbers_[piece]].place());
         result->read = offsetsOf(std::move(sources));
@@ -358,15 +358,15 @@ class MeshPieces {
     }
 
     void takeNormals(const std::vector<NearVertex>& sources, const std::vector<bool>& makes_normals,
-                     Surroundings& result) const {
+                     std::vector<Vec3>& result) const {
         std::map<std::uint32_t, SharedArray<Vec3>> normals;  // of pieces that keep theirs
         for (std::size_t i = 0; i < sources.size(); ++i) {
             const auto [piece, vertex] = sources[i];
             if (!keeps(piece, makes_normals)) continue;
             const auto [entry, is_new] = normals.try_emplace(piece);
             if (is_new) entry->second = arrays_.borrowVec3(primitives_[numbers_[piece]], "NORMAL");
-            result.normals.resize(sources.size());
-            result.normals[i] = entry->second[vertex];
+            result.resize(sources.size());
+            result[i] = entry->second[vertex];
         }
     }
 
