@@ -353,17 +353,6 @@ std::string warnOfCancelledSigns(Model& model, const GeneratePlan& plan, const M
 
 namespace {
 
-/// The arrays of one primitive that mending looks at.
-struct Stored {
-    std::vector<Vec3> positions = {}, normals = {};
-    std::vector<std::uint32_t> corners = {};
-    std::vector<Vec4> tangents = {};
-
-    [[nodiscard]] TangentView view() const {
-        return {.positions = positions, .normals = normals, .tangents = tangents, .corners = corners};
-    }
-};
-
 bool isRead(const Document& document, const Primitive& primitive) {
     return hasTriangles(primitive.mode) && primitive.find("NORMAL") && !tangentUses(document, primitive).empty();
 }
@@ -376,12 +365,13 @@ std::size_t judgeOf(const Document& document, std::span<const Primitive> primiti
     return read == numbers.end() ? numbers.front() : *read;
 }
 
-Stored readStored(const Document& document, const Primitive& primitive) {
-    Stored stored{.tangents = readTangents(document, primitive)};
+/// What of a primitive mending looks at.
+OwnedMesh readStored(const Document& document, const Primitive& primitive) {
+    OwnedMesh stored{.tangents = readTangents(document, primitive)};
     if (primitive.find("NORMAL")) stored.normals = readVec3(document, primitive, "NORMAL");
     if (!hasTriangles(primitive.mode) || !primitive.find("POSITION")) return stored;
     stored.positions = readVec3(document, primitive, "POSITION");
-    stored.corners = readTriangleCorners(document, primitive);
+    stored.indices = readTriangleCorners(document, primitive);
     return stored;
 }
 
@@ -433,9 +423,9 @@ void mendBrokenValues(Editor& editor, const Document& document, std::span<const 
         const Primitive& judge = primitives[judgeOf(document, primitives, numbers)];
         constexpr std::uint64_t kOfCorner = 48, kOfVertex = 128;
         document.memory->require(kOfCorner * 3 * judge.triangleCount() + kOfVertex * judge.vertex_count, judge.place());
-        const Stored stored = readStored(document, judge);
+        const OwnedMesh stored = readStored(document, judge);
         std::vector<Vec4> mended = stored.tangents;
-        valueOrThrow(mendValues(stored.view(), !isRead(document, judge), mended));
+        valueOrThrow(mendValues(tangentView(stored), !isRead(document, judge), mended));
         const Accessor accessor = readAccessor(document, *judge.find("TANGENT"));
         Bytes elements = copyElements(document, accessor);
         std::size_t count = 0;
