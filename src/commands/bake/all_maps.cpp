@@ -69,7 +69,7 @@ LayerOptions HighDetail::layers() const {
 void HighDetail::findNames(BakeIds how) {
     std::map<std::string, std::uint32_t> numbers;
     std::vector<std::string> names;
-    ids_.resize(high_.corners.size() / 3);
+    ids_.resize(high_.triangleCount());
     for (std::size_t i = 0; i < high_.parts.size(); ++i) {
         const ScenePlacement& placement = scene_.placements[high_.parts[i].placement];
         const ScenePrimitive& primitive = scene_.scene.primitives[placement.primitive];
@@ -87,23 +87,22 @@ void HighDetail::findNames(BakeIds how) {
 }
 
 void HighDetail::findShells() {
-    const std::size_t triangles = high_.corners.size() / 3;
+    const std::size_t triangles = high_.triangleCount();
     Parallel parallel({.thread_count = 1});
-    const Buffer<std::uint32_t> roots = weldPositions(
-        {.positions = std::span<const Vec3>(high_.positions), .indices = {high_.corners}}, nullptr, parallel);
+    const Buffer<std::uint32_t> roots = weldPositions(high_.mesh.view(), nullptr, parallel);
     const auto pointOf = [&](std::size_t corner) {
-        const std::uint32_t vertex = high_.corners[corner];
+        const std::uint32_t vertex = high_.mesh.indices[corner];
         return roots.empty() ? vertex : roots[vertex];
     };
     // Positions that triangles hold together.
-    std::vector<std::uint32_t> shells(high_.positions.size());
+    std::vector<std::uint32_t> shells(high_.mesh.positions.size());
     std::iota(shells.begin(), shells.end(), 0u);
     for (std::size_t i = 0; i < triangles; ++i) {
         joinSets(shells.data(), pointOf(3 * i), pointOf(3 * i + 1));
         joinSets(shells.data(), pointOf(3 * i), pointOf(3 * i + 2));
     }
     constexpr std::uint32_t kNoNumber = 0xffffffffu;
-    std::vector<std::uint32_t> numbers(high_.positions.size(), kNoNumber);
+    std::vector<std::uint32_t> numbers(high_.mesh.positions.size(), kNoNumber);
     ids_.resize(triangles);
     for (std::size_t i = 0; i < triangles; ++i) {
         std::uint32_t& number = numbers[rootOf(shells.data(), pointOf(3 * i))];

@@ -89,7 +89,7 @@ class FileBaking {
         report_.frames_made = models_.low.frames_made;
         report_.matched_by_name = models_.matched_by_name;
         report_.low_triangle_count = models_.low.triangleCount();
-        report_.high_triangle_count = models_.high.corners.size() / 3;
+        report_.high_triangle_count = models_.high.triangleCount();
         report_.warnings = models_.low.warnings;
         report_.warnings.insert(report_.warnings.end(), models_.high.warnings.begin(), models_.high.warnings.end());
         report_.high_maps = models_.high.shown.reports;
@@ -173,7 +173,7 @@ class FileBaking {
             return wrap == TextureWrap::clamp && std::fabs(at - 0.5F) > 0.5F + 0.5F / static_cast<float>(size);
         };
         std::size_t count = 0;
-        const std::vector<Vec2>& uvs = part.uvs;
+        const std::vector<Vec2>& uvs = part.corners.uvs;
         for (auto corner = uvs.begin(); corner != uvs.end(); corner += 3) {
             count += std::any_of(corner, corner + 3, [&](const Vec2& uv) {
                 return isBeyond(image.wrap_u, uv.x, options_.map.width) ||
@@ -190,7 +190,7 @@ class FileBaking {
     /// The triangles that have a say, and the others as the rest. UVs that are not finite are counted by the bake.
     LowPart insidePart(const LowModel::Image& image, std::uint64_t& outside) {
         const auto isOutside = [&](std::size_t triangle) {
-            const Vec2* const uvs = &image.part.uvs[3 * triangle];
+            const Vec2* const uvs = &image.part.corners.uvs[3 * triangle];
             const float u = uvs[0].x + uvs[1].x + uvs[2].x, v = uvs[0].y + uvs[1].y + uvs[2].y;
             // Beyond the edge of a clamped texture nothing is shown again.
             const auto isBeside = [](TextureWrap wrap, float sum) {
@@ -242,14 +242,15 @@ class FileBaking {
         std::map<std::uint32_t, LowPart> tiles;
         std::uint64_t outside = 0;
         for (std::size_t i = 0; i < image.part.triangleCount(); ++i) {
-            const std::uint32_t tile = tileOf(&image.part.uvs[3 * i]);
+            const std::uint32_t tile = tileOf(&image.part.corners.uvs[3 * i]);
             if (tile == 0) {
                 ++outside;
                 continue;
             }
             LowPart& part = tiles[tile];
             part.addTriangle(image.part, i);
-            for (auto uv = part.uvs.end() - 3; uv != part.uvs.end(); ++uv) {
+            std::vector<Vec2>& uvs = part.corners.uvs;
+            for (auto uv = uvs.end() - 3; uv != uvs.end(); ++uv) {
                 uv->x -= static_cast<float>((tile - 1001) % 10);
                 uv->y += static_cast<float>((tile - 1001) / 10);
             }
@@ -259,7 +260,7 @@ class FileBaking {
         if (tiles.empty()) failFile(ErrorCode::missingAttribute, "the UVs of the low poly lie in no tile");
         for (auto& [tile, part] : tiles) {
             for (std::size_t i = 0; i < image.part.triangleCount(); ++i) {
-                if (tileOf(&image.part.uvs[3 * i]) != tile) part.addToRest(image.part, i);
+                if (tileOf(&image.part.corners.uvs[3 * i]) != tile) part.addToRest(image.part, i);
             }
             addOtherImages(part);
             const std::string number = std::to_string(tile);

@@ -127,18 +127,15 @@ void moveBy(const DVec3& offset, DrawnScene& drawn) {
     for (ScenePlacement& placement : drawn.placements) placement.to_world.origin = placement.to_world.origin - offset;
 }
 
-void addPrimitive(const ScenePrimitive& primitive, std::span<const Vec2> uvs, const Affine& place, std::uint32_t group,
-                  LowPart& part) {
-    for (std::size_t i = 0; i < primitive.corners.size(); ++i) {
-        const std::uint32_t vertex = primitive.corners[placedCorner(place, i)];
-        part.positions.push_back(toFloat(place.point(toDouble(primitive.positions[vertex]))));
-        const Vec3 normal = primitive.normals.empty() ? Vec3{} : primitive.normals[vertex];
-        const Vec4 tangent = primitive.tangents.empty() ? Vec4{} : primitive.tangents[vertex];
-        part.normals.push_back(normalAt(place, normal));
-        part.tangents.push_back(tangentAt(place, tangent));
-        part.uvs.push_back(uvs[vertex]);
+/// Appends the triangles at their place, a vertex for each corner. Frames that they lack are zero.
+void addPlaced(const MeshView& triangles, std::span<const Vec4> tangents, const Affine& place, OwnedMesh& mesh) {
+    for (std::size_t i = 0; i < triangles.cornerCount(); ++i) {
+        const std::uint32_t vertex = triangles.indices[placedCorner(place, i)];
+        mesh.positions.push_back(toFloat(place.point(toDouble(triangles.positions[vertex]))));
+        mesh.normals.push_back(normalAt(place, triangles.normals.empty() ? Vec3{} : triangles.normals[vertex]));
+        mesh.tangents.push_back(tangentAt(place, tangents.empty() ? Vec4{} : tangents[vertex]));
+        mesh.uvs.push_back(triangles.uvs[vertex]);
     }
-    part.groups.insert(part.groups.end(), primitive.corners.size() / 3, group);
 }
 
 void addCage(const ScenePrimitive& cage, const Affine& place, LowPart& part) {
@@ -174,7 +171,8 @@ LowModel lowModel(const DrawnScene& drawn, const DrawnScene* cage, const MeshMat
              .had_map = use != nullptr && use->needed_by == "normalTexture" && !use->only_in_variant,
              .uv_set = use != nullptr ? use->uv_set : 0,
              .transform = use != nullptr ? use->transform : UvTransform{}});
-        addPrimitive(primitive, uvs, firstPlace(drawn, i), group, part);
+        addPlaced(primitive.view(uvs), primitive.tangents.span(), firstPlace(drawn, i), part.corners);
+        part.groups.insert(part.groups.end(), primitive.corners.size() / 3, group);
         if (cage != nullptr) addCage(cage->scene.primitives[i], firstPlace(*cage, i), part);
     }
     if (model.images.empty()) {
@@ -199,7 +197,7 @@ void checkCage(const Scene& low, const Scene& cage) {
 }
 
 /// One vertex per corner where triangles are flat: their normals are their own.
-void addFlat(const ScenePrimitive& primitive, const Affine& place, HighModel& model) {
+void addFlat(const ScenePrimitive& primitive, const Affine& place, OwnedMesh& mesh) {
     for (std::size_t i = 0; i < primitive.corners.size(); i += 3) {
         std::array<Vec3, 3> at{};
         for (std::size_t k = 0; k < 3; ++k)
@@ -207,28 +205,27 @@ void addFlat(const ScenePrimitive& primitive, const Affine& place, HighModel& mo
         // Without a direction the triangle's own is taken where a ray meets it.
         const Vec3 normal = cross(at[1] - at[0], at[2] - at[0]);
         for (const Vec3& corner : at) {
-            model.corners.push_back(static_cast<std::uint32_t>(model.positions.size()));
-            model.positions.push_back(corner);
-            model.normals.push_back(normal);
+            mesh.indices.push_back(static_cast<std::uint32_t>(mesh.positions.size()));
+            mesh.positions.push_back(corner);
+            mesh.normals.push_back(normal);
         }
     }
 }
 
-void addSmooth(const ScenePrimitive& primitive, std::span<const Vec3> normals, const Affine& place, HighModel& model) {
-    const auto first = static_cast<std::uint32_t>(model.positions.size());
-    for (const Vec3& position : primitive.positions)
-        model.positions.push_back(toFloat(place.point(toDouble(position))));
-    for (const Vec3& normal : normals) model.normals.push_back(normalAt(place, normal));
+void addSmooth(const ScenePrimitive& primitive, std::span<const Vec3> normals, const Affine& place, OwnedMesh& mesh) {
+    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+    for (const Vec3& position : primitive.positions) mesh.positions.push_back(toFloat(place.point(toDouble(position))));
+    for (const Vec3& normal : normals) mesh.normals.push_back(normalAt(place, normal));
     for (std::size_t i = 0; i < primitive.corners.size(); ++i)
-        model.corners.push_back(first + primitive.corners[placedCorner(place, i)]);
+        mesh.indices.push_back(first + primitive.corners[placedCorner(place, i)]);
 }
 
 /// Smooth normals, one per vertex.
 std::vector<Vec3> smoothNormals(const ScenePrimitive& primitive, const BakeFileOptions& options) {
     std::vector<Vec3> of_corners(primitive.corners.size()), normals(primitive.positions.size());
-    const MeshView mesh{.positions = primitive.positions.span(), .indices = {primitive.corners.span()}};
-    valueOrThrow(generateNormals(mesh, {.weighting = NormalWeighting::angle, .convention = conventions::gltf},
-                                 of_corners, options.execution));
+    valueOrThrow(generateNormals(primitive.view(),
+                                 {.weighting = NormalWeighting::angle, .convention = conventions::gltf}, of_corners,
+                                 options.execution));
     for (std::size_t i = 0; i < of_corners.size(); ++i) normals[primitive.corners[i]] = of_corners[i];
     return normals;
 }
@@ -236,29 +233,24 @@ std::vector<Vec3> smoothNormals(const ScenePrimitive& primitive, const BakeFileO
 /// One vertex per corner where the primitive shows a map of its own, with the frames that the map is read with.
 void addMapped(const ScenePrimitive& primitive, const TangentUse& use, const Affine& place, std::uint32_t map,
                const BakeFileOptions& options, HighModel& model) {
-    MapMesh mesh;
-    addMapCorners(primitive, &use, options.tangents, options.execution, mesh);
-    model.tangents.resize(model.positions.size());
-    model.uvs.resize(model.positions.size());
-    model.map_of.resize(model.corners.size() / 3, kNoHighMap);
-    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
-        const std::size_t corner = placedCorner(place, i);
-        model.corners.push_back(static_cast<std::uint32_t>(model.positions.size()));
-        model.positions.push_back(toFloat(place.point(toDouble(mesh.positions[corner]))));
-        model.normals.push_back(normalAt(place, mesh.normals[corner]));
-        model.tangents.push_back(tangentAt(place, mesh.tangents[corner]));
-        model.uvs.push_back(mesh.uvs[corner]);
-    }
-    model.map_of.resize(model.corners.size() / 3, map);
+    OwnedMesh corners;
+    addMapCorners(primitive, &use, options.tangents, options.execution, corners);
+    OwnedMesh& mesh = model.mesh;
+    const std::size_t first = mesh.positions.size();
+    mesh.tangents.resize(first);
+    mesh.uvs.resize(first);
+    model.map_of.resize(model.triangleCount(), kNoHighMap);
+    addPlaced(corners.view(), corners.tangents, place, mesh);
+    for (std::size_t i = first; i < mesh.positions.size(); ++i) mesh.indices.push_back(static_cast<std::uint32_t>(i));
+    model.map_of.resize(model.triangleCount(), map);
 }
 
 /// BakeFileOptions::denoise: one per vertex, where positions are noisy; else nothing.
 std::vector<Vec3> denoisedNormals(const ScenePrimitive& primitive, const BakeFileOptions& options, double& most_noise) {
-    const MeshView mesh{.positions = primitive.positions.span(), .indices = {primitive.corners.span()}};
     std::vector<Vec3> of_corners(primitive.corners.size());
     const NormalOptions how{
         .weighting = NormalWeighting::best, .convention = conventions::gltf, .denoise = options.denoise};
-    const NormalReport report = valueOrThrow(generateNormals(mesh, how, of_corners, options.execution));
+    const NormalReport report = valueOrThrow(generateNormals(primitive.view(), how, of_corners, options.execution));
     if (!(report.noise > 0)) return {};
     most_noise = std::max(most_noise, double{report.noise});
     std::vector<Vec3> normals(primitive.positions.size());
@@ -290,7 +282,7 @@ HighModel highModel(const DrawnScene& drawn, const MeshMatch* match, const std::
         const ScenePrimitive& primitive = drawn.scene.primitives[placement.primitive];
         const Affine& place = placement.to_world;
         if (primitive.corners.empty()) continue;
-        model.parts.push_back({static_cast<std::uint32_t>(model.corners.size() / 3), i});
+        model.parts.push_back({static_cast<std::uint32_t>(model.triangleCount()), i});
         const double scale = std::max({length(place.x), length(place.y), length(place.z)});
         model.position_step = std::max(model.position_step, scale * primitive.position_step);
         const TangentUse* const use = maps.find(primitive);
@@ -301,26 +293,26 @@ HighModel highModel(const DrawnScene& drawn, const MeshMatch* match, const std::
             addMapped(primitive, *use, place, maps.numberOf(primitive, *use, primitive.corners.size() / 3), options,
                       model);
         } else if (!denoised.empty()) {
-            addSmooth(primitive, denoised, place, model);
+            addSmooth(primitive, denoised, place, model.mesh);
         } else if (!primitive.normals.empty() && extension != ".stl") {
-            addSmooth(primitive, primitive.normals.span(), place, model);
+            addSmooth(primitive, primitive.normals.span(), place, model.mesh);
         } else {
             ++made;
             if (is_flat) {
-                addFlat(primitive, place, model);
+                addFlat(primitive, place, model.mesh);
             } else {
-                addSmooth(primitive, smoothNormals(primitive, options), place, model);
+                addSmooth(primitive, smoothNormals(primitive, options), place, model.mesh);
             }
         }
         if (match != nullptr) model.groups.insert(model.groups.end(), primitive.corners.size() / 3, match->high[i]);
     }
-    if (model.corners.empty()) failFile(ErrorCode::missingAttribute, "the high poly has no triangles");
+    if (model.mesh.indices.empty()) failFile(ErrorCode::missingAttribute, "the high poly has no triangles");
     model.shown = maps.take();
     model.warnings = std::exchange(model.shown.warnings, {});
     if (!model.shown.maps.empty()) {
-        model.tangents.resize(model.positions.size());
-        model.uvs.resize(model.positions.size());
-        model.map_of.resize(model.corners.size() / 3, kNoHighMap);
+        model.mesh.tangents.resize(model.mesh.positions.size());
+        model.mesh.uvs.resize(model.mesh.positions.size());
+        model.map_of.resize(model.triangleCount(), kNoHighMap);
     }
     if (options.denoise != 0) model.warnings.push_back(denoisedText(noise, !model.shown.maps.empty()));
     if (made > 0)
@@ -339,23 +331,19 @@ const TangentUse* mapUse(const ScenePrimitive& primitive) {
 }
 
 void LowPart::addTriangle(const LowPart& from, std::size_t triangle) {
-    const auto add = [&](auto& to, const auto& values) {
-        if (values.empty()) return;
-        const auto first = values.begin() + static_cast<std::ptrdiff_t>(3 * triangle);
-        to.insert(to.end(), first, first + 3);
-    };
-    add(positions, from.positions);
-    add(normals, from.normals);
-    add(tangents, from.tangents);
-    add(uvs, from.uvs);
-    add(cage, from.cage);
+    corners.addVertices(from.corners, 3 * triangle, 3);
+    const auto first = static_cast<std::ptrdiff_t>(3 * triangle);
+    if (!from.cage.empty()) cage.insert(cage.end(), from.cage.begin() + first, from.cage.begin() + first + 3);
     if (!from.groups.empty()) groups.push_back(from.groups[triangle]);
 }
 
 void LowPart::addToRest(const LowPart& from, std::size_t triangle) {
     const auto first = static_cast<std::ptrdiff_t>(3 * triangle);
-    rest_positions.insert(rest_positions.end(), from.positions.begin() + first, from.positions.begin() + first + 3);
-    rest_normals.insert(rest_normals.end(), from.normals.begin() + first, from.normals.begin() + first + 3);
+    const auto add = [first](const std::vector<Vec3>& values, std::vector<Vec3>& to) {
+        to.insert(to.end(), values.begin() + first, values.begin() + first + 3);
+    };
+    add(from.corners.positions, rest_positions);
+    add(from.corners.normals, rest_normals);
 }
 
 RayOptions BakeModels::rays(const RayOptions& asked, TextureWrap wrap_u, TextureWrap wrap_v) const {
@@ -393,7 +381,7 @@ std::optional<LowModel> readLowAnew(const std::string& low, const BakeFileOption
     LowModel model = lowModel(scene, nullptr, nullptr);
     bool fits = model.images.size() == known.images.size();
     for (std::size_t i = 0; fits && i < model.images.size(); ++i)
-        fits = model.images[i].part.positions == known.images[i].part.positions;
+        fits = model.images[i].part.corners.positions == known.images[i].part.corners.positions;
     return fits ? std::optional(std::move(model)) : std::nullopt;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "commands/bake/high_maps.h"
+#include "core/base/owned_mesh.h"
 #include "images/float_image.h"
 #include "maps/map_surfaces.h"
 #include "maps/uv_coverage.h"
@@ -66,25 +67,24 @@ auto aboutInput(BakeInput input, Body&& body) {
     return *std::move(made);
 }
 
-/// Triangles of a low poly, three entries each.
+/// Triangles of a low poly.
 struct LowPart {
-    std::vector<Vec3> positions = {}, normals = {}, cage = {};
-    std::vector<Vec4> tangents = {};
-    std::vector<Vec2> uvs = {};
+    OwnedMesh corners = {};  ///< a vertex for each
+    std::vector<Vec3> cage = {};
     std::vector<std::uint32_t> groups = {};
     std::vector<Vec3> rest_positions = {}, rest_normals = {};  ///< as LowPoly's
 
     [[nodiscard]] LowPoly view() const {
-        return {.positions = positions,
-                .normals = normals,
-                .tangents = tangents,
-                .uvs = uvs,
+        return {.positions = corners.positions,
+                .normals = corners.normals,
+                .tangents = corners.tangents,
+                .uvs = corners.uvs,
                 .cage = cage,
                 .groups = groups,
                 .rest_positions = rest_positions,
                 .rest_normals = rest_normals};
     }
-    [[nodiscard]] std::size_t triangleCount() const { return positions.size() / 3; }
+    [[nodiscard]] std::size_t triangleCount() const { return corners.positions.size() / 3; }
     /// Appends a triangle of another one.
     void addTriangle(const LowPart& from, std::size_t triangle);
     void addToRest(const LowPart& from, std::size_t triangle);
@@ -115,27 +115,25 @@ struct HighPart {
 
 struct HighModel {
     std::vector<HighPart> parts = {};  ///< in ascending order
-    std::vector<Vec3> positions = {}, normals = {};
-    std::vector<std::uint32_t> corners = {}, groups = {};
-    /// Where the high poly shows maps of its own; empty without.
-    std::vector<Vec4> tangents = {};
-    std::vector<Vec2> uvs = {};
-    std::vector<std::uint32_t> map_of = {};
+    OwnedMesh mesh = {};               ///< with tangents and UVs where it shows maps of its own
+    std::vector<std::uint32_t> groups = {};
+    std::vector<std::uint32_t> map_of = {};  ///< empty where it shows none
     HighMaps shown = {};
     std::vector<std::string> warnings = {};
     double position_step =
         0;  ///< the largest of its primitives', as they are placed: of positions that are whole numbers
 
     [[nodiscard]] HighPoly view() const {
-        return {.positions = positions,
-                .normals = normals,
-                .corners = corners,
+        return {.positions = mesh.positions,
+                .normals = mesh.normals,
+                .corners = mesh.indices,
                 .groups = groups,
                 .maps = shown.maps,
                 .map_of = map_of,
-                .tangents = tangents,
-                .uvs = uvs};
+                .tangents = mesh.tangents,
+                .uvs = mesh.uvs};
     }
+    [[nodiscard]] std::size_t triangleCount() const { return mesh.indices.size() / 3; }
 };
 
 /// Both models of a bake.

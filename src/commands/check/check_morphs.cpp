@@ -215,8 +215,7 @@ void checkMorphNormals(PrimitiveFacts& facts) {
 namespace {
 
 struct MorphedMesh {
-    std::vector<Vec3> positions = {}, normals = {};
-    std::vector<Vec4> tangents = {};
+    OwnedMesh own = {};  ///< what a target moves
     TangentView view = {};
 };
 
@@ -227,19 +226,18 @@ std::vector<Vec3> moved(std::span<const Vec3> base, const SharedArray<Vec3>& del
 }
 
 void applyTarget(const TangentView& base, const SceneMorphTarget& target, MorphedMesh& morphed) {
-    morphed.positions = moved(base.positions, target.positions);
-    morphed.normals = moved(base.normals, target.normals);
-    morphed.tangents.assign(base.tangents.begin(), base.tangents.end());
+    OwnedMesh& own = morphed.own;
+    own.positions = moved(base.positions, target.positions);
+    own.normals = moved(base.normals, target.normals);
+    own.tangents.assign(base.tangents.begin(), base.tangents.end());
     for (std::size_t v = 0; v < target.tangents.size(); ++v) {
-        Vec4& tangent = morphed.tangents[v];
+        Vec4& tangent = own.tangents[v];
         const Vec3 sum = xyz(tangent) + target.tangents[v];
         tangent = {sum.x, sum.y, sum.z, tangent.w};
     }
-    morphed.view = {.positions = morphed.positions,
-                    .normals = morphed.normals,
-                    .tangents = morphed.tangents,
-                    .uvs = base.uvs,
-                    .corners = base.corners};
+    morphed.view = tangentView(own);
+    morphed.view.uvs = base.uvs;
+    morphed.view.corners = base.corners;
 }
 
 /// How wrong each vertex's tangent is, in degrees: its direction in the surface (`distances`), or its lean
@@ -325,7 +323,7 @@ class MorphChecker {
             if (!good[v]) continue;
             const bool is_off = errors[v] > limit;
             const double area = facts_.surface.vertex_areas[v];
-            if (is_off || turnDegrees(facts_.mesh.tangents[v], morphed.tangents[v]) > limit) turning_area += area;
+            if (is_off || turnDegrees(facts_.mesh.tangents[v], morphed.own.tangents[v]) > limit) turning_area += area;
             if (!is_off) continue;
             tally.add(v, facts_.surface.vertex_areas[v], errors[v]);
             off.push_back(v);

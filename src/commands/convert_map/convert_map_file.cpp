@@ -57,11 +57,11 @@ MapSide mapSideOf(const MapMesh* mesh, bool is_own, MapFileSpace space, const Ma
     if (mesh == nullptr) return side;
     if (space == MapFileSpace::tangent) side.reading.scale *= static_cast<float>(mesh->report.scale);
     if (!is_own) return side;
-    side.uvs = mesh->uvs;
-    side.positions = mesh->positions;
+    side.uvs = mesh->corners.uvs;
+    side.positions = mesh->corners.positions;
     if (space != MapFileSpace::tangent) return side;
-    side.normals = mesh->normals;
-    side.tangents = mesh->tangents;
+    side.normals = mesh->corners.normals;
+    side.tangents = mesh->corners.tangents;
     return side;
 }
 
@@ -72,13 +72,13 @@ struct MapSides {
 /// Whether directions along these axes go with the normals of the mesh, in the mean over its triangles.
 double agreementOf(const FloatImage& image, const MapMesh& mesh, const MapReading& reading, const MapAxes& axes) {
     const TextureShape shape{image.width, image.height, mesh.wrap_u, mesh.wrap_v};
+    const std::vector<Vec2>& uvs = mesh.corners.uvs;
     double sum = 0;
     std::size_t count = 0;
-    for (std::size_t i = 0; i < mesh.uvs.size(); i += 3) {
-        const Vec2 middle{(mesh.uvs[i].x + mesh.uvs[i + 1].x + mesh.uvs[i + 2].x) / 3,
-                          (mesh.uvs[i].y + mesh.uvs[i + 1].y + mesh.uvs[i + 2].y) / 3};
+    for (std::size_t i = 0; i < uvs.size(); i += 3) {
+        const Vec2 middle{(uvs[i].x + uvs[i + 1].x + uvs[i + 2].x) / 3, (uvs[i].y + uvs[i + 1].y + uvs[i + 2].y) / 3};
         DVec3 direction = fromAxes(axes, decodeTexel(sampleBilinear(shape, image.texels, middle), reading)), normal{};
-        for (std::size_t k = 0; k < 3; ++k) normal = normal + toDouble(mesh.normals[i + k]);
+        for (std::size_t k = 0; k < 3; ++k) normal = normal + toDouble(mesh.corners.normals[i + k]);
         if (!normalize(direction) || !normalize(normal)) continue;
         sum += dot(direction, normal);
         ++count;
@@ -98,7 +98,7 @@ MapAxes axesOf(const FloatImage& image, const Meshes& meshes, const ConvertMapFi
     }
     if (from_tangent || !to_tangent) return {};
     const MapMesh* const mesh = meshes.to ? &*meshes.to : meshes.from ? &*meshes.from : nullptr;
-    if (mesh == nullptr || mesh->normals.size() != mesh->uvs.size()) return {};
+    if (mesh == nullptr || mesh->corners.normals.size() != mesh->corners.uvs.size()) return {};
     constexpr double kFits = 0.5, kBetter = 0.2;
     const MapReading reading{.green = options.from_reading.green};
     const double up_y = agreementOf(image, *mesh, reading, {}), up_z = agreementOf(image, *mesh, reading, kMapAxesZUp);
@@ -260,7 +260,8 @@ ConvertMapFileReport convert(const std::string& input, const std::string& output
     const ConvertMapOptions chosen{
         .bits = format == ImageFormat::png ? bits : 32, .lengths = options.lengths, .padding = options.padding};
     const MapAxes axes = axesOf(image, meshes, options, report.warnings);
-    const std::vector<MapAxes> of_triangles(any == nullptr || axes == MapAxes{} ? 0 : any->uvs.size() / 3, axes);
+    const std::vector<MapAxes> of_triangles(any == nullptr || axes == MapAxes{} ? 0 : any->corners.uvs.size() / 3,
+                                            axes);
     const MapSides sides = sidesOf(meshes, options, of_triangles);
     if (is_texture && sides.to.space == MapSpace::object)
         failFile(ErrorCode::invalidOption, "textures of two channels hold tangent space alone; write a .png or .exr");

@@ -30,9 +30,9 @@ struct ShownMap {
                user.use->scale == other.user.use->scale;
     }
     [[nodiscard]] bool isLike(const ShownMap& other) const {
-        return from.uvs == other.from.uvs && from.normals == other.from.normals &&
-               from.tangents == other.from.tangents && to.normals == other.to.normals &&
-               to.tangents == other.to.tangents;
+        const OwnedMesh &own = from.corners, &others = other.from.corners;
+        return own.uvs == others.uvs && own.normals == others.normals && own.tangents == others.tangents &&
+               to.corners.normals == other.to.corners.normals && to.corners.tangents == other.to.corners.tangents;
     }
     /// Whether one map can serve both.
     [[nodiscard]] bool fits(const ShownMap& other) const {
@@ -59,31 +59,15 @@ std::vector<MapGroup> groupsOf(std::span<const ShownMap> shown) {
     return groups;
 }
 
-template <class T>
-void append(std::vector<T>& to, const std::vector<T>& from) {
-    to.insert(to.end(), from.begin(), from.end());
-}
-
 /// Those of a group, the same triangles once.
-MapMesh joinedSide(const MapGroup& group, MapMesh ShownMap::*side) {
-    MapMesh mesh;
+OwnedMesh joinedSide(const MapGroup& group, MapMesh ShownMap::*side) {
+    OwnedMesh mesh;
     for (auto one = group.begin(); one != group.end(); ++one) {
         if (std::any_of(group.begin(), one, [&](const ShownMap* other) { return (*one)->isLike(*other); })) continue;
-        const MapMesh& part = (*one)->*side;
-        append(mesh.uvs, part.uvs);
-        append(mesh.positions, part.positions);
-        append(mesh.normals, part.normals);
-        append(mesh.tangents, part.tangents);
+        const OwnedMesh& part = ((*one)->*side).corners;
+        mesh.addVertices(part, 0, part.positions.size());
     }
     return mesh;
-}
-
-MapSide sideOf(const MapMesh& mesh, double scale) {
-    return {.reading = {.scale = static_cast<float>(scale)},
-            .uvs = mesh.uvs,
-            .normals = mesh.normals,
-            .tangents = mesh.tangents,
-            .positions = mesh.positions};
 }
 
 std::string degreesText(double degrees) {
@@ -131,10 +115,10 @@ NewMap convertFor(const MapGroup& group, const FloatImage& image, const Generate
         report.reason = "its scale is 0, so nothing of it shows";
         return made;
     }
-    const MapMesh from = joinedSide(group, &ShownMap::from), to = joinedSide(group, &ShownMap::to);
+    const OwnedMesh from = joinedSide(group, &ShownMap::from), to = joinedSide(group, &ShownMap::to);
     const MapImage map{image.width, image.height, image.texels, first.from.wrap_u, first.from.wrap_v};
     FloatImage converted{image.width, image.height, image.bits, std::vector<Vec3>(image.texels.size()), image.alpha};
-    const MapSide from_side = sideOf(from, scale), to_side = sideOf(to, scale);
+    const MapSide from_side = tangentSide(from, scale), to_side = tangentSide(to, scale);
     const ConvertMapReport texels =
         valueOrThrow(convertMap(map, from_side, to_side, {.bits = image.bits}, converted.texels, options.execution));
     report.changed = texels.changed;
@@ -233,17 +217,17 @@ class OneMap {
         // What viewers make of a file without tangents.
         const TangentOptions viewers{.convention = conventions::gltf};
         const TangentUse& use = *one.user.use;
-        addMapCorners(*source.before, &use, viewers, options_.execution, one.from);
+        addMapCorners(*source.before, &use, viewers, options_.execution, one.from.corners);
         one.from.wrap_u = use.wrap_u;
         one.from.wrap_v = use.wrap_v;
-        addMapCorners(*source.after, &use, viewers, options_.execution, one.to);
-        if (one.is_bright || one.from.uvs != one.to.uvs) one.from = one.to;
-        std::vector<std::uint32_t> corners(one.from.uvs.size());
+        addMapCorners(*source.after, &use, viewers, options_.execution, one.to.corners);
+        if (one.is_bright || one.from.corners.uvs != one.to.corners.uvs) one.from = one.to;
+        std::vector<std::uint32_t> corners(one.from.corners.uvs.size());
         for (std::size_t i = 0; i < corners.size(); ++i) corners[i] = static_cast<std::uint32_t>(i);
         one.texels = TexelMask(image.width, image.height);
         std::uint64_t steps = kCoverSteps;
-        coverTexels({.corners = corners, .uvs = one.from.uvs, .wrap_u = use.wrap_u, .wrap_v = use.wrap_v}, one.texels,
-                    steps);
+        coverTexels({.corners = corners, .uvs = one.from.corners.uvs, .wrap_u = use.wrap_u, .wrap_v = use.wrap_v},
+                    one.texels, steps);
     }
 
     const Bytes& file_;

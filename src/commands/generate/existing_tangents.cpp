@@ -164,12 +164,12 @@ bool hasOnlyItsOwn(const Primitive& primitive, const PrimitiveReport& report) {
 
 /// The pool with some of its primitives, in groups that are mended alike. `mendsOf`: null for those to be left out.
 template <class MendsOf>
-Pool selected(const Pool& pool, std::span<const Primitive> primitives, const MendsOf& mendsOf) {
-    Pool result = pool;
+PoolPlan selected(const PoolPlan& pool, std::span<const Primitive> primitives, const MendsOf& mendsOf) {
+    PoolPlan result = pool;
     result.geometries.clear();
     result.primitives.clear();
     result.corner_count = 0;
-    for (const PoolGeometry& geometry : pool.geometries) {
+    for (const GeometryPlan& geometry : pool.geometries) {
         const std::size_t first = result.geometries.size();
         for (const std::size_t number : geometry.primitives) {
             const Mends* const mends = mendsOf(number);
@@ -177,7 +177,7 @@ Pool selected(const Pool& pool, std::span<const Primitive> primitives, const Men
             result.primitives.push_back(number);
             const auto same =
                 std::find_if(result.geometries.begin() + static_cast<std::ptrdiff_t>(first), result.geometries.end(),
-                             [&](const PoolGeometry& other) { return other.mends == *mends; });
+                             [&](const GeometryPlan& other) { return other.mends == *mends; });
             if (same != result.geometries.end()) {
                 same->primitives.push_back(number);
                 continue;
@@ -195,7 +195,7 @@ Pool selected(const Pool& pool, std::span<const Primitive> primitives, const Men
 void planRepair(Model& model, const GenerateOptions& options, GeneratePlan& plan) {
     const std::span<const Primitive> primitives = model.primitives();
     // Tangents of normals that are made anew are computed anew with them.
-    const auto isJudged = [](const Pool& pool) {
+    const auto isJudged = [](const PoolPlan& pool) {
         return pool.has_tangents && pool.makes_tangents && !pool.overwrites_normals;
     };
     bool is_needed = std::any_of(plan.pools.begin(), plan.pools.end(), isJudged);
@@ -207,19 +207,19 @@ void planRepair(Model& model, const GenerateOptions& options, GeneratePlan& plan
     for (std::size_t i = 0; i < primitives.size(); ++i) {
         if (verdicts[i].is_free && hasOnlyItsOwn(primitives[i], plan.reports[i])) keep(verdicts[i], plan.reports[i]);
     }
-    std::vector<Pool> pools;
-    for (Pool& pool : plan.pools) {
+    std::vector<PoolPlan> pools;
+    for (PoolPlan& pool : plan.pools) {
         if (!isJudged(pool)) {
             pools.push_back(std::move(pool));
             continue;
         }
         const auto verdictOn = [&](std::size_t number) -> const Verdict& { return verdicts[number]; };
         static const Mends kNothing;
-        Pool wrong = selected(pool, primitives, [&](std::size_t number) {
+        PoolPlan wrong = selected(pool, primitives, [&](std::size_t number) {
             const Verdict& verdict = verdictOn(number);
             return verdict.mends.vertices.empty() ? nullptr : &verdict.mends;
         });
-        Pool good = selected(pool, primitives, [&](std::size_t number) {
+        PoolPlan good = selected(pool, primitives, [&](std::size_t number) {
             return verdictOn(number).mends.vertices.empty() ? &kNothing : nullptr;
         });
         for (const std::size_t number : good.primitives) keep(verdictOn(number), plan.reports[number]);
@@ -263,7 +263,7 @@ bool looksInverted(const ScenePrimitive& primitive, const Convention& convention
 std::vector<std::size_t> replacedPrimitives(Model& model, const GeneratePlan& plan) {
     const std::span<const Primitive> primitives = model.primitives();
     std::vector<bool> is_replaced(primitives.size());
-    for (const Pool& pool : plan.pools) {
+    for (const PoolPlan& pool : plan.pools) {
         for (const std::size_t number : pool.primitives) is_replaced[number] = pool.has_tangents;
     }
     std::vector<std::size_t> replaced;
@@ -353,17 +353,6 @@ std::string warnOfCancelledSigns(Model& model, const GeneratePlan& plan, const M
 
 namespace {
 
-/// The arrays of one primitive that mending looks at.
-struct Stored {
-    std::vector<Vec3> positions = {}, normals = {};
-    std::vector<std::uint32_t> corners = {};
-    std::vector<Vec4> tangents = {};
-
-    [[nodiscard]] TangentView view() const {
-        return {.positions = positions, .normals = normals, .tangents = tangents, .corners = corners};
-    }
-};
-
 bool isRead(const Document& document, const Primitive& primitive) {
     return hasTriangles(primitive.mode) && primitive.find("NORMAL") && !tangentUses(document, primitive).empty();
 }
@@ -376,12 +365,13 @@ std::size_t judgeOf(const Document& document, std::span<const Primitive> primiti
     return read == numbers.end() ? numbers.front() : *read;
 }
 
-Stored readStored(const Document& document, const Primitive& primitive) {
-    Stored stored{.tangents = readTangents(document, primitive)};
+/// What of a primitive mending looks at.
+OwnedMesh readStored(const Document& document, const Primitive& primitive) {
+    OwnedMesh stored{.tangents = readTangents(document, primitive)};
     if (primitive.find("NORMAL")) stored.normals = readVec3(document, primitive, "NORMAL");
     if (!hasTriangles(primitive.mode) || !primitive.find("POSITION")) return stored;
     stored.positions = readVec3(document, primitive, "POSITION");
-    stored.corners = readTriangleCorners(document, primitive);
+    stored.indices = readTriangleCorners(document, primitive);
     return stored;
 }
 
@@ -407,7 +397,7 @@ std::vector<std::vector<std::size_t>> findBrokenValues(Model& model, const Gener
     const Document& document = model.document();
     const std::span<const Primitive> primitives = model.primitives();
     std::vector<bool> is_computed(primitives.size(), false);
-    for (const Pool& pool : plan.pools) {
+    for (const PoolPlan& pool : plan.pools) {
         for (const std::size_t number : pool.primitives) is_computed[number] = !pool.keeps_tangents;
     }
     std::map<std::size_t, std::vector<std::size_t>> sharing;  // accessor -> primitives
@@ -433,9 +423,9 @@ void mendBrokenValues(Editor& editor, const Document& document, std::span<const 
         const Primitive& judge = primitives[judgeOf(document, primitives, numbers)];
         constexpr std::uint64_t kOfCorner = 48, kOfVertex = 128;
         document.memory->require(kOfCorner * 3 * judge.triangleCount() + kOfVertex * judge.vertex_count, judge.place());
-        const Stored stored = readStored(document, judge);
+        const OwnedMesh stored = readStored(document, judge);
         std::vector<Vec4> mended = stored.tangents;
-        valueOrThrow(mendValues(stored.view(), !isRead(document, judge), mended));
+        valueOrThrow(mendValues(tangentView(stored), !isRead(document, judge), mended));
         const Accessor accessor = readAccessor(document, *judge.find("TANGENT"));
         Bytes elements = copyElements(document, accessor);
         std::size_t count = 0;

@@ -32,8 +32,8 @@ void tell(const GenerateOptions& options, const char* what, std::uint64_t done, 
 /// How many of the pools, one at least, are computed together. What becomes of them waits in memory too, for those
 /// before it to be stored: hence some more than the work itself, and twice as much for several. Fails with tooLarge
 /// where the first alone is too much.
-std::size_t countTogether(std::span<const Pool> pools, const Document& document, std::span<const Primitive> primitives,
-                          const Execution& execution) {
+std::size_t countTogether(std::span<const PoolPlan> pools, const Document& document,
+                          std::span<const Primitive> primitives, const Execution& execution) {
     document.memory->require(pools[0].workBytes() / 4 * 5, primitives[pools[0].primitives[0]].place());
     const unsigned width = Parallel(execution).width();
     const std::size_t most = width == 1 ? 0 : kCornersPerThread * width;
@@ -138,11 +138,11 @@ void computeAndApply(Input& input, Decisions& decisions, Editor& editor, std::ve
     GeneratePlan& plan = decisions.plan;
     VertexNumbers numbers(document, editor);
     std::uint64_t total = 0, done = 0;
-    for (const Pool& pool : plan.pools) total += pool.corner_count;
+    for (const PoolPlan& pool : plan.pools) total += pool.corner_count;
     PoolComputer computer(document, input.model.arrays(), primitives, input.options);
-    for (std::span<const Pool> rest = plan.pools; !rest.empty();) {
+    for (std::span<const PoolPlan> rest = plan.pools; !rest.empty();) {
         tell(input.options, "computing tangents", done, total);
-        const std::span<const Pool> pools =
+        const std::span<const PoolPlan> pools =
             rest.first(countTogether(rest, document, primitives, input.options.execution));
         rest = rest.subspan(pools.size());
         std::vector<PoolElements> elements = computer.compute(pools, plan.reports);

@@ -19,7 +19,6 @@
 #include "model/obj/obj_reader.h"
 #include "model/obj/obj_writer.h"
 #include "tspace/asset.h"
-#include "tspace/triangulate.h"
 
 namespace tspace::obj {
 namespace {
@@ -153,49 +152,45 @@ bool decide(const Material& material, const ObjPrimitive& primitive, const Gener
     return false;
 }
 
-FinishedPrimitive finishWithFrames(ObjGeometry geometry, const GenerateOptions& options, PrimitiveReport& report) {
-    PoolFrames frames = valueOrThrow(computeFrames(geometry.pool, {&geometry.polygons, 1}, options, {&report, 1}));
-    FinishedPrimitive finished;
-    finished.positions = gather(std::span<const Vec3>(geometry.pool.positions), frames.source_vertices);
-    finished.normals = gather(std::span<const Vec3>(geometry.pool.normals), frames.source_vertices);
-    finished.uvs = gather(std::span<const Vec2>(geometry.pool.uvs), frames.source_vertices);
-    finished.tangents = std::move(frames.tangents);
+/// Makes the frames, with triangles for polygons.
+void makeObjFrames(const GenerateOptions& options, FinishedPrimitive& finished, PrimitiveReport& report) {
+    OwnedMesh& mesh = finished.mesh;
+    const PrimitiveGeometry polygons{.indices = std::move(mesh.indices), .face_sizes = std::move(mesh.face_sizes)};
+    PoolFrames frames = valueOrThrow(computeFrames(mesh, {&polygons, 1}, options, {&report, 1}));
+    mesh = {.positions = gather(std::span<const Vec3>(mesh.positions), frames.source_vertices),
+            .normals = gather(std::span<const Vec3>(mesh.normals), frames.source_vertices),
+            .tangents = std::move(frames.tangents),
+            .uvs = gather(std::span<const Vec2>(mesh.uvs), frames.source_vertices),
+            .indices = std::move(frames.indices.front())};
     finished.bitangents = std::move(frames.bitangents);
-    finished.indices = std::move(frames.indices.front());
-    return finished;
 }
 
-FinishedPrimitive finishWithoutFrames(ObjGeometry geometry, PrimitiveReport& report) {
-    const Triangulation triangles = valueOrThrow(triangulate(geometry.view()));
-    FinishedPrimitive finished;
-    finished.indices = gather(spanOf(geometry.polygons.indices), triangles.corners);
-    report.triangle_count = finished.indices.size() / 3;
-    report.vertices_before = report.vertices_after = geometry.pool.positions.size();
-    finished.positions = std::move(geometry.pool.positions);
-    finished.normals = std::move(geometry.pool.normals);
-    finished.uvs = std::move(geometry.pool.uvs);
-    return finished;
+void cutPolygons(OwnedMesh& mesh, PrimitiveReport& report) {
+    mesh.indices = triangleCorners(mesh);
+    mesh.face_sizes = {};
+    report.triangle_count = mesh.indices.size() / 3;
+    report.vertices_before = report.vertices_after = mesh.positions.size();
 }
 
 /// Packs the frames as they are written, and takes away what is to go.
 void packWritten(const GenerateOptions& options, FinishedPrimitive& finished, PrimitiveReport& report) {
-    if (finished.tangents.empty()) {
+    OwnedMesh& mesh = finished.mesh;
+    if (mesh.tangents.empty()) {
         const bool can_have = report.action == PrimitiveAction::notNeeded;
         report.notes.emplace_back(std::string("its frames are not packed: it has no TANGENT") +
                                   (can_have ? " (--all makes what is missing)" : ""));
         return;
     }
-    roundUnits(std::span(finished.tangents), finished.tangent_format);
+    roundUnits(std::span(mesh.tangents), finished.tangent_format);
     const gltf::PackedLayout& layout = gltf::packedLayout(*options.pack);
-    const Bytes words =
-        gltf::packWords(layout.format, finished.normals, finished.tangents, options.execution, report.packing);
+    const Bytes words = gltf::packWords(layout.format, mesh.normals, mesh.tangents, options.execution, report.packing);
     for (const gltf::PackedPart& part : layout.parts)
         finished.packed.push_back({part, takePart(words, layout.format, part)});
     report.frames_packed = true;
     report.tangents_dropped = options.pack_drop != PackDrop::nothing;
     report.normals_dropped = options.pack_drop == PackDrop::all;
-    if (report.tangents_dropped) finished.tangents.clear();
-    if (report.normals_dropped) finished.normals.clear();
+    if (report.tangents_dropped) mesh.tangents.clear();
+    if (report.normals_dropped) mesh.normals.clear();
 }
 
 /// `replaced`: its normals were there.
@@ -205,20 +200,22 @@ FinishedPrimitive finish(const Model& model, const ObjPrimitive& primitive, bool
     report.mesh = primitive.shape;
     report.mesh_name = model.shape_names[primitive.shape];
     report.material_name = material.name;
-    ObjGeometry geometry = buildGeometry(model, primitive);
+    FinishedPrimitive finished{
+        .shape = primitive.shape, .material = primitive.material, .mesh = buildMesh(model, primitive)};
+    OwnedMesh& mesh = finished.mesh;
     // Before tangents are computed: they belong to the normals that are written.
-    if (primitive.normals_generated) roundUnits(geometry.pool.normals, options.format);
-    const bool computes = decide(material, primitive, options, report);
-    FinishedPrimitive finished = computes ? finishWithFrames(std::move(geometry), options, report)
-                                          : finishWithoutFrames(std::move(geometry), report);
+    if (primitive.normals_generated) roundUnits(mesh.normals, options.format);
+    if (decide(material, primitive, options, report)) {
+        makeObjFrames(options, finished, report);
+    } else {
+        cutPolygons(mesh, report);
+    }
     report.normals_generated = primitive.normals_generated;
     report.normals_replaced = replaced;
-    if (primitive.normals_generated) countFaults(finished.positions, finished.normals, finished.indices, true, report);
+    if (primitive.normals_generated) countFaults(mesh.positions, mesh.normals, mesh.indices, true, report);
     if (primitive.normals_generated) finished.normal_format = options.format;
     finished.tangent_format = options.format;
     if (options.pack) packWritten(options, finished, report);
-    finished.shape = primitive.shape;
-    finished.material = primitive.material;
     return finished;
 }
 

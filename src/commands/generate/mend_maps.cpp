@@ -69,7 +69,7 @@ MapMesh meshOf(const Scene& scene, const GenerateOptions& options, const IsUser&
         for (const TangentUse& use : primitive.uses) {
             const bool has_uvs = use.uv_set < primitive.uv_sets.size() && !primitive.uv_sets[use.uv_set].empty();
             if (!isUser(use) || !showsNormals(use) || primitive.corners.empty() || !has_uvs) continue;
-            addMapCorners(primitive, &use, options.tangents, execution, mesh);
+            addMapCorners(primitive, &use, options.tangents, execution, mesh.corners);
             mesh.wrap_u = use.wrap_u;
             mesh.wrap_v = use.wrap_v;
             mesh.report.scale = use.scale;
@@ -80,8 +80,7 @@ MapMesh meshOf(const Scene& scene, const GenerateOptions& options, const IsUser&
 
 void toTangentSpace(const Scene& scene, std::size_t image_number, const GenerateOptions& options, FloatImage& image) {
     const MapMesh mesh = meshOf(scene, options, [&](const TangentUse& use) { return use.image == image_number; });
-    MapSide to = tangentSide(mesh);
-    to.reading.scale = static_cast<float>(mesh.report.scale);
+    const MapSide to = tangentSide(mesh.corners, mesh.report.scale);
     const MapImage map{image.width, image.height, image.texels, mesh.wrap_u, mesh.wrap_v};
     valueOrThrow(convertMap(map, {.space = MapSpace::object}, to, {.bits = image.bits, .padding = 16}, image.texels,
                             options.execution));
@@ -134,7 +133,7 @@ MadeOfHeights makeOfHeights(const Scene& scene, std::size_t material, std::size_
         return made;
     }
     const MapMesh mesh = meshOf(scene, options, [&](const TangentUse& use) { return use.material == material; });
-    if (mesh.uvs.empty()) {
+    if (mesh.corners.uvs.empty()) {
         made.why_not = "its faces have no texture coordinates";
         return made;
     }
@@ -142,7 +141,7 @@ MadeOfHeights makeOfHeights(const Scene& scene, std::size_t material, std::size_
     execution.allocator = nullptr;
     const std::vector<float> values = heightsOf(*heights);
     const HeightToNormalReport report =
-        valueOrThrow(heightToNormal({heights->width, heights->height, values}, tangentSide(mesh),
+        valueOrThrow(heightToNormal({heights->width, heights->height, values}, tangentSide(mesh.corners),
                                     {.strength = strength, .bits = heights->bits}, heights->texels, execution));
     heights->alpha.clear();
     const auto file = encodePng(*heights, heights->bits);

@@ -58,7 +58,7 @@ HeightToNormalFileReport convertHeights(const std::string& input, const std::str
     const TextureWrap wrap_u = options.clamp ? TextureWrap::clamp : mesh.wrap_u;
     const TextureWrap wrap_v = options.clamp ? TextureWrap::clamp : mesh.wrap_v;
     report.texels = valueOrThrow(heightToNormal(
-        {image.width, image.height, heights, wrap_u, wrap_v}, tangentSide(mesh),
+        {image.width, image.height, heights, wrap_u, wrap_v}, tangentSide(mesh.corners),
         {.strength = options.strength, .green = options.green, .bits = options.bits}, image.texels, options.execution));
     addHeightWarnings(options, report);
     image.alpha.clear();

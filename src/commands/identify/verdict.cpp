@@ -100,10 +100,7 @@ class Explainer {
         : primitive_(primitive),
           reading_(reading),
           options_(options),
-          mesh_({.positions = primitive.positions.span(),
-                 .normals = primitive.normals.span(),
-                 .uvs = reading.uvs,
-                 .indices = primitive.corners.span()}),
+          mesh_(primitive.view(reading.uvs)),
           votes_(uvVotes(mesh_)) {}
 
     /// Whether any triangle has UV area.

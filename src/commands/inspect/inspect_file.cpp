@@ -19,7 +19,6 @@
 #include "model/obj/obj_primitives.h"
 #include "model/obj/obj_reader.h"
 #include "model/read/read_scene.h"
-#include "tspace/triangulate.h"
 
 namespace tspace {
 
@@ -258,18 +257,18 @@ Inspection inspectGltf(const std::string& input, const FileOptions& options) {
 using namespace obj;
 
 PrimitiveInfo describePrimitive(const obj::Model& model, const ObjPrimitive& primitive) {
-    const ObjGeometry geometry = buildGeometry(model, primitive);
+    const OwnedMesh mesh = buildMesh(model, primitive);
     const Material& material = model.materials[primitive.material];
     PrimitiveInfo info;
     info.mesh = primitive.shape;
     info.mesh_name = model.shape_names[primitive.shape];
     info.material_name = material.name;
-    info.mode = geometry.polygons.face_sizes.empty() ? "triangles" : "polygons";
-    info.vertex_count = geometry.pool.positions.size();
+    info.mode = mesh.face_sizes.empty() ? "triangles" : "polygons";
+    info.vertex_count = mesh.positions.size();
     info.index_type = "none";
     info.compression = "none";
     info.attributes.push_back("POSITION float3");
-    info.has_normals = !geometry.pool.normals.empty();
+    info.has_normals = !mesh.normals.empty();
     if (info.has_normals) info.attributes.push_back("NORMAL float3");
     if (primitive.has_uvs) info.attributes.push_back("TEXCOORD_0 float2");
     info.uv_set_count = primitive.has_uvs ? 1 : 0;
@@ -281,14 +280,11 @@ PrimitiveInfo describePrimitive(const obj::Model& model, const ObjPrimitive& pri
     }
     info.node_count = 1;
     info.instance_count = 1;
-    const Triangulation triangles = valueOrThrow(triangulate(geometry.view()));
-    std::vector<std::uint32_t> corners;
-    corners.reserve(triangles.corners.size());
-    for (const std::uint32_t corner : triangles.corners) corners.push_back(geometry.polygons.indices[corner]);
+    const std::vector<std::uint32_t> corners = triangleCorners(mesh);
     info.triangle_count = corners.size() / 3;
-    describeUvMap(corners, geometry.pool.positions, geometry.pool.uvs, true, info);
+    describeUvMap(corners, mesh.positions, mesh.uvs, true, info);
     MeshView cut;  // as check measures it
-    cut.positions = std::span(geometry.pool.positions);
+    cut.positions = std::span(mesh.positions);
     cut.indices = IndexView(std::span(corners));
     if (model.memory->has(noteMemory(cut))) info.position_noise = notedNoise(cut, 0);
     return info;

@@ -43,19 +43,19 @@ LowModel::Image shownPart(const LowModel& model, const MapErrorFileOptions& opti
             for (std::size_t i = 0; i < image.part.triangleCount(); ++i) shown.part.addToRest(image.part, i);
             continue;
         }
-        if (shown.part.positions.empty()) {
+        if (shown.part.corners.positions.empty()) {
             shown.wrap_u = image.wrap_u;
             shown.wrap_v = image.wrap_v;
         }
         for (std::size_t i = 0; i < image.part.triangleCount(); ++i) {
-            if (options.tile == 0 || tileOf(&image.part.uvs[3 * i]) == options.tile) {
+            if (options.tile == 0 || tileOf(&image.part.corners.uvs[3 * i]) == options.tile) {
                 shown.part.addTriangle(image.part, i);
             } else {
                 shown.part.addToRest(image.part, i);
             }
         }
     }
-    if (!shown.part.positions.empty()) return shown;
+    if (!shown.part.corners.positions.empty()) return shown;
     failFile(ErrorCode::missingAttribute, options.tile == 0
                                               ? "no triangles have the material " + inQuotes(options.material)
                                               : "no triangles lie in the tile " + std::to_string(options.tile));
@@ -149,9 +149,9 @@ class FileMeasuring {
             bake_.tangents.method = tried.method;
             const std::optional<LowModel> model = readLowAnew(low, bake_, tried.faces, known);
             if (!model) continue;
-            std::vector<Vec4> tangents = shownPart(*model, options_).part.tangents;
+            std::vector<Vec4> tangents = shownPart(*model, options_).part.corners.tangents;
             const auto is_known = [&](const TriedFrames& frames) { return frames.tangents == tangents; };
-            if (tangents == shownPart(known, options_).part.tangents) continue;
+            if (tangents == shownPart(known, options_).part.corners.tangents) continue;
             if (std::none_of(frames_.begin(), frames_.end(), is_known))
                 frames_.push_back({tried.name, std::move(tangents)});
         }

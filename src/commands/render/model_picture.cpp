@@ -12,6 +12,7 @@
 #include "commands/shared/picture/colors.h"
 #include "commands/shared/texture_vectors.h"
 #include "commands/shared/uv_reading.h"
+#include "core/base/owned_mesh.h"
 #include "core/base/vec_math.h"
 #include "core/mesh/surface/surface.h"
 #include "core/mesh/surface/uvs.h"
@@ -115,19 +116,14 @@ std::vector<Vec4> computeCornerTangents(const ScenePrimitive& primitive, const C
                                         Method method, const Execution& execution) {
     const UvReading reading = tangentReading(primitive);
     if ((reading.uvs.empty() && method != Method::basis) || primitive.corners.empty()) return {};
-    std::vector<Vec3> positions;
-    std::vector<Vec2> uvs;
-    MeshView mesh{.positions = primitive.positions.span(),
-                  .normals = normals.values,
-                  .uvs = reading.uvs,
-                  .indices = primitive.corners.span()};
+    OwnedMesh corners;
+    MeshView mesh = primitive.view(reading.uvs);
     if (normals.is_per_corner) {
-        positions = unrolled(primitive.positions.span(), primitive.corners.span());
-        if (!reading.uvs.empty()) uvs = unrolled(reading.uvs, primitive.corners.span());
-        mesh = {.positions = std::span<const Vec3>(positions),
-                .normals = normals.values,
-                .uvs = std::span<const Vec2>(uvs)};
+        corners.positions = unrolled(primitive.positions.span(), primitive.corners.span());
+        if (!reading.uvs.empty()) corners.uvs = unrolled(reading.uvs, primitive.corners.span());
+        mesh = corners.view();
     }
+    mesh.normals = normals.values;
     std::vector<Vec4> tangents(primitive.corners.size());
     valueOrThrow(
         generateTangents(mesh, {.method = method, .convention = conventions::gltf}, {.tangents = tangents}, execution));

@@ -79,22 +79,19 @@ void gatherCorners(std::span<const T> from, std::span<const std::uint32_t> indic
     for (const std::uint32_t index : indices) to.push_back(from[index]);
 }
 
-void addFrames(const ScenePrimitive& primitive, std::span<const Vec2> uvs, const TangentOptions& options,
-               const Execution& execution, MapMesh& mesh) {
+/// Returns whether they were made.
+bool addFrames(const ScenePrimitive& primitive, std::span<const Vec2> uvs, const TangentOptions& options,
+               const Execution& execution, OwnedMesh& mesh) {
     if (!primitive.normals.empty() && !primitive.tangents.empty()) {
         gatherCorners(primitive.normals.span(), primitive.corners.span(), mesh.normals);
         gatherCorners(primitive.tangents.span(), primitive.corners.span(), mesh.tangents);
-        return;
+        return false;
     }
-    const MeshView view{.positions = primitive.positions.span(),
-                        .normals = primitive.normals.span(),
-                        .uvs = uvs,
-                        .indices = primitive.corners.span()};
     IndexedFramesOptions frames{.tangents = options, .normals = {.weighting = NormalWeighting::flat}};
-    const IndexedFrames made = valueOrThrow(makeIndexedFrames(view, frames, execution));
+    const IndexedFrames made = valueOrThrow(makeIndexedFrames(primitive.view(uvs), frames, execution));
     gatherCorners(std::span<const Vec3>(made.normals), made.indices, mesh.normals);
     gatherCorners(std::span<const Vec4>(made.tangents), made.indices, mesh.tangents);
-    mesh.report.tangents_made = true;
+    return true;
 }
 
 /// The scale of x and y of the map that all of them have.
@@ -172,20 +169,21 @@ std::optional<Affine> placeOf(const DrawnScene& drawn, const ChosenPrimitive& ch
 
 /// Turns the corners from `first` on into the world.
 void placeCorners(const Affine& place, std::size_t first, MapMesh& mesh) {
-    for (std::size_t i = first; i < mesh.normals.size(); ++i) {
-        mesh.normals[i] = normalAt(place, mesh.normals[i]);
-        mesh.tangents[i] = tangentAt(place, mesh.tangents[i]);
+    OwnedMesh& corners = mesh.corners;
+    for (std::size_t i = first; i < corners.normals.size(); ++i) {
+        corners.normals[i] = normalAt(place, corners.normals[i]);
+        corners.tangents[i] = tangentAt(place, corners.tangents[i]);
     }
     std::array<DVec3, 3> axes{place.normal({1, 0, 0}), place.normal({0, 1, 0}), place.normal({0, 0, 1})};
     const double size = std::max({length(axes[0]), length(axes[1]), length(axes[2])});
     if (size > 0) {
         for (DVec3& axis : axes) axis = (1 / size) * axis;
     }
-    mesh.axes.resize(mesh.normals.size() / 3, {toFloat(axes[0]), toFloat(axes[1]), toFloat(axes[2])});
+    mesh.axes.resize(corners.normals.size() / 3, {toFloat(axes[0]), toFloat(axes[1]), toFloat(axes[2])});
 }
 
 /// Removes the triangles from corner `first` on that are not in the tile.
-void keepTile(std::uint32_t tile, std::size_t first, MapMesh& mesh) {
+void keepTile(std::uint32_t tile, std::size_t first, OwnedMesh& mesh) {
     std::size_t kept = first;
     for (std::size_t i = first; i < mesh.uvs.size(); i += 3) {
         if (tileOf(&mesh.uvs[i]) != tile) continue;
@@ -200,15 +198,23 @@ void keepTile(std::uint32_t tile, std::size_t first, MapMesh& mesh) {
     mesh.positions.resize(kept);
     mesh.normals.resize(kept);
     mesh.tangents.resize(kept);
-    mesh.report.triangle_count = kept / 3;
+}
+
+void tellPrimitive(const ScenePrimitive& primitive, bool frames_made, MapMesh& mesh) {
+    MapMeshReport& report = mesh.report;
+    report.tangents_made = report.tangents_made || frames_made;
+    if (std::find(report.materials.begin(), report.materials.end(), primitive.material_name) == report.materials.end())
+        report.materials.push_back(primitive.material_name);
+    ++report.primitive_count;
+    report.triangle_count = mesh.corners.uvs.size() / 3;
 }
 
 }  // namespace
 
 bool showsNormals(const TangentUse& use) { return use.needed_by != "anisotropy"; }
 
-void addMapCorners(const ScenePrimitive& primitive, const TangentUse* use, const TangentOptions& tangents,
-                   const Execution& execution, MapMesh& mesh) {
+bool addMapCorners(const ScenePrimitive& primitive, const TangentUse* use, const TangentOptions& tangents,
+                   const Execution& execution, OwnedMesh& mesh) {
     const auto uvs_of = [&](const TangentUse& of) {
         return textureUvs(primitive.uv_sets[of.uv_set].span(), of.transform);
     };
@@ -218,14 +224,10 @@ void addMapCorners(const ScenePrimitive& primitive, const TangentUse* use, const
     const TangentUse* const first = primitive.uses.empty() ? nullptr : &primitive.uses.front();
     const bool has_first =
         first != nullptr && first->uv_set < primitive.uv_sets.size() && !primitive.uv_sets[first->uv_set].empty();
-    addFrames(primitive, has_first ? uvs_of(*first) : uvs, tangents, execution, mesh);
+    const bool frames_made = addFrames(primitive, has_first ? uvs_of(*first) : uvs, tangents, execution, mesh);
     gatherCorners(std::span<const Vec2>(uvs), primitive.corners.span(), mesh.uvs);
     gatherCorners(primitive.positions.span(), primitive.corners.span(), mesh.positions);
-    std::vector<std::string>& materials = mesh.report.materials;
-    if (std::find(materials.begin(), materials.end(), primitive.material_name) == materials.end())
-        materials.push_back(primitive.material_name);
-    ++mesh.report.primitive_count;
-    mesh.report.triangle_count = mesh.uvs.size() / 3;
+    return frames_made;
 }
 
 MapMesh readMapMesh(const std::string& model, const MapMeshChoice& choice, const TangentOptions& tangents,
@@ -253,17 +255,16 @@ MapMesh readMapMesh(const std::string& model, const MapMeshChoice& choice, const
             place = placeOf(drawn, one);
             if (!place) continue;
         }
-        const std::size_t first = mesh.normals.size();
+        const std::size_t first = mesh.corners.normals.size();
         scene.memory->take(4 * kCornerBytes * one.primitive->corners.size(), one.primitive->place);
-        const MapMeshReport before = mesh.report;
-        addMapCorners(*one.primitive, one.use, tangents, execution, mesh);
-        if (choice.tile != 0) keepTile(choice.tile, first, mesh);
-        if (mesh.uvs.size() == first) mesh.report = before;
+        const bool frames_made = addMapCorners(*one.primitive, one.use, tangents, execution, mesh.corners);
+        if (choice.tile != 0) keepTile(choice.tile, first, mesh.corners);
+        if (mesh.corners.uvs.size() != first) tellPrimitive(*one.primitive, frames_made, mesh);
         if (place) placeCorners(*place, first, mesh);
     }
-    if (mesh.uvs.empty() && choice.tile != 0)
+    if (mesh.corners.uvs.empty() && choice.tile != 0)
         failFile(ErrorCode::invalidFile, "no triangles lie in the tile " + std::to_string(choice.tile));
-    if (mesh.uvs.empty())
+    if (mesh.corners.uvs.empty())
         failFile(ErrorCode::invalidFile, "no node of the scene shows the mesh, so it has no world space");
     return mesh;
 }
@@ -353,8 +354,12 @@ std::vector<float> heightsOf(const FloatImage& image) {
     return heights;
 }
 
-MapSide tangentSide(const MapMesh& mesh) {
-    return {.uvs = mesh.uvs, .normals = mesh.normals, .tangents = mesh.tangents, .positions = mesh.positions};
+MapSide tangentSide(const OwnedMesh& mesh, double scale) {
+    return {.reading = {.scale = static_cast<float>(scale)},
+            .uvs = mesh.uvs,
+            .normals = mesh.normals,
+            .tangents = mesh.tangents,
+            .positions = mesh.positions};
 }
 
 }  // namespace tspace

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/owned_mesh.h"
 #include "images/float_image.h"
 #include "model/io/atomic_output.h"
 #include "model/scene/scene.h"
@@ -17,11 +18,8 @@ namespace tspace {
 
 // The part of a model that shows a normal map, as arrays of corners.
 
-/// Three entries per triangle in all of them.
 struct MapMesh {
-    std::vector<Vec2> uvs = {};  ///< as the texture is read with them
-    std::vector<Vec3> positions = {}, normals = {};
-    std::vector<Vec4> tangents = {};
+    OwnedMesh corners = {};  ///< a vertex for each corner; UVs as the texture is read with them
     /// In world space: one per triangle, where the axes of its mesh point, for directions of normals.
     std::vector<MapAxes> axes = {};
     TextureWrap wrap_u = TextureWrap::repeat, wrap_v = TextureWrap::repeat;  ///< of the first primitive's texture
@@ -31,10 +29,10 @@ struct MapMesh {
 /// Whether the image is a normal map.
 bool showsNormals(const TangentUse& use);
 
-/// Appends the corners of a primitive as a map is read there; `use`: what reads it, null for the first UVs as they are. Missing
-/// frames are made, along the UVs that generate takes. Throws FileError.
-void addMapCorners(const ScenePrimitive& primitive, const TangentUse* use, const TangentOptions& tangents,
-                   const Execution& execution, MapMesh& mesh);
+/// Appends the corners of a primitive as a map is read there, a vertex for each; `use`: what reads it, null for the first UVs
+/// as they are. Missing frames are made, along the UVs that generate takes. Returns whether they were. Throws FileError.
+bool addMapCorners(const ScenePrimitive& primitive, const TangentUse* use, const TangentOptions& tangents,
+                   const Execution& execution, OwnedMesh& mesh);
 
 struct MapMeshChoice {
     std::string material = {};    ///< ConvertMapFileOptions::material
@@ -77,7 +75,7 @@ bool isGreyImage(const FloatImage& image);
 /// The mean of the three channels.
 std::vector<float> heightsOf(const FloatImage& image);
 
-/// In tangent space, as glTF reads it; without a scale.
-MapSide tangentSide(const MapMesh& mesh);
+/// In tangent space, as glTF reads it. `mesh` has a vertex for each corner.
+MapSide tangentSide(const OwnedMesh& mesh, double scale = 1);
 
 }  // namespace tspace

@@ -57,19 +57,19 @@ Result<Done> useOneList(const MeshView& mesh, const Execution& execution, OneLis
         }
     }
 
-    made.positions = gathered(mesh.positions, split->source_vertices);
+    made.own.positions = gathered(mesh.positions, split->source_vertices);
     if (!mesh.normals.empty()) {
         made.source_normals = sourcesOf(mesh.normal_indices, *split);
-        made.normals = gathered(mesh.normals, made.source_normals);
+        made.own.normals = gathered(mesh.normals, made.source_normals);
     }
-    if (!mesh.uvs.empty()) made.uvs = gathered(mesh.uvs, sourcesOf(mesh.uv_indices, *split));
-    made.indices = std::move(split->indices);
+    if (!mesh.uvs.empty()) made.own.uvs = gathered(mesh.uvs, sourcesOf(mesh.uv_indices, *split));
+    made.own.indices = std::move(split->indices);
     made.source_vertices = std::move(split->source_vertices);
     made.view = mesh;
-    made.view.positions = made.positions;
-    made.view.normals = made.normals;
-    made.view.uvs = made.uvs;
-    made.view.indices = std::span<const std::uint32_t>(made.indices);
+    made.view.positions = made.own.positions;
+    made.view.normals = made.own.normals;
+    made.view.uvs = made.own.uvs;
+    made.view.indices = std::span<const std::uint32_t>(made.own.indices);
     made.view.normal_indices = made.view.uv_indices = {};
     return Done{};
 }

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/owned_mesh.h"
 #include "tspace/execution.h"
 #include "tspace/mesh.h"
 #include "tspace/result.h"
@@ -16,13 +17,10 @@ namespace tspace {
 /// A mesh with a vertex for each combination of position, normal and UV that corners name. Corners and faces are those of
 /// the given mesh, which must outlive it.
 struct OneListMesh {
-    std::vector<std::uint32_t> indices = {};
+    OwnedMesh own = {};                               ///< normals are zero where no corner uses the vertex
     std::vector<std::uint32_t> source_vertices = {};  ///< one per vertex here: the given mesh's
     std::vector<std::uint32_t> source_normals = {};   ///< which of its normals, or kNoCorner where no corner says so
-    std::vector<Vec3> positions = {};
-    std::vector<Vec3> normals = {};  ///< zero where no corner uses the vertex
-    std::vector<Vec2> uvs = {};
-    MeshView view = {};  ///< a view of the members above: the struct must not move
+    MeshView view = {};  ///< of the arrays above, with the faces of the given mesh: the struct must not move
 
     OneListMesh() = default;
     OneListMesh(const OneListMesh&) = delete;

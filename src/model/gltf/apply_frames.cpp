@@ -123,7 +123,7 @@ void stripTangents(Editor& editor, std::span<const Primitive> primitives, std::s
 
 void removeUnreadableTangents(Editor& editor, std::span<const Primitive> primitives, GeneratePlan& plan) {
     std::vector<bool> is_computed(primitives.size(), false);
-    for (const Pool& pool : plan.pools) {
+    for (const PoolPlan& pool : plan.pools) {
         for (const std::size_t number : pool.primitives) is_computed[number] = true;
     }
     for (std::size_t i = 0; i < primitives.size(); ++i) {
@@ -218,7 +218,7 @@ namespace {
 
 class Applier {
   public:
-    Applier(Editor& editor, const Document& document, std::span<const Primitive> primitives, const Pool& pool,
+    Applier(Editor& editor, const Document& document, std::span<const Primitive> primitives, const PoolPlan& pool,
             PoolElements& elements)
         : editor_(editor), document_(document), primitives_(primitives), pool_(pool), elements_(elements) {}
 
@@ -270,7 +270,7 @@ class Applier {
         if (name != nullptr) editor_.accessor(to)["name"] = Json(*name);
     }
 
-    void replaceIndices(const PoolGeometry& geometry, ElementData&& data) {
+    void replaceIndices(const GeometryPlan& geometry, ElementData&& data) {
         const std::optional<std::size_t> old = primitives_[geometry.primitives[0]].indices;
         data.like = old ? *old : attributesOf(geometry.primitives[0], kBase)["POSITION"].get<std::size_t>();
         const bool alone = old && editor_.accessorUses(*old) == geometry.primitives.size();
@@ -325,7 +325,7 @@ class Applier {
     Editor& editor_;
     const Document& document_;
     std::span<const Primitive> primitives_;
-    const Pool& pool_;
+    const PoolPlan& pool_;
     PoolElements& elements_;
     std::uint32_t computed_targets_ = 0, new_normals_ = 0;
 };
@@ -336,7 +336,7 @@ bool anyHasTangents(const Primitive& primitive) {
 }
 
 /// A note on normal offsets that were computed although the base normals stay; empty where none were.
-std::string morphNormalsNote(const Pool& pool, const PoolElements& elements, const Primitive& primitive,
+std::string morphNormalsNote(const PoolPlan& pool, const PoolElements& elements, const Primitive& primitive,
                              std::uint32_t count) {
     if (count == 0) return {};
     std::string note = "what " + std::to_string(count) + (count == 1 ? " morph target adds" : " morph targets add") +
@@ -347,7 +347,7 @@ std::string morphNormalsNote(const Pool& pool, const PoolElements& elements, con
 }
 
 /// Brings vertex numbers in extensions up to date after a split.
-void carryNumbers(std::span<const Primitive> primitives, const Pool& pool, const PoolElements& elements,
+void carryNumbers(std::span<const Primitive> primitives, const PoolPlan& pool, const PoolElements& elements,
                   VertexNumbers& numbers) {
     for (std::size_t i = 0; i < elements.corners.size(); ++i) {
         std::vector<const Primitive*> list;
@@ -369,7 +369,7 @@ std::string keptNote(const PoolElements& elements, const Primitive& primitive) {
 
 }  // namespace
 
-void applyFrames(Editor& editor, const Document& document, std::span<const Primitive> primitives, const Pool& pool,
+void applyFrames(Editor& editor, const Document& document, std::span<const Primitive> primitives, const PoolPlan& pool,
                  PoolElements&& elements, VertexNumbers& numbers, std::span<PrimitiveReport> reports) {
     Applier applier(editor, document, primitives, pool, elements);
     const bool changed = applier.run();

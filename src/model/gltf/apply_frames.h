@@ -71,7 +71,7 @@ void turnTriangles(Document& document, const std::string& new_file, std::span<co
 /// split only TANGENT (and NORMAL and _BITANGENT where they were made) changes, in the primitives and in those morph
 /// targets that move positions or normals (their offsets are floats). Fills action and vertices_after of the reports of
 /// the pool's primitives. `numbers`: takes what extensions say about vertices that were split along.
-void applyFrames(Editor& editor, const Document& document, std::span<const Primitive> primitives, const Pool& pool,
+void applyFrames(Editor& editor, const Document& document, std::span<const Primitive> primitives, const PoolPlan& pool,
                  PoolElements&& elements, VertexNumbers& numbers, std::span<PrimitiveReport> reports);
 
 }  // namespace tspace::gltf

@@ -136,7 +136,7 @@ struct DecodedVertices {
 
 /// What the tangents of a pool are computed from, without copies where that is possible. `decoded` must outlive the
 /// result, and gets what cannot be lent. `first`: any primitive of the pool.
-PoolView lendVertices(const Document& document, DecodedArrays& arrays, const Primitive& first, const Pool& pool,
+PoolView lendVertices(const Document& document, DecodedArrays& arrays, const Primitive& first, const PoolPlan& pool,
                       DecodedVertices& decoded) {
     const auto vec3 = [&](const char* attribute, SharedArray<Vec3>& array) {
         if (const auto lent = lendVec3(document, first, attribute)) return *lent;
@@ -185,7 +185,7 @@ std::string warnOfRounding(const PoolView& vertices, std::span<const PrimitiveGe
 
 /// Leaves the first of the vertices that only their frames keep apart. `copies` gets them, and must outlive `vertices`.
 void weld(const WeldedVertices& welded, std::vector<PrimitiveGeometry>& geometries, PoolView& vertices,
-          VertexPool& copies) {
+          OwnedMesh& copies) {
     copies.positions = gather(vertices.positions, welded.kept);
     copies.uvs = gather(vertices.uvs, welded.kept);
     vertices.positions = copies.positions;
@@ -265,9 +265,9 @@ PoolFrames asTheyAre(const PoolView& vertices) {
 
 /// The triangles of each geometry of a pool.
 std::vector<PrimitiveGeometry> readGeometries(DecodedArrays& arrays, std::span<const Primitive> primitives,
-                                              const Pool& pool) {
+                                              const PoolPlan& pool) {
     std::vector<PrimitiveGeometry> geometries;
-    for (const PoolGeometry& geometry : pool.geometries)
+    for (const GeometryPlan& geometry : pool.geometries)
         geometries.push_back({.indices = arrays.copyCorners(primitives[geometry.primitives[0]]),
                               .mends = geometry.mends,
                               .around = geometry.around});
@@ -306,7 +306,7 @@ PoolComputer::PoolComputer(const Document& document, DecodedArrays& arrays, std:
 
 PoolComputer::~PoolComputer() = default;
 
-PoolElements PoolComputer::computeOne(const Pool& pool, const Execution& execution,
+PoolElements PoolComputer::computeOne(const PoolPlan& pool, const Execution& execution,
                                       std::span<PrimitiveReport> reports) {
     GenerateOptions options = options_;
     options.execution = execution;
@@ -327,7 +327,7 @@ PoolElements PoolComputer::computeOne(const Pool& pool, const Execution& executi
     vertices.makes_tangents = pool.makes_tangents;
     std::vector<PrimitiveGeometry> geometries = readGeometries(arrays_, primitives_, pool);
     WeldedVertices welded;
-    VertexPool copies;
+    OwnedMesh copies;
     if (pool.overwrites_normals) welded = weldVertices(document_, first);
     const bool was_welded = welded.kept.size() != welded.number_of.size();
     if (was_welded) weld(welded, geometries, vertices, copies);
@@ -335,7 +335,7 @@ PoolElements PoolComputer::computeOne(const Pool& pool, const Execution& executi
     if (!pool.morph_normals.empty())
         morph_normals.emplace(pool.morph_normals, options.morph_normals == MorphNormals::missing, vertices, geometries);
     std::vector<PrimitiveReport> computed;
-    for (const PoolGeometry& geometry : pool.geometries) computed.push_back(reports[geometry.primitives[0]]);
+    for (const GeometryPlan& geometry : pool.geometries) computed.push_back(reports[geometry.primitives[0]]);
     const bool computes = pool.makes_tangents || !pool.has_normals;
     PoolFrames frames =
         computes ? valueOrThrow(computeFrames(vertices, geometries, options, computed)) : asTheyAre(vertices);
@@ -368,7 +368,7 @@ PoolElements PoolComputer::computeOne(const Pool& pool, const Execution& executi
     return elements;
 }
 
-std::vector<PoolElements> PoolComputer::compute(std::span<const Pool> pools, std::span<PrimitiveReport> reports) {
+std::vector<PoolElements> PoolComputer::compute(std::span<const PoolPlan> pools, std::span<PrimitiveReport> reports) {
     std::vector<PoolElements> elements(pools.size());
     std::vector<std::exception_ptr> failures(pools.size());
     const Execution& execution = options_.execution;
@@ -390,7 +390,7 @@ std::vector<PoolElements> PoolComputer::compute(std::span<const Pool> pools, std
 
     Parallel parallel(execution);
     std::uint64_t total = 0;
-    for (const Pool& pool : pools) total += pool.corner_count;
+    for (const PoolPlan& pool : pools) total += pool.corner_count;
     // A caller's allocator is called from one thread only.
     const bool one_by_one = execution.allocator != nullptr || total < kCornersForThreads;
     std::vector<std::size_t> others;

@@ -38,11 +38,11 @@ class PoolComputer {
 
     /// Frames of each pool, in their order. Fills normals, tangents and sanitize of the reports of their primitives.
     /// Throws what the first pool with an error throws. Which threads work on what changes no bit.
-    std::vector<PoolElements> compute(std::span<const Pool> pools, std::span<PrimitiveReport> reports);
+    std::vector<PoolElements> compute(std::span<const PoolPlan> pools, std::span<PrimitiveReport> reports);
 
   private:
     class Arenas;
-    PoolElements computeOne(const Pool& pool, const Execution& execution, std::span<PrimitiveReport> reports);
+    PoolElements computeOne(const PoolPlan& pool, const Execution& execution, std::span<PrimitiveReport> reports);
 
     const Document& document_;
     DecodedArrays& arrays_;

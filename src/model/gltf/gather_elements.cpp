@@ -176,7 +176,7 @@ Bytes narrow(const std::vector<std::uint32_t>& indices) {
     return bytes;
 }
 
-bool isReplaced(const std::string& name, std::ptrdiff_t target, const Pool& pool, const PoolFrames& frames) {
+bool isReplaced(const std::string& name, std::ptrdiff_t target, const PoolPlan& pool, const PoolFrames& frames) {
     if (name == "_BITANGENT") return target == kBase && !frames.bitangents.empty();
     if (name == "TANGENT") return !frames.tangents.empty();
     const bool is_new = target != kBase && !pool.morph_normals.empty() && pool.morph_normals[std::size_t(target)];
@@ -184,7 +184,7 @@ bool isReplaced(const std::string& name, std::ptrdiff_t target, const Pool& pool
 }
 
 /// Every other attribute, and those of morph targets, by accessor.
-std::map<std::size_t, CarriedElements> carriedAttributes(std::span<const Primitive> primitives, const Pool& pool,
+std::map<std::size_t, CarriedElements> carriedAttributes(std::span<const Primitive> primitives, const PoolPlan& pool,
                                                          const PoolFrames& frames) {
     std::map<std::size_t, CarriedElements> carried;
     for (const std::size_t number : pool.primitives) {
@@ -244,7 +244,7 @@ ElementData indexElements(std::vector<std::uint32_t>&& indices, ComponentType na
     return data;
 }
 
-PoolElements packFrames(const Document& document, std::span<const Primitive> primitives, const Pool& pool,
+PoolElements packFrames(const Document& document, std::span<const Primitive> primitives, const PoolPlan& pool,
                         PoolFrames&& frames, const PackingRule& rule) {
     const VectorFormat format = rule.format;
     PoolElements elements;

@@ -100,7 +100,7 @@ struct PackingRule {
     bool is_welded = false;  ///< not all old vertices are there, or not in their order
 };
 
-PoolElements packFrames(const Document& document, std::span<const Primitive> primitives, const Pool& pool,
+PoolElements packFrames(const Document& document, std::span<const Primitive> primitives, const PoolPlan& pool,
                         PoolFrames&& frames, const PackingRule& rule);
 
 /// Numbers of vertices. u8 and u16 keep their width while every vertex fits below the primitive restart value.

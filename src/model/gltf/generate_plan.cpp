@@ -249,7 +249,7 @@ GeneratePlan planGenerate(const Document& document, std::span<const Primitive> p
             pool_of.try_emplace(poolKey(primitive, report.uv_set, matrix, computes, normals.anew), plan.pools.size());
         const std::size_t pool_number = pool_entry->second;
         if (is_new_pool) {
-            Pool& created = plan.pools.emplace_back();
+            PoolPlan& created = plan.pools.emplace_back();
             created.makes_tangents = computes;
             created.uses_uvs = computes && report.uv_set >= 0;
             created.uv_matrix = matrix;
@@ -264,7 +264,7 @@ GeneratePlan planGenerate(const Document& document, std::span<const Primitive> p
                 computes && options.tangents.method == Method::mikktspace && options.faces != Faces::triangles;
             created.is_blenders = is_blenders;
         }
-        Pool& pool = plan.pools[pool_number];
+        PoolPlan& pool = plan.pools[pool_number];
         pool.primitives.push_back(i);
         const std::size_t no_indices = rootArray(document, "accessors").size();
         const auto [geometry_entry, is_new_geometry] = geometry_of.try_emplace(
@@ -331,12 +331,12 @@ class MeshPieces {
                 const NearVertex source{at.piece, corners_[at.piece][3 * std::size_t{at.triangle} + k]};
                 const auto [entry, is_new] = number_of.try_emplace(source, static_cast<std::uint32_t>(sources.size()));
                 if (is_new) sources.push_back(source);
-                result->indices.push_back(entry->second);
+                result->mesh.indices.push_back(entry->second);
             }
         }
         for (const NearVertex& source : sources)
-            result->positions.push_back(vertices_[lists_[source.piece]][source.vertex]);
-        takeNormals(sources, makes_normals, *result);
+            result->mesh.positions.push_back(vertices_[lists_[source.piece]][source.vertex]);
+        takeNormals(sources, makes_normals, result->mesh.normals);
         // Both directions of the budget's books: what stays is small beside the mesh.
         document_.memory->take(64 * sources.size() + 12 * triangles.size(), primitives_[numbers_[piece]].place());
         result->read = offsetsOf(std::move(sources));
@@ -358,15 +358,15 @@ class MeshPieces {
     }
 
     void takeNormals(const std::vector<NearVertex>& sources, const std::vector<bool>& makes_normals,
-                     Surroundings& result) const {
+                     std::vector<Vec3>& result) const {
         std::map<std::uint32_t, SharedArray<Vec3>> normals;  // of pieces that keep theirs
         for (std::size_t i = 0; i < sources.size(); ++i) {
             const auto [piece, vertex] = sources[i];
             if (!keeps(piece, makes_normals)) continue;
             const auto [entry, is_new] = normals.try_emplace(piece);
             if (is_new) entry->second = arrays_.borrowVec3(primitives_[numbers_[piece]], "NORMAL");
-            result.normals.resize(sources.size());
-            result.normals[i] = entry->second[vertex];
+            result.resize(sources.size());
+            result[i] = entry->second[vertex];
         }
     }
 
@@ -438,11 +438,11 @@ void planSurroundings(Model& model, const GenerateOptions& options, GeneratePlan
     if (options.normals_per_primitive || options.normals.weighting == NormalWeighting::flat) return;
     const std::span<const Primitive> primitives = model.primitives();
     std::vector<bool> makes_normals(primitives.size(), false);
-    std::map<std::size_t, PoolGeometry*> geometry_of;  // first primitive -> its geometry
-    for (Pool& pool : plan.pools) {
+    std::map<std::size_t, GeometryPlan*> geometry_of;  // first primitive -> its geometry
+    for (PoolPlan& pool : plan.pools) {
         if (pool.has_normals) continue;
         for (const std::size_t number : pool.primitives) makes_normals[number] = true;
-        for (PoolGeometry& geometry : pool.geometries) geometry_of.emplace(geometry.primitives[0], &geometry);
+        for (GeometryPlan& geometry : pool.geometries) geometry_of.emplace(geometry.primitives[0], &geometry);
     }
     const unsigned rings = ringsAround(options.normals);
     for (std::size_t first = 0, past = 0; first < primitives.size(); first = past) {

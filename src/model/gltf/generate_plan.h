@@ -24,7 +24,7 @@ struct Surroundings;
 namespace tspace::gltf {
 
 /// Primitives that draw the same triangles of one pool: computed once.
-struct PoolGeometry {
+struct GeometryPlan {
     std::vector<std::size_t> primitives = {};         ///< numbers into the list of primitives; never empty
     Mends mends = {};                                 ///< where the tangents that are there are wrong
     std::shared_ptr<const Surroundings> around = {};  ///< see PrimitiveGeometry::around
@@ -32,8 +32,8 @@ struct PoolGeometry {
 
 /// Primitives over the same attribute accessors and morph targets whose tangents follow the same UV set, turned the
 /// same way.
-struct Pool {
-    std::vector<PoolGeometry> geometries = {};
+struct PoolPlan {
+    std::vector<GeometryPlan> geometries = {};
     std::vector<std::size_t> primitives = {};  ///< all of them, in file order
     bool uses_uvs = true;
     std::size_t uv_set = 0;
@@ -63,7 +63,7 @@ struct Pool {
 };
 
 struct GeneratePlan {
-    std::vector<Pool> pools = {};
+    std::vector<PoolPlan> pools = {};
     std::vector<PrimitiveReport> reports = {};  ///< one per primitive; final for those in no pool
     bool has_texture_transforms =
         false;  ///< of textures that tangents follow, or would but for TextureTransform::ignore

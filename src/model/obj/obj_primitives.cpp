@@ -132,24 +132,8 @@ Result<NormalReport> completeNormals(Model& model, std::vector<ObjPrimitive>& pr
     return sum;
 }
 
-MeshView ObjGeometry::view() const {
-    MeshView view;
-    view.positions = pool.positions;
-    view.normals = pool.normals;
-    view.uvs = pool.uvs;
-    view.indices = std::span<const std::uint32_t>(polygons.indices);
-    if (polygons.face_sizes.empty()) {
-        view.face_size = 3;
-    } else {
-        view.face_sizes = polygons.face_sizes;
-    }
-    return view;
-}
-
-ObjGeometry buildGeometry(const Model& model, const ObjPrimitive& primitive) {
-    ObjGeometry geometry;
-    PrimitiveGeometry& polygons = geometry.polygons;
-    VertexPool& pool = geometry.pool;
+OwnedMesh buildMesh(const Model& model, const ObjPrimitive& primitive) {
+    OwnedMesh mesh;
     bool has_normals = true;
     bool all_triangles = true;
     for (const std::uint32_t index : primitive.faces) {
@@ -160,22 +144,30 @@ ObjGeometry buildGeometry(const Model& model, const ObjPrimitive& primitive) {
     UniqueIndex<std::array<std::uint32_t, 5>> vertices(primitive.faces.size());
     for (const std::uint32_t index : primitive.faces) {
         const Face& face = model.faces[index];
-        if (!all_triangles) polygons.face_sizes.push_back(face.corner_count);
+        if (!all_triangles) mesh.face_sizes.push_back(face.corner_count);
         for (std::uint32_t c = 0; c < face.corner_count; ++c) {
             const Corner& corner = model.corners[face.first_corner + c];
             const Vec3 normal = has_normals ? model.normals[corner.normal] : Vec3{};
             const std::uint32_t vertex = vertices.indexOf(
                 {corner.position, primitive.has_uvs ? corner.uv : kNone, std::bit_cast<std::uint32_t>(normal.x),
                  std::bit_cast<std::uint32_t>(normal.y), std::bit_cast<std::uint32_t>(normal.z)});
-            if (vertex == pool.positions.size()) {
-                pool.positions.push_back(model.positions[corner.position]);
-                if (has_normals) pool.normals.push_back(normal);
-                if (primitive.has_uvs) pool.uvs.push_back(model.uvs[corner.uv]);
+            if (vertex == mesh.positions.size()) {
+                mesh.positions.push_back(model.positions[corner.position]);
+                if (has_normals) mesh.normals.push_back(normal);
+                if (primitive.has_uvs) mesh.uvs.push_back(model.uvs[corner.uv]);
             }
-            polygons.indices.push_back(vertex);
+            mesh.indices.push_back(vertex);
         }
     }
-    return geometry;
+    return mesh;
+}
+
+std::vector<std::uint32_t> triangleCorners(const OwnedMesh& mesh) {
+    const Triangulation triangles = valueOrThrow(triangulate(mesh.view()));
+    std::vector<std::uint32_t> corners;
+    corners.reserve(triangles.corners.size());
+    for (const std::uint32_t corner : triangles.corners) corners.push_back(mesh.indices[corner]);
+    return corners;
 }
 
 // An OBJ file as a Scene: the primitives that a glTF made from it would have, before missing normals are computed.
@@ -217,27 +209,19 @@ class ImageFiles {
     std::map<std::string, std::size_t> numbers_ = {};
 };
 
-SharedArray<std::uint32_t> triangleCorners(const ObjGeometry& geometry) {
-    const Triangulation triangles = valueOrThrow(triangulate(geometry.view()));
-    std::vector<std::uint32_t> corners;
-    corners.reserve(triangles.corners.size());
-    for (const std::uint32_t corner : triangles.corners) corners.push_back(geometry.polygons.indices[corner]);
-    return corners;
-}
-
 ScenePrimitive loadPrimitive(const Model& model, const ObjPrimitive& primitive, ImageFiles& maps) {
     const Material& material = model.materials[primitive.material];
-    ObjGeometry geometry = buildGeometry(model, primitive);
+    OwnedMesh mesh = buildMesh(model, primitive);
     ScenePrimitive result;
     result.place = "usemtl " + material.name;
     result.mesh = primitive.shape;
     result.mesh_name = model.shape_names[primitive.shape];
     result.material_name = material.name;
-    result.mode = geometry.polygons.face_sizes.empty() ? "triangles" : "polygons";
-    result.corners = triangleCorners(geometry);
-    result.positions = std::move(geometry.pool.positions);
-    result.normals = std::move(geometry.pool.normals);
-    if (primitive.has_uvs) result.uv_sets.emplace_back(std::move(geometry.pool.uvs));
+    result.mode = mesh.face_sizes.empty() ? "triangles" : "polygons";
+    result.corners = triangleCorners(mesh);
+    result.positions = std::move(mesh.positions);
+    result.normals = std::move(mesh.normals);
+    if (primitive.has_uvs) result.uv_sets.emplace_back(std::move(mesh.uvs));
     if (material.normal_texture.used()) {
         result.uses.push_back({.needed_by = "normalTexture",
                                .place = result.place,

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "core/mesh/pools/primitive.h"
+#include "core/base/owned_mesh.h"
 #include "model/obj/obj_reader.h"
 #include "model/scene/scene.h"
 #include "tspace/asset.h"
@@ -34,16 +34,11 @@ std::vector<ObjPrimitive> collectPrimitives(const Model& model);
 Result<NormalReport> completeNormals(Model& model, std::vector<ObjPrimitive>& primitives,
                                      const GenerateOptions& options);
 
-/// The primitive's own vertices, one per different (position, UV, normal) in order of first use, and its
-/// polygons.
-struct ObjGeometry {
-    VertexPool pool = {};
-    PrimitiveGeometry polygons = {};
-
-    [[nodiscard]] MeshView view() const;
-};
-/// Corners without a normal (before completeNormals) get none: the pool then has no normals at all.
-ObjGeometry buildGeometry(const Model& model, const ObjPrimitive& primitive);
+/// The primitive's polygons over vertices of their own, one per different (position, UV, normal) in order of first use.
+/// Where a corner has no normal (before completeNormals) the mesh has none at all.
+OwnedMesh buildMesh(const Model& model, const ObjPrimitive& primitive);
+/// Three vertices per triangle of its polygons. Throws FileError.
+std::vector<std::uint32_t> triangleCorners(const OwnedMesh& mesh);
 
 // An OBJ file as a Scene.
 

@@ -195,8 +195,8 @@ class MaterialNumbers {
         std::vector<std::uint64_t> bare_triangles(model.materials.size(), 0);
         std::vector<bool> has_uvs(model.materials.size(), false);
         for (const FinishedPrimitive& primitive : primitives) {
-            if (!primitive.uvs.empty()) has_uvs[primitive.material] = true;
-            if (primitive.uvs.empty()) bare_triangles[primitive.material] += primitive.indices.size() / 3;
+            if (!primitive.mesh.uvs.empty()) has_uvs[primitive.material] = true;
+            if (primitive.mesh.uvs.empty()) bare_triangles[primitive.material] += primitive.mesh.indices.size() / 3;
         }
         for (std::size_t i = 0; i < model.materials.size(); ++i) {
             if (isDefault(model.materials[i])) continue;
@@ -215,7 +215,7 @@ class MaterialNumbers {
 
     /// Index of a primitive's material; -1: the default.
     [[nodiscard]] int of(const FinishedPrimitive& primitive) const {
-        return (primitive.uvs.empty() ? bare_numbers_ : numbers_)[primitive.material];
+        return (primitive.mesh.uvs.empty() ? bare_numbers_ : numbers_)[primitive.material];
     }
 
   private:
@@ -225,19 +225,19 @@ class MaterialNumbers {
 };
 
 Json primitiveJson(const FinishedPrimitive& primitive, int material, DocumentBuilder& builder) {
-    const std::vector<Vec3>& positions = primitive.positions;
-    Json attributes = {{"POSITION", builder.addFloats(positions, positions.size(), "VEC3", gltf::kVertexTarget, true)}};
-    if (!primitive.normals.empty())
-        attributes["NORMAL"] = addUnits(primitive.normals, "VEC3", primitive.normal_format, builder);
-    if (!primitive.tangents.empty())
-        attributes["TANGENT"] = addUnits(primitive.tangents, "VEC4", primitive.tangent_format, builder);
+    const OwnedMesh& mesh = primitive.mesh;
+    Json attributes = {
+        {"POSITION", builder.addFloats(mesh.positions, mesh.positions.size(), "VEC3", gltf::kVertexTarget, true)}};
+    if (!mesh.normals.empty()) attributes["NORMAL"] = addUnits(mesh.normals, "VEC3", primitive.normal_format, builder);
+    if (!mesh.tangents.empty())
+        attributes["TANGENT"] = addUnits(mesh.tangents, "VEC4", primitive.tangent_format, builder);
     if (!primitive.bitangents.empty())
         attributes["_BITANGENT"] = addUnits(primitive.bitangents, "VEC3", primitive.tangent_format, builder);
     for (const PackedAttribute& packed : primitive.packed)
         attributes[packed.part.attribute] = addPacked(packed, builder);
-    if (!primitive.uvs.empty()) attributes["TEXCOORD_0"] = addVertices(primitive.uvs, "VEC2", builder);
+    if (!mesh.uvs.empty()) attributes["TEXCOORD_0"] = addVertices(mesh.uvs, "VEC2", builder);
     Json json = {{"attributes", std::move(attributes)},
-                 {"indices", builder.addIndices(primitive.indices, positions.size())}};
+                 {"indices", builder.addIndices(mesh.indices, mesh.positions.size())}};
     if (material >= 0) json["material"] = static_cast<unsigned>(material);
     return json;
 }

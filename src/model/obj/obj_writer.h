@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/owned_mesh.h"
 #include "model/gltf/document.h"
 #include "model/gltf/packed.h"
 #include "model/io/path.h"
@@ -18,17 +19,13 @@ struct PackedAttribute {
     Bytes elements = {};
 };
 
-/// One primitive, ready to be written: triangles over its own vertices.
+/// One primitive, ready to be written.
 struct FinishedPrimitive {
     std::uint32_t shape = 0;
     std::uint32_t material = 0;
-    std::vector<Vec3> positions = {};
-    std::vector<Vec3> normals = {};     ///< empty: none
-    std::vector<Vec2> uvs = {};         ///< empty: none
-    std::vector<Vec4> tangents = {};    ///< empty: none
+    OwnedMesh mesh = {};                ///< triangles, with indices
     std::vector<Vec3> bitangents = {};  ///< empty: none
     std::vector<PackedAttribute> packed = {};
-    std::vector<std::uint32_t> indices = {};
     VectorFormat normal_format = VectorFormat::float32, tangent_format = VectorFormat::float32;
 };
 

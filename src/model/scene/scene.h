@@ -17,6 +17,7 @@
 #include "core/mesh/surface/affine.h"
 #include "model/io/memory_budget.h"
 #include "tspace/asset.h"
+#include "tspace/mesh.h"
 #include "tspace/texture_wrap.h"
 #include "tspace/vec.h"
 
@@ -136,6 +137,11 @@ struct ScenePrimitive {
     std::vector<Affine> places = {};
     /// What else may read the tangents, or says that somebody made them: "the material extension EXT_hair". Empty: nothing.
     std::string other_reader = {};
+
+    /// Its triangles, with these UVs.
+    [[nodiscard]] MeshView view(std::span<const Vec2> uvs = {}) const {
+        return {.positions = positions.span(), .normals = normals.span(), .uvs = uvs, .indices = corners.span()};
+    }
 
     /// Whether a texture is read with the tangents, so that its UVs say where they must point.
     [[nodiscard]] bool uvsDecide() const {

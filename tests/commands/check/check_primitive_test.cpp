@@ -359,12 +359,7 @@ TEST(Check, HoldsNothingAgainstWhatGenerateGives) {
         patch.uv_sets[0] = std::move(uvs);
         patch.corners = std::move(corners);
         std::vector<Vec4> tangents = tangentsOf(patch);
-        MeshView mesh;
-        mesh.positions = patch.positions.span();
-        mesh.normals = patch.normals.span();
-        mesh.uvs = patch.uv_sets[0].span();
-        mesh.indices = patch.corners.span();
-        (void)sanitizeTangents(mesh, {}, tangents);
+        (void)sanitizeTangents(patch.view(patch.uv_sets[0].span()), {}, tangents);
         patch.tangents = std::move(tangents);
         for (const Finding& finding : findingsOf(patch)) {
             RC_ASSERT(finding.code == FindingCode::uvsDegenerate);

@@ -43,11 +43,7 @@ inline TangentView viewOf(const ScenePrimitive& primitive) {
 
 /// Tangents by a method, one per vertex: no vertex of a patch needs two.
 inline std::vector<Vec4> tangentsOf(const ScenePrimitive& primitive, Method method = Method::mikktspace) {
-    MeshView mesh;
-    mesh.positions = primitive.positions.span();
-    mesh.normals = primitive.normals.span();
-    mesh.uvs = primitive.uv_sets[0].span();
-    mesh.indices = primitive.corners.span();
+    const MeshView mesh = primitive.view(primitive.uv_sets[0].span());
     std::vector<Vec4> corners(primitive.corners.size()), tangents(primitive.positions.size());
     (void)generateTangents(mesh, {.method = method, .convention = conventions::gltf}, {.tangents = corners});
     for (std::size_t c = 0; c < corners.size(); ++c) tangents[primitive.corners[c]] = corners[c];

@@ -92,7 +92,7 @@ class FrameComputer {
             Result<Triangulation> triangles = triangulate(mesh.view());
             if (!triangles) return std::move(triangles).error();
             if (options_.faces == Faces::quads && takesQuads()) faces = facesOfPolygons(mesh.face_sizes, *triangles);
-            mesh.own_indices = gather(mesh.indices, triangles->corners);
+            mesh.own.indices = gather(mesh.indices, triangles->corners);
             mesh.useOwnIndices();
             cut_vertices = gather(spanOf(primitive.indices), triangles->corners);
             normals = gather(std::span<const Vec3>(normals), triangles->corners);
@@ -131,10 +131,10 @@ class FrameComputer {
         Result<SplitResult> split = splitVertices(mesh.view().indices, mesh.positions.count, mesh.indices.size(),
                                                   {&attribute, 1}, options_.execution);
         if (!split) return std::move(split).error();
-        mesh.own_positions = gather(mesh.positions, split->source_vertices);
-        mesh.own_uvs = gather(mesh.uvs, split->source_vertices);
-        mesh.own_normals = gatherNormals(normals, split->source_corners);
-        mesh.own_indices = std::move(split->indices);
+        mesh.own.positions = gather(mesh.positions, split->source_vertices);
+        mesh.own.uvs = gather(mesh.uvs, split->source_vertices);
+        mesh.own.normals = gatherNormals(normals, split->source_corners);
+        mesh.own.indices = std::move(split->indices);
         mesh.useOwnIndices();
         mesh.useOwnVertices();
         return Done{};
@@ -416,12 +416,13 @@ Result<PoolFrames> computeWithMorphedNormals(const PoolView& pool, std::span<con
     if (Result<Done> done = generatePoolNormals(pool, primitives, options, reports, made); !done) {
         return std::move(done).error();
     }
-    PoolView with_normals = made.pool;
+    PoolView with_normals = made.vertices;
+    with_normals.targets = made.targets;
     with_normals.makes_tangents = pool.makes_tangents;
     Result<PoolFrames> frames = FrameComputer(with_normals, made.primitives, options, reports).compute();
     if (!frames) return frames;
     frames->normals_generated = true;
-    frames->normals = gather(std::span<const Vec3>(made.pool.normals), frames->source_vertices);
+    frames->normals = gather(std::span<const Vec3>(made.vertices.normals), frames->source_vertices);
     for (std::size_t i = 0; i < pool.targets.count; ++i) {
         frames->morphs[i].normals = spread(made.offsets[i], frames->source_vertices, made.source_vertices.size());
     }

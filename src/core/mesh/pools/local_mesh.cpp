@@ -34,10 +34,10 @@ MeshView viewInPool(const PoolView& pool, const PrimitiveGeometry& primitive) {
 }
 
 void takeFaces(QuadFaces&& faces, LocalMesh& mesh) {
-    mesh.own_indices = gather(mesh.indices, faces.corners);
+    mesh.own.indices = gather(mesh.indices, faces.corners);
     mesh.useOwnIndices();
-    mesh.own_face_sizes = std::move(faces.sizes);
-    mesh.face_sizes = mesh.own_face_sizes;
+    mesh.own.face_sizes = std::move(faces.sizes);
+    mesh.face_sizes = mesh.own.face_sizes;
     mesh.face_corners = std::move(faces.face_corners);
 }
 
@@ -59,19 +59,19 @@ LocalMesh LocalMeshes::make(const PrimitiveGeometry& primitive) {
 void LocalMeshes::takeUsedPart(const PrimitiveGeometry& primitive, LocalMesh& mesh) {
     local_of_vertex_.resize(pool_.positions.count, kNoSlot);
     std::vector<std::uint32_t>& sources = mesh.sources;
-    mesh.own_indices.reserve(primitive.indices.size());
+    mesh.own.indices.reserve(primitive.indices.size());
     for (const std::uint32_t vertex : primitive.indices) {
         std::uint32_t& local = local_of_vertex_[vertex];
         if (local == kNoSlot) {
             local = static_cast<std::uint32_t>(sources.size());
             sources.push_back(vertex);
         }
-        mesh.own_indices.push_back(local);
+        mesh.own.indices.push_back(local);
     }
     for (const std::uint32_t vertex : sources) local_of_vertex_[vertex] = kNoSlot;
-    mesh.own_positions = gather(pool_.positions, sources);
-    mesh.own_normals = gather(pool_.normals, sources);
-    mesh.own_uvs = gather(pool_.uvs, sources);
+    mesh.own.positions = gather(pool_.positions, sources);
+    mesh.own.normals = gather(pool_.normals, sources);
+    mesh.own.uvs = gather(pool_.uvs, sources);
     mesh.useOwnIndices();
     mesh.useOwnVertices();
 }
@@ -98,45 +98,38 @@ BorderedNormals::BorderedNormals(const LocalMesh& mesh, const Surroundings* arou
                                  const Execution& execution)
     : mesh_(mesh), around_(around), options_(options), execution_(execution) {
     if (around_ == nullptr) return;
-    positions_.reserve(mesh.positions.count + around->positions.size());
-    for (std::size_t v = 0; v < mesh.positions.count; ++v) positions_.push_back(mesh.positions[v]);
-    positions_.insert(positions_.end(), around->positions.begin(), around->positions.end());
+    const OwnedMesh& others = around->mesh;
+    whole_.positions.reserve(mesh.positions.count + others.positions.size());
+    for (std::size_t v = 0; v < mesh.positions.count; ++v) whole_.positions.push_back(mesh.positions[v]);
+    whole_.positions.insert(whole_.positions.end(), others.positions.begin(), others.positions.end());
     const auto first = static_cast<std::uint32_t>(mesh.positions.count);
     first_corner_ = 3 * around->triangles_before;
-    indices_.reserve(mesh.indices.size() + around->indices.size());
-    for (std::size_t c = 0; c < first_corner_; ++c) indices_.push_back(first + around->indices[c]);
-    indices_.insert(indices_.end(), mesh.indices.begin(), mesh.indices.end());
-    for (std::size_t c = first_corner_; c < around->indices.size(); ++c) indices_.push_back(first + around->indices[c]);
-}
-
-MeshView BorderedNormals::whole() const {
-    MeshView view;
-    view.positions = StridedSpan<const Vec3>(std::span<const Vec3>(positions_));
-    view.indices = IndexView(std::span<const std::uint32_t>(indices_));
-    return view;
+    std::vector<std::uint32_t>& indices = whole_.indices;
+    indices.reserve(mesh.indices.size() + others.indices.size());
+    for (std::size_t c = 0; c < first_corner_; ++c) indices.push_back(first + others.indices[c]);
+    indices.insert(indices.end(), mesh.indices.begin(), mesh.indices.end());
+    for (std::size_t c = first_corner_; c < others.indices.size(); ++c) indices.push_back(first + others.indices[c]);
 }
 
 Result<NormalReport> BorderedNormals::base(StridedSpan<Vec3> out) {
     if (around_ == nullptr) return generateNormals(mesh_.view(), options_, out, execution_);
     // Triangles of the surroundings are left out of counts.
-    MeshView others;
-    others.positions = StridedSpan<const Vec3>(std::span<const Vec3>(around_->positions));
-    others.indices = IndexView(std::span<const std::uint32_t>(around_->indices));
-    std::vector<Vec3> normals(around_->indices.size());
+    const MeshView others = around_->mesh.view();
+    std::vector<Vec3> normals(others.cornerCount());
     NormalOptions flat = options_;
     flat.weighting = NormalWeighting::flat;
     const Result<NormalReport> counted = generateNormals(others, flat, normals, execution_);
     if (!counted) return counted;
     degenerate_around_ = counted->degenerate_face_count;
 
-    normals.resize(indices_.size());
-    const Result<NormalReport> made = generateNormals(whole(), options_, normals, execution_);
+    normals.resize(whole_.indices.size());
+    const Result<NormalReport> made = generateNormals(whole_.view(), options_, normals, execution_);
     if (!made) return made;
     choose(std::span<const Vec3>(normals).subspan(first_corner_, mesh_.indices.size()));
     const NormalReport report = take(*made, normals, out);
     for (std::size_t c = 0; c < stays_.size(); ++c) {
         if (stays_[c] == kNone) continue;
-        DVec3 normal = toDouble(around_->normals[stays_[c]]);
+        DVec3 normal = toDouble(around_->mesh.normals[stays_[c]]);
         normalize(normal);
         out[c] = toFloat(normal);
     }
@@ -152,18 +145,18 @@ Result<NormalReport> BorderedNormals::pose(const StridedSpan<const Vec3>& positi
         if (!read) return std::move(read).error();
         offsets = *std::move(read);
     }
-    std::vector<Vec3> moved = positions_;
+    std::vector<Vec3> moved = whole_.positions;
     const std::size_t own = mesh_.positions.count;
     for (std::size_t v = 0; v < own; ++v) moved[v] = positions[v];
     for (std::size_t v = 0; v < offsets.positions.size(); ++v) moved[own + v] = moved[own + v] + offsets.positions[v];
-    std::vector<Vec3> normals(indices_.size());
+    std::vector<Vec3> normals(whole_.indices.size());
     const Result<NormalReport> made = generatePoseNormals(
-        whole(), StridedSpan<const Vec3>(std::span<const Vec3>(moved)), options_, normals, execution_);
+        whole_.view(), StridedSpan<const Vec3>(std::span<const Vec3>(moved)), options_, normals, execution_);
     if (!made) return made;
     const NormalReport report = take(*made, normals, out);
     for (std::size_t c = 0; c < stays_.size(); ++c) {
         if (stays_[c] == kNone) continue;
-        const Vec3& stayed = around_->normals[stays_[c]];
+        const Vec3& stayed = around_->mesh.normals[stays_[c]];
         DVec3 normal = toDouble(offsets.normals.empty() ? stayed : stayed + offsets.normals[stays_[c]]);
         if (normalize(normal)) out[c] = toFloat(normal);
     }
@@ -172,12 +165,12 @@ Result<NormalReport> BorderedNormals::pose(const StridedSpan<const Vec3>& positi
 
 /// Which normals that stay are taken at which corners.
 void BorderedNormals::choose(std::span<const Vec3> normals) {
-    if (around_->normals.empty()) return;
+    if (around_->mesh.normals.empty()) return;
     UniqueIndex<std::array<std::uint32_t, 3>> places;
     std::vector<std::vector<std::uint32_t>> at;
-    for (std::uint32_t v = 0; v < around_->normals.size(); ++v) {
-        if (!isDirection(around_->normals[v])) continue;
-        const std::uint32_t place = places.indexOf(positionKey(around_->positions[v]));
+    for (std::uint32_t v = 0; v < around_->mesh.normals.size(); ++v) {
+        if (!isDirection(around_->mesh.normals[v])) continue;
+        const std::uint32_t place = places.indexOf(positionKey(around_->mesh.positions[v]));
         if (place == at.size()) at.emplace_back();
         at[place].push_back(v);
     }
@@ -189,7 +182,7 @@ void BorderedNormals::choose(std::span<const Vec3> normals) {
         if (place == kNone) continue;
         double least = most;
         for (const std::uint32_t v : at[place]) {
-            DVec3 stayed = toDouble(around_->normals[v]);
+            DVec3 stayed = toDouble(around_->mesh.normals[v]);
             normalize(stayed);
             const double apart = angleBetween(stayed, toDouble(normals[c])) * 180 / kPi;
             if (apart > least) continue;

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "core/base/owned_mesh.h"
 #include "core/mesh/pools/primitive.h"
 #include "core/mesh/quads/quads.h"
 #include "tspace/mesh.h"
@@ -17,19 +18,16 @@ namespace tspace {
 // One primitive as a mesh of its own. A pool is often shared by many primitives that each use a small part of it, and
 // what the methods do per vertex should cost in proportion to that part.
 
-/// Its arrays are those of the pool, or own ones. Moving it leaves the views valid.
+/// A view of arrays of the pool, or of its own. Moving it leaves the views valid.
 struct LocalMesh {
     StridedSpan<const Vec3> positions, normals;
     StridedSpan<const Vec2> uvs;
     std::span<const std::uint32_t> indices;
     std::span<const std::uint32_t> face_sizes;
 
-    std::vector<Vec3> own_positions, own_normals;
-    std::vector<Vec2> own_uvs;
-    std::vector<std::uint32_t> own_indices;
+    OwnedMesh own;  ///< what of it is not the pool's
     /// The vertex of the pool that each vertex was when the mesh was made; empty: the same.
     std::vector<std::uint32_t> sources;
-    std::vector<std::uint32_t> own_face_sizes;
     /// For quads that were paired from triangles: the face corner of each corner of the triangles. Empty: faces are the
     /// triangles.
     std::vector<std::uint32_t> face_corners;
@@ -38,11 +36,11 @@ struct LocalMesh {
     LocalMesh(LocalMesh&&) = default;
     LocalMesh& operator=(LocalMesh&&) = default;
 
-    void useOwnIndices() { indices = own_indices; }
+    void useOwnIndices() { indices = own.indices; }
     void useOwnVertices() {
-        positions = own_positions;
-        normals = own_normals;
-        uvs = own_uvs;
+        positions = own.positions;
+        normals = own.normals;
+        uvs = own.uvs;
     }
 
     /// Corners of its triangles.
@@ -113,9 +111,7 @@ std::vector<Vec3> gatherNormals(const std::vector<Vec3>& normals, const std::vec
 
 /// Triangles of other primitives around one. They get no normals here.
 struct Surroundings {
-    std::vector<Vec3> positions = {};
-    std::vector<Vec3> normals = {};  ///< empty, or one per vertex: one that stays; zero where there is none
-    std::vector<std::uint32_t> indices = {};
+    OwnedMesh mesh = {};  ///< its normals are those that stay, zero where there is none; it may have none at all
     std::size_t triangles_before = 0;  ///< of them, those whose primitive is before this one in the file
     std::uint64_t point_count = 0;     ///< positions that the primitive shares with the others
     /// As MorphTargets::read, for these vertices; no function: targets do not move them.
@@ -137,7 +133,6 @@ class BorderedNormals {
     Result<NormalReport> pose(const StridedSpan<const Vec3>& positions, std::size_t target, StridedSpan<Vec3> out);
 
   private:
-    [[nodiscard]] MeshView whole() const;
     void choose(std::span<const Vec3> normals);
     NormalReport take(const NormalReport& of_whole, std::span<const Vec3> normals, StridedSpan<Vec3> out) const;
 
@@ -145,9 +140,8 @@ class BorderedNormals {
     const Surroundings* around_;
     const NormalOptions& options_;
     const Execution& execution_;
-    std::vector<Vec3> positions_ = {};  ///< of the mesh, then of what is around it
-    std::vector<std::uint32_t> indices_ = {};
-    std::size_t first_corner_ = 0;           ///< of the mesh
+    OwnedMesh whole_ = {};          ///< the vertices of the mesh, then those around it; empty: nothing is around it
+    std::size_t first_corner_ = 0;  ///< of the mesh
     std::vector<std::uint32_t> stays_ = {};  ///< per corner of the mesh: the vertex around it whose normal it takes
     std::uint64_t degenerate_around_ = 0;
 };

@@ -141,7 +141,8 @@ std::uint64_t countDiffering(std::span<const Vec4> computed, std::span<const Vec
 
 /// The pool after its normals: with them, and split where corners have different ones, on the base or in a target.
 struct PoolWithNormals {
-    VertexPool pool = {};  ///< its targets read those of the pool it was made from, which must outlive it
+    OwnedMesh vertices = {};
+    MorphTargets targets = {};  ///< they read those of the pool it was made from, which must outlive it
     std::vector<PrimitiveGeometry> primitives = {};   ///< the same corners
     std::vector<std::uint32_t> source_vertices = {};  ///< new vertex -> old vertex, identity first
     std::vector<VertexOffsets> offsets = {};  ///< one per target: what it adds to the normals of the new vertices

@@ -89,9 +89,9 @@ class PoolNormals {
     void write(MorphSplit& morph_split, PoolWithNormals& result) const {
         result.offsets = morph_split.finish();
         SplitResult& split = morph_split.split();
-        result.pool.positions = gather(pool_.positions, split.source_vertices);
-        result.pool.uvs = gather(pool_.uvs, split.source_vertices);
-        result.pool.normals = gatherNormals(written_, split.source_corners);
+        result.vertices.positions = gather(pool_.positions, split.source_vertices);
+        result.vertices.uvs = gather(pool_.uvs, split.source_vertices);
+        result.vertices.normals = gatherNormals(written_, split.source_corners);
         result.source_vertices = std::move(split.source_vertices);
         std::size_t first = 0;
         for (const PrimitiveGeometry& primitive : primitives_) {
@@ -100,10 +100,8 @@ class PoolNormals {
             const auto end = split.indices.begin() + static_cast<std::ptrdiff_t>(first);
             result.primitives.push_back({.indices = {begin, end}, .face_sizes = primitive.face_sizes});
         }
-        result.pool.targets.count = pool_.targets.count;
-        result.pool.targets.read = [&old = pool_, &result](std::size_t target) {
-            return readSplit(old, result, target);
-        };
+        result.targets.count = pool_.targets.count;
+        result.targets.read = [&old = pool_, &result](std::size_t target) { return readSplit(old, result, target); };
     }
 
     /// A target of the old pool, for the new vertices, with the normals that were computed.

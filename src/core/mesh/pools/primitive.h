@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "core/base/owned_mesh.h"
 #include "core/mesh/surface/surface.h"
 #include "core/mesh/surface/uvs.h"
 #include "tspace/asset.h"
@@ -88,49 +89,33 @@ struct PrimitiveGeometry {
     std::vector<std::uint32_t> indices = {};     ///< one per corner, into the pool; not empty for a used primitive
     std::vector<std::uint32_t> face_sizes = {};  ///< empty: triangles
     std::vector<std::uint32_t> smoothing_groups = {};  ///< one per face, or empty
-    Mends mends = {};                                  ///< see VertexPool::mends_tangents
+    Mends mends = {};                                  ///< see PoolView::mends_tangents
     /// Triangles of other primitives that its normals are made on too; null: none. Only for triangles.
     std::shared_ptr<const Surroundings> around = {};
 };
 
-/// Vertices shared by one or more primitives (in glTF: the same attribute accessors).
-struct VertexPool {
-    std::vector<Vec3> positions = {};
-    std::vector<Vec3> normals = {};  ///< empty: to be generated
-    std::vector<Vec2> uvs = {};      ///< the set that the tangents follow; empty: none
-    UvMatrix uv_matrix = {};         ///< the tangents follow uv_matrix * uvs
+/// Vertices shared by one or more primitives (in glTF: the same attribute accessors). The arrays are those of a mesh, or a
+/// file's own bytes; the caller keeps them.
+struct PoolView {
+    StridedSpan<const Vec3> positions = {};
+    StridedSpan<const Vec3> normals = {};  ///< empty: to be generated
+    StridedSpan<const Vec2> uvs = {};      ///< the set that the tangents follow; empty: none
+    UvMatrix uv_matrix = {};               ///< the tangents follow uv_matrix * uvs
     MorphTargets targets = {};
     /// Not empty: these tangents stay and no vertex is split. Only what morph targets add to them is computed; there
     /// must be normals.
-    std::vector<Vec4> kept_tangents = {};
-    /// These tangents stay but at the vertices that each primitive's `mends` names. There vertices are split where
-    /// corners want different tangents, and morph targets get new offsets where tangents are new.
-    bool mends_tangents = false;
-};
-
-/// A pool whose arrays the caller owns and keeps: a VertexPool, or a file's own bytes.
-struct PoolView {
-    StridedSpan<const Vec3> positions = {}, normals = {};
-    StridedSpan<const Vec2> uvs = {};
-    UvMatrix uv_matrix = {};
-    MorphTargets targets = {};
     std::span<const Vec4> kept_tangents = {};
     /// Old values of tangents that are computed anew, one per vertex, or empty: they may tell on which faces they were
     /// made.
     std::span<const Vec4> old_tangents = {};
     bool is_blenders = false;  ///< Blender wrote the file
+    /// The kept tangents stay but at the vertices that each primitive's `mends` names. There vertices are split where
+    /// corners want different tangents, and morph targets get new offsets where tangents are new.
     bool mends_tangents = false;
     bool makes_tangents = true;  ///< false: normals alone are made
 
     PoolView() = default;
-    PoolView(const VertexPool& pool)
-        : positions(pool.positions),
-          normals(pool.normals),
-          uvs(pool.uvs),
-          uv_matrix(pool.uv_matrix),
-          targets(pool.targets),
-          kept_tangents(pool.kept_tangents),
-          mends_tangents(pool.mends_tangents) {}
+    PoolView(const OwnedMesh& mesh) : positions(mesh.positions), normals(mesh.normals), uvs(mesh.uvs) {}
 };
 
 /// Frames for all primitives of one pool after splitting it.

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/owned_mesh.h"
 #include "core/base/unique_index.h"
 #include "core/base/vec_math.h"
 #include "tspace/mesh.h"
@@ -40,6 +41,15 @@ struct TangentView {
         return view;
     }
 };
+
+/// Of triangles that have indices, or of their vertices alone.
+inline TangentView tangentView(const OwnedMesh& mesh) {
+    return {.positions = mesh.positions,
+            .normals = mesh.normals,
+            .tangents = mesh.tangents,
+            .uvs = mesh.uvs,
+            .corners = mesh.indices};
+}
 
 // Values that a stored tangent must have whatever the UVs are: finite, unit, a sign of +1 or -1, and not along N.
 

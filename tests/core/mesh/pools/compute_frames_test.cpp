@@ -11,11 +11,11 @@ namespace {
 using namespace test;
 
 RC_GTEST_PROP(ComputeFrames, ReproducesItselfOnItsOwnOutput, ()) {
-    const VertexPool pool = anyPool();
+    const OwnedMesh pool = anyPool();
     const std::vector<PrimitiveGeometry> primitives = anyFaces(pool);
     const GenerateOptions options = anyOptions();
     const PoolOutcome first = compute(pool, primitives, options);
-    const VertexPool written = rebuilt(pool, first.frames);
+    const OwnedMesh written = rebuilt(pool, first.frames);
     const PoolOutcome second = compute(written, rebuilt(first.frames), options);
     RC_ASSERT(!second.frames.wasSplit(written.positions.size()));
     RC_ASSERT(second.frames.indices == first.frames.indices);
@@ -24,7 +24,7 @@ RC_GTEST_PROP(ComputeFrames, ReproducesItselfOnItsOwnOutput, ()) {
 }
 
 RC_GTEST_PROP(ComputeFrames, WritesOnlyUnitBitangentsOnTheSideOfTheSign, ()) {
-    const VertexPool pool = anyPool();
+    const OwnedMesh pool = anyPool();
     GenerateOptions options = anyOptions();
     options.sanitize = options.bitangents = true;
     const PoolFrames frames = compute(pool, anyTriangles(pool), options).frames;
@@ -39,7 +39,7 @@ RC_GTEST_PROP(ComputeFrames, WritesOnlyUnitBitangentsOnTheSideOfTheSign, ()) {
 }
 
 RC_GTEST_PROP(ComputeFrames, WritesOnlyUnitTangentsWithOneSignPerFace, ()) {
-    const VertexPool pool = anyPool();
+    const OwnedMesh pool = anyPool();
     GenerateOptions options = anyOptions();
     options.tangents.method = *rc::gen::element(options.tangents.method, Method::lengyel);
     options.sanitize = true;
@@ -57,7 +57,7 @@ RC_GTEST_PROP(ComputeFrames, WritesOnlyUnitTangentsWithOneSignPerFace, ()) {
 }
 
 RC_GTEST_PROP(ComputeFrames, KeepsEveryCornerAtItsVertexAndCopiesBehind, ()) {
-    const VertexPool pool = anyPool();
+    const OwnedMesh pool = anyPool();
     const std::vector<PrimitiveGeometry> primitives = anyTriangles(pool);
     const PoolOutcome result = compute(pool, primitives, anyOptions());
     for (std::size_t v = 0; v < pool.positions.size(); ++v) RC_ASSERT(result.frames.source_vertices[v] == v);
@@ -72,7 +72,7 @@ RC_GTEST_PROP(ComputeFrames, KeepsEveryCornerAtItsVertexAndCopiesBehind, ()) {
 }
 
 RC_GTEST_PROP(ComputeFrames, ComputesEachPrimitiveAsAMeshOfItsOwn, ()) {
-    const VertexPool pool = anyPool();
+    const OwnedMesh pool = anyPool();
     const std::vector<PrimitiveGeometry> primitives = anyTriangles(pool);
     const GenerateOptions options = anyOptions();
     const PoolOutcome together = compute(pool, primitives, options);
@@ -98,7 +98,7 @@ TEST(ComputeFrames, StoresTheSignOfTheConvention) {
 }
 
 TEST(ComputeFrames, LaysTangentsIntoTheSurfaceWhereUvsHaveNoArea) {
-    VertexPool pool = square();
+    OwnedMesh pool = square();
     const Vec3 tilted{0.8f, 0, 0.6f};
     for (const float x : {5.0f, 6.0f, 7.0f}) {
         pool.positions.push_back({x, x * x, 0});
@@ -116,7 +116,7 @@ TEST(ComputeFrames, LaysTangentsIntoTheSurfaceWhereUvsHaveNoArea) {
 }
 
 TEST(ComputeFrames, SplitsTheVerticesOfAMirroredSeam) {
-    VertexPool pool = square();
+    OwnedMesh pool = square();
     pool.positions.push_back({2, 0, 0});
     pool.normals.push_back({0, 0, 1});
     pool.uvs.push_back({0, 0});
@@ -128,7 +128,7 @@ TEST(ComputeFrames, SplitsTheVerticesOfAMirroredSeam) {
 }
 
 TEST(ComputeFrames, GivesVerticesThatNoCornerUsesAFrame) {
-    VertexPool pool = square();
+    OwnedMesh pool = square();
     for (const Vec3& normal : {Vec3{0, 5, 0}, Vec3{0, 0, 0}, Vec3{std::nanf(""), 0, 1}}) {
         pool.positions.push_back({});
         pool.normals.push_back(normal);
@@ -144,7 +144,7 @@ TEST(ComputeFrames, GivesVerticesThatNoCornerUsesAFrame) {
 }
 
 TEST(ComputeFrames, GeneratesNormalsEvenWithoutUvs) {
-    VertexPool pool = square();
+    OwnedMesh pool = square();
     pool.normals.clear();
     pool.uvs.clear();
     pool.positions[3].z = 1;
@@ -159,7 +159,7 @@ TEST(ComputeFrames, GeneratesNormalsEvenWithoutUvs) {
 }
 
 TEST(ComputeFrames, TakesSmoothingGroupsFromThePrimitive) {
-    VertexPool pool = square();
+    OwnedMesh pool = square();
     pool.normals.clear();
     pool.positions[3].z = 1;
     GenerateOptions options;
@@ -176,7 +176,7 @@ TEST(ComputeFrames, TakesSmoothingGroupsFromThePrimitive) {
 }
 
 TEST(ComputeFrames, CutsPolygonsAndLeavesFacesWithoutAreaOut) {
-    VertexPool pool;
+    OwnedMesh pool;
     for (int k = 0; k < 6; ++k) {
         const float x = std::cos(1.0471976f * static_cast<float>(k));
         const float y = std::sin(1.0471976f * static_cast<float>(k));
@@ -205,20 +205,20 @@ TEST(ComputeFrames, AcceptsPoolsAndPrimitivesWithNothingInThem) {
 }
 
 TEST(ComputeFrames, RefusesIndicesAndCountsThatDoNotFit) {
-    const auto code = [](const VertexPool& pool, const PrimitiveGeometry& primitive) {
+    const auto code = [](const OwnedMesh& pool, const PrimitiveGeometry& primitive) {
         std::vector<PrimitiveReport> reports(1);
         return computeFrames(pool, {&primitive, 1}, {}, reports).error().code;
     };
     EXPECT_EQ(code(square(), {.indices = {0, 1, 4}}), ErrorCode::indexOutOfRange);
     EXPECT_EQ(code(square(), {.indices = {0, 1}}), ErrorCode::countMismatch);
-    VertexPool pool = square();
+    OwnedMesh pool = square();
     pool.uvs.pop_back();
     EXPECT_EQ(code(pool, {.indices = {0, 1, 2}}), ErrorCode::countMismatch);
 }
 
 /// Computing over the whole pool for each primitive would meet the test's time limit.
 TEST(ComputeFramesTime, StaysLinearWhenManyPrimitivesShareALargePool) {
-    VertexPool pool;
+    OwnedMesh pool;
     std::vector<PrimitiveGeometry> primitives;
     for (std::uint32_t p = 0; p < 30000; ++p) {
         primitives.push_back({.indices = {3 * p, 3 * p + 1, 3 * p + 2}});

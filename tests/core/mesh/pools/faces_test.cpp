@@ -11,7 +11,7 @@ namespace {
 
 using namespace test;
 
-VertexPool poolOf(const ModelData& data) {
+OwnedMesh poolOf(const ModelData& data) {
     return {.positions = data.positions, .normals = data.normals, .uvs = data.uvs};
 }
 
@@ -35,7 +35,7 @@ double shareLikePolygons(const PolygonMesh& mesh, const Cut& cut, Faces faces) {
     EXPECT_TRUE(generateTangents(mesh.view(), options.tangents, {.tangents = std::span(on_polygons)}));
     for (const std::uint32_t corner : cutQuads(mesh, cut)) old_tangents.push_back(on_polygons[corner]);
     const ModelData data = unwelded(trianglesOf(mesh, cut));
-    const VertexPool pool = poolOf(data);
+    const OwnedMesh pool = poolOf(data);
     PoolView view(pool);
     view.old_tangents = old_tangents;
     const PrimitiveGeometry geometry{.indices = data.indices};
@@ -98,7 +98,8 @@ TEST(Faces, MorphTargetsTakeTheQuadsOfTheirBase) {
         offsets.push_back({0, 0, 0.2F * position.x * position.y});
         turns.push_back({-0.2F * position.y, -0.2F * position.x, 0});
     }
-    VertexPool pool = poolOf(data);
+    const OwnedMesh mesh = poolOf(data);
+    PoolView pool(mesh);
     pool.targets = {
         1, [&](std::size_t) -> Result<MorphOffsets> { return MorphOffsets{.positions = offsets, .normals = turns}; }};
     const PrimitiveGeometry geometry{.indices = data.indices};

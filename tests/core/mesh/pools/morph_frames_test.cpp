@@ -16,9 +16,11 @@ namespace {
 using namespace test;
 using Targets = std::vector<MorphOffsets>;
 
-/// `targets` must outlive the result.
-MorphTargets reading(const Targets& targets) {
-    return {targets.size(), [&targets](std::size_t i) -> Result<MorphOffsets> { return targets[i]; }};
+/// `mesh` and `targets` must outlive the result.
+PoolView withTargets(const OwnedMesh& mesh, const Targets& targets) {
+    PoolView pool(mesh);
+    pool.targets = {targets.size(), [&targets](std::size_t i) -> Result<MorphOffsets> { return targets[i]; }};
+    return pool;
 }
 
 Vec3 sum(const Vec3& a, const Vec3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
@@ -50,7 +52,7 @@ std::vector<Vec3> anyOffsets(std::size_t count) {
     return offsets;
 }
 
-Targets anyTargets(const VertexPool& pool) {
+Targets anyTargets(const OwnedMesh& pool) {
     Targets targets(*rc::gen::inRange<std::size_t>(1, 4));
     for (MorphOffsets& target : targets) {
         if (*rc::gen::inRange(0, 4) != 0) target.positions = anyOffsets(pool.positions.size());
@@ -76,8 +78,8 @@ Targets rebuiltTargets(const Targets& targets, const PoolFrames& frames) {
 }
 
 /// Now and then with vertices that are equal on the base.
-VertexPool anyPoolWithTwins() {
-    VertexPool pool = anyPool();
+OwnedMesh anyPoolWithTwins() {
+    OwnedMesh pool = anyPool();
     const std::size_t count = pool.positions.size();
     for (std::size_t v = 0; v < count; ++v) {
         if (*rc::gen::inRange(0, 3) != 0) continue;
@@ -94,7 +96,7 @@ bool isOne(const Vec2& a, const Vec2& b) { return isOne(a.x, b.x) && isOne(a.y, 
 
 /// Corners at a vertex that is equal, on the base, to that of another corner, but not in the moved shape, and, for each
 /// step of `best`, the other corners of their triangles.
-std::vector<bool> takenApart(const VertexPool& base, const VertexPool& moved, const Indices& corners,
+std::vector<bool> takenApart(const OwnedMesh& base, const OwnedMesh& moved, const Indices& corners,
                              const TangentOptions& options) {
     const auto areTwins = [&](std::uint32_t a, std::uint32_t b) {
         return isOne(base.positions[a], base.positions[b]) && isOne(base.normals[a], base.normals[b]) &&
@@ -141,7 +143,7 @@ constexpr float kAnyDirection = 1e9f;
 /// One primitive of a written pool, moved by a target, evaluated with the groups of the base, or where that
 /// takes equal vertices apart with those of the moved shape. Where this gives a corner no tangent, or one
 /// that leans out of the plane in which that of the base lies, the result is kAnyDirection.
-std::vector<Vec4> evaluated(VertexPool pool, const PrimitiveGeometry& primitive, const MorphOffsets& target,
+std::vector<Vec4> evaluated(OwnedMesh pool, const PrimitiveGeometry& primitive, const MorphOffsets& target,
                             const std::vector<Vec4>& base, const GenerateOptions& options) {
     MeshView mesh;
     mesh.positions = pool.positions;
@@ -150,7 +152,7 @@ std::vector<Vec4> evaluated(VertexPool pool, const PrimitiveGeometry& primitive,
     mesh.indices = IndexView(std::span<const std::uint32_t>(primitive.indices));
     const Result<TangentPlan> plan = planTangents(mesh, options.tangents);
     RC_ASSERT(plan.ok());
-    const VertexPool at_rest = pool;
+    const OwnedMesh at_rest = pool;
     std::vector<Vec4> rest(primitive.indices.size()), tangents = rest;
     RC_ASSERT(evaluateTangents(*plan, {mesh.positions, mesh.normals}, {.tangents = rest}).ok());
     for (std::size_t v = 0; v < target.positions.size(); ++v) {
@@ -211,15 +213,14 @@ std::vector<Vec4> evaluated(VertexPool pool, const PrimitiveGeometry& primitive,
 }
 
 RC_GTEST_PROP(MorphFrames, AreThoseOfTheMovedShapeWithTheGroupsOfTheBase, ()) {
-    VertexPool pool = anyPoolWithTwins();
+    const OwnedMesh pool = anyPoolWithTwins();
     RC_PRE(isOrdinary(pool));  // 1e20 beside 1 leaves rounding to decide about directions
     const GenerateOptions options = anyOptions();
     // A broken corner may take the tangent of any other of its face, and the file has triangles only.
     const std::vector<PrimitiveGeometry> primitives = options.sanitize ? anyTriangles(pool) : anyFaces(pool);
     const Targets targets = anyTargets(pool);
-    pool.targets = reading(targets);
-    const PoolOutcome result = compute(pool, primitives, options);
-    const VertexPool written = rebuilt(pool, result.frames);
+    const PoolOutcome result = compute(withTargets(pool, targets), primitives, options);
+    const OwnedMesh written = rebuilt(pool, result.frames);
     const Targets moved = rebuiltTargets(targets, result.frames);
     RC_ASSERT(result.frames.morphs.size() == targets.size());
     for (std::size_t t = 0; t < targets.size(); ++t) {
@@ -242,17 +243,15 @@ RC_GTEST_PROP(MorphFrames, AreThoseOfTheMovedShapeWithTheGroupsOfTheBase, ()) {
 }
 
 RC_GTEST_PROP(MorphFrames, ReproduceThemselvesOnTheirOwnOutput, ()) {
-    VertexPool pool = anyPoolWithTwins();
+    const OwnedMesh pool = anyPoolWithTwins();
     RC_PRE(isOrdinary(pool));  // what is not equals nothing, itself neither, so its copies join no neighbours
     const std::vector<PrimitiveGeometry> primitives = anyFaces(pool);
     const GenerateOptions options = anyOptions();
     const Targets targets = anyTargets(pool);
-    pool.targets = reading(targets);
-    const PoolOutcome first = compute(pool, primitives, options);
-    VertexPool written = rebuilt(pool, first.frames);
+    const PoolOutcome first = compute(withTargets(pool, targets), primitives, options);
+    const OwnedMesh written = rebuilt(pool, first.frames);
     const Targets moved = rebuiltTargets(targets, first.frames);
-    written.targets = reading(moved);
-    const PoolOutcome second = compute(written, rebuilt(first.frames), options);
+    const PoolOutcome second = compute(withTargets(written, moved), rebuilt(first.frames), options);
     RC_ASSERT(!second.frames.wasSplit(written.positions.size()));
     RC_ASSERT(second.frames.indices == first.frames.indices);
     RC_ASSERT(sameBits(second.frames.tangents, first.frames.tangents));
@@ -263,13 +262,12 @@ RC_GTEST_PROP(MorphFrames, ReproduceThemselvesOnTheirOwnOutput, ()) {
 }
 
 RC_GTEST_PROP(MorphFrames, LeaveTheBaseAsItIsWithoutTargetsButForSplits, ()) {
-    VertexPool pool = anyPoolWithTwins();
+    const OwnedMesh pool = anyPoolWithTwins();
     const std::vector<PrimitiveGeometry> primitives = anyFaces(pool);
     const GenerateOptions options = anyOptions();
     const PoolOutcome plain = compute(pool, primitives, options);
     const Targets targets = anyTargets(pool);
-    pool.targets = reading(targets);
-    const PoolOutcome morphed = compute(pool, primitives, options);
+    const PoolOutcome morphed = compute(withTargets(pool, targets), primitives, options);
     for (std::size_t p = 0; p < primitives.size(); ++p) {
         RC_ASSERT(plain.frames.indices[p].size() == morphed.frames.indices[p].size());
         for (std::size_t c = 0; c < plain.frames.indices[p].size(); ++c) {
@@ -283,7 +281,7 @@ RC_GTEST_PROP(MorphFrames, LeaveTheBaseAsItIsWithoutTargetsButForSplits, ()) {
 /// Two bumpy sheets, apart from each other; the UV map of each is mirrored at its middle column.
 struct Sheets {
     static constexpr std::uint32_t kSize = 8, kPerSheet = (kSize + 1) * (kSize + 1);
-    VertexPool pool;
+    OwnedMesh pool;
     PrimitiveGeometry primitive;
 
     Sheets() {
@@ -333,8 +331,8 @@ TEST(MorphFrames, TurnWithTheShape) {
             targets[0].positions = movedBy(sheets.pool.positions, turned);
             if (has_normals) targets[0].normals = movedBy(sheets.pool.normals, turned);
             if (!has_normals) sheets.pool.normals.clear();
-            sheets.pool.targets = reading(targets);
-            const PoolOutcome result = compute(sheets.pool, {sheets.primitive}, withMethod(method));
+            const PoolOutcome result =
+                compute(withTargets(sheets.pool, targets), {sheets.primitive}, withMethod(method));
             const std::size_t count = result.frames.source_vertices.size();
             const std::vector<Vec3> offsets = dense(result.frames.morphs[0].tangents, count);
             const std::vector<Vec3> normals = dense(result.frames.morphs[0].normals, count);
@@ -359,8 +357,7 @@ TEST(MorphFrames, AddNothingWhereNothingMoves) {
         targets[1].positions.resize(2 * Sheets::kPerSheet);
         for (std::uint32_t v = 0; v < Sheets::kPerSheet; ++v)
             targets[1].positions[v] = {0, 0, 0.1f * static_cast<float>(v)};
-        sheets.pool.targets = reading(targets);
-        const PoolOutcome result = compute(sheets.pool, {sheets.primitive}, {});
+        const PoolOutcome result = compute(withTargets(sheets.pool, targets), {sheets.primitive}, {});
         EXPECT_TRUE(result.frames.morphs[0].tangents.vertices.empty());
         EXPECT_TRUE(result.frames.morphs[0].normals.vertices.empty());
         EXPECT_EQ(result.frames.morphs[1].normals.vertices.empty(), has_normals);
@@ -373,11 +370,11 @@ TEST(MorphFrames, AddNothingWhereNothingMoves) {
 
 /// glTF asks for flat normals where there are none, so a plane that a target bends is bent at its edges.
 TEST(MorphFrames, SplitWhatLiesInOnePlaneAndIsBentByATarget) {
-    VertexPool pool = square();
-    pool.normals.clear();
+    OwnedMesh plane = square();
+    plane.normals.clear();
     Targets targets(2);
     targets[1].positions = {{}, {}, {}, {0, 0, 1}};
-    pool.targets = reading(targets);
+    const PoolView pool = withTargets(plane, targets);
     const PoolOutcome flat = compute(pool, {{.indices = {0, 1, 2, 2, 1, 3}}}, {});
     EXPECT_EQ(flat.frames.source_vertices, (Indices{0, 1, 2, 3, 2, 1}));
     EXPECT_EQ(flat.frames.indices[0], (Indices{0, 1, 2, 4, 5, 3}));
@@ -395,11 +392,11 @@ TEST(MorphFrames, SplitWhatLiesInOnePlaneAndIsBentByATarget) {
 }
 
 TEST(MorphFrames, LieInTheirFacesWhereATargetBendsAFlatShadedPlane) {
-    VertexPool pool = square();
-    pool.normals.clear();
+    OwnedMesh plane = square();
+    plane.normals.clear();
     Targets targets(1);
     targets[0].positions = {{}, {}, {}, {0, 0, 1}};
-    pool.targets = reading(targets);
+    const PoolView pool = withTargets(plane, targets);
     for (const Method method : {Method::mikktspace, Method::angle, Method::best}) {
         const PoolFrames frames = compute(pool, {{.indices = {0, 1, 2, 2, 1, 3}}}, withMethod(method)).frames;
         const std::vector<Vec3> normals = dense(frames.morphs[0].normals, 6),
@@ -414,9 +411,9 @@ TEST(MorphFrames, LieInTheirFacesWhereATargetBendsAFlatShadedPlane) {
 
 /// Two triangles that touch in one vertex and lie in one plane: one tangent on the base, two when one of them turns.
 TEST(MorphFrames, SplitGroupsThatOnlyLookAlikeOnTheBase) {
-    VertexPool pool{.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}},
-                    .normals = {5, Vec3{0, 0, 1}},
-                    .uvs = {{0, 0}, {1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
+    const OwnedMesh pool{.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}},
+                         .normals = {5, Vec3{0, 0, 1}},
+                         .uvs = {{0, 0}, {1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
     const std::vector<PrimitiveGeometry> primitives{{.indices = {0, 1, 2, 0, 3, 4}}};
     EXPECT_FALSE(compute(pool, primitives, {}).frames.wasSplit(5));
     Targets targets(2);
@@ -424,8 +421,7 @@ TEST(MorphFrames, SplitGroupsThatOnlyLookAlikeOnTheBase) {
     targets[0].positions[3] = {1, -1, 0};
     targets[0].positions[4] = {1, 1, 0};
     targets[1].positions.assign(5, Vec3{0, 0, 3});
-    pool.targets = reading(targets);
-    const PoolOutcome result = compute(pool, primitives, {});
+    const PoolOutcome result = compute(withTargets(pool, targets), primitives, {});
     EXPECT_EQ(result.frames.source_vertices, (Indices{0, 1, 2, 3, 4, 0}));
     EXPECT_EQ(result.frames.morphs[0].tangents.vertices, (Indices{3, 4, 5}));
     for (const Vec3& offset : result.frames.morphs[0].tangents.offsets) {
@@ -435,13 +431,12 @@ TEST(MorphFrames, SplitGroupsThatOnlyLookAlikeOnTheBase) {
 }
 
 TEST(MorphFrames, KeepTheTangentWhereFacesCollapse) {
-    VertexPool pool = square();
+    const OwnedMesh pool = square();
     Targets targets(2);
     targets[0].positions = {{1, 1, 0}, {0, 1, 0}, {1, 0, 0}, {0, 0, 0}};  // all to one point
     targets[1] = targets[0];
     targets[1].normals.assign(4, {1, 0, 0});  // leaning towards the tangent
-    pool.targets = reading(targets);
-    const PoolOutcome result = compute(pool, {{.indices = {0, 1, 2, 2, 1, 3}}}, {});
+    const PoolOutcome result = compute(withTargets(pool, targets), {{.indices = {0, 1, 2, 2, 1, 3}}}, {});
     EXPECT_TRUE(result.frames.morphs[0].tangents.vertices.empty());
     ASSERT_EQ(result.frames.morphs[1].tangents.vertices.size(), 4u);
     for (const Vec3& offset : result.frames.morphs[1].tangents.offsets) {
@@ -453,27 +448,27 @@ TEST(MorphFrames, CountCornersWhoseSignCannotBeMorphed) {
     Sheets sheets;
     Targets targets(1);
     targets[0].positions = movedBy(sheets.pool.positions, [](const Vec3& p) { return Vec3{-p.x, p.y, p.z}; });
-    sheets.pool.targets = reading(targets);
-    EXPECT_EQ(compute(sheets.pool, {sheets.primitive}, withMethod(Method::flat)).reports[0].morph_sign_flip_count,
+    const PoolView pool = withTargets(sheets.pool, targets);
+    EXPECT_EQ(compute(pool, {sheets.primitive}, withMethod(Method::flat)).reports[0].morph_sign_flip_count,
               sheets.primitive.indices.size());
-    EXPECT_EQ(compute(sheets.pool, {sheets.primitive}, {}).reports[0].morph_sign_flip_count, 0u) << "by UVs alone";
+    EXPECT_EQ(compute(pool, {sheets.primitive}, {}).reports[0].morph_sign_flip_count, 0u) << "by UVs alone";
 }
 
 TEST(MorphFrames, AreAddedToKeptTangentsThatAgree) {
     Sheets sheets;
     Targets targets(1);
     targets[0].positions = movedBy(sheets.pool.positions, turned);
-    sheets.pool.targets = reading(targets);
-    PoolOutcome computed = compute(sheets.pool, {sheets.primitive}, {});
-    VertexPool written = rebuilt(sheets.pool, computed.frames);
+    const PoolOutcome computed = compute(withTargets(sheets.pool, targets), {sheets.primitive}, {});
+    const OwnedMesh mesh = rebuilt(sheets.pool, computed.frames);
     const Targets moved = rebuiltTargets(targets, computed.frames);
-    written.targets = reading(moved);
-    written.kept_tangents = computed.frames.tangents;
+    std::vector<Vec4> tangents = computed.frames.tangents;
+    PoolView written = withTargets(mesh, moved);
+    written.kept_tangents = tangents;
     const PoolOutcome kept = compute(written, rebuilt(computed.frames), {});
     EXPECT_EQ(kept.frames.differing_count, 0u);
     EXPECT_TRUE(sameBits(kept.frames.morphs[0].tangents.offsets, computed.frames.morphs[0].tangents.offsets));
 
-    written.kept_tangents[3].w *= -1;
+    tangents[3].w *= -1;
     const PoolOutcome other = compute(written, rebuilt(computed.frames), {});
     const Indices& corners = computed.frames.indices[0];
     EXPECT_EQ(other.frames.differing_count, static_cast<std::uint64_t>(std::count(corners.begin(), corners.end(), 3u)));
@@ -482,15 +477,16 @@ TEST(MorphFrames, AreAddedToKeptTangentsThatAgree) {
 
 TEST(MorphFrames, PassOnWhyATargetCannotBeRead) {
     for (const bool has_normals : {true, false}) {
-        VertexPool pool = square();
-        if (!has_normals) pool.normals.clear();
+        OwnedMesh mesh = square();
+        if (!has_normals) mesh.normals.clear();
         std::vector<PrimitiveReport> reports(1);
         const std::vector<PrimitiveGeometry> primitives{{.indices = {0, 1, 2}}};
+        PoolView pool(mesh);
         pool.targets = {1, [](std::size_t) -> Result<MorphOffsets> { return Error{ErrorCode::invalidFile, "no"}; }};
         EXPECT_EQ(computeFrames(pool, primitives, {}, reports).error().code, ErrorCode::invalidFile);
         const Targets few{{.positions = {{1, 0, 0}}}};
-        pool.targets = reading(few);
-        EXPECT_EQ(computeFrames(pool, primitives, {}, reports).error().code, ErrorCode::countMismatch);
+        EXPECT_EQ(computeFrames(withTargets(mesh, few), primitives, {}, reports).error().code,
+                  ErrorCode::countMismatch);
     }
 }
 

@@ -21,7 +21,7 @@ struct PoolOutcome {
     std::vector<PrimitiveReport> reports;
 };
 
-inline PoolOutcome compute(const VertexPool& pool, const std::vector<PrimitiveGeometry>& primitives,
+inline PoolOutcome compute(const PoolView& pool, const std::vector<PrimitiveGeometry>& primitives,
                            const GenerateOptions& options) {
     std::vector<PrimitiveReport> reports(primitives.size());
     Result<PoolFrames> frames = computeFrames(pool, primitives, options, reports);
@@ -30,8 +30,8 @@ inline PoolOutcome compute(const VertexPool& pool, const std::vector<PrimitiveGe
 }
 
 /// What a reader would see in the written file.
-inline VertexPool rebuilt(const VertexPool& pool, const PoolFrames& frames) {
-    VertexPool result;
+inline OwnedMesh rebuilt(const OwnedMesh& pool, const PoolFrames& frames) {
+    OwnedMesh result;
     result.normals = frames.normals;
     for (const std::uint32_t source : frames.source_vertices) {
         result.positions.push_back(pool.positions[source]);
@@ -54,7 +54,7 @@ inline GenerateOptions withMethod(Method method) {
 }
 
 /// A square of two triangles, UVs straight.
-inline VertexPool square() {
+inline OwnedMesh square() {
     return {.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}},
             .normals = {4, Vec3{0, 0, 1}},
             .uvs = {{0, 0}, {1, 0}, {0, 1}, {1, 1}}};
@@ -70,8 +70,8 @@ inline float someNumber() {
     return *rc::gen::inRange(0, 60) == 0 ? anyNumber() : static_cast<float>(*rc::gen::inRange(-2, 3));
 }
 
-inline VertexPool anyPool() {
-    VertexPool pool;
+inline OwnedMesh anyPool() {
+    OwnedMesh pool;
     const auto count = *rc::gen::inRange<std::size_t>(1, 14);
     const bool has_normals = *rc::gen::arbitrary<bool>();
     for (std::size_t v = 0; v < count; ++v) {
@@ -83,7 +83,7 @@ inline VertexPool anyPool() {
 }
 
 /// Neither NaN nor huge.
-inline bool isOrdinary(const VertexPool& pool) {
+inline bool isOrdinary(const OwnedMesh& pool) {
     const auto are = [](const auto&... values) { return ((std::fabs(values) < 1e6f) && ...); };
     const auto are3 = [&](const Vec3& v) { return are(v.x, v.y, v.z); };
     return std::all_of(pool.positions.begin(), pool.positions.end(), are3) &&
@@ -91,7 +91,7 @@ inline bool isOrdinary(const VertexPool& pool) {
            std::all_of(pool.uvs.begin(), pool.uvs.end(), [&](const Vec2& v) { return are(v.x, v.y); });
 }
 
-inline std::vector<PrimitiveGeometry> anyTriangles(const VertexPool& pool) {
+inline std::vector<PrimitiveGeometry> anyTriangles(const OwnedMesh& pool) {
     std::vector<PrimitiveGeometry> primitives(*rc::gen::inRange<std::size_t>(1, 4));
     const auto vertices = static_cast<std::uint32_t>(pool.positions.size());
     for (PrimitiveGeometry& primitive : primitives) {
@@ -102,7 +102,7 @@ inline std::vector<PrimitiveGeometry> anyTriangles(const VertexPool& pool) {
 }
 
 /// Now and then faces of 1 to 6 corners instead of triangles.
-inline std::vector<PrimitiveGeometry> anyFaces(const VertexPool& pool) {
+inline std::vector<PrimitiveGeometry> anyFaces(const OwnedMesh& pool) {
     std::vector<PrimitiveGeometry> primitives = anyTriangles(pool);
     for (PrimitiveGeometry& primitive : primitives) {
         if (*rc::gen::arbitrary<bool>()) continue;

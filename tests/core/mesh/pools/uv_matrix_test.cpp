@@ -51,9 +51,9 @@ RC_GTEST_PROP(UvMatrix, GivesTheFrameThatTheTransformedUvsHaveByTheChainRule, ()
     const double angle = number(-700, 700);
     const double scale_u = number(10, 400) * (*rc::gen::arbitrary<bool>() ? 1 : -1);
     const double scale_v = number(10, 400) * (*rc::gen::arbitrary<bool>() ? 1 : -1);
-    const VertexPool plain = {
+    const OwnedMesh mesh = {
         .positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, .normals = {3, Vec3{0, 0, 1}}, .uvs = {{0, 0}, {1, 0}, {0, 1}}};
-    VertexPool pool = plain;
+    PoolView pool(mesh);
     pool.uv_matrix = uvMatrix(angle, scale_u, scale_v);
     GenerateOptions options;
     options.tangents.convention = conventions::opengl;  // v as it is, sign as it is
@@ -72,24 +72,24 @@ RC_GTEST_PROP(UvMatrix, GivesTheFrameThatTheTransformedUvsHaveByTheChainRule, ()
 
 RC_GTEST_PROP(UvMatrix, MakesNoDifferenceToAPoolThatIsUsedInParts, ()) {
     const int size = *rc::gen::inRange(1, 5);
-    VertexPool pool;
+    OwnedMesh mesh;
     PrimitiveGeometry whole;
     for (int y = 0; y <= size; ++y) {
         for (int x = 0; x <= size; ++x) {
             const auto u = static_cast<float>(*rc::gen::inRange(-3, 4)),
                        v = static_cast<float>(*rc::gen::inRange(-3, 4));
-            pool.positions.push_back({static_cast<float>(x), static_cast<float>(y), 0});
-            pool.normals.push_back({0, 0, 1});
-            pool.uvs.push_back({u, v});
+            mesh.positions.push_back({static_cast<float>(x), static_cast<float>(y), 0});
+            mesh.normals.push_back({0, 0, 1});
+            mesh.uvs.push_back({u, v});
             if (x == size || y == size) continue;
             const auto a = static_cast<std::uint32_t>(y * (size + 1) + x), b = a + static_cast<std::uint32_t>(size) + 1;
             whole.indices.insert(whole.indices.end(), {a, a + 1, b, b, a + 1, b + 1});
         }
     }
+    PoolView pool(mesh);
     pool.uv_matrix = uvMatrix(1.1, 2, -1);
-    VertexPool turned = pool;
+    OwnedMesh turned = mesh;
     turned.uvs = transformUvs(pool.uvs, pool.uv_matrix);
-    turned.uv_matrix = {};
     const PrimitiveGeometry part = {.indices = {whole.indices.begin(), whole.indices.begin() + 3}};
     for (const std::vector<PrimitiveGeometry>& geometries :
          {std::vector{whole}, std::vector{part}, std::vector{whole, part}}) {
