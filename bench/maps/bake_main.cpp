@@ -14,6 +14,7 @@
 
 #include "bake_cases.h"
 #include "core/base/vec_math.h"
+#include "level_errors.h"
 
 namespace {
 
@@ -124,6 +125,74 @@ void printTable(std::uint32_t size, bool held_out) {
     std::printf("\nSlowest bake: %.1f s (2 threads, on the clock).\n", slowest);
 }
 
+/// A row of printLevels: means over surfaces of what is shown and of each level.
+struct LevelRow {
+    const char* name;
+    unsigned bits;
+    TexelLengths lengths = TexelLengths::even;
+    float least = 0;  ///< shorter vectors of the map of 16 bits are made so long
+    double log_shown = 0;
+    std::array<double, kLevels> log_levels = {};
+};
+
+/// With vectors of a least length, of 16 bits.
+BakedMap lengthened(BakedMap map, float least, const LowMesh& low, const HighMesh& high) {
+    for (Vec3& texel : map.texels) {
+        const Vec3 vector = 2.0F * texel - Vec3{1, 1, 1};
+        const float own = length(vector);
+        if (own >= least || !(own > 0)) continue;
+        const auto rounded = [&](float channel) {
+            return std::floor((least / own * channel + 1) * 32767.5F + 0.5F) / 65535;
+        };
+        texel = {rounded(vector.x), rounded(vector.y), rounded(vector.z)};
+    }
+    const Result<MapError> error = measureMap({map.width, map.height, map.texels}, low.view(), high.view());
+    if (!error) stop("lengthened", error.error());
+    map.error = *error;
+    return map;
+}
+
+void printLevels(std::uint32_t size, bool held_out) {
+    std::printf(
+        "%u x %u texels, relief, one chart%s. Degrees in the mean, geometric means over the surfaces: as shown, and of "
+        "means of so many texels.\n\n| lengths | shown | 2 x 2 | 4 x 4 | 8 x 8 | 16 x 16 "
+        "|\n|---|---|---|---|---|---|\n",
+        size, size, held_out ? ", surfaces that nothing was tuned on" : "");
+    LevelRow rows[] = {{"16 bits", 16},
+                       {"16 bits, .9 or more", 16, TexelLengths::even, 0.9F},
+                       {"16 bits, 1", 16, TexelLengths::even, 1},
+                       {"8 bits, `even`", 8},
+                       {"8 bits, `free`", 8, TexelLengths::free}};
+    const std::vector<const accuracy::Surface*> surfaces = chosenSurfaces(held_out);
+    for (const accuracy::Surface* surface : surfaces) {
+        const LowMesh low = makeLow(*surface, Charts::one);
+        const HighMesh high = makeHigh(*surface, 512, true, 1);
+        const auto baked = [&](BakeOptions options, std::uint32_t side) {
+            options.width = options.height = side;
+            Result<BakedMap> map = bakeMap(low.view(), high.view(), options, {.thread_count = 2});
+            if (!map) stop(surface->name, map.error());
+            return *std::move(map);
+        };
+        const BakedMap fine = baked({.fit = MapFit::texel}, 4 * size);
+        BakedMap wide;
+        for (LevelRow& row : rows) {
+            const BakedMap map = row.least > 0 ? lengthened(wide, row.least, low, high)
+                                               : baked({.bits = row.bits, .lengths = row.lengths}, size);
+            row.log_shown += std::log(map.error.mean_deg);
+            const std::array<double, kLevels> errors = levelErrors(map, fine);
+            for (std::size_t i = 0; i < kLevels; ++i) row.log_levels[i] += std::log(errors[i]);
+            if (row.bits == 16 && row.least == 0) wide = map;
+        }
+    }
+    const auto count = static_cast<double>(surfaces.size());
+    for (const LevelRow& row : rows) {
+        std::printf("| %s | %.4f |", row.name, std::exp(row.log_shown / count));
+        for (const double sum : row.log_levels) std::printf(" %.4f |", std::exp(sum / count));
+        std::printf("\n");
+    }
+    std::fflush(stdout);
+}
+
 void writeObj(const std::string& path, std::span<const Vec3> positions, std::span<const Vec3> normals,
               std::span<const Vec2> uvs, std::span<const std::uint32_t> corners) {
     std::ofstream file(path);
@@ -199,9 +268,16 @@ int main(int argc, char** argv) {
                     std::atof(arguments[5].c_str()));
         return 0;
     }
+    if (arguments.size() >= 2 && arguments.size() <= 3 && arguments[0] == "--levels") {
+        const int side = std::atoi(arguments[1].c_str());
+        if (side < 16 || side > 4096) return 2;
+        printLevels(static_cast<std::uint32_t>(side), arguments.size() == 3);
+        return 0;
+    }
     if (arguments.size() > 2 || (arguments.size() == 2 && arguments[1] != "held-out")) {
         std::fprintf(stderr,
                      "usage: tspace_bake_bench [SIZE [held-out]]\n"
+                     "       tspace_bake_bench --levels SIZE [held-out]\n"
                      "       tspace_bake_bench --write FOLDER SURFACE smooth|relief CELLS REACH\n");
         return 2;
     }

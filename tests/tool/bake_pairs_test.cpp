@@ -101,6 +101,55 @@ TEST_F(BakePairs, LowPolysOfOneNameInTwoFoldersTakeNamesOfTheirOwn) {
     EXPECT_EQ(pairs("--pairs t/table.txt -o two")["pairs"].size(), 2U);
 }
 
+TEST_F(BakePairs, NoTwoLinesWriteOneFile) {
+    folder.write("t/two.obj", "mtllib two.mtl\nusemtl body\n" + sheet(4, 0, true, "a") + "usemtl belt\n" +
+                                  sheet(4, 0, true, "b", 0.01, 25));
+    folder.write("t/two.mtl", "newmtl body\nnewmtl belt\n");
+    const auto run = [&](const char* first, const char* second, const char* options) {
+        folder.write("t/table.txt", std::string(first) + "\n" + second + "\n");
+        return runTool(folder, std::string("bake --pairs t/table.txt -o two --size 32 -q ") + options);
+    };
+    const struct {
+        const char *first, *second, *options, *file;
+    } cases[] = {
+        {"low.obj = high.obj = x.png", "low.obj = other.obj = x_ao.png", "--maps normal,ao", "x_ao.png"},
+        {"low.obj = high.obj = x_ao.png", "low.obj = other.obj = x.png", "--maps normal,ao", "x_ao.png"},
+        {"low.obj = high.obj = x.tga", "low.obj = other.obj = x_id.tga", "--maps normal,id", "x_id.tga"},
+        {"low.obj = high.obj = x.png", "low.obj = other.obj = ./x_ao.png", "--maps normal,ao", "x_ao.png"},
+        {"low.obj = high.obj = x.png", "low.obj = other.obj = x.tga", "--out-mesh models", "models/x.glb"},
+        {"two.obj = high.obj = x.png", "low.obj = other.obj = x.body.png", "", "x.body.png"},
+        {"low.obj = other.obj = x_ao.belt.png", "two.obj = high.obj = x.png", "--maps normal,ao", "x_ao.belt.png"},
+        {"two.obj = high.obj = x.png", "low.obj = other.obj = x.body.png", "--udim", "x.body.1001.png"},
+    };
+    for (const auto& [first, second, options, file] : cases) {
+        const ToolRun refused = run(first, second, options);
+        EXPECT_EQ(refused.exit_code, 2) << second << refused.err;
+        EXPECT_EQ(refused.errorLines(), 1) << refused.err;
+        EXPECT_NE(refused.err.find("lines 1 and 2"), std::string::npos) << refused.err;
+        EXPECT_NE(refused.err.find(file), std::string::npos) << refused.err;
+        EXPECT_FALSE(std::filesystem::exists(folder.path() / "two")) << second << ": nothing is baked";
+    }
+    EXPECT_EQ(run("low.obj = high.obj = x.png", "low.obj = other.obj = x.body.png", "").exit_code, 0)
+        << "one material gives its file no word";
+    EXPECT_EQ(run("low.obj = high.obj = x.png", "low.obj = other.obj = x_ao.png", "").exit_code, 0);
+}
+
+TEST_F(BakePairs, NoLineWritesWhatAnotherReads) {
+    folder.write("t/names.png", "sheet = sheet\n");
+    folder.write("t/part.glb", folder.read("low.obj"));
+    for (const auto& [table, options] :
+         {std::pair("low.obj = high.obj = part.png\npart.glb = high.obj = x.png\n", "-o two --out-mesh t"),
+          std::pair("low.obj = high.obj = part.png\nlow.obj = part.glb = x.png\n", "-o two --out-mesh t"),
+          std::pair("low.obj = high.obj = x.png\nlow.obj = high.obj = names.png\n", "-o t --match t/names.png")}) {
+        folder.write("t/table.txt", table);
+        const ToolRun run = runTool(folder, std::string("bake --pairs t/table.txt --size 32 ") + options);
+        EXPECT_EQ(run.exit_code, 2) << table << run.err;
+        EXPECT_NE(run.err.find("is an input"), std::string::npos) << run.err;
+        EXPECT_FALSE(std::filesystem::exists(folder.path() / "two/part.png")) << "nothing is baked";
+        EXPECT_FALSE(std::filesystem::exists(folder.path() / "t/x.png")) << "nothing is baked";
+    }
+}
+
 TEST_F(BakePairs, TablesThatMakeNoSenseAreOneLine) {
     for (const auto& [table, code] :
          {std::pair("low.obj\n", 3), std::pair("low.obj = high.obj = a.png = b\n", 3), std::pair("= high.obj\n", 3),

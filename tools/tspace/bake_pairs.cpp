@@ -9,8 +9,10 @@
 #include <map>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string_view>
 
+#include "commands/bake/bake_outputs.h"
 #include "commands/bake/bake_report.h"
 #include "console.h"
 #include "interrupt.h"
@@ -78,16 +80,53 @@ std::vector<Pair> readTable(const BakePairsArguments& arguments) {
     return pairs;
 }
 
-/// A sentence where two lines name the same output, or nothing.
-std::string sharedOutput(const std::vector<Pair>& pairs) {
-    std::map<std::string, std::size_t> lines;
-    for (const Pair& pair : pairs) {
-        const auto [first, is_new] = lines.emplace(pair.job.output, pair.line);
-        if (!is_new)
-            return "lines " + std::to_string(first->second) + " and " + std::to_string(pair.line) +
-                   " of the table both bake " + pair.job.output + "; LOW = HIGH = NAME gives one of them another name";
+/// A line, and what its bake writes.
+struct PairOutputs {
+    std::size_t line = 0;
+    std::vector<std::string> files = {};
+};
+
+/// A sentence where two lines write the same file, or nothing.
+std::string sharedOutput(const std::vector<PairOutputs>& pairs) {
+    std::map<std::string, std::size_t> lines;  // by identity
+    for (const PairOutputs& pair : pairs) {
+        for (const std::string& file : pair.files) {
+            const auto [first, is_new] = lines.emplace(identityOf(file), pair.line);
+            if (!is_new && first->second != pair.line)
+                return "lines " + std::to_string(first->second) + " and " + std::to_string(pair.line) +
+                       " of the table both write " + file + "; LOW = HIGH = NAME gives one of them another name";
+        }
     }
     return {};
+}
+
+BakeFileOptions optionsOf(const BakePairsArguments& arguments, const Pair& pair) {
+    BakeFileOptions options = arguments.options;
+    options.out_mesh = pair.model;
+    return options;
+}
+
+/// Materials and tiles give files words of their own. A low poly is read for them where another pair has a name that they may make.
+void addWords(const BakePairsArguments& arguments, const std::vector<Pair>& pairs, std::vector<PairOutputs>& outputs) {
+    std::map<std::string, std::size_t> plain;  // pairs, by the identities of their files
+    for (std::size_t i = 0; i < outputs.size(); ++i) {
+        for (const std::string& file : outputs[i].files) plain.emplace(identityOf(file), i);
+    }
+    std::set<std::size_t> asked;
+    for (std::size_t i = 0; i < outputs.size(); ++i) {
+        for (const std::string& file : outputs[i].files) {
+            for (const std::string& shorter : withoutWords(file)) {
+                const auto other = plain.find(identityOf(shorter));
+                if (other != plain.end() && other->second != i) asked.insert({i, other->second});
+            }
+        }
+    }
+    for (const std::size_t i : asked) {
+        const Pair& pair = pairs[i];
+        // Where a low poly cannot be read, its own bake says so.
+        (void)tryFile(
+            [&] { outputs[i].files = outputsFor(pair.job.input, pair.job.output, optionsOf(arguments, pair)); });
+    }
 }
 
 class PairsRun {
@@ -126,8 +165,7 @@ class PairsRun {
 
   private:
     Result<BakeFileReport> bake(const Pair& pair, std::vector<std::string>& read) {
-        BakeFileOptions options = arguments_.options;
-        options.out_mesh = pair.model;
+        BakeFileOptions options = optionsOf(arguments_, pair);
         options.execution.thread_count = threadsPerFile(options.execution.thread_count, workers_);
         std::mutex mutex;
         options.file.opened = [&](const std::string& path) {
@@ -231,12 +269,17 @@ ExitCode runBakePairs(const BakePairsArguments& arguments) {
     std::vector<Pair> pairs;
     if (const std::optional<Error> failure = tryFile([&] { pairs = readTable(arguments); }))
         return printError(arguments.table, *failure);
-    if (const std::string shared = sharedOutput(pairs); !shared.empty()) return printUsageError(shared);
-    std::vector<std::string> outputs = {arguments.batch.manifest, arguments.report}, inputs = {arguments.table};
-    for (const Pair& pair : pairs) {
-        outputs.insert(outputs.end(), {pair.job.output, pair.model});
-        inputs.insert(inputs.end(), {pair.job.input, pair.high});
-    }
+    std::vector<PairOutputs> written;
+    for (const Pair& pair : pairs)
+        written.push_back({pair.line, plainOutputs(pair.job.output, optionsOf(arguments, pair))});
+    if (const std::string shared = sharedOutput(written); !shared.empty()) return printUsageError(shared);
+    addWords(arguments, pairs, written);
+    if (const std::string shared = sharedOutput(written); !shared.empty()) return printUsageError(shared);
+    const std::string& match = arguments.options.match;
+    std::vector<std::string> outputs = {arguments.batch.manifest, arguments.report},
+                             inputs = {arguments.table, match == "names" || match == "all" ? "" : match};
+    for (const PairOutputs& pair : written) outputs.insert(outputs.end(), pair.files.begin(), pair.files.end());
+    for (const Pair& pair : pairs) inputs.insert(inputs.end(), {pair.job.input, pair.high});
     if (const Result<Done> fit = prepareOutputs(outputs, inputs); !fit) return printUsageError(fit.error().message);
     // The name of the low poly in the table decides.
     std::erase_if(pairs, [&](const Pair& pair) { return !isInShard(pair.job, arguments.batch.shard); });

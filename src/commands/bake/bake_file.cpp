@@ -6,9 +6,9 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <set>
 
 #include "commands/bake/all_maps.h"
+#include "commands/bake/bake_outputs.h"
 #include "commands/bake/bake_report.h"
 #include "commands/bake/bake_step.h"
 #include "commands/bake/model_surfaces.h"
@@ -37,32 +37,6 @@ std::vector<std::uint8_t> imageFileOf(const std::string& name, std::uint32_t wid
 
 std::vector<std::uint8_t> pngOf(std::uint32_t width, std::uint32_t height, std::vector<Vec3> texels, unsigned bits) {
     return imageFileOf(".png", width, height, std::move(texels), bits);
-}
-
-/// The name of a material with all letters replaced that a file name should not have.
-std::string fileWord(const std::string& name) {
-    std::string word;
-    for (const char letter : name) {
-        const bool is_plain = (letter >= 'a' && letter <= 'z') || (letter >= 'A' && letter <= 'Z') ||
-                              (letter >= '0' && letter <= '9') || letter == '-' || letter == '_';
-        word += is_plain ? letter : '_';
-    }
-    return word.empty() ? "material" : word;
-}
-
-/// "dir/name.WORD.png" of "dir/name.png".
-std::string withWord(const std::string& path, const std::string& word) {
-    if (path.empty() || word.empty()) return path;
-    const std::size_t slash = path.find_last_of('/'), dot = path.find_last_of('.');
-    const bool has_extension = dot != std::string::npos && (slash == std::string::npos || dot > slash);
-    const std::size_t at = has_extension ? dot : path.size();
-    return path.substr(0, at) + "." + word + path.substr(at);
-}
-
-/// "dir/name_WORD.png" of "dir/name.png", whose end is .png.
-std::string withLayer(const std::string& path, const char* word) {
-    const std::size_t dot = path.find_last_of('.');
-    return path.substr(0, dot) + "_" + word + path.substr(dot);
 }
 
 class FileBaking {
@@ -98,10 +72,8 @@ class FileBaking {
         aboutInput(BakeInput::high, [&] { return &detail_.emplace(models_, high, options_); });
         const std::vector<std::string>& seen = detail_->warnings();
         report_.warnings.insert(report_.warnings.end(), seen.begin(), seen.end());
-        for (const LowModel::Image& image : models_.low.images) {
-            const std::string word = models_.low.images.size() > 1 ? freshWord(fileWord(image.material)) : "";
-            bakeTiles(image, word);
-        }
+        const std::vector<std::string> words = imageWords(models_.low);
+        for (std::size_t i = 0; i < words.size(); ++i) bakeTiles(models_.low.images[i], words[i]);
         if (!options_.out_mesh.empty() && !is_without_map_)
             addModelWithMaps({*std::move(models_.low_model), options_.out_mesh, std::move(maps_)}, step_.model_files,
                              files_, report_.warnings);
@@ -159,12 +131,6 @@ class FileBaking {
             failFile(ErrorCode::invalidOption, "normal maps of glTF models are in tangent space");
         if (options_.map.reading.green == Green::down)
             failFile(ErrorCode::invalidOption, "green points up in the normal maps of glTF models");
-    }
-
-    std::string freshWord(const std::string& word) {
-        std::string fresh = word;
-        for (int i = 2; !words_.insert(fresh).second; ++i) fresh = word + "_" + std::to_string(i);
-        return fresh;
     }
 
     /// How many triangles lie more than half a texel outside of a clamped image.
@@ -263,8 +229,7 @@ class FileBaking {
                 if (tileOf(&image.part.corners.uvs[3 * i]) != tile) part.addToRest(image.part, i);
             }
             addOtherImages(part);
-            const std::string number = std::to_string(tile);
-            bakeImage(image, word.empty() ? number : word + "." + number, tile, part);
+            bakeImage(image, tileWord(word, tile), tile, part);
         }
     }
 
@@ -330,7 +295,7 @@ class FileBaking {
                    BakedFile& file) {
         for (BakedLayer& layer : layers) {
             const std::string& base = step_.layers_output.empty() ? output_ : step_.layers_output;
-            BakedLayerFile made{.path = withWord(withLayer(base, layerName(layer.layer)), word)};
+            BakedLayerFile made{.path = withWord(withLayer(base, layer.layer), word)};
             const std::vector<std::uint8_t> png =
                 layerPng(layer, file.map, options_.map.bits, models_.low.origin, made);
             if (layer.layer == MapLayer::id) {
@@ -402,7 +367,6 @@ class FileBaking {
     std::optional<HighDetail> detail_ = {};  ///< refers to the models
     AtomicOutput& files_ = step_.map_files;
     std::vector<ModelMap> maps_ = {};
-    std::set<std::string> words_ = {};
     BakeFileReport report_ = {};
 };
 

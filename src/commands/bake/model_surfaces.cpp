@@ -373,6 +373,10 @@ std::size_t LowModel::triangleCount() const {
     return count;
 }
 
+LowModel readLowImages(const std::string& low, const BakeFileOptions& options) {
+    return lowModel(readDrawnScene(low, options.file, false), nullptr, nullptr);
+}
+
 std::optional<LowModel> readLowAnew(const std::string& low, const BakeFileOptions& options, Faces faces,
                                     const LowModel& known) {
     const GenerateOptions generate = allFrames(options, ExistingTangents::replace, faces);

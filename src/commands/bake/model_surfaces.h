@@ -173,6 +173,9 @@ struct BakeSources {
 BakeModels readBakeModels(const std::string& low, const std::string& high, const BakeFileOptions& options,
                           const BakeSources& sources = {});
 
+/// The triangles of a low poly by their images, as they are in the file: for what they are called. Throws FileError.
+LowModel readLowImages(const std::string& low, const BakeFileOptions& options);
+
 /// The low poly with tangents of `options`.tangents computed anew on these faces, in the order that readBakeModels gives. Nothing
 /// where that method gives another number of triangles. Throws FileError.
 std::optional<LowModel> readLowAnew(const std::string& low, const BakeFileOptions& options, Faces faces,
