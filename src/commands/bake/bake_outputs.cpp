@@ -85,7 +85,7 @@ std::vector<std::string> outputsFor(const std::string& low, const std::string& o
     for (std::size_t i = 0; i < words.size(); ++i) {
         const LowPart& part = model.images[i].part;
         for (std::size_t triangle = 0; triangle < part.triangleCount(); ++triangle) {
-            if (const std::uint32_t tile = tileOf(&part.uvs[3 * triangle]); tile != 0)
+            if (const std::uint32_t tile = tileOf(&part.corners.uvs[3 * triangle]); tile != 0)
                 of_tiles.insert(tileWord(words[i], tile));
         }
     }
