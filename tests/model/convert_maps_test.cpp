@@ -267,6 +267,25 @@ TEST(ConvertMaps, MakesOneMapForMeshesWhosePartsDoNotMeet) {
     EXPECT_EQ(json["materials"].size(), 2U);
 }
 
+TEST(ConvertMaps, MakesAMapOfItsOwnForAMeshWithNewNormalsThatClampsIt) {
+    const TempFolder folder;
+    GltfBuilder builder;
+    addSheet(builder, {.seed = 1, .first = {0, 0}, .last = {0.45F, 1}}, 0);
+    addSheet(builder, {.seed = 2, .first = {0.55F, 0}, .last = {1, 1}}, 1);
+    Json& json = builder.json();
+    json["meshes"][1]["primitives"][0]["attributes"].erase("NORMAL");
+    embedMap(builder, 16, R"([{"normalTexture":{"index":0}},{"normalTexture":{"index":1}}])");
+    json["samplers"] = Json::parse(R"([{"wrapS":33071,"wrapT":33071}])");
+    json["textures"] = Json::parse(R"([{"source":0},{"source":0,"sampler":0}])");
+    GenerateOptions options = methodOptions(Method::best);
+    options.convert_maps = true;
+    options.normals.weighting = NormalWeighting::angle;
+    const auto report = generateFile(folder.write("in.glb", builder.glb()), folder.path("out.glb").string(), options);
+    ASSERT_TRUE(report);
+    ASSERT_EQ(report->converted_maps.size(), 2U);
+    for (const ConvertedMapReport& map : report->converted_maps) EXPECT_EQ(map.primitive_count, 1U);
+}
+
 TEST(ConvertMaps, LeavesTheImageToWhatElseShowsIt) {
     const TempFolder folder;
     GltfBuilder builder;
@@ -314,6 +333,7 @@ TEST(ConvertMaps, WritesNewFilesBesideAGltf) {
     builder.json()["images"] = Json::parse(R"([{"uri":"bumps.png"}])");
     GenerateOptions options = methodOptions(Method::lengyel);
     options.convert_maps = true;
+    options.normals.weighting = NormalWeighting::angle;
     const auto report =
         generateFile(folder.write("in.gltf", builder.gltfText()), folder.path("out.gltf").string(), options);
     ASSERT_TRUE(report) << report.error().message;

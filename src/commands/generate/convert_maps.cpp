@@ -20,19 +20,19 @@ namespace {
 /// A primitive that shows the map, and the frames of its corners.
 struct ShownMap {
     MapUser user = {};
-    MapMesh from = {}, to = {};
+    OwnedMesh from = {}, to = {};  ///< a vertex for each corner
     TexelMask texels = {};
     bool is_new = false;     ///< its tangents were computed
     bool is_bright = false;  ///< it got normals that change the picture on purpose
 
     [[nodiscard]] bool readsLike(const ShownMap& other) const {
-        return from.wrap_u == other.from.wrap_u && from.wrap_v == other.from.wrap_v &&
-               user.use->scale == other.user.use->scale;
+        const TangentUse &own = *user.use, &others = *other.user.use;
+        return own.wrap_u == others.wrap_u && own.wrap_v == others.wrap_v && own.scale == others.scale;
     }
     [[nodiscard]] bool isLike(const ShownMap& other) const {
-        const OwnedMesh &own = from.corners, &others = other.from.corners;
-        return own.uvs == others.uvs && own.normals == others.normals && own.tangents == others.tangents &&
-               to.corners.normals == other.to.corners.normals && to.corners.tangents == other.to.corners.tangents;
+        return from.uvs == other.from.uvs && from.normals == other.from.normals &&
+               from.tangents == other.from.tangents && to.normals == other.to.normals &&
+               to.tangents == other.to.tangents;
     }
     /// Whether one map can serve both.
     [[nodiscard]] bool fits(const ShownMap& other) const {
@@ -60,11 +60,11 @@ std::vector<MapGroup> groupsOf(std::span<const ShownMap> shown) {
 }
 
 /// Those of a group, the same triangles once.
-OwnedMesh joinedSide(const MapGroup& group, MapMesh ShownMap::*side) {
+OwnedMesh joinedSide(const MapGroup& group, OwnedMesh ShownMap::*side) {
     OwnedMesh mesh;
     for (auto one = group.begin(); one != group.end(); ++one) {
         if (std::any_of(group.begin(), one, [&](const ShownMap* other) { return (*one)->isLike(*other); })) continue;
-        const OwnedMesh& part = ((*one)->*side).corners;
+        const OwnedMesh& part = (*one)->*side;
         mesh.addVertices(part, 0, part.positions.size());
     }
     return mesh;
@@ -109,14 +109,14 @@ NewMap convertFor(const MapGroup& group, const FloatImage& image, const Generate
         if (std::find(report.materials.begin(), report.materials.end(), material) == report.materials.end())
             report.materials.push_back(material);
     }
-    const ShownMap& first = *group.front();
-    const double scale = first.user.use->scale;
+    const TangentUse& use = *group.front()->user.use;
+    const double scale = use.scale;
     if (static_cast<float>(scale) == 0) {
         report.reason = "its scale is 0, so nothing of it shows";
         return made;
     }
     const OwnedMesh from = joinedSide(group, &ShownMap::from), to = joinedSide(group, &ShownMap::to);
-    const MapImage map{image.width, image.height, image.texels, first.from.wrap_u, first.from.wrap_v};
+    const MapImage map{image.width, image.height, image.texels, use.wrap_u, use.wrap_v};
     FloatImage converted{image.width, image.height, image.bits, std::vector<Vec3>(image.texels.size()), image.alpha};
     const MapSide from_side = tangentSide(from, scale), to_side = tangentSide(to, scale);
     const ConvertMapReport texels =
@@ -217,17 +217,15 @@ class OneMap {
         // What viewers make of a file without tangents.
         const TangentOptions viewers{.convention = conventions::gltf};
         const TangentUse& use = *one.user.use;
-        addMapCorners(*source.before, &use, viewers, options_.execution, one.from.corners);
-        one.from.wrap_u = use.wrap_u;
-        one.from.wrap_v = use.wrap_v;
-        addMapCorners(*source.after, &use, viewers, options_.execution, one.to.corners);
-        if (one.is_bright || one.from.corners.uvs != one.to.corners.uvs) one.from = one.to;
-        std::vector<std::uint32_t> corners(one.from.corners.uvs.size());
+        addMapCorners(*source.before, &use, viewers, options_.execution, one.from);
+        addMapCorners(*source.after, &use, viewers, options_.execution, one.to);
+        if (one.is_bright || one.from.uvs != one.to.uvs) one.from = one.to;
+        std::vector<std::uint32_t> corners(one.from.uvs.size());
         for (std::size_t i = 0; i < corners.size(); ++i) corners[i] = static_cast<std::uint32_t>(i);
         one.texels = TexelMask(image.width, image.height);
         std::uint64_t steps = kCoverSteps;
-        coverTexels({.corners = corners, .uvs = one.from.corners.uvs, .wrap_u = use.wrap_u, .wrap_v = use.wrap_v},
-                    one.texels, steps);
+        coverTexels({.corners = corners, .uvs = one.from.uvs, .wrap_u = use.wrap_u, .wrap_v = use.wrap_v}, one.texels,
+                    steps);
     }
 
     const Bytes& file_;
