@@ -159,11 +159,12 @@ PoolView lendVertices(const Document& document, DecodedArrays& arrays, const Pri
 }
 
 /// Where frames are made from positions that rounding has moved too far. Half a sentence; empty: they are fine enough.
-std::string warnOfRounding(const PoolView& vertices, std::span<const PrimitiveGeometry> geometries) {
+std::string warnOfRounding(const PoolView& vertices, std::span<const PrimitiveGeometry> geometries,
+                           const Allocator* allocator) {
     constexpr double kLimit = 10;
     std::vector<std::span<const std::uint32_t>> corner_lists;
     for (const PrimitiveGeometry& geometry : geometries) corner_lists.emplace_back(geometry.indices);
-    const PositionRounding rounding = roundingOf(vertices.positions, vertices.uvs, corner_lists);
+    const PositionRounding rounding = roundingOf(vertices.positions, vertices.uvs, corner_lists, 0, allocator);
     if (rounding.error == 0) return {};
     for (const PrimitiveGeometry& geometry : geometries) {
         const TurnedTriangles turned = turnedBy(rounding, vertices.positions, geometry.indices, kLimit);
@@ -364,7 +365,7 @@ PoolElements PoolComputer::computeOne(const PoolPlan& pool, const Execution& exe
                                        {.format = options.format, .is_welded = was_welded});
     elements.has_tangent_deltas = has_tangent_deltas;
     if (computes && !pool.keeps_tangents && !pool.mendsTangents())
-        elements.warning = warnOfRounding(vertices, geometries);
+        elements.warning = warnOfRounding(vertices, geometries, options.execution.allocator);
     return elements;
 }
 

@@ -97,20 +97,23 @@ TurnedDirection directionOf(StridedSpan<const Vec3> positions, StridedSpan<const
 /// neighbours by about as much, in direction and in length. Models that were built on a grid have steps too, and UVs that go
 /// with them, and so does terrain along the axes of its raster: `may_be_raster` says along which all edges are as long.
 /// `error`: as in PositionRounding. False where too few triangles say anything. O(n log n).
+/// What it makes for a while is the allocator's: among results that stay, vectors that grow left holes of as much again.
 bool scattersByRounding(StridedSpan<const Vec3> positions, StridedSpan<const Vec2> uvs,
                         std::span<const std::span<const std::uint32_t>> corner_lists, double error,
-                        const std::array<bool, 3>& may_be_raster) {
+                        const std::array<bool, 3>& may_be_raster, const Allocator* allocator) {
     // Parts of what is wanted. Lengths change less where edges are all about as many steps long.
     constexpr double kLeastSine = 0.17, kLeastTurn = 0.25, kLeastStretch = 0.07;
     constexpr std::size_t kLeastCount = 32;
-    std::vector<TurnedDirection> triangles;
-    std::vector<std::array<std::uint32_t, 3>> vertices;
+    std::size_t most = 0, told = 0;
+    for (const std::span<const std::uint32_t> corners : corner_lists) most += corners.size() / 3;
+    Buffer<TurnedDirection> triangles(allocator, most);
+    Buffer<std::array<std::uint32_t, 3>> vertices(allocator, most);
     for (const std::span<const std::uint32_t> corners : corner_lists) {
         for (std::size_t i = 0; i + 2 < corners.size(); i += 3) {
             const TurnedDirection triangle = directionOf(positions, uvs, corners.data() + i, error);
             if (!(triangle.sine > kLeastSine)) continue;
-            triangles.push_back(triangle);
-            vertices.push_back({corners[i], corners[i + 1], corners[i + 2]});
+            triangles[told] = triangle;
+            vertices[told++] = {corners[i], corners[i + 1], corners[i + 2]};
         }
     }
     std::size_t count = 0;
@@ -129,14 +132,14 @@ bool scattersByRounding(StridedSpan<const Vec3> positions, StridedSpan<const Vec
         wanted += std::min(1.0, a.sine * a.sine + b.sine * b.sine);
     };
     const auto forHalves = [&](const auto& add) {
-        for (std::size_t triangle = 0; triangle < vertices.size(); ++triangle) {
+        for (std::size_t triangle = 0; triangle < told; ++triangle) {
             for (std::size_t k = 0; k < 3; ++k) {
                 const auto [low, high] = std::minmax(vertices[triangle][k], vertices[triangle][(k + 1) % 3]);
                 add(low, high, static_cast<std::uint32_t>(triangle));
             }
         }
     };
-    forEachEdge(positions.count, nullptr, forHalves,
+    forEachEdge(positions.count, allocator, forHalves,
                 [&](std::uint32_t, std::uint32_t, std::span<const HalfEdge> halves) {
                     for (std::size_t i = 0; i + 1 < halves.size(); ++i)
                         compare(triangles[cornerOf(halves[i])], triangles[cornerOf(halves[i + 1])]);
@@ -220,7 +223,8 @@ PositionRounding roundingBy(const std::array<double, 3>& steps, const Axis (&axe
 }  // namespace
 
 PositionRounding roundingOf(StridedSpan<const Vec3> positions, StridedSpan<const Vec2> uvs,
-                            std::span<const std::span<const std::uint32_t>> corner_lists, double stored_step) {
+                            std::span<const std::span<const std::uint32_t>> corner_lists, double stored_step,
+                            const Allocator* allocator) {
     Axis axes[3];
     for (std::size_t v = 0; v < positions.count; ++v) {
         const Vec3 p = positions[v];
@@ -248,8 +252,8 @@ PositionRounding roundingOf(StridedSpan<const Vec3> positions, StridedSpan<const
     PositionRounding before = roundingBy(steps, axes);
     before.was_before = true;
     const std::array<bool, 3> may_be_raster{axes[0].isRaster(), axes[1].isRaster(), axes[2].isRaster()};
-    const bool was_rounded =
-        before.error > stored.error && scattersByRounding(positions, uvs, corner_lists, before.error, may_be_raster);
+    const bool was_rounded = before.error > stored.error &&
+                             scattersByRounding(positions, uvs, corner_lists, before.error, may_be_raster, allocator);
     return was_rounded ? before : stored;
 }
 

@@ -14,6 +14,7 @@
 #include "core/base/owned_mesh.h"
 #include "core/base/unique_index.h"
 #include "core/base/vec_math.h"
+#include "tspace/execution.h"
 #include "tspace/mesh.h"
 #include "tspace/span.h"
 #include "tspace/vec.h"
@@ -90,7 +91,8 @@ struct PositionRounding {
 /// positions that lie on multiples were rounded only where the UVs say so (empty: nothing does). `corner_lists`: three
 /// per triangle, for each mesh over these positions. Nothing where the mesh is 2^16 steps wide or more.
 PositionRounding roundingOf(StridedSpan<const Vec3> positions, StridedSpan<const Vec2> uvs,
-                            std::span<const std::span<const std::uint32_t>> corner_lists, double stored_step = 0);
+                            std::span<const std::span<const std::uint32_t>> corner_lists, double stored_step = 0,
+                            const Allocator* allocator = nullptr);
 
 /// Triangles that rounding turns.
 struct TurnedTriangles {
