@@ -333,7 +333,6 @@ TEST(ConvertMaps, WritesNewFilesBesideAGltf) {
     builder.json()["images"] = Json::parse(R"([{"uri":"bumps.png"}])");
     GenerateOptions options = methodOptions(Method::lengyel);
     options.convert_maps = true;
-    options.normals.weighting = NormalWeighting::angle;
     const auto report =
         generateFile(folder.write("in.gltf", builder.gltfText()), folder.path("out.gltf").string(), options);
     ASSERT_TRUE(report) << report.error().message;
