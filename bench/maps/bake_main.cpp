@@ -15,6 +15,7 @@
 #include "bake_cases.h"
 #include "core/base/vec_math.h"
 #include "level_errors.h"
+#include "maps/quantize.h"
 
 namespace {
 
@@ -138,13 +139,10 @@ struct LevelRow {
 /// With vectors of a least length, of 16 bits.
 BakedMap lengthened(BakedMap map, float least, const LowMesh& low, const HighMesh& high) {
     for (Vec3& texel : map.texels) {
-        const Vec3 vector = 2.0F * texel - Vec3{1, 1, 1};
-        const float own = length(vector);
+        const DVec3 vector = 2 * toDouble(texel) - DVec3{1, 1, 1};
+        const double own = length(vector);
         if (own >= least || !(own > 0)) continue;
-        const auto rounded = [&](float channel) {
-            return std::floor((least / own * channel + 1) * 32767.5F + 0.5F) / 65535;
-        };
-        texel = {rounded(vector.x), rounded(vector.y), rounded(vector.z)};
+        texel = toFloat(0.5 * (roundedVector(65535, least / own * vector) + DVec3{1, 1, 1}));
     }
     const Result<MapError> error = measureMap({map.width, map.height, map.texels}, low.view(), high.view());
     if (!error) stop("lengthened", error.error());

@@ -9,6 +9,9 @@ import time
 
 import bpy
 
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import blender_cycles  # noqa: E402
+
 
 def load(path):
     before = set(bpy.data.objects)
@@ -30,30 +33,15 @@ def main():
     low, high = load(low_path), load(high_path)
     cage = None if cage_path == "-" else load(cage_path)
 
-    scene = bpy.context.scene
-    scene.render.engine = "CYCLES"
-    scene.cycles.device = "CPU"
-    scene.cycles.samples = 1
-    # Where there is no denoiser, a bake that asks for one stays empty.
-    scene.cycles.use_denoising = False
-    scene.cycles.use_adaptive_sampling = False
-    scene.render.threads_mode = "FIXED"
-    scene.render.threads = 2
-
+    blender_cycles.set_up(1)
     image = bpy.data.images.new("normal", int(size), int(size), alpha=False, float_buffer=bits == "16")
     image.colorspace_settings.name = "Non-Color"
     material = bpy.data.materials.new("baked")
-    material.use_nodes = True
-    node = material.node_tree.nodes.new("ShaderNodeTexImage")
-    node.image = image
-    material.node_tree.nodes.active = node
+    blender_cycles.target(material, image)
     low.data.materials.clear()
     low.data.materials.append(material)
 
-    bpy.ops.object.select_all(action="DESELECT")
-    high.select_set(True)
-    low.select_set(True)
-    bpy.context.view_layer.objects.active = low
+    blender_cycles.select(low, high)
     options = {"use_selected_to_active": True, "margin": 16, "normal_space": "TANGENT"}
     if cage is None:
         options.update(cage_extrusion=float(reach), max_ray_distance=2 * float(reach))
@@ -62,13 +50,8 @@ def main():
     wall, cpu = time.monotonic(), sum(os.times()[:2])
     bpy.ops.object.bake(type="NORMAL", **options)
     wall, cpu = time.monotonic() - wall, sum(os.times()[:2]) - cpu
-    scene.render.image_settings.file_format = "PNG"
-    scene.render.image_settings.color_mode = "RGB"
-    scene.render.image_settings.color_depth = bits
-    scene.view_settings.view_transform = "Raw" if bits == "16" else "Standard"
     if bits == "16":
-        # save_render goes through the view; Raw leaves numbers as they are.
-        image.save_render(out, scene=scene)
+        blender_cycles.save_numbers(image, out)
     else:
         image.filepath_raw = out
         image.file_format = "PNG"

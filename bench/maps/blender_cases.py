@@ -17,6 +17,9 @@ import bmesh
 import bpy
 from mathutils import Matrix, Vector, noise
 
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import blender_cycles  # noqa: E402
+
 REACH = 0.1
 
 
@@ -368,17 +371,9 @@ def bake(low, high, folder, size, word, **options):
     for slot in low.material_slots:
         image = bpy.data.images.new("normal", size, size, alpha=False, float_buffer=True)
         image.colorspace_settings.name = "Non-Color"
-        slot.material.use_nodes = True
-        nodes = slot.material.node_tree.nodes
-        node = nodes.new("ShaderNodeTexImage")
-        node.image = image
-        nodes.active = node
+        blender_cycles.target(slot.material, image)
         images.append((slot.material.name, image))
-    bpy.ops.object.select_all(action="DESELECT")
-    high.select_set(True)
-    low.select_set(True)
-    bpy.context.view_layer.objects.active = low
-    scene = bpy.context.scene
+    blender_cycles.select(low, high)
     bpy.ops.object.bake(
         type="NORMAL",
         use_selected_to_active=True,
@@ -388,13 +383,9 @@ def bake(low, high, folder, size, word, **options):
         max_ray_distance=2 * REACH,
         **options,
     )
-    scene.render.image_settings.file_format = "PNG"
-    scene.render.image_settings.color_mode = "RGB"
-    scene.render.image_settings.color_depth = "16"
-    scene.view_settings.view_transform = "Raw"
     for name, image in images:
         part = f".{name}" if len(images) > 1 else ""
-        image.save_render(os.path.join(folder, f"blender-{word}{part}.png"), scene=scene)
+        blender_cycles.save_numbers(image, os.path.join(folder, f"blender-{word}{part}.png"))
 
 
 def begin(make):
@@ -409,20 +400,9 @@ def begin(make):
     return low, high
 
 
-def set_up():
-    scene = bpy.context.scene
-    scene.render.engine = "CYCLES"
-    scene.cycles.device = "CPU"
-    scene.cycles.samples = 1
-    scene.cycles.use_denoising = False
-    scene.cycles.use_adaptive_sampling = False
-    scene.render.threads_mode = "FIXED"
-    scene.render.threads = 2
-
-
 def run(case, folder, size):
     low, high = begin(CASES[case])
-    set_up()
+    blender_cycles.set_up(1)
     os.makedirs(folder, exist_ok=True)
     cage = cage_of(low) if case in WITH_CAGE else None  # before the marks, so that files have them in one order
     corners = marks([low, high])
@@ -458,7 +438,7 @@ def main():
         bpy.ops.wm.save_as_mainfile(filepath=os.path.join(os.path.abspath(arguments[1]), "whole.blend"))
         return
     if arguments[0] == "--bake":
-        set_up()
+        blender_cycles.set_up(1)
         bake(bpy.data.objects["part_low"], bpy.data.objects["part_high"], arguments[1], int(arguments[2]), "no")
         return
     folder, size, *cases = arguments

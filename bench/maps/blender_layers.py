@@ -10,6 +10,9 @@ import time
 
 import bpy
 
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import blender_cycles  # noqa: E402
+
 
 def load(path):
     before = set(bpy.data.objects)
@@ -24,22 +27,14 @@ def main():
     bpy.ops.object.delete()
     low, high = load(low_path), load(high_path)
     scene = bpy.context.scene
-    scene.render.engine = "CYCLES"
-    scene.cycles.device = "CPU"
-    scene.cycles.use_denoising = False
-    scene.cycles.use_adaptive_sampling = False
-    scene.render.threads_mode = "FIXED"
-    scene.render.threads = 2
+    blender_cycles.set_up(1)
     scene.world.light_settings.distance = 100
     material = bpy.data.materials.new("baked")
     material.use_nodes = True
     node = material.node_tree.nodes.new("ShaderNodeTexImage")
     low.data.materials.clear()
     low.data.materials.append(material)
-    bpy.ops.object.select_all(action="DESELECT")
-    high.select_set(True)
-    low.select_set(True)
-    bpy.context.view_layer.objects.active = low
+    blender_cycles.select(low, high)
     for kind, count in (("AO", int(samples)), ("POSITION", 1), ("DIFFUSE", 1), ("DIFFUSE", 16)):
         name = f"{kind}_{count}"
         image = bpy.data.images.new(name, int(size), int(size), alpha=False, float_buffer=True)
