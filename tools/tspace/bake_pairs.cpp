@@ -14,6 +14,7 @@
 
 #include "commands/bake/bake_outputs.h"
 #include "commands/bake/bake_report.h"
+#include "commands/bake/match_meshes.h"
 #include "console.h"
 #include "interrupt.h"
 #include "manifest.h"
@@ -275,9 +276,8 @@ ExitCode runBakePairs(const BakePairsArguments& arguments) {
     if (const std::string shared = sharedOutput(written); !shared.empty()) return printUsageError(shared);
     addWords(arguments, pairs, written);
     if (const std::string shared = sharedOutput(written); !shared.empty()) return printUsageError(shared);
-    const std::string& match = arguments.options.match;
     std::vector<std::string> outputs = {arguments.batch.manifest, arguments.report},
-                             inputs = {arguments.table, match == "names" || match == "all" ? "" : match};
+                             inputs = {arguments.table, matchFileOf(arguments.options.match)};
     for (const PairOutputs& pair : written) outputs.insert(outputs.end(), pair.files.begin(), pair.files.end());
     for (const Pair& pair : pairs) inputs.insert(inputs.end(), {pair.job.input, pair.high});
     if (const Result<Done> fit = prepareOutputs(outputs, inputs); !fit) return printUsageError(fit.error().message);

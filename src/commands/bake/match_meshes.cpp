@@ -186,9 +186,11 @@ class Matching {
 
 }  // namespace
 
+std::string matchFileOf(const std::string& how) { return how == "names" || how == "all" ? "" : how; }
+
 MeshMatch matchMeshes(const DrawnScene& low, const DrawnScene& high, const std::string& how, const FileOptions& file) {
     if (how == "all") return {};
-    if (how.empty() || how == "names") return Matching(low, high, nullptr).run();
+    if (matchFileOf(how).empty()) return Matching(low, high, nullptr).run();
     const Pairs pairs = readPairs(how, file);
     return Matching(low, high, &pairs).run();
 }

@@ -19,6 +19,9 @@ struct MeshMatch {
     std::vector<std::string> warnings = {};  ///< one sentence each: what has no partner
 };
 
+/// The file of pairs that BakeFileOptions::match names; empty where it is `names` or `all`.
+std::string matchFileOf(const std::string& how);
+
 /// `how`: BakeFileOptions::match. By the names of nodes, and where one has no partner by those of meshes. Throws FileError for
 /// a file of pairs that cannot be read.
 MeshMatch matchMeshes(const DrawnScene& low, const DrawnScene& high, const std::string& how, const FileOptions& file);

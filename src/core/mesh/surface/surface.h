@@ -89,7 +89,8 @@ struct PositionRounding {
 /// `stored_step`: of a format with whole numbers, in units of the positions; 0 for floats. Their steps are those of the
 /// largest coordinates, or coarser where all positions lie on multiples; none along axes of a raster. Near the origin
 /// positions that lie on multiples were rounded only where the UVs say so (empty: nothing does). `corner_lists`: three
-/// per triangle, for each mesh over these positions. Nothing where the mesh is 2^16 steps wide or more.
+/// per triangle, for each mesh over these positions. Nothing where the mesh is 2^16 steps wide or more. `allocator`: of what it
+/// makes for a while; null: the system's.
 PositionRounding roundingOf(StridedSpan<const Vec3> positions, StridedSpan<const Vec2> uvs,
                             std::span<const std::span<const std::uint32_t>> corner_lists, double stored_step = 0,
                             const Allocator* allocator = nullptr);
