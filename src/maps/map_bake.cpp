@@ -10,6 +10,7 @@
 #include "maps/map_surfaces.h"
 #include "maps/missed_cause.h"
 #include "maps/quantize.h"
+#include "maps/solve_strips.h"
 #include "maps/solve_texels.h"
 #include "maps/texel_plan.h"
 #include "maps/trace_layers.h"
@@ -25,7 +26,6 @@ constexpr std::uint32_t kMostPadding = 256;
 constexpr std::uint32_t kFilterTexels = 2;
 /// Smaller images have texels that are their own neighbours.
 constexpr std::uint32_t kLeastSolved = 4;
-constexpr unsigned kIntegerRounds = 3;
 
 class Baking {
   public:
@@ -49,7 +49,7 @@ class Baking {
         if (shared_ != nullptr) shared_->surface = surfaces->surface();
         const LowUvs uvs(low_, allocator_);
         const std::uint32_t padding = std::max(options_.padding, kFilterTexels);
-        const std::optional<TexelTriangles> triangles =
+        std::optional<TexelTriangles> triangles =
             findTexelTriangles(uvs.triangles(options_.wrap_u, options_.wrap_v), options_.width, options_.height,
                                padding, parallel_, allocator_);
         if (!triangles)
@@ -110,27 +110,22 @@ class Baking {
         if (work_.progress) work_.progress("fitting", 0, 1);
     }
 
-    void solve(const MapSurfaces& surfaces, const TexelTriangles& triangles) {
-        const std::span<Vec3> texels(traced_.wanted.data(), traced_.wanted.size());
+    /// Takes the triangles: their memory is not needed beside that of the system.
+    void solve(const MapSurfaces& surfaces, TexelTriangles& triangles) {
         const bool has_integers = options_.bits == 8;
         const CellSampling sampling = samplingOf(options_);
         const TexelPlan plan = planTexels(traced_, triangles, sampling.tolerance, has_integers, parallel_, allocator_);
-        TexelSystem system(allocator_, options_.width, options_.height, {plan.roles.data(), plan.roles.size()});
-        traceBetween(surfaces, traced_, plan, sampling.points, options_, work_, system);
+        triangles = {};
+        solveInStrips(surfaces, plan, sampling.points, options_, work_, traced_);
         tellOfFitting();
-        sharpenTexels(plan, texels, parallel_, allocator_);
-        if (has_integers) {
-            addSmoothCells(plan, texels, sampling.points, options_, parallel_, system);
-            IntegerChoice choice = integerChoice(options_.lengths);
-            choice.is_two_channel = options_.reading.two_channels;
-            chooseIntegers(system, choice, texels, kIntegerRounds, parallel_, allocator_);
-            return;
-        }
-        if (!options_.reading.two_channels) {
-            for (Vec3& texel : texels) texel = kWantedLength * texel;
-        }
-        solveTexels(system, texels, parallel_, allocator_);
-        roundTexels(texels, options_.width, {.keeps_lengths = options_.reading.two_channels}, parallel_, allocator_);
+        if (has_integers) return;
+        const std::span<Vec3> texels(traced_.wanted.data(), traced_.wanted.size());
+        // What shows nothing is rounded as it is written.
+        Buffer<bool> background(allocator_, texels.size(), false);
+        for (std::size_t i = 0; i < texels.size(); ++i) background[i] = traced_.origins[i] == TexelOrigin::background;
+        roundTexels(texels, options_.width,
+                    {.keeps_lengths = options_.reading.two_channels, .keeps = {background.data(), background.size()}},
+                    parallel_, allocator_);
         if (options_.reading.two_channels) completeThirds(texels);
     }
 
@@ -243,12 +238,14 @@ Error checkBakeOptions(const BakeOptions& options, std::size_t low_triangles, st
 }
 
 std::uint64_t bakeBytes(std::uint64_t low_triangles, std::uint64_t high_triangles, const BakeOptions& options) {
-    // TexelTriangles, the vectors and their votes, the result; and the system with what solving it needs.
-    constexpr std::uint64_t kPlain = 26 + 16 + 13, kSolve = sizeof(TexelRow) + 36, kHeat = 6;
-    const std::uint64_t texel = kPlain + (options.fit == MapFit::solve ? kSolve : 0) + (options.heat ? kHeat : 0);
+    // TexelTriangles, the vectors and their votes, the result; and the strip with the system and what solving it needs.
+    constexpr std::uint64_t kPlain = 26 + 16 + 13, kStrip = sizeof(TexelRow) + 60 + 24, kHeat = 6;
+    const std::uint64_t texel = kPlain + (options.heat ? kHeat : 0);
+    const std::uint64_t strip_rows = std::min(options.height, kStripRows + 2 * (kRowsAround + 1));
+    const std::uint64_t strip = options.fit == MapFit::solve ? kStrip * options.width * strip_rows : 0;
     // Directions of rays and boxes of Embree; points of the measure.
     constexpr std::uint64_t kLow = 120 + 400, kHigh = 200, kPoints = 100000 * 64;
-    return texel * options.width * options.height + kLow * low_triangles + kHigh * high_triangles + kPoints;
+    return texel * options.width * options.height + strip + kLow * low_triangles + kHigh * high_triangles + kPoints;
 }
 
 namespace {

@@ -219,7 +219,7 @@ DVec3 MapSurfaces::normalOf(const RayHit& hit) const {
     if (!high_.normals.empty()) {
         DVec3 sum{};
         for (std::size_t i = 0; i < 3; ++i) sum = sum + hit.weights[i] * toDouble(high_.normals[vertices[i]]);
-        if (normalize(sum)) return sum;
+        if (normalizeOrdinary(sum)) return sum;
     }
     return faceOf(hit.triangle);
 }
@@ -270,7 +270,10 @@ bool MapSurfaces::meet(const Ray& ray, double& guess, RayHit& hit) const {
         hit.distance = ray.height - hit.distance;
         return true;
     }
-    if (rays_->outermost(ray.place, ray.outward, -reach_, ray.height, ray.group, hit)) return true;
+    return rays_->outermost(ray.place, ray.outward, -reach_, ray.height, ray.group, hit) || meetBeyond(ray, hit);
+}
+
+bool MapSurfaces::meetBeyond(const Ray& ray, RayHit& hit) const {
     return ray.height < reach_ && rays_->innermost(ray.place, ray.outward, ray.height, reach_, ray.group, hit);
 }
 
@@ -297,18 +300,50 @@ bool MapSurfaces::truthAt(std::size_t triangle, const std::array<double, 3>& wei
     return dot(normal, normal) > 0;
 }
 
-bool MapSurfaces::hitAt(std::size_t triangle, const std::array<double, 3>& weights, double& guess,
-                        SurfaceHit& hit) const {
-    Ray ray;
-    RayHit met;
-    if (!rayAt(triangle, weights, ray) || !meet(ray, guess, met)) return false;
-    hit = {.triangle = met.triangle, .weights = met.weights, .height = met.distance};
-    for (std::size_t i = 0; i < 3; ++i)
-        hit.place =
-            hit.place + met.weights[i] * toDouble(high_.positions[high_.corners[3 * std::size_t{met.triangle} + i]]);
-    hit.normal = normalOf(met);
-    hit.face = faceOf(met.triangle);
-    return dot(hit.normal, hit.normal) > 0;
+std::uint32_t MapSurfaces::meetTogether(std::span<const LowPoint> points, double& guess, std::span<RayHit> hits) const {
+    std::array<Ray, kLinesAtOnce> rays;
+    std::array<RayLine, kLinesAtOnce> lines;
+    std::uint32_t aimed = 0, met = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        Ray& ray = rays[i];
+        const bool is_ray = rayAt(points[i].triangle, points[i].weights, ray);
+        aimed |= is_ray ? 1U << i : 0U;
+        // A line that ends before it begins meets nothing.
+        lines[i] =
+            is_ray ? RayLine{ray.place, ray.outward, -reach_, ray.height, ray.group} : RayLine{.begin = 1, .end = 0};
+    }
+    const bool is_from_cage = low_.cage.empty() && options_.target == RayTarget::outermost;
+    if (is_from_cage) met = rays_->outermost(std::span(lines).first(points.size()), hits);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const std::uint32_t bit = 1U << i;
+        if ((aimed & bit) == 0 || (met & bit) != 0) continue;
+        if (is_from_cage ? meetBeyond(rays[i], hits[i]) : meet(rays[i], guess, hits[i])) met |= bit;
+    }
+    return met;
+}
+
+void MapSurfaces::truthsAt(std::span<const LowPoint> points, double& guess, std::span<DVec3> normals) const {
+    std::array<RayHit, kLinesAtOnce> hits;
+    const std::uint32_t met = meetTogether(points, guess, hits);
+    for (std::size_t i = 0; i < points.size(); ++i) normals[i] = (met >> i & 1) != 0 ? normalOf(hits[i]) : DVec3{};
+}
+
+std::uint32_t MapSurfaces::hitsAt(std::span<const LowPoint> points, double& guess, std::span<SurfaceHit> hits) const {
+    std::array<RayHit, kLinesAtOnce> places;
+    std::uint32_t met = meetTogether(points, guess, places);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        if ((met >> i & 1) == 0) continue;
+        const RayHit& at = places[i];
+        SurfaceHit& hit = hits[i];
+        hit = {.triangle = at.triangle, .weights = at.weights, .height = at.distance};
+        for (std::size_t k = 0; k < 3; ++k)
+            hit.place =
+                hit.place + at.weights[k] * toDouble(high_.positions[high_.corners[3 * std::size_t{at.triangle} + k]]);
+        hit.normal = normalOf(at);
+        hit.face = faceOf(at.triangle);
+        if (!(dot(hit.normal, hit.normal) > 0)) met &= ~(1U << i);
+    }
+    return met;
 }
 
 CornerFrames MapSurfaces::corners(std::size_t triangle, const StridedSpan<const Vec4>& tangents) const {

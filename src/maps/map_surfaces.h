@@ -56,6 +56,12 @@ struct RayNeighbourhood {
     bool normal_is_inward = false;  ///< that of the high poly, as shaded, where its front was met
 };
 
+/// A point of the low poly.
+struct LowPoint {
+    std::uint32_t triangle = 0;
+    std::array<double, 3> weights = {};
+};
+
 /// Where the ray of a point of the low poly meets the high poly.
 struct SurfaceHit {
     std::uint32_t triangle = 0;  ///< of the high poly
@@ -91,8 +97,11 @@ class MapSurfaces {
     /// same time.
     bool truthAt(std::size_t triangle, const std::array<double, 3>& weights, double& guess, DVec3& normal,
                  RayNeighbourhood* around = nullptr) const;
-    /// truthAt, and all of the place.
-    bool hitAt(std::size_t triangle, const std::array<double, 3>& weights, double& guess, SurfaceHit& hit) const;
+    /// truthAt of kLinesAtOnce points at most, which takes less time where they lie beside each other. Zero where it is false.
+    void truthsAt(std::span<const LowPoint> points, double& guess, std::span<DVec3> normals) const;
+    /// truthsAt, and all of the places. Bit i of the result: whether hits[i] is one.
+    [[nodiscard]] std::uint32_t hitsAt(std::span<const LowPoint> points, double& guess,
+                                       std::span<SurfaceHit> hits) const;
 
     [[nodiscard]] CornerFrames corners(std::size_t triangle, const StridedSpan<const Vec4>& tangents) const;
 
@@ -115,6 +124,10 @@ class MapSurfaces {
     bool rayAt(std::size_t triangle, const std::array<double, 3>& weights, Ray& ray) const;
     /// `hit`.distance is outwards from the low poly.
     bool meet(const Ray& ray, double& guess, RayHit& hit) const;
+    /// Whether a ray that met nothing from the cage inwards meets something further out.
+    bool meetBeyond(const Ray& ray, RayHit& hit) const;
+    /// meet for points that are asked for together. Bit i of the result: whether hits[i] is one.
+    std::uint32_t meetTogether(std::span<const LowPoint> points, double& guess, std::span<RayHit> hits) const;
     [[nodiscard]] RayNeighbourhood around(const Ray& ray, const RayHit* hit) const;
     void aim(const RayOptions& rays, Parallel& parallel, const Allocator* allocator);
     [[nodiscard]] DVec3 normalOf(const RayHit& hit) const;
@@ -122,6 +135,38 @@ class MapSurfaces {
     /// The normal that the high poly's own map gives; zero where it shows none there.
     [[nodiscard]] DVec3 mappedNormal(const RayHit& hit, const std::array<std::uint32_t, 3>& vertices) const;
 };
+
+/// Points, each with a tag that says what it is for, until there are kLinesAtOnce: see askTogether.
+template <class Tag, class Ask>
+class PointsTogether {
+  public:
+    explicit PointsTogether(const Ask& ask) : ask_(ask) {}
+
+    void add(const LowPoint& point, const Tag& tag) {
+        points_[count_] = point;
+        tags_[count_] = tag;
+        if (++count_ == kLinesAtOnce) finish();
+    }
+    void finish() {
+        if (count_ > 0)
+            ask_(std::span<const LowPoint>(points_.data(), count_), std::span<const Tag>(tags_.data(), count_));
+        count_ = 0;
+    }
+
+  private:
+    const Ask& ask_;
+    std::size_t count_ = 0;
+    std::array<LowPoint, kLinesAtOnce> points_ = {};
+    std::array<Tag, kLinesAtOnce> tags_ = {};
+};
+
+/// ask(points, tags) for what body(together) adds by together.add(point, tag): kLinesAtOnce at a time, in that order.
+template <class Tag, class Ask, class Body>
+void askTogether(const Ask& ask, const Body& body) {
+    PointsTogether<Tag, Ask> together(ask);
+    body(together);
+    together.finish();
+}
 
 /// The UVs of a low poly as a list of triangles.
 struct LowUvs {

@@ -42,7 +42,8 @@ struct BandSample {
 };
 
 /// Band b has the grid rows b * kBandTexels * n + shift and on, as many as kBandTexels texels have or are left; beyond the last
-/// row comes the first. What lies outside of a clamped image is left out.
+/// row comes the first. What lies outside of a clamped image is left out. Points beside each other come after each other, in
+/// blocks of 4 x 4, since rays beside each other take less time together.
 class SampleBands {
   public:
     static constexpr std::uint32_t kBandTexels = 16;
@@ -93,24 +94,50 @@ class SampleBands {
                 const bool flipped = isFlipped(tile, grid_.wrap_v);
                 for (const TexelRange& part : parts) {
                     const TexelRange inside = rowsOfTile(rows, tile, grid_.height, grid_.wrap_v, part.first, part.last);
-                    for (std::int64_t at = inside.first; at <= inside.last; ++at)
-                        visitRow(placed, tile * height + (flipped ? height - 1 - at : at),
-                                 {.triangle = entries_[i], .row = static_cast<std::uint32_t>(at), .exact = &exact},
-                                 visit);
+                    for (std::int64_t at = inside.first; at <= inside.last; at += kBlock) {
+                        const TexelRange some{at, std::min(inside.last, at + kBlock - 1)};
+                        visitRows(placed, some, tile * height + (flipped ? height - 1 : 0), flipped ? -1 : 1,
+                                  {.triangle = entries_[i], .exact = &exact}, visit);
+                    }
                 }
             }
         }
     }
 
   private:
+    static constexpr std::int64_t kBlock = 4;
+
+    /// Rows of the image; its row 0 is `origin` of the endless plane, and the next one is `step` further.
     template <class Visit>
-    void visitRow(const PlacedTriangle& placed, std::int64_t row, BandSample sample, Visit&& visit) const {
-        sample.y = (static_cast<double>(row) + 0.5) / n_;
-        forColumnsInImage(placed.columns(row), grid_.width, grid_.wrap_u, [&](std::int64_t column, std::size_t at) {
-            sample.x = (static_cast<double>(column) + 0.5) / n_;
-            sample.column = static_cast<std::uint32_t>(at);
-            visit(sample);
-        });
+    void visitRows(const PlacedTriangle& placed, TexelRange rows, std::int64_t origin, std::int64_t step,
+                   BandSample sample, Visit&& visit) const {
+        std::array<TexelRange, kBlock> columns;
+        std::int64_t first = INT64_MAX, last = INT64_MIN;
+        for (std::int64_t row = rows.first; row <= rows.last; ++row) {
+            const TexelRange range = placed.columns(origin + step * row);
+            columns[static_cast<std::size_t>(row - rows.first)] = range;
+            if (range.isEmpty()) continue;
+            first = std::min(first, range.first);
+            last = std::max(last, range.last);
+        }
+        if (grid_.wrap_u == TextureWrap::clamp) {
+            first = std::max<std::int64_t>(first, 0);
+            last = std::min<std::int64_t>(last, grid_.width - 1);
+        }
+        for (std::int64_t block = first; block <= last; block += kBlock) {
+            for (std::int64_t row = rows.first; row <= rows.last; ++row) {
+                const TexelRange& range = columns[static_cast<std::size_t>(row - rows.first)];
+                sample.row = static_cast<std::uint32_t>(row);
+                sample.y = (static_cast<double>(origin + step * row) + 0.5) / n_;
+                const TexelRange some{std::max(range.first, block), std::min(range.last, block + kBlock - 1)};
+                if (some.isEmpty()) continue;
+                forColumnsInImage(some, grid_.width, grid_.wrap_u, [&](std::int64_t column, std::size_t at) {
+                    sample.x = (static_cast<double>(column) + 0.5) / n_;
+                    sample.column = static_cast<std::uint32_t>(at);
+                    visit(sample);
+                });
+            }
+        }
     }
 
     /// visit(band), once for each that the triangle has rows in. Of three tiles one is shown whole.
@@ -187,15 +214,24 @@ DVec3 shadedAt(const MapImage& map, const MapCandidate& candidate, const CornerF
 std::vector<float> heatOf(const MapImage& map, const MapSurfaces& surfaces, const MapCandidate& candidate,
                           const MapWork& work);
 
+/// A part of the steps that progress is told of.
+struct ToldSteps {
+    std::uint64_t before = 0, total = 0;
+};
+
 /// Bodies of parallel loops see nothing of the caller. Calls task(i) for each i below `count`, and now and then `progress`
 /// from the calling thread.
 template <class Task>
-void forTasksTold(const MapWork& work, std::size_t count, const char* what, Task&& task) {
+void forTasksTold(const MapWork& work, std::size_t count, const char* what, ToldSteps steps, Task&& task) {
     const std::size_t at_once = std::size_t{work.parallel.width()} * 4;
     for (std::size_t begin = 0; begin < count; begin += at_once) {
-        if (work.progress) work.progress(what, begin, count);
+        if (work.progress) work.progress(what, steps.before + begin, steps.total);
         work.parallel.forTasks(std::min(at_once, count - begin), [&](std::size_t i) { task(begin + i); });
     }
+}
+template <class Task>
+void forTasksTold(const MapWork& work, std::size_t count, const char* what, Task&& task) {
+    forTasksTold(work, count, what, {0, count}, task);
 }
 
 }  // namespace tspace

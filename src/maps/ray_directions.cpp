@@ -292,18 +292,18 @@ bool RayField::at(std::size_t triangle, const std::array<double, 3>& weights, DV
     if (averaged_.empty()) {
         outward = mixedAt(low_.normals, triangle, weights);
         height = offset_;
-        return normalize(outward);
+        return normalizeOrdinary(outward);
     }
-    DVec3 way = mixedWay(averaged_, triangle, weights);
+    DVec3 way = mixedWay(near_.empty() ? averaged_ : straight_, triangle, weights);
     if (!rays_.skew.texels.empty()) {
         const double part = painted(triangle, weights);
         way = (1 - part) * way + part * faceOf(triangle);
-    } else if (!near_.empty()) {
-        way = bentAtEdges(triangle, mixedAt(low_.positions, triangle, weights), mixedWay(straight_, triangle, weights));
+    } else if (isNearEdges(triangle)) {
+        way = bentAtEdges(triangle, mixedAt(low_.positions, triangle, weights), way);
     }
     height = offset_ * length(way);
     outward = way;
-    return normalize(outward) && std::isfinite(height);
+    return normalizeOrdinary(outward) && std::isfinite(height);
 }
 
 DVec3 RayField::faceOf(std::size_t triangle) const {

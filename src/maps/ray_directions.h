@@ -86,6 +86,12 @@ class RayField {
 
     [[nodiscard]] DVec3 faceOf(std::size_t triangle) const;
     [[nodiscard]] double painted(std::size_t triangle, const std::array<double, 3>& weights) const;
+    /// Whether a corner of a triangle has hard edges nearby.
+    [[nodiscard]] bool isNearEdges(std::size_t triangle) const {
+        if (near_.empty()) return false;
+        const NearEdges* const corners = near_.data() + 3 * triangle;
+        return corners[0][0] != kNoEdge || corners[1][0] != kNoEdge || corners[2][0] != kNoEdge;
+    }
     /// The way at a point near hard edges, where `straight` is the way of its face.
     [[nodiscard]] DVec3 bentAtEdges(std::size_t triangle, const DVec3& point, const DVec3& straight) const;
 

@@ -45,6 +45,7 @@ struct Embree {
     decltype(&rtcCommitGeometry) commitGeometry = library.find("rtcCommitGeometry");
     decltype(&rtcAttachGeometry) attachGeometry = library.find("rtcAttachGeometry");
     decltype(&rtcIntersect1) intersect1 = library.find("rtcIntersect1");
+    decltype(&rtcIntersect16) intersect16 = library.find("rtcIntersect16");
     decltype(&rtcSetGeometryOccludedFilterFunction) setGeometryOccludedFilterFunction =
         library.find("rtcSetGeometryOccludedFilterFunction");
     decltype(&rtcOccluded1) occluded1 = library.find("rtcOccluded1");
@@ -77,7 +78,7 @@ struct RaySurface::State {
     std::span<const std::uint32_t> corners, groups;
     // For Embree the surface is moved and scaled into the unit cube: it drops what is very large, and its boxes round.
     DVec3 centre = {};
-    double scale = 1;
+    double scale = 1, size = 1;     ///< size: 1 / scale
     std::vector<Vec4> placed = {};  // 16 bytes each: Embree reads them so
     RTCDevice device = nullptr, second_device = nullptr;
     RTCScene scene = nullptr;
@@ -103,7 +104,8 @@ struct RaySurface::State {
             sum += point.weights[i];
         }
         if (!(sum > 0)) return false;
-        for (double& weight : point.weights) weight /= sum;
+        const double part = 1 / sum;
+        for (double& weight : point.weights) weight *= part;
         return std::isfinite(point.distance);
     }
 };
@@ -119,9 +121,8 @@ enum class Wanted : std::uint8_t {
     all   ///< all are counted, and backs
 };
 
-/// A line and its best hit. Embree's part comes first: the filter function gets a pointer to it.
+/// A line and its best hit.
 struct Query {
-    QueryContext context;
     const RaySurface::State* surface;
     DVec3 from, direction;
     double begin, end;  ///< along the direction
@@ -142,6 +143,34 @@ struct Query {
     }
 };
 
+/// A call of Embree for one line or several. Embree's part comes first: filter functions get a pointer to it.
+struct Shot {
+    QueryContext context;
+    Query* queries;
+
+    Shot(Query* of, bool is_coherent) : queries(of) {
+#if RTC_VERSION_MAJOR >= 4
+        rtcInitRayQueryContext(&context);
+        static_cast<void>(is_coherent);
+#else
+        rtcInitIntersectContext(&context);
+        if (is_coherent) context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+#endif
+    }
+};
+
+/// visit(query, triangle, valid) for each line of a filter function's call: `valid` 0 rejects the triangle.
+template <class Visit>
+void forLines(const RTCFilterFunctionNArguments* arguments, const Visit& visit) {
+    const auto& shot = *reinterpret_cast<const Shot*>(arguments->context);
+    const unsigned count = arguments->N;
+    for (unsigned i = 0; i < count; ++i) {
+        if (arguments->valid[i] == 0) continue;
+        visit(shot.queries[RTCRayN_id(arguments->ray, count, i)], RTCHitN_primID(arguments->hit, count, i),
+              arguments->valid[i]);
+    }
+}
+
 /// Counts a triangle that is met, in front or from behind.
 void countCrossing(Query& query, std::uint32_t triangle) {
     for (const double sign : {1.0, -1.0}) {
@@ -159,21 +188,18 @@ bool meetEitherSide(const Query& query, std::uint32_t triangle, PlanePoint& poin
     return true;
 }
 
-/// Called for a triangle that may hide the way; rejects it where it does not, so that Embree goes on to others.
+/// Called for triangles that may hide the way; rejects those that do not, so that Embree goes on to others.
 void acceptBlocking(const RTCFilterFunctionNArguments* arguments) {
-    const auto& query = *reinterpret_cast<const Query*>(arguments->context);
-    const std::uint32_t triangle = RTCHitN_primID(arguments->hit, arguments->N, 0);
-    PlanePoint point;
-    const bool is_met =
-        triangle != query.skipped && meetEitherSide(query, triangle, point) && query.reaches(point.distance);
-    if (!is_met) arguments->valid[0] = 0;
+    forLines(arguments, [](const Query& query, std::uint32_t triangle, int& valid) {
+        PlanePoint point;
+        const bool is_met =
+            triangle != query.skipped && meetEitherSide(query, triangle, point) && query.reaches(point.distance);
+        if (!is_met) valid = 0;
+    });
 }
 
-/// Called for each triangle that the line meets; rejects it, so that Embree goes on to all others.
-void collectHit(const RTCFilterFunctionNArguments* arguments) {
-    arguments->valid[0] = 0;
-    auto& query = *reinterpret_cast<Query*>(arguments->context);
-    const std::uint32_t triangle = RTCHitN_primID(arguments->hit, arguments->N, 0);
+/// Takes a triangle that a line meets, if it is better than what was met before.
+void takeHit(Query& query, std::uint32_t triangle) {
     if (!query.surface->groups.empty() && query.group != kEveryGroup) {
         const std::uint32_t group = query.surface->groups[triangle];
         if (group != query.group && group != kEveryGroup) return;
@@ -193,6 +219,14 @@ void collectHit(const RTCFilterFunctionNArguments* arguments) {
     query.best = {triangle, point.weights, point.distance};
 }
 
+/// Called for triangles that lines meet; rejects each, so that Embree goes on to all others.
+void collectHits(const RTCFilterFunctionNArguments* arguments) {
+    forLines(arguments, [](Query& query, std::uint32_t triangle, int& valid) {
+        valid = 0;
+        takeHit(query, triangle);
+    });
+}
+
 /// Sets centre and scale from the finite positions.
 void findPlace(RaySurface::State& state) {
     DVec3 least{1e300, 1e300, 1e300}, most = -1.0 * least;
@@ -206,6 +240,7 @@ void findPlace(RaySurface::State& state) {
     state.centre = 0.5 * (least + most);
     const double size = std::max({most.x - least.x, most.y - least.y, most.z - least.z});
     state.scale = size > 0 ? 1 / size : 1;
+    state.size = 1 / state.scale;
 }
 
 /// A device whose scenes are built by those threads that call joinCommitScene, `threads` at most. Its number of threads is
@@ -267,7 +302,7 @@ Result<std::unique_ptr<const RaySurface>> RaySurface::make(StridedSpan<const Vec
                                 sizeof(Vec4), state->placed.size());
     api.setSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, corners.data(), 0,
                                 3 * sizeof(std::uint32_t), corners.size() / 3);
-    api.setGeometryIntersectFilterFunction(geometry, collectHit);
+    api.setGeometryIntersectFilterFunction(geometry, collectHits);
     api.setGeometryOccludedFilterFunction(geometry, acceptBlocking);
     api.commitGeometry(geometry);
     api.attachGeometry(state->scene, geometry);
@@ -287,11 +322,6 @@ namespace {
 Query lineOf(const RaySurface::State& state, const DVec3& from, const DVec3& direction, double begin, double end,
              Wanted wanted, std::uint32_t group) {
     Query query;
-#if RTC_VERSION_MAJOR >= 4
-    rtcInitRayQueryContext(&query.context);
-#else
-    rtcInitIntersectContext(&query.context);
-#endif
     query.surface = &state;
     query.from = from;
     query.direction = direction;
@@ -312,8 +342,8 @@ bool placeRay(const Query& query, RTCRay& ray) {
     constexpr double kBeyond = 2;
     const RaySurface::State& state = *query.surface;
     const double middle = dot(state.centre - query.from, query.direction);
-    const double begin = std::max(query.begin, middle - kBeyond / state.scale);
-    const double end = std::min(query.end, middle + kBeyond / state.scale);
+    const double begin = std::max(query.begin, middle - kBeyond * state.size);
+    const double end = std::min(query.end, middle + kBeyond * state.size);
     const DVec3 place = state.scale * (query.from + begin * query.direction - state.centre);
     if (!(begin <= end) || !(dot(place, place) <= 4 * kBeyond * kBeyond)) return false;
     const Vec3 origin = toFloat(place);
@@ -335,13 +365,46 @@ void shoot(Query& query) {
     if (!placeRay(query, ray.ray)) return;
     ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    Shot shot(&query, false);
 #if RTC_VERSION_MAJOR >= 4
     RTCIntersectArguments arguments;
     rtcInitIntersectArguments(&arguments);
-    arguments.context = &query.context;
+    arguments.context = &shot.context;
     embree().intersect1(query.surface->scene, &ray, &arguments);
 #else
-    embree().intersect1(query.surface->scene, &query.context, &ray);
+    embree().intersect1(query.surface->scene, &shot.context, &ray);
+#endif
+}
+
+/// The same for kLinesAtOnce lines at most, all of one surface.
+void shootTogether(std::span<Query> queries) {
+    RTCRayHit16 rays{};
+    alignas(64) std::array<int, kLinesAtOnce> valid{};
+    for (std::size_t i = 0; i < queries.size(); ++i) {
+        RTCRay ray{};
+        if (!placeRay(queries[i], ray)) continue;
+        valid[i] = -1;
+        rays.ray.org_x[i] = ray.org_x;
+        rays.ray.org_y[i] = ray.org_y;
+        rays.ray.org_z[i] = ray.org_z;
+        rays.ray.dir_x[i] = ray.dir_x;
+        rays.ray.dir_y[i] = ray.dir_y;
+        rays.ray.dir_z[i] = ray.dir_z;
+        rays.ray.tfar[i] = ray.tfar;
+        rays.ray.mask[i] = ray.mask;
+        rays.ray.id[i] = static_cast<unsigned>(i);
+        rays.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+        rays.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+    }
+    Shot shot(queries.data(), true);
+#if RTC_VERSION_MAJOR >= 4
+    RTCIntersectArguments arguments;
+    rtcInitIntersectArguments(&arguments);
+    arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
+    arguments.context = &shot.context;
+    embree().intersect16(valid.data(), queries[0].surface->scene, &rays, &arguments);
+#else
+    embree().intersect16(valid.data(), queries[0].surface->scene, &shot.context, &rays);
 #endif
 }
 
@@ -356,13 +419,14 @@ Query shoot(const RaySurface::State& state, const DVec3& from, const DVec3& dire
 bool isHidden(Query& query) {
     RTCRay ray{};
     if (!placeRay(query, ray)) return false;
+    Shot shot(&query, false);
 #if RTC_VERSION_MAJOR >= 4
     RTCOccludedArguments arguments;
     rtcInitOccludedArguments(&arguments);
-    arguments.context = &query.context;
+    arguments.context = &shot.context;
     embree().occluded1(query.surface->scene, &ray, &arguments);
 #else
-    embree().occluded1(query.surface->scene, &query.context, &ray);
+    embree().occluded1(query.surface->scene, &shot.context, &ray);
 #endif
     return ray.tfar < 0;
 }
@@ -407,6 +471,18 @@ bool RaySurface::innermost(const DVec3& from, const DVec3& outward, double begin
     return takeTurned(shoot(*state_, from, -1.0 * outward, -end, -begin, Wanted::last, group), hit);
 }
 
+std::uint32_t RaySurface::outermost(std::span<const RayLine> lines, std::span<RayHit> hits) const {
+    std::array<Query, kLinesAtOnce> queries;
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+        const RayLine& line = lines[i];
+        queries[i] = lineOf(*state_, line.from, -1.0 * line.outward, -line.end, -line.begin, Wanted::first, line.group);
+    }
+    if (!lines.empty()) shootTogether({queries.data(), lines.size()});
+    std::uint32_t met = 0;
+    for (std::size_t i = 0; i < lines.size(); ++i) met |= takeTurned(queries[i], hits[i]) ? 1U << i : 0U;
+    return met;
+}
+
 bool RaySurface::isBlocked(const DVec3& from, const DVec3& direction, double begin, double end,
                            std::uint32_t skipped) const {
     Query query = lineOf(*state_, from, direction, begin, end, Wanted::any, kEveryGroup);
@@ -423,7 +499,7 @@ bool RaySurface::firstOfAny(const DVec3& from, const DVec3& direction, double be
     return query.is_hit;
 }
 
-double RaySurface::size() const { return 1 / state_->scale; }
+double RaySurface::size() const { return state_->size; }
 
 RayCrossings RaySurface::crossings(const DVec3& from, const DVec3& outward, double begin, double end,
                                    std::uint32_t group) const {
@@ -444,6 +520,7 @@ bool RaySurface::nearest(const DVec3&, const DVec3&, double, std::uint32_t, doub
 bool RaySurface::first(const DVec3&, const DVec3&, double, std::uint32_t, RayHit&) const { return false; }
 bool RaySurface::outermost(const DVec3&, const DVec3&, double, double, std::uint32_t, RayHit&) const { return false; }
 bool RaySurface::innermost(const DVec3&, const DVec3&, double, double, std::uint32_t, RayHit&) const { return false; }
+std::uint32_t RaySurface::outermost(std::span<const RayLine>, std::span<RayHit>) const { return 0; }
 RayCrossings RaySurface::crossings(const DVec3&, const DVec3&, double, double, std::uint32_t) const { return {}; }
 bool RaySurface::isBlocked(const DVec3&, const DVec3&, double, double, std::uint32_t) const { return false; }
 bool RaySurface::firstOfAny(const DVec3&, const DVec3&, double, double, std::uint32_t, RayHit&) const { return false; }

@@ -46,17 +46,17 @@ const MapReading* findMapReading(const char* name) {
 
 ShadingFrame shadingFrame(const CornerFrames& corners, const std::array<double, 3>& weights,
                           const MapReading& reading) {
-    std::array<DVec3, 3> normals, tangents, bitangents;
+    std::array<DVec3, 3> normals, tangents;
     double sign = 0;
     for (std::size_t i = 0; i < 3; ++i) {
         normals[i] = toDouble(corners.normals[i]);
         tangents[i] = toDouble(xyz(corners.tangents[i]));
         sign += weights[i] * corners.tangents[i].w;
-        bitangents[i] = static_cast<double>(corners.tangents[i].w) * cross(normals[i], tangents[i]);
     }
     ShadingFrame frame{mixed(tangents, weights), {}, mixed(normals, weights)};
     if (reading.bitangent == BitangentPlace::perVertex) {
-        frame.bitangent = mixed(bitangents, weights);
+        for (std::size_t i = 0; i < 3; ++i)
+            frame.bitangent = frame.bitangent + (weights[i] * corners.tangents[i].w) * cross(normals[i], tangents[i]);
     } else {
         if (reading.unit_vectors) {
             frame.normal = unitOrSame(frame.normal);
@@ -101,7 +101,7 @@ DVec3 vectorFor(const ShadingFrame& frame, const DVec3& direction) {
                  dot(cross(frame.tangent, frame.bitangent), direction)};
     if (!(std::fabs(determinant) > 0) || !std::isfinite(determinant)) return {};
     if (determinant < 0) vector = -1.0 * vector;
-    return normalize(vector) ? vector : DVec3{};
+    return normalizeOrdinary(vector) ? vector : DVec3{};
 }
 
 double degreesBetween(const DVec3& a, const DVec3& b) {

@@ -122,6 +122,7 @@ class Gradients {
           residual_(allocator, system.rowCount(), Vec3{}),
           direction_(allocator, system.rowCount(), Vec3{}),
           image_(allocator, system.rowCount(), Vec3{}),
+          inverse_(allocator, system.rowCount()),
           tasks_((system.rowCount() + kSystemRows - 1) / kSystemRows),
           first_(allocator, tasks_),
           second_(allocator, tasks_) {}
@@ -175,7 +176,8 @@ class Gradients {
             const TexelRow& own = system_.row(row);
             residual_[row] = own.side - blockTimes(own.blocks[0], texels_[system_.texelOf(row)]) -
                              around(row, [&](std::size_t, std::size_t texel) { return texels_[texel]; });
-            direction_[row] = blockTimes(inverseOf(own.blocks[0]), residual_[row]);
+            inverse_[row] = inverseOf(own.blocks[0]);
+            direction_[row] = blockTimes(inverse_[row], residual_[row]);
             return product(residual_[row], direction_[row]);
         });
     }
@@ -195,7 +197,7 @@ class Gradients {
             Vec3& texel = texels_[system_.texelOf(row)];
             texel = texel + length * direction_[row];
             residual_[row] = residual_[row] - length * image_[row];
-            image_[row] = blockTimes(inverseOf(system_.row(row).blocks[0]), residual_[row]);
+            image_[row] = blockTimes(inverse_[row], residual_[row]);
             return product(residual_[row], image_[row]);
         });
     }
@@ -210,6 +212,8 @@ class Gradients {
     std::span<Vec3> texels_;
     Parallel& parallel_;
     Buffer<Vec3> residual_, direction_, image_;
+    Buffer<SymmetricBlock>
+        inverse_;  ///< of each row's block with itself: rows are read from memory, which takes the time
     std::size_t tasks_;
     TaskSums first_, second_;
 };
@@ -391,9 +395,31 @@ Vec3 bestIntegers(IntegerChoice choice, const SymmetricBlock& m, const Vec3& h, 
     return {best.y, best.z, best.x};
 }
 
-/// The sample that holds an integer vector where no other sample constrains it.
-FitSample holdAt(const IntegerChoice& choice, const Vec3& wanted) {
-    return choice.is_two_channel ? twoChannelSample(wanted) : acrossSample(wanted, 1e-6F, 0.95F);
+/// The integers for a texel whose row of the system has the block `own`, and of which `rest` is what its neighbours leave. A weak
+/// pull to its own direction decides where no sample does.
+Vec3 chosenFor(const IntegerChoice& choice, const SymmetricBlock& own, const Vec3& rest, const Vec3& wanted) {
+    DVec3 unit_wanted = toDouble(wanted);
+    if (!normalize(unit_wanted)) return wanted;
+    const FitSample hold = choice.is_two_channel ? twoChannelSample(toFloat(unit_wanted))
+                                                 : acrossSample(toFloat(unit_wanted), 1e-6F, 0.95F);
+    SymmetricBlock block = own;
+    for (std::size_t i = 0; i < block.size(); ++i) block[i] += kHold * hold.metric[i];
+    return bestIntegers(choice, block, rest - kHold * hold.side, wanted);
+}
+
+/// Texels that take no part in the system follow from themselves. Most are of the background, and alike.
+void chooseApart(const TexelSystem& system, const IntegerChoice& choice, std::span<Vec3> texels, Parallel& parallel) {
+    parallel.forRanges(system.height(), 4, [&](std::size_t begin, std::size_t end) {
+        Vec3 last_wanted{}, last_chosen{};
+        for (std::size_t at = begin * system.width(); at < end * system.width(); ++at) {
+            if (system.rowOf(at) != 0) continue;
+            if (!(texels[at] == last_wanted)) {
+                last_wanted = texels[at];
+                last_chosen = chosenFor(choice, {}, {}, last_wanted);
+            }
+            texels[at] = last_chosen;
+        }
+    });
 }
 
 }  // namespace
@@ -401,34 +427,26 @@ FitSample holdAt(const IntegerChoice& choice, const Vec3& wanted) {
 void chooseIntegers(const TexelSystem& system, const IntegerChoice& choice, std::span<Vec3> texels, unsigned rounds,
                     Parallel& parallel, const Allocator* allocator) {
     const std::uint32_t width = system.width(), height = system.height();
+    chooseApart(system, choice, texels, parallel);
     Buffer<Vec3> wanted(allocator, texels.size());
     std::copy(texels.begin(), texels.end(), wanted.begin());
-    const auto isFixed = [&](std::size_t row) { return row != 0 && !system.isUnknown(row); };
     // Texels that are not chosen yet are taken to have the usual length of a chosen one.
     if (!choice.is_two_channel) {
         for (std::size_t i = 0; i < texels.size(); ++i) {
-            const auto x = static_cast<std::uint32_t>(i % width), y = static_cast<std::uint32_t>(i / width);
-            if (isFixed(system.rowOf(x, y)) || keepsLength(choice, texels[i])) continue;
+            if (!system.isUnknown(system.rowOf(i)) || keepsLength(choice, texels[i])) continue;
             texels[i] = usualLength(choice) * texels[i];
         }
     }
     const auto chooseRow = [&](std::uint32_t y) {
         for (std::uint32_t x = 0; x < width; ++x) {
             const std::size_t at = std::size_t{y} * width + x;
-            const std::uint32_t number = system.rowOf(x, y);
-            if (isFixed(number)) continue;
+            const std::uint32_t number = system.rowOf(at);
+            if (!system.isUnknown(number)) continue;
             const TexelRow& row = system.row(number);
-            // A weak pull to its own direction, for texels that no sample constrains.
-            DVec3 unit_wanted = toDouble(wanted[at]);
-            if (!normalize(unit_wanted)) continue;
-            const FitSample hold = holdAt(choice, toFloat(unit_wanted));
-            SymmetricBlock block = row.blocks[0];
-            for (std::size_t i = 0; i < block.size(); ++i) block[i] += kHold * hold.metric[i];
             const Vec3 around = system.aroundTexel(x, y, [&](std::uint32_t column, std::uint32_t line) {
                 return texels[std::size_t{line} * width + column];
             });
-            const Vec3 rest = around - row.side - kHold * hold.side;
-            texels[at] = bestIntegers(choice, block, rest, wanted[at]);
+            texels[at] = chosenFor(choice, row.blocks[0], around - row.side, wanted[at]);
         }
     };
     for (unsigned round = 0; round < rounds; ++round) forRowsApart(parallel, height, chooseRow);

@@ -62,6 +62,7 @@ class TexelSystem {
     [[nodiscard]] std::uint32_t rowOf(std::uint32_t x, std::uint32_t y) const {
         return row_of_[std::size_t{y} * width_ + x];
     }
+    [[nodiscard]] std::uint32_t rowOf(std::size_t texel) const { return row_of_[texel]; }
     [[nodiscard]] const TexelRow& row(std::size_t row) const { return rows_[row]; }
     [[nodiscard]] std::uint32_t texelOf(std::size_t row) const { return texel_of_[row]; }
     [[nodiscard]] bool isUnknown(std::size_t row) const { return is_unknown_[row]; }

@@ -146,10 +146,11 @@ TexelPlan planTexels(const TracedTexels& traced, const TexelTriangles& triangles
     return Planning(traced, triangles, tolerance, parallel, allocator).run(all_unknown);
 }
 
-void sharpenTexels(const TexelPlan& plan, std::span<Vec3> texels, Parallel& parallel, const Allocator* allocator) {
+Buffer<Vec3> sharpenedTexels(const TexelPlan& plan, std::span<const Vec3> wanted, Parallel& parallel,
+                             const Allocator* allocator) {
     const std::size_t width = plan.width, height = plan.height;
-    Buffer<Vec3> wanted(allocator, texels.size());
-    std::copy(texels.begin(), texels.end(), wanted.begin());
+    Buffer<Vec3> texels(allocator, wanted.size());
+    std::copy(wanted.begin(), wanted.end(), texels.begin());
     parallel.forRanges(height, kRowsOfPlan, [&](std::size_t begin, std::size_t end) {
         for (std::size_t y = begin; y < end; ++y) {
             const std::size_t here = y * width, above = (y + height - 1) % height * width,
@@ -167,6 +168,7 @@ void sharpenTexels(const TexelPlan& plan, std::span<Vec3> texels, Parallel& para
             }
         }
     });
+    return texels;
 }
 
 }  // namespace tspace

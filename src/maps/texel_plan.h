@@ -24,6 +24,17 @@ struct TexelPlan {
     Buffer<TexelRole> roles = {};
 };
 
+/// Rows of an image whose system is solved at once: `count` from `first` on, after the last row of the image the first one.
+struct TexelWindow {
+    std::uint32_t first = 0, count = 0, height = 0;
+
+    /// Where a row of the image is in the window; `count` and more: it is not there.
+    [[nodiscard]] std::uint32_t local(std::uint32_t y) const { return y >= first ? y - first : y + height - first; }
+    [[nodiscard]] std::uint32_t inImage(std::uint32_t local) const { return (first + local) % height; }
+    /// Whether both rows of the cells below a row are there.
+    [[nodiscard]] bool hasCells(std::uint32_t y) const { return count == height || local(y) + 1 < count; }
+};
+
 /// How much is asked between texel centres.
 struct CellSampling {
     /// A cell is smooth where the vectors of four texels in a row are that near to a parabola, in radians. A crease between
@@ -45,8 +56,9 @@ inline constexpr float kWantedLength = 0.98F;
 TexelPlan planTexels(const TracedTexels& traced, const TexelTriangles& triangles, float tolerance, bool all_unknown,
                      Parallel& parallel, const Allocator* allocator);
 
-/// Moves texels, all of whose cells are smooth, from what is wanted at their centres to the least squares of the filtered map:
+/// Texels from what is wanted at their centres. Those of which all cells are smooth become the least squares of the filtered map:
 /// against a parabola, of second difference c, the chord between texels is off by c/12 in the mean.
-void sharpenTexels(const TexelPlan& plan, std::span<Vec3> texels, Parallel& parallel, const Allocator* allocator);
+Buffer<Vec3> sharpenedTexels(const TexelPlan& plan, std::span<const Vec3> wanted, Parallel& parallel,
+                             const Allocator* allocator);
 
 }  // namespace tspace

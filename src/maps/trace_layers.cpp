@@ -116,21 +116,28 @@ class LayerTracing {
         const UvTriangles triangles = uvs_.triangles(options_.wrap_u, options_.wrap_v);
         const auto trace = [&](std::size_t task) {
             double guess = 0;
-            const std::size_t end = std::min<std::size_t>((task + 1) * kRows * shape.width, met_.size());
-            for (std::size_t texel = task * kRows * shape.width; texel < end; ++texel) {
-                if (triangles_.kinds[texel] == TexelCoverage::none) continue;
-                const TexelPlace& place = triangles_.places[texel];
-                const std::array<double, 3> weights = weightsAt(triangles, shape, place);
-                SurfaceHit hit;
-                const bool is_hit = surfaces_.hitAt(place.triangle, weights, guess, hit);
-                met_[texel] = is_hit ? TexelState::known : TexelState::missing;
-                if (is_hit) show(texel, place.triangle, weights, hit);
-            }
+            const auto ask = [&](std::span<const LowPoint> points, std::span<const std::size_t> texels) {
+                std::array<SurfaceHit, kLinesAtOnce> hits;
+                const std::uint32_t met = surfaces_.hitsAt(points, guess, hits);
+                for (std::size_t i = 0; i < points.size(); ++i) {
+                    const bool is_hit = (met >> i & 1) != 0;
+                    met_[texels[i]] = is_hit ? TexelState::known : TexelState::missing;
+                    if (is_hit) show(texels[i], points[i], hits[i]);
+                }
+            };
+            askTogether<std::size_t>(ask, [&](auto& together) {
+                const std::size_t end = std::min<std::size_t>((task + 1) * kRows * shape.width, met_.size());
+                for (std::size_t texel = task * kRows * shape.width; texel < end; ++texel) {
+                    if (triangles_.kinds[texel] == TexelCoverage::none) continue;
+                    const TexelPlace& place = triangles_.places[texel];
+                    together.add({place.triangle, weightsAt(triangles, shape, place)}, texel);
+                }
+            });
         };
         forTasksTold(work_, (shape.height + kRows - 1) / kRows, "layers", trace);
     }
 
-    void show(std::size_t texel, std::uint32_t triangle, const std::array<double, 3>& weights, const SurfaceHit& hit) {
+    void show(std::size_t texel, const LowPoint& point, const SurfaceHit& hit) {
         set(MapLayer::height, texel, hit.height);
         set(MapLayer::position, texel, toFloat(hit.place));
         if (has(MapLayer::curvature)) {
@@ -151,7 +158,7 @@ class LayerTracing {
                 occlusionAt(surfaces_, hit, look, static_cast<std::uint32_t>(texel % options_.width),
                             static_cast<std::uint32_t>(texel / options_.width));
             set(MapLayer::ao, texel, around.open);
-            if (has(MapLayer::bent)) set(MapLayer::bent, texel, told(triangle, weights, around.bent));
+            if (has(MapLayer::bent)) set(MapLayer::bent, texel, told(point, around.bent));
             set(MapLayer::thickness, texel, around.thickness);
             if (has(MapLayer::thickness)) solid_[texel] = static_cast<float>(around.solid);
         }
@@ -159,11 +166,11 @@ class LayerTracing {
         if (has_material_ && !hasMean(texel)) setMaterial(texel, layers_.material(hit.triangle, hit.weights));
     }
 
-    [[nodiscard]] Vec3 told(std::uint32_t triangle, const std::array<double, 3>& weights, DVec3 direction) const {
-        if (options_.space == MapSpace::tangent)
-            direction = vectorFor(
-                shadingFrame(surfaces_.corners(triangle, surfaces_.low().tangents), weights, options_.reading),
-                direction);
+    [[nodiscard]] Vec3 told(const LowPoint& point, DVec3 direction) const {
+        if (options_.space == MapSpace::tangent) {
+            const CornerFrames corners = surfaces_.corners(point.triangle, surfaces_.low().tangents);
+            direction = vectorFor(shadingFrame(corners, point.weights, options_.reading), direction);
+        }
         return toFloat(direction);
     }
 
@@ -172,6 +179,27 @@ class LayerTracing {
     }
     [[nodiscard]] bool hasMean(std::size_t texel) const { return !sample_count_.empty() && sample_count_[texel] > 0; }
 
+    struct GridPlace {
+        std::uint32_t row = 0, column = 0;
+    };
+    /// take(place, hit) for the points of a band that meet something.
+    template <class Take>
+    void forHits(const SampleBands& bands, std::size_t band, const Take& take) const {
+        double guess = 0;
+        const auto ask = [&](std::span<const LowPoint> points, std::span<const GridPlace> places) {
+            std::array<SurfaceHit, kLinesAtOnce> hits;
+            const std::uint32_t met = surfaces_.hitsAt(points, guess, hits);
+            for (std::size_t i = 0; i < points.size(); ++i) {
+                if ((met >> i & 1) != 0) take(places[i], hits[i]);
+            }
+        };
+        askTogether<GridPlace>(ask, [&](auto& together) {
+            bands.forSamples(band, [&](const BandSample& sample) {
+                together.add({sample.triangle, sample.weights()}, {sample.row, sample.column});
+            });
+        });
+    }
+
     /// Texels such that the filtered map is right between them: least squares over the points of a grid.
     void fitMaterial(MapLayer layer) {
         const std::uint32_t n = samplingOf(options_).points;
@@ -179,12 +207,9 @@ class LayerTracing {
         const SampleBands bands(uvs_.triangles(options_.wrap_u, options_.wrap_v), options_.width, options_.height, n,
                                 n / 2, work_.allocator);
         const auto traceBand = [&](std::size_t band) {
-            double guess = 0;
-            bands.forSamples(band, [&](const BandSample& sample) {
-                SurfaceHit hit;
-                if (!surfaces_.hitAt(sample.triangle, sample.weights(), guess, hit)) return;
-                const BetweenTexels x = betweenTexels(sample.column, n, options_.width, options_.wrap_u),
-                                    y = betweenTexels(sample.row, n, options_.height, options_.wrap_v);
+            forHits(bands, band, [&](const GridPlace& at, const SurfaceHit& hit) {
+                const BetweenTexels x = betweenTexels(at.column, n, options_.width, options_.wrap_u),
+                                    y = betweenTexels(at.row, n, options_.height, options_.wrap_v);
                 constexpr SymmetricBlock kEqual{1, 0, 0, 1, 0, 1};
                 const Vec3 shown = shownBy(layer, layers_.material(hit.triangle, hit.weights));
                 system.add(x.texel, y.texel, x.part, y.part, {kEqual, shown});
@@ -230,13 +255,9 @@ class LayerTracing {
         const SampleBands bands(uvs_.triangles(options_.wrap_u, options_.wrap_v), options_.width, options_.height, n, 0,
                                 work_.allocator);
         const auto traceBand = [&](std::size_t band) {
-            double guess = 0;
-            bands.forSamples(band, [&](const BandSample& sample) {
-                const std::size_t texel = std::size_t{sample.row / n} * options_.width + sample.column / n;
-                SurfaceHit hit;
-                if (sample_count_[texel] == 0xffff || !surfaces_.hitAt(sample.triangle, sample.weights(), guess, hit))
-                    return;
-                addMaterial(texel, layers_.material(hit.triangle, hit.weights));
+            forHits(bands, band, [&](const GridPlace& at, const SurfaceHit& hit) {
+                const std::size_t texel = std::size_t{at.row / n} * options_.width + at.column / n;
+                if (sample_count_[texel] != 0xffff) addMaterial(texel, layers_.material(hit.triangle, hit.weights));
             });
         };
         forTasksTold(work_, bands.bandCount(), "colours", traceBand);

@@ -19,27 +19,33 @@ constexpr std::uint32_t kNobody = 0xffffffff;
 /// How much an error of the length counts beside one of the direction.
 constexpr float kAlong = 0.02F;
 
-/// The vector wanted at a point of a triangle.
+/// The vectors wanted at points of triangles.
 class WantedVectors {
   public:
     WantedVectors(const MapSurfaces& surfaces, const BakeOptions& options) : surfaces_(surfaces), options_(options) {}
 
-    bool at(std::uint32_t triangle, const std::array<double, 3>& weights, Vec3& wanted) {
-        if (triangle != triangle_) {
-            triangle_ = triangle;
-            corners_ = surfaces_.corners(triangle, surfaces_.low().tangents);
+    /// take(i, is_hit, wanted) for each of kLinesAtOnce points at most.
+    template <class Take>
+    void at(std::span<const LowPoint> points, const Take& take) {
+        std::array<DVec3, kLinesAtOnce> normals;
+        surfaces_.truthsAt(points, guess_, normals);
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            const bool is_met = dot(normals[i], normals[i]) > 0;
+            const Vec3 wanted = is_met ? vectorOf(points[i], normals[i]) : Vec3{};
+            take(i, is_met && isDirection(wanted), wanted);
         }
-        DVec3 normal;
-        if (!surfaces_.truthAt(triangle, weights, guess_, normal)) return false;
-        if (options_.space == MapSpace::tangent)
-            normal = vectorFor(shadingFrame(corners_, weights, options_.reading), normal);
-        else
-            normal = alongAxes(options_.axes, normal);
-        wanted = toFloat(normal);
-        return isDirection(wanted);
     }
 
   private:
+    Vec3 vectorOf(const LowPoint& point, const DVec3& normal) {
+        if (options_.space != MapSpace::tangent) return toFloat(alongAxes(options_.axes, normal));
+        if (point.triangle != triangle_) {
+            triangle_ = point.triangle;
+            corners_ = surfaces_.corners(triangle_, surfaces_.low().tangents);
+        }
+        return toFloat(vectorFor(shadingFrame(corners_, point.weights, options_.reading), normal));
+    }
+
     const MapSurfaces& surfaces_;
     const BakeOptions& options_;
     std::uint32_t triangle_ = kNoTriangle;
@@ -104,19 +110,28 @@ class Tracing {
                 });
             }
             WantedVectors vectors(surfaces_, options_);
-            bands.forSamples(band, [&](const BandSample& sample) {
-                const std::size_t texel = texelOf(sample);
-                Vec3 wanted;
-                const bool is_hit = vectors.at(sample.triangle, sample.weights(), wanted);
-                if (traced_.ranks.size() == 0 || traced_.owners[texel] == traced_.ranks[sample.triangle]) {
-                    vote(texel, is_hit, wanted);
-                } else if (is_hit) {
-                    others_[texel] = others_[texel] + wanted;
-                }
+            const auto ask = [&](std::span<const LowPoint> points, std::span<const std::size_t> texels) {
+                vectors.at(points, [&](std::size_t i, bool is_hit, const Vec3& wanted) {
+                    if (counts(texels[i], points[i].triangle)) {
+                        vote(texels[i], is_hit, wanted);
+                    } else if (is_hit) {
+                        others_[texels[i]] = others_[texels[i]] + wanted;
+                    }
+                });
+            };
+            askTogether<std::size_t>(ask, [&](auto& together) {
+                bands.forSamples(band, [&](const BandSample& sample) {
+                    together.add({sample.triangle, sample.weights()}, texelOf(sample));
+                });
             });
         };
         forTasksTold(work_, bands.bandCount(), "tracing", traceBand);
         decideVotes();
+    }
+
+    /// Whether a triangle has a say in a texel.
+    [[nodiscard]] bool counts(std::size_t texel, std::uint32_t triangle) const {
+        return traced_.ranks.size() == 0 || traced_.owners[texel] == traced_.ranks[triangle];
     }
 
     void vote(std::size_t texel, bool is_hit, const Vec3& wanted) {
@@ -155,21 +170,26 @@ class Tracing {
 
     void traceBeside() {
         const TextureShape& shape = triangles_.shape;
+        const UvTriangles triangles = uvs_.triangles(options_.wrap_u, options_.wrap_v);
         constexpr std::size_t kRows = 8;
         const auto trace = [&](std::size_t task) {
             WantedVectors vectors(surfaces_, options_);
-            const std::size_t end = std::min<std::size_t>((task + 1) * kRows * shape.width, votes_.size());
-            for (std::size_t texel = task * kRows * shape.width; texel < end; ++texel) {
-                if (triangles_.kinds[texel] != TexelCoverage::beside ||
-                    traced_.origins[texel] != TexelOrigin::background)
-                    continue;
-                const TexelPlace& place = triangles_.places[texel];
-                traced_.origins[texel] = TexelOrigin::padding;
-                Vec3 wanted;
-                const UvTriangles triangles = uvs_.triangles(options_.wrap_u, options_.wrap_v);
-                if (vectors.at(place.triangle, weightsAt(triangles, shape, place), wanted))
-                    traced_.wanted[texel] = wanted;
-            }
+            const auto ask = [&](std::span<const LowPoint> points, std::span<const std::size_t> texels) {
+                vectors.at(points, [&](std::size_t i, bool is_hit, const Vec3& wanted) {
+                    if (is_hit) traced_.wanted[texels[i]] = wanted;
+                });
+            };
+            askTogether<std::size_t>(ask, [&](auto& together) {
+                const std::size_t end = std::min<std::size_t>((task + 1) * kRows * shape.width, votes_.size());
+                for (std::size_t texel = task * kRows * shape.width; texel < end; ++texel) {
+                    if (triangles_.kinds[texel] != TexelCoverage::beside ||
+                        traced_.origins[texel] != TexelOrigin::background)
+                        continue;
+                    const TexelPlace& place = triangles_.places[texel];
+                    traced_.origins[texel] = TexelOrigin::padding;
+                    together.add({place.triangle, weightsAt(triangles, shape, place)}, texel);
+                }
+            });
         };
         const std::size_t tasks = (shape.height + kRows - 1) / kRows;
         forTasksTold(work_, tasks, "padding", trace);
@@ -198,19 +218,20 @@ namespace {
 /// the square of any linear function over a cell is exact: a corner counts an eighth of such a point.
 constexpr float kCornerOfCell = 0.125F;
 
-void addCentres(const TracedTexels& traced, const TexelPlan& plan, const BakeOptions& options, Parallel& parallel,
-                TexelSystem& system) {
+void addCentres(const TracedTexels& traced, const TexelPlan& plan, const TexelWindow& window,
+                const BakeOptions& options, Parallel& parallel, TexelSystem& system) {
     const std::size_t width = plan.width;
-    parallel.forRanges(plan.height, 8, [&](std::size_t begin, std::size_t end) {
-        for (auto y = static_cast<std::uint32_t>(begin); y < end; ++y) {
-            const std::size_t here = y * width, above = system.above(y) * width;
+    parallel.forRanges(window.count, 8, [&](std::size_t begin, std::size_t end) {
+        for (auto row = static_cast<std::uint32_t>(begin); row < end; ++row) {
+            const std::size_t y = window.inImage(row), here = y * width,
+                              above = (y > 0 ? y - 1 : plan.height - 1) * width;
             for (std::uint32_t x = 0; x < plan.width; ++x) {
                 if (traced.origins[here + x] != TexelOrigin::hit) continue;
                 const std::uint32_t left = system.left(x);
                 float weight = 0;
                 for (const std::size_t cell : {here + x, here + left, above + x, above + left})
                     weight += isTraced(plan.cells[cell]) ? kCornerOfCell : 0;
-                if (weight > 0) system.add(x, y, 0, 0, weighted(weight, sampleOf(options, traced.wanted[here + x])));
+                if (weight > 0) system.add(x, row, 0, 0, weighted(weight, sampleOf(options, traced.wanted[here + x])));
             }
         }
     });
@@ -218,60 +239,81 @@ void addCentres(const TracedTexels& traced, const TexelPlan& plan, const BakeOpt
 
 }  // namespace
 
-void traceBetween(const MapSurfaces& surfaces, const TracedTexels& traced, const TexelPlan& plan, std::uint32_t n,
-                  const BakeOptions& options, const MapWork& work, TexelSystem& system) {
+std::vector<std::size_t> bandsOf(const TexelWindow& window) {
+    constexpr std::uint32_t kRows = SampleBands::kBandTexels;
+    std::vector<std::size_t> bands;
+    for (std::uint32_t begin = 0; begin < window.height; begin += kRows) {
+        bool has = false;
+        for (std::uint32_t y = begin; y < std::min(begin + kRows, window.height); ++y) has = has || window.hasCells(y);
+        if (has) bands.push_back(begin / kRows);
+    }
+    return bands;
+}
+
+void traceBetween(const MapSurfaces& surfaces, const TracedTexels& traced, const TexelPlan& plan,
+                  const TexelWindow& window, const PointsBetween& points, const BakeOptions& options,
+                  const MapWork& work, ToldSteps steps, TexelSystem& system) {
     // What lies nearest to a texel counts as its centre does.
     const auto counts = [&](std::uint32_t triangle, const BetweenTexels& x, const BetweenTexels& y) {
         if (traced.ranks.size() == 0) return true;
         const std::size_t column = x.part < 0.5F ? x.texel : system.right(x.texel),
-                          row = y.part < 0.5F ? y.texel : system.below(y.texel);
+                          row = y.part < 0.5F ? y.texel : (y.texel + 1) % plan.height;
         const std::uint32_t owner = traced.owners[row * options.width + column];
         return owner == kNobody || owner == traced.ranks[triangle];
     };
-    const LowUvs uvs(surfaces.low(), work.allocator);
-    const SampleBands bands(uvs.triangles(options.wrap_u, options.wrap_v), options.width, options.height, n, n / 2,
-                            work.allocator);
     const auto traceBand = [&](std::size_t band) {
+        struct Place {
+            BetweenTexels x = {}, y = {};
+        };
         WantedVectors vectors(surfaces, options);
-        bands.forSamples(band, [&](const BandSample& sample) {
-            const BetweenTexels x = betweenTexels(sample.column, n, options.width, options.wrap_u),
-                                y = betweenTexels(sample.row, n, options.height, options.wrap_v);
-            const TexelCell cell = plan.cells[std::size_t{y.texel} * options.width + x.texel];
-            Vec3 wanted;
-            if (!isTraced(cell)) return;
-            if (!counts(sample.triangle, x, y)) return;
-            if (!vectors.at(sample.triangle, sample.weights(), wanted)) return;
-            system.add(x.texel, y.texel, x.part, y.part, sampleOf(options, wanted));
+        const auto ask = [&](std::span<const LowPoint> asked, std::span<const Place> places) {
+            vectors.at(asked, [&](std::size_t i, bool is_hit, const Vec3& wanted) {
+                const auto& [x, y] = places[i];
+                if (is_hit) system.add(x.texel, window.local(y.texel), x.part, y.part, sampleOf(options, wanted));
+            });
+        };
+        askTogether<Place>(ask, [&](auto& together) {
+            points.bands.forSamples(band, [&](const BandSample& sample) {
+                const BetweenTexels x = betweenTexels(sample.column, points.n, options.width, options.wrap_u),
+                                    y = betweenTexels(sample.row, points.n, options.height, options.wrap_v);
+                const TexelCell cell = plan.cells[std::size_t{y.texel} * options.width + x.texel];
+                if (isTraced(cell) && window.hasCells(y.texel) && counts(sample.triangle, x, y))
+                    together.add({sample.triangle, sample.weights()}, {x, y});
+            });
         });
     };
+    const std::vector<std::size_t> bands = bandsOf(window);
     // Bands beside each other share a row of texels.
-    forApart(bands.bandCount(), [&](std::size_t begin, std::size_t number) {
-        forTasksTold(work, number, "tracing between texels", [&](std::size_t i) { traceBand(begin + 2 * i); });
+    forApart(bands.size(), [&](std::size_t begin, std::size_t number) {
+        forTasksTold(work, number, "tracing between texels", steps,
+                     [&](std::size_t i) { traceBand(bands[begin + 2 * i]); });
+        steps.before += number;
     });
-    if (n == 2) addCentres(traced, plan, options, work.parallel, system);
+    if (points.n == 2) addCentres(traced, plan, window, options, work.parallel, system);
 }
 
-void addSmoothCells(const TexelPlan& plan, std::span<const Vec3> texels, std::uint32_t points,
-                    const BakeOptions& options, Parallel& parallel, TexelSystem& system) {
+void addSmoothCells(const TexelPlan& plan, const TexelWindow& window, std::span<const Vec3> texels,
+                    std::uint32_t points, const BakeOptions& options, Parallel& parallel, TexelSystem& system) {
     // Gauss's two points of a line, twice: the integral over the cell, since what is asked is a product of two filters.
     constexpr float kNear = 0.21132487F, kFar = 1 - kNear;
     // As much in all as the points of a cell that rays are shot at, with its corners.
     const float weight = points == 2 ? 1 + kCornerOfCell : static_cast<float>(points * points) / 4;
-    const auto addCell = [&](std::uint32_t x, std::uint32_t y) {
-        const std::size_t here = std::size_t{y} * plan.width, below = std::size_t{system.below(y)} * plan.width;
-        if (plan.cells[here + x] != TexelCell::smooth) return;
+    const auto addCell = [&](std::uint32_t x, std::uint32_t row) {
+        const std::size_t here = std::size_t{row} * plan.width, below = std::size_t{system.below(row)} * plan.width;
+        if (plan.cells[std::size_t{window.inImage(row)} * plan.width + x] != TexelCell::smooth) return;
         const std::uint32_t right = system.right(x);
         for (const float fy : {kNear, kFar}) {
             const Vec3 left_side = (1 - fy) * texels[here + x] + fy * texels[below + x];
             const Vec3 right_side = (1 - fy) * texels[here + right] + fy * texels[below + right];
             for (const float fx : {kNear, kFar}) {
                 const Vec3 mixed = (1 - fx) * left_side + fx * right_side;
-                system.add(x, y, fx, fy, weighted(weight, sampleOf(options, (1 / length(mixed)) * mixed)));
+                system.add(x, row, fx, fy, weighted(weight, sampleOf(options, (1 / length(mixed)) * mixed)));
             }
         }
     };
-    forRowsApart(parallel, plan.height, [&](std::uint32_t y) {
-        for (std::uint32_t x = 0; x < plan.width; ++x) addCell(x, y);
+    forRowsApart(parallel, window.count, [&](std::uint32_t row) {
+        if (!window.hasCells(window.inImage(row))) return;
+        for (std::uint32_t x = 0; x < plan.width; ++x) addCell(x, row);
     });
 }
 

@@ -25,16 +25,27 @@ void traceTexels(const MapSurfaces& surfaces, const TexelTriangles& triangles, c
                  const MapWork& work, TracedTexels& traced);
 
 struct TexelPlan;
+struct TexelWindow;
 
-/// Rays at n x n points a texel in the cells of the plan that are asked or rough; what they say is added to the system, and what
-/// the centres say that are none of these points.
-void traceBetween(const MapSurfaces& surfaces, const TracedTexels& traced, const TexelPlan& plan, std::uint32_t n,
-                  const BakeOptions& options, const MapWork& work, TexelSystem& system);
+/// Where rays are shot between texel centres.
+struct PointsBetween {
+    const SampleBands& bands;
+    std::uint32_t n;  ///< n x n points a texel
+};
 
-/// Adds what `texels`, filtered, say in the smooth cells of the plan, as much as rays at `points` x `points` points a texel say in
-/// others.
-void addSmoothCells(const TexelPlan& plan, std::span<const Vec3> texels, std::uint32_t points,
-                    const BakeOptions& options, Parallel& parallel, TexelSystem& system);
+/// Which bands have points in the window.
+std::vector<std::size_t> bandsOf(const TexelWindow& window);
+
+/// Rays at points in the cells of the plan that are asked or rough; what they say is added to the system of the window, and what
+/// the centres say that are none of these points. `steps`: as many as the window has bands.
+void traceBetween(const MapSurfaces& surfaces, const TracedTexels& traced, const TexelPlan& plan,
+                  const TexelWindow& window, const PointsBetween& points, const BakeOptions& options,
+                  const MapWork& work, ToldSteps steps, TexelSystem& system);
+
+/// Adds what `texels` of the window, filtered, say in the smooth cells of the plan, as much as rays at `points` x `points` points
+/// a texel say in others.
+void addSmoothCells(const TexelPlan& plan, const TexelWindow& window, std::span<const Vec3> texels,
+                    std::uint32_t points, const BakeOptions& options, Parallel& parallel, TexelSystem& system);
 
 /// Gives texels that have an origin but no vector one, ring by ring: the first ring what the slope before it leads to, the
 /// others the mean of their neighbours; flat ones where there is none.

@@ -132,6 +132,55 @@ TEST(Rays, FindTheOutermostAndTheInnermostFront) {
     EXPECT_LE(wrong, 6);
 }
 
+/// Lines that are asked for together, some beside each other, some through a soup anywhere, and one that ends before it begins.
+std::vector<RayLine> linesTogether(std::mt19937& random, std::size_t count) {
+    std::normal_distribution<double> direction(0, 1);
+    const auto anywhere = [&] { return DVec3{direction(random), direction(random), direction(random)}; };
+    const DVec3 from = 0.5 * anywhere();
+    DVec3 outward = anywhere();
+    normalize(outward);
+    std::vector<RayLine> lines;
+    for (std::size_t i = 0; i < count; ++i) {
+        DVec3 other = anywhere();
+        normalize(other);
+        const bool is_beside = i % 4 != 3;
+        lines.push_back({.from = is_beside ? from + 0.01 * other : 0.5 * anywhere(),
+                         .outward = is_beside ? outward : other,
+                         .begin = i == 5 ? 0.8 : -0.4,
+                         .end = 0.7});
+    }
+    return lines;
+}
+
+TEST(Rays, MeetTheSameTogetherAsOneByOne) {
+    std::mt19937 random(13);
+    const Soup soup = randomSoup(random, 1, 0);
+    Parallel parallel({});
+    const auto rays = RaySurface::make(soup.positions, soup.corners, {}, parallel);
+    if (!rays) GTEST_SKIP() << rays.error().message;
+    int hits = 0, others = 0;
+    for (std::size_t round = 0; round < 400; ++round) {
+        const std::vector<RayLine> lines = linesTogether(random, round % (kLinesAtOnce + 1));
+        std::array<RayHit, kLinesAtOnce> together;
+        const std::uint32_t met = (*rays)->outermost(lines, together);
+        EXPECT_EQ(met >> lines.size(), 0U) << "there are no other lines";
+        for (std::size_t i = 0; i < lines.size(); ++i) {
+            RayHit alone;
+            const RayLine& line = lines[i];
+            const bool is_hit = (*rays)->outermost(line.from, line.outward, line.begin, line.end, line.group, alone);
+            hits += is_hit ? 1 : 0;
+            // At the very edge of a triangle Embree may see one that lies beside.
+            const bool is_same =
+                is_hit == ((met >> i & 1) != 0) &&
+                (!is_hit || (alone.triangle == together[i].triangle && alone.distance == together[i].distance &&
+                             alone.weights == together[i].weights));
+            others += is_same ? 0 : 1;
+        }
+    }
+    EXPECT_GT(hits, 500);
+    EXPECT_LE(others, 3);
+}
+
 TEST(Rays, MissNothingThroughEdgesAndVertices) {
     // A grid seen along its normals, at its vertices and along its edges.
     Soup soup;
@@ -159,6 +208,13 @@ TEST(Rays, MissNothingThroughEdgesAndVertices) {
             EXPECT_NEAR(hit.distance, -0.2, 1e-6);
             EXPECT_FALSE((*rays)->nearest(from, {0, 0, -1}, 1, 0, guess, hit)) << "seen from behind";
         }
+    }
+    for (std::uint32_t y = 2; y < 4 * (kSide - 1) - 1; ++y) {
+        std::array<RayLine, kLinesAtOnce> lines;
+        std::array<RayHit, kLinesAtOnce> hits;
+        for (std::uint32_t x = 0; x < kLinesAtOnce; ++x)
+            lines[x] = {.from = {0.37 * (x + 2) / 4, 0.53 * y / 4, 0.2}, .outward = {0, 0, 1}, .begin = -1, .end = 1};
+        EXPECT_EQ((*rays)->outermost(lines, hits), 0xffffU) << y;
     }
 }
 

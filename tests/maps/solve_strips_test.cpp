@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+// Maps that are solved some rows at a time.
+#include "maps/solve_strips.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "bake_cases.h"
+#include "support/thread_team.h"
+#include "tspace/map_bake.h"
+
+namespace tspace::test {
+namespace {
+
+const accuracy::Surface& saddle() {
+    for (const accuracy::Surface& surface : accuracy::surfaces()) {
+        if (std::strcmp(surface.name, "saddle") == 0) return surface;
+    }
+    return accuracy::surfaces().front();
+}
+
+/// The texels of a relief on a saddle, solved in strips of so many rows; with `shift` .5 its middle lies on both ends of the image.
+class Relief {
+  public:
+    static constexpr std::uint32_t kSide = 200;
+
+    Relief(unsigned bits, TextureWrap wrap, float shift)
+        : options_{.width = kSide, .height = kSide, .bits = bits, .wrap_v = wrap},
+          low_(bench::makeLow(saddle(), bench::Charts::one)),
+          high_(bench::makeHigh(saddle(), 200, true, 4)) {
+        for (Vec2& uv : low_.uvs) uv.y += shift;
+    }
+
+    std::vector<Vec3> solved(std::uint32_t strip_rows, const Execution& execution = {}) const {
+        Parallel parallel(execution);
+        const MapWork work{nullptr, parallel, nullptr};
+        const auto surfaces = MapSurfaces::make(low_.view(), high_.view(), 0, {}, parallel, nullptr);
+        if (!surfaces) return {};
+        const LowUvs uvs(low_.view(), nullptr);
+        const auto triangles =
+            findTexelTriangles(uvs.triangles(TextureWrap::repeat, options_.wrap_v), kSide, kSide, 2, parallel);
+        TracedTexels traced;
+        traceTexels(*surfaces, *triangles, options_, work, traced);
+        fillFromNeighbours(traced, triangles->shape);
+        const CellSampling sampling = samplingOf(options_);
+        const TexelPlan plan =
+            planTexels(traced, *triangles, sampling.tolerance, options_.bits == 8, parallel, nullptr);
+        solveInStrips(*surfaces, plan, sampling.points, options_, work, traced, strip_rows);
+        return {traced.wanted.begin(), traced.wanted.end()};
+    }
+
+  private:
+    BakeOptions options_;
+    bench::LowMesh low_;
+    bench::HighMesh high_;
+};
+
+/// How far the texels of two maps are apart in the mean, beside the edges of strips, and elsewhere.
+struct Apart {
+    double at_edges = 0, elsewhere = 0;
+
+    Apart(const std::vector<Vec3>& a, const std::vector<Vec3>& b, std::uint32_t strip_rows) {
+        std::size_t edge_count = 0;
+        for (std::size_t i = 0; i < a.size(); ++i) {
+            const std::size_t row = i / Relief::kSide % strip_rows;
+            const bool is_edge = row < 2 || row + 2 >= strip_rows;
+            edge_count += is_edge ? 1 : 0;
+            (is_edge ? at_edges : elsewhere) += static_cast<double>(length(a[i] - b[i]));
+        }
+        at_edges /= static_cast<double>(edge_count);
+        elsewhere /= static_cast<double>(a.size() - edge_count);
+    }
+};
+
+TEST(SolveStrips, AreAsNearToAWholeMapAtTheirEdgesAsElsewhere) {
+    constexpr std::uint32_t kRows = 32;
+    for (const TextureWrap wrap : {TextureWrap::repeat, TextureWrap::clamp}) {
+        for (const float shift : {0.0F, 0.5F}) {
+            const Relief relief(16, wrap, shift);
+            const std::vector<Vec3> whole = relief.solved(Relief::kSide), strips = relief.solved(kRows);
+            if (whole.empty()) GTEST_SKIP() << "no Embree";
+            const Apart apart(whole, strips, kRows);
+            // Steps end by what is left of the whole, so not even elsewhere texels are quite the same.
+            EXPECT_GT(apart.elsewhere, 0);
+            EXPECT_LT(apart.elsewhere, 5e-6) << "a sixth of a step of 16 bits";
+            EXPECT_LT(apart.at_edges, 5e-6) << "without rows around them 1e-5 and more";
+        }
+    }
+}
+
+TEST(SolveStrips, HaveNoLargerErrorsWithIntegersAtTheirEdges) {
+    // A smooth surface asks what the vectors were before integers were chosen: if not, the error is 5 % larger there.
+    const bench::LowMesh low = bench::makeLow(saddle(), bench::Charts::one);
+    const bench::HighMesh high = bench::makeHigh(saddle(), 200, false, 4);
+    const Result<BakedMap> map =
+        bakeMap(low.view(), high.view(), {.width = 256, .height = 2 * kStripRows + 200, .bits = 8, .heat = true});
+    if (!map) GTEST_SKIP() << map.error().message;
+    double sums[2] = {}, counts[2] = {};
+    for (std::uint32_t y = 40; y < map->height - 40; ++y) {
+        const bool is_edge = y % kStripRows == 0 || y % kStripRows == kStripRows - 1;
+        for (std::uint32_t x = 0; x < map->width; ++x) {
+            const double degrees = map->error.heat[std::size_t{y} * map->width + x];
+            if (degrees < 0) continue;
+            sums[is_edge ? 1 : 0] += degrees;
+            counts[is_edge ? 1 : 0] += 1;
+        }
+    }
+    EXPECT_LT(sums[1] / counts[1], 1.03 * sums[0] / counts[0]);
+}
+
+TEST(SolveStrips, AreTheSameForAnyNumberOfThreads) {
+    for (const unsigned bits : {16U, 8U}) {
+        const Relief relief(bits, TextureWrap::repeat, 0);
+        const std::vector<Vec3> one = relief.solved(32, {.thread_count = 1});
+        for (const unsigned threads : {2U, 5U})
+            EXPECT_TRUE(one == relief.solved(32, {.executor = threadTeam(threads)}));
+    }
+}
+
+TEST(SolveStrips, TellOfStepsThatGoOn) {
+    const bench::LowMesh low = bench::makeLow(saddle(), bench::Charts::one);
+    const bench::HighMesh high = bench::makeHigh(saddle(), 64, true, 2);
+    std::uint64_t last = 0, count = 0;
+    const Progress progress = [&](const char* what, std::uint64_t done, std::uint64_t total) {
+        if (std::strcmp(what, "tracing between texels") != 0) return;
+        EXPECT_TRUE(count == 0 || done > last);
+        EXPECT_LT(done, total);
+        last = done;
+        ++count;
+    };
+    const BakeOptions options{.width = 8, .height = 2 * kStripRows + 200};
+    const Result<BakedMap> map = bakeMap(low.view(), high.view(), options, {.thread_count = 1}, progress);
+    if (!map) GTEST_SKIP() << map.error().message;
+    EXPECT_GT(count, 10U);
+}
+
+}  // namespace
+}  // namespace tspace::test
