@@ -64,7 +64,6 @@ std::vector<std::uint8_t> samplesOf(const FloatImage& image, unsigned bits) {
     return samples;
 }
 
-/// One filter for all rows: to try all on each row takes as long as all else, and saves a hundredth of the bytes.
 /// How zlib looks for what repeats.
 struct Deflate {
     int level, strategy;
@@ -72,6 +71,7 @@ struct Deflate {
 /// Z_FILTERED of zlib, what libspng takes by itself, and Z_RLE, which looks for runs alone.
 constexpr int kFiltered = 1, kRuns = 3;
 
+/// One filter for all rows: to try all on each row takes as long as all else, and saves a hundredth of the bytes.
 std::optional<std::vector<std::uint8_t>> encodeSamples(spng_ihdr header, Deflate deflate,
                                                        const std::vector<std::uint8_t>& samples) {
     struct Free {

@@ -212,8 +212,8 @@ class Gradients {
     std::span<Vec3> texels_;
     Parallel& parallel_;
     Buffer<Vec3> residual_, direction_, image_;
-    Buffer<SymmetricBlock>
-        inverse_;  ///< of each row's block with itself: rows are read from memory, which takes the time
+    /// Of the block of each row with itself. To read rows again would take longer.
+    Buffer<SymmetricBlock> inverse_;
     std::size_t tasks_;
     TaskSums first_, second_;
 };

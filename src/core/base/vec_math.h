@@ -66,7 +66,7 @@ inline bool normalize(DVec3& v) {
     return true;
 }
 
-/// As normalize, to rounding, in a third of the time where the square of the length is an ordinary number.
+/// As normalize, to rounding, with one division in place of four where the square of the length is an ordinary number.
 inline bool normalizeOrdinary(DVec3& v) {
     const double squared = dot(v, v);
     if (!(squared > 1e-280 && squared < 1e280)) return normalize(v);
