@@ -4,7 +4,7 @@
 C_HEADERS = ("tspace.h", "tspace_normals.h", "tspace_indexed_frames.h", "tspace_frame.h", "tspace_pack.h", "tspace_winding.h",
              "tspace_files.h")
 FILE_HEADERS = ("asset.h", "bake_file.h", "check.h", "diff.h", "finish_file.h", "flip_green.h", "identify.h",
-                "map_compress_file.h", "map_height_file.h")
+                "map_compress_file.h", "map_convert_file.h", "map_height_file.h")
 # Headers whose first comment is that of a C++ header.
 HEADS = {f"tspace_{name}": name for name in ("frame.h", "indexed_frames.h", "normals.h", "pack.h", "winding.h")}
 
@@ -65,9 +65,8 @@ OTHER_DEFAULTS = {
 # Regular expressions -> how C says it.
 PHRASES = {
     r"`?conventions::(\w+)`?": r'"\1"',
-    r"those of heightToNormal and of convertMapFile": "those of readers of models; CANNOT_READ, CANNOT_WRITE, "
-    "UNSUPPORTED_FILE, INVALID_FILE (an image that cannot be read), INVALID_OPTION, TOO_LARGE, OUT_OF_MEMORY",
-    r"those of convertMapFile, and invalidOption": "those of tspace_heightToNormalFile, and INVALID_OPTION",
+    r"those of convertMap and of readers of models": "those of readers of models",
+    r"those of heightToNormal and of convertMapFile": "those of tspace_convertMapFile",
     r"those of bakeMap, but for rays that meet nothing, which are findings; and": "MISSING_ATTRIBUTE (a low poly without "
     "UVs), INVALID_OPTION, OUT_OF_MEMORY; rays that meet nothing are findings. Also",
     r"Error::element is a BakeInput: `high` for the input and `low` for the low poly\.": "tspace_Error.element is 1 where "

@@ -140,16 +140,26 @@ tspace_ErrorCode tspace_flipGreenBytes(const uint8_t* data, size_t size, const c
 tspace_ErrorCode tspace_flipGreenFile(const char* input, const char* output, const char* options, tspace_Bytes* report,
                                       tspace_Error* error) TSPACE_NOEXCEPT;
 
+/* Converts the image `input` (PNG, JPEG, WebP, EXR, KTX2, DDS, TGA) into `output` (.png or .exr), which appears at
+ * once, or not at all. Alpha stays. The output has no word on colours. In tangent space the scale that a model's
+ * material gives the map counts on its side.
+ *
+ * Errors: those of readers of models; CANNOT_READ, CANNOT_WRITE, UNSUPPORTED_FILE, INVALID_FILE (an image that is
+ * broken; a model without what is needed, or whose primitives need a map each), INVALID_OPTION, TOO_LARGE,
+ * OUT_OF_MEMORY. Thread-safe.
+ * In C: options of `tspace convert-map`, report tspace.convert-map/1. */
+tspace_ErrorCode tspace_convertMapFile(const char* input, const char* output, const char* options, tspace_Bytes* report,
+                                       tspace_Error* error) TSPACE_NOEXCEPT;
+
 /* Makes a normal map, `output` (.png), of the height map `input` (PNG, JPEG, WebP, EXR, KTX2, DDS, TGA; of colours
- * the mean counts). Errors: those of readers of models; CANNOT_READ, CANNOT_WRITE, UNSUPPORTED_FILE, INVALID_FILE
- * (an image that cannot be read), INVALID_OPTION, TOO_LARGE, OUT_OF_MEMORY. Thread-safe.
+ * the mean counts). Errors: those of tspace_convertMapFile. Thread-safe.
  * In C: options of `tspace height-to-normal`, report tspace.height-to-normal/1. */
 tspace_ErrorCode tspace_heightToNormalFile(const char* input, const char* output, const char* options,
                                            tspace_Bytes* report, tspace_Error* error) TSPACE_NOEXCEPT;
 
 /* Packs a normal map in tangent space: x in red, y in green; z is made by who reads it. `output` ends in .dds or
  * .ktx2; or in / for a folder of PNGs, NAME.0.png and on, with three channels. From PNG of 16 bits or EXR blocks are
- * better than from 8 bits. Errors: those of tspace_heightToNormalFile, and INVALID_OPTION: grids of normals and
+ * better than from 8 bits. Errors: those of tspace_convertMapFile, and INVALID_OPTION: grids of normals and
  * roughness that do not fit, a format that the container does not hold. Thread-safe; the same bytes for any number
  * of threads.
  * In C: options of `tspace compress-map`, report tspace.compress-map/1. */

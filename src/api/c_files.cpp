@@ -7,6 +7,7 @@
 #include "commands/bake/bake_report.h"
 #include "commands/check/check_report.h"
 #include "commands/compress_map/compress_map_report.h"
+#include "commands/convert_map/convert_map_report.h"
 #include "commands/diff/diff_report.h"
 #include "commands/finish/finish_report.h"
 #include "commands/flip_green/flip_green_report.h"
@@ -117,6 +118,15 @@ void diff(const std::string& a, const std::string& b, const options::DiffRequest
     throwError(result);
     const ExitCode exit_code = result->isWithin(request.tolerance_deg) ? ExitCode::done : ExitCode::findings;
     giveReport(report::diffJson(a, b, request.tolerance_deg, result, exit_code), json);
+}
+
+void readConvertMapOptions(const char* text, ConvertMapFileOptions& options) {
+    options::Given given;
+    options.execution.thread_count = 1;
+    const options::OptionList list = options::convertMapOptions(options);
+    readOptions(list, text, given);
+    const std::string wrong = options::finish(given, options);
+    if (!wrong.empty()) failFile(ErrorCode::invalidOption, wrong);
 }
 
 void readHeightToNormalOptions(const char* text, HeightToNormalFileOptions& options) {
@@ -290,6 +300,19 @@ tspace_ErrorCode tspace_flipGreenFile(const char* input, const char* output, con
         outcome.result = flipGreenFile(from, to, chosen);
         throwError(outcome.result);
         giveReportOfOutput([&] { return report::flipGreenJson(outcome, ExitCode::done); }, report);
+    });
+}
+
+tspace_ErrorCode tspace_convertMapFile(const char* input, const char* output, const char* options, tspace_Bytes* report,
+                                       tspace_Error* error) noexcept {
+    return atCallBorder(error, {report}, [&] {
+        const std::string from = neededText(input, "input"), to = neededText(output, "output");
+        ConvertMapFileOptions chosen;
+        readConvertMapOptions(options, chosen);
+        report::Outcome<ConvertMapFileReport> outcome{.input = from, .output = to, .is_dry_run = chosen.dry_run};
+        outcome.result = convertMapFile(from, to, chosen);
+        throwError(outcome.result);
+        giveReportOfOutput([&] { return report::convertMapJson(outcome, ExitCode::done); }, report);
     });
 }
 

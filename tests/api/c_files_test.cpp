@@ -411,6 +411,30 @@ TEST(CFilesDiff, SaysWhichModelIsAtFault) {
     EXPECT_EQ(error.element, 0u);
 }
 
+TEST(CFilesConvertMap, FilesAreThoseOfTheTool) {
+    const TempFolder folder;
+    writeBumpMap(folder);
+    writeFoldedObj(folder, "wall.obj");
+    const ToolRun run = runTool(folder,
+                                "convert-map bump.png -o out.png --mesh wall.obj --to object --from-convention directx "
+                                "--bits 8 --json");
+    if (run.exit_code != 0) GTEST_SKIP() << run.err;
+    const std::string bytes = folder.read("out.png");
+    std::filesystem::current_path(folder.path());
+    const char* options = R"({"mesh":"wall.obj","to":"object","from-convention":"directx","bits":"8"})";
+    Made report;
+    ASSERT_EQ(tspace_convertMapFile("bump.png", "out.png", options, &report.bytes, nullptr), TSPACE_OK);
+    EXPECT_EQ(report.text(), run.out);
+    EXPECT_TRUE(folder.read("out.png") == bytes);
+    tspace_Error error;
+    EXPECT_EQ(tspace_convertMapFile("none.png", "out.png", nullptr, nullptr, &error), TSPACE_ERROR_CANNOT_READ);
+    EXPECT_EQ(tspace_convertMapFile("bump.png", "out.jpg", nullptr, nullptr, &error), TSPACE_ERROR_UNSUPPORTED_FILE);
+    EXPECT_EQ(tspace_convertMapFile("bump.png", "out.png", R"({"into":"object"})", nullptr, &error),
+              TSPACE_ERROR_INVALID_OPTION);
+    EXPECT_EQ(tspace_convertMapFile("bump.png", nullptr, nullptr, nullptr, &error), TSPACE_ERROR_NULL_DATA);
+    EXPECT_TRUE(folder.read("out.png") == bytes);
+}
+
 TEST(CFilesHeightToNormal, FilesAreThoseOfTheTool) {
     const TempFolder folder;
     writeBumpMap(folder);

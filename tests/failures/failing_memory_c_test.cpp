@@ -225,6 +225,7 @@ TEST_F(FailingMemory, OfTheCFunctionsOfFiles) {
         });
     };
     ofPicture("flip file", "flipped.png", tspace_flipGreenFile);
+    ofPicture("convert file", "converted.png", tspace_convertMapFile);
     ofPicture("height file", "heights.png", tspace_heightToNormalFile);
     ofPicture("compress file", "blocks.ktx2", tspace_compressMapFile);
     toFile("finish file", "ready.glb", [&](const char* output, tspace_Bytes* report) {

@@ -115,6 +115,20 @@ class Generate(Files):
         with self.assertRaises(tspace.ReadWriteError):
             tspace.height_to_normal_file(self.folder / "none.png", self.folder / "normal.png")
 
+    def test_a_normal_map_is_converted(self):
+        image = next(path for path in sorted(needs_shared("models").rglob("*.png")) if path.stat().st_size < 300000)
+        normal, opposite, back = (self.folder / name for name in ("normal.png", "opposite.png", "back.png"))
+        tspace.height_to_normal_file(image, normal, strength=2)
+        report = tspace.convert_map_file(normal, opposite, to_convention="directx", threads=2)
+        self.assertEqual((report.bits, report.dry_run, report.to), (16, False, None))
+        self.assertGreater(report.max_change_deg, 0)
+        tspace.convert_map_file(opposite, back, from_convention="directx")
+        self.assertEqual(normal.read_bytes(), back.read_bytes())
+        with self.assertRaisesRegex(tspace.Error, "mesh"):
+            tspace.convert_map_file(normal, back, from_="object")
+        with self.assertRaisesRegex(tspace.UnknownOptionError, "padding"):
+            tspace.convert_map_file(normal, back, pading=2)
+
     def test_a_normal_map_becomes_a_texture(self):
         image = next(path for path in sorted(needs_shared("models").rglob("*.png")) if path.stat().st_size < 300000)
         normal = self.folder / "normal.png"
@@ -228,6 +242,7 @@ class Failures(Files):
             lambda: tspace.identify(missing),
             lambda: tspace.diff(missing, missing),
             lambda: tspace.flip_green_file(missing, self.folder / "out.png"),
+            lambda: tspace.convert_map_file(missing, self.folder / "out.png"),
             lambda: tspace.height_to_normal_file(missing, self.folder / "out.png"),
             lambda: tspace.bake_file(missing, missing, self.folder / "out.png"),
             lambda: tspace.finish_file(missing, output),

@@ -88,6 +88,7 @@ class FileCalls(unittest.TestCase):
     def test_type_checkers_know_the_options_of_files(self):
         verbs = {"generate_file": "generate", "generate_bytes": "generate", "flip_green_file": "flipGreen"}
         verbs.update({"flip_green_bytes": "flipGreen", "height_to_normal_file": "heightToNormal"})
+        verbs.update({"convert_map_file": "convertMap"})
         verbs.update({"compress_map_file": "compressMap", "compress_map_bytes": "compressMap"})
         verbs.update({"bake_file": "bake", "finish_file": "finish"})
         verbs.update({name: name for name in ("check", "identify", "inspect", "diff")})

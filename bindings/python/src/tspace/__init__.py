@@ -51,6 +51,7 @@ Model files (glTF, GLB, OBJ), on disk or in memory
     diff            the angles between the frames of two models
     inspect         what is in a file
     flip_green_file, flip_green_bytes   inverts the green channel of a normal map
+    convert_map_file                    converts a normal map for other tangents, another space or another program
     height_to_normal_file               makes a normal map of a height map
     compress_map_file, compress_map_bytes   packs a normal map as a texture for engines
     bake_file       bakes the maps of a low poly from a high poly
@@ -87,6 +88,7 @@ from ._files import (
     Finding,
     FinishReport,
     FlipGreenReport,
+    ConvertMapReport,
     HeightToNormalReport,
     Generated,
     GenerateReport,
@@ -117,6 +119,7 @@ if _TYPE_CHECKING:
         flip_green_file,
         generate_bytes,
         generate_file,
+        convert_map_file,
         height_to_normal_file,
         identify,
         inspect,
@@ -133,6 +136,7 @@ else:
         flip_green_file,
         generate_bytes,
         generate_file,
+        convert_map_file,
         height_to_normal_file,
         identify,
         inspect,
@@ -152,6 +156,7 @@ __all__ = [
     "Finding",
     "FinishReport",
     "FlipGreenReport",
+    "ConvertMapReport",
     "HeightToNormalReport",
     "GenerateReport",
     "Generated",
@@ -188,6 +193,7 @@ __all__ = [
     "flip_green_file",
     "generate_bytes",
     "generate_file",
+    "convert_map_file",
     "height_to_normal_file",
     "identify",
     "inspect",

@@ -7,11 +7,12 @@ from typing import Literal, Optional, Sequence, Union
 from ._file_reports import BakeReport, DiffReport, FinishReport, InspectReport
 from ._files import BytesLike, CheckReport, FindFile, Generated, IdentifyReport, PathLike
 from ._generate_report import GenerateReport
-from ._map_reports import CompressMapReport, FlipGreenReport, HeightToNormalReport
+from ._map_reports import CompressMapReport, ConvertMapReport, FlipGreenReport, HeightToNormalReport
 from ._types import DegreesOrAuto, MethodName, PairingName, PresetName
 
 Severity = Literal["note", "warning", "error"]
 Size = Union[int, str]
+MapSpaceName = Literal["tangent", "object", "world"]
 MapName = Literal[
     "normal", "ao", "bent", "curvature", "height", "position", "thickness", "id", "color", "orm", "emission"
 ]
@@ -168,6 +169,37 @@ def flip_green_bytes(
     memory_limit: Size = ...,
     no_sync: bool = ...,
 ) -> Generated[FlipGreenReport]: ...
+def convert_map_file(
+    input: PathLike,
+    output: PathLike,
+    *,
+    mesh: PathLike = ...,
+    to_mesh: PathLike = ...,
+    material: str = ...,
+    tile: int = ...,
+    from_: MapSpaceName = ...,
+    to: MapSpaceName = ...,
+    axes: str = ...,
+    from_convention: Union[PresetName, Literal["three"]] = ...,
+    to_convention: Union[PresetName, Literal["three"]] = ...,
+    from_bitangent: Literal["pixel", "vertex"] = ...,
+    to_bitangent: Literal["pixel", "vertex"] = ...,
+    channels: str = ...,
+    srgb: bool = ...,
+    linearised: bool = ...,
+    flip_red: bool = ...,
+    flip_green: bool = ...,
+    bits: Literal[8, 16, 32] = ...,
+    lengths: Literal["even", "free"] = ...,
+    padding: int = ...,
+    method: MethodName = ...,
+    dry_run: bool = ...,
+    threads: int = ...,
+    no_sync: bool = ...,
+    allow_external: bool = ...,
+    memory_limit: Size = ...,
+    import_seconds: float = ...,
+) -> ConvertMapReport: ...
 def height_to_normal_file(
     input: PathLike,
     output: PathLike,

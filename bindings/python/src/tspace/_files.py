@@ -21,7 +21,7 @@ from ._file_reports import (
     InspectReport,
 )
 from ._generate_report import GenerateReport
-from ._map_reports import CompressMapReport, FlipGreenReport, HeightToNormalReport
+from ._map_reports import CompressMapReport, ConvertMapReport, FlipGreenReport, HeightToNormalReport
 from ._report import Report
 
 PathLike = Union[str, "os.PathLike[str]"]
@@ -48,6 +48,8 @@ _OPTIONS = {
     "identify": f"tolerance threads {_LIMITS}",
     "diff": f"tolerance worst {_LIMITS}",
     "flipGreen": "dry_run memory_limit no_sync",
+    "convertMap": "mesh to_mesh material tile from_ to axes from_convention to_convention from_bitangent to_bitangent channels srgb"
+    f" linearised flip_red flip_green bits lengths padding method dry_run threads no_sync {_LIMITS}",
     "heightToNormal": f"strength mesh material clamp convention bits method dry_run threads no_sync {_LIMITS}",
     "compressMap": "format quality signed mips no_levels zstd bits roughness roughness_output roughness_factor"
     " dry_run threads no_sync memory_limit import_seconds",
@@ -153,7 +155,7 @@ class _Call:
     def run(self, function: str, *arguments: Any, options: Mapping[str, Any], has_output: bool = False) -> Any:
         """The document of the report, and the output where there is one."""
         _check_names(function, options)
-        text = json.dumps({name.replace("_", "-"): value for name, value in options.items()}, default=_plain)
+        text = json.dumps({name.rstrip("_").replace("_", "-"): value for name, value in options.items()}, default=_plain)
         backs = [_files_abi.Bytes() for _ in range(2 if has_output else 1)]
         error = _abi.Error()
         failed = getattr(self.library, function)(*arguments, text.encode(), *map(byref, backs), byref(error))
@@ -338,6 +340,19 @@ def flip_green_file(input: PathLike, output: PathLike, **options: Any) -> FlipGr
     call = _Call()
     paths = call.path("input", input), call.path("output", output)
     return FlipGreenReport(call.run("tspace_flipGreenFile", *paths, options=options))
+
+
+def convert_map_file(input: PathLike, output: PathLike, **options: Any) -> ConvertMapReport:
+    """Converts a normal map for other tangents, another space or another program.
+
+    input:   path of the map: PNG, JPEG, WebP, EXR, KTX2, DDS or TGA
+    output:  path of the new one, .png or .exr
+    options: those of `tspace convert-map` (docs/convert-map.md), with underscores:
+             mesh="chair.glb", to_mesh="mended.glb", from_="object", to_convention="directx"
+    """
+    call = _Call()
+    paths = call.path("input", input), call.path("output", output)
+    return ConvertMapReport(call.run("tspace_convertMapFile", *paths, options=options))
 
 
 def height_to_normal_file(input: PathLike, output: PathLike, **options: Any) -> HeightToNormalReport:

@@ -47,6 +47,7 @@ SIGNATURES = {
     "tspace_diffFiles": (c_uint32, _PATH, _PATH, _OPTIONS, *_BACK),
     "tspace_diffBytes": (c_uint32, _MODEL, _MODEL, _OPTIONS, *_BACK),
     "tspace_flipGreenFile": (c_uint32, _PATH, _PATH, _OPTIONS, *_BACK),
+    "tspace_convertMapFile": (c_uint32, _PATH, _PATH, _OPTIONS, *_BACK),
     "tspace_heightToNormalFile": (c_uint32, _PATH, _PATH, _OPTIONS, *_BACK),
     "tspace_compressMapFile": (c_uint32, _PATH, _PATH, _OPTIONS, *_BACK),
     "tspace_compressMapBytes": (c_uint32, c_void_p, c_size_t, _OPTIONS, POINTER(Bytes), *_BACK),

@@ -38,6 +38,80 @@ class FlipGreenReport(Report):
     exit_code: int
 
 
+class ConvertMapReport(Report):
+    """A normal map that was converted."""
+
+    schema: str
+    #: Version of the tool.
+    version: str
+    #: The output was written.
+    ok: bool
+    #: Path of the input.
+    input: str
+    #: Path of the output.
+    output: str
+    #: Nothing was written.
+    dry_run: bool
+    #: Null when ok.
+    error: None
+    width: int
+    height: int
+    #: Of a channel of the input, 8 or 16.
+    bits_before: int
+    #: Of the output.
+    bits: int
+    #: What was taken of the model that the map was made for; null without one.
+    from_: Optional[MapMesh]
+    #: The same of the model that it is shown on; null where that is the same file.
+    to: Optional[MapMesh]
+    #: Texels that triangles or their padding show.
+    converted: int
+    #: Those of them with another value than before.
+    changed: int
+    #: Texels that no triangle shows; they stay.
+    background: int
+    #: Texels that stay since their frames or values are broken.
+    without_frame: int
+    #: Texels that two channels cannot say; they get z = 0.
+    below_horizon: int
+    #: Texels that several triangles show; the first decides.
+    overlapping: int
+    #: Those of them whose triangles want directions in object space that are over 2 degrees apart.
+    conflicting: int
+    #: Texels that stay since the other model has no triangle there.
+    unmatched: int
+    #: Texels that lie elsewhere in space on the other model.
+    apart: int
+    #: Triangles without UV area.
+    degenerate_uvs: int
+    #: Triangles whose UVs are not finite, or show the image more than 64 times.
+    bad_uvs: int
+    #: Between what texels show and what they would show unconverted.
+    mean_change_deg: float
+    max_change_deg: float
+    #: Half a step of the output's integers, as an angle.
+    half_step_deg: float
+    #: The mean change is smaller, so rounding undoes it.
+    below_half_step: bool
+    #: Sentences for a person.
+    warnings: List[str]
+    #: That of the tool: 0, or 1 where something was found.
+    exit_code: int
+
+
+class MapMesh(Report):
+    #: How many primitives show the map.
+    primitives: int
+    #: Their triangles.
+    triangles: int
+    #: Their names, each once.
+    materials: List[str]
+    #: Some had no tangents, which were made.
+    tangents_made: bool
+    #: What its materials multiply x and y of the map by (glTF's "normalTexture.scale").
+    scale: float
+
+
 class HeightToNormalReport(Report):
     """A height map that became a normal map."""
 
@@ -73,19 +147,6 @@ class HeightToNormalReport(Report):
     warnings: List[str]
     #: That of the tool: 0, or 1 where something was found.
     exit_code: int
-
-
-class MapMesh(Report):
-    #: How many primitives show the map.
-    primitives: int
-    #: Their triangles.
-    triangles: int
-    #: Their names, each once.
-    materials: List[str]
-    #: Some had no tangents, which were made.
-    tangents_made: bool
-    #: What its materials multiply x and y of the map by (glTF's "normalTexture.scale").
-    scale: float
 
 
 class CompressMapReport(Report):

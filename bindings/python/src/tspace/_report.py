@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """What is common to all reports on files: JSON objects of the tool, with their members as attributes."""
 
+import keyword
 import re
 from dataclasses import is_dataclass
 from functools import lru_cache
@@ -59,7 +60,9 @@ def _brief(value: Any) -> str:
 
 
 def _snake_case(member: str) -> str:
-    return re.sub("([A-Z])", lambda match: "_" + match[1].lower(), member)
+    """A keyword of Python gets a line behind it: from_."""
+    name = re.sub("([A-Z])", lambda match: "_" + match[1].lower(), member)
+    return name + "_" if keyword.iskeyword(name) else name
 
 
 @lru_cache(maxsize=None)
