@@ -59,12 +59,28 @@ std::string withoutEnding(const std::string& name) {
     return dot == std::string::npos || (slash != std::string::npos && dot < slash) ? name : name.substr(0, dot);
 }
 
-void readGenerateOptions(const char* text, GenerateOptions& options) {
+/// Makes `output` of `input` by `make`, and gives the report of it.
+template <class Report, class Options>
+void makeFile(Result<Report> (*make)(const std::string&, const std::string&, const Options&),
+              std::string (*toJson)(const report::Outcome<Report>&, ExitCode), const std::string& input,
+              const std::string& output, const Options& options, tspace_Bytes* json) {
+    report::Outcome<Report> outcome{.input = input, .output = output, .is_dry_run = options.dry_run};
+    outcome.result = make(input, output, options);
+    throwError(outcome.result);
+    giveReportOfOutput([&] { return toJson(outcome, ExitCode::done); }, json);
+}
+
+/// Options that mean something together. `list` must stay until they are applied: what is given points into it.
+template <class Options>
+void readTogether(const options::OptionList& list, const char* text, Options& to) {
     options::Given given;
-    const options::OptionList list = options::generateOptions(options);
     readOptions(list, text, given);
-    const std::string wrong = options::finish(given, options);
+    const std::string wrong = options::finish(given, to);
     if (!wrong.empty()) failFile(ErrorCode::invalidOption, wrong);
+}
+
+void readGenerateOptions(const char* text, GenerateOptions& options) {
+    readTogether(options::generateOptions(options), text, options);
 }
 
 void generate(const std::string& input, const std::string& output, const GenerateOptions& options, tspace_Bytes* json) {
@@ -121,26 +137,14 @@ void diff(const std::string& a, const std::string& b, const options::DiffRequest
 }
 
 void readConvertMapOptions(const char* text, ConvertMapFileOptions& options) {
-    options::Given given;
     options.execution.thread_count = 1;
-    const options::OptionList list = options::convertMapOptions(options);
-    readOptions(list, text, given);
-    const std::string wrong = options::finish(given, options);
-    if (!wrong.empty()) failFile(ErrorCode::invalidOption, wrong);
+    readTogether(options::convertMapOptions(options), text, options);
 }
 
 void readHeightToNormalOptions(const char* text, HeightToNormalFileOptions& options) {
     options::Given given;
     options.execution.thread_count = 1;
     readOptions(options::heightToNormalOptions(options), text, given);
-}
-
-void compressMap(const std::string& input, const std::string& output, const CompressMapFileOptions& options,
-                 tspace_Bytes* json) {
-    report::Outcome<CompressMapFileReport> outcome{.input = input, .output = output, .is_dry_run = options.dry_run};
-    outcome.result = compressMapFile(input, output, options);
-    throwError(outcome.result);
-    giveReportOfOutput([&] { return report::compressMapJson(outcome, ExitCode::done); }, json);
 }
 
 void readCompressMapOptions(const char* text, CompressMapFileOptions& options) {
@@ -296,10 +300,7 @@ tspace_ErrorCode tspace_flipGreenFile(const char* input, const char* output, con
         const std::string from = neededText(input, "input"), to = neededText(output, "output");
         FlipGreenOptions chosen;
         readFlipGreenOptions(options, chosen);
-        report::Outcome<FlipGreenReport> outcome{.input = from, .output = to, .is_dry_run = chosen.dry_run};
-        outcome.result = flipGreenFile(from, to, chosen);
-        throwError(outcome.result);
-        giveReportOfOutput([&] { return report::flipGreenJson(outcome, ExitCode::done); }, report);
+        makeFile(flipGreenFile, report::flipGreenJson, from, to, chosen, report);
     });
 }
 
@@ -309,10 +310,7 @@ tspace_ErrorCode tspace_convertMapFile(const char* input, const char* output, co
         const std::string from = neededText(input, "input"), to = neededText(output, "output");
         ConvertMapFileOptions chosen;
         readConvertMapOptions(options, chosen);
-        report::Outcome<ConvertMapFileReport> outcome{.input = from, .output = to, .is_dry_run = chosen.dry_run};
-        outcome.result = convertMapFile(from, to, chosen);
-        throwError(outcome.result);
-        giveReportOfOutput([&] { return report::convertMapJson(outcome, ExitCode::done); }, report);
+        makeFile(convertMapFile, report::convertMapJson, from, to, chosen, report);
     });
 }
 
@@ -322,10 +320,7 @@ tspace_ErrorCode tspace_heightToNormalFile(const char* input, const char* output
         const std::string from = neededText(input, "input"), to = neededText(output, "output");
         HeightToNormalFileOptions chosen;
         readHeightToNormalOptions(options, chosen);
-        report::Outcome<HeightToNormalFileReport> outcome{.input = from, .output = to, .is_dry_run = chosen.dry_run};
-        outcome.result = heightToNormalFile(from, to, chosen);
-        throwError(outcome.result);
-        giveReportOfOutput([&] { return report::heightToNormalJson(outcome, ExitCode::done); }, report);
+        makeFile(heightToNormalFile, report::heightToNormalJson, from, to, chosen, report);
     });
 }
 
@@ -335,7 +330,7 @@ tspace_ErrorCode tspace_compressMapFile(const char* input, const char* output, c
         const std::string from = neededText(input, "input"), to = neededText(output, "output");
         CompressMapFileOptions chosen;
         readCompressMapOptions(options, chosen);
-        compressMap(from, to, chosen, report);
+        makeFile(compressMapFile, report::compressMapJson, from, to, chosen, report);
     });
 }
 
@@ -352,7 +347,7 @@ tspace_ErrorCode tspace_compressMapBytes(const uint8_t* data, size_t size, const
             bytes.append(part);
             return true;
         };
-        compressMap("map", "map.ktx2", chosen, report);
+        makeFile(compressMapFile, report::compressMapJson, "map", "map.ktx2", chosen, report);
         bytes.giveTo(output);
     });
 }

@@ -411,53 +411,47 @@ TEST(CFilesDiff, SaysWhichModelIsAtFault) {
     EXPECT_EQ(error.element, 0u);
 }
 
-TEST(CFilesConvertMap, FilesAreThoseOfTheTool) {
+/// A function that makes out.png of bump.png gives the bytes and the report of the tool's `command`, and says what is wrong.
+template <class Function>
+void expectFilesOfTheTool(Function* make, const std::string& command, const char* options, const char* unknown) {
     const TempFolder folder;
     writeBumpMap(folder);
     writeFoldedObj(folder, "wall.obj");
-    const ToolRun run = runTool(folder,
-                                "convert-map bump.png -o out.png --mesh wall.obj --to object --from-convention directx "
-                                "--bits 8 --json");
+    const ToolRun run = runTool(folder, command + " --json");
     if (run.exit_code != 0) GTEST_SKIP() << run.err;
     const std::string bytes = folder.read("out.png");
     std::filesystem::current_path(folder.path());
-    const char* options = R"({"mesh":"wall.obj","to":"object","from-convention":"directx","bits":"8"})";
     Made report;
-    ASSERT_EQ(tspace_convertMapFile("bump.png", "out.png", options, &report.bytes, nullptr), TSPACE_OK);
+    ASSERT_EQ(make("bump.png", "out.png", options, &report.bytes, nullptr), TSPACE_OK);
     EXPECT_EQ(report.text(), run.out);
     EXPECT_TRUE(folder.read("out.png") == bytes);
     tspace_Error error;
-    EXPECT_EQ(tspace_convertMapFile("none.png", "out.png", nullptr, nullptr, &error), TSPACE_ERROR_CANNOT_READ);
-    EXPECT_EQ(tspace_convertMapFile("bump.png", "out.jpg", nullptr, nullptr, &error), TSPACE_ERROR_UNSUPPORTED_FILE);
-    EXPECT_EQ(tspace_convertMapFile("bump.png", "out.png", R"({"into":"object"})", nullptr, &error),
-              TSPACE_ERROR_INVALID_OPTION);
-    EXPECT_EQ(tspace_convertMapFile("bump.png", nullptr, nullptr, nullptr, &error), TSPACE_ERROR_NULL_DATA);
+    EXPECT_EQ(make("none.png", "out.png", nullptr, nullptr, &error), TSPACE_ERROR_CANNOT_READ);
+    EXPECT_EQ(make("bump.png", "out.jpg", nullptr, nullptr, &error), TSPACE_ERROR_UNSUPPORTED_FILE);
+    EXPECT_EQ(make("bump.png", "out.png", unknown, nullptr, &error), TSPACE_ERROR_INVALID_OPTION);
+    EXPECT_EQ(make(nullptr, "out.png", nullptr, nullptr, &error), TSPACE_ERROR_NULL_DATA);
+    EXPECT_EQ(make("bump.png", nullptr, nullptr, nullptr, &error), TSPACE_ERROR_NULL_DATA);
     EXPECT_TRUE(folder.read("out.png") == bytes);
 }
 
+TEST(CFilesConvertMap, FilesAreThoseOfTheTool) {
+    expectFilesOfTheTool(
+        tspace_convertMapFile,
+        "convert-map bump.png -o out.png --mesh wall.obj --to object --from-convention directx --bits 8",
+        R"({"mesh":"wall.obj","to":"object","from-convention":"directx","bits":"8"})", R"({"into":"object"})");
+}
+
+TEST(CFilesConvertMap, OptionsThatMeanSomethingTogetherAreApplied) {
+    // Both channels are inverted once all options are known; a model to show the map on needs the one it was made for.
+    expectFilesOfTheTool(tspace_convertMapFile, "convert-map bump.png -o out.png --flip-green --flip-red",
+                         R"({"flip-green":true,"flip-red":true})", R"({"to-mesh":"wall.obj"})");
+}
+
 TEST(CFilesHeightToNormal, FilesAreThoseOfTheTool) {
-    const TempFolder folder;
-    writeBumpMap(folder);
-    writeFoldedObj(folder, "wall.obj");
-    const ToolRun run = runTool(folder,
-                                "height-to-normal bump.png -o out.png --mesh wall.obj --strength 0.5 --clamp "
-                                "--convention directx --bits 8 --json");
-    if (run.exit_code != 0) GTEST_SKIP() << run.err;
-    const std::string bytes = folder.read("out.png");
-    std::filesystem::current_path(folder.path());
-    const char* options = R"({"mesh":"wall.obj","strength":0.5,"clamp":true,"convention":"directx","bits":"8"})";
-    Made report;
-    ASSERT_EQ(tspace_heightToNormalFile("bump.png", "out.png", options, &report.bytes, nullptr), TSPACE_OK);
-    EXPECT_EQ(report.text(), run.out);
-    EXPECT_TRUE(folder.read("out.png") == bytes);
-    tspace_Error error;
-    EXPECT_EQ(tspace_heightToNormalFile("none.png", "out.png", nullptr, nullptr, &error), TSPACE_ERROR_CANNOT_READ);
-    EXPECT_EQ(tspace_heightToNormalFile("bump.png", "out.jpg", nullptr, nullptr, &error),
-              TSPACE_ERROR_UNSUPPORTED_FILE);
-    EXPECT_EQ(tspace_heightToNormalFile("bump.png", "out.png", R"({"strong":1})", nullptr, &error),
-              TSPACE_ERROR_INVALID_OPTION);
-    EXPECT_EQ(tspace_heightToNormalFile(nullptr, "out.png", nullptr, nullptr, &error), TSPACE_ERROR_NULL_DATA);
-    EXPECT_TRUE(folder.read("out.png") == bytes);
+    expectFilesOfTheTool(
+        tspace_heightToNormalFile,
+        "height-to-normal bump.png -o out.png --mesh wall.obj --strength 0.5 --clamp --convention directx --bits 8",
+        R"({"mesh":"wall.obj","strength":0.5,"clamp":true,"convention":"directx","bits":"8"})", R"({"strong":1})");
 }
 
 TEST(CFilesCompressMap, FilesAndBytesAreThoseOfTheTool) {
