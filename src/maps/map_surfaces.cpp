@@ -303,16 +303,17 @@ bool MapSurfaces::truthAt(std::size_t triangle, const std::array<double, 3>& wei
 std::uint32_t MapSurfaces::meetTogether(std::span<const LowPoint> points, double& guess, std::span<RayHit> hits) const {
     std::array<Ray, kLinesAtOnce> rays;
     std::array<RayLine, kLinesAtOnce> lines;
+    const bool is_from_cage = low_.cage.empty() && options_.target == RayTarget::outermost;
     std::uint32_t aimed = 0, met = 0;
     for (std::size_t i = 0; i < points.size(); ++i) {
         Ray& ray = rays[i];
-        const bool is_ray = rayAt(points[i].triangle, points[i].weights, ray);
-        aimed |= is_ray ? 1U << i : 0U;
-        // A line that ends before it begins meets nothing.
-        lines[i] =
-            is_ray ? RayLine{ray.place, ray.outward, -reach_, ray.height, ray.group} : RayLine{.begin = 1, .end = 0};
+        if (!rayAt(points[i].triangle, points[i].weights, ray)) {
+            lines[i] = {.begin = 1, .end = 0};  // meets nothing
+            continue;
+        }
+        aimed |= 1U << i;
+        if (is_from_cage) lines[i] = {ray.place, ray.outward, -reach_, ray.height, ray.group};
     }
-    const bool is_from_cage = low_.cage.empty() && options_.target == RayTarget::outermost;
     if (is_from_cage) met = rays_->outermost(std::span(lines).first(points.size()), hits);
     for (std::size_t i = 0; i < points.size(); ++i) {
         const std::uint32_t bit = 1U << i;

@@ -21,18 +21,16 @@ constexpr std::uint32_t kRowsStay = 2;
 /// and the next one stays. Above lie rows that stay; above the first strip, as below.
 struct Strip {
     std::uint32_t first = 0, end = 0;
-    std::uint32_t stay_above = 1;
     TexelWindow window = {};
 };
 
 std::vector<Strip> stripsOf(std::uint32_t height, std::uint32_t rows) {
-    if (height <= rows + 2 * (kRowsAround + 1)) return {{0, height, 0, {0, height, height}}};
+    if (height <= rows + 2 * (kRowsAround + 1)) return {{0, height, {0, height, height}}};
     std::vector<Strip> strips;
     for (std::uint32_t first = 0; first < height; first += rows) {
         const std::uint32_t end = std::min(first + rows, height);
         const std::uint32_t above = first == 0 ? kRowsAround : kRowsStay, below = end == height ? 1 : kRowsAround + 1;
-        const TexelWindow window{(first + height - above) % height, above + (end - first) + below, height};
-        strips.push_back({first, end, first == 0 ? 1U : above, window});
+        strips.push_back({first, end, {(first + height - above) % height, above + (end - first) + below, height}});
     }
     return strips;
 }
@@ -74,16 +72,13 @@ class Solving {
             std::copy_n(plan_.roles.begin() + from, width, roles.begin() + to);
             std::copy_n(texels_.begin() + from, width, texels.begin() + to);
         }
-        const bool is_whole = window.count == window.height;
-        const std::size_t last = size - width;
-        if (!is_whole) {
+        if (!window.isWhole()) {
             const auto fix = [&](TexelRole& role) { role = role == TexelRole::apart ? role : TexelRole::fixed; };
-            std::for_each_n(roles.begin(), width * strip.stay_above, fix);
-            std::for_each_n(roles.begin() + last, width, fix);
+            std::for_each_n(roles.begin(), width * (strip.first == 0 ? 1 : kRowsStay), fix);
+            std::for_each_n(roles.end() - width, width, fix);
         }
         TexelSystem system(work_.allocator, options_.width, window.count, {roles.data(), roles.size()});
         traceBetween(surfaces_, traced_, plan_, window, points_, options_, work_, steps_, system);
-        steps_.before += bandsOf(window).size();
         const std::span<Vec3> found(texels.data(), texels.size());
         if (options_.bits == 8) {
             addSmooth(strip, found, system);
@@ -101,11 +96,10 @@ class Solving {
     /// What smooth cells ask is what the start says, in rows that are found too.
     void addSmooth(const Strip& strip, std::span<Vec3> texels, TexelSystem& system) {
         const std::size_t width = plan_.width, last = texels.size() - width;
-        const bool is_whole = strip.window.count == strip.window.height;
         const std::vector<Vec3> top(texels.begin(), texels.begin() + kRowsStay * width),
             bottom(texels.begin() + last, texels.end());
         if (strip.first > 0) std::copy(rows_above_.begin(), rows_above_.end(), texels.begin());
-        if (!is_whole && strip.end == plan_.height)
+        if (!strip.window.isWhole() && strip.end == plan_.height)
             std::copy(first_row_.begin(), first_row_.end(), texels.begin() + last);
         addSmoothCells(plan_, strip.window, texels, points_.n, options_, work_.parallel, system);
         std::copy(top.begin(), top.end(), texels.begin());

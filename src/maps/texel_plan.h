@@ -32,7 +32,8 @@ struct TexelWindow {
     [[nodiscard]] std::uint32_t local(std::uint32_t y) const { return y >= first ? y - first : y + height - first; }
     [[nodiscard]] std::uint32_t inImage(std::uint32_t local) const { return (first + local) % height; }
     /// Whether both rows of the cells below a row are there.
-    [[nodiscard]] bool hasCells(std::uint32_t y) const { return count == height || local(y) + 1 < count; }
+    [[nodiscard]] bool hasCells(std::uint32_t y) const { return isWhole() || local(y) + 1 < count; }
+    [[nodiscard]] bool isWhole() const { return count == height; }
 };
 
 /// How much is asked between texel centres.

@@ -252,7 +252,7 @@ std::vector<std::size_t> bandsOf(const TexelWindow& window) {
 
 void traceBetween(const MapSurfaces& surfaces, const TracedTexels& traced, const TexelPlan& plan,
                   const TexelWindow& window, const PointsBetween& points, const BakeOptions& options,
-                  const MapWork& work, ToldSteps steps, TexelSystem& system) {
+                  const MapWork& work, ToldSteps& steps, TexelSystem& system) {
     // What lies nearest to a texel counts as its centre does.
     const auto counts = [&](std::uint32_t triangle, const BetweenTexels& x, const BetweenTexels& y) {
         if (traced.ranks.size() == 0) return true;

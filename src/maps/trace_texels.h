@@ -37,10 +37,10 @@ struct PointsBetween {
 std::vector<std::size_t> bandsOf(const TexelWindow& window);
 
 /// Rays at points in the cells of the plan that are asked or rough; what they say is added to the system of the window, and what
-/// the centres say that are none of these points. `steps`: as many as the window has bands.
+/// the centres say that are none of these points. `steps` go on by as many as the window has bands.
 void traceBetween(const MapSurfaces& surfaces, const TracedTexels& traced, const TexelPlan& plan,
                   const TexelWindow& window, const PointsBetween& points, const BakeOptions& options,
-                  const MapWork& work, ToldSteps steps, TexelSystem& system);
+                  const MapWork& work, ToldSteps& steps, TexelSystem& system);
 
 /// Adds what `texels` of the window, filtered, say in the smooth cells of the plan, as much as rays at `points` x `points` points
 /// a texel say in others.

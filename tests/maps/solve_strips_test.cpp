@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
+#include <new>
 
 #include "bake_cases.h"
 #include "support/thread_team.h"
@@ -115,6 +117,42 @@ TEST(SolveStrips, AreTheSameForAnyNumberOfThreads) {
         const std::vector<Vec3> one = relief.solved(32, {.thread_count = 1});
         for (const unsigned threads : {2U, 5U})
             EXPECT_TRUE(one == relief.solved(32, {.executor = threadTeam(threads)}));
+    }
+}
+
+/// The most memory that a call had at one time from this allocator.
+struct MemoryMeter {
+    std::uint64_t now = 0, most = 0;
+
+    Allocator allocator() {
+        return {[](void* user, std::size_t bytes, std::size_t alignment) {
+                    auto& meter = *static_cast<MemoryMeter*>(user);
+                    meter.most = std::max(meter.most, meter.now += bytes);
+                    return ::operator new(bytes, std::align_val_t(alignment), std::nothrow);
+                },
+                [](void* user, void* memory, std::size_t bytes, std::size_t alignment) {
+                    static_cast<MemoryMeter*>(user)->now -= bytes;
+                    ::operator delete(memory, std::align_val_t(alignment));
+                },
+                this};
+    }
+};
+
+TEST(SolveStrips, TakeNoMemoryOfASystemForTheWholeMap) {
+    const bench::LowMesh low = bench::makeLow(saddle(), bench::Charts::one);
+    const bench::HighMesh high = bench::makeHigh(saddle(), 32, true, 2);
+    const auto most = [&](std::uint32_t height, unsigned bits) {
+        MemoryMeter meter;
+        const Allocator allocator = meter.allocator();
+        const BakeOptions options{.width = 32, .height = height, .bits = bits};
+        const Result<BakedMap> map = bakeMap(low.view(), high.view(), options, {.allocator = &allocator});
+        return map ? meter.most : 0;
+    };
+    if (most(16, 16) == 0) GTEST_SKIP() << "no Embree";
+    constexpr std::uint32_t kTall = 8 * kStripRows, kTaller = 2 * kTall;
+    for (const unsigned bits : {16U, 8U}) {
+        const double more = static_cast<double>(most(kTaller, bits)) - static_cast<double>(most(kTall, bits));
+        EXPECT_LT(more / (32.0 * (kTaller - kTall)), 55) << "bytes a texel; with a system of all 200 and more";
     }
 }
 
