@@ -4,6 +4,7 @@
 // TSPACE_FAIL_CALL=K       the Kth call of those below fails, as on a disk that breaks
 // TSPACE_FAIL_MARK=FILE    is made at the end of a program that has reached that call
 // TSPACE_SIGNAL_AT_SYNC=N  signal N comes where the first file is sent to the disk
+// TSPACE_SIGNAL_AFTER_COMMIT=N  signal N comes once, where a folder is sent to the disk after its files were renamed
 // TSPACE_NO_THREADS=1      no thread can be started
 #include <dlfcn.h>
 #include <fcntl.h>
@@ -104,6 +105,12 @@ int fclose(FILE* file) {
 int fsync(int number) {
     static const int signal = static_cast<int>(numberOf("TSPACE_SIGNAL_AT_SYNC"));
     if (signal != 0) kill(getpid(), signal);
+    static const int after_commit = static_cast<int>(numberOf("TSPACE_SIGNAL_AFTER_COMMIT"));
+    static std::atomic<bool> was_sent = false;
+    struct stat status = {};
+    if (after_commit != 0 && real<int(int, struct stat*)>("fstat")(number, &status) == 0 && S_ISDIR(status.st_mode) &&
+        !was_sent.exchange(true))
+        kill(getpid(), after_commit);
     if (fails(EIO)) return -1;
     return real<int(int)>("fsync")(number);
 }

@@ -9,7 +9,6 @@
 #include "commands/shared/request.h"
 #include "common_options.h"
 #include "console.h"
-#include "interrupt.h"
 #include "jobs.h"
 #include "model/io/system_files.h"
 #include "output_files.h"
@@ -33,7 +32,6 @@ Result<BakeFileReport> bake(const BakeArguments& arguments, InputFiles& read) {
     read.watch(options.file);
     ProgressLine progress(1, !arguments.quiet);
     options.progress = [&](const char* what, std::uint64_t done, std::uint64_t total) {
-        if (wasInterrupted()) throw Cancelled{};
         progress.update(arguments.low, what, done, total);
     };
     const KeptFiles kept({arguments.report});
@@ -46,11 +44,9 @@ ExitCode runBake(const BakeArguments& arguments) {
         prepareOutputs({arguments.output, options.misses, options.heat, options.out_mesh, arguments.report},
                        {arguments.low, arguments.high, options.cage, options.skew});
     if (!fit) return printUsageError(fit.error().message);
-    catchInterrupts();
     InputFiles read;
     const auto start = std::chrono::steady_clock::now();
     const Result<BakeFileReport> result = bake(arguments, read);
-    if (!result && wasInterrupted()) endByInterrupt();
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
     ExitCode exit_code =
         result ? report::exitCodeOf(*result)

@@ -175,7 +175,6 @@ class PairsRun {
         };
         options.file.named = [](const std::string&) {};
         options.progress = [&](const char* what, std::uint64_t done, std::uint64_t total) {
-            if (wasInterrupted()) throw Cancelled{};
             progress_.update(pair.job.input, what, done, total);
         };
         return bakeFile(pair.job.input, pair.high, pair.job.output, options);
@@ -199,8 +198,7 @@ class PairsRun {
         }
         const std::chrono::duration<double> took = Clock::now() - start;
         done.outcome.seconds = took.count();
-        const bool is_given_up = !done.outcome.result && wasInterrupted();
-        if (record_.isKept() && !done.outcome.was_done_before && !is_given_up) record(pair, options, read, done);
+        if (record_.isKept() && !done.outcome.was_done_before) record(pair, options, read, done);
         progress_.fileDone(done.outcome.result.ok());
         done_[number] = std::move(done);
     }
@@ -230,11 +228,6 @@ class PairsRun {
     void tell(std::size_t number) {
         report::BakedPair& done = done_[number];
         progress_.clear();
-        if (wasInterrupted()) {
-            const char* state = done.outcome.result ? "done, then interrupted" : "interrupted; nothing was written";
-            printError(done.outcome.input, {ErrorCode::internal, state});
-            return;
-        }
         if (!done.outcome.result) {
             done.exit_code = printErrorOfFiles({done.outcome.input, done.high}, done.outcome.result.error());
         } else {
@@ -283,7 +276,6 @@ ExitCode runBakePairs(const BakePairsArguments& arguments) {
     if (const Result<Done> fit = prepareOutputs(outputs, inputs); !fit) return printUsageError(fit.error().message);
     // The name of the low poly in the table decides.
     std::erase_if(pairs, [&](const Pair& pair) { return !isInShard(pair.job, arguments.batch.shard); });
-    catchInterrupts();
     PairsRun run(arguments, std::move(pairs));
     if (const Result<Done> opened = run.openManifest(); !opened)
         return printError(arguments.batch.manifest, opened.error());

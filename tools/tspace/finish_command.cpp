@@ -8,7 +8,6 @@
 #include "commands/shared/request.h"
 #include "common_options.h"
 #include "console.h"
-#include "interrupt.h"
 #include "jobs.h"
 #include "output_files.h"
 #include "page_origin.h"
@@ -31,7 +30,6 @@ Result<FinishReport> finish(const FinishArguments& arguments, InputFiles& read, 
     read.watch(options.file);
     ProgressLine progress(1, !arguments.quiet);
     options.progress = [&](const char* what, std::uint64_t done, std::uint64_t total) {
-        if (wasInterrupted()) throw Cancelled{};
         progress.update(arguments.input, what, done, total);
     };
     const KeptFiles kept({arguments.report});
@@ -46,11 +44,9 @@ ExitCode runFinish(const FinishArguments& arguments) {
     if (!fit) return printUsageError(fit.error().message);
     const Result<PageOrigin> origin = pageOrigin();
     if (!options.page.empty() && !origin) return printUsageError(origin.error().message);
-    catchInterrupts();
     InputFiles read;
     const auto start = std::chrono::steady_clock::now();
     const Result<FinishReport> result = finish(arguments, read, origin ? *origin : PageOrigin{});
-    if (!result && wasInterrupted()) endByInterrupt();
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
     ExitCode exit_code =
         result ? report::exitCodeOf(*result) : printErrorOfFiles({about_low, arguments.input}, result.error());

@@ -127,7 +127,6 @@ class GenerateRun {
         GenerateOptions options = arguments_.options;
         options.execution.thread_count = threadsPerFile(options.execution.thread_count, workers_);
         options.progress = [&](const char* what, std::uint64_t done, std::uint64_t total) {
-            if (wasInterrupted()) throw Cancelled{};
             progress_.update(job.input, what, done, total);
         };
         StandardInput standard_input;
@@ -153,8 +152,7 @@ class GenerateRun {
             outcome.result = generate(job);
         }
         outcome.seconds = secondsSince(start);
-        const bool is_given_up = !outcome.result && wasInterrupted();
-        if (record_.isKept() && !outcome.was_done_before && !is_given_up) record(job, outcome);
+        if (record_.isKept() && !outcome.was_done_before) record(job, outcome);
         progress_.fileDone(outcome.result.ok());
         outcomes_[number] = std::move(outcome);
     }
@@ -170,10 +168,7 @@ class GenerateRun {
     void finish(std::size_t number) {
         const report::GenerateOutcome& outcome = *outcomes_[number];
         progress_.clear();
-        if (wasInterrupted()) {
-            const char* state = outcome.result ? "done, then interrupted" : "interrupted; nothing was written";
-            printError(outcome.input, {ErrorCode::internal, state});
-        } else if (!outcome.result) {
+        if (!outcome.result) {
             const ExitCode code = printError(outcome.input, outcome.result.error());
             const std::lock_guard lock(mutex_);
             exit_code_ = worse(exit_code_, code);
@@ -207,7 +202,6 @@ ExitCode runGenerate(const GenerateArguments& arguments) {
     if (const Result<Done> fit = prepareOutputs({arguments.batch.manifest}, files); !fit)
         return printUsageError(fit.error().message);
     takeShard(*jobs, arguments.batch.shard);
-    catchInterrupts();
     GenerateRun run(arguments, std::move(*jobs));
     if (const Result<Done> opened = run.openManifest(); !opened) {
         return printError(arguments.batch.manifest, opened.error());

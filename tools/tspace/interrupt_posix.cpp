@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Signals set a flag that the work polls, or end the program.
+// Signal handlers that remove temporary files and end the program.
 #include "interrupt.h"
 
 #include <signal.h>
+#include <sys/time.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -14,7 +15,6 @@ namespace tspace::tool {
 namespace {
 
 std::atomic<int> caught_signal = 0;
-std::atomic<bool> marks_first = false;
 
 [[noreturn]] void endBy(int signal) {
     struct sigaction action = {};
@@ -28,34 +28,44 @@ std::atomic<bool> marks_first = false;
     _exit(128 + signal);
 }
 
+/// Raises SIGALRM in half a second. False where the system has no such timer.
+bool startTimer() {
+    constexpr itimerval kHalfSecond = {.it_interval = {}, .it_value = {.tv_sec = 0, .tv_usec = 500000}};
+    return setitimer(ITIMER_REAL, &kHalfSecond, nullptr) == 0;
+}
+
 extern "C" void takeSignal(int signal) {
-    int none = 0;
-    if (marks_first && signal != SIGPIPE && caught_signal.compare_exchange_strong(none, signal)) return;
-    removeTemporaryFiles();
-    endBy(signal);
+    // SIGALRM is the end of the half second, or sent from elsewhere.
+    const bool may_wait = signal != SIGPIPE && signal != SIGALRM && caught_signal == 0;
+    if (!removeTemporaryFiles(!may_wait)) {
+        caught_signal = signal;
+        if (startTimer()) return;
+        removeTemporaryFiles(true);
+    }
+    endBy(caught_signal != 0 ? caught_signal.load() : signal);
 }
 
 }  // namespace
 
-void tidyUpAtSignals() {
+void endCleanlyBySignals() {
     struct sigaction action = {};
     action.sa_handler = takeSignal;
+    action.sa_flags = SA_RESTART;
     sigfillset(&action.sa_mask);
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE}) {
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE, SIGALRM}) {
         struct sigaction old = {};
-        // nohup and background jobs ask for signals to be ignored; that stays.
-        if (sigaction(signal, nullptr, &old) == 0 && old.sa_handler != SIG_IGN) sigaction(signal, &action, nullptr);
+        // nohup and background jobs ask for signals to be ignored; that stays. The timer above needs SIGALRM.
+        if (sigaction(signal, nullptr, &old) == 0 && (old.sa_handler != SIG_IGN || signal == SIGALRM))
+            sigaction(signal, &action, nullptr);
     }
     action.sa_handler = SIG_IGN;
     sigaction(SIGXFSZ, &action, nullptr);
 }
 
-void catchInterrupts() { marks_first = true; }
-
 bool wasInterrupted() { return caught_signal != 0; }
 
 void endByInterrupt() {
-    removeTemporaryFiles();
+    removeTemporaryFiles(true);
     endBy(caught_signal);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Ctrl-C sets a flag that the work polls, or ends the program. Windows restores the default handler when it calls ours, which
-// it does on a thread of its own.
+// Ctrl-C removes temporary files and ends the program. Windows restores the default handler when it calls this one, which it
+// does on a thread of its own.
 #include <atomic>
 #include <csignal>
 #include <cstdlib>
@@ -13,32 +13,30 @@ namespace tspace::tool {
 namespace {
 
 std::atomic<int> caught_signal = 0;
-std::atomic<bool> marks_first = false;
 
 extern "C" void takeSignal(int signal) {
-    int none = 0;
-    if (marks_first && caught_signal.compare_exchange_strong(none, signal)) {
-        std::signal(signal, takeSignal);
-        return;
+    const bool is_first = caught_signal.exchange(signal) == 0;
+    std::signal(signal, takeSignal);
+    if (!removeTemporaryFiles(!is_first)) {
+        constexpr int kPatience_ms = 500;
+        for (int i = 0; i < kPatience_ms; ++i) waitBriefly();
+        removeTemporaryFiles(true);
     }
-    removeTemporaryFiles();
     std::_Exit(128 + signal);
 }
 
 }  // namespace
 
-void tidyUpAtSignals() {
+void endCleanlyBySignals() {
     for (const int signal : {SIGINT, SIGBREAK}) {
         if (std::signal(signal, takeSignal) == SIG_IGN) std::signal(signal, SIG_IGN);
     }
 }
 
-void catchInterrupts() { marks_first = true; }
-
 bool wasInterrupted() { return caught_signal != 0; }
 
 void endByInterrupt() {
-    removeTemporaryFiles();
+    removeTemporaryFiles(true);
     std::_Exit(128 + caught_signal);
 }
 

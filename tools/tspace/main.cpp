@@ -77,7 +77,7 @@ ExitCode run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
     openStandardStreams();
-    tidyUpAtSignals();
+    endCleanlyBySignals();
     try {
         std::vector<char*> words = commandLine(argc, argv);
         rememberCommandLine(words);

@@ -8,7 +8,6 @@
 #include "commands/shared/request.h"
 #include "common_options.h"
 #include "console.h"
-#include "interrupt.h"
 #include "jobs.h"
 #include "output_files.h"
 
@@ -43,16 +42,13 @@ ExitCode runMapError(const MapErrorArguments& arguments) {
     const Result<Done> fit = prepareOutputs({arguments.options.heat}, {arguments.map, arguments.low, arguments.high,
                                                                        arguments.options.cage, arguments.options.skew});
     if (!fit) return printUsageError(fit.error().message);
-    catchInterrupts();
     MapErrorFileOptions options = arguments.options;
     ProgressLine progress(1, !arguments.quiet);
     options.progress = [&](const char* what, std::uint64_t done, std::uint64_t total) {
-        if (wasInterrupted()) throw Cancelled{};
         progress.update(arguments.map, what, done, total);
     };
     const Result<MapErrorFileReport> result = mapErrorFile(arguments.map, arguments.low, arguments.high, options);
     progress.clear();
-    if (!result && wasInterrupted()) endByInterrupt();
     const ExitCode exit_code = result ? ExitCode::done
                                       : printErrorOfFiles({arguments.low, arguments.high, arguments.options.cage,
                                                            arguments.map, arguments.options.skew},

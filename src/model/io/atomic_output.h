@@ -68,7 +68,8 @@ struct OutputPiece {
     std::shared_ptr<const ByteMaker> maker = {};  ///< owner or maker of the bytes
 };
 
-// Temporary files: their names, which tell whose they are, and the list of this process's, which a signal handler removes.
+// Temporary files: their names, which tell whose they are, and the list of those of this process, which a signal handler
+// removes, together with the folders that were created for them.
 
 inline constexpr const char* kTemporaryEnding = ".tmp";
 /// The old file while new ones are renamed.
@@ -79,7 +80,7 @@ inline constexpr const char* kAsideEnding = ".old";
 Path besideName(const Path& target, const char* ending);
 
 /// A critical section in which temporary files are created, removed or renamed; signals are blocked, and one thread at a
-/// time is inside. Never returns once removeTemporaryFiles() was called.
+/// time is inside. The constructor does not return once removeTemporaryFiles() has removed the files.
 class TemporaryFilesInWork {
   public:
     TemporaryFilesInWork();
@@ -87,17 +88,20 @@ class TemporaryFilesInWork {
     TemporaryFilesInWork(const TemporaryFilesInWork&) = delete;
     TemporaryFilesInWork& operator=(const TemporaryFilesInWork&) = delete;
 
-    /// Call before the file is created.
+    /// Call before the file or folder is created.
     void add(const Path& path);
-    /// Call when the file is removed or renamed.
+    /// Call when the file or folder is removed, renamed, or kept for good.
     void forget(const Path& path) noexcept;
+    /// Call when outputs have been put in place.
+    void noteCommit() noexcept;
 
   private:
     HeldSignals signals_;
 };
 
-/// Removes all temporary files, and stops threads that would make others: the program ends. Async-signal-safe.
-void removeTemporaryFiles();
+/// Removes all temporary files, and stops threads that would make others: the caller ends the program. Where outputs of this
+/// process are in place and `even_after_commit` is false, it removes nothing and returns false. Async-signal-safe.
+bool removeTemporaryFiles(bool even_after_commit);
 
 /// The input files of one call, which its outputs must not replace: those that it reads, and images that its models name.
 class InputFiles {

@@ -37,7 +37,7 @@ namespace fs = std::filesystem;
 namespace {
 
 std::mutex work_mutex;
-std::atomic<bool> is_in_work = false, is_ending = false;
+std::atomic<bool> is_in_work = false, is_ending = false, has_committed = false;
 
 /// Never deleted: a signal may arrive while the program ends. Null until the first file.
 std::vector<Path>* temporary_files = nullptr;
@@ -46,10 +46,10 @@ std::vector<Path>* temporary_files = nullptr;
 
 TemporaryFilesInWork::TemporaryFilesInWork() {
     work_mutex.lock();
-    is_in_work = true;
-    if (!is_ending) return;
-    is_in_work = false;
-    while (true) waitBriefly();
+    for (is_in_work = true; is_ending; is_in_work = true) {
+        is_in_work = false;
+        while (is_ending) waitBriefly();
+    }
 }
 
 TemporaryFilesInWork::~TemporaryFilesInWork() {
@@ -67,20 +67,28 @@ void TemporaryFilesInWork::forget(const Path& path) noexcept {
     const auto found = std::find_if(temporary_files->begin(), temporary_files->end(),
                                     [&](const Path& known) { return known.string() == path.string(); });
     if (found == temporary_files->end()) return;
-    std::swap(*found, temporary_files->back());
-    temporary_files->pop_back();
+    // The order stays: a folder precedes what lies in it.
+    temporary_files->erase(found);
 }
 
-void removeTemporaryFiles() {
+void TemporaryFilesInWork::noteCommit() noexcept { has_committed = true; }
+
+bool removeTemporaryFiles(bool even_after_commit) {
     is_ending = true;
     // Long enough to rename some files; the disk hangs if it takes longer.
     constexpr int kPatience_ms = 5000;
     for (int waited = 0; is_in_work; ++waited) {
-        if (waited == kPatience_ms) return;
+        if (waited == kPatience_ms) return true;
         waitBriefly();
     }
-    if (temporary_files == nullptr) return;
-    for (const Path& path : *temporary_files) removePath(path);
+    if (has_committed && !even_after_commit) {
+        is_ending = false;
+        return false;
+    }
+    if (temporary_files == nullptr) return true;
+    // removePath() removes only empty folders.
+    for (auto path = temporary_files->rbegin(); path != temporary_files->rend(); ++path) removePath(*path);
+    return true;
 }
 
 namespace {
@@ -342,8 +350,11 @@ void AtomicOutput::removeTemporaryFiles() noexcept {
         removePath(file.temporary);
         work.forget(file.temporary);
     }
-    // removePath() removes only empty folders.
-    for (auto folder = created_folders_.rbegin(); folder != created_folders_.rend(); ++folder) removePath(*folder);
+    for (auto folder = created_folders_.rbegin(); folder != created_folders_.rend(); ++folder) {
+        TemporaryFilesInWork work;
+        removePath(*folder);
+        work.forget(*folder);
+    }
 }
 
 AtomicOutput::File AtomicOutput::planFile(const Path& requested) {
@@ -377,7 +388,15 @@ void AtomicOutput::makeFolders(const Path& target) {
     created_folders_.reserve(created_folders_.size() + missing.size());
     for (auto folder = missing.rbegin(); folder != missing.rend(); ++folder) {
         Path created = *folder;
-        if (fs::create_directory(*folder, error)) created_folders_.push_back(std::move(created));
+        {
+            TemporaryFilesInWork work;
+            work.add(created);
+            if (fs::create_directory(*folder, error)) {
+                created_folders_.push_back(std::move(created));
+            } else {
+                work.forget(created);
+            }
+        }
         if (error) failToWrite(target, "cannot make its folder: " + error.message());
     }
 }
@@ -508,6 +527,10 @@ void AtomicOutput::renameFiles() {
             if (aside[i].is_made) removePath(aside[i].name);
             work.forget(files_[i].temporary);
             files_[i].is_made = false;
+        }
+        if (failure == 0) {
+            for (const Path& folder : created_folders_) work.forget(folder);
+            work.noteCommit();
         }
     }
     if (failure != 0) failToWrite(files_[failed].target, std::strerror(failure));

@@ -3,9 +3,7 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>
-#include <spawn.h>
 #include <sys/resource.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -13,6 +11,7 @@
 #include <thread>
 
 #include "support/temp_folder.h"
+#include "tool/started_tool.h"
 #include "tspace/asset.h"
 
 namespace tspace::test {
@@ -127,50 +126,26 @@ std::vector<pid_t> processesWith(const std::string& program, const std::string& 
 }
 
 /// The tool at work on a file, with a folder of its own for temporary files.
-class RunningTool {
+class RunningTool : public StartedTool {
   public:
-    RunningTool(const TempFolder& folder, std::vector<std::string> arguments) : folder_(folder.path()) {
-        fs::create_directories(folder_ / "tmp");
-        arguments.insert(arguments.begin(), TSPACE_TOOL);
-        std::vector<char*> pointers;
-        for (std::string& argument : arguments) pointers.push_back(argument.data());
-        pointers.push_back(nullptr);
-        std::string variable = "TMPDIR=" + (folder_ / "tmp").string();
-        char* environment[] = {variable.data(), nullptr};
-        // Tests may run under nohup, and the tool leaves signals ignored that are.
-        posix_spawnattr_t attributes;
-        sigset_t all;
-        sigfillset(&all);
-        EXPECT_EQ(posix_spawnattr_init(&attributes), 0);
-        posix_spawnattr_setsigdefault(&attributes, &all);
-        posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
-        EXPECT_EQ(posix_spawn(&tool_, TSPACE_TOOL, nullptr, &attributes, pointers.data(), environment), 0);
-        posix_spawnattr_destroy(&attributes);
-    }
+    RunningTool(const TempFolder& folder, std::vector<std::string> arguments)
+        : StartedTool(folder.path(), std::move(arguments), {"TMPDIR=" + makeFolder(folder.path("tmp"))}),
+          folder_(folder.path()) {}
     ~RunningTool() {
         for (const pid_t importer : importers()) kill(importer, SIGKILL);
-        if (has_ended_) return;
-        kill(tool_, SIGKILL);
-        waitpid(tool_, nullptr, 0);
     }
     RunningTool(const RunningTool&) = delete;
     RunningTool& operator=(const RunningTool&) = delete;
 
     [[nodiscard]] std::vector<pid_t> importers() const { return processesWith("tspace-import", folder_.string()); }
 
-    /// True: it was ended by a signal.
-    bool endBy(int signal) {
-        kill(tool_, signal);
-        int status = 0;
-        waitpid(tool_, &status, 0);
-        has_ended_ = true;
-        return WIFSIGNALED(status);
+  private:
+    static std::string makeFolder(const fs::path& path) {
+        fs::create_directories(path);
+        return path.string();
     }
 
-  private:
     fs::path folder_;
-    pid_t tool_ = 0;
-    bool has_ended_ = false;
 };
 
 TEST(ImportProcess, EndsWithTheToolAndLeavesNoFile) {
@@ -182,7 +157,7 @@ TEST(ImportProcess, EndsWithTheToolAndLeavesNoFile) {
                 arguments.insert(arguments.end(), {"-o", folder.path("out/").string(), "--jobs", "2"});
             RunningTool tool(folder, arguments);
             ASSERT_TRUE(soon([&] { return !tool.importers().empty(); })) << command;
-            EXPECT_TRUE(tool.endBy(signal)) << command << " " << signal;
+            EXPECT_EQ(tool.endBy(signal).first, 128 + signal) << command;
             EXPECT_TRUE(soon([&] { return tool.importers().empty(); })) << command << " " << signal;
             EXPECT_EQ(folder.files("tmp"), std::set<std::string>());
             EXPECT_FALSE(folder.has("out")) << command << " " << signal;
