@@ -107,8 +107,6 @@ TextureReading readTexture(const Document& document, const Json& texture, const 
 
 namespace {
 
-bool isUnlit(const Json& material) { return findExtension(material, "KHR_materials_unlit") != nullptr; }
-
 /// Extensions of materials that read no tangents, or whose use of tangents is collected here. Any other may read them.
 bool isKnownExtension(const std::string& name) {
     static const std::set<std::string> kKnown{"ASOBO_normal_map_convention",
@@ -133,6 +131,28 @@ bool isKnownExtension(const std::string& name) {
     return kKnown.count(name) != 0;
 }
 
+/// Material extensions that shade with normals and take precedence over KHR_materials_unlit, which is then the fallback
+/// for readers that do not know them.
+constexpr std::array kOverridesUnlit{"VRMC_materials_mtoon"};
+
+/// Converts ASCII letters to lower case.
+std::string lowered(std::string text) {
+    for (char& c : text) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    return text;
+}
+
+/// Whether an object, at any depth, has a texture reference whose name says that it is a normal or bump map.
+bool namesNormalMap(const Json& object) {
+    if (object.is_array()) return std::any_of(object.begin(), object.end(), namesNormalMap);
+    if (!object.is_object()) return false;
+    for (const auto& [key, value] : object.items()) {
+        const std::string name = lowered(key);
+        const bool is_map = name.find("normal") != std::string::npos || name.find("bump") != std::string::npos;
+        if ((is_map && findMember(value, "index") != nullptr) || namesNormalMap(value)) return true;
+    }
+    return false;
+}
+
 std::vector<std::string> extensionsOf(const Json& object) {
     std::vector<std::string> names;
     const Json* extensions = findMember(object, "extensions");
@@ -142,9 +162,8 @@ std::vector<std::string> extensionsOf(const Json& object) {
 }
 
 /// Whether a name suggests hand-made directions on a surface (flow maps, hair, brushed metal).
-bool namesFlow(std::string name) {
-    std::transform(name.begin(), name.end(), name.begin(),
-                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+bool namesFlow(const std::string& text) {
+    const std::string name = lowered(text);
     static constexpr std::array kWords{"tangent", "flow", "aniso", "hair", "brush"};
     return std::any_of(kWords.begin(), kWords.end(), [&](const char* word) {
         // _BITANGENT is tspace's own attribute.
@@ -185,7 +204,7 @@ class MaterialUses {
         const Json& material = rootArray(document_, "materials")[material_];
         const std::string place = join("/materials", material_);
         addTexture(material, place, "normalTexture", "normalTexture");
-        if (isUnlit(material)) {
+        if (isUnlit(document_, material_)) {
             // Malformed textures are refused here too.
             uses_.resize(first_);
             return;
@@ -311,18 +330,28 @@ std::string otherTangentReader(const Document& document, const Primitive& primit
     return {};
 }
 
+bool isUnlit(const Document& document, std::size_t material) {
+    const Json& object = rootArray(document, "materials")[material];
+    if (findExtension(object, "KHR_materials_unlit") == nullptr) return false;
+    const std::vector<std::string> names = extensionsOf(object);
+    return std::none_of(names.begin(), names.end(), [&](const std::string& name) {
+        if (std::find(kOverridesUnlit.begin(), kOverridesUnlit.end(), name) != kOverridesUnlit.end()) return true;
+        return !isKnownExtension(name) && namesNormalMap(*findExtension(object, name.c_str()));
+    });
+}
+
 SurfaceKind surfaceKind(const Document& document, const Primitive& primitive) {
     std::vector<std::size_t> materials = variantMaterials(document, primitive);
     if (primitive.material) materials.push_back(*primitive.material);
-    const Json& list = rootArray(document, "materials");
     const auto all = [&](auto&& test) {
-        return !materials.empty() && std::all_of(materials.begin(), materials.end(),
-                                                 [&](std::size_t material) { return test(list[material]); });
+        return !materials.empty() && std::all_of(materials.begin(), materials.end(), test);
     };
-    return {.is_unlit = all(isUnlit), .is_double_sided = all([](const Json& material) {
-                                          const Json* value = findMember(material, "doubleSided");
-                                          return value != nullptr && value->is_boolean() && value->get<bool>();
-                                      })};
+    const auto is_double_sided = [&](std::size_t material) {
+        const Json* value = findMember(rootArray(document, "materials")[material], "doubleSided");
+        return value != nullptr && value->is_boolean() && value->get<bool>();
+    };
+    return {.is_unlit = all([&](std::size_t material) { return isUnlit(document, material); }),
+            .is_double_sided = all(is_double_sided)};
 }
 
 std::string materialName(const Document& document, const Primitive& primitive) {

@@ -14,9 +14,8 @@
 
 namespace tspace::gltf {
 
-/// Everything in the primitive's materials that needs tangents; empty: nothing does. Unlit materials
-/// (KHR_materials_unlit) need none, whatever textures they name. The first with a
-/// texture decides which UV set and transform the tangents follow.
+/// Everything in the primitive's materials that needs tangents; empty: nothing does. Unlit materials (isUnlit) need
+/// none, whatever textures they name. The first with a texture decides which UV set and transform the tangents follow.
 ///
 /// The primitive's own material comes first, then those of KHR_materials_variants in the order of the mappings, each
 /// material once. Of one material: normalTexture, clearcoatNormalTexture (KHR_materials_clearcoat), anisotropy
@@ -33,10 +32,14 @@ std::string otherTangentReader(const Document& document, const Primitive& primit
 /// The materials that KHR_materials_variants can put on the primitive, in the order of the mappings, each once.
 std::vector<std::size_t> variantMaterials(const Document& document, const Primitive& primitive);
 
+/// Whether a material ignores normals and normal maps: it has KHR_materials_unlit, no extension that takes precedence over
+/// it (VRMC_materials_mtoon), and no extension unknown to tspace that names a normal or bump map.
+bool isUnlit(const Document& document, std::size_t material);
+
 /// Properties that all materials of a primitive, its own and those of variants, share. Without any: the default
 /// material's.
 struct SurfaceKind {
-    bool is_unlit = false;         ///< KHR_materials_unlit: neither normals nor normal maps are looked at
+    bool is_unlit = false;         ///< isUnlit: neither normals nor normal maps are looked at
     bool is_double_sided = false;  ///< back faces are drawn, with their normals turned round
 };
 SurfaceKind surfaceKind(const Document& document, const Primitive& primitive);

@@ -155,7 +155,7 @@ SurfaceLook readLook(const Document& document, const Primitive& primitive) {
     if (readString(material, "alphaMode", place) == "MASK")
         look.alpha_cutoff = readNumber(material, "alphaCutoff", place, 0.5);
     look.is_double_sided = readBool(material, "doubleSided", place, false);
-    look.is_unlit = findExtension(material, "KHR_materials_unlit") != nullptr;
+    look.is_unlit = isUnlit(document, *primitive.material);
     look.is_blended = readString(material, "alphaMode", place) == "BLEND";
     if (const Json* strength = findExtension(material, "KHR_materials_emissive_strength")) {
         const double factor = readNumber(*strength, "emissiveStrength", join(place, "extensions"), 1);

@@ -445,6 +445,29 @@ TEST(CheckFile, LooksAtNothingThatAnUnlitMaterialDoesNotUse) {
     EXPECT_EQ(codes(model.check()), CodeCounts{"note tangentsUnused"});
 }
 
+/// KHR_materials_unlit is the fallback for readers that do not know the other extension.
+TEST(CheckFile, GivesOneVerdictWithAndWithoutAnUnlitFallback) {
+    const auto verdict = [](const char* extension, const char* content, bool has_fallback) {
+        TestModel model(false, true);
+        Json& extensions = model.builder.json()["materials"][0]["extensions"];
+        extensions[extension] = Json::parse(content);
+        if (has_fallback) extensions["KHR_materials_unlit"] = Json::object();
+        return codes(model.check());
+    };
+    for (const auto& [extension, content] : {std::pair{"VRMC_materials_mtoon", R"({"specVersion":"1.0"})"},
+                                             {"EXT_toon", R"({"normalTexture":{"index":0}})"},
+                                             {"EXT_toon", R"({"layers":[{"detailNormalMap":{"index":0}}]})"},
+                                             {"EXT_toon", R"({"a":{"BUMP_map":{"index":0}}})"}}) {
+        EXPECT_EQ(verdict(extension, content, false), CodeCounts{"error signsInverted"}) << content;
+        EXPECT_EQ(verdict(extension, content, true), CodeCounts{"error signsInverted"}) << content;
+    }
+    // An extension that is unknown may read the tangents, so they do not count as unused.
+    for (const char* content : {R"({"normalScale":1})", R"({"baseTexture":{"index":0}})"})
+        EXPECT_EQ(verdict("EXT_toon", content, true), CodeCounts{}) << content;
+    EXPECT_EQ(verdict("KHR_materials_clearcoat", R"({"clearcoatNormalTexture":{"index":0}})", true),
+              CodeCounts{"note tangentsUnused"});
+}
+
 TEST(CheckFile, SaysThatAnImageWasNotLookedAt) {
     TestModel model;
     model.folder.write("normal.png", "RIFF0000WEBP");
