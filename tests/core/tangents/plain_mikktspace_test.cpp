@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+// The plain implementation of MikkTSpace against stored results of the reference, and the engine against the plain
+// implementation.
+#include "core/tangents/mikktspace/plain.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "core/tangents/golden_mesh.h"
+#include "core/tangents/random_shapes.h"
+#include "support/shared_data.h"
+
+namespace tspace::mikk {
+namespace {
+
+using test::Outputs;
+using test::sameBits;
+using test::SimpleMesh;
+
+Outputs plain(const MeshView& mesh, const TangentOptions& options) {
+    Outputs outputs(mesh.cornerCount());
+    plainMikktspace(mesh, options, outputs.view());
+    return outputs;
+}
+
+bool engineIsExact(const MeshView& mesh, const TangentOptions& options) {
+    Outputs got(mesh.cornerCount());
+    return generateTangents(mesh, options, got.view(), {.thread_count = 1}) && sameBits(plain(mesh, options), got);
+}
+
+/// The engine computes the result of a plan in another way than the result of one call.
+bool planIsExact(const MeshView& mesh, const TangentOptions& options) {
+    Outputs got(mesh.cornerCount());
+    const Result<TangentPlan> plan_made = planTangents(mesh, options, {.thread_count = 1});
+    return plan_made && evaluateTangents(*plan_made, {mesh.positions, mesh.normals}, got.view(), {.thread_count = 1}) &&
+           sameBits(plain(mesh, options), got);
+}
+
+std::uint64_t setting(const char* name, std::uint64_t otherwise) {
+    const char* text = std::getenv(name);
+    return text != nullptr ? std::strtoull(text, nullptr, 10) : otherwise;
+}
+
+TEST(PlainMikktspace, EveryWordEqualsTheReference) {
+    TSPACE_NEEDS_SHARED("golden/mikktspace");
+    int count = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(test::shared("golden/mikktspace"))) {
+        if (entry.path().extension() != ".tsg") continue;
+        test::GoldenMesh golden;
+        ASSERT_TRUE(readGolden(entry.path(), golden)) << entry.path();
+        if (!hasPromisedBits(golden.shape)) continue;
+        const Outputs got = plain(golden.shape.view(), {.convention = conventions::opengl,
+                                                        .angular_threshold_deg = golden.angular_threshold_deg});
+        for (std::size_t c = 0; c < golden.results.size(); ++c) {
+            const test::GoldenResult& want = golden.results[c];
+            ASSERT_TRUE(sameBits(want.tangent, xyz(got.tangents[c])) && sameBits(want.sign, got.tangents[c].w) &&
+                        sameBits(want.bitangent, got.bitangents[c]) &&
+                        sameBits(want.magnitude_s, got.magnitudes_s[c]) &&
+                        sameBits(want.magnitude_t, got.magnitudes_t[c]))
+                << entry.path() << ", corner " << c;
+        }
+        ++count;
+    }
+    EXPECT_GT(count, 300);
+}
+
+/// Compares random meshes from number `first` on. TSPACE_MESHES and TSPACE_FIRST_MESH select others.
+void compareRandomMeshes(std::uint64_t first, std::uint64_t count,
+                         bool (*isExact)(const MeshView&, const TangentOptions&)) {
+    first = setting("TSPACE_FIRST_MESH", first);
+    count = setting("TSPACE_MESHES", count);
+    std::uint64_t compared = 0;
+    for (std::uint64_t number = first; number < first + count; ++number) {
+        const auto [shape, threshold] = test::randomCase(number);
+        if (!hasPromisedBits(shape)) continue;
+        ++compared;
+        ASSERT_TRUE(isExact(shape.view(), {.convention = number % 2 == 0 ? conventions::opengl : conventions::gltf,
+                                           .ngons = Ngons::skip,
+                                           .angular_threshold_deg = threshold,
+                                           .pairing = number % 3 == 0 ? Pairing::corrected : Pairing::reference}))
+            << "mesh " << number << ", threshold " << threshold;
+    }
+    EXPECT_GT(compared, count / 2);
+}
+
+TEST(PlainMikktspace, TheEngineHasItsBitsOnRandomMeshes) { compareRandomMeshes(0, 1'000'000, engineIsExact); }
+TEST(PlainMikktspace, PlansHaveItsBitsOnRandomMeshes) { compareRandomMeshes(1'000'000, 250'000, planIsExact); }
+
+/// Larger meshes, whose nodes the engine's short path computes, in natural and random order.
+TEST(PlainMikktspace, TheEngineHasItsBitsOnRegularMeshes) {
+    std::vector<SimpleMesh> shapes{test::grid(40),
+                                   test::fan(300),
+                                   test::unrolledFan(300),
+                                   test::cone(200),
+                                   test::collapsed(100),
+                                   test::book(200, true),
+                                   test::book(200, false),
+                                   test::checkerboard(2000),
+                                   test::someDegenerate(2000),
+                                   test::someWithoutUvArea(2000)};
+    for (std::uint32_t columns = 4; columns <= 24; columns += 5) {
+        for (std::uint32_t rows = 5; rows <= 60; rows += 11)
+            shapes.push_back(test::torus(columns, rows, rows % 2 != 0));
+    }
+    for (std::size_t i = 0; i < shapes.size(); ++i) {
+        for (const float threshold : {180.0f, 30.0f}) {
+            const TangentOptions options{.convention = conventions::opengl, .angular_threshold_deg = threshold};
+            EXPECT_TRUE(engineIsExact(shapes[i].view(), options)) << "shape " << i << ", threshold " << threshold;
+            EXPECT_TRUE(planIsExact(shapes[i].view(), options)) << "shape " << i << ", threshold " << threshold;
+        }
+        shuffleTriangles(shapes[i], 7);
+        EXPECT_TRUE(engineIsExact(shapes[i].view(), {.convention = conventions::opengl})) << "shuffled shape " << i;
+    }
+}
+
+TEST(PlainMikktspace, OtherFacesThanTrianglesAndQuadsGetZeros) {
+    SimpleMesh shape;
+    for (int i = 0; i < 5; ++i)
+        shape.addVertex({static_cast<float>(i), static_cast<float>(i * i), 0}, {0, 0, 1}, {static_cast<float>(i), 0});
+    shape.addFace({0, 1, 2, 3, 4});
+    shape.addFace({0, 1});
+    EXPECT_TRUE(engineIsExact(shape.view(), {.convention = conventions::gltf, .ngons = Ngons::skip}));
+    EXPECT_EQ(plain(shape.view(), {.convention = conventions::gltf}).tangents[0], Vec4{});
+}
+
+}  // namespace
+}  // namespace tspace::mikk
