@@ -28,7 +28,7 @@ C_ALONE = {
     r"tspace_init\w+": "constructors",
     r"tspace_version": "C++ programs read version.h: they are linked with the library that they were compiled with",
     r"\w+\.(struct_size|reserved(_end)?)": "old programs with newer libraries",
-    r"tspace_Span": "a StridedSpan of what is not const",
+    r"tspace_(Byte)?Span": "a StridedSpan of what is not const",
     r"tspace_(Mesh\.face|NormalOptions\.smoothing_group|IndexedFramesOptions\.keep_apart)_count": "a span has its length",
     r"tspace_((SplitResult|IndexedFrames)\.corner|Triangulation\.triangle)_count": "a vector has its length",
     r"tspace_createArena|tspace_destroy(?!Bytes)\w+": "constructors and destructors",

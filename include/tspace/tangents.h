@@ -122,6 +122,9 @@ struct TangentOutput {
     StridedSpan<Vec3> bitangents = {};
     StridedSpan<float> magnitudes_s = {};  ///< mean length of dP/du; 1 for methods without
     StridedSpan<float> magnitudes_t = {};  ///< mean length of dP/dv; 1 for methods without
+    /// 1: at least one face gives the entry its tangent. 0: none does, and the method's default was written (counted in
+    /// TangentReport::default_corner_count), or the entry was cleared, as corners of skipped faces and unused vertices are.
+    StridedSpan<std::uint8_t> has_tangent = {};
 };
 
 /// The shape of a mesh at one moment: what changes while a mesh deforms. Counts and meaning as in the MeshView that the

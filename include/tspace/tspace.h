@@ -120,6 +120,13 @@ typedef struct tspace_Span {
     size_t stride_bytes;
 } tspace_Span;
 
+/* The same for results that are one byte each. stride_bytes 0: tightly packed. */
+typedef struct tspace_ByteSpan {
+    uint8_t* data;
+    size_t count;
+    size_t stride_bytes;
+} tspace_ByteSpan;
+
 /* Bytes of one index. */
 typedef uint32_t tspace_IndexType;
 enum {
@@ -448,6 +455,10 @@ typedef struct tspace_TangentOutput {
     tspace_Span bitangents;
     tspace_Span magnitudes_s; /* 1 float each: mean length of dP/du; 1 for methods without */
     tspace_Span magnitudes_t; /* 1 float each: mean length of dP/dv; 1 for methods without */
+    /* 1: at least one face gives the entry its tangent. 0: none does, and the method's default was written (counted
+     * in tspace_TangentReport.default_corner_count), or the entry was cleared, as corners of skipped faces and
+     * unused vertices are. */
+    tspace_ByteSpan has_tangent;
 } tspace_TangentOutput;
 
 /* Tangents for a mesh in one call.

@@ -119,6 +119,18 @@ class Tangents(unittest.TestCase):
         self.assertLess(abs(crossed - result.bitangents).max(), 1e-6)
         self.assertTrue((result.magnitudes_s == 1).all() and result.magnitudes_t.shape == (36,))
 
+    def test_rows_that_no_face_gives_a_tangent_are_marked(self):
+        positions = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [5, 0, 0], [6, 0, 0], [5, 1, 0]]
+        uvs = [[0, 0], [1, 0], [0, 1], [0.5, 0.5], [0.5, 0.5], [0.5, 0.5]]
+        for method in ("mikktspace", "lengyel", "flat", "best"):
+            arguments = dict(method=method, convention="opengl")
+            result = tspace.tangents(positions, [[0, 0, 1]] * 6, uvs, full=True, **arguments)
+            self.assertEqual(result.has_tangent.tolist(), [True] * 3 + [False] * 3)
+            self.assertEqual(result.report.default_corner_count, 3)
+            plan = tspace.Plan(positions, [[0, 0, 1]] * 6, uvs, **arguments)
+            posed = plan.evaluate(positions, [[0, 0, 1]] * 6, full=True)
+            self.assertEqual(posed.has_tangent.tolist(), result.has_tangent.tolist())
+
     def test_quads_and_mixed_faces_give_one_row_per_corner(self):
         positions = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [2, 0.5, 0]]
         uvs = [[0, 0], [1, 0], [1, 1], [0, 1], [2, 0.5]]

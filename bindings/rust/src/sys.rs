@@ -37,6 +37,14 @@ pub struct Span {
 
 #[repr(C)]
 #[derive(Clone, Copy)]
+pub struct ByteSpan {
+    pub data: *mut u8,
+    pub count: usize,
+    pub stride_bytes: usize,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy)]
 pub struct Indices {
     pub data: *const c_void,
     pub count: usize,
@@ -113,6 +121,7 @@ pub struct TangentOutput {
     pub bitangents: Span,
     pub magnitudes_s: Span,
     pub magnitudes_t: Span,
+    pub has_tangent: ByteSpan,
 }
 
 #[repr(C)]

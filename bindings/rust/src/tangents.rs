@@ -190,6 +190,9 @@ pub struct Tangents {
     pub magnitudes_s: Vec<f32>,
     /// Mean length of dP/dv; 1 for methods without.
     pub magnitudes_t: Vec<f32>,
+    /// False where no face gives the entry a tangent: the method's default was written, or the entry is zero (corners of
+    /// skipped faces, unused vertices).
+    pub has_tangent: Vec<bool>,
     /// Counts.
     pub report: TangentReport,
 }
@@ -201,17 +204,21 @@ impl Tangents {
             bitangents: vec![[0.0; 3]; count],
             magnitudes_s: vec![0.0; count],
             magnitudes_t: vec![0.0; count],
+            has_tangent: vec![false; count],
             report: TangentReport::default(),
         }
     }
 
     fn output(&mut self) -> sys::TangentOutput {
-        output(
-            &mut self.tangents,
-            span(&mut self.bitangents),
-            span_of_floats(&mut self.magnitudes_s),
-            span_of_floats(&mut self.magnitudes_t),
-        )
+        // A bool is a byte of 0 or 1, and the library writes no other.
+        let has_tangent = &mut self.has_tangent;
+        sys::TangentOutput {
+            bitangents: span(&mut self.bitangents),
+            magnitudes_s: span_of_floats(&mut self.magnitudes_s),
+            magnitudes_t: span_of_floats(&mut self.magnitudes_t),
+            has_tangent: sys::ByteSpan { data: has_tangent.as_mut_ptr().cast(), count: has_tangent.len(), stride_bytes: 0 },
+            ..tangents_only(&mut self.tangents)
+        }
     }
 }
 
@@ -227,14 +234,15 @@ fn no_span() -> sys::Span {
     sys::Span { data: null_mut(), count: 0, stride_bytes: 0 }
 }
 
-fn output(tangents: &mut [[f32; 4]], bitangents: sys::Span, s: sys::Span, t: sys::Span) -> sys::TangentOutput {
+fn tangents_only(tangents: &mut [[f32; 4]]) -> sys::TangentOutput {
     sys::TangentOutput {
         struct_size: size_of::<sys::TangentOutput>() as u32,
         reserved: 0,
         tangents: span(tangents),
-        bitangents,
-        magnitudes_s: s,
-        magnitudes_t: t,
+        bitangents: no_span(),
+        magnitudes_s: no_span(),
+        magnitudes_t: no_span(),
+        has_tangent: sys::ByteSpan { data: null_mut(), count: 0, stride_bytes: 0 },
     }
 }
 
@@ -276,10 +284,10 @@ pub fn tangents(mesh: &Mesh<'_>, options: &TangentOptions) -> Result<Vec<[f32; 4
 ///
 /// Errors also: `CountMismatch` where `out` has another length than there are corners.
 pub fn tangents_into(mesh: &Mesh<'_>, options: &TangentOptions, out: &mut [[f32; 4]]) -> Result<TangentReport, Error> {
-    generate(mesh, options, &output(out, no_span(), no_span(), no_span()))
+    generate(mesh, options, &tangents_only(out))
 }
 
-/// [`tangents`] with bitangents, magnitudes and counts.
+/// [`tangents`] with bitangents, magnitudes, counts, and which entries a face gives a tangent.
 pub fn tangents_full(mesh: &Mesh<'_>, options: &TangentOptions) -> Result<Tangents, Error> {
     mesh.validate()?;
     let mut made = Tangents::empty(options.count(mesh));
@@ -359,7 +367,7 @@ impl Plan {
         if out.len() != self.output_count {
             return Err(mismatch(format!("out has {} entries, the plan {}", out.len(), self.output_count)));
         }
-        let out = output(out, no_span(), no_span(), no_span());
+        let out = tangents_only(out);
         let pose = sys::Pose {
             struct_size: size_of::<sys::Pose>() as u32,
             reserved: 0,

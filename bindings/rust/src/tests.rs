@@ -109,6 +109,16 @@ fn every_word_equals_the_reference() {
 }
 
 #[test]
+fn corners_without_a_tangent_are_told() {
+    let positions = [[0.0f32, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [5.0, 0.0, 0.0], [6.0, 0.0, 0.0], [5.0, 1.0, 0.0]];
+    let uvs = [[0.0f32, 0.0], [1.0, 0.0], [0.0, 1.0], [0.5, 0.5], [0.5, 0.5], [0.5, 0.5]];
+    let mesh = Mesh::new(&positions).normals(&[[0.0, 0.0, 1.0]; 6]).uvs(&uvs);
+    let made = tangents_full(&mesh, &TangentOptions::new(gltf())).unwrap();
+    assert_eq!(made.has_tangent, [true, true, true, false, false, false]);
+    assert_eq!(made.report.default_corner_count, 3);
+}
+
+#[test]
 fn a_plan_gives_the_bits_of_the_call() {
     for golden in goldens().iter().take(60) {
         let plan = Plan::new(&golden.mesh(), &golden.options()).unwrap();

@@ -58,6 +58,9 @@ inline constexpr std::size_t kSizes<tspace_NormalReport>[] = {offsetof(tspace_No
 template <>
 inline constexpr std::size_t kSizes<tspace_SanitizeReport>[] = {offsetof(tspace_SanitizeReport, placeholder_count),
                                                                 sizeof(tspace_SanitizeReport)};
+template <>
+inline constexpr std::size_t kSizes<tspace_TangentOutput>[] = {offsetof(tspace_TangentOutput, has_tangent),
+                                                               sizeof(tspace_TangentOutput)};
 
 /// An Error with code ok when `size` is one that the struct has or had. Null is a struct that was not given: fine here.
 Error checkStructSize(std::uint32_t size, std::span<const std::size_t> known, const char* name);

@@ -110,9 +110,14 @@ tspace_SanitizeReport toReport(const SanitizeReport& from) {
 
 namespace {
 
-TangentOutput toOutput(const tspace_TangentOutput& out) {
-    return {toSpan<Vec4>(out.tangents), toSpan<Vec3>(out.bitangents), toSpan<float>(out.magnitudes_s),
-            toSpan<float>(out.magnitudes_t)};
+TangentOutput toOutput(const tspace_TangentOutput& given) {
+    const tspace_TangentOutput out = orDefault(&given);
+    const tspace_ByteSpan& mask = out.has_tangent;
+    return {toSpan<Vec4>(out.tangents),
+            toSpan<Vec3>(out.bitangents),
+            toSpan<float>(out.magnitudes_s),
+            toSpan<float>(out.magnitudes_t),
+            {mask.data, mask.count, mask.stride_bytes == 0 ? 1 : mask.stride_bytes}};
 }
 
 }  // namespace

@@ -115,7 +115,6 @@ IndexedPlan planIndexed(const MeshView& mesh, const Call<TangentOptions>& option
 
 TangentReport evaluateIndexed(const IndexedPlan& plan, const Pose& pose, const TangentOutput& out,
                               const Execution& execution, Parallel& parallel) {
-    clearUnusedCorners(plan, out);
     TangentReport report = plan.report;
     if (plan.method != Method::lengyel) report.degenerate_triangle_count = countDegenerate(plan, pose, parallel);
     if (plan.method == Method::lengyel)
@@ -124,6 +123,7 @@ TangentReport evaluateIndexed(const IndexedPlan& plan, const Pose& pose, const T
         evaluateBasis(plan, pose, out, execution.allocator, parallel, report);
     else
         evaluateFlat(plan, pose, out, parallel, report);
+    clearUnusedCorners(plan, out);  // last: lengyel uses the memory of the outputs for its sums
     return report;
 }
 
@@ -132,7 +132,7 @@ float meanLength(const DVec3& sum, double count) {
 }
 
 CornerFrame makeCornerFrame(const Derivatives& d, const Vec3& normal, float sign_factor) {
-    const CornerFrame fallback{{1, 0, 0, sign_factor}, {0, sign_factor, 0}, 1, 1, true};
+    const CornerFrame fallback{{1, 0, 0, sign_factor}, {0, sign_factor, 0}, 1, 1, false};
     const DVec3 n = toDouble(normal);
     DVec3 t = d.s - dot(n, d.s) * n;
     if (!normalize(t)) return fallback;
@@ -146,8 +146,7 @@ CornerFrame makeCornerFrame(const Derivatives& d, const Vec3& normal, float sign
         if (!normalize(b)) b = {0, 1, 0};
     }
     const Vec3 tangent = toFloat(t);
-    return {
-        {tangent.x, tangent.y, tangent.z, sign}, toFloat(b_sign * b), meanLength(d.s, 1), meanLength(d.t, 1), false};
+    return {{tangent.x, tangent.y, tangent.z, sign}, toFloat(b_sign * b), meanLength(d.s, 1), meanLength(d.t, 1), true};
 }
 
 void writeFrame(const TangentOutput& out, std::size_t entry, const CornerFrame& frame) {
@@ -159,6 +158,7 @@ void writeExtras(const TangentOutput& out, std::size_t entry, const CornerFrame&
     if (!out.bitangents.empty()) out.bitangents[entry] = frame.bitangent;
     if (!out.magnitudes_s.empty()) out.magnitudes_s[entry] = frame.magnitude_s;
     if (!out.magnitudes_t.empty()) out.magnitudes_t[entry] = frame.magnitude_t;
+    if (!out.has_tangent.empty()) out.has_tangent[entry] = frame.has_tangent ? 1 : 0;
 }
 
 // One dP/du and dP/dv per face, made orthogonal to the normal of each of its corners.
@@ -200,7 +200,7 @@ void evaluateFlat(const IndexedPlan& plan, const Pose& pose, const TangentOutput
                     const CornerFrame frame =
                         makeCornerFrame(d, pose.normals[plan.corner_vertices[c]], plan.sign_factor);
                     writeFrame(out, c, frame);
-                    count += frame.is_default ? 1 : 0;
+                    count += frame.has_tangent ? 0 : 1;
                 }
             }
             return count;
@@ -217,7 +217,7 @@ CornerFrame basisFrame(const Vec3& normal, float sign_factor) {
     const bool has_direction = normalize(n);
     const PlaneAxes axes = planeAxes(toDouble(has_direction ? toFloat(n) : Vec3{0, 0, 1}));
     const Vec3 t = toFloat(axes.x);
-    return {{t.x, t.y, t.z, sign_factor}, sign_factor * toFloat(axes.y), 1, 1, !has_direction};
+    return {{t.x, t.y, t.z, sign_factor}, sign_factor * toFloat(axes.y), 1, 1, has_direction};
 }
 
 /// 1 for each vertex that a used corner names.
@@ -244,7 +244,7 @@ void evaluateBasis(const IndexedPlan& plan, const Pose& pose, const TangentOutpu
                 const std::size_t vertex = per_vertex ? i : plan.corner_vertices[i];
                 const CornerFrame frame = is_used ? basisFrame(pose.normals[vertex], plan.sign_factor) : CornerFrame{};
                 writeFrame(out, i, frame);
-                count += frame.is_default ? 1 : 0;
+                count += is_used && !frame.has_tangent ? 1 : 0;
             }
             return count;
         });

@@ -62,7 +62,7 @@ struct CornerFrame {
     Vec3 bitangent;
     float magnitude_s = 0;
     float magnitude_t = 0;
-    bool is_default = false;  ///< no face gave a tangent
+    bool has_tangent = false;  ///< false: no face gives one
 };
 
 /// dP/du and dP/dv at a corner, before they are made into a frame. Zero: no face gave any.
@@ -79,7 +79,7 @@ CornerFrame makeCornerFrame(const Derivatives& derivatives, const Vec3& normal, 
 /// The length of sum / count as a float, which a mean of floats can exceed only by its rounding.
 float meanLength(const DVec3& sum, double count);
 
-/// Write the outputs that are wanted; writeExtras all but the tangent.
+/// Write the requested outputs; writeExtras writes all but the tangent.
 void writeFrame(const TangentOutput& out, std::size_t entry, const CornerFrame& frame);
 void writeExtras(const TangentOutput& out, std::size_t entry, const CornerFrame& frame);
 

@@ -191,16 +191,10 @@ class FaceSums {
 /// `out` has other places for them, they are copied there.
 class VertexFrames {
   public:
-    /// `is_default`, zeros, one per vertex, gets 1 where the tangent is a default; it may be null.
+    /// out.has_tangent, where it is not empty, is all 1 before the call.
     VertexFrames(const derivatives::DerivativeKernel& kernel, const VertexSums& sums, const float* visits,
-                 StridedSpan<const Vec3> normals, float sign_factor, const TangentOutput& out, std::uint8_t* is_default)
-        : kernel_(kernel),
-          sums_(sums),
-          visits_(visits),
-          normals_(normals),
-          sign_factor_(sign_factor),
-          out_(out),
-          is_default_(is_default) {
+                 StridedSpan<const Vec3> normals, float sign_factor, const TangentOutput& out)
+        : kernel_(kernel), sums_(sums), visits_(visits), normals_(normals), sign_factor_(sign_factor), out_(out) {
         has_extras_ = !out.bitangents.empty() || !out.magnitudes_s.empty() || !out.magnitudes_t.empty();
         copies_tangents_ = !out.tangents.empty() && &out.tangents.data->x != sums.heads;
     }
@@ -256,20 +250,19 @@ class VertexFrames {
     void finishInDouble(std::uint32_t v, RangeCounts& counts) const {
         float *const head = sums_.head(v), *const tail = sums_.tail(v);
         if (!sums_.isTouched(v)) {
-            if (has_extras_) writeExtras(out_, v, {});
+            writeExtras(out_, v, {});
             return storeFloat4(head, Float4{});
         }
         ++counts.used;
         const Derivatives d{{head[0], head[1], head[2]}, {head[3], tail[0], tail[1]}};
         CornerFrame frame = makeCornerFrame(d, normals_[v], sign_factor_);
-        if (frame.is_default) {
+        if (!frame.has_tangent) {
             ++counts.defaults;
-            if (is_default_ != nullptr) is_default_[v] = 1;
         } else if (visits_ != nullptr) {
             frame.magnitude_s = meanLength(d.s, visits_[v]);
             frame.magnitude_t = meanLength(d.t, visits_[v]);
         }
-        if (has_extras_) writeExtras(out_, v, frame);
+        writeExtras(out_, v, frame);
         storeFloat4(head, loadFloat4(&frame.tangent.x));
     }
 
@@ -284,7 +277,6 @@ class VertexFrames {
     StridedSpan<const Vec3> normals_;
     float sign_factor_;
     TangentOutput out_;
-    std::uint8_t* is_default_;
     bool has_extras_ = false, copies_tangents_ = false;
 };
 
@@ -292,10 +284,12 @@ class VertexFrames {
 struct VertexExtras {
     Buffer<Vec3> bitangents;
     Buffer<float> magnitudes_s, magnitudes_t;
+    Buffer<std::uint8_t> has_tangent;
 
     TangentOutput out;
 
-    VertexExtras(const TangentOutput& wanted, std::size_t vertex_count, const Allocator* allocator) {
+    VertexExtras(const TangentOutput& wanted, std::size_t vertex_count, const Allocator* allocator)
+        : has_tangent(allocator, vertex_count, std::uint8_t{1}) {
         const auto make = [&]<class T>(const StridedSpan<T>& like, Buffer<T>& buffer, StridedSpan<T>& span) {
             if (!like.empty()) buffer = Buffer<T>(allocator, vertex_count);
             span = {buffer.data(), buffer.size()};
@@ -303,6 +297,7 @@ struct VertexExtras {
         make(wanted.bitangents, bitangents, out.bitangents);
         make(wanted.magnitudes_s, magnitudes_s, out.magnitudes_s);
         make(wanted.magnitudes_t, magnitudes_t, out.magnitudes_t);
+        out.has_tangent = {has_tangent.data(), has_tangent.size()};
     }
 };
 
@@ -315,9 +310,9 @@ void copyToCorners(const IndexedPlan& plan, const T* from, const StridedSpan<T>&
     }
 }
 
-/// Copies the tangents of used corners; returns how many of them are defaults by `is_default`, one per vertex; null:
-/// none.
-std::uint64_t copyTangents(const IndexedPlan& plan, const float* from, const std::uint8_t* is_default,
+/// Copies the tangents of used corners. Returns the number of those whose vertex has a default. `has_tangent`: one per
+/// vertex; null: all have one.
+std::uint64_t copyTangents(const IndexedPlan& plan, const float* from, const std::uint8_t* has_tangent,
                            const StridedSpan<Vec4>& out, std::size_t begin, std::size_t end) {
     const std::uint8_t* const used = plan.corner_used.data();
     constexpr std::size_t kAhead = 2048;  // bytes
@@ -330,7 +325,7 @@ std::uint64_t copyTangents(const IndexedPlan& plan, const float* from, const std
             if (used != nullptr && used[c] == 0) continue;
             const std::size_t vertex = vertexOf(c);
             storeFloat4(&reinterpret_cast<Vec4*>(to)->x, loadFloat4(from + 4 * vertex));
-            if (is_default != nullptr) defaults += is_default[vertex];
+            if (has_tangent != nullptr) defaults += 1u - has_tangent[vertex];
         }
         return defaults;
     });
@@ -364,14 +359,13 @@ void evaluateLengyel(const IndexedPlan& plan, const Pose& pose, const TangentOut
     const SumPlaces places(out.tangents, plan.vertex_count, per_corner, allocator);
     const VertexSums& sums = places.sums;
     Buffer<float> visits(allocator, has_magnitudes ? plan.vertex_count : 0);
-    const VertexExtras extras(per_corner ? out : TangentOutput{}, plan.vertex_count, allocator);
-    Buffer<std::uint8_t> is_default(allocator, per_corner ? plan.vertex_count : 0, 0);
+    const VertexExtras extras(per_corner ? out : TangentOutput{}, per_corner ? plan.vertex_count : 0, allocator);
 
     constexpr unsigned kMostRanges = 64;
     const unsigned wanted = plan.triangleCount() >= Parallel::kGrain ? std::min(parallel.width(), kMostRanges) : 1;
     const FaceSums faces(plan, pose.positions, kernel, sums, visits.data(), wanted, allocator, parallel);
     const VertexFrames frames(kernel, sums, visits.data(), pose.normals, plan.sign_factor,
-                              per_corner ? extras.out : out, is_default.data());
+                              per_corner ? extras.out : out);
     std::array<RangeCounts, kMostRanges> counts;
     parallel.forTasks(faces.ranges().count(), [&](std::size_t range) {
         counts[range] = faces.sum(range);
@@ -385,13 +379,14 @@ void evaluateLengyel(const IndexedPlan& plan, const Pose& pose, const TangentOut
         report.default_corner_count += of_range.defaults;
     }
     if (!per_corner) return;
-    if (report.default_corner_count == 0) is_default = {};
+    const std::uint8_t* const has_tangent = report.default_corner_count == 0 ? nullptr : extras.has_tangent.data();
     report.default_corner_count =
         sumRanges(parallel, plan.cornerCount(), Parallel::kGrain, [&](std::size_t begin, std::size_t end) {
             copyToCorners(plan, extras.bitangents.data(), out.bitangents, begin, end);
             copyToCorners(plan, extras.magnitudes_s.data(), out.magnitudes_s, begin, end);
             copyToCorners(plan, extras.magnitudes_t.data(), out.magnitudes_t, begin, end);
-            return copyTangents(plan, sums.heads, is_default.data(), out.tangents, begin, end);
+            copyToCorners(plan, extras.has_tangent.data(), out.has_tangent, begin, end);
+            return copyTangents(plan, sums.heads, has_tangent, out.tangents, begin, end);
         });
 }
 

@@ -243,7 +243,15 @@ Error checkOutput(const TangentOutput& out, std::size_t output_count) {
     };
     if (Error e = optional(out.bitangents, "bitangents"); e.code != ErrorCode::ok) return e;
     if (Error e = optional(out.magnitudes_s, "magnitudes_s"); e.code != ErrorCode::ok) return e;
-    return optional(out.magnitudes_t, "magnitudes_t");
+    if (Error e = optional(out.magnitudes_t, "magnitudes_t"); e.code != ErrorCode::ok) return e;
+    return optional(out.has_tangent, "has_tangent");
+}
+
+/// The methods clear the entries of outputs that no face gives a tangent.
+void startHasTangent(const TangentOutput& out, Parallel& parallel) {
+    parallel.forRanges(out.has_tangent.count, Parallel::kGrain, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) out.has_tangent[i] = 1;
+    });
 }
 
 TangentReport generateFrames(const MeshView& mesh, const Call<TangentOptions>& options, const TangentOutput& out,
@@ -360,6 +368,7 @@ Result<TangentReport> generateTangents(const MeshView& mesh, const TangentOption
         Parallel parallel(execution, work(options.method, mesh.cornerCount()));
         if (Error e = checkInput(mesh, options, parallel); e.code != ErrorCode::ok) return e;
         if (Error e = checkOutput(out, outputCount(mesh, options)); e.code != ErrorCode::ok) return e;
+        startHasTangent(out, parallel);
         if (options.frame == FrameShape::gramSchmidt) return generateFrames(mesh, call, out, parallel);
         const NeededBitangents needed(out, execution.allocator);
         const TangentReport report = generateFrames(mesh, call, needed.out, parallel);
@@ -391,6 +400,7 @@ Result<TangentReport> evaluateTangents(const TangentPlan& plan, const Pose& pose
             return e;
         }
         Parallel parallel(execution, work(state.method, state.corner_count));
+        startHasTangent(out, parallel);
         if (state.source_vertices.empty()) return state.evaluateFrames(pose, out, execution, parallel);
         const Buffer<Vec3> positions = gathered(pose.positions, state.source_vertices, execution.allocator);
         const Buffer<Vec3> normals = gathered(pose.normals, state.source_normals, execution.allocator);

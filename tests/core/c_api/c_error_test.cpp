@@ -153,6 +153,10 @@ TEST_F(CErrors, ServeCallersThatWereCompiledWithAnOlderHeader) {
         << error.message;
     EXPECT_EQ(tangents, expected);
     EXPECT_EQ(tspace_cornerCount(&old_mesh.get()), mesh.cornerCount());
+    AsOldCaller<tspace_TangentOutput> old_out(out, offsetof(tspace_TangentOutput, has_tangent));
+    tangents[0] = NAN;
+    ASSERT_EQ(TSPACE_OK, tspace_generateTangents(&c_mesh, &now, &old_out.get(), nullptr, nullptr, &error));
+    EXPECT_EQ(tangents, expected);
 
     tspace_SanitizeReport report;
     TSPACE_INIT(report);
@@ -195,7 +199,7 @@ TEST_F(CErrors, KnowEverySizeThatAStructHad) {
     expectKnown(c_api::kSizes<tspace_Execution>, {32});
     expectKnown(c_api::kSizes<tspace_TangentOptions>, {52});
     expectKnown(c_api::kSizes<tspace_TangentReport>, {72});
-    expectKnown(c_api::kSizes<tspace_TangentOutput>, {104});
+    expectKnown(c_api::kSizes<tspace_TangentOutput>, {104, 128});
     expectKnown(c_api::kSizes<tspace_TangentPlanInfo>, {40});
     expectKnown(c_api::kSizes<tspace_Pose>, {56});
     expectKnown(c_api::kSizes<tspace_NormalOptions>, {64});

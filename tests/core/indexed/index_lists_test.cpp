@@ -12,18 +12,20 @@ constexpr Method kAllMethods[] = {Method::mikktspace, Method::lengyel, Method::u
                                   Method::flat,       Method::basis,   Method::fast,    Method::best};
 
 struct Results {
-    explicit Results(std::size_t count) : tangents(count), bitangents(count), magnitudes_s(count) {}
-    [[nodiscard]] TangentOutput view() { return {tangents, bitangents, magnitudes_s, {}}; }
+    explicit Results(std::size_t count) : tangents(count), bitangents(count), magnitudes_s(count), has_tangent(count) {}
+    [[nodiscard]] TangentOutput view() { return {tangents, bitangents, magnitudes_s, {}, has_tangent}; }
 
     std::vector<Vec4> tangents;
     std::vector<Vec3> bitangents;
     std::vector<float> magnitudes_s;
+    std::vector<std::uint8_t> has_tangent;
 };
 
 void expectSame(const Results& a, const Results& b, Method method) {
     EXPECT_TRUE(sameBits(a.tangents, b.tangents)) << methodName(method);
     EXPECT_TRUE(sameBits(a.bitangents, b.bitangents)) << methodName(method);
     EXPECT_TRUE(sameBits(a.magnitudes_s, b.magnitudes_s)) << methodName(method);
+    EXPECT_EQ(a.has_tangent, b.has_tangent) << methodName(method);
 }
 
 TEST(IndexLists, GiveTheTangentsOfTheUnrolledMesh) {

@@ -205,6 +205,7 @@ class TangentOutput(Structure):
         ("bitangents", Span),
         ("magnitudes_s", Span),
         ("magnitudes_t", Span),
+        ("has_tangent", Span),
     ]
 
 

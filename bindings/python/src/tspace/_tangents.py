@@ -17,6 +17,7 @@ from ._options import ConventionLike, convention_struct, execution, named, real,
 from ._reports import TangentReport, report
 from ._types import (
     AttributeIndices,
+    BoolArray,
     DomainName,
     FaceSizes,
     FloatArray,
@@ -41,6 +42,9 @@ class TangentResult(NamedTuple):
     bitangents: FloatArray  #: (n, 3) float32: unit direction of dP/dv; in general not cross(N, T)
     magnitudes_s: FloatArray  #: (n,) float32: mean length of dP/du; 1 for methods without
     magnitudes_t: FloatArray  #: (n,) float32: mean length of dP/dv; 1 for methods without
+    #: (n,) bool: False where no face gives the entry a tangent: the method's default was written, or the row is zero
+    #: (corners of skipped faces, unused vertices)
+    has_tangent: BoolArray
     report: TangentReport
 
 
@@ -94,12 +98,18 @@ def _tangent_options(
 def _output(
     count: int, out: Optional[numpy.ndarray], full: bool
 ) -> Tuple[_abi.TangentOutput, Tuple[numpy.ndarray, ...]]:
-    """The struct, and the arrays that it points into: of tangents alone, or all four."""
+    """The struct, and the arrays that it points into: of tangents alone, or all five."""
     tangents = output_array(out, count, 4)
     if not full:
-        output = _abi.TangentOutput(_OUTPUT_SIZE, 0, write_span(tangents), EMPTY_SPAN, EMPTY_SPAN, EMPTY_SPAN)
-        return output, (tangents,)
-    arrays = (tangents, output_array(None, count, 3), output_array(None, count, 0), output_array(None, count, 0))
+        spans = (write_span(tangents), EMPTY_SPAN, EMPTY_SPAN, EMPTY_SPAN, EMPTY_SPAN)
+        return _abi.TangentOutput(_OUTPUT_SIZE, 0, *spans), (tangents,)
+    arrays = (
+        tangents,
+        output_array(None, count, 3),
+        output_array(None, count, 0),
+        output_array(None, count, 0),
+        numpy.empty(count, numpy.bool_),  # the library writes bytes of 0 and 1
+    )
     return _abi.TangentOutput(_OUTPUT_SIZE, 0, *(write_span(array) for array in arrays)), arrays
 
 
@@ -108,8 +118,8 @@ def _new_report() -> _abi.TangentReport:
 
 
 def _full(arrays: Tuple[numpy.ndarray, ...], counts: _abi.TangentReport) -> TangentResult:
-    tangents, bitangents, magnitudes_s, magnitudes_t = arrays
-    return TangentResult(tangents, bitangents, magnitudes_s, magnitudes_t, report(TangentReport, counts))
+    tangents, bitangents, magnitudes_s, magnitudes_t, has_tangent = arrays
+    return TangentResult(tangents, bitangents, magnitudes_s, magnitudes_t, has_tangent, report(TangentReport, counts))
 
 
 @overload
@@ -209,7 +219,8 @@ def tangents(
     refine:     steps that "best" takes after its fit: 0, 1 or 2
     threads:    1, another number, or "all". The bits are the same for any
     out:        an array of float32 that takes the result and is returned; it may be a field of interleaved vertices
-    full:       True: returns a TangentResult, which has bitangents, magnitudes and a report too
+    full:       True: returns a TangentResult, which has bitangents, magnitudes, a report and a mask of the rows that a face
+                gives a tangent too
 
     Broken geometry (NaN, faces without area) is no error: it is counted in the report, and `sanitize` mends the result.
     Raises TypeError, or InputError (a ValueError) that says which argument is wrong, and where; MemoryError.

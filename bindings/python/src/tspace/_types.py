@@ -38,10 +38,11 @@ if TYPE_CHECKING:
     FloatArray = NDArray[numpy.float32]
     IndexArray = NDArray[numpy.uint32]
     ByteArray = NDArray[numpy.uint8]
+    BoolArray = NDArray[numpy.bool_]
     Rows = Union["NDArray[Any]", HasArray, memoryview, Sequence[Sequence[float]], Sequence["NDArray[Any]"]]
     Numbers = Union["NDArray[Any]", HasArray, memoryview, range, Sequence[int], Sequence[Sequence[int]]]
 else:
-    FloatArray = IndexArray = ByteArray = numpy.ndarray
+    FloatArray = IndexArray = ByteArray = BoolArray = numpy.ndarray
     Rows = Numbers = Any
 FaceSizes = Union[None, int, Numbers]
 AttributeIndices = Union[None, Literal["corners"], Numbers]

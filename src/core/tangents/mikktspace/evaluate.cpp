@@ -93,6 +93,7 @@ class Evaluation {
           execution_(execution),
           out_(out),
           sink_(out, plan.convention),
+          defaults_(out),
           terms_(cornerTermsFor(execution.simd)),
           source_(cornerSource(pose, uvs, plan.method, wantsOnlyTangents(plan, out))),
           allocator_(execution.allocator),
@@ -116,7 +117,7 @@ class Evaluation {
         for (const std::uint32_t corner : plan_.default_corners) sink_.write(corner, Tangents{});
         for (const std::uint32_t corner : plan_.skipped_corners) sink_.clear(corner);
         for (const Copy& copy : plan_.copies) sink_.copy(copy);
-        report.default_corner_count += zero_ ? countZero() : 0;
+        report.default_corner_count = countDefaults();
         report.not_finite_count = finite_ ? 0 : countNotFinite();
         return report;
     }
@@ -288,14 +289,33 @@ class Evaluation {
         });
     }
 
-    /// Counts the corners of groups whose sum vanished.
-    [[nodiscard]] std::uint64_t countZero() const {
-        std::uint64_t count = 0;
-        for (const std::uint32_t group : plan_.groups) {
-            const std::uint32_t g = group & kValue;
-            if (g < plan_.group_count) count += replaced_[g];
+    /// Counts the corners that have a default: those without a group, those of groups whose sum vanished, and their copies.
+    [[nodiscard]] std::uint64_t countDefaults() {
+        const bool are_marked = zero_ || !out_.has_tangent.empty();
+        if (are_marked) defaults_.distinguish(plan_.corner_count, allocator_);
+        if (zero_) addReplaced();
+        for (const std::uint32_t corner : plan_.default_corners) defaults_.add(corner);
+        for (std::size_t i = 0; are_marked && i < plan_.copies.size(); ++i) {
+            if (defaults_.has(plan_.copies[i].from)) defaults_.add(plan_.copies[i].to);
         }
-        return count;
+        return defaults_.count();
+    }
+
+    void addReplaced() {
+        const auto isReplaced = [&](std::uint32_t group) { return group < plan_.group_count && replaced_[group] != 0; };
+        for (std::uint32_t h = 0; h < plan_.groups.size(); ++h) {
+            const std::uint32_t slot = plan_.slotOf(h);
+            if (isReplaced(plan_.groups[h] & kValue) && (slot & kTopBit) == 0) defaults_.add(slot);
+        }
+        // A corner with several results has a default only where all of them are.
+        const Buffer<Conflict>& conflicts = plan_.conflicts;
+        for (std::size_t i = 0; i < conflicts.size();) {
+            const std::uint32_t corner = conflicts[i].corner;
+            bool are_replaced = true;
+            for (; i < conflicts.size() && conflicts[i].corner == corner; ++i)
+                are_replaced &= isReplaced(conflicts[i].source);
+            if (are_replaced) defaults_.add(corner);
+        }
     }
 
     [[nodiscard]] std::uint64_t countNotFinite() {
@@ -314,6 +334,7 @@ class Evaluation {
     const Execution& execution_;
     TangentOutput out_;
     Sink sink_;
+    DefaultCorners defaults_;
     CornerTermsFunction terms_;
     CornerSource source_;
     const Allocator* allocator_;

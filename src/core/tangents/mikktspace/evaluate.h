@@ -194,6 +194,7 @@ class Sink {
     }
     void clear(std::size_t corner) const {
         out_.tangents[corner] = {};
+        if (!out_.has_tangent.empty()) out_.has_tangent[corner] = 0;
         if (!out_.bitangents.empty()) out_.bitangents[corner] = {};
         if (!out_.magnitudes_s.empty()) out_.magnitudes_s[corner] = 0;
         if (!out_.magnitudes_t.empty()) out_.magnitudes_t[corner] = 0;
@@ -209,6 +210,35 @@ class Sink {
   private:
     TangentOutput out_;
     float sign_factor_, bitangent_factor_;
+};
+
+/// The corners that get the default because no face gives them a tangent: counts each once, and clears its entry of
+/// TangentOutput::has_tangent, which is all 1 before the call.
+class DefaultCorners {
+  public:
+    explicit DefaultCorners(const TangentOutput& out) : has_tangent_(out.has_tangent) {}
+
+    /// Needed before `has`, and before corners are added that may have been added already.
+    void distinguish(std::size_t corner_count, const Allocator* allocator) {
+        if (!has_tangent_.empty()) return;
+        own_ = Buffer<std::uint8_t>(allocator, corner_count, std::uint8_t{1});
+        has_tangent_ = {own_.data(), own_.size()};
+    }
+    void add(std::size_t corner) {
+        if (has_tangent_.empty()) {
+            ++count_;
+        } else {
+            count_ += has_tangent_[corner];
+            has_tangent_[corner] = 0;
+        }
+    }
+    [[nodiscard]] bool has(std::size_t corner) const { return has_tangent_[corner] == 0; }
+    [[nodiscard]] std::uint64_t count() const { return count_; }
+
+  private:
+    StridedSpan<std::uint8_t> has_tangent_;
+    Buffer<std::uint8_t> own_;
+    std::uint64_t count_ = 0;
 };
 
 /// Adds corner k of triangle t.

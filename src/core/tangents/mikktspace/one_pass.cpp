@@ -43,6 +43,7 @@ struct OnePass {
           allocator(setting.options.execution.allocator),
           estimates(isEstimated(setting.options.method)),
           sink(output, setting.options.convention),
+          defaults(output),
           complex(allocator, setting.nodes.count / 64 + 1, std::uint64_t{0}) {}
 
     [[nodiscard]] bool isComplex(std::size_t n) const { return (complex[n / 64] >> (n % 64) & 1) != 0; }
@@ -64,12 +65,12 @@ struct OnePass {
     const Allocator* allocator;
     bool estimates;  ///< fast and best: estimators sum, and one pass only groups
     Sink sink;
+    DefaultCorners defaults;
 
     NodeSums sums;
     Buffer<std::uint64_t> complex;  ///< one bit per node
     std::atomic<std::size_t> complex_count{0};
     std::atomic<std::uint64_t> group_count{0};
-    std::uint64_t default_corner_count = 0;
 };
 
 // -- 2. simple nodes --
@@ -179,24 +180,25 @@ void forEachDegenerateUv(const OnePass& pass, const Body& body) {
     }
 }
 
+/// Several triangles of a polygon may have one corner of the mesh.
+void distinguishDefaults(OnePass& pass) {
+    if (pass.in.hasPolygons()) pass.defaults.distinguish(pass.in.mesh.cornerCount(), pass.allocator);
+}
+
 /// A triangle without UV area takes the orientation of the first group that reaches it, at any of its
 /// nodes. Where all other triangles at its three nodes have one orientation, it takes that one, in any order; then it only
 /// links its neighbours in the fan. Nodes of other such triangles become complex, except where they have no other triangle
 /// and so no group. Corners there are counted as defaults.
 void checkDegenerateUvs(OnePass& pass) {
     if (pass.sums.report.degenerate_uv_count == 0) return;
-    Marks counted;  // several triangles of a polygon may have one corner of the mesh
-    if (!pass.in.triangles.faces.empty()) counted = noMarks(pass.allocator, pass.in.mesh.cornerCount());
+    distinguishDefaults(pass);
     forEachDegenerateUv(pass, [&](std::size_t triangle, const std::uint32_t* nodes) {
         std::uint32_t facing = 0;
         for (std::size_t k = 0; k < 3; ++k) {
             const std::uint32_t here = pass.sums.marks[nodes[k]] & kFacing;
             // Marks of 0: the node's triangles may have any orientation.
             facing |= here == 0 ? kFacing : here == kFacing ? 0 : here;
-            const std::size_t i = 3 * triangle + k;
-            const bool counts = here == kFacing && (counted.empty() || counted[pass.in.triangles.corner(i)] == 0);
-            pass.default_corner_count += counts ? 1 : 0;
-            if (!counted.empty()) counted[pass.in.triangles.corner(i)] |= counts ? 1 : 0;
+            if (here == kFacing) pass.defaults.add(pass.in.triangles.corner(3 * triangle + k));
         }
         for (std::size_t k = 0; facing == kFacing && k < 3; ++k) {
             if (!pass.sums.isEmpty(nodes[k])) pass.makeComplex(nodes[k]);
@@ -279,9 +281,9 @@ bool finishEstimates(OnePass& pass, std::size_t first, std::size_t end) {
 
 /// Counts the corners of nodes whose estimate vanished.
 void countReplaced(OnePass& pass) {
+    distinguishDefaults(pass);
     for (std::size_t i = 0; i < 3 * pass.in.triangles.count; ++i) {
-        const std::uint32_t node = pass.in.nodeAt(i);
-        pass.default_corner_count += (pass.sums.marks[node] & kReplaced) != 0 ? 1u : 0u;
+        if ((pass.sums.marks[pass.in.nodeAt(i)] & kReplaced) != 0) pass.defaults.add(pass.in.triangles.corner(i));
     }
 }
 
@@ -395,7 +397,7 @@ TangentReport evaluateInOnePass(const NodeSetting& setting, const TangentOutput&
     report.skipped_face_count = setting.triangles.skipped_face_count;
     report.reference_order_abandoned = of_complex.reference_order_abandoned || setting.bucket.abandoned;
     report.group_count = of_complex.group_count + pass.group_count;
-    report.default_corner_count = of_complex.default_corner_count + pass.default_corner_count;
+    report.default_corner_count = of_complex.default_corner_count + pass.defaults.count();
     report.not_finite_count = of_complex.not_finite_count;
     return report;
 }
