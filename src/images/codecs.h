@@ -41,9 +41,9 @@ std::optional<RgbImage> decodeJpeg(ByteSpan bytes, std::uint64_t most_pixels, st
 std::optional<RgbImage> decodeWebp(ByteSpan bytes, std::uint64_t most_pixels, std::string& why);
 
 /// KTX2 and DDS: their first level, or another one.
-std::optional<RgbImage> decodeTexture(ByteSpan bytes, std::uint64_t most_pixels, std::string& why);
+std::optional<RgbImage> decodeTexture(ByteSpan bytes, std::uint64_t most_pixels, std::string& why, ImageUse use);
 std::optional<FloatImage> decodeFloatTexture(ByteSpan bytes, std::uint64_t most_pixels, std::string& why,
-                                             std::size_t level = 0);
+                                             std::size_t level = 0, ImageUse use = ImageUse::vectors);
 /// One byte a pixel; nothing where it is broken or has no alpha.
 std::vector<std::uint8_t> decodeTextureAlpha(ByteSpan bytes);
 
@@ -60,7 +60,13 @@ std::optional<TgaImage> decodeTgaPixels(ByteSpan bytes, std::uint64_t most_pixel
 
 /// Whether OpenEXR is there at run time; without it nothing else of EXR may be called but claimOfExr.
 bool hasOpenExr();
-std::optional<FloatImage> decodeExr(ByteSpan bytes, std::uint64_t most_pixels, std::string& why);
+std::optional<FloatImage> decodeExr(ByteSpan bytes, std::uint64_t most_pixels, std::string& why, ImageUse use);
+
+/// Makes floats as a file stores them finite and, where they are read as vectors and look like vectors from -1 to 1, moves them to
+/// 0 to 1. Sets not_finite and range_text.
+void readFloats(ImageUse use, FloatImage& image);
+/// Rounds to 8 bits a channel.
+RgbImage roundedImage(const FloatImage& image);
 
 // Pixels of a PNG out and in again; its chunks are in flip_png.cpp. Bindings have other decoders in the place of
 // libspng.

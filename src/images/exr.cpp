@@ -6,11 +6,15 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <span>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "images/codecs.h"
 #include "images/float_image.h"
 #include "images/loaded_library.h"
+#include "images/texture_file.h"
 
 namespace tspace {
 
@@ -170,20 +174,114 @@ std::int64_t exrByteCount(exr_const_context_t, void* data) {
     return static_cast<std::int64_t>(static_cast<const ByteSpan*>(data)->size());
 }
 
+/// The channels of a file that are read.
+struct ExrChannels {
+    /// Of red, green and blue. The second is empty where there is one channel, the third where there are x and y alone.
+    std::array<std::string, 3> colors = {};
+    std::string alpha = {};  ///< empty: opaque
+
+    [[nodiscard]] bool has(std::string_view name) const {
+        return !name.empty() && (name == alpha || std::find(colors.begin(), colors.end(), name) != colors.end());
+    }
+    /// Whether there is a layer, or no z.
+    [[nodiscard]] bool isUnusual() const { return colors[2].empty() || colors[0].find('.') != std::string::npos; }
+    [[nodiscard]] std::string text() const {
+        std::string text = colors[0];
+        for (std::size_t i = 1; i < 3; ++i) text += colors[i].empty() ? "" : (i == 2 ? " and " : ", ") + colors[i];
+        return text;
+    }
+};
+
+std::string lowerText(std::string_view text) {
+    std::string lower(text);
+    for (char& letter : lower) letter = letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter;
+    return lower;
+}
+
+/// The names of channels of one layer ("layer.R"; empty: none), without the layer, in lower case.
+struct ExrLayer {
+    std::string prefix = {};  ///< with the dot
+    std::vector<std::string_view> names = {};
+
+    /// The channel of that lower case letter; empty where there is none.
+    [[nodiscard]] std::string find(const char* letter) const {
+        for (const std::string_view name : names) {
+            if (lowerText(name.substr(prefix.size())) == letter) return std::string(name);
+        }
+        return {};
+    }
+    /// R, G and B or X, Y and Z, or the first two of them.
+    [[nodiscard]] std::optional<ExrChannels> vectors() const {
+        constexpr std::array<std::array<const char*, 3>, 2> kLetters{{{"r", "g", "b"}, {"x", "y", "z"}}};
+        for (const std::size_t count : {3U, 2U}) {
+            for (const auto& letters : kLetters) {
+                ExrChannels channels{.alpha = find("a")};
+                for (std::size_t i = 0; i < count; ++i) channels.colors[i] = find(letters[i]);
+                if (!channels.colors[0].empty() && !channels.colors[1].empty() &&
+                    (count == 2 || !channels.colors[2].empty()))
+                    return channels;
+            }
+        }
+        return {};
+    }
+    /// A single channel, whatever its name, and perhaps alpha.
+    [[nodiscard]] std::optional<ExrChannels> heights() const {
+        const std::string alpha = find("a");
+        if (names.size() != (alpha.empty() ? 1U : 2U)) return {};
+        for (const std::string_view name : names) {
+            if (name != alpha) return ExrChannels{.colors = {std::string(name)}, .alpha = alpha};
+        }
+        return {};
+    }
+};
+
+/// Those of no layer come first, then those of the layer whose name has "normal" in it, or of the only one that has vectors; last
+/// a single channel.
+std::optional<ExrChannels> chooseExrChannels(std::span<const std::string_view> names, std::string& why) {
+    std::vector<ExrLayer> layers;
+    for (const std::string_view name : names) {
+        const std::size_t dot = name.rfind('.');
+        const std::string prefix(dot == std::string_view::npos ? "" : name.substr(0, dot + 1));
+        auto layer =
+            std::find_if(layers.begin(), layers.end(), [&](const auto& known) { return known.prefix == prefix; });
+        if (layer == layers.end()) layer = layers.insert(prefix.empty() ? layers.begin() : layers.end(), {prefix});
+        layer->names.push_back(name);
+    }
+    std::vector<ExrChannels> found, of_normals;
+    for (const ExrLayer& layer : layers) {
+        const std::optional<ExrChannels> vectors = layer.vectors();
+        if (!vectors) continue;
+        if (layer.prefix.empty()) return vectors;
+        found.push_back(*vectors);
+        if (lowerText(layer.prefix).find("normal") != std::string::npos) of_normals.push_back(*vectors);
+    }
+    if (of_normals.size() == 1) return of_normals.front();
+    if (found.size() == 1) return found.front();
+    if (found.empty() && layers.size() == 1) {
+        if (std::optional<ExrChannels> heights = layers.front().heights()) return heights;
+    }
+    std::string list;
+    for (const std::string_view name : names) list.append(list.empty() ? "" : ", ").append(name);
+    why = found.empty() ? "it has no channels R, G and B, X, Y and Z, or one channel alone, but " + list
+                        : "several of its layers have vectors, and none or several are called normal: " + list;
+    return {};
+}
+
 class ExrReader {
   public:
-    ExrReader(ByteSpan bytes, const ExrHead& head, std::string& why) : bytes_(bytes), size_(head.size), why_(why) {}
+    ExrReader(ByteSpan bytes, const ExrHead& head, ImageUse use, std::string& why)
+        : bytes_(bytes), size_(head.size), use_(use), why_(why) {}
 
     std::optional<FloatImage> read() {
         if (!open() || !checkWindows() || !findChannels()) return {};
         image_ = {size_.width, size_.height, bits_, std::vector<Vec3>(size_.pixels()), {}};
-        if (has_alpha_) image_.alpha.resize(size_.pixels());
+        if (!channels_.alpha.empty()) image_.alpha.resize(size_.pixels());
         why_ = "it is a broken EXR";
         exr_storage_t storage = EXR_STORAGE_LAST_TYPE;
         openExr().getStorage(file_.context, kPart, &storage);
         if (storage != EXR_STORAGE_SCANLINE && storage != EXR_STORAGE_TILED) return {};
         if (!(storage == EXR_STORAGE_TILED ? readTiles() : readRows())) return {};
-        replaceNotFinite();
+        finish();
         return std::move(image_);
     }
 
@@ -213,31 +311,30 @@ class ExrReader {
         return std::memcmp(&window_, &display, sizeof display) == 0;
     }
 
-    /// R, G and B, or X, Y and Z, and perhaps A.
     bool findChannels() {
         const exr_attr_chlist_t* list = nullptr;
         if (openExr().getChannels(file_.context, kPart, &list) != EXR_ERR_SUCCESS || list == nullptr) return false;
-        const auto find = [&](std::string_view name) {
-            const auto* end = list->entries + list->num_channels;
-            const auto* found = std::find_if(list->entries, end, [&](const exr_attr_chlist_entry_t& entry) {
-                const auto size = static_cast<std::size_t>(std::max(entry.name.length, 0));
-                return std::string_view(entry.name.str, size) == name;
-            });
-            return found != end ? found : nullptr;
-        };
-        names_ = find("R") != nullptr ? std::array{"R", "G", "B"} : std::array{"X", "Y", "Z"};
-        has_alpha_ = find("A") != nullptr;
+        const std::span entries(list->entries, static_cast<std::size_t>(std::max(list->num_channels, 0)));
+        std::vector<std::string_view> names;
+        for (const exr_attr_chlist_entry_t& entry : entries)
+            names.emplace_back(entry.name.str, static_cast<std::size_t>(std::max(entry.name.length, 0)));
+        const std::optional<ExrChannels> chosen = chooseExrChannels(names, why_);
+        if (!chosen) return false;
+        channels_ = *chosen;
         bits_ = 16;
-        for (const char* name : {names_[0], names_[1], names_[2], "A"}) {
-            const exr_attr_chlist_entry_t* entry = find(name);
-            if (entry == nullptr && *name == 'A') continue;
-            why_ = "it has no channels R, G and B";
-            if (entry == nullptr) return false;
-            why_ = "its channels are not floats, one for each pixel";
-            if (entry->pixel_type == EXR_PIXEL_UINT || entry->x_sampling != 1 || entry->y_sampling != 1) return false;
-            if (entry->pixel_type == EXR_PIXEL_FLOAT) bits_ = 32;
+        std::size_t whole = 0, used = 0;
+        for (std::size_t i = 0; i < names.size(); ++i) {
+            if (!channels_.has(names[i])) continue;
+            const exr_attr_chlist_entry_t& entry = entries[i];
+            why_ = "its channels have fewer numbers than it has pixels";
+            if (entry.x_sampling != 1 || entry.y_sampling != 1) return false;
+            if (entry.pixel_type == EXR_PIXEL_FLOAT) bits_ = 32;
+            whole += entry.pixel_type == EXR_PIXEL_UINT ? 1 : 0;
+            ++used;
         }
-        return true;
+        why_ = "some of its channels are floats and some whole numbers";
+        is_whole_ = whole == used;
+        return whole == 0 || is_whole_;
     }
 
     bool readRows() {
@@ -295,10 +392,10 @@ class ExrReader {
         float* to = nullptr;
         std::size_t pixel_bytes = sizeof(Vec3);
         const std::string_view name = channel.channel_name;
-        if (name == names_[0]) to = &image_.texels[first].x;
-        if (name == names_[1]) to = &image_.texels[first].y;
-        if (name == names_[2]) to = &image_.texels[first].z;
-        if (name == "A") {
+        if (name == channels_.colors[0]) to = &image_.texels[first].x;
+        if (name == channels_.colors[1]) to = &image_.texels[first].y;
+        if (name == channels_.colors[2]) to = &image_.texels[first].z;
+        if (name == channels_.alpha) {
             to = &image_.alpha[first];
             pixel_bytes = sizeof(float);
         }
@@ -309,25 +406,35 @@ class ExrReader {
         channel.user_line_stride = static_cast<std::int32_t>(pixel_bytes * size_.width);
     }
 
-    /// Counts texels that are not finite, which have no direction, and makes them grey.
-    void replaceNotFinite() {
-        for (Vec3& texel : image_.texels) {
-            if (std::isfinite(texel.x) && std::isfinite(texel.y) && std::isfinite(texel.z)) continue;
-            texel = {0.5F, 0.5F, 0.5F};
-            ++image_.not_finite;
+    void finish() {
+        if (is_whole_) scaleWhole();
+        if (channels_.colors[1].empty()) {
+            for (Vec3& texel : image_.texels) texel = {texel.x, texel.x, texel.x};
+        } else if (channels_.colors[2].empty()) {
+            image_.texture.layout = twoChannelLayout(MapChannel::red, MapChannel::green);
         }
-        for (float& alpha : image_.alpha) {
-            if (!std::isfinite(alpha)) alpha = 1;
-        }
+        if (channels_.isUnusual()) image_.texture.name = "an EXR with the channels " + channels_.text();
+        readFloats(is_whole_ ? ImageUse::numbers : use_, image_);
+    }
+
+    /// Whole numbers n become n / (2^b - 1), with the least b of 8, 16 and 32 bits that holds all of them.
+    void scaleWhole() {
+        float most = 0;
+        for (const Vec3& texel : image_.texels) most = std::max({most, texel.x, texel.y, texel.z});
+        image_.bits = most <= 255 ? 8 : most <= 65535 ? 16 : 32;
+        const float scale = image_.bits == 8 ? 255.0F : image_.bits == 16 ? 65535.0F : 4294967295.0F;
+        for (Vec3& texel : image_.texels) texel = {texel.x / scale, texel.y / scale, texel.z / scale};
+        for (float& alpha : image_.alpha) alpha = std::min(alpha / scale, 1.0F);
     }
 
     ByteSpan bytes_;
     ImageSize size_;
+    ImageUse use_;
     std::string& why_;
     ExrContext file_ = {};
     exr_attr_box2i_t window_ = {};
-    std::array<const char*, 3> names_ = {};
-    bool has_alpha_ = false;
+    ExrChannels channels_ = {};
+    bool is_whole_ = false;
     unsigned bits_ = 16;
     FloatImage image_ = {};
 };
@@ -396,7 +503,7 @@ ImageClaim claimOfExr(ByteSpan bytes) {
     return {head->size, work < static_cast<double>(kMost) ? static_cast<std::uint64_t>(work) : kMost};
 }
 
-std::optional<FloatImage> decodeExr(ByteSpan bytes, std::uint64_t most_pixels, std::string& why) {
+std::optional<FloatImage> decodeExr(ByteSpan bytes, std::uint64_t most_pixels, std::string& why, ImageUse use) {
     constexpr std::uint64_t kMostChannels = 64;
     why = "it is a broken EXR";
     const std::optional<ExrHead> head = ExrHeadReader(bytes).read();
@@ -405,7 +512,7 @@ std::optional<FloatImage> decodeExr(ByteSpan bytes, std::uint64_t most_pixels, s
     if (head->has_more) why = "it has several parts, or several values a pixel";
     if (!head->is_plain) why = "it is packed with loss (B44 or DWA), which is not read";
     if (head->channel_count > kMostChannels || head->has_more || !head->is_plain) return {};
-    return ExrReader(bytes, *head, why).read();
+    return ExrReader(bytes, *head, use, why).read();
 }
 
 std::optional<std::vector<std::uint8_t>> encodeExr(const FloatImage& image, unsigned bits) {

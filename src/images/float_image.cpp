@@ -20,15 +20,16 @@ FloatImage floatsOf(const RgbImage& image) {
 
 }  // namespace
 
-std::optional<FloatImage> decodeFloatImage(ByteSpan bytes, std::uint64_t most_pixels, std::string& why) {
+std::optional<FloatImage> decodeFloatImage(ByteSpan bytes, std::uint64_t most_pixels, std::string& why, ImageUse use) {
     const ImageFormat format = imageFormat(bytes);
 #ifdef TSPACE_HAS_IMAGES
     if (format == ImageFormat::png) return decodeDeepPng(bytes, most_pixels, why);
 #endif
 #ifdef TSPACE_HAS_OPENEXR
-    if (format == ImageFormat::exr && whyNotRead(format) == nullptr) return decodeExr(bytes, most_pixels, why);
+    if (format == ImageFormat::exr && whyNotRead(format) == nullptr) return decodeExr(bytes, most_pixels, why, use);
 #endif
-    if (format == ImageFormat::ktx2 || format == ImageFormat::dds) return decodeFloatTexture(bytes, most_pixels, why);
+    if (format == ImageFormat::ktx2 || format == ImageFormat::dds)
+        return decodeFloatTexture(bytes, most_pixels, why, 0, use);
     if (format == ImageFormat::tga) {
         const std::optional<TgaImage> tga = decodeTgaPixels(bytes, most_pixels, why);
         if (!tga) return {};

@@ -102,20 +102,20 @@ struct Codec {
     const char* why_not = "it is neither PNG, JPEG, WebP, KTX2, DDS nor TGA";
 #endif
     ImageClaim (*claim)(ByteSpan) = nullptr;
-    std::optional<RgbImage> (*decode)(ByteSpan, std::uint64_t, std::string&) = nullptr;
+    std::optional<RgbImage> (*decode)(ByteSpan, std::uint64_t, std::string&, ImageUse) = nullptr;
 };
 
+/// A decoder of a format that has integers alone.
+template <std::optional<RgbImage> (*decode)(ByteSpan, std::uint64_t, std::string&)>
+std::optional<RgbImage> decodeIntegers(ByteSpan bytes, std::uint64_t most_pixels, std::string& why, ImageUse) {
+    return decode(bytes, most_pixels, why);
+}
+
 #ifdef TSPACE_HAS_OPENEXR
-std::optional<RgbImage> decodeRoundedExr(ByteSpan bytes, std::uint64_t most_pixels, std::string& why) {
-    const std::optional<FloatImage> image = decodeExr(bytes, most_pixels, why);
+std::optional<RgbImage> decodeRoundedExr(ByteSpan bytes, std::uint64_t most_pixels, std::string& why, ImageUse use) {
+    const std::optional<FloatImage> image = decodeExr(bytes, most_pixels, why, use);
     if (!image) return {};
-    RgbImage rounded{image->width, image->height, {}};
-    rounded.rgb.reserve(3 * image->texels.size());
-    for (const Vec3& texel : image->texels) {
-        for (const float channel : {texel.x, texel.y, texel.z})
-            rounded.rgb.push_back(static_cast<std::uint8_t>(std::clamp(channel, 0.0F, 1.0F) * 255.0F + 0.5F));
-    }
-    return rounded;
+    return roundedImage(*image);
 }
 #endif
 
@@ -132,14 +132,14 @@ Codec exrCodec() {
 
 Codec codecOf(ImageFormat format) {
 #ifdef TSPACE_HAS_IMAGES
-    const Codec png{"PNG", "image/png", nullptr, claimOfPng, decodePng};
-    const Codec jpeg{"JPEG", "image/jpeg", nullptr, claimOfJpeg, decodeJpeg};
+    const Codec png{"PNG", "image/png", nullptr, claimOfPng, decodeIntegers<decodePng>};
+    const Codec jpeg{"JPEG", "image/jpeg", nullptr, claimOfJpeg, decodeIntegers<decodeJpeg>};
 #else
     const Codec png{"PNG", "image/png", "tspace was built without decoders for images"};
     const Codec jpeg{"JPEG", "image/jpeg", "tspace was built without decoders for images"};
 #endif
 #ifdef TSPACE_HAS_WEBP
-    const Codec webp{"WebP", "image/webp", nullptr, claimOfWebp, decodeWebp};
+    const Codec webp{"WebP", "image/webp", nullptr, claimOfWebp, decodeIntegers<decodeWebp>};
 #else
     const Codec webp{"WebP", "image/webp", "it is WebP, which this build of tspace does not read"};
 #endif
@@ -162,7 +162,7 @@ Codec codecOf(ImageFormat format) {
             return exrCodec();
         case ImageFormat::tga:
 #ifndef TSPACE_SMALL
-            return {"TGA", "", nullptr, claimOfTga, decodeTga};
+            return {"TGA", "", nullptr, claimOfTga, decodeIntegers<decodeTga>};
 #endif
         case ImageFormat::unknown:
             break;
@@ -212,9 +212,9 @@ std::uint64_t imageWorkBytes(ByteSpan bytes) { return claimOf(bytes).work_bytes;
 
 ImageSize claimedSize(ByteSpan bytes) { return claimOf(bytes).size; }
 
-std::optional<RgbImage> decodeImage(ByteSpan bytes, std::uint64_t most_pixels, std::string& why) {
+std::optional<RgbImage> decodeImage(ByteSpan bytes, std::uint64_t most_pixels, std::string& why, ImageUse use) {
     const Codec codec = codecOf(imageFormat(bytes));
-    if (codec.decode != nullptr) return codec.decode(bytes, most_pixels, why);
+    if (codec.decode != nullptr) return codec.decode(bytes, most_pixels, why, use);
     why = codec.why_not;
     return {};
 }

@@ -39,12 +39,19 @@ struct ImageSize {
     [[nodiscard]] std::uint64_t pixels() const { return std::uint64_t{width} * height; }
 };
 
+/// What an image is read for. Files of floats do not say whether they hold vectors from -1 to 1 or numbers from 0 to 1.
+enum class ImageUse {
+    vectors,  ///< a normal map: floats from -1 to 1 become (v + 1) / 2, as all other files hold them
+    numbers   ///< heights, colors, roughness: floats as stored
+};
+
 /// The size in the file's header, without any check; at most 2^30 each. 0 where decodeImage decodes nothing.
 ImageSize claimedSize(ByteSpan bytes);
 
 /// Decodes PNG, JPEG, WebP, EXR, KTX2, DDS and TGA (rounded to 8 bits), told apart by content. Nothing, with the reason in `why` (half a sentence), for other
 /// formats, broken files, more than `most_pixels` pixels, and images that are out of proportion to their bytes.
-std::optional<RgbImage> decodeImage(ByteSpan bytes, std::uint64_t most_pixels, std::string& why);
+std::optional<RgbImage> decodeImage(ByteSpan bytes, std::uint64_t most_pixels, std::string& why,
+                                    ImageUse use = ImageUse::vectors);
 
 /// The alpha channel of an image that decodeImage decodes, rounded to 8 bits; empty where it has none, or is no PNG, WebP, KTX2, DDS or TGA.
 /// Holds 4 bytes a pixel beside what decodeImage holds.

@@ -126,24 +126,6 @@ void guessLayout(FloatImage& image) {
     }
 }
 
-/// Floats are made finite, and those that are vectors (some are below 0) moved to 0 to 1.
-void tameFloats(FloatImage& image) {
-    constexpr float kGrey = 0.5F, kBelow = -1.0F / 64.0F;
-    bool is_signed = false;
-    for (std::size_t i = 0; i < image.texels.size(); ++i) {
-        Vec3& texel = image.texels[i];
-        const bool is_finite = std::isfinite(texel.x) && std::isfinite(texel.y) && std::isfinite(texel.z);
-        if (!is_finite) {
-            texel = {kGrey, kGrey, kGrey};
-            ++image.not_finite;
-        }
-        if (!image.alpha.empty() && !std::isfinite(image.alpha[i])) image.alpha[i] = 1;
-        is_signed = is_signed || texel.x < kBelow || texel.y < kBelow;
-    }
-    if (!is_signed) return;
-    for (Vec3& texel : image.texels) texel = {0.5F * texel.x + 0.5F, 0.5F * texel.y + 0.5F, 0.5F * texel.z + 0.5F};
-}
-
 }  // namespace
 
 std::optional<TextureFile> readTextureHead(ByteSpan bytes, std::string& why) {
@@ -176,7 +158,7 @@ ImageClaim claimOfTexture(ByteSpan bytes) {
 }
 
 std::optional<FloatImage> decodeFloatTexture(ByteSpan bytes, std::uint64_t most_pixels, std::string& why,
-                                             std::size_t level_number) {
+                                             std::size_t level_number, ImageUse use) {
     const std::optional<TextureFile> texture = openTexture(bytes, most_pixels, why, level_number);
     if (!texture) return {};
     TextureLevel level(*texture);
@@ -195,8 +177,8 @@ std::optional<FloatImage> decodeFloatTexture(ByteSpan bytes, std::uint64_t most_
             if (!image.alpha.empty()) image.alpha[y * width + x] = row[x][3];
         }
     });
-    if (texture->format.is_float) tameFloats(image);
     image.texture = {.name = texture->name(), .layout = texture->layout, .is_srgb = texture->is_srgb};
+    if (texture->format.is_float) readFloats(use, image);
     guessLayout(image);
     // Most formats of blocks have an alpha channel, whether it is used or not.
     if (std::all_of(image.alpha.begin(), image.alpha.end(), [](float alpha) { return alpha == 1; }))
@@ -204,19 +186,15 @@ std::optional<FloatImage> decodeFloatTexture(ByteSpan bytes, std::uint64_t most_
     return image;
 }
 
-std::optional<RgbImage> decodeTexture(ByteSpan bytes, std::uint64_t most_pixels, std::string& why) {
+std::optional<RgbImage> decodeTexture(ByteSpan bytes, std::uint64_t most_pixels, std::string& why, ImageUse use) {
     const std::optional<TextureFile> texture = openTexture(bytes, most_pixels, why);
     if (!texture) return {};
-    RgbImage image{texture->size.width, texture->size.height, {}};
     if (texture->format.is_float) {
-        const std::optional<FloatImage> floats = decodeFloatTexture(bytes, most_pixels, why);
+        const std::optional<FloatImage> floats = decodeFloatTexture(bytes, most_pixels, why, 0, use);
         if (!floats) return {};
-        image.rgb.reserve(3 * floats->texels.size());
-        for (const Vec3& texel : floats->texels) {
-            for (const float part : {texel.x, texel.y, texel.z}) image.rgb.push_back(byteOf(part));
-        }
-        return image;
+        return roundedImage(*floats);
     }
+    RgbImage image{texture->size.width, texture->size.height, {}};
     TextureLevel level(*texture);
     why = brokenTexture(*texture);
     if (!level.unpack()) return {};

@@ -6,8 +6,10 @@
 #include <cstring>
 #include <limits>
 
+#include "core/base/vec_math.h"
 #include "images/codecs.h"
 #include "images/float_image.h"
+#include "images/images.h"
 
 namespace tspace::test {
 namespace {
@@ -106,6 +108,142 @@ TEST_F(Exr, RoundsWhereEightBitsAreAskedFor) {
     ASSERT_TRUE(image) << why;
     EXPECT_EQ(image->rgb[0], 128);
     EXPECT_EQ(image->rgb.size(), 3U * 81);
+}
+
+/// Channels of a normal map: vectors as they are, or moved to 0 to 1.
+struct Vectors {
+    std::vector<float> x = {}, y = {}, z = {};
+
+    explicit Vectors(const RgbImage& map, bool is_moved = false) {
+        for (std::size_t i = 0; i < map.rgb.size(); i += 3) {
+            DVec3 v{map.rgb[i] / 127.5 - 1, map.rgb[i + 1] / 127.5 - 1, map.rgb[i + 2] / 127.5 - 1};
+            normalize(v);
+            const auto stored = [&](double part) { return static_cast<float>(is_moved ? 0.5 * part + 0.5 : part); };
+            x.push_back(stored(v.x));
+            y.push_back(stored(v.y));
+            z.push_back(stored(v.z));
+        }
+    }
+};
+
+constexpr std::uint32_t kSide = 32;
+
+std::string mapExr(const Vectors& v, const std::string& a = "R", const std::string& b = "G",
+                   const std::string& c = "B") {
+    return exrFile(kSide, kSide, {{a, v.x}, {b, v.y}, {c, v.z}});
+}
+
+std::optional<FloatImage> read(const std::string& file, std::string* reason = nullptr,
+                               ImageUse use = ImageUse::vectors) {
+    std::string why;
+    auto image = decodeFloatImage(bytesOf(file), 1 << 22, why, use);
+    if (reason != nullptr) *reason = why;
+    return image;
+}
+
+void expectSame(const std::optional<FloatImage>& image, const Vectors& wanted, const std::string& what) {
+    ASSERT_TRUE(image) << what;
+    for (std::size_t i = 0; i < wanted.x.size(); ++i) {
+        ASSERT_NEAR(image->texels[i].x, wanted.x[i], 1e-6) << what;
+        ASSERT_NEAR(image->texels[i].y, wanted.y[i], 1e-6) << what;
+        ASSERT_NEAR(image->texels[i].z, wanted.z[i], 1e-6) << what;
+    }
+}
+
+TEST_F(Exr, VectorsFromMinusOneToOneAreMoved) {
+    const RgbImage map = normalMapOf(kSide, bumps);
+    const Vectors as_they_are(map), moved(map, true);
+    const auto image = read(mapExr(as_they_are));
+    expectSame(image, moved, "tangent space");
+    EXPECT_NE(image->range_text.find("read as vectors from -1 to 1"), std::string::npos) << image->range_text;
+    expectSame(read(mapExr(as_they_are), nullptr, ImageUse::numbers), as_they_are, "numbers");
+    // All around, as in object space.
+    RgbImage around{kSide, kSide, {}};
+    for (std::uint32_t i = 0; i < kSide * kSide; ++i) {
+        const double a = 0.37 * i, h = 1 - 2 * (i + 0.5) / (kSide * kSide), r = std::sqrt(1 - h * h);
+        for (const double part : {r * std::cos(a), h, r * std::sin(a)})
+            around.rgb.push_back(static_cast<std::uint8_t>(127.5 * part + 128));
+    }
+    expectSame(read(mapExr(Vectors(around), "X", "Y", "Z")), Vectors(around, true), "object space");
+    // Flat: nothing is below 0.
+    const RgbImage flat = normalMapOf(kSide, [](double, double) { return 0.0; });
+    Vectors up(flat);
+    for (std::size_t i = 0; i < up.x.size(); ++i) up.x[i] = up.y[i] = 0, up.z[i] = 1;
+    const auto flat_read = read(mapExr(up));
+    ASSERT_TRUE(flat_read);
+    EXPECT_EQ(flat_read->texels[5], (Vec3{0.5F, 0.5F, 1}));
+    std::string why;
+    const auto rounded = decodeImage(bytesOf(mapExr(as_they_are)), 1 << 20, why);
+    ASSERT_TRUE(rounded) << why;
+    for (std::size_t i = 0; i < map.rgb.size(); ++i) ASSERT_NEAR(rounded->rgb[i], map.rgb[i], 2);
+}
+
+TEST_F(Exr, NumbersFromZeroToOneStay) {
+    Vectors stored(normalMapOf(kSide, bumps), true);
+    expectSame(read(mapExr(stored)), stored, "0 to 1");
+    // A filter that sharpens makes some a little less than 0.
+    stored.x[7] = -0.06F;
+    stored.y[90] = -0.04F;
+    const auto image = read(mapExr(stored));
+    expectSame(image, stored, "overshoot");
+    EXPECT_EQ(image->range_text, "");
+    // Colors.
+    Vectors colors(stored);
+    for (std::size_t i = 0; i < colors.x.size(); ++i) colors.x[i] = 0.1F, colors.y[i] = 0.3F, colors.z[i] = 0.9F;
+    expectSame(read(mapExr(colors)), colors, "colors");
+}
+
+TEST_F(Exr, SaysWhereLengthsDoNotTell) {
+    Vectors odd(normalMapOf(kSide, bumps));
+    for (std::size_t i = 0; i < odd.x.size(); ++i) odd.z[i] *= 2;
+    const auto image = read(mapExr(odd));
+    ASSERT_TRUE(image);
+    EXPECT_NE(image->range_text.find("is it a normal map?"), std::string::npos) << image->range_text;
+}
+
+TEST_F(Exr, ChannelsHaveManyNames) {
+    const RgbImage map = normalMapOf(kSide, bumps);
+    const Vectors v(map), moved(map, true);
+    expectSame(read(mapExr(v, "X", "Y", "Z")), moved, "X Y Z");
+    expectSame(read(mapExr(v, "x", "y", "z")), moved, "x y z");
+    expectSame(read(mapExr(v, "normal.R", "normal.G", "normal.B")), moved, "layer.R");
+    expectSame(read(mapExr(v, "ViewLayer.Normal.X", "ViewLayer.Normal.Y", "ViewLayer.Normal.Z")), moved, "two dots");
+    const std::vector<float> grey(v.x.size(), 0.25F);
+    const std::vector<ExrChannel> layers{{"Combined.R", grey}, {"Combined.G", grey}, {"Combined.B", grey},
+                                         {"Normal.X", v.x},    {"Normal.Y", v.y},    {"Normal.Z", v.z},
+                                         {"Depth.Z", grey}};
+    expectSame(read(exrFile(kSide, kSide, layers)), moved, "layers");
+    std::string why;
+    std::vector<ExrChannel> unclear = layers;
+    for (ExrChannel& channel : unclear) channel.name = channel.name.replace(0, 6, channel.name.substr(0, 5));
+    EXPECT_FALSE(read(exrFile(kSide, kSide, unclear), &why));
+    EXPECT_NE(why.find("several of its layers"), std::string::npos) << why;
+    // x and y alone, as textures of two channels have them.
+    const auto two = read(exrFile(kSide, kSide, {{"R", v.x}, {"G", v.y}}));
+    ASSERT_TRUE(two);
+    EXPECT_EQ(two->texture.layout.z.channel, MapChannel::none);
+    EXPECT_NEAR(two->texels[9].x, moved.x[9], 1e-6);
+}
+
+TEST_F(Exr, OneChannelIsHeights) {
+    std::vector<float> heights;
+    for (std::uint32_t i = 0; i < kSide * kSide; ++i) heights.push_back(std::sin(0.05F * static_cast<float>(i)));
+    for (const std::string name : {"Y", "R", "height.Z", "displacement"}) {
+        for (const ImageUse use : {ImageUse::vectors, ImageUse::numbers}) {
+            const auto image = read(exrFile(kSide, kSide, {{name, heights}}), nullptr, use);
+            ASSERT_TRUE(image) << name;
+            EXPECT_EQ(image->texels[40], (Vec3{heights[40], heights[40], heights[40]})) << name;
+        }
+    }
+    std::vector<float> whole;
+    for (std::uint32_t i = 0; i < kSide * kSide; ++i) whole.push_back(static_cast<float>(60 * i));
+    const auto image = read(exrFile(kSide, kSide, {{"Y", whole, true}}));
+    ASSERT_TRUE(image);
+    EXPECT_EQ(image->bits, 16U);
+    EXPECT_FLOAT_EQ(image->texels[3].x, 180.0F / 65535);
+    std::string why;
+    EXPECT_FALSE(read(exrFile(kSide, kSide, {{"Y", heights}, {"RY", heights}, {"BY", heights}}), &why));
+    EXPECT_NE(why.find("BY, RY, Y"), std::string::npos) << why;
 }
 
 }  // namespace

@@ -67,4 +67,52 @@ std::string webpFile(const RgbImage& image, bool lossless) {
     return file;
 }
 
+namespace {
+
+template <class Number>
+void addNumber(Number number, std::string& file) {
+    file.append(reinterpret_cast<const char*>(&number), sizeof number);
+}
+
+void addAttribute(const std::string& name, const std::string& type, const std::string& value, std::string& file) {
+    file += name + '\0' + type + '\0';
+    addNumber(static_cast<std::uint32_t>(value.size()), file);
+    file += value;
+}
+
+}  // namespace
+
+std::string exrFile(std::uint32_t width, std::uint32_t height, std::vector<ExrChannel> channels) {
+    std::sort(channels.begin(), channels.end(), [](const auto& a, const auto& b) { return a.name < b.name; });
+    std::string list, window, rest, file("\x76\x2f\x31\x01\x02\0\0\0", 8);
+    for (const ExrChannel& channel : channels) {
+        list += channel.name + '\0';
+        for (const std::uint32_t number : {channel.is_whole ? 0U : 2U, 0U, 1U, 1U}) addNumber(number, list);
+    }
+    for (const std::uint32_t number : {0U, 0U, width - 1, height - 1}) addNumber(number, window);
+    addAttribute("channels", "chlist", list + '\0', file);
+    addAttribute("compression", "compression", std::string(1, '\0'), file);
+    addAttribute("dataWindow", "box2i", window, file);
+    addAttribute("displayWindow", "box2i", window, file);
+    addAttribute("lineOrder", "lineOrder", std::string(1, '\0'), file);
+    addAttribute("pixelAspectRatio", "float", std::string("\0\0\x80\x3f", 4), file);
+    addAttribute("screenWindowCenter", "v2f", std::string(8, '\0'), file);
+    addAttribute("screenWindowWidth", "float", std::string("\0\0\x80\x3f", 4), file);
+    file += '\0';
+    const std::size_t row_bytes = channels.size() * width * 4, rows_at = file.size() + std::size_t{height} * 8;
+    for (std::uint32_t row = 0; row < height; ++row)
+        addNumber(static_cast<std::uint64_t>(rows_at + row * (8 + row_bytes)), file);
+    for (std::uint32_t row = 0; row < height; ++row) {
+        addNumber(row, file);
+        addNumber(static_cast<std::uint32_t>(row_bytes), file);
+        for (const ExrChannel& channel : channels) {
+            for (std::uint32_t x = 0; x < width; ++x) {
+                const float value = channel.values[std::size_t{row} * width + x];
+                channel.is_whole ? addNumber(static_cast<std::uint32_t>(value), file) : addNumber(value, file);
+            }
+        }
+    }
+    return file;
+}
+
 }  // namespace tspace::test

@@ -5,6 +5,7 @@
 #include <functional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "images/image.h"
 
@@ -19,6 +20,14 @@ double bumps(double x, double y);
 std::string pngFile(const RgbImage& image);
 std::string jpegFile(const RgbImage& image, int quality);
 std::string webpFile(const RgbImage& image, bool lossless);
+
+struct ExrChannel {
+    std::string name = {};
+    std::vector<float> values = {};  ///< width * height
+    bool is_whole = false;           ///< stored as an unsigned integer, else as a float of 32 bits
+};
+/// An EXR that is not packed. Channels are stored in the order of their names.
+std::string exrFile(std::uint32_t width, std::uint32_t height, std::vector<ExrChannel> channels);
 
 inline std::span<const std::uint8_t> bytesOf(const std::string& file) {
     return {reinterpret_cast<const std::uint8_t*>(file.data()), file.size()};

@@ -205,7 +205,7 @@ std::string whyNoTexture(ByteSpan bytes) { return std::string("it is ") + format
 }  // namespace
 
 ImageClaim claimOfTexture(ByteSpan) { return {}; }
-std::optional<RgbImage> decodeTexture(ByteSpan bytes, std::uint64_t, std::string& why) {
+std::optional<RgbImage> decodeTexture(ByteSpan bytes, std::uint64_t, std::string& why, ImageUse) {
     why = whyNoTexture(bytes);
     return {};
 }

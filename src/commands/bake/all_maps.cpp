@@ -118,9 +118,10 @@ void HighDetail::listIds(const std::vector<std::string>& names) {
             {i < names.size() ? names[i] : std::string(), bytesOf(idColor(static_cast<std::uint32_t>(i)))});
 }
 
-PlacedTexture HighDetail::placed(std::size_t primitive, const std::optional<TextureReading>& texture, bool is_color) {
+PlacedTexture HighDetail::placed(std::size_t primitive, const std::optional<TextureReading>& texture,
+                                 ModelTextures::Use use) {
     const ScenePrimitive& source = scene_.scene.primitives[primitive];
-    PlacedTexture map = textures_.find(source, texture, is_color, false);
+    PlacedTexture map = textures_.find(source, texture, use, false);
     if (map.image == nullptr) return map;
     if (scene_.scene.memory) scene_.scene.memory->take(source.positions.size() * sizeof(Vec2), source.place);
     map.uvs = uvs_.emplace_back(textureUvs(source.uv_sets[texture->uv_set].span(), texture->transform));
@@ -135,7 +136,7 @@ void HighDetail::readMaterials(const std::string& path) {
         if (scene_.scene.primitives[i].corners.empty()) continue;
         const SurfaceLook& look = scene_.looks[i];
         if (shows(layers_, MapLayer::color)) {
-            material.base = placed(i, look.base_texture, true);
+            material.base = placed(i, look.base_texture, ModelTextures::Use::color);
             if (i < scene_.colors.size()) {
                 const SharedArray<Vec4>& colors = scene_.colors[i];
                 if (scene_.scene.memory)
@@ -143,8 +144,9 @@ void HighDetail::readMaterials(const std::string& path) {
                 material.colors.assign(colors.begin(), colors.end());
             }
         }
-        if (shows(layers_, MapLayer::orm)) material.metal = placed(i, look.metal_texture, false);
-        if (shows(layers_, MapLayer::emission)) material.emission = placed(i, look.emission_texture, true);
+        if (shows(layers_, MapLayer::orm)) material.metal = placed(i, look.metal_texture, ModelTextures::Use::factors);
+        if (shows(layers_, MapLayer::emission))
+            material.emission = placed(i, look.emission_texture, ModelTextures::Use::color);
         const auto light = [](float stored) {
             return static_cast<float>(srgbToLight(std::clamp(static_cast<double>(stored), 0.0, 1.0)));
         };

@@ -39,7 +39,7 @@ class HighDetail {
     void findShells();
     void listIds(const std::vector<std::string>& names);
     void readMaterials(const std::string& path);
-    PlacedTexture placed(std::size_t primitive, const std::optional<TextureReading>& texture, bool is_color);
+    PlacedTexture placed(std::size_t primitive, const std::optional<TextureReading>& texture, ModelTextures::Use use);
     [[nodiscard]] std::size_t partOf(std::uint32_t triangle) const;
     [[nodiscard]] ShownMaterial materialAt(std::uint32_t triangle, const std::array<double, 3>& weights) const;
 

@@ -389,9 +389,9 @@ std::optional<LowModel> readLowAnew(const std::string& low, const BakeFileOption
     return fits ? std::optional(std::move(model)) : std::nullopt;
 }
 
-FloatImage readFloatImage(const std::string& path, const FileOptions& options) {
+FloatImage readFloatImage(const std::string& path, const FileOptions& options, ImageUse use) {
     if (options.opened) options.opened(path);
-    return readMapImage(path, {}, options);
+    return readMapImage(path, {}, options, use);
 }
 
 namespace {
@@ -446,7 +446,8 @@ BakeModels readBakeModels(const std::string& low_path, const std::string& high_p
     if (showsMaterials(options.layers) || shows(options.layers, MapLayer::id))
         models.high_scene = std::move(high_scene);
     if (!options.skew.empty())
-        models.skew = aboutInput(BakeInput::skew, [&] { return readFloatImage(options.skew, options.file); });
+        models.skew =
+            aboutInput(BakeInput::skew, [&] { return readFloatImage(options.skew, options.file, ImageUse::numbers); });
     models.high.warnings.insert(models.high.warnings.end(), match.warnings.begin(), match.warnings.end());
     const std::string why = misplacement(models.lowBox(), PositionBox(models.high.view().positions));
     if (!why.empty()) models.high.warnings.push_back(why);

@@ -160,7 +160,7 @@ std::size_t placedCorner(const Affine& place, std::size_t i);
 const TangentUse* mapUse(const ScenePrimitive& primitive);
 
 /// An image that is an input of the call: readMapImage.
-FloatImage readFloatImage(const std::string& path, const FileOptions& options);
+FloatImage readFloatImage(const std::string& path, const FileOptions& options, ImageUse use = ImageUse::vectors);
 
 /// GLBs in the place of the files of a bake, whose names say only what they are called. Empty: the file is read.
 struct BakeSources {

@@ -80,7 +80,7 @@ class MapCompression {
     RoughnessLevel readRoughness(const FloatImage& map) {
         if (options_.roughness.empty()) return {};
         try {
-            FloatImage image = readMapImage(options_.roughness, {}, options_.file);
+            FloatImage image = readMapImage(options_.roughness, {}, options_.file, ImageUse::numbers);
             RoughnessLevel level{image.width, image.height, std::move(image.texels)};
             if (const std::string why = whyGridsDiffer(level, map.width, map.height); !why.empty())
                 failFile(ErrorCode::invalidOption, why);

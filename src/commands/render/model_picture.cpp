@@ -72,25 +72,30 @@ bool isDeepPng(ByteSpan bytes) {
     return imageFormat(bytes) == ImageFormat::png && bytes.size() > kBitsAt && bytes[kBitsAt] == 16;
 }
 
+/// A file that may have more than 8 bits a channel, or another layout of channels than glTF.
 bool isTextureFile(ByteSpan bytes) {
     const ImageFormat format = imageFormat(bytes);
-    return format == ImageFormat::ktx2 || format == ImageFormat::dds;
+    return format == ImageFormat::ktx2 || format == ImageFormat::dds || format == ImageFormat::exr;
+}
+
+ImageUse imageUse(ModelTextures::Use use) {
+    return use == ModelTextures::Use::normals ? ImageUse::vectors : ImageUse::numbers;
 }
 
 /// `how_read`: of a normal map, a sentence where it needs one.
-std::optional<PictureTexture> decodeDeep(ByteSpan bytes, std::uint64_t most_pixels, bool is_color, std::string& why,
-                                         std::string& how_read) {
-    std::optional<FloatImage> image = decodeFloatImage(bytes, most_pixels, why);
+std::optional<PictureTexture> decodeDeep(ByteSpan bytes, std::uint64_t most_pixels, ModelTextures::Use use,
+                                         std::string& why, std::string& how_read) {
+    std::optional<FloatImage> image = decodeFloatImage(bytes, most_pixels, why, imageUse(use));
     if (!image) return {};
     PictureTexture texture{.width = image->width, .height = image->height};
-    if (is_color) {
+    if (use == ModelTextures::Use::color) {
         const std::vector<float> table = srgbTable(image->bits == 8 ? 8 : 16);
         const auto most = static_cast<float>(table.size() - 1);
         const auto light = [&](float stored) {
             return table[static_cast<std::size_t>(std::clamp(stored, 0.0F, 1.0F) * most + 0.5f)];
         };
         for (Vec3& texel : image->texels) texel = {light(texel.x), light(texel.y), light(texel.z)};
-    } else {
+    } else if (use == ModelTextures::Use::normals) {
         how_read = readTextureVectors(*image);
     }
     texture.texels = std::move(image->texels);
@@ -98,11 +103,12 @@ std::optional<PictureTexture> decodeDeep(ByteSpan bytes, std::uint64_t most_pixe
     return texture;
 }
 
-std::optional<PictureTexture> decodeBytes(ByteSpan bytes, std::uint64_t most_pixels, bool is_color, std::string& why) {
-    std::optional<RgbImage> image = decodeImage(bytes, most_pixels, why);
+std::optional<PictureTexture> decodeBytes(ByteSpan bytes, std::uint64_t most_pixels, ModelTextures::Use use,
+                                          std::string& why) {
+    std::optional<RgbImage> image = decodeImage(bytes, most_pixels, why, imageUse(use));
     if (!image) return {};
     PictureTexture texture{.width = image->width, .height = image->height, .bytes = std::move(image->rgb)};
-    if (is_color) {
+    if (use == ModelTextures::Use::color) {
         texture.values = srgbTable(8);
     } else {
         for (int i = 0; i < 256; ++i) texture.values.push_back(static_cast<float>(i) / 255);
@@ -138,11 +144,11 @@ const PictureTexture* ModelTextures::read(const Wanted& wanted) {
 }
 
 PlacedTexture ModelTextures::find(const ScenePrimitive& primitive, const std::optional<TextureReading>& texture,
-                                  bool is_color, bool alpha) {
+                                  Use use, bool alpha) {
     PlacedTexture found;
     if (!texture || !texture->image || *texture->image >= scene_.images.size()) return found;
     if (texture->uv_set >= primitive.uv_sets.size() || primitive.uv_sets[texture->uv_set].empty()) return found;
-    found.image = read({*texture->image, is_color, alpha});
+    found.image = read({*texture->image, use, alpha});
     if (found.image != nullptr)
         found.shape = {found.image->width, found.image->height, texture->wrap_u, texture->wrap_v};
     return found;
@@ -150,7 +156,8 @@ PlacedTexture ModelTextures::find(const ScenePrimitive& primitive, const std::op
 
 std::optional<PictureTexture> ModelTextures::decode(const Wanted& wanted) {
     const SceneImage& source = scene_.images[wanted.image];
-    const bool in_floats = wanted.alpha || isDeepPng(source.bytes) || (!wanted.is_color && isTextureFile(source.bytes));
+    const bool in_floats =
+        wanted.alpha || isDeepPng(source.bytes) || (wanted.use != Use::color && isTextureFile(source.bytes));
     const std::uint64_t pixels = claimedSize(source.bytes).pixels();
     const std::uint64_t kept = pixels * (in_floats ? sizeof(Vec3) + sizeof(float) : 3);
     const std::uint64_t needed = kept + imageWorkBytes(source.bytes);
@@ -161,8 +168,8 @@ std::optional<PictureTexture> ModelTextures::decode(const Wanted& wanted) {
     } else if (scene_.memory && !scene_.memory->has(needed)) {
         why = "it " + scene_.memory->whyNot(needed);
     } else {
-        texture = in_floats ? decodeDeep(source.bytes, most_pixels_, wanted.is_color, why, how_read)
-                            : decodeBytes(source.bytes, most_pixels_, wanted.is_color, why);
+        texture = in_floats ? decodeDeep(source.bytes, most_pixels_, wanted.use, why, how_read)
+                            : decodeBytes(source.bytes, most_pixels_, wanted.use, why);
     }
     if (texture && scene_.memory) scene_.memory->take(kept, {});
     if (!how_read.empty()) warnings.push_back(how_read);
@@ -237,9 +244,9 @@ void ModelPicture::prepareTextures(std::size_t primitive) {
     const ScenePrimitive& source = drawn_.scene.primitives[primitive];
     const SurfaceLook& look = drawn_.looks[primitive];
     ModelSurface& surface = surfaces_[primitive];
-    const auto placed = [&](const std::optional<TextureReading>& texture, bool is_color, bool alpha,
-                            std::vector<Vec2>& uvs) {
-        PlacedTexture result = textures_->find(source, texture, is_color, alpha);
+    using Use = ModelTextures::Use;
+    const auto placed = [&](const std::optional<TextureReading>& texture, Use use, bool alpha, std::vector<Vec2>& uvs) {
+        PlacedTexture result = textures_->find(source, texture, use, alpha);
         if (result.image == nullptr) return result;
         uvs = textureUvs(source.uv_sets[texture->uv_set].span(), texture->transform);
         result.uvs = uvs;
@@ -247,13 +254,14 @@ void ModelPicture::prepareTextures(std::size_t primitive) {
     };
     const bool is_surface = show_ == RenderShow::surface, is_light = is_surface || show_ == RenderShow::lit;
     const bool is_masked = look.alpha_cutoff > 0, reads_alpha = is_masked || (is_light && look.is_blended);
-    if (is_light || is_masked) surface.shown.base = placed(look.base_texture, true, reads_alpha, surface.base_uvs);
+    if (is_light || is_masked)
+        surface.shown.base = placed(look.base_texture, Use::color, reads_alpha, surface.base_uvs);
     if (is_surface && !look.is_unlit) {
-        surface.shown.metal = placed(look.metal_texture, false, false, surface.metal_uvs);
-        surface.shown.emission_map = placed(look.emission_texture, true, false, surface.emission_uvs);
+        surface.shown.metal = placed(look.metal_texture, Use::factors, false, surface.metal_uvs);
+        surface.shown.emission_map = placed(look.emission_texture, Use::color, false, surface.emission_uvs);
     }
     const bool reads_map = (is_light && !look.is_unlit) || show_ == RenderShow::mapped;
-    if (reads_map) surface.shown.normal_map = placed(look.normal_texture, false, false, surface.normal_uvs);
+    if (reads_map) surface.shown.normal_map = placed(look.normal_texture, Use::normals, false, surface.normal_uvs);
 }
 
 void ModelPicture::prepareFrames(std::size_t primitive) {

@@ -46,9 +46,14 @@ class ModelTextures {
   public:
     ModelTextures(const Scene& scene, std::uint64_t most_pixels) : scene_(scene), most_pixels_(most_pixels) {}
 
+    enum class Use : std::uint8_t {
+        normals,
+        color,   ///< stored as sRGB, and made linear
+        factors  ///< roughness and metalness
+    };
     struct Wanted {
         std::size_t image = 0;
-        bool is_color = false;  ///< stored as sRGB, and made linear
+        Use use = Use::normals;
         bool alpha = false;
 
         auto operator<=>(const Wanted&) const = default;
@@ -57,7 +62,7 @@ class ModelTextures {
     const PictureTexture* read(const Wanted& wanted);
     /// That of a material, without its UVs, which follow from its transform (textureUvs). No image: there is none, or the
     /// primitive lacks its UV set.
-    PlacedTexture find(const ScenePrimitive& primitive, const std::optional<TextureReading>& texture, bool is_color,
+    PlacedTexture find(const ScenePrimitive& primitive, const std::optional<TextureReading>& texture, Use use,
                        bool alpha);
 
     std::vector<std::string> warnings = {};

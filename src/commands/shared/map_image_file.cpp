@@ -275,7 +275,7 @@ constexpr std::uint64_t kMostMapPixels = std::uint64_t{1} << 28;
 
 }  // namespace
 
-FloatImage readMapImage(const std::string& input, ByteSpan content, const FileOptions& file) {
+FloatImage readMapImage(const std::string& input, ByteSpan content, const FileOptions& file, ImageUse use) {
     Bytes read;
     ByteSpan bytes = content;
     if (bytes.data() == nullptr) {
@@ -288,7 +288,7 @@ FloatImage readMapImage(const std::string& input, ByteSpan content, const FileOp
         budget.require(bytes.size() + imageWorkBytes(bytes) + kMapPixelBytes * claimedSize(bytes).pixels(), {});
     }
     std::string why;
-    std::optional<FloatImage> image = decodeFloatImage(bytes, kMostMapPixels, why);
+    std::optional<FloatImage> image = decodeFloatImage(bytes, kMostMapPixels, why, use);
     if (!image) failFile(ErrorCode::invalidFile, why);
     return *std::move(image);
 }

@@ -50,7 +50,8 @@ MapMesh readMapMesh(const std::string& model, const MapMeshChoice& choice, const
                     const FileOptions& file, const Execution& execution);
 
 /// `content`: the image in place of the file, where it has data. Within file.memory_limit_bytes, and 2^28 pixels.
-FloatImage readMapImage(const std::string& input, ByteSpan content, const FileOptions& file);
+FloatImage readMapImage(const std::string& input, ByteSpan content, const FileOptions& file,
+                        ImageUse use = ImageUse::vectors);
 
 /// readMapMesh, whose errors name the model: those of a call are printed with the name of the image.
 MapMesh readNamedMapMesh(const std::string& model, const MapMeshChoice& choice, const TangentOptions& tangents,

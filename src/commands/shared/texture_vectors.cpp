@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "commands/shared/texture_vectors.h"
 
+#include <utility>
+
 namespace tspace {
 
-std::string readTextureVectors(FloatImage& image) {
+namespace {
+
+/// Puts x, y and z where glTF has them. Gives half a sentence that says so.
+std::string applyLayout(FloatImage& image) {
     const MapLayout layout = image.texture.layout;
     if (layout == MapLayout{}) return {};
     const auto readsAlpha = [](const MapComponent& component) { return component.channel == MapChannel::alpha; };
@@ -19,6 +24,14 @@ std::string readTextureVectors(FloatImage& image) {
                               (layout.z.channel == MapChannel::none ? ", and z is made of them" : "");
     return "the map is " + image.texture.name +
            (image.texture.is_guessed ? ", whose texels look as if it held x and y alone: " : ": ") + where;
+}
+
+}  // namespace
+
+std::string readTextureVectors(FloatImage& image) {
+    std::string text = applyLayout(image);
+    if (!image.range_text.empty()) text += (text.empty() ? "" : "; ") + std::exchange(image.range_text, {});
+    return text;
 }
 
 }  // namespace tspace

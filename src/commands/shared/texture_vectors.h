@@ -8,8 +8,9 @@
 
 namespace tspace {
 
-/// Where the format of a texture file (KTX2, DDS) has x and y alone, or its texels look so: puts x, y and a z made of them in red,
-/// green and blue. Gives one sentence that says so; empty where nothing is done.
+/// Where the format of a file (KTX2, DDS, EXR) has x and y alone, or its texels look so: puts x, y and a z made of them in red,
+/// green and blue. Gives one sentence that says so, and how floats were read (FloatImage::range_text); empty where neither
+/// was needed.
 std::string readTextureVectors(FloatImage& image);
 
 }  // namespace tspace

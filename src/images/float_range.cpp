@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+// Floats of an image file: values that are not finite, and vectors from -1 to 1.
+#include <algorithm>
+#include <cmath>
+
+#include "images/codecs.h"
+
+namespace tspace {
+
+namespace {
+
+/// A file of floats holds vectors as they are, from -1 to 1, or as integers would, (v + 1) / 2. Counts how well texels fit
+/// either way: unit length, or for two channels at most that. Texels of zeros have no say, since they are background.
+class RangeEvidence {
+  public:
+    explicit RangeEvidence(bool has_z) : has_z_(has_z) {}
+
+    void add(const Vec3& texel) {
+        constexpr float kBelowZero = -1.0F / 64.0F;  // filters that sharpen make less
+        is_grey_ = is_grey_ && texel.x == texel.y && texel.y == texel.z;
+        if (texel == Vec3{}) return;
+        const Vec3 moved{2 * texel.x - 1, 2 * texel.y - 1, 2 * texel.z - 1};
+        ++count_;
+        negative_ += texel.x < kBelowZero || texel.y < kBelowZero || texel.z < kBelowZero ? 1 : 0;
+        stored_fit_ += fits(texel) ? 1 : 0;
+        moved_fit_ += fits(moved) ? 1 : 0;
+        sum_x_ += static_cast<double>(texel.x);
+        sum_y_ += static_cast<double>(texel.y);
+        sum_z_ += static_cast<double>(texel.z);
+    }
+
+    /// Why they are vectors from -1 to 1; empty where they are not.
+    [[nodiscard]] std::string whySigned() const {
+        constexpr double kMost = 0.9, kHalf = 0.5, kFew = 0.1, kSome = 0.01;
+        if (count_ == 0 || is_grey_) return {};
+        const double stored = share(stored_fit_), moved = share(moved_fit_), negative = share(negative_);
+        const std::string read = "; they are read as vectors from -1 to 1";
+        if (negative_ > 0 && stored >= kHalf && stored > moved)
+            return "its floats are " + lengths() + " as stored, some below 0" + read;
+        if (negative_ == 0 && stored >= kMost && moved <= kFew && (!has_z_ || pointsUp()))
+            return "its floats are " + lengths() + " as stored, and not after 2c - 1" + read;
+        if (negative >= kSome && stored >= moved)
+            return "floats of " + std::to_string(negative_) + " of " + std::to_string(count_) + " texels are below 0" +
+                   read + ", though few are " + lengths() + ", as stored or after 2c - 1: is it a normal map?";
+        return {};
+    }
+
+  private:
+    [[nodiscard]] bool fits(const Vec3& v) const {
+        constexpr float kOff = 0.1F;
+        const float square = v.x * v.x + v.y * v.y;
+        if (!has_z_) return square <= 1 + kOff;
+        return std::fabs(std::sqrt(square + v.z * v.z) - 1) <= kOff;
+    }
+    [[nodiscard]] double share(std::uint64_t count) const {
+        return static_cast<double>(count) / static_cast<double>(count_);
+    }
+    /// Colors and factors can have unit length too.
+    [[nodiscard]] bool pointsUp() const {
+        constexpr double kUp = 0.8, kAside = 0.25;
+        const auto n = static_cast<double>(count_);
+        return sum_z_ > kUp * n && std::fabs(sum_x_) < kAside * n && std::fabs(sum_y_) < kAside * n;
+    }
+    [[nodiscard]] std::string lengths() const { return has_z_ ? "unit vectors" : "x and y of unit vectors"; }
+
+    bool has_z_, is_grey_ = true;
+    std::uint64_t count_ = 0, negative_ = 0, stored_fit_ = 0, moved_fit_ = 0;
+    double sum_x_ = 0, sum_y_ = 0, sum_z_ = 0;
+};
+
+}  // namespace
+
+void readFloats(ImageUse use, FloatImage& image) {
+    RangeEvidence evidence(image.texture.layout.z.channel != MapChannel::none);
+    std::vector<bool> is_broken;
+    for (std::size_t i = 0; i < image.texels.size(); ++i) {
+        const Vec3& texel = image.texels[i];
+        if (std::isfinite(texel.x) && std::isfinite(texel.y) && std::isfinite(texel.z)) {
+            evidence.add(texel);
+            continue;
+        }
+        is_broken.resize(image.texels.size());
+        is_broken[i] = true;
+        ++image.not_finite;
+    }
+    for (float& alpha : image.alpha) {
+        if (!std::isfinite(alpha)) alpha = 1;
+    }
+    if (use == ImageUse::vectors) image.range_text = evidence.whySigned();
+    if (!image.range_text.empty()) {
+        for (Vec3& texel : image.texels) texel = {0.5F * texel.x + 0.5F, 0.5F * texel.y + 0.5F, 0.5F * texel.z + 0.5F};
+    }
+    for (std::size_t i = 0; i < is_broken.size(); ++i) {
+        if (is_broken[i]) image.texels[i] = {0.5F, 0.5F, 0.5F};
+    }
+}
+
+RgbImage roundedImage(const FloatImage& image) {
+    RgbImage rounded{image.width, image.height, {}};
+    rounded.rgb.reserve(3 * image.texels.size());
+    for (const Vec3& texel : image.texels) {
+        for (const float channel : {texel.x, texel.y, texel.z})
+            rounded.rgb.push_back(static_cast<std::uint8_t>(std::clamp(channel, 0.0F, 1.0F) * 255.0F + 0.5F));
+    }
+    return rounded;
+}
+
+}  // namespace tspace

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+// EXR in the commands that read images: floats from -1 to 1 say what the PNG of the same vectors says.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "core/base/vec_math.h"
+#include "images/float_image.h"
+#include "images/images.h"
+#include "maps/shading.h"
+#include "tool/folder_files.h"
+#include "tool/run_tool.h"
+
+namespace tspace::test {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr std::uint32_t kSide = 64;
+
+class ExrFiles : public ::testing::Test {
+  protected:
+    void SetUp() override {
+        if (const char* why = whyNotRead(ImageFormat::exr)) GTEST_SKIP() << why;
+        const RgbImage map = normalMapOf(kSide, bumps);
+        std::vector<float> parts[3];
+        for (std::size_t i = 0; i < map.rgb.size(); ++i)
+            parts[i % 3].push_back(static_cast<float>(map.rgb[i] / 127.5 - 1));
+        folder_.write("n.png", pngFile(map));
+        folder_.write("rgb.exr", exrFile(kSide, kSide, {{"R", parts[0]}, {"G", parts[1]}, {"B", parts[2]}}));
+        folder_.write("layer.exr",
+                      exrFile(kSide, kSide, {{"normal.X", parts[0]}, {"normal.Y", parts[1]}, {"normal.Z", parts[2]}}));
+        folder_.write("xy.exr", exrFile(kSide, kSide, {{"X", parts[0]}, {"Y", parts[1]}}));
+    }
+
+    TempFolder folder_;
+};
+
+TEST_F(ExrFiles, VectorsAreThoseOfThePng) {
+    const FloatImage png = imageIn(folder_, "n.png");
+    for (const std::string name : {"rgb.exr", "layer.exr", "xy.exr"}) {
+        const ToolRun run = runTool(folder_, "convert-map " + name + " -o out.png --json");
+        ASSERT_EQ(run.exit_code, 0) << run.err;
+        EXPECT_NE(run.out.find("read as vectors from -1 to 1"), std::string::npos) << run.out;
+        const FloatImage made = imageIn(folder_, "out.png");
+        for (std::size_t i = 0; i < png.texels.size(); ++i)
+            ASSERT_LT(degreesBetween(decodeTexel(made.texels[i], {}), decodeTexel(png.texels[i], {})), 1.0) << name;
+        const ToolRun compared = runTool(folder_, "map-error " + name + " --source n.png --json");
+        ASSERT_EQ(compared.exit_code, 0) << compared.err;
+        EXPECT_LT(Json::parse(compared.out)["maxErrorDeg"], 4.5) << name;
+        ASSERT_EQ(runTool(folder_, "compress-map " + name + " -q -o out.dds").exit_code, 0);
+        EXPECT_LT(Json::parse(runTool(folder_, "map-error out.dds --source n.png --json").out)["meanErrorDeg"], 1.3);
+    }
+}
+
+TEST_F(ExrFiles, ModelsShowThemAsThePng) {
+    const auto drawn = [&](const std::string& map) {
+        folder_.write("a.mtl", "newmtl skin\nnorm " + map + "\n");
+        folder_.write("a.obj",
+                      "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvn 0 0 1\n"
+                      "usemtl skin\nf 1/1/1 2/2/1 3/3/1\nf 1/1/1 3/3/1 4/4/1\n");
+        EXPECT_EQ(runTool(folder_, "render a.obj -o shown.png --size 64 --json").exit_code, 0) << map;
+        EXPECT_EQ(runTool(folder_, "check a.obj --json --severity warning").exit_code, 0) << map;
+        return imageIn(folder_, "shown.png");
+    };
+    const FloatImage png = drawn("n.png"), exr = drawn("rgb.exr");
+    for (std::size_t i = 0; i < png.texels.size(); ++i) ASSERT_NEAR(exr.texels[i].x, png.texels[i].x, 0.03);
+}
+
+TEST_F(ExrFiles, HeightsOfOneChannelAreThoseOfThePng) {
+    FloatImage image{kSide, kSide, 16, {}, {}};
+    std::vector<float> heights;
+    for (std::uint32_t i = 0; i < kSide * kSide; ++i) {
+        heights.push_back(static_cast<float>(0.5 + 5 * bumps((i % kSide) / 64.0, (i / kSide) / 64.0)));
+        image.texels.push_back({heights.back(), heights.back(), heights.back()});
+    }
+    const auto png = encodePng(image, 16);
+    ASSERT_TRUE(png);
+    folder_.write("h.png", std::string(png->begin(), png->end()));
+    folder_.write("y.exr", exrFile(kSide, kSide, {{"Y", heights}}));
+    folder_.write("r.exr", exrFile(kSide, kSide, {{"R", heights}}));
+    ASSERT_EQ(runTool(folder_, "height-to-normal h.png -o h.n.png --strength 9").exit_code, 0);
+    const FloatImage wanted = imageIn(folder_, "h.n.png");
+    for (const std::string name : {"y", "r"}) {
+        const ToolRun run = runTool(folder_, "height-to-normal " + name + ".exr -o out.png --strength 9 --json");
+        ASSERT_EQ(run.exit_code, 0) << run.err;
+        const FloatImage made = imageIn(folder_, "out.png");
+        for (std::size_t i = 0; i < wanted.texels.size(); ++i) ASSERT_NEAR(made.texels[i].x, wanted.texels[i].x, 1e-3);
+    }
+}
+
+}  // namespace
+}  // namespace tspace::test
