@@ -28,9 +28,10 @@ struct HeightToNormalReport {
 
 /// Makes a normal map of heights into `out` (width * height).
 ///
-/// With h from 0 to 1 and S the strength, in texels: n = unit(-S dh/dx, S dh/drow, 1), y up. Derivatives are differences
-/// of the texels on both sides, of three rows (columns) weighted 3 : 10 : 3 (Scharr): exact for planes, and for
-/// parabolas. With a mesh, n = N - S grad h, grad h = (h_u (P_v x N) + h_v (N x P_u)) / (N . (P_u x P_v)) (Blinn 1978), where
+/// With h from 0 to 1 (any other range works too) and S the strength, in texels: n = unit(-S dh/dx, S dh/drow, 1), y up.
+/// Derivatives are differences of the texels on both sides, of three rows (columns) weighted 3 : 10 : 3 (Scharr): exact for
+/// planes, and for parabolas. At borders with TextureWrap::clamp they are one-sided: (-3 h0 + 4 h1 - h2) / 2, or h1 - h0 where
+/// there are two texels, and 0 where there is one. With a mesh, n = N - S grad h, grad h = (h_u (P_v x N) + h_v (N x P_u)) / (N . (P_u x P_v)) (Blinn 1978), where
 /// P_u and P_v are the edges of the texel on its triangle, and n is told in the mesh's frames, as MapSide has them. So the
 /// strength does not depend on the size of the image or the UVs. Texels that no triangle shows are squares of the mean size.
 ///

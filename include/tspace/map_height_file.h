@@ -11,8 +11,17 @@
 
 namespace tspace {
 
+/// How an image stores heights.
+enum class HeightEncoding : std::uint32_t {
+    gray = 0,  ///< from 0 (black) to 1 (white)
+    terrainRgb =
+        1,         ///< meters, as Mapbox's tiles have them: -10000 + (65536 R + 256 G + B) / 10, with bytes R, G and B
+    terrarium = 2  ///< meters, as Mapzen's tiles have them: 256 R + G + B / 256 - 32768
+};
+
 struct HeightToNormalFileOptions {
-    /// How high white stands above black: with `mesh` in the units of the model, else in texels.
+    /// Factor of the heights. Of gray images: the height of white above black, with `mesh` in units of the model, else in the unit of
+    /// texel_size. Of heights in meters: 1 keeps them, 2 makes slopes twice as steep.
     double strength = 1;
     std::string mesh = {};      ///< the model that shows the map; empty: none
     std::string material = {};  ///< as ConvertMapFileOptions::material
@@ -25,6 +34,10 @@ struct HeightToNormalFileOptions {
     Sink sink = {};                                            ///< takes the output in place of a file
     bool dry_run = false;                                      ///< everything but writing
     Execution execution = {};
+    HeightEncoding encoding = HeightEncoding::gray;
+    /// Width and height of a texel without `mesh`, in the unit of the heights: meters for terrain. Above 0. A tile of 256 texels of Web
+    /// Mercator has 156543.03 m * cos(latitude) / 2^zoom.
+    double texel_size = 1;
 };
 
 struct HeightToNormalFileReport {
@@ -35,7 +48,8 @@ struct HeightToNormalFileReport {
     std::vector<std::string> warnings = {};  ///< one sentence each
 };
 
-/// Makes a normal map, `output` (.png), of the height map `input` (PNG, JPEG, WebP, EXR, KTX2, DDS, TGA; of colours the mean counts).
+/// Makes a normal map, `output` (.png), of the height map `input` (PNG, JPEG, WebP, EXR, KTX2, DDS, TGA; of colors the mean counts,
+/// unless `encoding` says otherwise).
 /// Errors: those of heightToNormal and of convertMapFile. Thread-safe.
 Result<HeightToNormalFileReport> heightToNormalFile(const std::string& input, const std::string& output,
                                                     const HeightToNormalFileOptions& options = {});

@@ -102,21 +102,46 @@ class Heights {
         if (report_.on_mesh > 0) report_.texel_size = sum / static_cast<double>(report_.on_mesh);
     }
 
-    [[nodiscard]] double heightAt(std::size_t column, std::size_t row, int right, int below) const {
-        const std::size_t x = wrappedTexel(static_cast<std::int64_t>(column) + right, map_.width, map_.wrap_u);
-        const std::size_t y = wrappedTexel(static_cast<std::int64_t>(row) + below, map_.height, map_.wrap_v);
+    [[nodiscard]] double heightAt(std::int64_t column, std::int64_t row) const {
+        const std::size_t x = wrappedTexel(column, map_.width, map_.wrap_u);
+        const std::size_t y = wrappedTexel(row, map_.height, map_.wrap_v);
         return static_cast<double>(map_.heights[y * map_.width + x]);
     }
 
-    /// Based on: Scharr, "Optimale Operatoren in der Digitalen Bildverarbeitung", 2000: weights 3, 10, 3 turn least with
-    /// the direction of the slope.
-    [[nodiscard]] Slope slopeAt(std::size_t column, std::size_t row) const {
-        const auto apart = [&](int side, bool along_u) {
-            return along_u ? heightAt(column, row, 1, side) - heightAt(column, row, -1, side)
-                           : heightAt(column, row, side, 1) - heightAt(column, row, side, -1);
+    /// Whether the image ends beside that column (or row): what a clamped sampler repeats there is no height of the surface.
+    static bool isAtEnd(std::int64_t at, std::uint32_t size, TextureWrap wrap) {
+        return wrap == TextureWrap::clamp && (at == 0 || at + 1 == size);
+    }
+
+    /// The derivative over one texel along a row (or column): the central difference, or at an end the one-sided difference of second
+    /// order, of first order where there are two texels. All are exact for planes, and the first two for parabolas.
+    [[nodiscard]] double derivativeAt(std::int64_t column, std::int64_t row, bool along_u) const {
+        const std::int64_t at = along_u ? column : row;
+        const std::uint32_t size = along_u ? map_.width : map_.height;
+        const auto height = [&](std::int64_t step) {
+            return along_u ? heightAt(column + step, row) : heightAt(column, row + step);
         };
+        if (!isAtEnd(at, size, along_u ? map_.wrap_u : map_.wrap_v)) return (height(1) - height(-1)) / 2;
+        if (size == 1) return 0;
+        const std::int64_t inward = at == 0 ? 1 : -1;
+        const double slope =
+            size == 2 ? height(inward) - height(0) : (4 * height(inward) - 3 * height(0) - height(2 * inward)) / 2;
+        return static_cast<double>(inward) * slope;
+    }
+
+    /// Based on: Scharr, "Optimale Operatoren in der Digitalen Bildverarbeitung", 2000: weights 3, 10, 3 turn least with
+    /// the direction of the slope. At the ends of columns (rows) the texel stands alone, since weights of one side would
+    /// give the derivative beside it.
+    [[nodiscard]] Slope slopeAt(std::int64_t column, std::int64_t row) const {
         const auto mean = [&](bool along_u) {
-            return options_.strength * (3 * apart(-1, along_u) + 10 * apart(0, along_u) + 3 * apart(1, along_u)) / 32;
+            const double own = derivativeAt(column, row, along_u);
+            const bool is_at_end =
+                along_u ? isAtEnd(row, map_.height, map_.wrap_v) : isAtEnd(column, map_.width, map_.wrap_u);
+            if (is_at_end) return options_.strength * own;
+            const auto beside = [&](std::int64_t step) {
+                return along_u ? derivativeAt(column, row + step, true) : derivativeAt(column + step, row, false);
+            };
+            return options_.strength * (3 * beside(-1) + 10 * own + 3 * beside(1)) / 16;
         };
         return {mean(true), mean(false)};
     }
@@ -140,7 +165,7 @@ class Heights {
 
     void write(const UvTriangles& triangles, std::size_t column, std::size_t row, Leans& leans) {
         const std::size_t texel = row * map_.width + column;
-        const Slope slope = slopeAt(column, row);
+        const Slope slope = slopeAt(static_cast<std::int64_t>(column), static_cast<std::int64_t>(row));
         DVec3 vector;
         if (!onMesh(triangles, texel, slope, vector)) {
             vector = {-slope.along_u / report_.texel_size, slope.along_v / report_.texel_size, 1};

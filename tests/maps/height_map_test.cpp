@@ -52,14 +52,51 @@ double wavesV(double u, double v) {
            (std::cos(2 * std::numbers::pi * (2 * u + v)) - 3 * std::sin(2 * std::numbers::pi * (3 * v - u)));
 }
 
-TEST(HeightToNormal, IsExactForAPlaneInsideOfAClampedImage) {
-    const Made made = make([](double u, double v) { return .5 * u + .25 * v; }, {}, {.strength = 128, .bits = 32},
-                           TextureWrap::clamp);
-    // Per texel 1 to the right and 0.5 downwards.
-    DVec3 wanted{-1, .5, 1};
-    normalize(wanted);
-    for (std::uint32_t i = 1; i + 1 < kSize; ++i) EXPECT_LT(degreesBetween(made.at(i, kSize - 1 - i), wanted), 1e-3);
-    EXPECT_LT(degreesBetween(made.at(5, 5), wanted), degreesBetween(made.at(0, 5), wanted)) << "the border is flatter";
+TEST(HeightToNormal, IsExactForPlanesAndParabolasUpToTheBordersOfAClampedImage) {
+    // Per texel 1 to the right and 0.5 downwards; with a curvature of 1.5 besides.
+    for (const double curved : {0.0, 1.5}) {
+        const auto height = [&](double u, double v) { return .5 * u + .25 * v + curved * (u * u - v * v + u * v); };
+        const Made made = make(height, {}, {.strength = 128, .bits = 32}, TextureWrap::clamp);
+        for (std::uint32_t i = 0; i < kSize * kSize; ++i) {
+            const double u = (i % kSize + .5) / kSize, v = (i / kSize + .5) / kSize;
+            const double du = .5 + curved * (2 * u + v), dv = .25 + curved * (u - 2 * v);
+            EXPECT_LT(degreesBetween(made.at(i % kSize, i / kSize), {-128 * du / kSize, 128 * dv / kSize, 1}), 2e-2)
+                << i % kSize << ' ' << i / kSize;
+        }
+    }
+}
+
+/// A tile's border is near that of the whole image that it was cut out of, and a mirrored or repeated one is not changed.
+TEST(HeightToNormal, GivesTheSlopesOfWavesAtClampedBorders) {
+    const Made made = make(waves, {}, {.strength = 10, .bits = 32}, TextureWrap::clamp);
+    for (std::uint32_t i = 0; i < kSize; ++i) {
+        for (const auto& [column, row] : {std::pair{0U, i}, {kSize - 1, i}, {i, 0U}, {i, kSize - 1}}) {
+            const double u = (column + .5) / kSize, v = (row + .5) / kSize;
+            const DVec3 wanted{-10 * wavesU(u, v) / kSize, 10 * wavesV(u, v) / kSize, 1};
+            EXPECT_LT(degreesBetween(made.at(column, row), wanted), 1.2) << column << ' ' << row;
+        }
+    }
+}
+
+TEST(HeightToNormal, TakesImagesOfOneOrTwoTexels) {
+    const std::vector<float> heights{0, 1, 2, 3};
+    const auto slopes = [&](std::uint32_t width, std::uint32_t height, TextureWrap wrap) {
+        std::vector<Vec3> out(std::size_t{width} * height);
+        const std::span<const float> used = std::span(heights).first(out.size());
+        EXPECT_TRUE(heightToNormal({width, height, used, wrap, wrap}, {}, {.bits = 32}, out));
+        DVec3 n = decodeTexel(out.front(), {});
+        return std::pair{-n.x / n.z, n.y / n.z};
+    };
+    const auto expectSlopes = [](std::pair<double, double> made, double across, double down) {
+        EXPECT_NEAR(made.first, across, 1e-6);
+        EXPECT_NEAR(made.second, down, 1e-6);
+    };
+    expectSlopes(slopes(1, 1, TextureWrap::clamp), 0, 0);
+    expectSlopes(slopes(4, 1, TextureWrap::clamp), 1, 0);
+    expectSlopes(slopes(1, 4, TextureWrap::clamp), 0, 1);
+    expectSlopes(slopes(2, 1, TextureWrap::clamp), 1, 0);
+    expectSlopes(slopes(2, 2, TextureWrap::clamp), 1, 2);
+    expectSlopes(slopes(2, 2, TextureWrap::repeat), 0, 0);
 }
 
 TEST(HeightToNormal, GivesTheSlopesOfWavesAcrossTheBorders) {

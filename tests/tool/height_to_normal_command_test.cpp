@@ -109,6 +109,47 @@ TEST(HeightToNormalCommand, SaysWhatIsOdd) {
     EXPECT_EQ(runTool(folder, "height-to-normal none.png -o n.png").exit_code, 4);
 }
 
+/// Heights of 1/8 m a texel to the right and 2 m a texel downwards, in bytes.
+std::string terrainPng(bool is_terrarium) {
+    RgbImage image{32, 16, {}};
+    for (std::uint32_t i = 0; i < image.width * image.height; ++i) {
+        const double height = 1234 + 0.125 * (i % image.width) + 2.0 * (i / image.width);
+        const auto number =
+            static_cast<std::uint32_t>(is_terrarium ? (height + 32768) * 256 + 0.5 : (height + 10000) * 10 + 0.5);
+        for (const unsigned shift : {16U, 8U, 0U}) image.rgb.push_back(static_cast<std::uint8_t>(number >> shift));
+    }
+    return pngFile(image);
+}
+
+TEST(HeightToNormalCommand, ReadsTerrainInMeters) {
+    const TempFolder folder;
+    for (const std::string encoding : {"terrarium", "terrain-rgb"}) {
+        folder.write("tile.png", terrainPng(encoding == "terrarium"));
+        const ToolRun run =
+            runTool(folder, "height-to-normal tile.png -o n.png --clamp --texel-size 2 --json --encoding " + encoding);
+        ASSERT_EQ(run.exit_code, 0) << run.err;
+        EXPECT_EQ(Json::parse(run.out)["warnings"].size(), 0U) << run.out;
+        EXPECT_EQ(Json::parse(run.out)["texelSize"], 2);
+        std::string why;
+        const std::string file = folder.read("n.png");
+        const auto image = decodeFloatImage(bytesOf(file), 1 << 20, why);
+        ASSERT_TRUE(image) << why;
+        // Terrain-RGB has steps of 0.1 m.
+        for (const Vec3& texel : image->texels)
+            EXPECT_LT(degreesBetween(decodeTexel(texel, {}), {-0.0625, 1, 1}), encoding == "terrarium" ? 0.01 : 2.1);
+    }
+    const ToolRun plain = runTool(folder, "height-to-normal tile.png -o n.png --encoding terrarium --strength 2");
+    EXPECT_EQ(plain.exit_code, 0);
+    EXPECT_NE(plain.out.find("--texel-size says how wide it is"), std::string::npos) << plain.out;
+    folder.write("tile.jpg", jpegFile(normalMapOf(16, bumps), 90));
+    EXPECT_EQ(runTool(folder, "height-to-normal tile.jpg -o n.png --encoding terrarium").exit_code, 2);
+    writeHeights(folder, 16);
+    EXPECT_EQ(runTool(folder, "height-to-normal height.png -o n.png --encoding terrarium").exit_code, 2);
+    writeWall(folder);
+    EXPECT_EQ(runTool(folder, "height-to-normal height.png -o n.png --mesh wall.obj --texel-size 3").exit_code, 2);
+    EXPECT_EQ(runTool(folder, "height-to-normal height.png -o n.png --texel-size 0").exit_code, 2);
+}
+
 /// The image in the GLB that generate made.
 std::string normalMapIn(const TempFolder& folder, const std::string& name) {
     const std::string glb = folder.read(name);

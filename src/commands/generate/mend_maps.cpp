@@ -125,7 +125,7 @@ MadeOfHeights makeOfHeights(const Scene& scene, std::size_t material, std::size_
         made.why_not = "it takes more memory than the limit";
         return made;
     }
-    std::optional<FloatImage> heights = decodeFloatImage(bytes, kMostModelMapPixels, made.why_not);
+    std::optional<FloatImage> heights = decodeFloatImage(bytes, kMostModelMapPixels, made.why_not, ImageUse::numbers);
     if (!heights) return made;
     if (!isGreyImage(*heights)) {
         made.is_height_map = isPicture(*heights);
@@ -140,9 +140,9 @@ MadeOfHeights makeOfHeights(const Scene& scene, std::size_t material, std::size_
     Execution execution = options.execution;
     execution.allocator = nullptr;
     const std::vector<float> values = heightsOf(*heights);
-    const HeightToNormalReport report =
-        valueOrThrow(heightToNormal({heights->width, heights->height, values}, tangentSide(mesh.corners),
-                                    {.strength = strength, .bits = heights->bits}, heights->texels, execution));
+    const HeightToNormalReport report = valueOrThrow(
+        heightToNormal({heights->width, heights->height, values, mesh.wrap_u, mesh.wrap_v}, tangentSide(mesh.corners),
+                       {.strength = strength, .bits = heights->bits}, heights->texels, execution));
     heights->alpha.clear();
     const auto file = encodePng(*heights, heights->bits);
     if (!file) {

@@ -2,6 +2,8 @@
 // heightToNormalFile: the image, the mesh, warnings. Its options, and its report as JSON.
 #include "commands/shared/map_image_file.h"
 
+#include <cmath>
+
 #include "commands/height_to_normal/height_to_normal_report.h"
 #include "commands/shared/file_options.h"
 #include "commands/shared/request.h"
@@ -17,9 +19,42 @@ namespace {
 /// Leans beyond these mean that the strength is in other units than the mesh.
 constexpr double kSteepDeg = 60, kFlatDeg = 0.1;
 
+/// The heights of a texel of 8 bits a channel, in meters.
+double terrainHeight(HeightEncoding encoding, const Vec3& texel) {
+    const auto byteOf = [](float part) { return std::floor(255 * static_cast<double>(part) + 0.5); };
+    const double r = byteOf(texel.x), g = byteOf(texel.y), b = byteOf(texel.z);
+    return encoding == HeightEncoding::terrainRgb ? -10000 + (65536 * r + 256 * g + b) / 10
+                                                  : 256 * r + g + b / 256 - 32768;
+}
+
+/// Heights in meters above the first texel, so that floats keep all their digits.
+std::vector<float> terrainHeights(HeightEncoding encoding, const FloatImage& image) {
+    std::vector<float> heights;
+    heights.reserve(image.texels.size());
+    const double base = terrainHeight(encoding, image.texels.front());
+    for (const Vec3& texel : image.texels) heights.push_back(static_cast<float>(terrainHeight(encoding, texel) - base));
+    return heights;
+}
+
+/// A byte that is off by one in red is off by kilometers.
+void checkTerrain(ByteSpan bytes, const FloatImage& image) {
+    if (image.bits != 8)
+        failFile(ErrorCode::invalidOption, "heights in red, green and blue have 8 bits a channel, and the image has " +
+                                               std::to_string(image.bits));
+    if (imageFormat(bytes) == ImageFormat::jpeg || isLossyWebp(bytes))
+        failFile(ErrorCode::invalidOption,
+                 "heights in red, green and blue do not survive a packing with loss, which the image has");
+}
+
 void addHeightWarnings(const HeightToNormalFileOptions& options, HeightToNormalFileReport& report) {
     const auto warn = [&](std::string text) { report.warnings.push_back(std::move(text)); };
-    const std::string unit = options.mesh.empty() ? " texels" : " units of the model";
+    const bool has_own_size =
+        options.mesh.empty() && (options.texel_size != 1 || options.encoding != HeightEncoding::gray);
+    const std::string unit = has_own_size           ? " the unit of --texel-size"
+                             : options.mesh.empty() ? " texels"
+                                                    : " units of the model";
+    if (options.encoding != HeightEncoding::gray && options.mesh.empty() && options.texel_size == 1)
+        warn("the heights are in meters, and a texel is taken to be 1 m wide; --texel-size says how wide it is");
     const HeightToNormalReport& texels = report.texels;
     if (texels.mean_lean_deg > kSteepDeg) {
         warn("the normals lean by " + shortNumber(texels.mean_lean_deg) +
@@ -43,10 +78,21 @@ HeightToNormalFileReport convertHeights(const std::string& input, const std::str
     if (const char* why_not = whyNotRead(ImageFormat::png))
         failFile(ErrorCode::unsupportedFile, "the output cannot be written: " + std::string(why_not));
     if (options.bits != 8 && options.bits != 16) failFile(ErrorCode::invalidOption, "a PNG has 8 or 16 bits");
-    FloatImage image = readMapImage(input, options.content, options.file);
+    if (!(options.texel_size > 0) || !std::isfinite(options.texel_size))
+        failFile(ErrorCode::invalidOption, "the size of a texel must be above 0");
+    if (!options.mesh.empty() && options.texel_size != 1)
+        failFile(ErrorCode::invalidOption, "the mesh says how large texels are, so --texel-size does not fit --mesh");
+    const bool is_gray = options.encoding == HeightEncoding::gray;
+    Bytes read;
+    if (!is_gray && options.content.data() == nullptr) {
+        read = readFile(input);
+        options.content = read;
+    }
+    FloatImage image = readMapImage(input, options.content, options.file, ImageUse::numbers);
+    if (!is_gray) checkTerrain(options.content, image);
     HeightToNormalFileReport report{.width = image.width, .height = image.height, .bits_before = image.bits};
     report.bits = options.bits;
-    if (!isGreyImage(image))
+    if (is_gray && !isGreyImage(image))
         report.warnings.emplace_back("the image has colors; the mean of red, green and blue counts as height");
     MapMesh mesh;
     if (!options.mesh.empty()) {
@@ -54,12 +100,14 @@ HeightToNormalFileReport convertHeights(const std::string& input, const std::str
                                 options.tangents, options.file, options.execution);
         report.mesh = mesh.report;
     }
-    const std::vector<float> heights = heightsOf(image);
+    const std::vector<float> heights = is_gray ? heightsOf(image) : terrainHeights(options.encoding, image);
     const TextureWrap wrap_u = options.clamp ? TextureWrap::clamp : mesh.wrap_u;
     const TextureWrap wrap_v = options.clamp ? TextureWrap::clamp : mesh.wrap_v;
     report.texels = valueOrThrow(heightToNormal(
         {image.width, image.height, heights, wrap_u, wrap_v}, tangentSide(mesh.corners),
-        {.strength = options.strength, .green = options.green, .bits = options.bits}, image.texels, options.execution));
+        {.strength = options.strength / options.texel_size, .green = options.green, .bits = options.bits}, image.texels,
+        options.execution));
+    if (options.mesh.empty()) report.texels.texel_size = options.texel_size;
     addHeightWarnings(options, report);
     image.alpha.clear();
     writeMapImage(image, ImageFormat::png, options.bits, output,
@@ -80,6 +128,9 @@ namespace tspace::options {
 namespace {
 
 constexpr Named<unsigned> kPngBits[] = {{"8", 8}, {"16", 16}};
+constexpr Named<HeightEncoding> kEncodings[] = {{"gray", HeightEncoding::gray},
+                                                {"terrain-rgb", HeightEncoding::terrainRgb},
+                                                {"terrarium", HeightEncoding::terrarium}};
 
 }  // namespace
 
@@ -88,12 +139,27 @@ OptionList heightToNormalOptions(HeightToNormalFileOptions& options) {
     const auto take_strength = [&options](const std::string& value) {
         return parseReal(value, options.strength) ? std::string() : std::string("must be a number");
     };
-    Option strength =
-        option("--strength", "S", take_strength,
-               "How high white stands above black: with --mesh in the units of the model, else in texels. "
-               "Below 0 white lies deeper.");
+    Option strength = option(
+        "--strength", "S", take_strength,
+        "Height of white above black: in units of the model with --mesh, else in the unit of --texel-size, which is "
+        "texels by default. Below 0 white is deeper. With --encoding terrain-rgb or terrarium: factor of the heights.");
     strength.default_text = std::to_string(1);
     add(list, "Map", strength);
+    add(list, "Map",
+        choice("--encoding", "NAME", kEncodings, options.encoding,
+               "How the image stores heights. gray: from black to white. terrain-rgb (Mapbox) and terrarium (Mapzen): "
+               "meters, in "
+               "the bytes of red, green and blue."));
+    Option texel_size = option(
+        "--texel-size", "SIZE",
+        [&options](const std::string& value) {
+            return parseReal(value, options.texel_size) && options.texel_size > 0
+                       ? std::string()
+                       : std::string("must be a number above 0");
+        },
+        "Width of a texel without --mesh, in the unit of the heights: meters for terrain.");
+    texel_size.default_text = std::to_string(1);
+    add(list, "Map", texel_size);
     add(list, kInputAndOutput,
         text("--mesh", "FILE", options.mesh,
              "The model that shows the map. Slopes are then those on its surface, whatever the size of the image and "
@@ -104,8 +170,8 @@ OptionList heightToNormalOptions(HeightToNormalFileOptions& options) {
     addAllowExternal(list, options.file);
     add(list, "Map",
         flag("--clamp", options.clamp,
-             "The image ends at its borders. By default it goes on at the other side, as textures that repeat do; with "
-             "--mesh as the mesh's texture does."));
+             "The image ends at its borders, where slopes are then one-sided differences. By default it goes on at the "
+             "other side, as textures that repeat do; with --mesh as the mesh's texture does."));
     const auto take_convention = [&options](const std::string& name) {
         if (const MapReading* reading = findMapReading(name.c_str())) options.green = reading->green;
         return std::string();

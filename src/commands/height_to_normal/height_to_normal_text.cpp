@@ -13,11 +13,17 @@ std::string heightToNormalText(const Outcome<HeightToNormalFileReport>& outcome,
     Table table;
     table.addRow({"image", fmt::format("{} x {}, {} bits a channel, from {}", done.width, done.height, done.bits,
                                        done.bits_before)});
-    if (options.mesh.empty()) {
+    const std::string unit = options.encoding == HeightEncoding::gray ? "units" : "m";
+    const std::string scale = options.encoding == HeightEncoding::gray
+                                  ? fmt::format("white stands {:.4g} units high", options.strength)
+                                  : fmt::format("heights in meters, times {:.4g}", options.strength);
+    if (options.mesh.empty() && options.texel_size == 1 && options.encoding == HeightEncoding::gray) {
         table.addRow({"strength", fmt::format("white stands {:.4g} texels high", options.strength)});
     } else {
-        table.addRow({"strength", fmt::format("white stands {:.4g} units high; a texel is {:.3g} units wide",
-                                              options.strength, done.texels.texel_size)});
+        table.addRow({"strength", fmt::format("{}; a texel is {:.3g} {} wide", scale, done.texels.texel_size,
+                                              options.mesh.empty() ? unit : "units")});
+    }
+    if (!options.mesh.empty()) {
         table.addRow({"mesh", fmt::format("{}: {} triangles in {} primitives{}, on {} texels", printable(options.mesh),
                                           done.mesh.triangle_count, done.mesh.primitive_count,
                                           done.mesh.tangents_made ? ", tangents made" : "", done.texels.on_mesh)});

@@ -205,6 +205,8 @@ def height_to_normal_file(
     output: PathLike,
     *,
     strength: float = ...,
+    encoding: Literal["gray", "terrain-rgb", "terrarium"] = ...,
+    texel_size: float = ...,
     mesh: PathLike = ...,
     material: str = ...,
     clamp: bool = ...,

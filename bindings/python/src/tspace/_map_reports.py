@@ -138,7 +138,7 @@ class HeightToNormalReport(Report):
     mesh: Optional[MapMesh]
     #: Texels whose size was taken from the triangle that shows them.
     texels_on_mesh: int
-    #: The mean width of those, in units of the model; 1 without a model.
+    #: The mean width of those, in units of the model; without a model the option texelSize, which is 1 by default.
     texel_size: float
     #: Between the normals and the surface's, over all texels.
     mean_lean_deg: float
