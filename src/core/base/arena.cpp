@@ -4,6 +4,7 @@
 #include "tspace/arena.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cstdint>
 #include <vector>
 
@@ -30,6 +31,9 @@ constexpr std::size_t kUnit = kMemoryAlignment;
 constexpr std::size_t kStep = kHugePage;
 /// More than the largest mesh needs, and nothing compared with the addresses that a process has.
 constexpr std::size_t kReserved = sizeof(void*) < 8 ? std::size_t{1} << 28 : std::size_t{1} << 36;
+
+/// A smaller reservation may have no aligned step: everything comes from operator new then.
+constexpr std::size_t kLeastReserved = 2 * kStep;
 
 std::size_t roundUp(std::size_t value, std::size_t unit) { return (value + unit - 1) / unit * unit; }
 
@@ -80,17 +84,21 @@ class Arena::Impl {
         // Where address space is limited (ulimit -v), a quarter of what can be reserved is taken, and the rest is left
         // to others.
         std::size_t bytes = kReserved;
-        while (bytes > kStep && (space_ = reserveSpace(bytes)) == nullptr) bytes /= 4;
-        if (space_ != nullptr && bytes < kReserved) {
-            endSpace(space_, bytes);
+        std::byte* space = nullptr;
+        while (bytes >= kLeastReserved && (space = reserveSpace(bytes)) == nullptr) bytes /= 4;
+        if (space != nullptr && bytes < kReserved) {
+            endSpace(space, bytes);
             bytes /= 4;
-            space_ = reserveSpace(bytes);
+            space = bytes >= kLeastReserved ? reserveSpace(bytes) : nullptr;
         }
-        if (space_ == nullptr) return;
+        if (space == nullptr) return;
+        space_ = space;
         space_bytes_ = bytes;
         // Huge pages lie at multiples of their size.
-        begin_ = space_ + -reinterpret_cast<std::uintptr_t>(space_) % kStep;
-        room_ = bytes - kStep;
+        const std::size_t skipped = -reinterpret_cast<std::uintptr_t>(space) % kStep;
+        begin_ = space + skipped;
+        room_ = (bytes - skipped) / kStep * kStep;
+        assert(skipped + room_ <= space_bytes_);
     }
     Impl(const Impl&) = delete;
     Impl& operator=(const Impl&) = delete;
@@ -176,7 +184,8 @@ class Arena::Impl {
 
     bool holdUpTo(std::size_t begin, std::size_t bytes) {
         if (bytes > room_ - begin) return false;
-        const std::size_t needed = roundUp(begin + bytes, kStep);
+        const std::size_t needed = roundUp(begin + bytes, kStep);  // room_ is a multiple of kStep
+        assert(held_ <= room_ && needed <= room_);
         if (needed > held_ && !putMemoryBehind(begin_ + held_, needed - held_)) return false;
         held_ = std::max(held_, needed);
         return true;

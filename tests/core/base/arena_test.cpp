@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <new>
@@ -15,7 +16,9 @@
 
 #ifdef __linux__
 #include <malloc.h>
+#include <sys/mman.h>
 #include <sys/resource.h>
+#include <unistd.h>
 #endif
 
 #include "tspace/normals.h"
@@ -144,6 +147,44 @@ TEST(Arena, LeavesAddressesToOthersWhereTheyAreLimited) {
         return is_sound && arena.heldBytes() == 0 && arena.usedBytes() == 0;
     };
     EXPECT_EXIT(std::exit(use() ? 0 : 1), testing::ExitedWithCode(0), "");
+}
+
+/// Bytes of address space that this process has mapped.
+std::size_t mappedBytes() {
+    long pages = 0;
+    if (std::FILE* file = std::fopen("/proc/self/statm", "r")) {
+        if (std::fscanf(file, "%ld", &pages) != 1) pages = 0;
+        std::fclose(file);
+    }
+    return static_cast<std::size_t>(pages) * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+}
+
+/// Uses an arena while `left` bytes of address space are free. The mapping made before it lies where an arena that
+/// exceeds its own reservation would write. False if a byte of that mapping changed or blocks overlap.
+bool stayInsideWith(std::size_t left) {
+    constexpr std::size_t kNeighborBytes = std::size_t{16} << 20, kBlockBytes = std::size_t{1} << 19;
+    void* const mapping = mmap(nullptr, kNeighborBytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    if (mapping == MAP_FAILED) return false;
+    const Block neighbor{static_cast<std::uint8_t*>(mapping), kNeighborBytes, 0x5a};
+    std::memset(mapping, neighbor.mark, kNeighborBytes);
+    const rlimit limit{mappedBytes() + left, mappedBytes() + left};
+    if (setrlimit(RLIMIT_AS, &limit) != 0) return false;
+    const Arena arena;
+    std::vector<Block> blocks;
+    for (std::uint8_t mark = 1; mark <= 8; ++mark) {
+        const Block block = take(arena, kBlockBytes, mark);
+        if (block.memory != nullptr) blocks.push_back(block);
+    }
+    const bool is_sound = isIntact(neighbor) && std::all_of(blocks.begin(), blocks.end(), isIntact);
+    for (const Block& block : blocks) giveBack(arena, block);
+    return is_sound && arena.usedBytes() == 0;
+}
+
+TEST(Arena, WritesOnlyToItsOwnMemoryWhereAddressesAreScarce) {
+    for (std::size_t megabytes = 1; megabytes <= 72; ++megabytes) {
+        EXPECT_EXIT(std::exit(stayInsideWith(megabytes << 20) ? 0 : 1), testing::ExitedWithCode(0), "")
+            << megabytes << " MB left";
+    }
 }
 #endif
 
