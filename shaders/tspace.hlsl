@@ -214,7 +214,8 @@ float3 tspace_texelOfTwo(float2 rg) {
 }
 
 // ---- applying a texel. Take the one by which the map was baked: they differ by degrees on coarse meshes. normal,
-// tangent and bitangent are as interpolated.
+// tangent and bitangent are as interpolated, from vertices where normal and tangent are unit: tspace_transformFrame makes
+// them unit after the matrix of a node. Other lengths there change how steep the relief is.
 
 // MikkTSpace, bitangent per pixel (Blender): nothing is made unit before the end.
 // Cost: 37 operations, 1 root.

@@ -5,9 +5,8 @@ import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
 import { pathToFileURL } from "node:url";
-import { decode } from "fast-png";
 import { Glb } from "./glb.mjs";
-import { drawn, isLong, named, noShared, openFile, settled, shared, withPage } from "./support.mjs";
+import { difference, drawn, isLong, named, noShared, openBytes, openFile, overGrey, ownPicture, shared, withPage } from "./support.mjs";
 
 const plain = process.env.TSPACE_PLAIN;
 // Those with KTX2 textures have the same pictures as PNG: three.js alone reads no KTX2.
@@ -18,43 +17,6 @@ const models = [
   "assets/hp-mixed-reality-left.glb", "features/chr_knight.glb",
 ].map((name) => join(shared ?? "", "models", name));
 const shown = models.filter((_, i) => isLong || i % 5 === 1);
-
-/** The picture of the page, all of it as the file is, and where its eye and its lamp are. */
-const ownPicture = (tab) => tab.evaluate(async () => {
-  const { stage } = window.tspaceView.views, { viewport } = stage, { camera, target } = viewport;
-  stage.setSplit(1);
-  viewport.draw();
-  const picture = await viewport.draw().convertToBlob({ type: "image/png" });
-  const text = await new Promise((done) => {
-    const reader = new FileReader();
-    reader.onload = () => done(reader.result.split(",")[1]);
-    reader.readAsDataURL(picture);
-  });
-  const { width, height } = viewport.canvas, light = viewport.light.clone().transformDirection(camera.matrixWorld);
-  return { text, view: { width, height, position: camera.position.toArray(), target: target.toArray(), up: camera.up.toArray(), fov: camera.fov, near: camera.near, far: camera.far, light: light.toArray() } };
-});
-
-/** Pixels over a grey ground. */
-function overGrey(text) {
-  const { width, height, channels, data } = decode(Buffer.from(text, "base64")), rgb = new Float64Array(3 * width * height), covered = new Uint8Array(width * height);
-  for (let i = 0; i < covered.length; ++i) {
-    const alpha = channels === 4 ? data[4 * i + 3] / 255 : 1;
-    covered[i] = alpha > 0;
-    for (let k = 0; k < 3; ++k) rgb[3 * i + k] = data[channels * i + k] * alpha + 111 * (1 - alpha);
-  }
-  return { rgb, covered };
-}
-
-/** The mean over the pixels where one of both has something. */
-function difference(one, other) {
-  let sum = 0, count = 0;
-  for (let i = 0; i < one.covered.length; ++i) {
-    if (!one.covered[i] && !other.covered[i]) continue;
-    count += 1;
-    for (let k = 0; k < 3; ++k) sum += Math.abs(one.rgb[3 * i + k] - other.rgb[3 * i + k]) / 3;
-  }
-  return { mean: sum / Math.max(1, count), count };
-}
 
 test("models look as three.js alone shows them: 6 of 255 apart in the mean of their pixels, at most", { skip: noShared || (!plain && "the page of three.js alone is not built"), timeout: 3_600_000 }, async (t) => {
   const own = new Map();
@@ -94,9 +56,7 @@ test("on a cat with inverted signs a quarter of the pixels differ between the fi
       for (const primitive of glb.primitives("TANGENT")) if (primitive.attributes.TANGENT === attributes.TANGENT) primitive.attributes.TANGENT = index;
       seen.add(index);
     }
-    const bytes = glb.finish().toString("base64");
-    await tab.evaluate((text) => void window.tspaceView.open(async () => ({ name: "cat.glb", bytes: Uint8Array.from(atob(text), (c) => c.charCodeAt(0)), others: new Map() })), bytes);
-    assert.equal(await settled(tab), "ready");
+    await openBytes(tab, "cat.glb", glb.finish());
     await drawn(tab);
     const picture = (share) => tab.evaluate(async (share) => {
       const { stage } = window.tspaceView.views;

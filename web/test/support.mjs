@@ -66,6 +66,12 @@ export async function openFile(tab, path, { name = path.split("/").pop(), others
   return settled(tab, timeout);
 }
 
+/** Opens a model that a test has made. */
+export async function openBytes(tab, name, bytes) {
+  await tab.evaluate(([name, text]) => void window.tspaceView.open(async () => ({ name, bytes: Uint8Array.from(atob(text), (c) => c.charCodeAt(0)), others: new Map() })), [name, bytes.toString("base64")]);
+  if ((await settled(tab)) !== "ready") throw new Error(`${name} is not shown`);
+}
+
 /** Files that a .gltf names, by their paths as it writes them, decoded. */
 export function named(path) {
   if (!path.endsWith(".gltf")) return {};
@@ -149,4 +155,41 @@ export async function shares(tab, colors, area = { left: 0, top: 0, right: 1, bo
     for (const name of Object.keys(counts)) counts[name] /= data.length / 4;
     return counts;
   }, [png, colors, area]);
+}
+
+/** The picture of the page as PNG, all of it as the file is (or the other side: 0), and where its eye and its lamp are. */
+export const ownPicture = (tab, split = 1) => tab.evaluate(async (split) => {
+  const { stage } = window.tspaceView.views, { viewport } = stage, { camera, target } = viewport;
+  stage.setSplit(split);
+  viewport.draw();
+  const picture = await viewport.draw().convertToBlob({ type: "image/png" });
+  const text = await new Promise((done) => {
+    const reader = new FileReader();
+    reader.onload = () => done(reader.result.split(",")[1]);
+    reader.readAsDataURL(picture);
+  });
+  const { width, height } = viewport.canvas, light = viewport.light.clone().transformDirection(camera.matrixWorld);
+  return { text, view: { width, height, position: camera.position.toArray(), target: target.toArray(), up: camera.up.toArray(), fov: camera.fov, near: camera.near, far: camera.far, light: light.toArray() } };
+}, split);
+
+/** Pixels over a grey ground. */
+export function overGrey(text) {
+  const { width, height, channels, data } = decode(Buffer.from(text, "base64")), rgb = new Float64Array(3 * width * height), covered = new Uint8Array(width * height);
+  for (let i = 0; i < covered.length; ++i) {
+    const alpha = channels === 4 ? data[4 * i + 3] / 255 : 1;
+    covered[i] = alpha > 0;
+    for (let k = 0; k < 3; ++k) rgb[3 * i + k] = data[channels * i + k] * alpha + 111 * (1 - alpha);
+  }
+  return { rgb, covered };
+}
+
+/** The mean over the pixels where one of both has something. */
+export function difference(one, other) {
+  let sum = 0, count = 0;
+  for (let i = 0; i < one.covered.length; ++i) {
+    if (!one.covered[i] && !other.covered[i]) continue;
+    count += 1;
+    for (let k = 0; k < 3; ++k) sum += Math.abs(one.rgb[3 * i + k] - other.rgb[3 * i + k]) / 3;
+  }
+  return { mean: sum / Math.max(1, count), count };
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What lies over the picture: T, B and N as lines, and the outlines of triangles that a finding names.
 import { Box3, Box3Helper, BufferAttribute, BufferGeometry, Group, LineBasicMaterial, LineSegments, Matrix4, Mesh, MeshBasicMaterial, Sphere, Vector3 } from "three";
+import { PlacedFrame } from "./frame.js";
 import type { Drawn, Scene } from "./scene.js";
 
 export type Axis = "t" | "b" | "n";
@@ -9,13 +10,13 @@ const kMostLines = 40_000;
 const colors: Record<Axis, number> = { t: 0xe5484d, b: 0x30a46c, n: 0x3e8ef7 };
 const lineMaterials = Object.fromEntries(Object.entries(colors).map(([axis, color]) => [axis, new LineBasicMaterial({ color })])) as Record<Axis, LineBasicMaterial>;
 
-function vectorAt(drawn: Drawn, tangents: Float32Array | null, corner: number, axis: Axis, out: Vector3): boolean {
-  const n = drawn.corners.normals, i = 3 * corner, k = 4 * corner;
-  if (axis === "n") out.set(n[i], n[i + 1], n[i + 2]);
-  else if (!tangents) return false;
-  else if (axis === "t") out.set(tangents[k], tangents[k + 1], tangents[k + 2]);
-  else out.set(n[i], n[i + 1], n[i + 2]).cross(new Vector3(tangents[k], tangents[k + 1], tangents[k + 2])).multiplyScalar(tangents[k + 3]);
-  return Number.isFinite(out.x + out.y + out.z);
+/** T, B or N of a corner at a place of its part, as long as it is in the file. */
+function vectorAt(drawn: Drawn, frame: PlacedFrame, tangents: Float32Array | null, corner: number, axis: Axis): Vector3 | null {
+  const n = new Vector3().fromArray(drawn.corners.normals, 3 * corner);
+  if (axis === "n") return frame.normal(n).multiplyScalar(n.length());
+  if (!tangents) return null;
+  const t = new Vector3().fromArray(tangents, 4 * corner), w = tangents[4 * corner + 3];
+  return axis === "t" ? frame.tangent(t).multiplyScalar(t.length()) : frame.bitangent(n, t, w).setLength(n.clone().cross(t).length() * Math.abs(w));
 }
 
 /** One corner of each vertex that has another frame, at most so many. */
@@ -38,18 +39,20 @@ function shownCorners(drawn: Drawn, isRight: boolean, most: number): number[] {
 export function frameLines(scene: Scene, axes: Axis[], isRight: boolean, length: number): Group {
   const group = new Group();
   const most = Math.ceil(kMostLines / Math.max(1, scene.drawn.length));
-  const v = new Vector3(), p = new Vector3(), turned = new Vector3();
+  const p = new Vector3();
   for (const drawn of scene.drawn) {
     const tangents = isRight ? (drawn.frames?.tangents ?? null) : drawn.corners.tangents;
     const corners = shownCorners(drawn, isRight, most);
     for (const place of drawn.part.places) {
+      const frame = new PlacedFrame(place);
       for (const axis of axes) {
         const ends: number[] = [];
         for (const corner of corners) {
-          if (!vectorAt(drawn, tangents, corner, axis, v)) continue;
+          const v = vectorAt(drawn, frame, tangents, corner, axis);
+          if (!v || !Number.isFinite(v.x + v.y + v.z)) continue;
           p.fromArray(drawn.corners.positions, 3 * corner).applyMatrix4(place);
-          turned.copy(v).transformDirection(place).multiplyScalar(length * Math.min(4, v.length()));
-          ends.push(p.x, p.y, p.z, p.x + turned.x, p.y + turned.y, p.z + turned.z);
+          v.clampLength(0, 4).multiplyScalar(length);
+          ends.push(p.x, p.y, p.z, p.x + v.x, p.y + v.y, p.z + v.z);
         }
         const geometry = new BufferGeometry().setAttribute("position", new BufferAttribute(new Float32Array(ends), 3));
         const lines = new LineSegments(geometry, lineMaterials[axis]);
@@ -129,7 +132,7 @@ export function outlineTriangles(drawn: Drawn, triangles: number[]): Place {
   const p = drawn.corners.positions, n = drawn.corners.normals;
   const edges: number[] = [], faces: number[] = [], points: Vector3[] = [];
   const matrix = drawn.part.places[0] ?? new Matrix4();
-  const outward: Vector3[] = [], own = new Vector3();
+  const outward: Vector3[] = [], own = new Vector3(), frame = new PlacedFrame(matrix);
   for (const triangle of triangles) {
     const corner = [0, 1, 2].map((k) => new Vector3().fromArray(p, 9 * triangle + 3 * k).applyMatrix4(matrix));
     if (!corner.every((c) => Number.isFinite(c.x + c.y + c.z))) continue;
@@ -138,7 +141,7 @@ export function outlineTriangles(drawn: Drawn, triangles: number[]): Place {
       const next = corner[(k + 1) % 3];
       if (triangles.length <= kMostEdges) edges.push(c.x, c.y, c.z, next.x, next.y, next.z);
       faces.push(c.x, c.y, c.z);
-      if (Number.isFinite(own.fromArray(n, 9 * triangle + 3 * k).x)) face.add(own.transformDirection(matrix));
+      if (Number.isFinite(own.fromArray(n, 9 * triangle + 3 * k).x)) face.add(frame.normal(own));
     });
     const twiceArea = corner[1].clone().sub(corner[0]).cross(corner[2].clone().sub(corner[0])).length();
     outward.push(face.setLength(twiceArea / 2));

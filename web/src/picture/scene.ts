@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The parts of a model as drawable objects. Each place of a part is an object of its own; all share one geometry.
-import { BufferAttribute, BufferGeometry, DataTexture, Group, Matrix3, Matrix4, Mesh, Sphere, Vector3, type Material, type RawShaderMaterial, type Texture } from "three";
+import { BufferAttribute, BufferGeometry, DataTexture, Group, Matrix4, Mesh, Sphere, Vector3, type Material, type RawShaderMaterial, type Texture } from "three";
 import { poseCorners, poseTangents } from "../model/pose.js";
 import type { Part } from "../model/part.js";
 import type { Corners, Frames } from "../worker/protocol.js";
@@ -33,7 +33,6 @@ export interface Drawn {
 
 const empty = new DataTexture(new Uint8Array([128, 128, 255, 255]), 1, 1);
 empty.needsUpdate = true;
-const identity = new Matrix3();
 
 /** Numbers per vertex as numbers per corner. */
 function perCorner(size: number, count: number, indices: Uint32Array | null, at: (vertex: number, k: number) => number): BufferAttribute {
@@ -65,7 +64,6 @@ function draw(number: number, part: Part, corners: Corners): Drawn {
   const material = makeMaterial(
     { normalMap: corners.uvs && part.normalMap, colorMap: corners.uvs && part.colorMap, scale: part.normalScale, color: part.color, alphaTest: part.alphaTest, hasTangents: corners.tangents !== null, side: part.isDoubleSided ? 2 : 0 },
     empty,
-    identity,
   );
   const { uSplit, uMap, uHasTangents, uHasRight, uRightGreen, uRightMap } = material.uniforms;
   const surface = surfaceFor(part.surface, { uSplit, uMap, uHasTangents, uHasRight, uRightGreen, uRightMap });
@@ -101,7 +99,6 @@ export class Scene {
       drawn.firstTriangles.push(first);
       mesh.onBeforeRender = () => {
         drawn.material.uniforms.uFirst.value = first;
-        drawn.material.uniforms.uNormalMatrix.value.getNormalMatrix(place);
         drawn.material.uniformsNeedUpdate = true;
       };
       drawn.meshes.push(mesh);

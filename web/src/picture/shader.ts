@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-// The one shader of the picture. Frames are interpolated as they are and only the result is made unit, as bakers expect; left
-// of the split are the frames of the file, right of it those of the method.
-import { GLSL3, RawShaderMaterial, type Matrix3, type Texture, type Vector3 } from "three";
+// The shader of all looks but the surface. N and T are unit at the vertices (frame.ts) and not between them: only the shaded normal
+// is normalized, as bakers expect. The frames of the file are left of the split, those of the method right of it.
+import { GLSL3, RawShaderMaterial, type Texture, type Vector3 } from "three";
 import { glsl, heat, heatDegrees, noData, signMinus, signPlus, wrong } from "../color.js";
+import { frameGlsl } from "./frame.js";
 
 export const looks = ["lit", "difference", "normals", "signs", "mirrored", "error", "islands"] as const;
 export type Look = (typeof looks)[number];
 
 const vertexShader = `
 uniform mat4 modelMatrix, viewMatrix, projectionMatrix;
-uniform mat3 uNormalMatrix;
 uniform bool uIsMap;
 uniform vec4 uMapArea;
 uniform int uFirst;
@@ -21,15 +21,14 @@ out vec2 vUv, vColorUv, vError;
 flat out vec2 vIsland;
 flat out vec3 vSigns;
 flat out int vTriangle;
+${frameGlsl}
 void main() {
   vec4 place = modelMatrix * vec4(position, 1.0);
   vPlace = place.xyz;
-  vNormal = uNormalMatrix * normal;
-  mat3 turn = mat3(modelMatrix);
-  vTangent = turn * fileTangent.xyz;
-  vBitangent = turn * (cross(normal, fileTangent.xyz) * fileTangent.w);
-  vRightTangent = turn * right.xyz;
-  vRightBitangent = turn * (cross(normal, right.xyz) * right.w);
+  mat3 linear = linearOf(modelMatrix);
+  vNormal = placedNormal(linear, normal);
+  placeTangent(linear, vNormal, fileTangent, vTangent, vBitangent);
+  placeTangent(linear, vNormal, right, vRightTangent, vRightBitangent);
   vUv = mapUv;
   vColorUv = colorUv;
   vIsland = island;
@@ -179,7 +178,7 @@ export interface PictureValues {
   eye: Vector3;
 }
 
-export function makeMaterial(options: { normalMap: Texture | null; colorMap: Texture | null; scale: number; color: Vector3; alphaTest: number; hasTangents: boolean; side: 0 | 2 }, empty: Texture, identity: Matrix3): RawShaderMaterial {
+export function makeMaterial(options: { normalMap: Texture | null; colorMap: Texture | null; scale: number; color: Vector3; alphaTest: number; hasTangents: boolean; side: 0 | 2 }, empty: Texture): RawShaderMaterial {
   const value = <T>(v: T) => ({ value: v });
   return new RawShaderMaterial({
     glslVersion: GLSL3,
@@ -187,7 +186,7 @@ export function makeMaterial(options: { normalMap: Texture | null; colorMap: Tex
     fragmentShader,
     side: options.side,
     uniforms: {
-      uNormalMatrix: value(identity.clone()), uIsMap: value(false), uMapArea: value([1, 1, 0, 0]), uFirst: value(0),
+      uIsMap: value(false), uMapArea: value([1, 1, 0, 0]), uFirst: value(0),
       uLook: value(0), uMap: value(1), uHasTangents: value(options.hasTangents), uHasRight: value(false), uRightGreen: value(false),
       uHasNormalMap: value(options.normalMap !== null), uHasColorMap: value(options.colorMap !== null),
       uWire: value(false), uIsPick: value(false), uUseColors: value(true), uSplit: value(0), uScale: value(options.scale),

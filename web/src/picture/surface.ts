@@ -2,6 +2,7 @@
 // A material of three.js whose normal map is read through our frames: those of the file left of the split, the right ones right
 // of it. All else of it (metal, roughness, alpha, emission, clearcoat, transmission) is as three.js has it.
 import type { Material, Texture } from "three";
+import { frameGlsl } from "./frame.js";
 
 export interface SurfaceUniforms {
   uSplit: { value: number };
@@ -14,16 +15,15 @@ export interface SurfaceUniforms {
 
 const vertexHead = `#include <common>
 in vec4 fileTangent, right;
-out vec3 vOwnNormal, vFileTangent, vFileBitangent, vRightTangent, vRightBitangent;`;
+out vec3 vOwnNormal, vFileTangent, vFileBitangent, vRightTangent, vRightBitangent;
+${frameGlsl}`;
 
-// Directions as they are interpolated: only the result is made unit, as bakers expect.
+// N and T are unit at the vertices and not between them: only the shaded normal is normalized, as bakers expect.
 const vertexBody = `#include <normal_vertex>
-mat3 toEye = mat3(modelViewMatrix);
-vOwnNormal = normalMatrix * normal;
-vFileTangent = toEye * fileTangent.xyz;
-vFileBitangent = toEye * (cross(normal, fileTangent.xyz) * fileTangent.w);
-vRightTangent = toEye * right.xyz;
-vRightBitangent = toEye * (cross(normal, right.xyz) * right.w);`;
+mat3 toEye = linearOf(modelViewMatrix);
+vOwnNormal = placedNormal(toEye, normal);
+placeTangent(toEye, vOwnNormal, fileTangent, vFileTangent, vFileBitangent);
+placeTangent(toEye, vOwnNormal, right, vRightTangent, vRightBitangent);`;
 
 const fragmentHead = `#include <common>
 uniform float uSplit;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What is under the pointer: the texel, its normal, the frame there, and the angle between both frames' results.
-import { Matrix3, Matrix4, Ray, Vector2, Vector3, type Texture } from "three";
+import { Matrix4, Ray, Vector2, Vector3, type Texture } from "three";
 import { el, replaceChildren } from "../dom.js";
+import { PlacedFrame } from "../picture/frame.js";
 import type { Drawn } from "../picture/scene.js";
 import type { Viewport } from "../picture/viewport.js";
 
@@ -93,17 +94,23 @@ export class TexelView {
     const p = drawn.corners.positions;
     const [a, b, c] = [0, 3, 6].map((k) => new Vector3().fromArray(p, 9 * triangle + k));
     const weights = weightsAt(ray, a, b, c);
-    if (weights) this.#describe(drawn, triangle, weights);
+    if (weights) this.#describe(drawn, place, triangle, weights);
   }
 
-  #describe(drawn: Drawn, triangle: number, weights: Vector3): void {
+  #describe(drawn: Drawn, place: Matrix4, triangle: number, weights: Vector3): void {
     const mix = (data: Float32Array, size: number, k: number) => {
       const at = (corner: number) => data[size * (3 * triangle + corner) + k];
       return weights.x * at(0) + weights.y * at(1) + weights.z * at(2);
     };
     const mixed = (data: Float32Array, size: number) => new Vector3(mix(data, size, 0), mix(data, size, 1), mix(data, size, 2));
     const { corners, frames, part } = drawn;
-    const n = mixed(corners.normals, 3);
+    const n = mixed(corners.normals, 3), frame = new PlacedFrame(place);
+    // As the shaders have it: a frame at each corner, interpolated.
+    const shaded = (tangents: Float32Array, { x, y, z }: Vector3) => [0, 1, 2].reduce((sum, k) => {
+      const corner = 3 * triangle + k, weight = weights.getComponent(k);
+      const normal = new Vector3().fromArray(corners.normals, 3 * corner), t = new Vector3().fromArray(tangents, 4 * corner);
+      return sum.addScaledVector(frame.tangent(t), weight * x).addScaledVector(frame.bitangent(normal, t, tangents[4 * corner + 3]), weight * y).addScaledVector(frame.normal(normal), weight * z);
+    }, new Vector3()).normalize();
     const uv: [number, number] | null = corners.uvs && [mix(corners.uvs, 2, 0), mix(corners.uvs, 2, 1)];
     this.found({ drawn, partIndex: this.viewport.scene.drawn.indexOf(drawn), triangle, weights: [weights.x, weights.y, weights.z] });
     const texelOf = (map: Texture | null) => (uv && map ? this.#reader.read(map, uv[0], uv[1]) : null);
@@ -129,7 +136,7 @@ export class TexelView {
       const t = mixed(tangents, 4), w = mix(tangents, 4, 3);
       const bitangent = n.clone().cross(t).multiplyScalar(w);
       rows.push([`T, ${whose}`, text(t.clone().normalize())], [`B, ${whose}`, `${text(bitangent.clone().normalize())}  (w ${w > 0 ? "+" : "−"}${Math.abs(w).toFixed(w * w === 1 ? 0 : 2)})`]);
-      results.push(lit.clone().applyMatrix3(new Matrix3().set(t.x, bitangent.x, n.x, t.y, bitangent.y, n.y, t.z, bitangent.z, n.z)).normalize());
+      results.push(shaded(tangents, lit));
     }
     const list = el("dl", {});
     for (const [name, value] of rows) list.append(el("dt", {}, name), el("dd", {}, value));
