@@ -62,6 +62,7 @@ Json findingsIn(const TempFolder& folder, const std::string& file) {
 struct Kind {
     const char* code;
     const char* options;  ///< that the remedy names
+    const char* others;   ///< options for the relief turned inside out, where that looks the same; null: none
     Vec3 (*store)(const Vec3& texel);
     float (*alpha)(const Vec3& texel) = nullptr;
 };
@@ -71,36 +72,36 @@ float curved(float c) {
 }
 
 const Kind kKinds[] = {
-    {"normalMapTwoChannels", "--channels rg",
+    {"normalMapTwoChannels", "--channels rg", nullptr,
      [](const Vec3& t) {
          return Vec3{t.x, t.y, 0};
      }},
-    {"normalMapTwoChannels", "--channels rg",
+    {"normalMapTwoChannels", "--channels rg", nullptr,
      [](const Vec3& t) {
          return Vec3{t.x, t.y, 1};
      }},
-    {"normalMapUnsigned", "--channels rg",
+    {"normalMapUnsigned", "--channels rg", nullptr,
      [](const Vec3& t) {
          return Vec3{t.x, t.y, 2 * t.z - 1};
      }},
-    {"normalMapChannels", "--channels bgr",
+    {"normalMapChannels", "--channels bgr", "--channels BGr",
      [](const Vec3& t) {
          return Vec3{t.z, t.y, t.x};
      }},
-    {"normalMapChannels", "--channels brg",
+    {"normalMapChannels", "--channels brg", "--channels BRg",
      [](const Vec3& t) {
          return Vec3{t.y, t.z, t.x};
      }},
-    {"normalMapChannels", "--channels rgB",
+    {"normalMapChannels", "--channels rgB", "--channels RGB",
      [](const Vec3& t) {
          return Vec3{t.x, t.y, 1 - t.z};
      }},
-    {"normalMapChannels", "--channels ag",
+    {"normalMapChannels", "--channels ag", nullptr,
      [](const Vec3& t) {
          return Vec3{1, t.y, 1};
      },
      [](const Vec3& t) { return t.x; }},
-    {"normalMapIsSrgb", "--srgb",
+    {"normalMapIsSrgb", "--srgb", nullptr,
      [](const Vec3& t) {
          return Vec3{curved(t.x), curved(t.y), curved(t.z)};
      }},
@@ -122,9 +123,11 @@ TEST(MendMaps, WhatCheckNamesMendsTheModelAndTheImage) {
         ASSERT_EQ(found.size(), 1U) << kind.code << found.dump(1);
         EXPECT_EQ(found[0]["code"], kind.code);
         const std::string remedy = found[0]["remedy"];
-        EXPECT_NE(remedy.find("tspace generate --mend-maps does it"), std::string::npos) << remedy;
-        const std::string command = "convert-map map.png -o OUT.png " + std::string(kind.options);
-        EXPECT_TRUE(remedy.ends_with("tspace " + command)) << remedy;
+        EXPECT_NE(remedy.find("tspace generate --mend-maps."), std::string::npos) << remedy;
+        const std::string start = "convert-map map.png -o OUT.png ", command = start + kind.options;
+        const std::string last = kind.others == nullptr ? command : start + kind.others;
+        EXPECT_NE(remedy.find("tspace " + command), std::string::npos) << remedy;
+        EXPECT_TRUE(remedy.ends_with("tspace " + last)) << remedy;
 
         ASSERT_EQ(runTool(folder, "generate --mend-maps map.gltf -o mended.gltf").exit_code, 0);
         EXPECT_EQ(findingsIn(folder, "mended.gltf"), Json::array()) << kind.code;
@@ -133,12 +136,12 @@ TEST(MendMaps, WhatCheckNamesMendsTheModelAndTheImage) {
 
         ASSERT_EQ(runTool(folder, command).exit_code, 0) << command;
         EXPECT_LT(meanError(imageIn(folder, "OUT.png"), right), 1) << kind.code;
+        ASSERT_EQ(runTool(folder, last).exit_code, 0) << last;
         writeSquare(folder, "OUT");
         EXPECT_EQ(findingsIn(folder, "OUT.gltf"), Json::array()) << kind.code;
     }
 }
 
-/// Round bumps curve along x and along y apart, so that only one of the two can be x.
 TEST(MendMaps, TexturesBecomePngsThatTheModelNamesPlainly) {
     const TempFolder folder;
     const RgbImage map = normalMapOf(64, bumps);
@@ -176,18 +179,20 @@ TEST(MendMaps, TexturesBecomePngsThatTheModelNamesPlainly) {
     }
 }
 
+/// Round bumps curve along x and along y apart, so that only one of the two can be x.
+double bumpsApart(double x, double y) {
+    double h = 0;
+    for (int i = 0; i < 36; ++i) {
+        const double u = x - (i % 6 + 0.5 + 0.3 * std::sin(7.0 * i)) / 6,
+                     v = y - (i / 6 + 0.5 + 0.3 * std::cos(5.0 * i)) / 6;
+        h += 0.02 * std::exp(-(u * u + v * v) * 400);
+    }
+    return h;
+}
+
 TEST(MendMaps, MendsRedAndGreenThatWereExchanged) {
-    const auto bumps_apart = [](double x, double y) {
-        double h = 0;
-        for (int i = 0; i < 36; ++i) {
-            const double u = x - (i % 6 + 0.5 + 0.3 * std::sin(7.0 * i)) / 6,
-                         v = y - (i / 6 + 0.5 + 0.3 * std::cos(5.0 * i)) / 6;
-            h += 0.02 * std::exp(-(u * u + v * v) * 400);
-        }
-        return h;
-    };
     const TempFolder folder;
-    const FloatImage right = floatsOf(normalMapOf(256, bumps_apart));
+    const FloatImage right = floatsOf(normalMapOf(256, bumpsApart));
     FloatImage wrong = right;
     writeImage(folder, "map.png", right);
     writeSquare(folder, "map");
@@ -197,10 +202,37 @@ TEST(MendMaps, MendsRedAndGreenThatWereExchanged) {
     const Json found = findingsIn(folder, "map.gltf");
     ASSERT_EQ(found.size(), 1U) << found.dump(1);
     EXPECT_EQ(found[0]["code"], "normalMapChannels");
-    EXPECT_TRUE(found[0]["remedy"].get<std::string>().ends_with("--channels grb")) << found[0]["remedy"];
+    const std::string remedy = found[0]["remedy"];
+    EXPECT_NE(remedy.find("--channels grb. "), std::string::npos) << remedy;
+    EXPECT_TRUE(remedy.ends_with("--channels GRb")) << remedy;
     ASSERT_EQ(runTool(folder, "generate --mend-maps map.gltf -o mended.gltf").exit_code, 0);
     EXPECT_EQ(findingsIn(folder, "mended.gltf"), Json::array());
     EXPECT_LT(meanError(imageIn(folder, "map-mended.png"), right), 1);
+}
+
+TEST(MendMaps, NamesBothWaysToTurnTheVectorsOfAnImageThatWasTurned) {
+    const TempFolder folder;
+    const FloatImage right = floatsOf(normalMapOf(256, bumpsApart));
+    FloatImage wrong = right;
+    for (Vec3& texel : wrong.texels) texel = {texel.y, 1 - texel.x, texel.z};
+    writeImage(folder, "map.png", wrong);
+    writeSquare(folder, "map");
+    const Json found = findingsIn(folder, "map.gltf");
+    ASSERT_EQ(found.size(), 1U) << found.dump(1);
+    EXPECT_EQ(found[0]["code"], "normalMapChannels");
+    const std::string remedy = found[0]["remedy"];
+    EXPECT_EQ(remedy.find("--mend-maps"), std::string::npos) << remedy;
+    for (const std::string letters : {"Grb", "gRb"}) {
+        const std::string command = "convert-map map.png -o OUT.png --channels " + letters;
+        EXPECT_NE(remedy.find("tspace " + command + ". "), std::string::npos) << remedy;
+        ASSERT_EQ(runTool(folder, command).exit_code, 0);
+        EXPECT_EQ(meanError(imageIn(folder, "OUT.png"), right) < 1, letters == "Grb");
+        writeSquare(folder, "OUT");
+        EXPECT_EQ(findingsIn(folder, "OUT.gltf"), Json::array());
+    }
+    const ToolRun run = runTool(folder, "generate --mend-maps map.gltf -o mended.gltf");
+    EXPECT_NE(run.out.find("turned by 90 or 270 degrees"), std::string::npos) << run.out;
+    EXPECT_EQ(findingsIn(folder, "mended.gltf")[0]["code"], "normalMapChannels");
 }
 
 TEST(MendMaps, OneCommandMendsChannelsAndGreen) {
@@ -215,7 +247,7 @@ TEST(MendMaps, OneCommandMendsChannelsAndGreen) {
     EXPECT_EQ(found[0]["code"], "normalMapTwoChannels");
     EXPECT_EQ(found[1]["code"], "greenFlipped");
     const std::string remedy = found[0]["remedy"];
-    EXPECT_NE(remedy.find("tspace generate --mend-maps --flip-green does it"), std::string::npos) << remedy;
+    EXPECT_NE(remedy.find("tspace generate --mend-maps --flip-green."), std::string::npos) << remedy;
     EXPECT_TRUE(remedy.ends_with("convert-map map.png -o OUT.png --channels rg --flip-green")) << remedy;
     ASSERT_EQ(runTool(folder, "generate --mend-maps --flip-green map.gltf -o mended.gltf").exit_code, 0);
     EXPECT_EQ(findingsIn(folder, "mended.gltf"), Json::array());

@@ -10,7 +10,7 @@
 #include <tuple>
 
 #include "commands/check/findings.h"
-#include "commands/check/map_content.h"
+#include "commands/check/map_slopes.h"
 #include "commands/shared/uv_reading.h"
 #include "core/base/numbers.h"
 #include "core/base/vec_math.h"
@@ -191,89 +191,19 @@ std::vector<std::uint8_t> alphaOf(const Scene& scene, const SceneImage& image, s
     return decodeAlpha(image.bytes);
 }
 
-/// Which of the two channels beside z is x: the derivatives of a height go together (GreenBlocks) the right way only.
-void chooseXAndY(const RgbImage& image, std::span<const std::uint8_t> alpha, const TexelMask& inside,
-                 MapLayout& layout) {
-    constexpr double kClear = 0.2;
-    const auto agreement = [&](const MapLayout& chosen) {
-        RgbImage read = image;
-        readByLayout(read, alpha, chosen);
-        return std::fabs(GreenBlocks(read, inside).all().correlation);
-    };
-    MapLayout other = layout;
-    std::swap(other.x, other.y);
-    if (agreement(other) > agreement(layout) + kClear) layout = other;
-}
-
-/// What the texels of an image look like that says nothing of x and y, and has alpha. Green and alpha may as well hold
-/// them where all colours are one.
-MapLayout guessedLayout(std::span<const TexelBytes> texels, const RgbImage& image, std::span<const std::uint8_t> alpha,
-                        const TexelMask& inside) {
-    LayoutGuess guess;
-    for (const TexelBytes& texel : texels) {
-        const auto part = [&](std::size_t i) { return static_cast<float>(texel[i]) / 255.0F; };
-        guess.add({part(0), part(1), part(2)}, part(3));
-    }
-    MapLayout layout = guess.layout().value_or(MapLayout{});
-    if (layout.y.channel == MapChannel::alpha) chooseXAndY(image, alpha, inside, layout);
-    return layout;
-}
-
-/// Whether red is y and green is x: only so are the derivatives those of a height. Relief that curves along x as it does along
-/// y, as a product of waves, does not tell.
-bool areXAndYExchanged(const RgbImage& image, const TexelMask& inside) {
-    constexpr double kLeast = 0.8, kMost = 0.5;
-    const GreenTest plain = GreenBlocks(image, inside).all();
-    if (std::fabs(plain.correlation) > kMost) return false;
-    RgbImage read = image;
-    MapLayout layout;
-    std::swap(layout.x, layout.y);
-    readByLayout(read, {}, layout);
-    const GreenTest other = GreenBlocks(read, inside).all();
-    const bool has_verdict = other.verdict == GreenVerdict::up || other.verdict == GreenVerdict::down;
-    return has_verdict && std::fabs(other.correlation) > kLeast;
-}
-
-/// Where a texture file says where x and y are, or its texels do, that counts. `known`: what the format says.
-void lookAtTexture(const MapLayout& known, std::span<const TexelBytes> texels, const RgbImage& image,
-                   std::span<const std::uint8_t> alpha, const TexelMask& inside, MapLook& look) {
-    const bool is_guessed = known == MapLayout{} && !alpha.empty();
-    const MapLayout layout = is_guessed ? guessedLayout(texels, image, alpha, inside) : known;
-    if (layout == MapLayout{}) return;
-    const bool has_z = layout.z.channel != MapChannel::none;
-    const bool is_plain = layout.x == MapLayout{}.x && layout.y == MapLayout{}.y;
-    look = {.content = has_z      ? MapContent::exchanged
-                       : is_plain ? MapContent::twoChannels
-                                  : MapContent::xInAlpha,
-            .layout = layout,
-            .count = texels.size(),
-            .total = texels.size()};
-}
-
 /// Finds out what the image holds, and makes it one that glTF reads.
 void lookAtContent(const Scene& scene, const TexelMask& inside, NormalMap& map, RgbImage& image) {
-    std::vector<TexelBytes> texels = sampleTexels(image, {}, inside);
     const std::optional<TextureFacts> facts = textureFacts(scene.images[map.image].bytes);
-    const std::vector<std::uint8_t> alpha = alphaOf(scene, scene.images[map.image], texels, facts.has_value());
-    if (!alpha.empty()) texels = sampleTexels(image, alpha, inside);
+    const std::vector<std::uint8_t> alpha =
+        alphaOf(scene, scene.images[map.image], sampleTexels(image, {}, inside), facts.has_value());
     std::vector<TexelOnSurface> surface;
     std::vector<std::size_t> parts;
     for (const MapPart& part : map.parts) {
         parts.push_back(surface.size());
         showPoints(part, image, surface);
     }
-    map.look = lookAtTexels(texels, !alpha.empty(), surface, placedInWorld(map, parts, surface));
-    if (map.look.content == MapContent::exchanged) chooseXAndY(image, {}, inside, map.look.layout);
-    if (map.look.content == MapContent::normals && areXAndYExchanged(image, inside)) {
-        map.look.content = MapContent::exchanged;
-        std::swap(map.look.layout.x, map.look.layout.y);
-    }
-    // Grey with alpha: only slopes tell whether x is in the colours or in alpha.
-    if (!facts && map.look.content == MapContent::xInAlpha) {
-        const MapLayout guess = guessedLayout(texels, image, alpha, inside);
-        if (!(guess == MapLayout{})) map.look.layout = guess;
-    }
-    if (facts) lookAtTexture(facts->layout, texels, image, alpha, inside, map.look);
+    map.look = lookAtMap({image, alpha, inside, facts ? &facts->layout : nullptr}, surface,
+                         placedInWorld(map, parts, surface));
     if (holdsNormals(map.look.content) && !(map.look.layout == MapLayout{}))
         readByLayout(image, alpha, map.look.layout);
 }

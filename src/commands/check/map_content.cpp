@@ -537,11 +537,20 @@ MapLook lookAtTexels(std::span<const TexelBytes> texels, bool has_alpha, std::sp
     return Looker(texels, has_alpha, surface, in_world).look();
 }
 
-bool mayHaveXInAlpha(std::span<const TexelBytes> texels) {
-    if (texels.empty()) return false;
-    const Spread red = spreadOf(texels, [](const TexelBytes& texel) { return static_cast<double>(texel[0]); });
-    return red.deviation <= kConstant || isGreyTexels(texels);
+namespace {
+
+bool isConstant(std::span<const TexelBytes> texels, std::size_t channel) {
+    return spreadOf(texels, [&](const TexelBytes& texel) { return static_cast<double>(texel[channel]); }).deviation <=
+           kConstant;
 }
+
+}  // namespace
+
+bool mayHaveXInAlpha(std::span<const TexelBytes> texels) {
+    return !texels.empty() && (isConstant(texels, 0) || isGreyTexels(texels));
+}
+
+bool isBlueConstant(std::span<const TexelBytes> texels) { return !texels.empty() && isConstant(texels, 2); }
 
 void readByLayout(RgbImage& image, std::span<const std::uint8_t> alpha, const MapLayout& layout) {
     const LayoutReader reader(layout);

@@ -24,6 +24,8 @@ enum class MapContent {
     objectSpace,  ///< directions in the coordinates of the mesh or the scene
     height,       ///< grey, or nearly
     picture,      ///< colours, which are no unit vectors under any reading
+    /// Hemi-octahedral: x + y and x - y of (x, y, z) / (|x| + |y| + z), in the channels that the layout has as x and y.
+    hemiOctahedral,
 };
 
 /// A texel: red, green, blue, alpha.
@@ -46,6 +48,9 @@ struct MapLook {
     bool follows_mesh = false;
     /// With objectSpace: the normals are as a node of the scene turns them.
     bool is_in_world = false;
+    /// With two channels: there is relief, and as x and y these channels are the slopes of no height.
+    bool is_doubtful = false;
+    bool is_declared = false;  ///< the texture file declares the layout
 };
 
 /// Some of the texels in `inside`, spread evenly: at most about 2^18. `alpha`: one per pixel, or empty.
@@ -61,9 +66,13 @@ MapLook lookAtTexels(std::span<const TexelBytes> texels, bool has_alpha, std::sp
 /// Whether red has no information, so that alpha has to be looked at.
 bool mayHaveXInAlpha(std::span<const TexelBytes> texels);
 
-/// Whether there are vectors in tangent space, somewhere in the image.
+/// Whether blue has no information.
+bool isBlueConstant(std::span<const TexelBytes> texels);
+
+/// Whether the layout reads vectors in tangent space out of the image.
 inline bool holdsNormals(MapContent content) {
-    return content != MapContent::objectSpace && content != MapContent::height && content != MapContent::picture;
+    return content != MapContent::objectSpace && content != MapContent::height && content != MapContent::picture &&
+           content != MapContent::hemiOctahedral;
 }
 
 /// Makes of the image what a reader of the layout sees: x, y and z in red, green and blue. Without an alpha channel, 255

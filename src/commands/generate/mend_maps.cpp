@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "commands/check/map_slopes.h"
 #include "commands/shared/map_image_file.h"
 #include "model/io/file_error.h"
 #include "tspace/map_height.h"
@@ -30,13 +31,15 @@ const char* whatItHeld(MapContent content) {
             return "its file said that its numbers have the sRGB curve";
         case MapContent::height:
         case MapContent::picture:
+        case MapContent::hemiOctahedral:
             break;
     }
     return "";
 }
 
 /// Empty, or why an image with such a content stays. `claims_srgb`: what the file says of the numbers.
-std::string whyItStays(const MapLook& look, bool claims_srgb) {
+std::string whyItStays(const JudgedMap& map, bool claims_srgb) {
+    const MapLook& look = map.look;
     if (look.content == MapContent::normals && !claims_srgb) return "it holds what glTF reads";
     if (look.content == MapContent::height)
         return "it is grey: a height map, whose strength is not known (tspace height-to-normal)";
@@ -45,6 +48,13 @@ std::string whyItStays(const MapLook& look, bool claims_srgb) {
         return "it is not in tangent space, nor in that of this mesh";
     if (look.content == MapContent::objectSpace && look.is_in_world)
         return "it is in world space (tspace convert-map --from world)";
+    if (look.content == MapContent::hemiOctahedral) return "it is hemi-octahedrally encoded, which is not decoded here";
+    if (look.is_doubtful)
+        return "its two channels may be in another encoding, since they are the slopes of no height (see tspace check)";
+    if (isTurned(look, map.is_y_inverted))
+        return "its image was turned by 90 or 270 degrees without its vectors, and slopes do not tell which (see "
+               "tspace "
+               "check)";
     return {};
 }
 
@@ -90,7 +100,7 @@ void toTangentSpace(const Scene& scene, std::size_t image_number, const Generate
 
 Bytes mendMap(const Scene& scene, ByteSpan bytes, const GenerateOptions& options, JudgedMap& map) {
     const std::optional<TextureFacts> facts = textureFacts(bytes);
-    map.report.reason = whyItStays(map.look, facts && facts->is_srgb);
+    map.report.reason = whyItStays(map, facts && facts->is_srgb);
     if (!map.report.reason.empty()) return {};
     if (!scene.memory->has(kMapPixelBytes * claimedSize(bytes).pixels())) {
         map.report.reason = "it takes more memory than the limit";

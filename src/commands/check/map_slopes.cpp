@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+#include "commands/check/map_slopes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "commands/check/normal_map.h"
+#include "images/texture_file.h"
+
+namespace tspace {
+namespace {
+
+/// The image as a reader of the layout sees it.
+RgbImage readAs(const DecodedMap& map, const MapLayout& layout) {
+    RgbImage read = map.image;
+    readByLayout(read, map.alpha, layout);
+    return read;
+}
+
+GreenTest slopesOf(const RgbImage& read, const DecodedMap& map) { return GreenBlocks(read, map.inside).all(); }
+GreenTest slopesOf(const DecodedMap& map, const MapLayout& layout) { return slopesOf(readAs(map, layout), map); }
+
+MapLayout exchanged(MapLayout layout) {
+    std::swap(layout.x, layout.y);
+    return layout;
+}
+
+/// Chooses which of the two channels beside z is x.
+void chooseXAndY(const DecodedMap& map, MapLayout& layout) {
+    constexpr double kClear = 0.2;
+    const double agreement = std::fabs(slopesOf(map, layout).correlation);
+    if (std::fabs(slopesOf(map, exchanged(layout)).correlation) > agreement + kClear) layout = exchanged(layout);
+}
+
+/// The layout that the texels of an image with alpha suggest. Green and alpha may as well hold x and y where all colors are
+/// equal.
+MapLayout guessedLayout(const DecodedMap& map, std::span<const TexelBytes> texels) {
+    LayoutGuess guess;
+    for (const TexelBytes& texel : texels) {
+        const auto part = [&](std::size_t i) { return static_cast<float>(texel[i]) / 255.0F; };
+        guess.add({part(0), part(1), part(2)}, part(3));
+    }
+    MapLayout layout = guess.layout().value_or(MapLayout{});
+    if (layout.y.channel == MapChannel::alpha) chooseXAndY(map, layout);
+    return layout;
+}
+
+bool hasSide(const GreenTest& test) { return test.verdict == GreenVerdict::up || test.verdict == GreenVerdict::down; }
+
+/// Whether the slopes fit `other` well.
+bool fitsWell(const GreenTest& other) {
+    constexpr double kLeast = 0.8;
+    return hasSide(other) && std::fabs(other.correlation) > kLeast;
+}
+
+/// Whether red and green are exchanged. Relief that curves along x as it does along y, as a product of waves, does not tell.
+bool areXAndYExchanged(const DecodedMap& map) {
+    constexpr double kMost = 0.5;
+    return std::fabs(slopesOf(map.image, map).correlation) <= kMost && fitsWell(slopesOf(map, exchanged({})));
+}
+
+/// Decodes the channels that the layout has as x and y from hemi-octahedral encoding.
+RgbImage decodeHemiOctahedral(const DecodedMap& map, const MapLayout& layout) {
+    RgbImage read = readAs(map, layout);
+    const auto byteOf = [](double value) {
+        return static_cast<std::uint8_t>(std::clamp(127.5 * (value + 1) + 0.5, 0.0, 255.0));
+    };
+    for (std::size_t i = 0; i + 2 < read.rgb.size(); i += 3) {
+        const double sum = read.rgb[i] / 127.5 - 1, difference = read.rgb[i + 1] / 127.5 - 1;
+        const double x = (sum + difference) / 2, y = (sum - difference) / 2;
+        const double z = std::max(0.0, 1 - std::fabs(x) - std::fabs(y)), length = std::sqrt(x * x + y * y + z * z);
+        read.rgb[i] = byteOf(x / length);
+        read.rgb[i + 1] = byteOf(y / length);
+        read.rgb[i + 2] = byteOf(z / length);
+    }
+    return read;
+}
+
+/// Tests by slopes whether two channels are x and y. Of a periodic height h, the products h_xx h_yy and h_xy h_xy have the
+/// same mean; so where x + y and x - y are taken for x and y, nothing correlates.
+void testTwoChannels(const DecodedMap& map, MapLook& look) {
+    constexpr std::uint64_t kManyBlocks = 32;
+    constexpr double kNoCorrelation = 0.1, kClear = 0.3;
+    const GreenTest plain = slopesOf(map, look.layout), decoded = slopesOf(decodeHemiOctahedral(map, look.layout), map);
+    if (fitsWell(decoded) && std::fabs(decoded.correlation) > std::fabs(plain.correlation) + kClear) {
+        look.content = MapContent::hemiOctahedral;
+        return;
+    }
+    look.is_doubtful = look.layout.z.channel == MapChannel::none && plain.verdict == GreenVerdict::unknown &&
+                       plain.block_count >= kManyBlocks && std::fabs(plain.correlation) < kNoCorrelation;
+}
+
+/// Replaces the look by the layout that a texture file declares, or that its texels suggest.
+void lookAtTexture(const DecodedMap& map, std::span<const TexelBytes> texels, MapLook& look) {
+    const bool is_guessed = *map.declared == MapLayout{} && !map.alpha.empty();
+    const MapLayout layout = is_guessed ? guessedLayout(map, texels) : *map.declared;
+    if (layout == MapLayout{}) return;
+    const bool has_z = layout.z.channel != MapChannel::none;
+    const bool is_plain = layout.x == MapLayout{}.x && layout.y == MapLayout{}.y;
+    look = {.content = has_z      ? MapContent::exchanged
+                       : is_plain ? MapContent::twoChannels
+                                  : MapContent::xInAlpha,
+            .layout = layout,
+            .count = texels.size(),
+            .total = texels.size(),
+            .is_declared = !is_guessed};
+}
+
+}  // namespace
+
+MapLook lookAtMap(const DecodedMap& map, std::span<const TexelOnSurface> surface,
+                  std::span<const TexelOnSurface> in_world) {
+    const std::vector<TexelBytes> texels = sampleTexels(map.image, map.alpha, map.inside);
+    MapLook look = lookAtTexels(texels, !map.alpha.empty(), surface, in_world);
+    if (look.content == MapContent::exchanged) chooseXAndY(map, look.layout);
+    if (look.content == MapContent::normals && areXAndYExchanged(map)) {
+        look.content = MapContent::exchanged;
+        look.layout = exchanged({});
+    }
+    // In grey images with alpha only slopes tell whether x is in the colors or in alpha.
+    if (map.declared == nullptr && look.content == MapContent::xInAlpha) {
+        const MapLayout guess = guessedLayout(map, texels);
+        if (!(guess == MapLayout{})) look.layout = guess;
+    }
+    if (map.declared != nullptr) lookAtTexture(map, texels, look);
+    // Steep relief in hemi-octahedral encoding is longer than any x and y, and gentle relief looks flat.
+    const bool has_two = look.content == MapContent::twoChannels || look.content == MapContent::xInAlpha;
+    const bool may_have_two = look.content == MapContent::normals || look.content == MapContent::picture;
+    if (has_two || (may_have_two && isBlueConstant(texels))) testTwoChannels(map, look);
+    return look;
+}
+
+MapLayout invertedRelief(MapLayout layout) {
+    layout.x.is_inverted = !layout.x.is_inverted;
+    layout.y.is_inverted = !layout.y.is_inverted;
+    return layout;
+}
+
+bool isTurned(const MapLook& look, bool is_y_inverted) {
+    const MapLayout& layout = look.layout;
+    return look.content == MapContent::exchanged && !look.is_declared && layout.z == MapLayout{}.z &&
+           layout.x.channel == MapChannel::green && (layout.x.is_inverted != layout.y.is_inverted) != is_y_inverted;
+}
+
+}  // namespace tspace

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+// What slopes show of a map: its encoding and the order of its channels, but never bumps apart from dents.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "commands/check/map_slopes.h"
+#include "images/images.h"
+
+namespace tspace::test {
+namespace {
+
+using Height = std::function<double(double, double)>;
+
+MapLook lookAt(const RgbImage& image, std::span<const std::uint8_t> alpha = {}) {
+    TexelMask all(image.width, image.height);
+    all.fillAll();
+    return lookAtMap({image, alpha, all});
+}
+
+double roundBumps(double x, double y) {
+    double h = 0;
+    for (int i = 0; i < 36; ++i) {
+        const double u = x - (i % 6 + 0.5 + 0.3 * std::sin(7.0 * i)) / 6;
+        const double v = y - (i / 6 + 0.5 + 0.3 * std::cos(5.0 * i)) / 6;
+        h += 0.02 * std::exp(-(u * u + v * v) * 400);
+    }
+    return h;
+}
+
+double waves(double x, double y) { return 0.01 * std::sin(40 * x) * std::sin(30 * y); }
+double rings(double x, double y) { return 0.004 * std::cos(120 * std::hypot(x - 0.4, y - 0.55)); }
+
+const std::vector<Height> kReliefs = {bumps, roundBumps, waves, rings};
+
+/// change(r, g, b) gets the components of each texel, from -1 to 1.
+template <class Change>
+RgbImage stored(const Height& height, const Change& change) {
+    RgbImage image = normalMapOf(128, height);
+    for (std::size_t i = 0; i < image.rgb.size(); i += 3) {
+        double part[3];
+        for (std::size_t k = 0; k < 3; ++k) part[k] = image.rgb[i + k] / 127.5 - 1;
+        change(part[0], part[1], part[2]);
+        for (std::size_t k = 0; k < 3; ++k) {
+            image.rgb[i + k] = static_cast<std::uint8_t>(std::lround(127.5 * (std::clamp(part[k], -1.0, 1.0) + 1)));
+        }
+    }
+    return image;
+}
+
+void encodeHemiOctahedral(double& x, double& y, double& z) {
+    const double sum = std::fabs(x) + std::fabs(y) + std::max(z, 0.0);
+    const double a = x / sum, b = y / sum;
+    x = a + b;
+    y = a - b;
+}
+
+TEST(MapSlopes, TellHemiOctahedralMapsFromXAndY) {
+    for (const Height& relief : kReliefs) {
+        for (const double scale : {1.0, 4.0}) {
+            const Height height = [&](double x, double y) { return scale * relief(x, y); };
+            for (const double blue : {-1.0, 0.0, 1.0}) {
+                const bool is_swapped = blue == 0;
+                const RgbImage map = stored(height, [&](double& x, double& y, double& z) {
+                    encodeHemiOctahedral(x, y, z);
+                    if (is_swapped) std::swap(x, y);
+                    z = blue;
+                });
+                EXPECT_EQ(lookAt(map).content, MapContent::hemiOctahedral)
+                    << &relief - kReliefs.data() << ' ' << scale << ' ' << blue;
+            }
+            const MapLook look = lookAt(stored(height, [&](double&, double&, double& z) { z = -1; }));
+            EXPECT_EQ(look.content, MapContent::twoChannels) << &relief - kReliefs.data() << ' ' << scale;
+            EXPECT_FALSE(look.is_doubtful) << &relief - kReliefs.data() << ' ' << scale;
+        }
+    }
+}
+
+TEST(MapSlopes, TellHemiOctahedralMapsInAlphaAndGreen) {
+    RgbImage map = stored(bumps, [](double& x, double& y, double& z) { encodeHemiOctahedral(x, y, z); });
+    std::vector<std::uint8_t> alpha;
+    for (std::size_t i = 0; i < map.rgb.size(); i += 3) {
+        alpha.push_back(map.rgb[i]);
+        map.rgb[i] = map.rgb[i + 2] = 255;
+    }
+    const MapLook look = lookAt(map, alpha);
+    EXPECT_EQ(look.content, MapContent::hemiOctahedral);
+    EXPECT_EQ(look.layout.x.channel, MapChannel::alpha);
+}
+
+/// The slopes of another height in green are as little those of one height as any unknown encoding is.
+TEST(MapSlopes, DoubtTwoChannelsThatAreTheSlopesOfNoHeight) {
+    const RgbImage other = normalMapOf(256, rings);
+    RgbImage map = normalMapOf(256, roundBumps);
+    for (std::size_t i = 0; i < map.rgb.size(); i += 3) {
+        map.rgb[i + 1] = other.rgb[i + 1];
+        map.rgb[i + 2] = 0;
+    }
+    const MapLook look = lookAt(map);
+    EXPECT_EQ(look.content, MapContent::twoChannels);
+    EXPECT_TRUE(look.is_doubtful);
+}
+
+TEST(MapSlopes, KnowImagesThatWereTurnedWithoutTheirVectors) {
+    for (const bool is_clockwise : {false, true}) {
+        const RgbImage map = stored(roundBumps, [&](double& x, double& y, double&) {
+            // The vectors of the turned relief are correct, so take the turn back from them.
+            const double old_x = x;
+            x = is_clockwise ? -y : y;
+            y = is_clockwise ? old_x : -old_x;
+        });
+        const MapLook look = lookAt(map);
+        ASSERT_EQ(look.content, MapContent::exchanged);
+        EXPECT_TRUE(isTurned(look, true));
+        EXPECT_FALSE(isTurned(look, false)) << "exchanged alone";
+    }
+}
+
+TEST(MapSlopes, AreTheSameForBumpsAndDents) {
+    for (const MapLayout& layout : {MapLayout{}, MapLayout{.x = {MapChannel::blue, true}, .z = {MapChannel::red}}}) {
+        const MapLayout other = invertedRelief(layout);
+        EXPECT_NE(other.x.is_inverted, layout.x.is_inverted);
+        EXPECT_NE(other.y.is_inverted, layout.y.is_inverted);
+        EXPECT_EQ(other.z, layout.z);
+        EXPECT_EQ(invertedRelief(other), layout);
+    }
+}
+
+}  // namespace
+}  // namespace tspace::test
