@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The calls that both entries have, for the module that they load.
-import { boolean, choice, count, fail, failType, floats, integers, number, object, optionsOf } from "./check.js";
+import { boolean, choice, count, fail, failType, floats, integers, isMissing, number, numberWithin, object, optionsOf, output } from "./check.js";
 import { conventionBits } from "./convention.js";
 
 export const tangentCounts = [
@@ -12,9 +12,13 @@ export const sanitizeCounts = [
   "orthogonalizedCount", "normalizedCount", "fromNeighborCount", "fromBasisCount", "badNormalCount", "mendedCount",
 ];
 
+const meshMembers = ["positions", "normals", "uvs", "indices", "faceSizes", "normalIndices", "uvIndices"];
+/** The mesh (or pose) of a caller: an object that has no member but those of meshes. */
+export const givenMesh = (mesh, name = "mesh") => object(mesh, name, meshMembers);
+
 /** The mesh of a call, checked. */
 export function meshOf(mesh, needsNormals = false) {
-  object(mesh, "mesh");
+  givenMesh(mesh);
   const positions = floats(mesh.positions, "positions", 3, true);
   const indices = integers(mesh.indices, "indices");
   return {
@@ -51,7 +55,7 @@ export const mikktspaceOptions = ["method", "threshold", "pairing", "ngons", "co
 export function tangentArguments(options, { methods, ngons }) {
   return [
     choice(options.method ?? "mikktspace", "method", methods),
-    number(options.threshold ?? 180, "threshold"),
+    numberWithin(options.threshold ?? 180, "threshold", 0, 360, " degrees"),
     choice(options.pairing ?? "reference", "pairing", ["reference", "corrected"]),
     choice(options.ngons ?? ngons[0], "ngons", ngons),
     conventionBits(options.convention),
@@ -60,18 +64,35 @@ export function tangentArguments(options, { methods, ngons }) {
   ];
 }
 
-/** Fills in options.report, where there is one. */
-export function keepReport(call, options, names) {
-  if (options.report) call.report(names, options.report);
+/** The methods that read an option; all methods read the others. */
+const readers = { threshold: "mikktspace", pairing: "mikktspace", refine: "best" };
+
+/** Names of the options that were given and that the method does not read. */
+export const ignoredOptions = ({ method = "mikktspace", ...options }) =>
+  Object.keys(readers).filter((name) => !isMissing(options[name]) && readers[name] !== method);
+
+/** The report, with the names of options that had no effect, where there are any. */
+export function withIgnored(report, names) {
+  if (names.length !== 0) report.ignoredOptions = names;
+  else delete report.ignoredOptions;
+  return report;
 }
 
-/** Runs compute(exports, place), which writes four floats for each output. */
+/** Fills in options.report, where there is one. */
+export function keepReport(call, { report }, names, ignored) {
+  if (report) withIgnored(call.report(names, report), ignored);
+}
+
+/** Runs compute(exports, tangents, mask), which writes four floats and, unless the place is 0, a byte for each output. */
 export function writeTangents(wasm, mesh, outputCount, options, compute) {
+  const hasTangent = output(options.hasTangent, "hasTangent", outputCount);
   return wasm.run((call) => {
     setMesh(call, mesh);
     const out = call.allocate(outputCount * 16);
-    call.check(compute(call.wasm, out));
-    keepReport(call, options, tangentCounts);
+    const mask = hasTangent ? call.allocate(outputCount) : 0;
+    call.check(compute(call.wasm, out, mask));
+    keepReport(call, options, tangentCounts, ignoredOptions(options));
+    hasTangent?.set(new Uint8Array(call.wasm.memory.buffer, mask, outputCount));
     return call.get(Float32Array, out, outputCount * 4);
   });
 }
@@ -104,11 +125,11 @@ function putAttributes(call, list) {
 export function makeCalls(wasm, choices) {
   return {
     generateTangents(mesh, options = {}) {
-      optionsOf(options, [...choices.options, "report"]);
+      optionsOf(options, [...choices.options, "hasTangent", "report"]);
       const given = tangentArguments(options, choices);
       const checked = meshOf(mesh);
-      return writeTangents(wasm, checked, checked.cornerCount, options, (module, out) =>
-        module.generateTangents(...given, out));
+      return writeTangents(wasm, checked, checked.cornerCount, options, (module, ...places) =>
+        module.generateTangents(...given, ...places));
     },
 
     sanitizeTangents(mesh, tangents, options = {}) {
@@ -120,13 +141,13 @@ export function makeCalls(wasm, choices) {
         setMesh(call, checked);
         const place = call.put(given);
         call.check(call.wasm.sanitizeTangents(place, given.length / 4, all));
-        keepReport(call, options, sanitizeCounts);
+        keepReport(call, options, sanitizeCounts, []);
         return call.get(Float32Array, place, given.length);
       });
     },
 
     splitVertices(vertices, attributes) {
-      const { vertexCount } = object(vertices, "vertices");
+      const { vertexCount } = object(vertices, "vertices", ["indices", "vertexCount"]);
       const indices = integers(vertices.indices, "indices");
       count(vertexCount, "vertexCount");
       if (!Array.isArray(attributes)) failType(attributes, "attributes", "an array of { data, size, tolerance }");

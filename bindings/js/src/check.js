@@ -66,6 +66,21 @@ export function number(value, name) {
   return typeof value === "number" && value === value ? value : failType(value, name, "a number");
 }
 
+/** A number of a range, both ends included. */
+export function numberWithin(value, name, least, most, unit) {
+  if (number(value, name) < least || value > most)
+    fail("invalidOption", `${name} must be a number from ${least} to ${most}${unit}, not ${value}`);
+  return value;
+}
+
+/** A Uint8Array of the caller, to be written, or undefined. */
+export function output(array, name, count) {
+  if (isMissing(array)) return undefined;
+  const given = viewOf(array, name, [Uint8Array], "a Uint8Array");
+  if (given.length !== count) fail("countMismatch", `${name} has ${given.length} entries, ${count} are needed`);
+  return given;
+}
+
 export function boolean(value, name) {
   return typeof value === "boolean" ? value : failType(value, name, "true or false");
 }

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: MIT
+import type { NewFloat32Array } from "./types.js";
 
-export const ready: Promise<void>;
+export { ready, release } from "./types.js";
 export const isReady: boolean;
 
+/** Typed arrays are copied; other arrays are converted to Float32Array. */
+export type NumberArray = ArrayLike<number>;
+
 /**
- * The call of npm's mikktspace: unindexed triangles in, four numbers per vertex out. The sign is the one for v upwards; callers
- * turn it over for glTF. The pairing is the corrected one, as there: bit for bit what three.js r187 gives.
+ * The call of npm's mikktspace 1.1.1, with its bits: unindexed triangles in, four numbers per vertex out. The sign is the one for v
+ * upwards; callers turn it over for glTF. (three.js's module has another pairing of edges: `tspace/three` has the bits of that.)
  */
-export function generateTangents(positions: Float32Array, normals: Float32Array, uvs: Float32Array): Float32Array;
+export function generateTangents(positions: NumberArray, normals: NumberArray, uvs: NumberArray): NewFloat32Array;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The whole core, for the entries that load its module.
-import { makeCalls, meshOf, mikktspaceOptions, sanitizeCounts, setMesh, tangentArguments, tangentCounts, writeTangents } from "./calls.js";
-import { boolean, fail, floats, object, optionsOf } from "./check.js";
-import { normalArguments, normalCounts, normalOptions, normalsOf } from "./normal_calls.js";
+import { givenMesh, ignoredOptions, makeCalls, meshOf, mikktspaceOptions, sanitizeCounts, setMesh, tangentArguments, tangentCounts, withIgnored, writeTangents } from "./calls.js";
+import { boolean, fail, floats, isMissing, object, optionsOf } from "./check.js";
+import { ignoredNormalOptions, normalArguments, normalCounts, normalOptions, normalsOf } from "./normal_calls.js";
 import { Wasm } from "./wasm.js";
 
 const wasm = new Wasm();
@@ -18,7 +18,7 @@ export const { generateTangents, sanitizeTangents, splitVertices } = makeCalls(w
 export const generateNormals = normalsOf(wasm, false);
 
 export function triangulate(mesh) {
-  const { positions, uvs, indices, faceSizes, uvIndices } = object(mesh, "mesh");
+  const { positions, uvs, indices, faceSizes, uvIndices } = givenMesh(mesh);
   if (uvIndices) fail("invalidOption", "triangulate takes no uvIndices");
   const checked = meshOf({ positions, uvs, indices, faceSizes });
   return wasm.run((call) => {
@@ -33,6 +33,14 @@ export function triangulate(mesh) {
   });
 }
 
+/** Names of the options of makeIndexedFrames that were given and have no effect. */
+function ignoredFrameOptions(options, makesNormals) {
+  const normals = options.normals ?? {};
+  const ofNormals = makesNormals ? ignoredNormalOptions(normals) : Object.keys(normals).filter((name) => !isMissing(normals[name]));
+  const ofSanitize = options.sanitize === false && options.orthogonalizeAll ? ["orthogonalizeAll"] : [];
+  return [...ignoredOptions(options), ...ofSanitize, ...ofNormals.map((name) => `normals.${name}`)];
+}
+
 export function makeIndexedFrames(mesh, options = {}) {
   optionsOf(options, [...tangentOptions, ...steps, "normals", "report"]);
   const tangents = tangentArguments(options, choices);
@@ -45,12 +53,13 @@ export function makeIndexedFrames(mesh, options = {}) {
     call.check(call.wasm.makeIndexedFrames(...tangents, ...chosen, ...normals(call), result));
     const words = call.get(Uint32Array, result, 10);
     const take = (Type, i, size) => call.take(Type, words[2 * i], size * words[2 * i + 1]);
-    const report = {
-      normals: chosen[0] || !checked.normals ? call.report(normalCounts, {}, 22) : null,
+    const makesNormals = chosen[0] || !checked.normals;
+    const report = withIgnored({
+      normals: makesNormals ? call.report(normalCounts, {}, 22) : null,
       tangents: call.report(tangentCounts, {}),
       sanitize: chosen[1] ? call.report(sanitizeCounts, {}, 9) : null,
-    };
-    Object.assign(options.report ?? {}, report);
+    }, ignoredFrameOptions(options, makesNormals));
+    if (options.report) Object.assign(withIgnored(options.report, []), report);
     return {
       indices: take(Uint32Array, 0, 1),
       sourceVertices: take(Uint32Array, 1, 1),
@@ -65,7 +74,7 @@ export function makeIndexedFrames(mesh, options = {}) {
 const forgotten = new FinalizationRegistry((end) => end());
 
 export class Plan {
-  #module;
+  #instance;
   #place = 0;
   #end;
 
@@ -77,11 +86,12 @@ export class Plan {
       setMesh(call, checked);
       const to = call.allocate(4);
       call.check(call.wasm.makePlan(...given, to));
-      this.#module = call.wasm;
+      this.#instance = wasm.instance;
       [this.#place] = call.get(Uint32Array, to, 1);
     });
-    const [module, place] = [this.#module, this.#place];
-    this.#end = () => module.destroyPlan(place);
+    const [instance, place] = [this.#instance, this.#place];
+    this.#end = () => instance.exports?.destroyPlan(place);
+    this.ignoredOptions = ignoredOptions(options);
     this.vertexCount = checked.vertexCount;
     this.cornerCount = checked.cornerCount;
     forgotten.register(this, this.#end, this);
@@ -90,9 +100,9 @@ export class Plan {
   /** The module that holds the plan. */
   #held() {
     if (this.#place === 0) fail("planMismatch", "this plan was destroyed");
-    // A call that runs out of memory ends the instance, and all that lies there.
-    if (this.#module !== wasm.exports) fail("planMismatch", "a call ran out of memory, and this plan with it: make it anew");
-    return this.#module;
+    const module = this.#instance.exports;
+    if (!module) fail("planMismatch", "release(), or a call that ran out of memory, ended this plan: make another one");
+    return module;
   }
 
   get memoryBytes() {
@@ -100,13 +110,13 @@ export class Plan {
   }
 
   evaluate(pose, options = {}) {
-    object(pose, "pose");
-    optionsOf(options, ["report"]);
+    givenMesh(pose, "pose");
+    optionsOf(options, ["hasTangent", "report"]);
     const positions = floats(pose.positions, "positions", 3, true);
     const normals = floats(pose.normals, "normals", 3, true);
     this.#held();
-    return writeTangents(wasm, { positions, normals }, this.cornerCount, options, (module, out) =>
-      module.evaluatePlan(this.#place, out));
+    return writeTangents(wasm, { positions, normals }, this.cornerCount, options, (module, ...places) =>
+      module.evaluatePlan(this.#place, ...places));
   }
 
   destroy() {
@@ -117,5 +127,8 @@ export class Plan {
   }
 }
 
-/** Memory of the module, which grows to what the largest call needs, and plans. */
-export const memoryBytes = () => wasm.exports.memory.buffer.byteLength;
+/** Memory of the module: it grows to what the largest call and all plans need, and is 0 after release(). */
+export const memoryBytes = () => wasm.memoryBytes();
+
+/** Gives the module's memory back, and ends all plans. The next call starts with little memory. */
+export const release = () => wasm.release();

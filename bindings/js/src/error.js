@@ -31,4 +31,10 @@ const codes = {
   100: "invalidFile", 101: "unsupportedFile", 102: "forbiddenPath", 103: "cannotRead", 104: "cannotWrite",
 };
 
+/** A sentence of the core with the names that callers know: normalIndices for normal_indices, creaseAngle for crease_angle_deg. */
+export const inJavaScriptNames = (text) =>
+  text
+    .replace(/\b(crease|denoise)_auto\b/g, '"auto"')
+    .replace(/\b[a-z]+(?:_[a-z]+)+\b/g, (name) => name.replace(/_deg$/, "").replace(/_([a-z])/g, (_, letter) => letter.toUpperCase()));
+
 export const codeName = (number) => codes[number] ?? "internal";

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 import type { CheckReport, DiffReport, GenerateReport, IdentifyReport, InspectReport } from "./reports.js";
+import type { NewUint8Array } from "./types.js";
 
 export { TspaceError } from "./types.js";
 /** Reports are the entries of the tool's JSON (docs/json.md) for one file, with the exit code; that of diff is all of it. */
@@ -8,6 +9,9 @@ export type Report = GenerateReport | CheckReport | InspectReport | IdentifyRepo
 
 /** Resolves when calls can be made. */
 export const ready: Promise<void>;
+
+/** Gives the module's memory back. The next call starts with little memory. */
+export function release(): void;
 
 /** A file: .glb, .vrm, .gltf or, where `name` ends in .obj, OBJ. Read during the call only, and never changed. */
 export type Bytes = Uint8Array | ArrayBuffer;
@@ -188,7 +192,7 @@ export type Severity = "error" | "warning" | "note";
  * Adds normals and tangents where materials need them, or mends them.
  * @returns the bytes of a .glb with everything in it, none after `dryRun`; and what was done
  */
-export function generate(model: Bytes, options?: GenerateOptions): { bytes: Uint8Array; report: GenerateReport };
+export function generate(model: Bytes, options?: GenerateOptions): { bytes: NewUint8Array; report: GenerateReport };
 
 /** Says what is wrong with the frames of a model: inverted signs, averaged seams, the wrong UV set, and more. */
 export function check(model: Bytes, options?: CheckOptions): CheckReport;

@@ -27,6 +27,7 @@ const wasm = new Wasm({
   now: () => performance.now(),
 });
 export const ready = wasm.start(source);
+export const release = () => wasm.release();
 
 const verbs = ["generate", "check", "inspect", "identify", "diff"];
 const ofAll = ["resources", "meshopt", "draco", "signal", "memoryLimit", "allowExternal"];

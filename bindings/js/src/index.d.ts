@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
-import type { Convention, ConventionName, Indices, Mesh, MikktspaceOptions, SanitizeReport, TangentReport } from "./types.js";
+import type {
+  Convention, ConventionName, Indices, Mesh, MikktspaceOptions, NewFloat32Array, NewUint32Array, SanitizeReport, TangentOutputs, TangentReport,
+} from "./types.js";
 
-export { conventions, ready, sanitizeTangents, splitVertices, TspaceError } from "./types.js";
+export { conventions, ready, release, sanitizeTangents, splitVertices, TspaceError } from "./types.js";
 export type * from "./types.js";
 
 export interface TangentOptions extends Omit<MikktspaceOptions, "method"> {
@@ -17,7 +19,7 @@ export interface TangentOptions extends Omit<MikktspaceOptions, "method"> {
  * Tangents of a mesh.
  * @returns four numbers per corner: the tangent and its sign, `B = sign * cross(N, T)`
  */
-export function generateTangents(mesh: Mesh, options: TangentOptions): Float32Array;
+export function generateTangents(mesh: Mesh, options: TangentOptions): NewFloat32Array;
 
 export interface NormalReport {
   faceCount: number;
@@ -29,6 +31,8 @@ export interface NormalReport {
   noise: number;
   /** The angle that edges were held against: as given, or what "auto" found. */
   creaseAngle: number;
+  /** Options that were given and that the weighting does not read, such as `refine` for `angle`. */
+  ignoredOptions?: string[];
 }
 
 export interface NormalOptions {
@@ -57,9 +61,9 @@ export interface NormalOptions {
 /** Triangles of a polygon mesh. */
 export interface Triangles {
   /** Three corners of the mesh (not vertices) per triangle, winding kept. */
-  corners: Uint32Array;
+  corners: NewUint32Array;
   /** The face that each triangle was cut from. */
-  faces: Uint32Array;
+  faces: NewUint32Array;
 }
 
 /**
@@ -73,16 +77,18 @@ export interface Triangles {
 export function triangulate(mesh: Mesh): Triangles;
 
 /** Normals of a mesh, of which positions, indices and face sizes are used: three numbers per corner, unit. */
-export function generateNormals(mesh: Mesh, options?: NormalOptions): Float32Array;
+export function generateNormals(mesh: Mesh, options?: NormalOptions): NewFloat32Array;
 
 /** What each step met; null: the step was left out. */
 export interface IndexedFramesReport {
   normals: NormalReport | null;
   tangents: TangentReport;
   sanitize: SanitizeReport | null;
+  /** Options that were given and have no effect, such as `refine` for `mikktspace` or `normals.weighting` where no normals are made. */
+  ignoredOptions?: string[];
 }
 
-export interface IndexedFramesOptions extends Omit<TangentOptions, "report"> {
+export interface IndexedFramesOptions extends Omit<TangentOptions, keyof TangentOutputs> {
   /** Make normals also where the mesh has them; where it has none they are made anyway. */
   makeNormals?: boolean;
   /** How normals are made. */
@@ -97,15 +103,15 @@ export interface IndexedFramesOptions extends Omit<TangentOptions, "report"> {
 /** A mesh with the faces of the given one. */
 export interface IndexedFrames {
   /** The new vertex of each corner. */
-  indices: Uint32Array;
+  indices: NewUint32Array;
   /** The entry of `positions` that each new vertex copies. Gather every other attribute and morph target through it. */
-  sourceVertices: Uint32Array;
+  sourceVertices: NewUint32Array;
   /** The first corner of each new vertex; 4294967295 for one that no corner uses. */
-  sourceCorners: Uint32Array;
+  sourceCorners: NewUint32Array;
   /** Three numbers per new vertex. */
-  normals: Float32Array;
+  normals: NewFloat32Array;
   /** Four numbers per new vertex. */
-  tangents: Float32Array;
+  tangents: NewFloat32Array;
   report: IndexedFramesReport;
 }
 
@@ -114,15 +120,17 @@ export function makeIndexedFrames(mesh: Mesh, options: IndexedFramesOptions): In
 
 /** What of a mesh stays while it deforms. It lies in the module's memory: destroy it, or leave that to the collector. */
 export class Plan {
-  constructor(mesh: Mesh, options: Omit<TangentOptions, "report">);
+  constructor(mesh: Mesh, options: Omit<TangentOptions, keyof TangentOutputs>);
   readonly vertexCount: number;
   readonly cornerCount: number;
   /** Memory that the plan holds. */
   readonly memoryBytes: number;
+  /** Options that were given and that the method does not read. */
+  readonly ignoredOptions: readonly string[];
   /** The tangents of a pose, four numbers per corner: those that generateTangents gives for it, with the groups of the plan. */
-  evaluate(pose: { positions: Float32Array; normals: Float32Array }, options?: { report?: Partial<TangentReport> }): Float32Array;
+  evaluate(pose: { positions: Float32Array; normals: Float32Array }, options?: TangentOutputs): NewFloat32Array;
   destroy(): void;
 }
 
-/** Memory of the module, which grows to what the largest call needs, and plans. */
+/** Memory of the module in bytes: it grows to what the largest call and all plans need, and is 0 after release(). */
 export function memoryBytes(): number;

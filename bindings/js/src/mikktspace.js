@@ -10,6 +10,7 @@ export { TspaceError } from "./error.js";
 
 const wasm = new Wasm();
 export const ready = wasm.start(source);
+export const release = () => wasm.release();
 
 const calls = makeCalls(wasm, { methods: ["mikktspace"], ngons: ["skip"], options: mikktspaceOptions });
 export const { splitVertices } = calls;

@@ -1,12 +1,20 @@
 // SPDX-License-Identifier: MIT
 // Normals, for the entries that make them.
-import { keepReport, meshOf, setMesh } from "./calls.js";
-import { boolean, choice, count, fail, integers, number, object, optionsOf } from "./check.js";
+import { givenMesh, keepReport, meshOf, setMesh } from "./calls.js";
+import { boolean, choice, count, fail, integers, isMissing, number, optionsOf } from "./check.js";
 import { conventionBits } from "./convention.js";
 
 const weightings = ["flat", "uniform", "area", "angle", "angleArea", "max", "best"];
 export const normalOptions = ["weighting", "creaseAngle", "smoothingGroups", "smoothingGroupsAreMasks", "weldPositions", "refine", "denoise"];
 export const normalCounts = ["faceCount", "degenerateFaceCount", "fallbackCornerCount", "noise", "creaseAngle"];
+
+/** Names of the options that were given and that the weighting does not read. */
+export function ignoredNormalOptions({ weighting = "angle", ...options }) {
+  const ignored = weighting === "flat" ? ["creaseAngle", "smoothingGroups", "smoothingGroupsAreMasks", "weldPositions"] : [];
+  if (weighting !== "best") ignored.push("refine", "denoise");
+  if (isMissing(options.smoothingGroups)) ignored.push("smoothingGroupsAreMasks");
+  return normalOptions.filter((name) => !isMissing(options[name]) && ignored.includes(name));
+}
 
 const numberOrAuto = (value, name) => (value === "auto" ? -1 : number(value, name));
 
@@ -33,13 +41,13 @@ export function normalArguments(options, isWhole) {
 export const normalsOf = (wasm, isWhole) => function generateNormals(mesh, options = {}) {
   optionsOf(options, [...normalOptions, "convention", "report"]);
   const given = normalArguments(options, isWhole);
-  const { positions, indices, faceSizes } = object(mesh, "mesh");
+  const { positions, indices, faceSizes } = givenMesh(mesh);
   const checked = meshOf({ positions, indices, faceSizes });
   return wasm.run((call) => {
     setMesh(call, checked);
     const out = call.allocate(checked.cornerCount * 12 + 16);
     call.check(call.wasm.generateNormals(...given(call), out));
-    keepReport(call, options, normalCounts);
+    keepReport(call, options, normalCounts, ignoredNormalOptions(options));
     return call.get(Float32Array, out, checked.cornerCount * 3);
   });
 };

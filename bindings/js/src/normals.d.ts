@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 import type { NormalOptions } from "./index.js";
-import type { Convention, ConventionName, Mesh } from "./types.js";
+import type { Convention, ConventionName, Mesh, NewFloat32Array, NewUint32Array, NewUint8Array } from "./types.js";
 
 export { conventions, TspaceError } from "./types.js";
 export type * from "./types.js";
@@ -9,8 +9,11 @@ export type { NormalOptions, NormalReport } from "./index.js";
 /** Resolves when calls can be made. */
 export const ready: Promise<void>;
 
+/** Gives the module's memory back. The next call starts with little memory. */
+export function release(): void;
+
 /** As that of "tspace", with `denoise` and `creaseAngle: "auto"`. */
-export function generateNormals(mesh: Mesh, options?: NormalOptions): Float32Array;
+export function generateNormals(mesh: Mesh, options?: NormalOptions): NewFloat32Array;
 
 /** Lengths are parts of `meanEdge`. */
 export interface PositionNoise {
@@ -60,8 +63,8 @@ export interface WindingReport {
 /** Turns faces that are wound against their neighbours, and parts that are inside out as a whole. UVs are not looked at. */
 export function mendWinding(mesh: Mesh, options?: WindingOptions): {
   /** The mesh's own, in another order within faces that were turned. */
-  indices: Uint32Array;
+  indices: NewUint32Array;
   /** One per face: 1 where it was turned. */
-  turned: Uint8Array;
+  turned: NewUint8Array;
   report: WindingReport;
 };

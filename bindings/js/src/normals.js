@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The entry "tspace/normals": what scans, meshes of AI tools and CAD need before tangents.
 import { source } from "#normals";
-import { meshOf, setMesh } from "./calls.js";
-import { boolean, object, optionsOf } from "./check.js";
+import { givenMesh, meshOf, setMesh } from "./calls.js";
+import { boolean, optionsOf } from "./check.js";
 import { conventionBits } from "./convention.js";
 import { normalsOf } from "./normal_calls.js";
 import { Wasm } from "./wasm.js";
@@ -12,6 +12,7 @@ export { TspaceError } from "./error.js";
 
 const wasm = new Wasm();
 export const ready = wasm.start(source);
+export const release = () => wasm.release();
 
 const windingCounts = [
   "faceCount", "turnedCount", "conflictCountBefore", "conflictCountAfter", "componentCount", "turnedComponentCount", "byNormalsCount",
@@ -21,7 +22,7 @@ const windingCounts = [
 export const generateNormals = normalsOf(wasm, true);
 
 export function measurePositionNoise(mesh) {
-  const { positions, indices, faceSizes } = object(mesh, "mesh");
+  const { positions, indices, faceSizes } = givenMesh(mesh);
   const checked = meshOf({ positions, indices, faceSizes });
   return wasm.run((call) => {
     setMesh(call, checked);
@@ -50,7 +51,7 @@ export function mendWinding(mesh, options = {}) {
     boolean(options.weldPositions ?? true, "weldPositions"),
     conventionBits(options.convention ?? "gltf"), // of which handedness and winding count here
   ];
-  const { positions, normals, indices, faceSizes, normalIndices } = object(mesh, "mesh");
+  const { positions, normals, indices, faceSizes, normalIndices } = givenMesh(mesh);
   const checked = meshOf({ positions, normals, indices, faceSizes, normalIndices });
   return wasm.run((call) => {
     setMesh(call, checked);

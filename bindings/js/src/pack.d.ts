@@ -1,8 +1,14 @@
 // SPDX-License-Identifier: MIT
+import type { NewFloat32Array, NewUint8Array } from "./types.js";
+
 export { TspaceError } from "./types.js";
+export type { NewFloat32Array, NewUint8Array };
 
 /** Resolves when calls can be made. */
 export const ready: Promise<void>;
+
+/** Gives the module's memory back. The next call starts with little memory. */
+export function release(): void;
 
 /**
  * How a frame is stored, and how far N and T are from what was packed at most, in degrees: "frame32" 4 bytes, 0.135 and
@@ -40,7 +46,7 @@ export function frameBytes(format: FrameFormat): number;
  */
 export function packFrames(
   normals: Float32Array, tangents: Float32Array, format: FrameFormat, options?: { report?: PackReport },
-): Uint8Array;
+): NewUint8Array;
 
 /** Unpacks frames: any bytes are frames, finite and unit. */
-export function unpackFrames(frames: Uint8Array, format: FrameFormat): { normals: Float32Array; tangents: Float32Array };
+export function unpackFrames(frames: Uint8Array, format: FrameFormat): { normals: NewFloat32Array; tangents: NewFloat32Array };

@@ -8,6 +8,7 @@ export { TspaceError } from "./error.js";
 
 const wasm = new Wasm();
 export const ready = wasm.start(source);
+export const release = () => wasm.release();
 
 /** In the order of tspace::FrameFormat. */
 export const frameFormats = Object.freeze([

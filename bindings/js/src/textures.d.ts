@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+import type { NewFloat32Array, NewUint8Array } from "./types.js";
+
 export { TspaceError } from "./types.js";
 
 /** Resolves when calls can be made. */
@@ -52,7 +54,7 @@ export interface Texture {
   /** What `rgba` holds. */
   numbers: Numbers;
   /** Four numbers for each pixel, the top row first. */
-  rgba: Uint8ClampedArray | Uint16Array | Float32Array;
+  rgba: ReturnType<typeof Uint8ClampedArray.of> | ReturnType<typeof Uint16Array.of> | NewFloat32Array;
 }
 
 /**
@@ -119,4 +121,4 @@ export interface CompressMapReport {
 /** Packs a normal map in tangent space as `tspace compress-map` does, and gives the same bytes. `roughness` is there where the option is. */
 export function compressMap(
   image: MapImage, options?: CompressMapOptions,
-): { bytes: Uint8Array; roughness?: Uint8Array; report: CompressMapReport };
+): { bytes: NewUint8Array; roughness?: NewUint8Array; report: CompressMapReport };

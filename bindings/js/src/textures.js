@@ -43,7 +43,7 @@ function run(options, body) {
     return wasm.run(body);
   } finally {
     unpackers = before;
-    wasm.drop();
+    wasm.release();
   }
 }
 

@@ -1,33 +1,54 @@
 // SPDX-License-Identifier: MIT
 // The entry "tspace/three": tangents for a BufferGeometry, which comes back indexed.
-import { BufferAttribute, BufferGeometry } from "three";
+import { BufferAttribute, BufferGeometry, InstancedBufferGeometry } from "three";
 import { typeError } from "./error.js";
 import { gather } from "./gather.js";
-import { makeIndexedFrames, ready, TspaceError } from "./index.js";
+import { makeIndexedFrames, ready, release, TspaceError } from "./index.js";
 
-export { ready };
+export { ready, release };
 
-/** Numbers of an attribute without gaps, as floats: interleaved and normalised ones are read one by one. */
+/** Values of an attribute as floats, without gaps: half floats, normalized and interleaved attributes are converted. */
 function readFloats(attribute, size) {
   if (attribute.array instanceof Float32Array && !attribute.isInterleavedBufferAttribute && attribute.itemSize === size)
     return attribute.array.subarray(0, size * attribute.count);
   const numbers = new Float32Array(size * attribute.count);
-  for (let i = 0; i < attribute.count; ++i)
-    for (let k = 0; k < size; ++k) numbers[size * i + k] = attribute.getComponent(i, k);
+  const getters = ["getX", "getY", "getZ"].slice(0, size); // getComponent does not convert half floats
+  for (let i = 0; i < attribute.count; ++i) getters.forEach((get, k) => (numbers[size * i + k] = attribute[get](i)));
   return numbers;
 }
 
-function gathered(attribute, sources) {
-  const { itemSize, normalized } = attribute;
-  if (!attribute.isInterleavedBufferAttribute)
-    return new BufferAttribute(gather(attribute.array, itemSize, sources), itemSize, normalized);
-  // Numbers as they are stored, out of the array that several attributes share.
-  const { array, stride } = attribute.data;
-  const own = new array.constructor(sources.length * itemSize);
+/** An attribute of another array and the same class and settings. */
+function withArray(attribute, array) {
+  const { itemSize, normalized, name, usage, gpuType } = attribute;
+  const Class = attribute.array.constructor === array.constructor ? attribute.constructor : BufferAttribute;
+  return Object.assign(new Class(array, itemSize, normalized), { name, usage, gpuType });
+}
+
+/** The elements of an interleaved attribute, as they are stored, in an array of its own. */
+function gatherInterleaved({ data, offset, itemSize }, sources) {
+  const own = new data.array.constructor(sources.length * itemSize);
   sources.forEach((v, i) => {
-    for (let k = 0; k < itemSize; ++k) own[itemSize * i + k] = array[stride * v + attribute.offset + k];
+    for (let k = 0; k < itemSize; ++k) own[itemSize * i + k] = data.array[data.stride * v + offset + k];
   });
-  return new BufferAttribute(own, itemSize, normalized);
+  return own;
+}
+
+/** The attribute for new vertices. One per instance stays as it is; `shared`: buffers that interleaved ones share. */
+function gathered(attribute, sources, shared) {
+  if (attribute.isInstancedBufferAttribute || attribute.data?.isInstancedInterleavedBuffer) return attribute.clone(shared);
+  if (!attribute.isInterleavedBufferAttribute) return withArray(attribute, gather(attribute.array, attribute.itemSize, sources));
+  const { itemSize, normalized, name, data } = attribute;
+  const own = new BufferAttribute(gatherInterleaved(attribute, sources), itemSize, normalized);
+  return Object.assign(own, { name, usage: data.usage });
+}
+
+/** The index in the type that it had, or in a wider one where that is too small. The largest number of a type is no index. */
+function indexAttribute(given, indices, vertexCount) {
+  const types = [Uint8Array, Uint16Array, Uint32Array];
+  const least = given ? types.findIndex((Type) => Type.name === given.array.constructor.name) : 1;
+  const Type = types.slice(Math.max(least, 0)).find((Type) => vertexCount < 2 ** (8 * Type.BYTES_PER_ELEMENT));
+  const array = Type.from(indices);
+  return given ? withArray(given, array) : new BufferAttribute(array, 1);
 }
 
 /** The geometry, or that of a mesh. */
@@ -37,12 +58,27 @@ function geometryOf(given) {
   throw typeError("wrongType", `geometry must be a BufferGeometry or a Mesh, not ${given?.type ?? typeof given}`);
 }
 
+/** A geometry without attributes that has everything else of the given one. */
+function emptyLike(geometry) {
+  const result = geometry.isInstancedBufferGeometry ? new InstancedBufferGeometry() : new BufferGeometry();
+  if (geometry.isInstancedBufferGeometry) result.instanceCount = geometry.instanceCount;
+  result.name = geometry.name;
+  result.userData = { ...geometry.userData };
+  result.morphTargetsRelative = geometry.morphTargetsRelative;
+  result.boundingBox = geometry.boundingBox?.clone() ?? null;
+  result.boundingSphere = geometry.boundingSphere?.clone() ?? null;
+  for (const { start, count, materialIndex } of geometry.groups) result.addGroup(start, count, materialIndex);
+  result.setDrawRange(geometry.drawRange.start, geometry.drawRange.count);
+  return result;
+}
+
 export function computeTangents(given, options = {}) {
   const geometry = geometryOf(given);
   const { position, normal, uv } = geometry.attributes;
   if (!position) throw new TspaceError("missingAttribute", "the geometry has no attribute position");
   if (!uv && options.method !== "basis")
     throw new TspaceError("missingAttribute", 'the geometry has no attribute uv: only the method "basis" needs none');
+  const isMikktspace = (options.method ?? "mikktspace") === "mikktspace";
   const made = makeIndexedFrames(
     {
       positions: readFloats(position, 3),
@@ -50,19 +86,14 @@ export function computeTangents(given, options = {}) {
       uvs: uv && readFloats(uv, 2),
       indices: geometry.index && Uint32Array.from(geometry.index.array),
     },
-    options,
+    isMikktspace ? { pairing: "corrected", ...options } : options, // as three.js's own module
   );
-  const result = new BufferGeometry();
-  result.name = geometry.name;
-  result.userData = { ...geometry.userData };
-  for (const [name, attribute] of Object.entries(geometry.attributes)) result.setAttribute(name, gathered(attribute, made.sourceVertices));
+  const result = emptyLike(geometry), sources = made.sourceVertices, shared = {};
+  for (const [name, attribute] of Object.entries(geometry.attributes)) result.setAttribute(name, gathered(attribute, sources, shared));
   for (const [name, list] of Object.entries(geometry.morphAttributes))
-    result.morphAttributes[name] = list.map((attribute) => gathered(attribute, made.sourceVertices));
-  result.morphTargetsRelative = geometry.morphTargetsRelative;
-  result.setIndex(new BufferAttribute(made.indices, 1));
+    result.morphAttributes[name] = list.map((attribute) => gathered(attribute, sources, shared));
+  result.setIndex(indexAttribute(geometry.index, made.indices, sources.length));
   if (!normal || options.makeNormals) result.setAttribute("normal", new BufferAttribute(made.normals, 3));
   result.setAttribute("tangent", new BufferAttribute(made.tangents, 4));
-  for (const { start, count, materialIndex } of geometry.groups) result.addGroup(start, count, materialIndex);
-  result.setDrawRange(geometry.drawRange.start, geometry.drawRange.count);
   return result;
 }

@@ -20,6 +20,11 @@ export interface Mesh {
 
 export type Indices = Uint32Array | Uint16Array | Uint8Array;
 
+/** Arrays that calls make: from TypeScript 5.7 on `Float32Array<ArrayBuffer>`, whose buffers can be transferred. */
+export type NewFloat32Array = ReturnType<typeof Float32Array.of>;
+export type NewUint32Array = ReturnType<typeof Uint32Array.of>;
+export type NewUint8Array = ReturnType<typeof Uint8Array.of>;
+
 /** What the sign of a tangent means and which side of a face is out. */
 export interface Convention {
   /** Whether v = 0 is the bottom row of the image (up) or the top row (down). */
@@ -57,13 +62,26 @@ export interface TangentReport {
   notFiniteCount: number;
   /** 1: the input drives the reference itself into quadratic time, so its last step was left out. */
   referenceOrderAbandoned: number;
+  /** Options that were given and that the method does not read, such as `refine` for `mikktspace`. */
+  ignoredOptions?: string[];
 }
 
-export interface MikktspaceOptions {
+/** Outputs that the caller provides. */
+export interface TangentOutputs {
+  /**
+   * One entry per corner: 1 where at least one face gives the corner a tangent, 0 where none does and the method's default was
+   * written (`defaultCornerCount` of the report), and at corners of skipped faces.
+   */
+  hasTangent?: Uint8Array | null;
+  /** Gets counts of what was met. */
+  report?: Partial<TangentReport>;
+}
+
+export interface MikktspaceOptions extends TangentOutputs {
   method?: "mikktspace";
   /** What the tangents are for: a preset's name, or each part of it. There is no default: a wrong one turns every sign over. */
   convention: ConventionName | Convention;
-  /** Degrees, 180 unless given: faces whose tangents differ by this or more are not averaged. */
+  /** Degrees from 0 to 360, 180 unless given: faces whose tangents differ by this or more are not averaged. */
   threshold?: number;
   /** `reference` (the default): with the reference's defect in its last bucket of edges. `corrected`: without. */
   pairing?: "reference" | "corrected";
@@ -72,8 +90,6 @@ export interface MikktspaceOptions {
    * does, and is all that "tspace/mikktspace" has.
    */
   ngons?: "triangulate" | "skip";
-  /** Gets counts of what was met. */
-  report?: Partial<TangentReport>;
 }
 
 export interface SanitizeReport {
@@ -110,11 +126,11 @@ export interface CornerAttribute {
 
 export interface Split {
   /** The new vertex of each corner. */
-  indices: Uint32Array;
+  indices: NewUint32Array;
   /** The old vertex that each new one copies: old ones keep their place, copies come after them. Gather every attribute through it. */
-  sourceVertices: Uint32Array;
+  sourceVertices: NewUint32Array;
   /** The corner whose values belong to each new vertex; 4294967295 for one that no corner uses. */
-  sourceCorners: Uint32Array;
+  sourceCorners: NewUint32Array;
 }
 
 /** Why a call failed. The module can be used afterwards. Wrong types, and options that do not exist, are instances of TypeError too. */
@@ -131,13 +147,16 @@ export class TspaceError extends Error {
 /** Settles when the module is loaded; every call needs that. */
 export const ready: Promise<void>;
 
+/** Gives the module's memory back, and ends all plans. The next call starts with little memory. */
+export function release(): void;
+
 /**
  * Mends tangents: those that are not finite, zero, not unit, parallel to N, placeholders, or whose sign is not +-1 or differs
  * inside a face. Sound ones keep every bit. Needs positions and normals.
  * @param tangents four numbers per corner
  * @returns a copy, mended
  */
-export function sanitizeTangents(mesh: Mesh, tangents: Float32Array, options?: SanitizeOptions): Float32Array;
+export function sanitizeTangents(mesh: Mesh, tangents: Float32Array, options?: SanitizeOptions): NewFloat32Array;
 
 /** Splits vertices whose corners disagree in any of the attributes. */
 export function splitVertices(vertices: { indices?: Indices | null; vertexCount: number }, attributes: CornerAttribute[]): Split;

@@ -2,7 +2,7 @@
 // A WebAssembly module, its instance, and arrays on the way in and out. The modules import one function, or more where they
 // ask for files, which ends a call, as one that runs out of memory: it throws through the module's frames. What such a call
 // leaves behind is unknown, so the next one gets a new instance.
-import { TspaceError, codeName } from "./error.js";
+import { TspaceError, codeName, inJavaScriptNames } from "./error.js";
 
 /** A code that the module returned; its text is still there. */
 class Failure {
@@ -19,14 +19,17 @@ async function fetched(url) {
 
 export class Wasm {
   #module;
-  #instance;
+  /** Of the instance, in an object that plans keep: `exports` is undefined once the instance has ended. */
+  #current = {};
   #imports;
   #ready;
   #isWorn = false;
+  #translated;
 
-  /** `imports`: what the module needs beside the way out of a call. */
-  constructor(imports = {}) {
-    this.#imports = imports;
+  /** `imports`: functions that a module of files needs beside `endCall`. Only sentences of other modules are translated, since paths stay. */
+  constructor(imports) {
+    this.#imports = imports ?? {};
+    this.#translated = imports ? (text) => text : inJavaScriptNames;
   }
 
   /** Starts loading, once. `source`: where the module lies, or a function that gives its bytes. */
@@ -41,13 +44,17 @@ export class Wasm {
 
   get exports() {
     if (!this.#module) throw new TspaceError("notReady", "tspace is not loaded: `await ready` first");
-    if (!this.#instance) {
+    if (!this.#current.exports) {
       const imports = { endCall: (number) => this.#endCall(number), attempt: (...given) => this.#attempt(...given), ...this.#imports };
       const env = Object.fromEntries(Object.entries(imports).map(([name, call]) => [name, this.#throughFrames(call)]));
-      this.#instance = new WebAssembly.Instance(this.#module, { env });
-      this.#instance.exports.__wasm_call_ctors();
+      this.#current = { exports: new WebAssembly.Instance(this.#module, { env }).exports };
+      this.#current.exports.__wasm_call_ctors();
     }
-    return this.#instance.exports;
+    return this.#current.exports;
+  }
+
+  get instance() {
+    return this.#current;
   }
 
   /** What `call` throws goes through frames of the module, and what those had allocated stays behind. */
@@ -70,7 +77,7 @@ export class Wasm {
 
   /** Calls a function of the module; 1 where it ended as calls do whose input is wrong. */
   #attempt(body, context) {
-    const { stackSave, stackRestore, __indirect_function_table: functions } = this.#instance.exports;
+    const { stackSave, stackRestore, __indirect_function_table: functions } = this.#current.exports;
     const top = stackSave();
     try {
       functions.get(body)(context);
@@ -82,9 +89,13 @@ export class Wasm {
     }
   }
 
-  /** The next call gets a new instance. */
-  drop() {
-    this.#instance = undefined;
+  /** Ends the instance, whose memory the collector then frees; the next call gets a new one. */
+  release() {
+    this.#current.exports = undefined;
+  }
+
+  memoryBytes() {
+    return this.#current.exports?.memory.buffer.byteLength ?? 0;
   }
 
   /** body(call), and the end of what it allocated. */
@@ -93,13 +104,16 @@ export class Wasm {
     try {
       return body(call);
     } catch (error) {
-      if (error instanceof Failure) throw new TspaceError(...errorOf(call.wasm, error.number));
+      if (error instanceof Failure) {
+        const [code, text, element] = errorOf(call.wasm, error.number);
+        throw new TspaceError(code, this.#translated(text), element);
+      }
       this.#isWorn ||= error instanceof WebAssembly.RuntimeError || error instanceof RangeError; // a full stack is one
       if (error instanceof WebAssembly.RuntimeError)
         throw new TspaceError("internal", `internal error of tspace: ${error.message}`);
       throw error;
     } finally {
-      if (this.#isWorn) this.#instance = undefined;
+      if (this.#isWorn) this.release();
       else call.end();
       this.#isWorn = false;
     }

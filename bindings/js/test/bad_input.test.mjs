@@ -3,11 +3,12 @@
 import assert from "node:assert/strict";
 import { after, describe, it } from "node:test";
 import { runInNewContext } from "node:vm";
-import { generateNormals, generateTangents, makeIndexedFrames, Plan, ready, sanitizeTangents, splitVertices, TspaceError } from "tspace";
+import { generateNormals, generateTangents, makeIndexedFrames, Plan, ready, sanitizeTangents, splitVertices, triangulate, TspaceError } from "tspace";
 import * as small from "tspace/mikktspace";
+import * as whole from "tspace/normals";
 import { grid } from "./meshes.mjs";
 
-await Promise.all([ready, small.ready]);
+await Promise.all([ready, small.ready, whole.ready]);
 const mesh = grid(3);
 const options = { convention: "gltf" };
 const good = generateTangents(mesh, options);
@@ -81,6 +82,49 @@ describe("refused", () => {
     const attribute = { data: new Float32Array(3), size: 1, epsilon: 0 };
     unknown([/^attribute 0\.epsilon/, /tolerance/], () => splitVertices({ vertexCount: 3 }, [attribute]));
     unknown([/^options\.frame/], () => small.generateTangents(mesh, { ...options, frame: "symmetric" }));
+  });
+
+  it("members that no mesh has", () => {
+    const unknown = (member, body) => refuses("invalidOption", [new RegExp(`\\.${member} is unknown: known are positions, normals, uvs, indices, faceSizes`)], body);
+    for (const member of ["normal", "index", "faceSize", "uv", "position"]) {
+      const typo = { ...mesh, [member]: mesh.normals };
+      const calls = [generateTangents, makeIndexedFrames, small.generateTangents];
+      for (const call of calls) unknown(member, () => call(typo, options));
+      unknown(member, () => new Plan(typo, options));
+      for (const call of [generateNormals, triangulate, whole.generateNormals, whole.mendWinding, whole.measurePositionNoise]) unknown(member, () => call(typo));
+      unknown(member, () => sanitizeTangents(typo, good));
+    }
+    const plan = new Plan(mesh, options);
+    unknown("normal", () => plan.evaluate({ positions: mesh.positions, normal: mesh.normals }));
+    plan.destroy();
+    refuses("invalidOption", [/^vertices\.index is unknown: known are indices, vertexCount$/], () => splitVertices({ vertexCount: 3, index: mesh.indices }, []));
+  });
+
+  it("thresholds out of range", () => {
+    for (const threshold of [-1, 360.5, Infinity, -Infinity])
+      refuses("invalidOption", [/^threshold must be a number from 0 to 360 degrees, not /], tangentsOf({}, { threshold }));
+    for (const threshold of [NaN, "180"]) refuses("wrongType", [/^threshold must be a number, not /], tangentsOf({}, { threshold }));
+    for (const threshold of [0, 360]) assert.equal(tangentsOf({}, { threshold })().length, good.length);
+  });
+
+  it("by the names that callers know", () => {
+    const messages = [];
+    const told = (body) => assert.throws(body, ({ message }) => messages.push(message) > 0);
+    const few = Uint32Array.of(0, 1, 2);
+    told(tangentsOf({ normalIndices: few }));
+    told(tangentsOf({ uvIndices: few }));
+    told(tangentsOf({ uvIndices: mesh.indices.map(() => 99) }));
+    told(tangentsOf({ faceSizes: few }));
+    told(() => generateNormals(mesh, { creaseAngle: 181 }));
+    told(() => generateNormals(mesh, { smoothingGroups: few }));
+    told(() => whole.generateNormals(mesh, { weighting: "best", denoise: 5 }));
+    assert.match(messages.join(), /normalIndices.*uvIndices.*creaseAngle is neither between 0 and 180 nor "auto".*smoothingGroups/);
+    for (const message of messages) assert.doesNotMatch(message, /[a-z]_[a-z]/);
+  });
+
+  it("masks of another size or type", () => {
+    refuses("countMismatch", [/hasTangent has 3 entries, 54 are needed/], tangentsOf({}, { hasTangent: new Uint8Array(3) }));
+    refuses("wrongType", [/hasTangent must be a Uint8Array/], tangentsOf({}, { hasTangent: [] }));
   });
 
   it("wrong shapes", () => {

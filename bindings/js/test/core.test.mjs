@@ -163,6 +163,70 @@ describe("calls", () => {
     assert.throws(() => plan.evaluate(pose), { code: "planMismatch" });
   });
 
+  it("say which corners no face gives a tangent", () => {
+    const uvs = mesh.uvs.slice().fill(0.5, 0, 40);
+    const alone = { positions: Float32Array.of(0, 0, 0, 1, 0, 0, 0, 1, 0, 5, 0, 0, 6, 0, 0, 5, 1, 0), normals: new Float32Array(18).map((_, i) => (i % 3 === 2 ? 1 : 0)), uvs: Float32Array.of(0, 0, 1, 0, 0, 1, 0.5, 0.5, 0.5, 0.5, 0.5, 0.5) };
+    for (const given of [alone, { ...mesh, uvs }]) {
+      const count = (given.indices ?? given.positions).length / (given.indices ? 1 : 3);
+      for (const { generateTangents, methods } of [{ ...whole, methods: ["mikktspace", "best", "lengyel", "flat"] }, { ...small, methods: ["mikktspace"] }]) {
+        for (const method of methods) {
+          const [hasTangent, report] = [new Uint8Array(count).fill(7), {}];
+          const tangents = generateTangents(given, { convention: "opengl", method, hasTangent, report });
+          assert.equal(hasTangent.filter((has) => has === 0).length, report.defaultCornerCount, method);
+          assert.ok(hasTangent.every((has) => has <= 1));
+          if (given === alone) assert.deepEqual([...hasTangent], [1, 1, 1, 0, 0, 0], method);
+          assert.deepEqual(generateTangents(given, { convention: "opengl", method }), tangents);
+          if (generateTangents !== whole.generateTangents) continue;
+          const plan = new Plan(given, { convention: "opengl", method }), posed = new Uint8Array(count);
+          plan.evaluate(given, { hasTangent: posed });
+          assert.deepEqual(posed, hasTangent);
+          plan.destroy();
+        }
+      }
+    }
+  });
+
+  it("report options that had no effect", () => {
+    const ignoredBy = (options) => {
+      const report = { ignoredOptions: ["old"] };
+      generateTangents(mesh, { convention: "gltf", report, ...options });
+      return report.ignoredOptions;
+    };
+    assert.equal(ignoredBy({}), undefined);
+    assert.equal(ignoredBy({ threshold: 90, pairing: "corrected" }), undefined);
+    assert.deepEqual(ignoredBy({ refine: 1 }), ["refine"]);
+    assert.deepEqual(ignoredBy({ method: "best", refine: 1, threshold: 180, pairing: "reference" }), ["threshold", "pairing"]);
+    assert.deepEqual(new Plan(mesh, { convention: "gltf", method: "fast", refine: 2 }).ignoredOptions, ["refine"]);
+    const report = {};
+    generateNormals(mesh, { refine: 1, smoothingGroupsAreMasks: true, report });
+    assert.deepEqual(report.ignoredOptions, ["smoothingGroupsAreMasks", "refine"]);
+    const { makeIndexedFrames } = whole;
+    const frames = makeIndexedFrames(mesh, { convention: "gltf", refine: 2, sanitize: false, orthogonalizeAll: true, normals: { weighting: "area" } });
+    assert.deepEqual(frames.report.ignoredOptions, ["refine", "orthogonalizeAll", "normals.weighting"]);
+    const made = makeIndexedFrames(mesh, { convention: "gltf", makeNormals: true, normals: { weighting: "flat", creaseAngle: 30 } });
+    assert.deepEqual(made.report.ignoredOptions, ["normals.creaseAngle"]);
+  });
+
+  it("give their memory back when asked", () => {
+    const options = { convention: "gltf" };
+    const wanted = generateTangents(mesh, options);
+    const plan = new Plan(mesh, options);
+    const large = grid(300);
+    generateTangents(large, options);
+    const used = whole.memoryBytes();
+    whole.release();
+    assert.equal(whole.memoryBytes(), 0);
+    assert.deepEqual(generateTangents(mesh, options), wanted);
+    assert.ok(whole.memoryBytes() < used / 2);
+    assert.throws(() => plan.evaluate(mesh), { code: "planMismatch", message: /release/ });
+    plan.destroy();
+    const next = new Plan(mesh, options);
+    assert.deepEqual(next.evaluate(mesh), wanted);
+    next.destroy();
+    small.release();
+    assert.deepEqual(small.generateTangents(mesh, options), wanted);
+  });
+
   it("keep their memory from call to call", () => {
     const options = { convention: "gltf" };
     const once = () => {

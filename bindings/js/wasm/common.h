@@ -19,6 +19,11 @@ const MeshView& mesh();
 /// v axis in the lowest two bits, then a bit each for green, stored sign, handedness and winding.
 Convention conventionOf(std::uint32_t bits);
 
+/// The outputs of a call: four floats for each of `count` entries, and a byte for each unless `has_tangent` is null.
+inline TangentOutput outputOf(float* tangents, std::uint8_t* has_tangent, std::size_t count) {
+    return {.tangents = vec4Span(tangents, count), .has_tangent = {has_tangent, has_tangent == nullptr ? 0 : count}};
+}
+
 void keep(const TangentReport& r);
 
 /// From the number `first` of the report on; 13 numbers.

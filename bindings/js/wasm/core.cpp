@@ -26,12 +26,13 @@ TangentOptions tangentOptions(std::uint32_t method, float threshold_deg, std::ui
 
 extern "C" {
 
-/// `out`: four floats per corner.
+/// `out`: four floats per corner; `has_tangent`: a byte per corner, or null.
 TSPACE_JS_EXPORT(generateTangents)
 std::uint32_t generate(std::uint32_t method, float threshold_deg, std::uint32_t pairing, std::uint32_t ngons,
-                       std::uint32_t convention, std::uint32_t frame, std::uint32_t refine, float* out) {
+                       std::uint32_t convention, std::uint32_t frame, std::uint32_t refine, float* out,
+                       std::uint8_t* has_tangent) {
     const auto options = tangentOptions(method, threshold_deg, pairing, ngons, convention, frame, refine);
-    auto result = generateTangents(mesh(), options, {.tangents = vec4Span(out, mesh().cornerCount())});
+    auto result = generateTangents(mesh(), options, outputOf(out, has_tangent, mesh().cornerCount()));
     if (result) keep(*result);
     return codeOf(result);
 }
@@ -47,9 +48,9 @@ std::uint32_t makePlan(std::uint32_t method, float threshold_deg, std::uint32_t 
 }
 
 /// With the positions and normals that setMesh was given.
-TSPACE_JS_EXPORT(evaluatePlan) std::uint32_t evaluate(const TangentPlan* plan, float* out) {
+TSPACE_JS_EXPORT(evaluatePlan) std::uint32_t evaluate(const TangentPlan* plan, float* out, std::uint8_t* has_tangent) {
     const Pose pose{mesh().positions, mesh().normals};
-    auto result = evaluateTangents(*plan, pose, {.tangents = vec4Span(out, plan->outputCount())});
+    auto result = evaluateTangents(*plan, pose, outputOf(out, has_tangent, plan->outputCount()));
     if (result) keep(*result);
     return codeOf(result);
 }
