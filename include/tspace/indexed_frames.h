@@ -46,7 +46,8 @@ struct IndexedFrames {
     std::vector<std::uint32_t> source_vertices = {};  ///< one per new vertex: the entry of `positions` that it copies
     /// One per new vertex: the first corner that uses it, or kNoCorner where none does.
     std::vector<std::uint32_t> source_corners = {};
-    std::vector<Vec3> normals = {};   ///< one per new vertex: those of the mesh, bit for bit, or the ones made
+    std::vector<Vec3> normals =
+        {};  ///< one per new vertex: those of the mesh (see TangentOptions::normalize_normals), or the ones made
     std::vector<Vec4> tangents = {};  ///< one per new vertex: unit tangent and sign
     IndexedFramesReport report = {};
 

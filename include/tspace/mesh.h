@@ -56,9 +56,10 @@ struct IndexView {
 /// it into the model's place; normals and tangents do not depend on it.
 struct MeshView {
     StridedSpan<const Vec3> positions = {};  ///< one per vertex
-    StridedSpan<const Vec3> normals = {};    ///< one per vertex, used as given (never normalised), or empty
-    StridedSpan<const Vec2> uvs = {};        ///< one per vertex, or empty
-    IndexView indices = {};                  ///< one per corner, or IndexType::none: every corner has its own vertex
+    StridedSpan<const Vec3> normals =
+        {};  ///< one per vertex, used as given (see TangentOptions::normalize_normals), or empty
+    StridedSpan<const Vec2> uvs = {};  ///< one per vertex, or empty
+    IndexView indices = {};            ///< one per corner, or IndexType::none: every corner has its own vertex
     /// Corners of each face. Empty: all faces have `face_size` corners. Faces of 0, 1 or 2 corners are allowed
     /// and ignored: nothing is computed for them.
     std::span<const std::uint32_t> face_sizes = {};

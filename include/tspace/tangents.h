@@ -80,6 +80,11 @@ struct TangentOptions {
     /// `symmetric` is refused for `mikktspace`, whose results are the reference's, and for `basis`, which has no UVs. The
     /// default is what bakers and engines expect.
     FrameShape frame = FrameShape::gramSchmidt;
+    /// true: a normal whose length is further from 1 than rounding to 8 bits explains (0.00674) is scaled to length 1 before
+    /// anything is computed from it; all others, and those without a direction, keep their bits. false, the default, takes
+    /// normals as they are: no method scales them, as the reference does not. A tangent is then not perpendicular to a
+    /// normal that is not unit: on a sphere it is off by up to 28 degrees at length 2.
+    bool normalize_normals = false;
 
     // `mikktspace` alone:
 
@@ -162,7 +167,7 @@ class TangentPlan {
 
 /// Tangents for a mesh in one call.
 ///
-/// mesh       positions; normals (all methods); UVs (all methods but `basis`)
+/// mesh       positions; unit normals (all methods; see TangentOptions::normalize_normals); UVs (all but `basis`)
 /// options    the convention must be set
 /// out        spans of mesh.cornerCount() entries (mesh.vertexCount() with OutputDomain::vertex); must not overlap the
 ///            inputs or each other

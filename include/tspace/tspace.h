@@ -414,6 +414,11 @@ typedef struct tspace_TangentOptions {
      * gives these edges, as far as they agree. 1: a fifth less error in what is shaded. 2: another twentieth less.
      * 0: the fit alone. Default: 1. */
     uint32_t refine;
+    /* 0 or 1. 1: a normal whose length is further from 1 than rounding to 8 bits explains (0.00674) is scaled to
+     * length 1 before anything is computed from it; all others, and those without a direction, keep their bits. 0,
+     * the default, takes normals as they are: no method scales them, as the reference does not. A tangent is then
+     * not perpendicular to a normal that is not unit: on a sphere it is off by up to 28 degrees at length 2. */
+    uint32_t normalize_normals;
 } tspace_TangentOptions;
 
 /* In C: prepares options as TSPACE_INIT does, for languages that have no macros.
@@ -463,7 +468,8 @@ typedef struct tspace_TangentOutput {
 
 /* Tangents for a mesh in one call.
  *
- * mesh       positions; normals (all methods); UVs (all methods but TSPACE_METHOD_BASIS)
+ * mesh       positions; unit normals (all methods; see tspace_TangentOptions.normalize_normals); UVs (all but
+ *            TSPACE_METHOD_BASIS)
  * options    the convention must be set
  * out        spans of tspace_cornerCount(mesh) entries (mesh->positions.count with TSPACE_DOMAIN_VERTEX); must not
  *            overlap the inputs or each other

@@ -164,7 +164,9 @@ typedef struct tspace_IndexedFrames {
     const uint32_t* source_vertices; /* one per new vertex: the entry of `positions` that it copies */
     /* One per new vertex: the first corner that uses it, or TSPACE_NO_CORNER where none does. */
     const uint32_t* source_corners;
-    const float* normals;  /* 3 floats each: one per new vertex: those of the mesh, bit for bit, or the ones made */
+    /* 3 floats each: one per new vertex: those of the mesh (see tspace_TangentOptions.normalize_normals), or the
+     * ones made */
+    const float* normals;
     const float* tangents; /* 4 floats each: one per new vertex: unit tangent and sign */
     size_t vertex_count;
     const tspace_NormalReport* normal_report; /* null where normals were not made */

@@ -92,6 +92,7 @@ namespace Tspace
             public float AngularThresholdDeg;
             public uint Pairing;
             public uint Refine;
+            public uint NormalizeNormals;
         }
 
         [StructLayout(LayoutKind.Sequential)]

@@ -86,6 +86,8 @@ namespace Tspace
         public Pairing Pairing { get; set; }
         /// <summary>Steps that Best takes after its fit: 0, 1 or 2.</summary>
         public int Refine { get; set; }
+        /// <summary>Normals whose length is further from 1 than 0.00674 are scaled to length 1 first.</summary>
+        public bool NormalizeNormals { get; set; }
         /// <summary>1, another number, or int.MaxValue for as many as there are cores. The bits are the same for any.</summary>
         public int Threads { get; set; } = 1;
 
@@ -119,6 +121,7 @@ namespace Tspace
             raw.AngularThresholdDeg = AngularThresholdDeg;
             raw.Pairing = (uint)Pairing;
             raw.Refine = (uint)Refine;
+            raw.NormalizeNormals = NormalizeNormals ? 1u : 0u;
             // The C API refuses both of 0 as forgotten; no method looks at both.
             if (AngularThresholdDeg == 0 && Refine == 0)
             {

@@ -61,6 +61,7 @@ export function tangentArguments(options, { methods, ngons }) {
     conventionBits(options.convention),
     choice(options.frame ?? "gramSchmidt", "frame", ["gramSchmidt", "symmetric"]),
     count(options.refine ?? 1, "refine"),
+    boolean(options.normalizeNormals ?? false, "normalizeNormals"),
   ];
 }
 

@@ -10,7 +10,8 @@ using namespace tspace::js;
 namespace {
 
 TangentOptions tangentOptions(std::uint32_t method, float threshold_deg, std::uint32_t pairing, std::uint32_t ngons,
-                              std::uint32_t convention, std::uint32_t frame, std::uint32_t refine) {
+                              std::uint32_t convention, std::uint32_t frame, std::uint32_t refine,
+                              bool normalize_normals) {
     TangentOptions options;
     options.method = static_cast<Method>(method);
     options.angular_threshold_deg = threshold_deg;
@@ -19,6 +20,7 @@ TangentOptions tangentOptions(std::uint32_t method, float threshold_deg, std::ui
     options.convention = conventionOf(convention);
     options.frame = static_cast<FrameShape>(frame);
     options.refine = refine;
+    options.normalize_normals = normalize_normals;
     return options;
 }
 
@@ -29,9 +31,10 @@ extern "C" {
 /// `out`: four floats per corner; `has_tangent`: a byte per corner, or null.
 TSPACE_JS_EXPORT(generateTangents)
 std::uint32_t generate(std::uint32_t method, float threshold_deg, std::uint32_t pairing, std::uint32_t ngons,
-                       std::uint32_t convention, std::uint32_t frame, std::uint32_t refine, float* out,
-                       std::uint8_t* has_tangent) {
-    const auto options = tangentOptions(method, threshold_deg, pairing, ngons, convention, frame, refine);
+                       std::uint32_t convention, std::uint32_t frame, std::uint32_t refine,
+                       bool normalize_normals, float* out, std::uint8_t* has_tangent) {
+    const auto options = tangentOptions(method, threshold_deg, pairing, ngons, convention, frame, refine,
+                                        normalize_normals);
     auto result = generateTangents(mesh(), options, outputOf(out, has_tangent, mesh().cornerCount()));
     if (result) keep(*result);
     return codeOf(result);
@@ -40,8 +43,10 @@ std::uint32_t generate(std::uint32_t method, float threshold_deg, std::uint32_t 
 /// `plan`: gets the plan, to be ended by destroyPlan.
 TSPACE_JS_EXPORT(makePlan)
 std::uint32_t makePlan(std::uint32_t method, float threshold_deg, std::uint32_t pairing, std::uint32_t ngons,
-                       std::uint32_t convention, std::uint32_t frame, std::uint32_t refine, TangentPlan** plan) {
-    const auto options = tangentOptions(method, threshold_deg, pairing, ngons, convention, frame, refine);
+                       std::uint32_t convention, std::uint32_t frame, std::uint32_t refine,
+                       bool normalize_normals, TangentPlan** plan) {
+    const auto options = tangentOptions(method, threshold_deg, pairing, ngons, convention, frame, refine,
+                                        normalize_normals);
     auto result = planTangents(mesh(), options);
     if (result) *plan = new TangentPlan(*std::move(result));
     return codeOf(result);
@@ -62,13 +67,14 @@ TSPACE_JS_EXPORT(destroyPlan) void destroyPlan(TangentPlan* plan) { delete plan;
 /// released one by one. The report has the 9 numbers of tangents, then the 13 of sanitize and the 5 of normals.
 TSPACE_JS_EXPORT(makeIndexedFrames)
 std::uint32_t frames(std::uint32_t method, float threshold_deg, std::uint32_t pairing, std::uint32_t ngons,
-                     std::uint32_t convention, std::uint32_t frame, std::uint32_t refine, bool make_normals,
-                     bool sanitize, bool orthogonalize_all, std::uint32_t weighting, float crease_angle_deg,
+                     std::uint32_t convention, std::uint32_t frame, std::uint32_t refine, bool normalize_normals,
+                     bool make_normals, bool sanitize, bool orthogonalize_all, std::uint32_t weighting, float crease_angle_deg,
                      const std::uint32_t* groups, std::size_t group_count, bool groups_are_masks, bool weld_positions,
                      std::uint32_t normal_convention, std::uint32_t normal_refine, float normal_denoise,
                      std::uint32_t* result) {
     IndexedFramesOptions options;
-    options.tangents = tangentOptions(method, threshold_deg, pairing, ngons, convention, frame, refine);
+    options.tangents = tangentOptions(method, threshold_deg, pairing, ngons, convention, frame, refine,
+                                        normalize_normals);
     options.normals = normalOptions(weighting, crease_angle_deg, groups, group_count, groups_are_masks, weld_positions,
                                     normal_convention, normal_refine, normal_denoise);
     options.make_normals = make_normals;

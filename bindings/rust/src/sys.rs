@@ -96,6 +96,7 @@ pub struct TangentOptions {
     pub angular_threshold_deg: f32,
     pub pairing: u32,
     pub refine: u32,
+    pub normalize_normals: u32,
 }
 
 #[repr(C)]

@@ -89,6 +89,8 @@ pub struct TangentOptions {
     pub pairing: Pairing,
     /// Steps that [`Method::Best`] takes after its fit: 0, 1 or 2. Default: 1.
     pub refine: u32,
+    /// Normals whose length is further from 1 than 0.00674 are scaled to length 1 first. Default: they are used as given.
+    pub normalize_normals: bool,
     /// Default: the calling thread.
     pub execution: Execution,
 }
@@ -106,6 +108,7 @@ impl TangentOptions {
             angular_threshold_deg: raw.angular_threshold_deg,
             pairing: Pairing::default(),
             refine: raw.refine,
+            normalize_normals: false,
             execution: Execution::default(),
         }
     }
@@ -120,6 +123,7 @@ impl TangentOptions {
         raw.angular_threshold_deg = self.angular_threshold_deg;
         raw.pairing = self.pairing as u32;
         raw.refine = self.refine;
+        raw.normalize_normals = self.normalize_normals.into();
         // The C API refuses both of 0 as forgotten; no method looks at both.
         if raw.angular_threshold_deg == 0.0 && raw.refine == 0 {
             if self.method == Method::Best {

@@ -91,7 +91,10 @@ CheckReport check(const std::string& input, const CheckOptions& options) {
     std::move(packed.findings.begin(), packed.findings.end(), std::back_inserter(report.findings));
     for (Finding& finding : images.findings) report.findings.push_back(std::move(finding));
     for (Finding& finding : checkMapScales(scene)) report.findings.push_back(std::move(finding));
-    for (const std::string& warning : scene.warnings) report.findings.push_back(fileRemark(warning));
+    for (const std::string& warning : scene.warnings) {
+        // A finding about their primitives says it.
+        if (warning.rfind(kNormalLengths, 0) != 0) report.findings.push_back(fileRemark(warning));
+    }
     sortStably(report.findings.begin(), report.findings.end(),
                [](const Finding& a, const Finding& b) { return a.severity > b.severity; });
     for (const Finding& finding : report.findings) {

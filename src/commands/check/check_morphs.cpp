@@ -132,7 +132,7 @@ void checkMorphValues(PrimitiveFacts& facts) {
                   "is NaN or infinite");
     const auto vanishes = [&](std::uint32_t v, const Vec3& offset) {
         const Vec3& base = facts.mesh.normals[v];
-        return isDirection(base) && isFinite(offset) && length(toDouble(base + offset)) < kShortest;
+        return isDirection(base) && isFinite(offset) && length(toDouble(base + offset)) < kLeastLength;
     };
     values.report(FindingCode::morphNormalsWrong, values.find(&SceneMorphTarget::normals, vanishes), "normals",
                   "leaves them without length, so shaders get NaN at full weight");

@@ -28,7 +28,7 @@ constexpr std::array<CodeText, kFindingCodeCount> kCodes{{
      "them: any tangent in the plane of the surface will do there."},
     {"normalsMissing", "Nothing needs to be done if flat shading is meant; else export normals."},
     {"normalsNotFinite", "Export the normals again."},
-    {"normalsNotUnit", "Normalise the normals and compute the tangents anew."},
+    {"normalsNotUnit", "Make them unit: tspace generate --repair. Tangents that do not fit them are mended too."},
     {"normalsAgainstWinding",
      "Turn the normals round, or the triangles (recalculate outside), whichever is wrong; then compute the tangents "
      "anew."},

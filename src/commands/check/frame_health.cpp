@@ -52,7 +52,6 @@ class VertexPatches {
 // all corners of a triangle share.
 
 /// Lengths so far off that the normalisation of renderers does not hide the fault.
-constexpr double kFarFromUnit = 0.1;
 
 constexpr double kParallel = 90 - kParallelDeg;
 /// Beyond this lean a single vertex is a finding.
@@ -114,7 +113,7 @@ void examineValues(const TangentView& mesh, const Surface& surface, const CheckO
         }
         if (!used[v]) continue;
         if (off > kFarFromUnit) health.far_from_unit += area;
-        health.has_zero = health.has_zero || size < kShortest;
+        health.has_zero = health.has_zero || size < kLeastLength;
         DVec3 normal = mesh.normals.empty() ? DVec3{} : toDouble(mesh.normals[v]);
         if (!normalize(tangent) || !normalize(normal)) continue;
         ++health.not_orthogonal.total;

@@ -23,6 +23,9 @@ inline constexpr std::uint32_t kUndecidedSign = 1u << 31;
 /// A further bit: the tangent is nearly parallel to N.
 inline constexpr std::uint32_t kParallelTangent = 1u << 30;
 
+/// Lengths of normals and tangents that are further from 1 are wrong, and not rounded.
+inline constexpr double kFarFromUnit = 0.1;
+
 struct FrameHealth {
     /// Per vertex the bits of the findings that count it below; empty: there are none. Wrong signs have the bit of
     /// signsWrong, however many there are; where that is nearly all, others of the same patches have kUndecidedSign.

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "commands/check/findings.h"
+#include "commands/check/frame_health.h"
 #include "commands/shared/noted_noise.h"
 #include "core/base/unique_index.h"
 #include "core/base/vec_math.h"
@@ -33,8 +34,10 @@ constexpr double kSomeFar = 0.5;
 
 void checkNormalValues(PrimitiveFacts& facts) {
     const TangentView& mesh = facts.mesh;
+    const NormalScales* const scales = facts.primitive.normal_scales.get();
     Tally not_finite, not_unit;
     std::uint64_t zero_count = 0;
+    double far_share = 0;
     for (std::uint32_t v = 0; v < facts.used.size(); ++v) {
         if (!facts.used[v]) continue;
         ++not_finite.total;
@@ -43,9 +46,12 @@ void checkNormalValues(PrimitiveFacts& facts) {
             not_finite.add(v, facts.surface.vertex_areas[v]);
             continue;
         }
-        const double size = length(toDouble(mesh.normals[v]));
+        // As stored: the mesh has those that were scaled.
+        const double size = scales != nullptr && scales->of_vertices[v] != 1 ? 1 / scales->of_vertices[v]
+                                                                             : length(toDouble(mesh.normals[v]));
         if (std::fabs(size - 1) > facts.options.unit_tolerance) not_unit.add(v, facts.surface.vertex_areas[v]);
-        zero_count += size < kShortest ? 1 : 0;
+        if (std::fabs(size - 1) > kFarFromUnit) far_share += facts.surface.vertex_areas[v];
+        zero_count += size < kLeastLength ? 1 : 0;
     }
     not_finite.finish(facts.surface.area);
     not_unit.finish(facts.surface.area);
@@ -54,10 +60,16 @@ void checkNormalValues(PrimitiveFacts& facts) {
                   "the normals of " + countText(not_finite, "vertices") + " are NaN or infinite");
     }
     if (not_unit.count > 0) {
-        // One normal without length gives NaN in shaders.
-        facts.add(FindingCode::normalsNotUnit, zero_count != 0 ? Severity::error : Severity::warning, not_unit,
-                  "vertices",
-                  "the normals of " + countText(not_unit, "vertices") + " do not have length 1" +
+        // One normal without length gives NaN in shaders. With other lengths, relief is shaded steeper or flatter by readers
+        // that take N as it is, and tangents that follow N as it is are wrong.
+        const bool is_far =
+            facts.surface.area > 0 && far_share >= facts.options.error_share * facts.surface.area && far_share > 0;
+        std::string lengths;
+        if (scales != nullptr)
+            lengths = " (from " + stepText(scales->least_length) + " to " + stepText(scales->most_length) + ")";
+        facts.add(FindingCode::normalsNotUnit, zero_count != 0 || is_far ? Severity::error : Severity::warning,
+                  not_unit, "vertices",
+                  "the normals of " + countText(not_unit, "vertices") + " do not have length 1" + lengths +
                       (zero_count != 0 ? ", " + std::to_string(zero_count) + " of them length 0" : ""));
         if (zero_count != 0) {
             facts.findings.back().remedy =

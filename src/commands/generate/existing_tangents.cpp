@@ -385,12 +385,6 @@ bool areBroken(Model& model, const Primitive& primitive) {
     return false;
 }
 
-VectorFormat formatOf(const Accessor& accessor) {
-    return accessor.component == ComponentType::i8    ? VectorFormat::snorm8
-           : accessor.component == ComponentType::i16 ? VectorFormat::snorm16
-                                                      : VectorFormat::float32;
-}
-
 }  // namespace
 
 std::vector<std::vector<std::size_t>> findBrokenValues(Model& model, const GeneratePlan& plan) {
@@ -432,7 +426,8 @@ void mendBrokenValues(Editor& editor, const Document& document, std::span<const 
         for (std::size_t v = 0; v < mended.size(); ++v) {
             if (std::memcmp(&mended[v], &stored.tangents[v], sizeof(Vec4)) == 0) continue;
             ++count;
-            const std::vector<std::uint8_t> bytes = packUnits(std::span<const Vec4>(&mended[v], 1), formatOf(accessor));
+            const std::vector<std::uint8_t> bytes =
+                packUnits(std::span<const Vec4>(&mended[v], 1), unitFormatOf(accessor));
             std::copy(bytes.begin(), bytes.end(), elements.data() + v * accessor.element_bytes);
         }
         setAttribute(editor, document, {.primitives = primitives, .numbers = numbers, .name = "TANGENT"},

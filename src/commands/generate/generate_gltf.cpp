@@ -190,30 +190,61 @@ WorkedOn edit(Input& input, const Storage& storage, Decisions&& decisions, Gener
 }
 
 /// Turns triangles where that is asked for. Returns whether any were, and the container then is that of the output.
-bool turnWrong(Input& input, const Storage& storage, std::span<const std::uint32_t> kept, WindingPlan& plan,
-               std::vector<std::string>& warnings) {
+/// `is_converted`: it is already.
+bool turnWrong(Input& input, const Storage& storage, std::span<const std::uint32_t> kept, bool is_converted,
+               WindingPlan& plan, std::vector<std::string>& warnings) {
     if (!input.options.mend_winding) return false;
     plan = planWinding(input.model, input.options, kept);
     if (!plan.turnsAny()) return false;
     Document& document = input.model.document();
-    if (input.options.compression == Compression::keep) convertContainer(document, input.target, true, warnings);
+    if (input.options.compression == Compression::keep && !is_converted)
+        convertContainer(document, input.target, true, warnings);
     turnTriangles(document, storage.new_file, input.model.primitives(), plan.turned);
     input.model.wasEdited();
     return true;
 }
 
+/// Writes unit normals where a repair finds others. Returns whether it found any.
+bool mendNormalLengths(Input& input, const Storage& storage, std::vector<std::string>& warnings) {
+    const auto is_scaled = [](const Primitive& primitive) { return primitive.normal_scales != nullptr; };
+    const std::vector<Primitive>& primitives = input.model.primitives();
+    if (input.options.existing != ExistingTangents::repair) return false;
+    if (std::none_of(primitives.begin(), primitives.end(), is_scaled)) return false;
+    Document& document = input.model.document();
+    if (input.options.compression == Compression::keep) convertContainer(document, input.target, true, warnings);
+    writeUnitNormals(document, storage.new_file, primitives);
+    input.model.wasEdited();
+    return true;
+}
+
+/// The warning about normals of other lengths says that the output has none, where that is so.
+void sayThatNormalsAreUnit(std::span<const std::size_t> scaled, bool were_mended, GenerateReport& report) {
+    const bool are_unit = were_mended || std::all_of(scaled.begin(), scaled.end(), [&](std::size_t number) {
+                              return report.primitives[number].normals_generated;
+                          });
+    for (std::string& warning : report.warnings) {
+        if (are_unit && warning.rfind(kNormalLengths, 0) == 0)
+            warning = warning.substr(0, warning.find(". ")) + ". The output has unit normals";
+    }
+}
+
 /// All but reading and writing.
 WorkedOn generate(Input& input, bool with_images, const GenerateStep& step, GenerateReport& report) {
     Document& document = input.model.document();
+    std::vector<std::size_t> scaled;
+    for (std::size_t i = 0; i < input.model.primitives().size(); ++i) {
+        if (input.model.primitives()[i].normal_scales != nullptr) scaled.push_back(i);
+    }
     report.warnings = document.warnings;
     std::copy_n(document.coordinate_offset.begin(), 3, report.coordinate_offset);
     const Storage storage = prepareStorage(input, report.warnings);
+    const bool were_mended = mendNormalLengths(input, storage, report.warnings);
     WindingPlan winding;
-    const bool was_turned = turnWrong(input, storage, step.wound_meshes, winding, report.warnings);
+    const bool was_turned = turnWrong(input, storage, step.wound_meshes, were_mended, winding, report.warnings);
     report.windings = std::move(winding.reports);
     Decisions decisions = decide(input.model, input.options, step.normals, report.warnings);
     report.input_bytes = document.input_bytes;
-    if (input.options.compression == Compression::keep && !was_turned) {
+    if (input.options.compression == Compression::keep && !was_turned && !were_mended) {
         const bool will_edit = decisions.changeGeometryOrMaps() || input.options.pack.has_value();
         convertContainer(document, input.target, will_edit, report.warnings);
     }
@@ -221,7 +252,8 @@ WorkedOn generate(Input& input, bool with_images, const GenerateStep& step, Gene
     if (with_images) takeImagesIn(document, input.target, report.warnings);
     tell(input.options, "reading", 1, 1);
     const WorkedOn worked_on = edit(input, storage, std::move(decisions), report);
-    report.changed = report.changed || was_turned;
+    report.changed = report.changed || was_turned || were_mended;
+    sayThatNormalsAreUnit(scaled, were_mended, report);
     countTurned(winding, report.primitives);
     return worked_on;
 }

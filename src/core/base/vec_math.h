@@ -74,6 +74,26 @@ inline bool normalizeOrdinary(DVec3& v) {
     return true;
 }
 
+/// Lengths of normals and tangents below cannot be told from zero.
+inline constexpr double kLeastLength = 1e-6;
+/// How far the length of a unit vector may be from 1: what rounding to 8 bits explains, and the glTF validator allows.
+inline constexpr double kMostFromUnit = 0.00674;
+
+/// The factor that gives a normal the length 1. It is 1 for normals within kMostFromUnit of that length, and for those
+/// that have no direction.
+inline double unitScale(const Vec3& normal) {
+    const double squared = dot(toDouble(normal), toDouble(normal));
+    if (std::fabs(squared - 1) <= 0.0134) return 1;  // the length is then within kMostFromUnit
+    const double size = std::sqrt(squared);
+    if (!(size >= kLeastLength && std::isfinite(size)) || std::fabs(size - 1) <= kMostFromUnit) return 1;
+    return 1 / size;
+}
+/// The normal times its unitScale; its own bits where that is 1.
+inline Vec3 withUnitLength(const Vec3& normal) {
+    const double scale = unitScale(normal);
+    return scale == 1 ? normal : toFloat(scale * toDouble(normal));
+}
+
 /// Two axes that make a right-handed orthonormal basis (x, y, n) with a unit vector. Exact when n lies along an axis.
 /// Based on: Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 6(1), 2017.
 struct PlaneAxes {

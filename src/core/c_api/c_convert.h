@@ -53,6 +53,9 @@ template <>
 inline constexpr std::size_t kSizes<tspace_NormalOptions>[] = {offsetof(tspace_NormalOptions, denoise),
                                                                sizeof(tspace_NormalOptions)};
 template <>
+inline constexpr std::size_t kSizes<tspace_TangentOptions>[] = {offsetof(tspace_TangentOptions, normalize_normals),
+                                                                sizeof(tspace_TangentOptions)};
+template <>
 inline constexpr std::size_t kSizes<tspace_NormalReport>[] = {offsetof(tspace_NormalReport, noise),
                                                               sizeof(tspace_NormalReport)};
 template <>

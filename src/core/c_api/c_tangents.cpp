@@ -56,6 +56,7 @@ Error checkOptions(const tspace_TangentOptions* given) {
                       [&] { return checkChoice(options.ngons, TSPACE_NGONS_SKIP, "ngons"); },
                       [&] { return checkChoice(options.domain, TSPACE_DOMAIN_VERTEX, "domain"); },
                       [&] { return checkChoice(options.frame, TSPACE_FRAME_SYMMETRIC, "frame"); },
+                      [&] { return checkChoice(options.normalize_normals, 1, "normalize_normals"); },
                       [&] { return checkConvention(options.convention); });
 }
 
@@ -69,6 +70,7 @@ TangentOptions toOptions(const tspace_TangentOptions& options) {
     result.convention = toConvention(options.convention);
     result.frame = static_cast<FrameShape>(options.frame);
     result.refine = options.refine;
+    result.normalize_normals = options.normalize_normals != 0;
     return result;
 }
 

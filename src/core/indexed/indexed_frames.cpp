@@ -6,6 +6,7 @@
 
 #include "core/base/border.h"
 #include "core/base/parallel.h"
+#include "core/base/unit_normals.h"
 #include "core/base/weld.h"
 #include "core/frames/one_list.h"
 #include "tspace/frame.h"
@@ -28,6 +29,9 @@ class FramesMaker {
         if (mesh_.normals.empty() || options_.make_normals) {
             if (Result<Done> done = makeNormals(); !done) return std::move(done).error();
         }
+        Parallel parallel(execution_, mesh_.normals.count);
+        const UnitNormals normals(mesh_.normals, options_.tangents.normalize_normals, execution_.allocator, parallel);
+        mesh_.normals = normals.view();
         if (!keeps_places || mesh_.hasOwnLists() || !options_.keep_apart.empty()) {
             if (Result<Done> done = useOneList(mesh_, execution_, one_list_, weld(), options_.keep_apart); !done)
                 return std::move(done).error();

@@ -12,6 +12,7 @@
 #include "core/base/border.h"
 #include "core/base/memory.h"
 #include "core/base/parallel.h"
+#include "core/base/unit_normals.h"
 #include "core/base/vec_math.h"
 #include "core/frames/one_list.h"
 #include "core/tangents/estimators/group_estimates.h"
@@ -160,6 +161,7 @@ struct TangentPlan::State {
     std::size_t corner_count = 0;
     std::size_t output_count = 0;
     bool is_symmetric = false;
+    bool normalizes_normals = false;
     Buffer<std::uint32_t> corner_vertices;  ///< for a symmetric frame, one per corner; empty: outputs are per vertex
     std::size_t normal_count = 0;           ///< of a pose
     /// For a mesh with several index lists: the pose's position and normal of each vertex that the plan works on.
@@ -261,6 +263,11 @@ TangentReport generateFrames(const MeshView& mesh, const Call<TangentOptions>& o
     return evaluateIndexed(plan, {mesh.positions, mesh.normals}, out, options.execution, parallel);
 }
 
+MeshView withNormals(MeshView mesh, const UnitNormals& normals) {
+    mesh.normals = normals.view();
+    return mesh;
+}
+
 Error checkPose(const Pose& pose, std::size_t vertex_count, std::size_t normal_count) {
     if (pose.positions.count != vertex_count || pose.normals.count != normal_count) {
         return makeError(ErrorCode::planMismatch, kNoElement,
@@ -285,11 +292,14 @@ Error checkDomain(const TangentOptions& options) {
     return {ErrorCode::invalidOption, "results per vertex need a mesh with one index list"};
 }
 
-Result<std::unique_ptr<TangentPlan::State>> makePlan(const MeshView& mesh, const Call<TangentOptions>& options) {
-    Parallel parallel(options.execution, work(options.method, mesh.cornerCount()));
-    if (Error e = checkInput(mesh, options, parallel); e.code != ErrorCode::ok) return e;
+Result<std::unique_ptr<TangentPlan::State>> makePlan(const MeshView& given, const Call<TangentOptions>& options) {
+    Parallel parallel(options.execution, work(options.method, given.cornerCount()));
+    if (Error e = checkInput(given, options, parallel); e.code != ErrorCode::ok) return e;
+    const UnitNormals normals(given.normals, options.normalize_normals, options.execution.allocator, parallel);
+    const MeshView mesh = withNormals(given, normals);
     auto state = std::make_unique<TangentPlan::State>();
     state->method = options.method;
+    state->normalizes_normals = options.normalize_normals;
     state->vertex_count = state->normal_count = mesh.vertexCount();
     state->corner_count = mesh.cornerCount();
     state->output_count = outputCount(mesh, options);
@@ -355,20 +365,22 @@ std::size_t TangentPlan::memoryBytes() const {
            indices * sizeof(std::uint32_t);
 }
 
-Result<TangentReport> generateTangents(const MeshView& mesh, const TangentOptions& options, const TangentOutput& out,
+Result<TangentReport> generateTangents(const MeshView& given, const TangentOptions& options, const TangentOutput& out,
                                        const Execution& execution) {
     return atBorder([&]() -> Result<TangentReport> {
-        if (hasOwnLists(mesh)) {
+        if (hasOwnLists(given)) {
             if (Error e = checkDomain(options); e.code != ErrorCode::ok) return e;
-            return withOneList(mesh, execution, [&](const MeshView& with_one_list) {
+            return withOneList(given, execution, [&](const MeshView& with_one_list) {
                 return generateTangents(with_one_list, options, out, execution);
             });
         }
         const Call<TangentOptions> call{options, execution};
-        Parallel parallel(execution, work(options.method, mesh.cornerCount()));
-        if (Error e = checkInput(mesh, options, parallel); e.code != ErrorCode::ok) return e;
-        if (Error e = checkOutput(out, outputCount(mesh, options)); e.code != ErrorCode::ok) return e;
+        Parallel parallel(execution, work(options.method, given.cornerCount()));
+        if (Error e = checkInput(given, options, parallel); e.code != ErrorCode::ok) return e;
+        if (Error e = checkOutput(out, outputCount(given, options)); e.code != ErrorCode::ok) return e;
         startHasTangent(out, parallel);
+        const UnitNormals normals(given.normals, options.normalize_normals, execution.allocator, parallel);
+        const MeshView mesh = withNormals(given, normals);
         if (options.frame == FrameShape::gramSchmidt) return generateFrames(mesh, call, out, parallel);
         const NeededBitangents needed(out, execution.allocator);
         const TangentReport report = generateFrames(mesh, call, needed.out, parallel);
@@ -401,9 +413,11 @@ Result<TangentReport> evaluateTangents(const TangentPlan& plan, const Pose& pose
         }
         Parallel parallel(execution, work(state.method, state.corner_count));
         startHasTangent(out, parallel);
-        if (state.source_vertices.empty()) return state.evaluateFrames(pose, out, execution, parallel);
+        const UnitNormals unit(pose.normals, state.normalizes_normals, execution.allocator, parallel);
+        if (state.source_vertices.empty())
+            return state.evaluateFrames({pose.positions, unit.view()}, out, execution, parallel);
         const Buffer<Vec3> positions = gathered(pose.positions, state.source_vertices, execution.allocator);
-        const Buffer<Vec3> normals = gathered(pose.normals, state.source_normals, execution.allocator);
+        const Buffer<Vec3> normals = gathered(unit.view(), state.source_normals, execution.allocator);
         const Pose with_one_list{{positions.data(), positions.size()}, {normals.data(), normals.size()}};
         return state.evaluateFrames(with_one_list, out, execution, parallel);
     });

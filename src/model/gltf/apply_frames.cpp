@@ -6,8 +6,10 @@
 #include <array>
 #include <map>
 #include <optional>
+#include <tuple>
 #include <utility>
 
+#include "core/mesh/pools/unit_lattice.h"
 #include "model/gltf/editor.h"
 #include "model/gltf/gather_elements.h"
 #include "model/gltf/material_needs.h"
@@ -16,6 +18,12 @@
 namespace tspace::gltf {
 
 // Keeps, overwrites or stores elements.
+
+VectorFormat unitFormatOf(const Accessor& accessor) {
+    return accessor.component == ComponentType::i8    ? VectorFormat::snorm8
+           : accessor.component == ComponentType::i16 ? VectorFormat::snorm16
+                                                      : VectorFormat::float32;
+}
 
 namespace {
 
@@ -208,6 +216,73 @@ void turnTriangles(Document& document, const std::string& new_file, std::span<co
                 editor.moveUse(old, stored);
             }
         }
+    }
+    editor.finish();
+}
+
+namespace {
+
+Bytes floatsOf(const std::vector<Vec3>& vectors) {
+    const std::vector<std::uint8_t> bytes = packUnits(std::span<const Vec3>(vectors), VectorFormat::float32);
+    return Bytes(bytes.begin(), bytes.end());
+}
+
+/// Normals, or what a target adds to them (floats), of primitives that share them.
+ElementData unitNormals(const Document& document, const Primitive& primitive, std::ptrdiff_t target) {
+    if (target != kBase) {
+        const std::vector<Vec3> offsets = readOffsets(document, primitive, static_cast<std::size_t>(target), "NORMAL");
+        return {.type = "VEC3", .count = offsets.size(), .element_bytes = sizeof(Vec3), .bytes = floatsOf(offsets)};
+    }
+    const std::vector<Vec3> normals = readVec3(document, primitive, "NORMAL");
+    const Accessor accessor = readAccessor(document, *primitive.find("NORMAL"));
+    const bool is_kept =
+        accessor.component == ComponentType::f32 ||
+        (accessor.normalized && (accessor.component == ComponentType::i8 || accessor.component == ComponentType::i16));
+    if (!is_kept)
+        return {.type = "VEC3", .count = normals.size(), .element_bytes = sizeof(Vec3), .bytes = floatsOf(normals)};
+    Bytes elements = copyElements(document, accessor);
+    for (std::size_t v = 0; v < normals.size(); ++v) {
+        if (primitive.normal_scales->of_vertices[v] == 1) continue;
+        const std::vector<std::uint8_t> bytes =
+            packUnits(std::span<const Vec3>(&normals[v], 1), unitFormatOf(accessor));
+        std::copy(bytes.begin(), bytes.end(), elements.data() + v * accessor.element_bytes);
+    }
+    return {.component = accessor.component,
+            .type = accessor.type,
+            .normalized = accessor.normalized,
+            .count = accessor.count,
+            .element_bytes = accessor.element_bytes,
+            .bytes = std::move(elements)};
+}
+
+}  // namespace
+
+void writeUnitNormals(Document& document, const std::string& new_file, std::span<const Primitive> primitives) {
+    // By target, by the accessor there and by that of the base.
+    std::map<std::tuple<std::ptrdiff_t, std::size_t, std::size_t>, std::vector<std::size_t>> sharing;
+    for (std::size_t i = 0; i < primitives.size(); ++i) {
+        const Primitive& primitive = primitives[i];
+        if (primitive.normal_scales == nullptr) continue;
+        const std::size_t base = *primitive.find("NORMAL");
+        sharing[{kBase, base, base}].push_back(i);
+        for (std::size_t target = 0; target < primitive.targets.size(); ++target) {
+            if (const auto offsets = findAttribute(primitive.targets[target], "NORMAL"))
+                sharing[{static_cast<std::ptrdiff_t>(target), *offsets, base}].push_back(i);
+        }
+    }
+    // All are read before any is written: accessors may share bytes.
+    std::vector<ElementData> made;
+    for (const auto& [key, numbers] : sharing) {
+        const Primitive& first = primitives[numbers.front()];
+        document.memory->require(std::uint64_t{48} * first.vertex_count, first.place());
+        made.push_back(unitNormals(document, first, std::get<0>(key)));
+    }
+    Editor editor(document, new_file);
+    std::size_t next = 0;
+    for (const auto& [key, numbers] : sharing) {
+        setAttribute(editor, document,
+                     {.primitives = primitives, .numbers = numbers, .target = std::get<0>(key), .name = "NORMAL"},
+                     std::move(made[next++]));
     }
     editor.finish();
 }

@@ -34,6 +34,9 @@ struct SharedAttribute {
 /// Sets the attribute in all of `numbers`. Returns false when the document has exactly these bits already.
 bool setAttribute(Editor& editor, const Document& document, const SharedAttribute& attribute, ElementData&& data);
 
+/// The format of an accessor of floats, or of normalised signed integers.
+VectorFormat unitFormatOf(const Accessor& accessor);
+
 // Removes attributes: tangents that no material needs, and those that cannot be read.
 
 /// True when the primitive or one of its morph targets has tangents that can be removed. They cannot where a morph
@@ -63,6 +66,11 @@ void eraseAttribute(Editor& editor, const Primitive& primitive, const char* name
 /// turned      of each primitive: one per triangle, 1 to turn it; or empty: none of them
 void turnTriangles(Document& document, const std::string& new_file, std::span<const Primitive> primitives,
                    std::span<const std::vector<std::uint8_t>> turned);
+
+/// Writes the normals that Primitive::normal_scales is about with length 1, and what morph targets add to them scaled alike.
+/// Floats and normalised integers stay what they are, others become floats; all other normals keep their bits. Parameters as
+/// for turnTriangles.
+void writeUnitNormals(Document& document, const std::string& new_file, std::span<const Primitive> primitives);
 
 // Putting computed frames into the document: new tangents and normals, and, where vertices were split, every
 // other attribute, morph target and index list with them.

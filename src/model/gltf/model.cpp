@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "model/gltf/model.h"
 
+#include <string_view>
 #include <utility>
 
 #include "model/gltf/accessor.h"
@@ -73,6 +74,18 @@ SharedArray<Vec4> DecodedArrays::vec4(std::size_t accessor, const std::string& p
     return vectors(vec4_, accessor, place, decodeVec4);
 }
 
+SharedArray<Vec3> DecodedArrays::normals(const Primitive& primitive, std::size_t index, const std::string& place) {
+    if (primitive.normal_scales == nullptr) return vec3(index, place);
+    const std::pair key(*primitive.find("NORMAL"), index);
+    if (const auto array = known(scaled_normals_, key)) return *array;
+    const Accessor accessor = readAccessor(document_, index);
+    return make(scaled_normals_, key, std::uint64_t{accessor.count} * sizeof(Vec3), accessor.place(), [&] {
+        std::vector<Vec3> values = decodeVec3(document_, accessor, place);
+        scaleNormals(primitive, values);
+        return values;
+    });
+}
+
 DecodedArrays::CornerKey DecodedArrays::keyOf(const Primitive& primitive) const {
     const std::size_t no_indices = rootArray(document_, "accessors").size();
     return {primitive.indices.value_or(no_indices), primitive.vertex_count, primitive.mode};
@@ -108,7 +121,10 @@ SharedArray<Vec2> DecodedArrays::borrowUvs(const Primitive& primitive, std::size
 }
 
 SharedArray<Vec3> DecodedArrays::borrowVec3(const Primitive& primitive, const char* attribute) {
-    if (const auto accessor = primitive.find(attribute)) {
+    const auto accessor = primitive.find(attribute);
+    if (accessor && std::string_view(attribute) == "NORMAL" && primitive.normal_scales != nullptr) {
+        if (const auto array = known(scaled_normals_, {*accessor, *accessor})) return *array;
+    } else if (accessor) {
         if (const auto array = known(vec3_, *accessor)) return *array;
     }
     return readVec3(document_, primitive, attribute);
@@ -136,6 +152,7 @@ void DecodedArrays::forget() {
     vec2_.clear();
     vec3_.clear();
     vec4_.clear();
+    scaled_normals_.clear();
     corners_.clear();
     words_.clear();
 }
@@ -149,6 +166,13 @@ std::vector<Primitive>& Model::primitives() {
         const std::int64_t left = document_->memory->left();
         primitives_ = readPrimitives(*document_);
         primitive_bytes_ = left - document_->memory->left();
+        std::string scaled = scaledNormalsText(*primitives_);
+        std::vector<std::string>& warnings = document_->warnings;
+        std::erase_if(warnings, [](const std::string& warning) { return warning.rfind(kNormalLengths, 0) == 0; });
+        if (!scaled.empty())
+            warnings.push_back(std::move(scaled) +
+                               ". They were scaled to it before anything was computed from them; the file has them as "
+                               "before (tspace generate --repair writes unit normals)");
     }
     return *primitives_;
 }

@@ -11,6 +11,7 @@
 #include <span>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "model/gltf/document.h"
@@ -34,6 +35,8 @@ class DecodedArrays {
     SharedArray<Vec2> vec2(std::size_t accessor, const std::string& place);
     SharedArray<Vec3> vec3(std::size_t accessor, const std::string& place);
     SharedArray<Vec4> vec4(std::size_t accessor, const std::string& place);
+    /// NORMAL of the primitive, or of one of its morph targets, scaled as it says.
+    SharedArray<Vec3> normals(const Primitive& primitive, std::size_t accessor, const std::string& place);
     /// As readTriangleCorners. Fails with tooLarge also where the budget has no room for looking at them.
     SharedArray<std::uint32_t> corners(const Primitive& primitive);
     /// As readPackedWords.
@@ -73,6 +76,8 @@ class DecodedArrays {
     std::map<std::size_t, Known<Vec2>> vec2_ = {};  ///< by accessor
     std::map<std::size_t, Known<Vec3>> vec3_ = {};
     std::map<std::size_t, Known<Vec4>> vec4_ = {};
+    std::map<std::pair<std::size_t, std::size_t>, Known<Vec3>> scaled_normals_ =
+        {};  ///< by that of the base, and its own
     std::map<CornerKey, Known<std::uint32_t>> corners_ = {};
     std::map<std::vector<std::size_t>, Known<std::uint8_t>> words_ = {};  ///< by the accessors that hold them
 };

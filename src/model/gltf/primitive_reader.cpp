@@ -4,7 +4,11 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstdio>
+#include <map>
+#include <string_view>
 
+#include "core/base/vec_math.h"
 #include "model/gltf/packed.h"
 #include "model/io/file_error.h"
 
@@ -117,6 +121,64 @@ Primitive readPrimitive(const Document& document, const Json& object, std::uint3
     return primitive;
 }
 
+template <class Vec>
+std::optional<StridedSpan<const Vec>> viewVectors(const Document& document, const Accessor& accessor) {
+    // They are turned while they are copied.
+    if constexpr (std::endian::native != std::endian::little) return {};
+    const bool is_float = accessor.component == ComponentType::f32 && accessor.type[0] == 'V';
+    if (!is_float || accessor.element_bytes != sizeof(Vec)) return {};
+    const std::optional<ElementView> elements = viewElements(document, accessor);
+    // A file may put floats anywhere.
+    if (!elements || reinterpret_cast<std::uintptr_t>(elements->data) % alignof(Vec) != 0) return {};
+    if (elements->stride % alignof(Vec) != 0) return {};
+    return StridedSpan<const Vec>(reinterpret_cast<const Vec*>(elements->data), accessor.count, elements->stride);
+}
+
+std::shared_ptr<const NormalScales> findScales(const Document& document, const Accessor& accessor) {
+    // Without a view all are zero, however many there are.
+    const bool is_stored = accessor.view || accessor.sparse || document.elements.count(accessor.index) != 0;
+    if (accessor.type != "VEC3" || !is_stored || !hasData(document, accessor)) return nullptr;
+    std::optional<StridedSpan<const Vec3>> normals = viewVectors<Vec3>(document, accessor);
+    std::vector<Vec3> decoded;
+    if (!normals) {
+        document.memory->require(std::uint64_t{accessor.count} * sizeof(Vec3), accessor.place());
+        decoded = decodeVec3(document, accessor, accessor.place());
+        normals = StridedSpan<const Vec3>(std::span<const Vec3>(decoded));
+    }
+    std::shared_ptr<NormalScales> scales;
+    for (std::size_t v = 0; v < normals->count; ++v) {
+        const double scale = unitScale((*normals)[v]);
+        if (scale == 1) continue;
+        if (scales == nullptr) {
+            document.memory->take(std::uint64_t{normals->count} * sizeof(double), accessor.place());
+            scales = std::make_shared<NormalScales>();
+            scales->of_vertices.assign(normals->count, 1);
+            scales->least_length = scales->most_length = 1 / scale;
+        }
+        scales->of_vertices[v] = scale;
+        scales->least_length = std::min(scales->least_length, 1 / scale);
+        scales->most_length = std::max(scales->most_length, 1 / scale);
+        ++scales->count;
+    }
+    return scales;
+}
+
+/// What cannot be read stays as it is: reading it will say why.
+void findScales(const Document& document, std::vector<Primitive>& primitives) {
+    std::map<std::size_t, std::shared_ptr<const NormalScales>> known;
+    for (Primitive& primitive : primitives) {
+        const auto index = primitive.find("NORMAL");
+        if (!index) continue;
+        const auto [entry, is_new] = known.try_emplace(*index);
+        std::optional<Error> failure;
+        if (is_new)
+            failure = tryFile(
+                [&, &scales = entry->second] { scales = findScales(document, readAccessor(document, *index)); });
+        if (failure && failure->code == ErrorCode::tooLarge) throw FileError{*failure};
+        primitive.normal_scales = entry->second;
+    }
+}
+
 /// What a primitive costs beside its arrays: its lists, its report and its findings.
 void takePrimitive(const Document& document, const Json& object, std::size_t mesh, std::size_t index) {
     constexpr std::size_t kPrimitiveBytes = 1500, kTargetBytes = 100;
@@ -133,17 +195,13 @@ Accessor attributeAccessor(const Document& document, const Primitive& primitive,
     return readAccessor(document, *index);
 }
 
-template <class Vec>
-std::optional<StridedSpan<const Vec>> viewVectors(const Document& document, const Accessor& accessor) {
-    // They are turned while they are copied.
-    if constexpr (std::endian::native != std::endian::little) return {};
-    const bool is_float = accessor.component == ComponentType::f32 && accessor.type[0] == 'V';
-    if (!is_float || accessor.element_bytes != sizeof(Vec)) return {};
-    const std::optional<ElementView> elements = viewElements(document, accessor);
-    // A file may put floats anywhere.
-    if (!elements || reinterpret_cast<std::uintptr_t>(elements->data) % alignof(Vec) != 0) return {};
-    if (elements->stride % alignof(Vec) != 0) return {};
-    return StridedSpan<const Vec>(reinterpret_cast<const Vec*>(elements->data), accessor.count, elements->stride);
+bool isNormal(const char* attribute) { return std::string_view(attribute) == "NORMAL"; }
+
+/// As many digits as tell lengths apart.
+std::string lengthText(double length) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.3g", length);
+    return text;
 }
 
 std::string attributePlace(const Primitive& primitive, const std::string& name) {
@@ -195,7 +253,31 @@ std::vector<Primitive> readPrimitives(const Document& document) {
             primitives.back().mesh_name = name;
         }
     }
+    findScales(document, primitives);
     return primitives;
+}
+
+std::string scaledNormalsText(std::span<const Primitive> primitives) {
+    constexpr std::size_t kMostNamed = 3;
+    std::map<const NormalScales*, const Primitive*> first_with;
+    std::string named;
+    std::size_t count = 0, primitive_count = 0;
+    double least = 0, most = 0;
+    for (const Primitive& primitive : primitives) {
+        const NormalScales* const scales = primitive.normal_scales.get();
+        if (scales == nullptr) continue;
+        if (primitive_count++ < kMostNamed)
+            named += (named.empty() ? "mesh " : "; mesh ") + std::to_string(primitive.mesh) + ", primitive " +
+                     std::to_string(primitive.index);
+        if (!first_with.try_emplace(scales, &primitive).second) continue;
+        least = count == 0 ? scales->least_length : std::min(least, scales->least_length);
+        most = std::max(most, scales->most_length);
+        count += scales->count;
+    }
+    if (count == 0) return {};
+    if (primitive_count > kMostNamed) named += "; and " + std::to_string(primitive_count - kMostNamed) + " more";
+    return kNormalLengths + std::string(": ") + std::to_string(count) + (count == 1 ? " vertex" : " vertices") + " (" +
+           named + ") of lengths from " + lengthText(least) + " to " + lengthText(most);
 }
 
 std::vector<std::uint32_t> readTriangleCorners(const Document& document, const Primitive& primitive) {
@@ -231,8 +313,10 @@ std::vector<Vec2> readUvs(const Document& document, const Primitive& primitive, 
 }
 
 std::vector<Vec3> readVec3(const Document& document, const Primitive& primitive, const char* attribute) {
-    return decodeVec3(document, attributeAccessor(document, primitive, attribute),
-                      attributePlace(primitive, attribute));
+    std::vector<Vec3> values =
+        decodeVec3(document, attributeAccessor(document, primitive, attribute), attributePlace(primitive, attribute));
+    if (isNormal(attribute)) scaleNormals(primitive, values);
+    return values;
 }
 
 std::optional<StridedSpan<const Vec2>> lendUvs(const Document& document, const Primitive& primitive,
@@ -242,6 +326,7 @@ std::optional<StridedSpan<const Vec2>> lendUvs(const Document& document, const P
 
 std::optional<StridedSpan<const Vec3>> lendVec3(const Document& document, const Primitive& primitive,
                                                 const char* attribute) {
+    if (isNormal(attribute) && primitive.normal_scales != nullptr) return {};
     return viewVectors<Vec3>(document, attributeAccessor(document, primitive, attribute));
 }
 
@@ -255,7 +340,17 @@ std::vector<Vec3> readOffsets(const Document& document, const Primitive& primiti
     const auto index = findAttribute(primitive.targets[target], attribute);
     if (!index) return {};
     const std::string place = join(join(join(primitive.place(), "targets"), target), attribute);
-    return decodeVec3(document, readAccessor(document, *index), place);
+    std::vector<Vec3> offsets = decodeVec3(document, readAccessor(document, *index), place);
+    if (isNormal(attribute)) scaleNormals(primitive, offsets);
+    return offsets;
+}
+
+void scaleNormals(const Primitive& primitive, std::vector<Vec3>& normals) {
+    if (primitive.normal_scales == nullptr) return;
+    const std::vector<double>& scales = primitive.normal_scales->of_vertices;
+    for (std::size_t v = 0; v < normals.size() && v < scales.size(); ++v) {
+        if (scales[v] != 1) normals[v] = toFloat(scales[v] * toDouble(normals[v]));
+    }
 }
 
 }  // namespace tspace::gltf

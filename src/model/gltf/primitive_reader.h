@@ -3,13 +3,16 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "model/gltf/accessor.h"
 #include "model/gltf/document.h"
+#include "model/scene/scene.h"
 #include "tspace/span.h"
 
 namespace tspace::gltf {
@@ -59,6 +62,8 @@ struct Primitive {
     AttributeList miscounted = {};
     /// Neither among `attributes` nor in `targets`: they count as missing.
     std::vector<UnreadableTangents> unreadable_tangents = {};
+    /// Null: none has to be scaled. Primitives with one NORMAL share them.
+    std::shared_ptr<const NormalScales> normal_scales = {};
     std::size_t vertex_count = 0;
     std::size_t corner_count = 0;  ///< entries of the index list, or vertices
 
@@ -73,25 +78,33 @@ struct Primitive {
     [[nodiscard]] std::size_t triangleCount() const;
 };
 
-/// All primitives in file order. Checks that attributes exist and agree in length, but for `miscounted` and tangents.
+/// All primitives in file order. Checks that attributes exist and agree in length, but for `miscounted` and tangents. Looks at
+/// the lengths of all normals.
 std::vector<Primitive> readPrimitives(const Document& document);
 
 /// Three vertices per triangle in file order; strips and fans as the specification cuts them. Incomplete
 /// triangles at the end are left out. Every index is checked.
 std::vector<std::uint32_t> readTriangleCorners(const Document& document, const Primitive& primitive);
 
-/// One attribute as floats. The attribute must be there.
+/// A sentence on the normals that are scaled, behind that: at how many vertices of which primitives. Empty: none is.
+std::string scaledNormalsText(std::span<const Primitive> primitives);
+
+/// One attribute as floats. The attribute must be there. Normals have length 1: see NormalScales.
 std::vector<Vec2> readUvs(const Document& document, const Primitive& primitive, std::size_t uv_set);
 std::vector<Vec3> readVec3(const Document& document, const Primitive& primitive, const char* attribute);
 std::vector<Vec4> readTangents(const Document& document, const Primitive& primitive);
 /// The same without a copy: nothing where elements are no plain floats one stride apart. Valid while the document's
-/// bytes stay where they are and as they are.
+/// bytes stay where they are and as they are. Nothing for normals that have to be scaled.
 std::optional<StridedSpan<const Vec2>> lendUvs(const Document& document, const Primitive& primitive,
                                                std::size_t uv_set);
 std::optional<StridedSpan<const Vec3>> lendVec3(const Document& document, const Primitive& primitive,
                                                 const char* attribute);
-/// Offsets of morph target `target`; empty where it does not move the attribute.
+/// Offsets of morph target `target`; empty where it does not move the attribute. Those of normals are scaled as the normals
+/// are.
 std::vector<Vec3> readOffsets(const Document& document, const Primitive& primitive, std::size_t target,
                               const char* attribute);
+
+/// Multiplies normals, or offsets of normals, by the scales of the primitive.
+void scaleNormals(const Primitive& primitive, std::vector<Vec3>& normals);
 
 }  // namespace tspace::gltf

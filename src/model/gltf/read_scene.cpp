@@ -381,7 +381,7 @@ class PrimitiveLoader {
             const AttributeList& list = primitive.targets[i];
             const std::string place = join(join(result.place, "targets"), i);
             result.morph_targets.push_back({.positions = vec3(list, "POSITION", place),
-                                            .normals = vec3(list, "NORMAL", place),
+                                            .normals = normals(primitive, list, place),
                                             .tangents = vec3(list, "TANGENT", place)});
         }
         for (const StoredPacking& stored : findPacked(document_, primitive))
@@ -397,7 +397,8 @@ class PrimitiveLoader {
         result.positions = vec3(list, "POSITION", place);
         if (const auto index = primitive.find("POSITION"))
             result.position_step = stepOf(readAccessor(document_, *index));
-        result.normals = vec3(list, "NORMAL", place);
+        result.normals = normals(primitive, list, place);
+        result.normal_scales = primitive.normal_scales;
         if (const auto index = primitive.find("TANGENT"))
             result.tangents = arrays_.vec4(*index, join(place, "TANGENT"));
         for (std::size_t set = 0; set < kMaxUvSets; ++set) {
@@ -422,6 +423,11 @@ class PrimitiveLoader {
     SharedArray<Vec3> vec3(const AttributeList& list, const char* name, const std::string& place) {
         const auto index = findAttribute(list, name);
         return index ? arrays_.vec3(*index, join(place, name)) : SharedArray<Vec3>();
+    }
+
+    SharedArray<Vec3> normals(const Primitive& primitive, const AttributeList& list, const std::string& place) {
+        const auto index = findAttribute(list, "NORMAL");
+        return index ? arrays_.normals(primitive, *index, join(place, "NORMAL")) : SharedArray<Vec3>();
     }
 
     const Document& document_;

@@ -110,6 +110,17 @@ struct ScenePacked {
     SharedArray<std::uint8_t> words = {};  ///< without padding; empty where there is a fault
 };
 
+/// What brings normals that are not unit to length 1. What morph targets add to them is multiplied by the same, so that all
+/// sums keep their directions.
+struct NormalScales {
+    std::vector<double> of_vertices = {};  ///< 1 where the stored normal is unit within rounding, or has no direction
+    std::size_t count = 0;                 ///< of those that are not 1
+    double least_length = 0, most_length = 0;  ///< of the normals of those
+};
+
+/// How a warning begins that is about normals of other lengths.
+inline constexpr const char* kNormalLengths = "normals that do not have length 1";
+
 struct ScenePrimitive {
     std::string place = {};  ///< JSON pointer (glTF), or "usemtl NAME" (OBJ)
     std::uint32_t mesh = 0;
@@ -120,10 +131,11 @@ struct ScenePrimitive {
     /// Three vertices per triangle, every one smaller than positions.size(). Empty for points and lines.
     SharedArray<std::uint32_t> corners = {};
     SharedArray<Vec3> positions = {};
-    double position_step = 0;         ///< where they are stored as whole numbers: between neighbours; 0: floats
-    SharedArray<Vec3> normals = {};   ///< one per vertex, or empty: absent
-    SharedArray<Vec4> tangents = {};  ///< one per vertex, or empty: absent
-    std::vector<SceneTangentFault> tangent_faults = {};  ///< of those that count as absent
+    double position_step = 0;        ///< where they are stored as whole numbers: between neighbours; 0: floats
+    SharedArray<Vec3> normals = {};  ///< one per vertex, or empty: absent. Scaled, as those of morph targets
+    std::shared_ptr<const NormalScales> normal_scales = {};  ///< null: none had to be scaled
+    SharedArray<Vec4> tangents = {};                         ///< one per vertex, or empty: absent
+    std::vector<SceneTangentFault> tangent_faults = {};      ///< of those that count as absent
     bool tangents_not_read = false;               ///< they are empty, but the importer cannot tell that there are none
     std::vector<SharedArray<Vec2>> uv_sets = {};  ///< entry n: TEXCOORD_n, empty where absent; v runs down
     std::vector<SceneMorphTarget> morph_targets = {};

@@ -180,6 +180,7 @@ class TangentOptions(Structure):
         ("pairing", c_uint32),
         ("refine", c_uint32),
     ]
+        ("normalize_normals", c_uint32),
 
 
 class TangentReport(Structure):

@@ -76,6 +76,8 @@ def make_indexed_frames(
     smoothing_groups: Optional[Numbers] = None,
     smoothing_groups_are_masks: bool = False,
     weld_positions: bool = True,
+    weld_distance: DegreesOrAuto = 0,
+    normalize_normals: bool = False,
     sanitize: bool = True,
     orthogonalize_all: bool = False,
     keep_apart: Sequence[Rows] = (),
@@ -95,8 +97,9 @@ def make_indexed_frames(
     refine:     steps that "best" takes after its fit, for tangents and normals: 0, 1 or 2;
                 None: 1 for tangents and 2 for normals
     make_normals: True: normals are made although there are some
-    weighting, crease_angle, denoise, smoothing_groups, smoothing_groups_are_masks, weld_positions: how normals are made, as
-                for `normals`
+    weighting, crease_angle, denoise, smoothing_groups, smoothing_groups_are_masks, weld_positions, weld_distance: how normals
+                are made, as for `normals`
+    normalize_normals: as for `tangents`; the result then has the normals of length 1
     sanitize:   False: broken tangents stay
     orthogonalize_all: True: also makes sound tangents unit and orthogonal to N
     keep_apart: arrays of shape (corners, k), without indices only: what else must not be shared, colours for instance
@@ -106,7 +109,10 @@ def make_indexed_frames(
     the order of their corners, one for all corners with the same bits.
     """
     run = execution(threads)
-    tangents = tangent_options(method, convention, threshold, pairing, ngons, "corner", frame, 1 if refine is None else refine)
+    steps = 1 if refine is None else refine
+    tangents = tangent_options(
+        method, convention, threshold, pairing, ngons, "corner", frame, steps, normalize_normals
+    )
     groups = None if smoothing_groups is None else uint32_array("smoothing_groups", smoothing_groups)
     made_by = normal_options(
         weighting,

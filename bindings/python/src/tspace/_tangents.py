@@ -57,9 +57,10 @@ def tangent_options(
     domain: Any,
     frame: Any,
     refine: Any,
+    normalize_normals: Any,
 ) -> _abi.TangentOptions:
     """The struct of the C API. It is shared, so nobody may write it."""
-    key = (method, convention, threshold, pairing, ngons, domain, frame, refine)
+    key = (method, convention, threshold, pairing, ngons, domain, frame, refine, normalize_normals)
     try:
         hash(key)
     except TypeError:  # wrong types, as the function will say
@@ -77,6 +78,7 @@ def _tangent_options(
     domain: Any,
     frame: Any,
     refine: Any,
+    normalize_normals: Any,
 ) -> _abi.TangentOptions:
     degrees, steps = real("threshold", threshold), small_number("refine", refine)
     # The C API refuses both of 0 as forgotten; no method looks at both.
@@ -92,6 +94,7 @@ def _tangent_options(
         degrees,
         named("pairing", pairing, _abi.PAIRINGS),
         steps,
+        bool(normalize_normals),
     )
 
 
@@ -140,6 +143,7 @@ def tangents(
     domain: DomainName = ...,
     frame: FrameName = ...,
     refine: int = ...,
+    normalize_normals: bool = ...,
     threads: Threads = ...,
     out: Optional[numpy.ndarray] = ...,
     full: Literal[False] = ...,
@@ -165,6 +169,7 @@ def tangents(
     domain: DomainName = ...,
     frame: FrameName = ...,
     refine: int = ...,
+    normalize_normals: bool = ...,
     threads: Threads = ...,
     out: Optional[numpy.ndarray] = ...,
     full: Literal[True],
@@ -189,6 +194,7 @@ def tangents(
     domain: DomainName = "corner",
     frame: FrameName = "gram_schmidt",
     refine: int = 1,
+    normalize_normals: bool = False,
     threads: Threads = 1,
     out: Optional[numpy.ndarray] = None,
     full: bool = False,
@@ -200,7 +206,7 @@ def tangents(
     the new one.
 
     positions:  (vertices, 3)
-    normals:    (vertices, 3), unit; used as given. `tspace.normals` makes them
+    normals:    (vertices, 3), unit; used as given (see normalize_normals). `tspace.normals` makes them
     uvs:        (vertices, 2); None for method="basis", which needs none
     indices:    (corners,), the vertex of each corner, also as a column (corners, 1), or (faces, k) for faces of k corners;
                 None: corner c is vertex c
@@ -217,6 +223,8 @@ def tangents(
     domain:     "corner"; or "vertex", for "lengyel" and "basis" only: one row per vertex
     frame:      "gram_schmidt"; or "symmetric": T is the bisector of dP/du and the direction across dP/dv
     refine:     steps that "best" takes after its fit: 0, 1 or 2
+    normalize_normals: True: normals whose length is further from 1 than 0.00674 are scaled to length 1 first; False: they are
+                used as given, and tangents are then not perpendicular to them, as the reference has it
     threads:    1, another number, or "all". The bits are the same for any
     out:        an array of float32 that takes the result and is returned; it may be a field of interleaved vertices
     full:       True: returns a TangentResult, which has bitangents, magnitudes, a report and a mask of the rows that a face
@@ -225,7 +233,9 @@ def tangents(
     Broken geometry (NaN, faces without area) is no error: it is counted in the report, and `sanitize` mends the result.
     Raises TypeError, or InputError (a ValueError) that says which argument is wrong, and where; MemoryError.
     """
-    options = tangent_options(method, convention, threshold, pairing, ngons, domain, frame, refine)
+    options = tangent_options(
+        method, convention, threshold, pairing, ngons, domain, frame, refine, normalize_normals
+    )
     run = execution(threads)
     mesh = Mesh(positions, normals, uvs, indices, face_sizes, normal_indices, uv_indices)
     count = mesh.corner_count if options.domain == 0 else mesh.vertex_count
@@ -274,10 +284,13 @@ class Plan:
         domain: DomainName = "corner",
         frame: FrameName = "gram_schmidt",
         refine: int = 1,
+        normalize_normals: bool = False,
         threads: Threads = 1,
     ):
         """Makes a plan; arguments as those of `tangents`."""
-        options = tangent_options(method, convention, threshold, pairing, ngons, domain, frame, refine)
+        options = tangent_options(
+            method, convention, threshold, pairing, ngons, domain, frame, refine, normalize_normals
+        )
         mesh = Mesh(positions, normals, uvs, indices, face_sizes, normal_indices, uv_indices)
         plan = ctypes.c_void_p()
         error = _abi.Error()

@@ -54,10 +54,6 @@ inline TangentView tangentView(const OwnedMesh& mesh) {
 
 // Values that a stored tangent must have whatever the UVs are: finite, unit, a sign of +1 or -1, and not along N.
 
-/// Lengths of normals and tangents below cannot be told from zero.
-inline constexpr double kShortest = 1e-6;
-/// How far lengths may be from 1: what the glTF validator allows.
-inline constexpr double kMostFromUnit = 0.00674;
 /// A tangent within 5 degrees of N or of its opposite makes no frame: cross(N, T) is next to nothing, and a shader that
 /// normalises it gets NaN, or a direction by chance.
 inline constexpr double kParallelDeg = 5;
@@ -66,7 +62,7 @@ inline constexpr double kParallelCosine = 0.99619469809174555;  ///< of kParalle
 /// Finite, with a length, and not along N. A normal without a direction is not looked at.
 inline bool hasDirection(const Vec4& tangent, const Vec3& normal) {
     DVec3 n = toDouble(normal), t = toDouble(xyz(tangent));
-    if (!isFinite(xyz(tangent)) || length(t) < kShortest) return false;
+    if (!isFinite(xyz(tangent)) || length(t) < kLeastLength) return false;
     return !normalize(n) || !normalize(t) || std::fabs(dot(n, t)) <= kParallelCosine;
 }
 
