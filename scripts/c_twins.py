@@ -48,7 +48,7 @@ CPP_ALONE = {
     r"Result|Done|Error::place": "C returns a code, and the place is part of the message",
     r"State|TangentPlan::state": "private",
     r"(action|faces|frameFormat|severity|signReading)Name|finding\w+": "reports of files have these names and texts in their JSON",
-    r"NormalOptions::(crease|denoise)_auto": "-1 in C",
+    r"NormalOptions::(crease|denoise|weld)_auto": "-1 in C",
     r"removeAbandonedFiles": "a matter of the tool",
     r"[tT]extureError\w+": "a part of `tspace map-error`, which is for C++ and the tool",
     r"Cancelled": "C has no function that is told of progress",
@@ -71,7 +71,7 @@ PHRASES = {
     "UVs), INVALID_OPTION, OUT_OF_MEMORY; rays that meet nothing are findings. Also",
     r"Error::element is a BakeInput: `high` for the input and `low` for the low poly\.": "tspace_Error.element is 1 where "
     "it is about the input, and 0 where about the low poly.",
-    r"`?(crease|denoise)_auto`?": "-1",
+    r"`?(crease|denoise|weld)_auto`?": "-1",
     r"mesh\.vertexCount\(\)": "mesh->positions.count",
     r"Returns null for any other name\.": "INVALID_OPTION for any other name.",
 }

@@ -145,7 +145,8 @@ struct GenerateOptions {
     TextureTransform texture_transform = TextureTransform::apply;
     TangentOptions tangents{.convention = conventions::gltf};
     /// For primitives without normals. The default is what glTF asks of a client.
-    NormalOptions normals{.weighting = NormalWeighting::flat};
+    /// Its weld_distance also says which positions are one for winding, and for borders of primitives.
+    NormalOptions normals{.weighting = NormalWeighting::flat, .weld_distance = NormalOptions::weld_auto};
     /// OBJ files with `s` lines: missing normals follow those groups with angle weights (faces in group 0 are flat).
     /// false, or a file without `s` lines: `normals` alone decides.
     bool use_smoothing_groups = true;

@@ -134,6 +134,8 @@ struct CheckOptions {
     /// What the tangents are compared with. automatic: triangles, and quads where the tangents fit clearly better to
     /// those; quads: pairs of triangles that look like one. Blender computes tangents on quads.
     Faces faces = Faces::automatic;
+    /// Positions within this distance are one for winding, borders of primitives and noise: as NormalOptions has it.
+    float weld_distance = NormalOptions::weld_auto;
     /// Called by the thread of the call: for each primitive where that is the only thread, else before and after all.
     Progress progress = {};
 };

@@ -30,6 +30,8 @@ struct FinishOptions {
     /// seams of UVs.
     float crease_angle_deg = NormalOptions::crease_auto;
     float denoise = NormalOptions::denoise_auto;
+    /// Which positions are one where normals are made and triangles turned: as NormalOptions has it.
+    float weld_distance = NormalOptions::weld_auto;
     /// As GenerateOptions. A mesh stays as it is wound where check then finds more normals against their triangles than before:
     /// its normals fit its triangles as they are, and it renders right.
     bool mend_winding = true;

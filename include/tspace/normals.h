@@ -36,6 +36,7 @@ struct NormalOptions {
 
     static constexpr float crease_auto = -1.0f;   ///< for `crease_angle_deg`
     static constexpr float denoise_auto = -1.0f;  ///< for `denoise`
+    static constexpr float weld_auto = -1.0f;     ///< for `weld_distance`
 
     /// Degrees, 0..180. Two faces that share an edge are smoothed over it only when their normals differ by no more
     /// than this (and 1e-6 rad for rounding). 180, the default, because no angle fits all models: never hard (except by
@@ -50,6 +51,13 @@ struct NormalOptions {
     bool smoothing_groups_are_masks = false;
     /// true: vertices at the same position are one point (so UV seams stay smooth); false: only equal indices are.
     bool weld_positions = true;
+    /// With `weld_positions`: positions that differ by no more than this in each coordinate are one position, that of the
+    /// lowest vertex among them, in the unit of positions. For meshes that close by computed coordinates, as a torus does
+    /// whose last ring has sin(2 pi) = -2.4e-16 where the first has 0. 0, the default: only equal positions are. `weld_auto`:
+    /// twice the spacing of floats at the largest coordinate, and only at positions with an edge of 32 times that.
+    /// Vertices are taken in their order: each joins the lowest earlier one within the distance that has joined no other,
+    /// so that positions in a row are not all one.
+    float weld_distance = 0;
 
     // `best` alone:
 

@@ -156,9 +156,10 @@ typedef struct tspace_Mesh {
     uint32_t struct_size;
     uint32_t face_size;         /* corners of every face when face_sizes is empty; at least 1. In C: 0 means 3. */
     tspace_ConstSpan positions; /* 3 floats each: one per vertex */
-    tspace_ConstSpan normals;   /* 3 floats each: one per vertex, used as given (never normalised), or empty */
-    tspace_ConstSpan uvs;       /* 2 floats each: one per vertex, or empty */
-    tspace_Indices indices;     /* one per corner, or TSPACE_INDEX_NONE: every corner has its own vertex */
+    /* 3 floats each: one per vertex, used as given (see tspace_TangentOptions.normalize_normals), or empty */
+    tspace_ConstSpan normals;
+    tspace_ConstSpan uvs;   /* 2 floats each: one per vertex, or empty */
+    tspace_Indices indices; /* one per corner, or TSPACE_INDEX_NONE: every corner has its own vertex */
     /* Corners of each face. Empty: all faces have `face_size` corners. Faces of 0, 1 or 2 corners are allowed and
      * ignored: nothing is computed for them. */
     const uint32_t* face_sizes;

@@ -151,8 +151,9 @@ tspace_ErrorCode tspace_flipGreenFile(const char* input, const char* output, con
 tspace_ErrorCode tspace_convertMapFile(const char* input, const char* output, const char* options, tspace_Bytes* report,
                                        tspace_Error* error) TSPACE_NOEXCEPT;
 
-/* Makes a normal map, `output` (.png), of the height map `input` (PNG, JPEG, WebP, EXR, KTX2, DDS, TGA; of colours
- * the mean counts). Errors: those of tspace_convertMapFile. Thread-safe.
+/* Makes a normal map, `output` (.png), of the height map `input` (PNG, JPEG, WebP, EXR, KTX2, DDS, TGA; of colors
+ * the mean counts, unless `encoding` says otherwise).
+ * Errors: those of tspace_convertMapFile. Thread-safe.
  * In C: options of `tspace height-to-normal`, report tspace.height-to-normal/1. */
 tspace_ErrorCode tspace_heightToNormalFile(const char* input, const char* output, const char* options,
                                            tspace_Bytes* report, tspace_Error* error) TSPACE_NOEXCEPT;

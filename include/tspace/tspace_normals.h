@@ -64,7 +64,13 @@ typedef struct tspace_NormalOptions {
      * noise that is smooth from vertex to vertex, which no measure tells from detail. Hard edges hold: no surface
      * goes through points on both sides. */
     float denoise;
-    uint32_t reserved_end;
+    /* With `weld_positions`: positions that differ by no more than this in each coordinate are one position, that of
+     * the lowest vertex among them, in the unit of positions. For meshes that close by computed coordinates, as a
+     * torus does whose last ring has sin(2 pi) = -2.4e-16 where the first has 0. 0, the default: only equal
+     * positions are. -1: twice the spacing of floats at the largest coordinate, and only at positions with an edge
+     * of 32 times that. Vertices are taken in their order: each joins the lowest earlier one within the distance
+     * that has joined no other, so that positions in a row are not all one. */
+    float weld_distance;
 } tspace_NormalOptions;
 
 /* In C: prepares options as TSPACE_INIT does, for languages that have no macros.

@@ -23,6 +23,9 @@ typedef struct tspace_WindingOptions {
     /* 0 or 1. 1: vertices at the same position are one point (so a mesh without indices is a surface); 0: only equal
      * indices are. Default: 1. */
     uint32_t weld_positions;
+    /* With `weld_positions`: positions that differ by no more than this in each coordinate are one, as for normals.
+     * 0, the default: only equal positions are. -1: by the spacing of floats, as there. */
+    float weld_distance;
 } tspace_WindingOptions;
 
 /* In C: prepares options as TSPACE_INIT does, for languages that have no macros.

@@ -18,6 +18,9 @@ struct WindingOptions {
     /// true: vertices at the same position are one point (so a mesh without indices is a surface); false: only equal
     /// indices are.
     bool weld_positions = true;
+    /// With `weld_positions`: positions that differ by no more than this in each coordinate are one, as for normals. 0, the
+    /// default: only equal positions are. -1: by the spacing of floats, as there.
+    float weld_distance = 0;
 };
 
 /// What was found and done. A *component* is what hangs together over pairs of faces at edges. A pair is in *conflict*

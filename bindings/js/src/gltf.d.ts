@@ -133,6 +133,8 @@ export interface GenerateOptions extends ModelOptions, ImageOptions, WatchOption
   crease?: number | string;
   /** For `best` on noisy positions: "auto", or 0 to 4 times the noise that is measured. */
   denoise?: number | string;
+  /** Positions that differ by no more than this in each coordinate are one, for normals and winding; "auto", the default: by the spacing of floats. */
+  weldDistance?: number | string;
   /** Normals of each primitive from its own triangles; else they are smooth over the borders of primitives of one mesh. */
   normalsPerPrimitive?: boolean;
   /** Normals that are there are made anew too, and the tangents that are there with them. */
@@ -169,6 +171,8 @@ export interface CheckOptions extends ModelOptions, ImageOptions, WatchOptions {
   ignore?: string | readonly string[];
   /** Degrees: angles up to it are right. */
   angle?: number | string;
+  /** Positions that differ by no more than this in each coordinate are one, for winding and borders; "auto" by default. */
+  weldDistance?: number | string;
   convention?: GenerateOptions["convention"];
   faces?: GenerateOptions["faces"];
   noImages?: boolean;

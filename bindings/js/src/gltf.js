@@ -37,11 +37,11 @@ const watched = ["decodeImage", "onProgress", "convention", "faces"];
 const known = {
   generate: [
     "name", ...ofAll, ...watched, "all", "onlyMissing", "overwrite", "repair", "strip", "method", "pairing", "threshold", "frame", "refine",
-    "textureTransform", "bitangents", "format", "pack", "packDrop", "normals", "crease", "denoise", "normalsPerPrimitive",
+    "textureTransform", "bitangents", "format", "pack", "packDrop", "normals", "crease", "denoise", "weldDistance", "normalsPerPrimitive",
     "overwriteNormals", "morphNormals", "compress", "flipGreen", "flipGreenAll", "mendMaps", "compressMaps", "mendWinding",
     "encodeImage", "noSanitize", "orthogonalize", "keepCoordinates", "dryRun",
   ],
-  check: ["name", ...ofAll, ...watched, "failOn", "severity", "ignore", "angle", "noImages"],
+  check: ["name", ...ofAll, ...watched, "failOn", "severity", "ignore", "angle", "weldDistance", "noImages"],
   inspect: ["name", ...ofAll],
   identify: ["name", ...ofAll, "tolerance"],
   diff: [...ofAll, "tolerance", "worst"],

@@ -48,6 +48,8 @@ export interface NormalOptions {
   smoothingGroupsAreMasks?: boolean;
   /** true (the default): vertices at one position are one point. false: only equal indices are. */
   weldPositions?: boolean;
+  /** With weldPositions: positions that differ by no more than this (0 unless given) in each coordinate are one. "auto": by the spacing of floats. */
+  weldDistance?: number | "auto";
   /** Handedness and winding say which side is out; counter-clockwise from outside, right-handed, unless given. */
   convention?: ConventionName | Convention;
   /** 0, 1 or 2 (the default) steps after the fit of `best`. */

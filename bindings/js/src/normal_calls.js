@@ -5,18 +5,19 @@ import { boolean, choice, count, fail, integers, isMissing, number, optionsOf } 
 import { conventionBits } from "./convention.js";
 
 const weightings = ["flat", "uniform", "area", "angle", "angleArea", "max", "best"];
-export const normalOptions = ["weighting", "creaseAngle", "smoothingGroups", "smoothingGroupsAreMasks", "weldPositions", "refine", "denoise"];
+export const normalOptions = ["weighting", "creaseAngle", "smoothingGroups", "smoothingGroupsAreMasks", "weldPositions", "weldDistance", "refine", "denoise"];
 export const normalCounts = ["faceCount", "degenerateFaceCount", "fallbackCornerCount", "noise", "creaseAngle"];
 
 /** Names of the options that were given and that the weighting does not read. */
 export function ignoredNormalOptions({ weighting = "angle", ...options }) {
-  const ignored = weighting === "flat" ? ["creaseAngle", "smoothingGroups", "smoothingGroupsAreMasks", "weldPositions"] : [];
+  const ignored = weighting === "flat" ? ["creaseAngle", "smoothingGroups", "smoothingGroupsAreMasks", "weldPositions", "weldDistance"] : [];
   if (weighting !== "best") ignored.push("refine", "denoise");
+  if (options.weldPositions === false) ignored.push("weldDistance");
   if (isMissing(options.smoothingGroups)) ignored.push("smoothingGroupsAreMasks");
   return normalOptions.filter((name) => !isMissing(options[name]) && ignored.includes(name));
 }
 
-const numberOrAuto = (value, name) => (value === "auto" ? -1 : number(value, name));
+export const numberOrAuto = (value, name) => (value === "auto" ? -1 : number(value, name));
 
 /**
  * What the module takes for options of normals: a function, since groups are copied for a call.
@@ -33,6 +34,7 @@ export function normalArguments(options, isWhole) {
     conventionBits(options.convention ?? "gltf"), // of which handedness and winding count here
     count(options.refine ?? 2, "refine"),
     numberOrAuto(options.denoise ?? 0, "denoise"),
+    numberOrAuto(options.weldDistance ?? 0, "weldDistance"),
   ];
   return (call) => [...before, call.put(groups, Uint32Array), groups?.length ?? 0, ...after];
 }

@@ -34,6 +34,8 @@ export interface WindingOptions {
   useNormals?: boolean;
   /** true (the default): vertices at one position are one point. false: only equal indices are. */
   weldPositions?: boolean;
+  /** With weldPositions: positions that differ by no more than this (0 unless given) in each coordinate are one. "auto": by the spacing of floats. */
+  weldDistance?: number | "auto";
   /** Handedness and winding say which order of corners is right; counter-clockwise from outside, right-handed, unless given. */
   convention?: ConventionName | Convention;
 }

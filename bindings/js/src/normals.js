@@ -4,7 +4,7 @@ import { source } from "#normals";
 import { givenMesh, meshOf, setMesh } from "./calls.js";
 import { boolean, optionsOf } from "./check.js";
 import { conventionBits } from "./convention.js";
-import { normalsOf } from "./normal_calls.js";
+import { normalsOf, numberOrAuto } from "./normal_calls.js";
 import { Wasm } from "./wasm.js";
 
 export { conventions } from "./convention.js";
@@ -45,11 +45,12 @@ function turnedIndices({ indices, faceSizes, cornerCount }, turned) {
 }
 
 export function mendWinding(mesh, options = {}) {
-  optionsOf(options, ["useNormals", "weldPositions", "convention"]);
+  optionsOf(options, ["useNormals", "weldPositions", "weldDistance", "convention"]);
   const given = [
     boolean(options.useNormals ?? true, "useNormals"),
     boolean(options.weldPositions ?? true, "weldPositions"),
     conventionBits(options.convention ?? "gltf"), // of which handedness and winding count here
+    numberOrAuto(options.weldDistance ?? 0, "weldDistance"),
   ];
   const { positions, normals, indices, faceSizes, normalIndices } = givenMesh(mesh);
   const checked = meshOf({ positions, normals, indices, faceSizes, normalIndices });

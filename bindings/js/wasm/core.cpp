@@ -70,13 +70,13 @@ std::uint32_t frames(std::uint32_t method, float threshold_deg, std::uint32_t pa
                      std::uint32_t convention, std::uint32_t frame, std::uint32_t refine, bool normalize_normals,
                      bool make_normals, bool sanitize, bool orthogonalize_all, std::uint32_t weighting, float crease_angle_deg,
                      const std::uint32_t* groups, std::size_t group_count, bool groups_are_masks, bool weld_positions,
-                     std::uint32_t normal_convention, std::uint32_t normal_refine, float normal_denoise,
+                     std::uint32_t normal_convention, std::uint32_t normal_refine, float normal_denoise, float weld_distance,
                      std::uint32_t* result) {
     IndexedFramesOptions options;
     options.tangents = tangentOptions(method, threshold_deg, pairing, ngons, convention, frame, refine,
                                         normalize_normals);
     options.normals = normalOptions(weighting, crease_angle_deg, groups, group_count, groups_are_masks, weld_positions,
-                                    normal_convention, normal_refine, normal_denoise);
+                                    normal_convention, normal_refine, normal_denoise, weld_distance);
     options.make_normals = make_normals;
     options.sanitize = sanitize;
     options.orthogonalize_all = orthogonalize_all;

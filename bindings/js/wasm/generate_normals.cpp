@@ -11,9 +11,9 @@ extern "C" {
 TSPACE_JS_EXPORT(generateNormals)
 std::uint32_t normals(std::uint32_t weighting, float crease_angle_deg, const std::uint32_t* groups,
                       std::size_t group_count, bool groups_are_masks, bool weld_positions, std::uint32_t convention,
-                      std::uint32_t refine, float denoise, float* out) {
+                      std::uint32_t refine, float denoise, float weld_distance, float* out) {
     const auto options = normalOptions(weighting, crease_angle_deg, groups, group_count, groups_are_masks,
-                                       weld_positions, convention, refine, denoise);
+                                       weld_positions, convention, refine, denoise, weld_distance);
     auto result = generateNormals(mesh(), options, vec3Span(out, mesh().cornerCount()));
     if (!result) return codeOf(result);
     keep(*result);

@@ -22,9 +22,12 @@ TSPACE_JS_EXPORT(measurePositionNoise) std::uint32_t measureNoise() {
 
 /// `turned`: one byte per face.
 TSPACE_JS_EXPORT(mendWinding)
-std::uint32_t mend(bool use_normals, bool weld_positions, std::uint32_t convention, std::uint8_t* turned) {
-    const WindingOptions options{
-        .convention = conventionOf(convention), .use_normals = use_normals, .weld_positions = weld_positions};
+std::uint32_t mend(bool use_normals, bool weld_positions, std::uint32_t convention, float weld_distance,
+                   std::uint8_t* turned) {
+    const WindingOptions options{.convention = conventionOf(convention),
+                                 .use_normals = use_normals,
+                                 .weld_positions = weld_positions,
+                                 .weld_distance = weld_distance};
     auto result = mendWinding(mesh(), options, {turned, mesh().faceCount(), 1});
     if (!result) return codeOf(result);
     const std::uint64_t counts[] = {

@@ -45,6 +45,9 @@ pub struct NormalOptions<'a> {
     pub refine: u32,
     /// For noisy positions: 0 (the default) is off, -1 by the measured noise, up to 4 so many times that.
     pub denoise: f32,
+    /// With `weld_positions`: positions that differ by no more in each coordinate are one. -1: twice the spacing of floats.
+    /// Default: 0, only equal ones are.
+    pub weld_distance: f32,
     /// Default: the calling thread.
     pub execution: Execution,
 }
@@ -62,6 +65,7 @@ impl NormalOptions<'_> {
             weld_positions: raw.weld_positions != 0,
             refine: raw.refine,
             denoise: raw.denoise,
+            weld_distance: raw.weld_distance,
             execution: Execution::default(),
         }
     }
@@ -84,6 +88,7 @@ impl NormalOptions<'_> {
             raw.refine = 1;
         }
         raw.denoise = self.denoise;
+        raw.weld_distance = self.weld_distance;
         raw
     }
 }

@@ -156,7 +156,7 @@ pub struct NormalOptions {
     pub refine: u32,
     pub reserved: u32,
     pub denoise: f32,
-    pub reserved_end: u32,
+    pub weld_distance: f32,
 }
 
 #[repr(C)]
@@ -203,6 +203,7 @@ pub struct WindingOptions {
     pub convention: Convention,
     pub use_normals: u32,
     pub weld_positions: u32,
+    pub weld_distance: f32,
 }
 
 #[repr(C)]

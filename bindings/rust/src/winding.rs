@@ -14,6 +14,8 @@ pub struct WindingOptions {
     pub use_normals: bool,
     /// Vertices at the same position are one point. Default: true.
     pub weld_positions: bool,
+    /// With it: positions that differ by no more in each coordinate are one. -1: twice the spacing of floats. Default: 0.
+    pub weld_distance: f32,
     /// Default: the calling thread.
     pub execution: Execution,
 }
@@ -26,6 +28,7 @@ impl WindingOptions {
             convention,
             use_normals: raw.use_normals != 0,
             weld_positions: raw.weld_positions != 0,
+            weld_distance: raw.weld_distance,
             execution: Execution::default(),
         }
     }
@@ -40,6 +43,7 @@ pub fn mend_winding(mesh: &Mesh<'_>, options: &WindingOptions) -> Result<Vec<boo
     raw.convention = options.convention.raw();
     raw.use_normals = options.use_normals.into();
     raw.weld_positions = options.weld_positions.into();
+    raw.weld_distance = options.weld_distance;
     let execution = options.execution.raw();
     // SAFETY: all pointers are to slices that outlive the call, with their lengths.
     checked(|error| unsafe {

@@ -224,8 +224,10 @@ void addSmooth(const ScenePrimitive& primitive, std::span<const Vec3> normals, c
 std::vector<Vec3> smoothNormals(const ScenePrimitive& primitive, const BakeFileOptions& options) {
     std::vector<Vec3> of_corners(primitive.corners.size()), normals(primitive.positions.size());
     valueOrThrow(generateNormals(primitive.view(),
-                                 {.weighting = NormalWeighting::angle, .convention = conventions::gltf}, of_corners,
-                                 options.execution));
+                                 {.weighting = NormalWeighting::angle,
+                                  .convention = conventions::gltf,
+                                  .weld_distance = NormalOptions::weld_auto},
+                                 of_corners, options.execution));
     for (std::size_t i = 0; i < of_corners.size(); ++i) normals[primitive.corners[i]] = of_corners[i];
     return normals;
 }
@@ -248,8 +250,10 @@ void addMapped(const ScenePrimitive& primitive, const TangentUse& use, const Aff
 /// BakeFileOptions::denoise: one per vertex, where positions are noisy; else nothing.
 std::vector<Vec3> denoisedNormals(const ScenePrimitive& primitive, const BakeFileOptions& options, double& most_noise) {
     std::vector<Vec3> of_corners(primitive.corners.size());
-    const NormalOptions how{
-        .weighting = NormalWeighting::best, .convention = conventions::gltf, .denoise = options.denoise};
+    const NormalOptions how{.weighting = NormalWeighting::best,
+                            .convention = conventions::gltf,
+                            .weld_distance = NormalOptions::weld_auto,
+                            .denoise = options.denoise};
     const NormalReport report = valueOrThrow(generateNormals(primitive.view(), how, of_corners, options.execution));
     if (!(report.noise > 0)) return {};
     most_noise = std::max(most_noise, double{report.noise});

@@ -55,6 +55,13 @@ void addChecking(OptionList& list, CheckRequest& request) {
         choice("--faces", "FACES", kFaces, options.faces,
                "What tangents are compared with. auto: triangles, and quads where the tangents fit "
                "clearly better to those, as Blender's do; triangles, quads: only those."));
+    add(list, group,
+        numberOrAuto("--weld-distance", "DISTANCE", "a distance", options.weld_distance, NormalOptions::weld_auto,
+                     1000000000,
+                     "Positions that differ by no more than this in each coordinate are one, for winding, "
+                     "borders of primitives and noise, in the unit of positions before "
+                     "nodes move them. 0: only equal ones are. auto: twice the spacing of floats at the largest "
+                     "coordinate of the mesh. Tangents are computed on positions as they are."));
     add(list, group, setting("--no-images", options.images, false, "Do not look at the pixels of normal maps."));
 }
 

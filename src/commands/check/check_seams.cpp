@@ -126,7 +126,8 @@ struct Seam {
 
 class MeshSeams {
   public:
-    explicit MeshSeams(std::vector<const ScenePrimitive*> primitives) : primitives_(std::move(primitives)) {
+    MeshSeams(std::vector<const ScenePrimitive*> primitives, float weld_distance)
+        : primitives_(std::move(primitives)), weld_distance_(weld_distance) {
         std::map<const Vec3*, std::size_t> list_of;
         for (const ScenePrimitive* primitive : primitives_) {
             const auto [entry, is_new] = list_of.try_emplace(primitive->positions.data(), lists_.size());
@@ -136,7 +137,7 @@ class MeshSeams {
     }
 
     void find(std::vector<Finding>& findings) {
-        const JoinedPieces joined(lists_, pieces_);
+        const JoinedPieces joined(lists_, pieces_, weld_distance_);
         if (joined.borders().empty()) return;
         std::map<std::uint32_t, SmoothPiece> smooth;
         std::map<std::pair<std::uint32_t, std::uint32_t>, Seam> seams;
@@ -199,6 +200,7 @@ class MeshSeams {
     }
 
     std::vector<const ScenePrimitive*> primitives_;
+    float weld_distance_;
     std::vector<std::span<const Vec3>> lists_ = {};
     std::vector<SurfacePiece> pieces_ = {};
 };
@@ -215,7 +217,7 @@ Finding notCompared(const ScenePrimitive& first, const std::string& why) {
 
 }  // namespace
 
-std::vector<Finding> checkSeams(const Scene& scene, const CheckOptions&) {
+std::vector<Finding> checkSeams(const Scene& scene, const CheckOptions& options) {
     std::vector<Finding> findings;
     for (std::size_t first = 0, past = 0; first < scene.primitives.size(); first = past) {
         std::vector<const ScenePrimitive*> primitives;
@@ -234,7 +236,7 @@ std::vector<Finding> checkSeams(const Scene& scene, const CheckOptions&) {
             findings.push_back(notCompared(*primitives.front(), scene.memory->whyNot(bytes)));
             continue;
         }
-        MeshSeams(std::move(primitives)).find(findings);
+        MeshSeams(std::move(primitives), options.weld_distance).find(findings);
     }
     return findings;
 }

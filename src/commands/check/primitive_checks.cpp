@@ -137,7 +137,8 @@ bool areTrianglesToBlame(const PrimitiveFacts& facts, const Directions& directio
                          std::span<const std::uint32_t> against) {
     if (haveSoundNeighbours(facts, directions, against)) return false;
     std::vector<std::uint8_t> turned(facts.surface.faces.size());
-    if (!mendWinding(facts.mesh.triangles(), {}, turned, facts.options.execution)) return false;
+    const WindingOptions how{.weld_distance = facts.options.weld_distance};
+    if (!mendWinding(facts.mesh.triangles(), how, turned, facts.options.execution)) return false;
     for (std::size_t f = 0; f < turned.size(); ++f) {
         const double facing = facts.surface.faces[f].area == 0 ? 0 : facingOf(facts, directions, f);
         if ((turned[f] != 0 ? -facing : facing) < kLeastFacing) return false;
@@ -219,7 +220,7 @@ void checkPositions(PrimitiveFacts& facts) {
 
 /// Random offsets of positions, by the mesh alone: what the file has as normals may well be without them.
 void checkNoise(PrimitiveFacts& facts) {
-    const double noise = notedNoise(facts.mesh.triangles(), facts.mesh.position_step);
+    const double noise = notedNoise(facts.mesh.triangles(), facts.mesh.position_step, facts.options.weld_distance);
     if (noise == 0) return;
     Tally all{.count = facts.mesh.positions.size(), .total = facts.mesh.positions.size()};
     facts.add(FindingCode::positionsNoisy, Severity::note, all, "vertices",

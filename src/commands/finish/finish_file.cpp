@@ -52,6 +52,7 @@ CheckReport checked(const std::string& name, ByteSpan content, const FinishOptio
     CheckOptions check;
     check.file = options.file;
     check.file.content = content;
+    check.weld_distance = options.weld_distance;
     check.execution = options.execution;
     return valueOrThrow(checkFile(name, check));
 }
@@ -110,6 +111,7 @@ class ModelInWork {
         generate.existing = ExistingTangents::repair;
         generate.faces = Faces::automatic;
         generate.mend_winding = options_.mend_winding;
+        generate.normals.weld_distance = options_.weld_distance;
         if (options_.normals != FinishNormals::none) {
             generate.normals.weighting = NormalWeighting::best;
             generate.normals.crease_angle_deg = is_low_ ? 180 : options_.crease_angle_deg;

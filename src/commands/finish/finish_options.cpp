@@ -59,6 +59,13 @@ OptionList finishOptions(FinishOptions& options) {
                      "For normals that are made on noisy positions, such as scans: by more of the surface around. "
                      "auto: as much as is measured, and nothing where that is shape; 0 to 4: so many times the noise "
                      "that is measured."));
+    add(list, "Normals",
+        numberOrAuto("--weld-distance", "DISTANCE", "a distance", options.weld_distance, NormalOptions::weld_auto,
+                     1000000000,
+                     "Positions that differ by no more than this in each coordinate are one, where normals "
+                     "are made, triangles turned and borders compared, in the unit of positions before "
+                     "nodes move them. 0: only equal ones are. auto: twice the spacing of floats at the largest "
+                     "coordinate of the mesh. Tangents are computed on positions as they are."));
     add(list, "Repair",
         setting(
             "--keep-winding", options.mend_winding, false,

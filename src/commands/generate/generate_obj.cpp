@@ -212,7 +212,8 @@ FinishedPrimitive finish(const Model& model, const ObjPrimitive& primitive, bool
     }
     report.normals_generated = primitive.normals_generated;
     report.normals_replaced = replaced;
-    if (primitive.normals_generated) countFaults(mesh.positions, mesh.normals, mesh.indices, true, report);
+    if (primitive.normals_generated)
+        countFaults(mesh.positions, mesh.normals, mesh.indices, true, options.normals.weld_distance, report);
     if (primitive.normals_generated) finished.normal_format = options.format;
     finished.tangent_format = options.format;
     if (options.pack) packWritten(options, finished, report);

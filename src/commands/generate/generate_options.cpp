@@ -224,6 +224,13 @@ void addOtherOptions(OptionList& list, GenerateOptions& options) {
                      "that noise is not shaded. Vertices stay. auto: as much as is measured, and nothing where that is "
                      "shape; 0 to 4: so many times the noise that is measured, also where it looks like shape."));
     add(list, "Normals",
+        numberOrAuto("--weld-distance", "DISTANCE", "a distance", options.normals.weld_distance,
+                     NormalOptions::weld_auto, 1000000000,
+                     "Positions that differ by no more than this in each coordinate are one, where normals "
+                     "are made and triangles turned, in the unit of positions before "
+                     "nodes move them. 0: only equal ones are. auto: twice the spacing of floats at the largest "
+                     "coordinate of the mesh. Tangents are computed on positions as they are."));
+    add(list, "Normals",
         flag("--normals-per-primitive", options.normals_per_primitive,
              "Make the normals of each primitive from its own triangles. By default they are smooth over the border of "
              "two primitives of a mesh that are one surface (they share edges); --crease holds there too."));

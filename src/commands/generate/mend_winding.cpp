@@ -37,7 +37,8 @@ class MeshSurface {
         if (has_normals_) mesh.normals = normals_;
         mesh.indices = std::span<const std::uint32_t>(indices_);
         std::vector<std::uint8_t> turned(indices_.size() / 3);
-        report.winding = valueOrThrow(mendWinding(mesh, {}, turned, options.execution));
+        const WindingOptions how{.weld_distance = options.normals.weld_distance};
+        report.winding = valueOrThrow(mendWinding(mesh, how, turned, options.execution));
         for (const auto& [key, piece] : pieces_) {
             const auto begin = turned.begin() + static_cast<std::ptrdiff_t>(piece.first);
             const std::vector<std::uint8_t> own(begin, begin + static_cast<std::ptrdiff_t>(piece.count));
@@ -143,7 +144,7 @@ std::vector<std::uint8_t> mendObjWinding(obj::Model& model, const GenerateOption
     mesh.indices = std::span<const std::uint32_t>(indices);
     mesh.normal_indices = std::span<const std::uint32_t>(normals);
     mesh.face_sizes = sizes;
-    const WindingOptions how{.use_normals = !options.overwrite_normals};
+    const WindingOptions how{.use_normals = !options.overwrite_normals, .weld_distance = options.normals.weld_distance};
     std::vector<std::uint8_t> turned(model.faces.size());
     MendedWindingReport& mended = report.windings.emplace_back();
     mended.winding = valueOrThrow(mendWinding(mesh, how, turned, options.execution));

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "commands/shared/noted_noise.h"
 
+#include "core/base/border.h"
+#include "core/base/near_positions.h"
+#include "core/base/parallel.h"
 #include "core/normals/denoise.h"
 #include "tspace/arena.h"
 
@@ -11,12 +14,17 @@ std::uint64_t noteMemory(const MeshView& mesh) {
     return kCornerBytes * mesh.cornerCount() + kVertexBytes * mesh.positions.count;
 }
 
-double notedNoise(const MeshView& mesh, double position_step) {
+double notedNoise(const MeshView& mesh, double position_step, float weld_distance) {
     constexpr std::size_t kLeastFaces = 1000;
     constexpr double kLeastNoise = 0.03;
     if (mesh.faceCount() < kLeastFaces) return 0;
     const Arena arena;  // freed as a whole: a thousand calls left holes in the heap, 63 MB of them
-    const Result<PositionNoise> found = measureSureNoise(mesh, kLeastNoise, {.allocator = arena.allocator()});
+    const Execution execution{.allocator = arena.allocator()};
+    const Result<PositionNoise> found = atBorder([&]() -> Result<PositionNoise> {
+        Parallel parallel(execution, mesh.cornerCount());
+        const NearMesh near(mesh, weld_distance, execution.allocator, parallel);
+        return measureSureNoise(near.view(), kLeastNoise, execution);
+    });
     if (!found || found->noise < kLeastNoise || found->noise * found->mean_edge < position_step) return 0;
     return double{found->noise};
 }

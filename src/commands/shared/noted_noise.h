@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "tspace/mesh.h"
+#include "tspace/normals.h"
 
 namespace tspace {
 
@@ -12,7 +13,7 @@ namespace tspace {
 /// it takes some hundred vertices to tell. Else 0, as where it cannot be measured. Of the 1,005 primitives of 162 models one
 /// has more: it is damaged on purpose.
 /// position_step: of positions that are stored as whole numbers; rounding to them is no noise
-double notedNoise(const MeshView& mesh, double position_step);
+double notedNoise(const MeshView& mesh, double position_step, float weld_distance = NormalOptions::weld_auto);
 
 /// The memory that notedNoise takes for a while: that of measurePositionNoise, rounded up.
 std::uint64_t noteMemory(const MeshView& mesh);

@@ -56,6 +56,9 @@ template <>
 inline constexpr std::size_t kSizes<tspace_TangentOptions>[] = {offsetof(tspace_TangentOptions, normalize_normals),
                                                                 sizeof(tspace_TangentOptions)};
 template <>
+inline constexpr std::size_t kSizes<tspace_WindingOptions>[] = {offsetof(tspace_WindingOptions, weld_distance),
+                                                                sizeof(tspace_WindingOptions)};
+template <>
 inline constexpr std::size_t kSizes<tspace_NormalReport>[] = {offsetof(tspace_NormalReport, noise),
                                                               sizeof(tspace_NormalReport)};
 template <>

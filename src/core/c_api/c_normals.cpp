@@ -54,6 +54,7 @@ NormalOptions toOptions(const tspace_NormalOptions& options) {
     result.convention = toConvention(options.convention);
     result.refine = options.refine;
     result.denoise = options.denoise;
+    result.weld_distance = options.weld_distance;
     return result;
 }
 
@@ -156,7 +157,8 @@ tspace_ErrorCode tspace_mendWinding(const tspace_Mesh* mesh, const tspace_Windin
         const tspace_WindingOptions given = orDefault(options);
         const WindingOptions how{.convention = toConvention(given.convention),
                                  .use_normals = given.use_normals != 0,
-                                 .weld_positions = given.weld_positions != 0};
+                                 .weld_positions = given.weld_positions != 0,
+                                 .weld_distance = given.weld_distance};
         const Hooks hooks(execution);
         const Result<WindingReport> result =
             mendWinding(toMesh(*mesh), how, {turned, turned_count, 1}, hooks.execution());

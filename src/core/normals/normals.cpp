@@ -3,10 +3,12 @@
 // and weights are the pose's. Then the rounds of `best`.
 #include "tspace/normals.h"
 
+#include <cmath>
 #include <cstring>
 #include <utility>
 
 #include "core/base/border.h"
+#include "core/base/near_positions.h"
 #include "core/base/parallel.h"
 #include "core/base/range_lists.h"
 #include "core/normals/denoise.h"
@@ -32,6 +34,10 @@ Error checkOptions(const MeshView& mesh, const NormalOptions& options) {
     if (options.refine > 2) return {ErrorCode::invalidOption, "refine is not 0, 1 or 2"};
     if (!((options.denoise >= 0 && options.denoise <= 4) || options.denoise == NormalOptions::denoise_auto)) {
         return {ErrorCode::invalidOption, "denoise is neither between 0 and 4 nor denoise_auto"};
+    }
+    if (!((options.weld_distance >= 0 && std::isfinite(options.weld_distance)) ||
+          options.weld_distance == NormalOptions::weld_auto)) {
+        return {ErrorCode::invalidOption, "weld_distance is neither a length from 0 on nor weld_auto"};
     }
     if (!options.smoothing_groups.empty()) {
         const StridedSpan<const std::uint32_t> groups = options.smoothing_groups;
@@ -75,14 +81,8 @@ NormalReport smoothNormals(const MeshView& mesh, const MeshView& posed, const Ca
     return report;
 }
 
-Result<NormalReport> checkAndGenerate(const MeshView& mesh, const MeshView& posed, const Call<NormalOptions>& options,
-                                      StridedSpan<Vec3> out) {
-    const bool is_slow = options.weighting == NormalWeighting::best || options.crease_angle_deg < 180;
-    Parallel parallel(options.execution, (is_slow ? kSlow : 1) * mesh.cornerCount());
-    if (Error e = checkMesh(mesh, &parallel); e.code != ErrorCode::ok) return e;
-    if (Error e = checkSpan(posed.positions, mesh.vertexCount(), "positions"); e.code != ErrorCode::ok) return e;
-    if (Error e = checkOptions(mesh, options); e.code != ErrorCode::ok) return e;
-    if (Error e = checkSpan(out, mesh.cornerCount(), "out"); e.code != ErrorCode::ok) return e;
+NormalReport generateChecked(const MeshView& mesh, const MeshView& posed, const Call<NormalOptions>& options,
+                             StridedSpan<Vec3> out, Parallel& parallel) {
     if (options.weighting == NormalWeighting::flat) return flatNormals(mesh, posed, options, out, parallel);
     if (options.crease_angle_deg != NormalOptions::crease_auto)
         return smoothNormals(mesh, posed, options, out, parallel, {});
@@ -92,6 +92,25 @@ Result<NormalReport> checkAndGenerate(const MeshView& mesh, const MeshView& pose
     NormalReport report = smoothNormals(mesh, posed, found, out, parallel, creases);
     report.crease_angle_deg = creases.angle_deg;
     return report;
+}
+
+Result<NormalReport> checkAndGenerate(const MeshView& mesh, const MeshView& posed, const Call<NormalOptions>& options,
+                                      StridedSpan<Vec3> out) {
+    const bool is_slow = options.weighting == NormalWeighting::best || options.crease_angle_deg < 180;
+    Parallel parallel(options.execution, (is_slow ? kSlow : 1) * mesh.cornerCount());
+    if (Error e = checkMesh(mesh, &parallel); e.code != ErrorCode::ok) return e;
+    if (Error e = checkSpan(posed.positions, mesh.vertexCount(), "positions"); e.code != ErrorCode::ok) return e;
+    if (Error e = checkOptions(mesh, options); e.code != ErrorCode::ok) return e;
+    if (Error e = checkSpan(out, mesh.cornerCount(), "out"); e.code != ErrorCode::ok) return e;
+    const float distance = options.weld_positions ? options.weld_distance : 0;
+    const NearMesh near(mesh, distance, options.execution.allocator, parallel);
+    if (near.near().empty()) return generateChecked(mesh, posed, options, out, parallel);
+    if (posed.positions.data == mesh.positions.data)
+        return generateChecked(near.view(), near.view(), options, out, parallel);
+    const Buffer<Vec3> positions = near.near().moved(posed.positions);
+    MeshView near_pose = posed;
+    near_pose.positions = {positions.data(), positions.size()};
+    return generateChecked(near.view(), near_pose, options, out, parallel);
 }
 
 }  // namespace

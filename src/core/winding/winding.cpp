@@ -7,6 +7,7 @@
 
 #include "core/base/border.h"
 #include "core/base/mesh_loops.h"
+#include "core/base/near_positions.h"
 #include "core/base/weld.h"
 #include "tspace/winding.h"
 
@@ -300,13 +301,17 @@ Buffer<std::uint32_t> pointsOfCorners(const MeshView& mesh, const Call<WindingOp
     return points;
 }
 
-Result<WindingReport> checkAndMend(const MeshView& mesh, const Call<WindingOptions>& options,
+Result<WindingReport> checkAndMend(const MeshView& given, const Call<WindingOptions>& options,
                                    StridedSpan<std::uint8_t> turned) {
     // About four times what a mean of normals takes.
-    Parallel parallel(options.execution, 4 * mesh.cornerCount());
-    if (Error e = checkMesh(mesh, &parallel); e.code != ErrorCode::ok) return e;
-    if (Error e = checkSpan(turned, mesh.faceCount(), "turned"); e.code != ErrorCode::ok) return e;
+    Parallel parallel(options.execution, 4 * given.cornerCount());
+    if (Error e = checkMesh(given, &parallel); e.code != ErrorCode::ok) return e;
+    if (Error e = checkSpan(turned, given.faceCount(), "turned"); e.code != ErrorCode::ok) return e;
+    if (!((options.weld_distance >= 0 && std::isfinite(options.weld_distance)) || options.weld_distance == -1.0f))
+        return Error{ErrorCode::invalidOption, "weld_distance is neither a length from 0 on nor -1"};
     const Allocator* const allocator = options.execution.allocator;
+    const NearMesh near(given, options.weld_positions ? options.weld_distance : 0, allocator, parallel);
+    const MeshView& mesh = near.view();
     for (std::size_t face = 0; face < turned.count; ++face) turned[face] = 0;
     const MeshFaces faces(mesh, allocator);
     WindingReport report{.face_count = faces.usedCount()};

@@ -295,7 +295,7 @@ struct NearVertex {
 /// The primitives of one mesh that have triangles.
 class MeshPieces {
   public:
-    MeshPieces(Model& model, std::vector<std::size_t> numbers)
+    MeshPieces(Model& model, std::vector<std::size_t> numbers, float weld_distance)
         : document_(model.document()),
           arrays_(model.arrays()),
           primitives_(model.primitives()),
@@ -313,7 +313,7 @@ class MeshPieces {
         }
         for (const SharedArray<Vec3>& list : vertices_) vertex_spans_.push_back(list.span());
         for (std::size_t i = 0; i < numbers_.size(); ++i) pieces_.push_back({lists_[i], corners_[i].span()});
-        joined_ = std::make_unique<JoinedPieces>(vertex_spans_, pieces_);
+        joined_ = std::make_unique<JoinedPieces>(vertex_spans_, pieces_, weld_distance);
     }
 
     /// Null where no other is one surface with it. `makes_normals`: per primitive of the document.
@@ -456,7 +456,7 @@ void planSurroundings(Model& model, const GenerateOptions& options, GeneratePlan
             any = any || geometry_of.contains(past);
         }
         if (numbers.size() < 2 || !any) continue;
-        const MeshPieces pieces(model, numbers);
+        const MeshPieces pieces(model, numbers, options.normals.weld_distance);
         for (std::uint32_t piece = 0; piece < numbers.size(); ++piece) {
             const auto found = geometry_of.find(numbers[piece]);
             if (found == geometry_of.end()) continue;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Normals that do not have length 1, through the commands that read files.
+// Normals that do not have length 1, through the commands that read files; and made normals where positions are equal but for
+// rounding.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,6 +11,7 @@
 #include "support/scene_file.h"
 #include "support/shared_data.h"
 #include "tspace/check.h"
+#include "tspace/finish_file.h"
 
 namespace tspace::test {
 namespace {
@@ -245,6 +247,45 @@ TEST(NormalLengths, OffsetsOfMorphTargetsAreScaledWithTheNormals) {
     const Stored repaired(files.output());
     for (const Vec3& offset : readOffsets(repaired.document, repaired.primitives[0], 0, "NORMAL"))
         EXPECT_NEAR(offset.x, 0.3f, 1e-6);
+}
+
+// Made normals at positions that are equal but for rounding.
+
+double worstAcross(const std::string& path) {
+    const Stored made(path);
+    const std::vector<Vec3> positions = readVec3(made.document, made.primitives[0], "POSITION"),
+                            normals = made.normals();
+    double worst = 0;
+    for (std::size_t a = 0; a < positions.size(); ++a) {
+        for (std::size_t b = 0; b < a; ++b) {
+            const Vec3 apart{positions[a].x - positions[b].x, positions[a].y - positions[b].y,
+                             positions[a].z - positions[b].z};
+            if (lengthOf(apart) < 1e-6) worst = std::max(worst, degreesBetween(normals[a], normals[b]));
+        }
+    }
+    return worst;
+}
+
+TEST(NearPositions, GiveMadeNormalsNoSeam) {
+    for (const char* name : {"three_torus_bare", "three_cylinder_bare", "exact_torus_bare"}) {
+        const std::string input = "reports/second/" + std::string(name) + ".glb";
+        TSPACE_NEEDS_SHARED(input);
+        const bool is_torus = std::string(name).find("torus") != std::string::npos;
+        for (const NormalWeighting weighting : {NormalWeighting::angle, NormalWeighting::best}) {
+            const Files files;
+            GenerateOptions options{.all = true};
+            options.normals.weighting = weighting;
+            options.normals.crease_angle_deg = is_torus ? 180 : 40;
+            generated(shared(input).string(), files.output(), options);
+            if (is_torus) EXPECT_LT(worstAcross(files.output()), 0.01) << name;
+            options.normals.weld_distance = 0;
+            generated(shared(input).string(), files.output(), options);
+            if (name == std::string("three_torus_bare")) EXPECT_GT(worstAcross(files.output()), 4);
+        }
+        const Files files;
+        ASSERT_TRUE(finishFile(shared(input).string(), files.output()));
+        if (is_torus) EXPECT_LT(worstAcross(files.output()), 0.01) << name;
+    }
 }
 
 }  // namespace

@@ -113,7 +113,7 @@ class NormalOptions(Structure):
         ("refine", c_uint32),
         ("reserved", c_uint32),
         ("denoise", c_float),
-        ("reserved_end", c_uint32),
+        ("weld_distance", c_float),
     ]
 
 
@@ -145,6 +145,7 @@ class WindingOptions(Structure):
         ("convention", Convention),
         ("use_normals", c_uint32),
         ("weld_positions", c_uint32),
+        ("weld_distance", c_float),
     ]
 
 
@@ -179,8 +180,8 @@ class TangentOptions(Structure):
         ("angular_threshold_deg", c_float),
         ("pairing", c_uint32),
         ("refine", c_uint32),
-    ]
         ("normalize_normals", c_uint32),
+    ]
 
 
 class TangentReport(Structure):

@@ -123,6 +123,7 @@ def make_indexed_frames(
         convention,
         2 if refine is None else refine,
         denoise,
+        weld_distance,
     )
     mesh = Mesh(positions, normals, uvs, indices, face_sizes, normal_indices, uv_indices)
     rows, keep = corner_attributes("keep_apart", keep_apart, mesh.corner_count, 0.0)

@@ -31,6 +31,7 @@ def normal_options(
     convention: Any,
     refine: Any,
     denoise: Any,
+    weld_distance: Any,
 ) -> _abi.NormalOptions:
     """The struct of the C API, which points into `groups`."""
     # The C API refuses all of 0 as forgotten; flat, which is 0, looks at none of the others.
@@ -48,6 +49,7 @@ def normal_options(
         small_number("refine", refine),
         0,
         real_or_auto("denoise", denoise),
+        real_or_auto("weld_distance", weld_distance),
     )
 
 
@@ -65,6 +67,7 @@ def normals(
     convention: Optional[ConventionLike] = ...,
     refine: int = ...,
     denoise: DegreesOrAuto = ...,
+    weld_distance: DegreesOrAuto = ...,
     threads: Threads = ...,
     out: Optional[numpy.ndarray] = ...,
     full: Literal[False] = ...,
@@ -86,6 +89,7 @@ def normals(
     convention: Optional[ConventionLike] = ...,
     refine: int = ...,
     denoise: DegreesOrAuto = ...,
+    weld_distance: DegreesOrAuto = ...,
     threads: Threads = ...,
     out: Optional[numpy.ndarray] = ...,
     full: Literal[True],
@@ -106,6 +110,7 @@ def normals(
     convention: Optional[ConventionLike] = None,
     refine: int = 2,
     denoise: DegreesOrAuto = 0,
+    weld_distance: DegreesOrAuto = 0,
     threads: Threads = 1,
     out: Optional[numpy.ndarray] = None,
     full: bool = False,
@@ -131,6 +136,8 @@ def normals(
     denoise:          for "best" on noisy positions, such as scans: normals by more of the surface around. "auto": as much as
                       is measured, and nothing where that is shape; 0 to 4: so many times the noise that is measured, also
                       where it looks like shape
+    weld_distance:    with weld_positions: positions that differ by no more than this in each coordinate are one. "auto":
+                      twice the spacing of floats at the largest coordinate
     threads:          1, another number, or "all". The bits are the same for any
     out:              an array of float32 that takes the result and is returned
     full:             True: returns a NormalResult, which has a report too
@@ -138,7 +145,7 @@ def normals(
     mesh = Mesh(positions, None, None, indices, face_sizes)
     groups = None if smoothing_groups is None else uint32_array("smoothing_groups", smoothing_groups)
     options = normal_options(
-        weighting, crease_angle, groups, smoothing_groups_are_masks, weld_positions, convention, refine, denoise
+        weighting, crease_angle, groups, smoothing_groups_are_masks, weld_positions, convention, refine, denoise, weld_distance
     )
     run = execution(threads)
     result = output_array(out, mesh.corner_count, 3)

@@ -9,9 +9,9 @@ import numpy
 
 from . import _abi
 from ._mesh import Mesh
-from ._options import ConventionLike, convention_struct, execution
+from ._options import ConventionLike, convention_struct, execution, real_or_auto
 from ._reports import WindingReport, report
-from ._types import FaceSizes, IndexArray, Numbers, Rows, Threads
+from ._types import DegreesOrAuto, FaceSizes, IndexArray, Numbers, Rows, Threads
 
 
 class WindingResult(NamedTuple):
@@ -36,6 +36,7 @@ def mend_winding(
     face_sizes: FaceSizes = None,
     normals: Optional[Rows] = None,
     weld_positions: bool = True,
+    weld_distance: DegreesOrAuto = 0,
     convention: Optional[ConventionLike] = None,
     threads: Threads = 1,
 ) -> WindingResult:
@@ -49,6 +50,8 @@ def mend_winding(
     face_sizes:     None: triangles. A number: corners of every face. (faces,): corners of each face
     normals:        (vertices, 3): they say which side is out, where they agree among themselves; None: nothing does
     weld_positions: True: vertices at the same position are one point; False: only equal indices are
+    weld_distance:  with weld_positions: positions that differ by no more than this in each coordinate are one. "auto": twice
+                    the spacing of floats at the largest coordinate
     convention:     its handedness and winding say which order is right; None: right-handed, counter-clockwise
     threads:        1, another number, or "all". The bits are the same for any
     """
@@ -59,6 +62,7 @@ def mend_winding(
         convention_struct("gltf" if convention is None else convention),
         normals is not None,
         bool(weld_positions),
+        real_or_auto("weld_distance", weld_distance),
     )
     sizes = _face_sizes(mesh, face_sizes)
     turned = numpy.zeros(len(sizes), numpy.uint8)

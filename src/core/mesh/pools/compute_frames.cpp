@@ -434,14 +434,15 @@ Result<PoolFrames> computeWithMorphedNormals(const PoolView& pool, std::span<con
 /// Vertices that a split adds, from which on it is worth to look for what made it: one in so many.
 constexpr std::size_t kManySplit = 20;
 
-void countFaults(const PoolView& pool, const PoolFrames& frames, std::span<PrimitiveReport> reports) {
+void countFaults(const PoolView& pool, const PoolFrames& frames, float weld_distance,
+                 std::span<PrimitiveReport> reports) {
     const std::size_t before = pool.positions.count, after = frames.source_vertices.size();
     const bool counts_winding =
         (after - before) * kManySplit > before || (frames.normals_generated && !frames.normals.empty());
     if (!counts_winding) return;
     const std::vector<Vec3> positions = gather(pool.positions, frames.source_vertices);
     for (std::size_t p = 0; p < reports.size(); ++p)
-        countFaults(positions, frames.normals, frames.indices[p], true, reports[p]);
+        countFaults(positions, frames.normals, frames.indices[p], true, weld_distance, reports[p]);
 }
 
 }  // namespace
@@ -461,7 +462,7 @@ Result<PoolFrames> computeFrames(const PoolView& pool, std::span<const Primitive
         Result<PoolFrames> frames = pool.normals.empty() && pool.targets.count != 0
                                         ? computeWithMorphedNormals(pool, primitives, options, reports)
                                         : FrameComputer(pool, primitives, options, reports).compute();
-        if (frames) countFaults(pool, *frames, reports);
+        if (frames) countFaults(pool, *frames, options.normals.weld_distance, reports);
         return frames;
     });
 }

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <utility>
 
+#include "core/base/near_positions.h"
+#include "core/base/parallel.h"
 #include "core/base/unique_index.h"
 #include "core/base/vec_math.h"
 #include "core/mesh/pools/morph_frames.h"
@@ -166,11 +168,16 @@ Result<NormalReport> BorderedNormals::pose(const StridedSpan<const Vec3>& positi
 /// Which normals that stay are taken at which corners.
 void BorderedNormals::choose(std::span<const Vec3> normals) {
     if (around_->mesh.normals.empty()) return;
+    Parallel parallel(execution_, whole_.indices.size());
+    const MeshView whole = whole_.view();
+    const float distance = options_.weld_positions ? options_.weld_distance : 0;
+    const NearMesh near(whole, distance, execution_.allocator, parallel);
+    const StridedSpan<const Vec3>& positions = near.view().positions;
     UniqueIndex<std::array<std::uint32_t, 3>> places;
     std::vector<std::vector<std::uint32_t>> at;
     for (std::uint32_t v = 0; v < around_->mesh.normals.size(); ++v) {
         if (!isDirection(around_->mesh.normals[v])) continue;
-        const std::uint32_t place = places.indexOf(positionKey(around_->mesh.positions[v]));
+        const std::uint32_t place = places.indexOf(positionKey(positions[mesh_.positions.count + v]));
         if (place == at.size()) at.emplace_back();
         at[place].push_back(v);
     }
@@ -178,7 +185,7 @@ void BorderedNormals::choose(std::span<const Vec3> normals) {
     const double most = has_angle ? std::min(kMostTakenDeg, double{options_.crease_angle_deg}) : kMostTakenDeg;
     stays_.assign(normals.size(), kNone);
     for (std::size_t c = 0; c < normals.size(); ++c) {
-        const std::uint32_t place = places.find(positionKey(mesh_.positions[mesh_.indices[c]]));
+        const std::uint32_t place = places.find(positionKey(positions[mesh_.indices[c]]));
         if (place == kNone) continue;
         double least = most;
         for (const std::uint32_t v : at[place]) {

@@ -155,9 +155,10 @@ Result<PoolFrames> computeFrames(const PoolView& pool, std::span<const Primitive
 // Faults of the triangles that frames were made on, counted for a report.
 
 /// Fills normals_behind_count, and with `counts_winding` turned_triangle_count and two_sided_triangle_count.
-/// `normals`: those that were made, one per vertex, or empty. `corners`: three per triangle.
+/// `normals`: those that were made, one per vertex, or empty. `corners`: three per triangle. `weld_distance`: as in
+/// NormalOptions, for neighbours.
 void countFaults(std::span<const Vec3> positions, std::span<const Vec3> normals, std::span<const std::uint32_t> corners,
-                 bool counts_winding, PrimitiveReport& report);
+                 bool counts_winding, float weld_distance, PrimitiveReport& report);
 
 // Repair of tangents and bitangents: values that are wrong are mended, and all others keep their bits.
 

@@ -12,6 +12,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/near_positions.h"
+#include "core/base/parallel.h"
 #include "core/base/sort.h"
 #include "core/base/unique_index.h"
 #include "core/base/vec_math.h"
@@ -102,7 +104,7 @@ void markTwoSided(std::vector<Side<count>>& sides, std::vector<bool>& marked) {
 /// Both sides of a sheet: triangle by triangle, or quad by quad, of which each side may be cut along another diagonal.
 class Sheets {
   public:
-    Sheets(std::span<const Vec3> positions, std::span<const std::uint32_t> corners,
+    Sheets(const StridedSpan<const Vec3>& positions, std::span<const std::uint32_t> corners,
            std::span<const std::uint32_t> points)
         : positions_(positions), corners_(corners), points_(points) {}
 
@@ -154,14 +156,14 @@ class Sheets {
         quads.push_back({{from.low, points_[d], from.high, points_[c]}, {from.triangle, back.triangle}});
     }
 
-    std::span<const Vec3> positions_;
+    StridedSpan<const Vec3> positions_;
     std::span<const std::uint32_t> corners_, points_;
 };
 
 /// `corners`: three per triangle. Positions are compared exactly, but -0 equals 0. O(n log n); 200 bytes per triangle and 20 per
 /// vertex for a while.
-WindingCounts countWinding(std::span<const Vec3> positions, std::span<const std::uint32_t> corners) {
-    UniqueIndex<std::array<std::uint32_t, 3>> places(positions.size());
+WindingCounts countWinding(const StridedSpan<const Vec3>& positions, std::span<const std::uint32_t> corners) {
+    UniqueIndex<std::array<std::uint32_t, 3>> places(positions.count);
     std::vector<std::uint32_t> points(corners.size());
     for (std::size_t c = 0; c < corners.size(); ++c) {
         points[c] = places.indexOf(positionKey(positions[corners[c]]));
@@ -197,8 +199,12 @@ WindingCounts countWinding(std::span<const Vec3> positions, std::span<const std:
 
 }  // namespace
 
-void countFaults(std::span<const Vec3> positions, std::span<const Vec3> normals, std::span<const std::uint32_t> corners,
-                 bool counts_winding, PrimitiveReport& report) {
+void countFaults(std::span<const Vec3> stored, std::span<const Vec3> normals, std::span<const std::uint32_t> corners,
+                 bool counts_winding, float weld_distance, PrimitiveReport& report) {
+    Parallel parallel(Execution{}, corners.size());
+    const MeshView mesh{.positions = stored, .indices = corners};
+    const NearMesh near(mesh, weld_distance, nullptr, parallel);
+    const StridedSpan<const Vec3>& positions = near.view().positions;
     for (std::size_t c = 0; !normals.empty() && c + 2 < corners.size(); c += 3) {
         const DVec3 first = toDouble(positions[corners[c]]);
         const DVec3 face =

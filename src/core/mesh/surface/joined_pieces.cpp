@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <tuple>
 
+#include "core/base/near_positions.h"
+#include "core/base/owned_mesh.h"
+#include "core/base/parallel.h"
 #include "core/base/sort.h"
 #include "core/base/unique_index.h"
 
@@ -18,9 +21,10 @@ constexpr std::size_t kOverlap = 10;
 
 }  // namespace
 
-JoinedPieces::JoinedPieces(std::span<const std::span<const Vec3>> vertex_lists, std::span<const SurfacePiece> pieces)
+JoinedPieces::JoinedPieces(std::span<const std::span<const Vec3>> vertex_lists, std::span<const SurfacePiece> pieces,
+                           float weld_distance)
     : pieces_(pieces) {
-    weld(vertex_lists);
+    weld(vertex_lists, weld_distance);
     markShared();
     std::map<Pair, Votes> votes;
     voteByEdges(sharedEdges(), votes);
@@ -32,17 +36,22 @@ JoinedPieces::JoinedPieces(std::span<const std::span<const Vec3>> vertex_lists, 
     listTriangles();
 }
 
-void JoinedPieces::weld(std::span<const std::span<const Vec3>> vertex_lists) {
-    std::size_t count = 0;
+void JoinedPieces::weld(std::span<const std::span<const Vec3>> vertex_lists, float distance) {
+    OwnedMesh all;
     for (const std::span<const Vec3> list : vertex_lists) {
-        first_vertex_.push_back(count);
-        count += list.size();
+        first_vertex_.push_back(all.positions.size());
+        all.positions.insert(all.positions.end(), list.begin(), list.end());
     }
-    UniqueIndex<std::array<std::uint32_t, 3>> points(count);
-    points_.reserve(count);
-    for (const std::span<const Vec3> list : vertex_lists) {
-        for (const Vec3& p : list) points_.push_back(points.indexOf(positionKey(p)));
+    for (const SurfacePiece& piece : pieces_) {
+        for (const std::uint32_t corner : piece.corners)
+            all.indices.push_back(static_cast<std::uint32_t>(first_vertex_[piece.vertices] + corner));
     }
+    Parallel parallel(Execution{}, all.indices.size());
+    const NearMesh near(all.view(), distance, nullptr, parallel);
+    const StridedSpan<const Vec3>& positions = near.view().positions;
+    UniqueIndex<std::array<std::uint32_t, 3>> points(positions.count);
+    points_.reserve(positions.count);
+    for (std::size_t v = 0; v < positions.count; ++v) points_.push_back(points.indexOf(positionKey(positions[v])));
     is_shared_.resize(points.size());
 }
 

@@ -205,7 +205,7 @@ struct PieceTriangle {
 /// Two pieces are one surface where they meet along edges, the way that neighbours do: each edge is one of a single triangle
 /// in both, and is run through the other way by the other. Not where more edges are run through the same way (one of the
 /// two is turned over), nor where the pieces lie on one another (a tenth of the triangles of the smaller have the positions
-/// of triangles of the other: the two sides of a sheet, or layers). Positions are compared exactly, but -0 equals 0.
+/// of triangles of the other: the two sides of a sheet, or layers). Positions are equal as NormalOptions::weld_distance says.
 /// O(n log n) in the triangles at borders, linear in the rest.
 class JoinedPieces {
   public:
@@ -216,7 +216,8 @@ class JoinedPieces {
     };
 
     /// All that is given must outlive this.
-    JoinedPieces(std::span<const std::span<const Vec3>> vertex_lists, std::span<const SurfacePiece> pieces);
+    JoinedPieces(std::span<const std::span<const Vec3>> vertex_lists, std::span<const SurfacePiece> pieces,
+                 float weld_distance);
 
     /// Vertices with one position have one point.
     [[nodiscard]] std::uint32_t pointOf(std::uint32_t piece, std::uint32_t vertex) const {
@@ -244,7 +245,7 @@ class JoinedPieces {
     };
     using Pair = std::pair<std::uint32_t, std::uint32_t>;
 
-    void weld(std::span<const std::span<const Vec3>> vertex_lists);
+    void weld(std::span<const std::span<const Vec3>> vertex_lists, float distance);
     void markShared();
     [[nodiscard]] std::vector<EdgeUse> sharedEdges() const;
     void voteByEdges(const std::vector<EdgeUse>& edges, std::map<Pair, Votes>& votes);

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: MIT
+// A grid of cells, four times as wide as the distance, in a hash table: a position looks at the cells that it is within the
+// distance of, mostly one. Only positions that others may join are in the table, so that rows of near positions do not
+// become one, and a cell has few.
+#include "core/base/near_positions.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+
+#include "core/base/mesh_loops.h"
+#include "core/base/unique_index.h"
+#include "core/base/vec_math.h"
+#include "core/base/weld.h"
+
+namespace tspace {
+
+namespace {
+
+constexpr std::uint32_t kNone = 0xffffffffu;
+/// weld_auto: so many spacings of floats are the distance, and so many distances long is an edge where it holds. A mesh so
+/// far from the origin that its edges are shorter keeps the shape that its floats still have.
+constexpr double kSpacings = 2, kLeastEdge = 32;
+constexpr double kCellWidth = 4;
+
+double largest(const Vec3& p) {
+    return std::max({std::fabs(double{p.x}), std::fabs(double{p.y}), std::fabs(double{p.z})});
+}
+
+bool areNear(const Vec3& a, const Vec3& b, double distance) {
+    return std::fabs(double{a.x} - b.x) <= distance && std::fabs(double{a.y} - b.y) <= distance &&
+           std::fabs(double{a.z} - b.z) <= distance;
+}
+
+/// Between the float of this size, which is not negative, and the next larger one.
+double spacingAt(float value) {
+    const auto next = std::bit_cast<float>(std::bit_cast<std::uint32_t>(value) + 1);
+    return std::isfinite(next) ? double{next} - value : 0;
+}
+
+/// Positions that have been added, by their cells.
+class Cells {
+  public:
+    Cells(const StridedSpan<const Vec3>& positions, double distance, std::size_t most, const Allocator* allocator)
+        : positions_(positions),
+          distance_(distance),
+          width_(kCellWidth * distance),
+          slots_(allocator, std::bit_ceil(2 * most + 2)) {
+        std::fill(slots_.begin(), slots_.end(), Slot{0, kNone});
+    }
+
+    void add(std::uint32_t vertex) {
+        const Vec3& p = positions_[vertex];
+        const std::uint32_t hash = hashOf({cellOf(p.x), cellOf(p.y), cellOf(p.z)});
+        std::size_t at = hash & (slots_.size() - 1);
+        while (slots_[at].vertex != kNone) at = (at + 1) & (slots_.size() - 1);
+        slots_[at] = {hash, vertex};
+    }
+
+    /// The lowest vertex within the distance, or kNone.
+    [[nodiscard]] std::uint32_t lowestNear(const Vec3& p) const {
+        const std::array<double, 2> x = cellsNear(p.x), y = cellsNear(p.y), z = cellsNear(p.z);
+        std::uint32_t lowest = kNone;
+        for (int i = 0; i < 8; ++i) {
+            const bool is_again =
+                ((i & 1) != 0 && x[0] == x[1]) || ((i & 2) != 0 && y[0] == y[1]) || ((i & 4) != 0 && z[0] == z[1]);
+            if (!is_again) lowest = std::min(lowest, lowestIn({x[i & 1], y[i >> 1 & 1], z[i >> 2]}, p));
+        }
+        return lowest;
+    }
+
+  private:
+    struct Slot {
+        std::uint32_t hash, vertex;
+    };
+
+    [[nodiscard]] double cellOf(double coordinate) const { return std::floor(coordinate / width_); }
+    [[nodiscard]] std::array<double, 2> cellsNear(double coordinate) const {
+        return {cellOf(coordinate - distance_), cellOf(coordinate + distance_)};
+    }
+    static std::uint32_t hashOf(const std::array<double, 3>& cell) {
+        // With +0 added both zeros are one value.
+        const auto bits = [](double value) { return std::bit_cast<std::uint64_t>(value + 0.0); };
+        return static_cast<std::uint32_t>(mixBits(mixBits(mixBits(bits(cell[0])) ^ bits(cell[1])) ^ bits(cell[2])) >>
+                                          32);
+    }
+    [[nodiscard]] std::uint32_t lowestIn(const std::array<double, 3>& cell, const Vec3& p) const {
+        const std::uint32_t hash = hashOf(cell);
+        std::uint32_t lowest = kNone;
+        for (std::size_t at = hash & (slots_.size() - 1); slots_[at].vertex != kNone;
+             at = (at + 1) & (slots_.size() - 1)) {
+            const Slot& slot = slots_[at];
+            if (slot.hash == hash && slot.vertex < lowest && areNear(positions_[slot.vertex], p, distance_))
+                lowest = slot.vertex;
+        }
+        return lowest;
+    }
+
+    const StridedSpan<const Vec3>& positions_;
+    double distance_, width_;
+    Buffer<Slot> slots_;
+};
+
+/// The longest edge at each vertex, by its longest coordinate; 0 at vertices that no face uses.
+Buffer<float> longestEdges(const MeshView& mesh, const Buffer<std::uint32_t>& equal, const Allocator* allocator) {
+    Buffer<float> longest(allocator, mesh.vertexCount(), 0.0f);
+    withIndices(mesh.indices, [&](auto vertexOf) {
+        forEachFace(mesh, [&](std::size_t, std::size_t first, std::size_t size) {
+            for (std::size_t k = 0; k < size; ++k) {
+                const std::uint32_t a = equal[vertexOf(first + k)], b = equal[vertexOf(first + (k + 1) % size)];
+                const Vec3 edge = mesh.positions[b] - mesh.positions[a];
+                if (!isFinite(edge)) continue;
+                const auto size_of_edge = static_cast<float>(largest(edge));
+                longest[a] = std::max(longest[a], size_of_edge);
+                longest[b] = std::max(longest[b], size_of_edge);
+            }
+        });
+    });
+    return longest;
+}
+
+}  // namespace
+
+NearPositions::NearPositions(const MeshView& mesh, float distance, const Allocator* allocator, Parallel& parallel)
+    : allocator_(allocator), distance_(distance) {
+    const std::size_t count = mesh.vertexCount();
+    if (distance == 0 || count == 0) return;
+    Buffer<std::uint32_t> roots = weldPositions(mesh, allocator, parallel);
+    if (roots.empty()) {
+        roots = Buffer<std::uint32_t>(allocator, count);
+        for (std::uint32_t v = 0; v < count; ++v) roots[v] = v;
+    }
+    Buffer<float> edges;
+    if (distance < 0) {
+        edges = longestEdges(mesh, roots, allocator);
+        float most = 0;
+        for (std::size_t v = 0; v < count; ++v)
+            if (edges[v] > 0) most = std::max(most, static_cast<float>(largest(mesh.positions[v])));
+        distance_ = kSpacings * spacingAt(most);
+    }
+    std::size_t most = 0;
+    const auto takesPart = [&](std::uint32_t v) {
+        return roots[v] == v && (edges.empty() || edges[v] >= kLeastEdge * distance_) && isFinite(mesh.positions[v]);
+    };
+    for (std::uint32_t v = 0; v < count; ++v) most += takesPart(v) ? 1 : 0;
+    if (!(distance_ > 0) || most < 2) return;
+    Cells cells(mesh.positions, distance_, most, allocator);
+    bool any = false;
+    for (std::uint32_t v = 0; v < count; ++v) {
+        if (!takesPart(v)) {
+            roots[v] = roots[roots[v]];
+            continue;
+        }
+        const std::uint32_t near = cells.lowestNear(mesh.positions[v]);
+        if (near == kNone) {
+            cells.add(v);
+        } else {
+            roots[v] = near;
+            any = true;
+        }
+    }
+    if (any) roots_ = std::move(roots);
+}
+
+Buffer<Vec3> NearPositions::moved(StridedSpan<const Vec3> positions) const {
+    Buffer<Vec3> result(allocator_, positions.count);
+    for (std::size_t v = 0; v < positions.count; ++v) {
+        const Vec3 &own = positions[v], &other = positions[roots_.empty() ? v : roots_[v]];
+        result[v] = areNear(own, other, distance_) ? other : own;
+    }
+    return result;
+}
+
+}  // namespace tspace
