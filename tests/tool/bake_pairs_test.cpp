@@ -89,6 +89,23 @@ TEST_F(BakePairs, NamesInATableStayInTheFolderOfTheOutput) {
     EXPECT_TRUE(std::filesystem::exists(folder.path() / "in/two/sub/deep.png")) << "models may lie anywhere";
 }
 
+TEST_F(BakePairs, ATableGivesNoFileAControlCharacterInItsName) {
+    for (const char* name : {"a\tb.png", "a\x1b[2Jb.png", "a\x7f.png", "a\xc2\x9b.png"}) {
+        folder.write("t/table.txt", std::string("low.obj = high.obj\nlow.obj = high.obj = ") + name + "\n");
+        const ToolRun run = runTool(folder, "bake --pairs t/table.txt -o in/two --size 32");
+        EXPECT_EQ(run.exit_code, 3) << run.err;
+        EXPECT_NE(run.err.find("line 2: the output"), std::string::npos) << run.err;
+        EXPECT_NE(run.err.find("has a control character in its name"), std::string::npos) << run.err;
+        EXPECT_FALSE(folder.has("in")) << "nothing is written";
+    }
+    folder.write("t/lo\bw.obj", folder.read("low.obj"));
+    folder.write("t/table.txt", "lo\bw.obj = high.obj\n");
+    EXPECT_EQ(runTool(folder, "bake --pairs t/table.txt -o in/two --size 32").exit_code, 3);
+    folder.write("t/table.txt", "lo\bw.obj = high.obj = named.png\n");
+    (void)pairs("--pairs t/table.txt -o in/two");
+    EXPECT_TRUE(folder.has("in/two/named.png"));
+}
+
 TEST_F(BakePairs, LowPolysOfOneNameInTwoFoldersTakeNamesOfTheirOwn) {
     folder.write("t/a/low.obj", folder.read("low.obj"));
     folder.write("t/table.txt", "# props\nlow.obj = high.obj\na/low.obj = high.obj\n");

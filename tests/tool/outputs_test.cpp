@@ -8,6 +8,7 @@
 #include <map>
 #include <sstream>
 
+#include "tool/folder_files.h"
 #include "tool/run_tool.h"
 
 namespace tspace::test {
@@ -154,14 +155,8 @@ TEST(Outputs, WhoseNamesAreMadeReplaceNoReportAndNoManifest) {
         const char* kept;
         const char* other;  ///< what is not written then
     };
-    for (const Case& one :
-         {Case{"generate plain.glb -o m.gltf --manifest m.bin", "m.bin", "m.gltf"},
-          Case{"generate folded.obj -o m.gltf --manifest m.bin", "m.bin", "m.gltf"},
-          Case{"bake two.obj --high two.obj --out-mesh m.gltf -o n.png --report m.bin --size 16", "m.bin", "m.gltf"},
-          Case{"bake two.obj --high two.obj -o n.png --report n.a.png --size 16", "n.a.png", "n.b.png"},
-          Case{"bake two.obj --high two.obj -o o.png --heat h.png --report h.b.png --size 16", "h.b.png", "o.a.png"},
-          Case{"bake plain.glb --high made.glb --udim -o u.png --report u.1001.png --size 16", "u.1001.png",
-               "u.png"}}) {
+    for (const Case& one : {Case{"generate plain.glb -o m.gltf --manifest m.bin", "m.bin", "m.gltf"},
+                            Case{"generate folded.obj -o m.gltf --manifest m.bin", "m.bin", "m.gltf"}}) {
         for (const bool is_there : {false, true}) {
             if (!is_there) fs::remove(folder.path(one.kept));
             const ToolRun run = runTool(folder, std::string(one.command) + " -q");
@@ -172,8 +167,51 @@ TEST(Outputs, WhoseNamesAreMadeReplaceNoReportAndNoManifest) {
         }
     }
     fs::remove(folder.path("m.bin"));
+    const auto before = contentsOf(folder);
+    for (const char* command :
+         {"bake two.obj --high two.obj --out-mesh m.gltf -o n.png --report m.bin",
+          "bake two.obj --high two.obj -o n.png --report n.a.png",
+          "bake two.obj --high two.obj -o n.png --maps normal,ao --report n_ao.b.png",
+          "bake two.obj --high two.obj -o o.png --heat h.png --report h.b.png",
+          "bake two.obj --high two.obj -o o.png --misses o_ao.png --maps normal,ao",
+          "bake plain.glb --high made.glb --udim -o u.png --report u.1001.png",
+          "finish two.obj --low two.obj -o f.glb --html f_normal.a.png",
+          "finish two.obj --low two.obj -o f.glb --report f_ao.b.png",
+          "finish made.glb --low plain.glb -o f.glb --html f_normal.png",
+          "finish made.glb --low plain.glb -o f.glb --html f_ao.png", "finish made.glb -o f.glb --html f.glb",
+          "finish made.glb -o f.glb --html made.glb", "finish made.glb --low plain.glb -o f.glb --html plain.glb",
+          "finish made.glb --low plain.glb -o f.glb --html a.html --report sub/../a.html",
+          "compress-map bump.png --roughness bump.png -o p/ -o2 p/"}) {
+        const bool has_size = std::string(command).find("bake") == 0;
+        const ToolRun run = runTool(folder, std::string(command) + (has_size ? " --size 16" : ""));
+        EXPECT_EQ(run.exit_code, 2) << command << run.err;
+        EXPECT_EQ(run.errorLines(), 1) << command << run.err;
+        EXPECT_TRUE(contentsOf(folder) == before) << command;
+    }
     EXPECT_EQ(runTool(folder, "generate plain.glb -q -o m.glb --manifest m.bin").exit_code, 0);
     EXPECT_EQ(runTool(folder, "bake two.obj --high two.obj -q -o n.png --report n.c.png --size 16").exit_code, 0);
+}
+
+TEST(Outputs, RemoveTemporaryFilesOfKilledRunsInAllTheirFolders) {
+    const TempFolder folder;
+    writeModels(folder);
+    folder.write("two.gltf", R"({"asset":{"version":"2.0"},"images":[{"uri":"textures/bump.png"}]})");
+    folder.write("textures/bump.png", folder.read("bump.png"));
+    for (const auto& [command, targets] :
+         {std::pair<std::string, std::vector<std::string>>{"compress-map bump.png --roughness bump.png -o p/ -o2 r/",
+                                                           {"p/bump.0.png", "r/bump.0.png"}},
+          {"check plain.glb --html h/a.html --sarif s/a.sarif", {"h/a.html", "s/a.sarif"}},
+          {"generate two.gltf --convention opengl -o g/two.gltf", {"g/two.gltf", "g/textures/bump.png"}},
+          {"bake plain.glb --high made.glb --size 16 -o n/a.png --heat m/a.png --report j/a.json",
+           {"n/a.png", "m/a.png", "j/a.json"}},
+          {"finish made.glb -o f/a.glb --html x/a.html --report y/a.json", {"f/a.glb", "x/a.html", "y/a.json"}}}) {
+        for (const std::string& target : targets) leaveTemporaryFile(folder, target);
+        const ToolRun run = runTool(folder, command);
+        if (run.err.find("built") != std::string::npos) continue;
+        EXPECT_LE(run.exit_code, 1) << command << run.err;
+        for (const std::string& name : folder.files())
+            EXPECT_EQ(name.find(".tspace-"), std::string::npos) << command << ": " << name;
+    }
 }
 
 TEST(Outputs, KeepThePermissionsThatWereThere) {

@@ -2,10 +2,14 @@
 // tspace bake: one low poly and one high poly, or a table of them (bake_pairs.h).
 #include <chrono>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "bake_pairs.h"
 #include "command_table.h"
+#include "commands/bake/bake_outputs.h"
 #include "commands/bake/bake_report.h"
+#include "commands/bake/match_meshes.h"
 #include "commands/shared/request.h"
 #include "common_options.h"
 #include "console.h"
@@ -40,9 +44,11 @@ Result<BakeFileReport> bake(const BakeArguments& arguments, InputFiles& read) {
 
 ExitCode runBake(const BakeArguments& arguments) {
     const BakeFileOptions& options = arguments.options;
-    const Result<Done> fit =
-        prepareOutputs({arguments.output, options.misses, options.heat, options.out_mesh, arguments.report},
-                       {arguments.low, arguments.high, options.cage, options.skew});
+    std::vector<std::string> outputs =
+        outputsBeside({arguments.report}, arguments.low, {.output = arguments.output}, options);
+    outputs.push_back(arguments.report);
+    const Result<Done> fit = prepareOutputs(
+        outputs, {arguments.low, arguments.high, options.cage, options.skew, matchFileOf(options.match)});
     if (!fit) return printUsageError(fit.error().message);
     InputFiles read;
     const auto start = std::chrono::steady_clock::now();

@@ -74,6 +74,9 @@ std::vector<Pair> readTable(const BakePairsArguments& arguments) {
         pair.job.input = below(folder, words[0]);
         pair.high = below(folder, words[1]);
         const std::string name = words.size() == 3 ? words[2] : stemOf(words[0]) + ".png";
+        if (printable(name) != name)
+            failFile(ErrorCode::forbiddenPath, "line " + std::to_string(number) + ": the output " + inQuotes(name) +
+                                                   " has a control character in its name");
         pair.job.output = below(arguments.output, name);
         if (!arguments.options.out_mesh.empty()) pair.model = below(arguments.options.out_mesh, stemOf(name) + ".glb");
     }
@@ -125,8 +128,9 @@ void addWords(const BakePairsArguments& arguments, const std::vector<Pair>& pair
     for (const std::size_t i : asked) {
         const Pair& pair = pairs[i];
         // Where a low poly cannot be read, its own bake says so.
-        (void)tryFile(
-            [&] { outputs[i].files = outputsFor(pair.job.input, pair.job.output, optionsOf(arguments, pair)); });
+        (void)tryFile([&] {
+            outputs[i].files = outputsFor(pair.job.input, {pair.job.output, {}}, optionsOf(arguments, pair));
+        });
     }
 }
 
@@ -265,7 +269,8 @@ ExitCode runBakePairs(const BakePairsArguments& arguments) {
         return printError(arguments.table, *failure);
     std::vector<PairOutputs> written;
     for (const Pair& pair : pairs)
-        written.push_back({pair.line, plainOutputs(pair.job.output, optionsOf(arguments, pair))});
+        written.push_back({pair.line, outputsBeside({arguments.batch.manifest, arguments.report}, pair.job.input,
+                                                    {.output = pair.job.output}, optionsOf(arguments, pair))});
     if (const std::string shared = sharedOutput(written); !shared.empty()) return printUsageError(shared);
     addWords(arguments, pairs, written);
     if (const std::string shared = sharedOutput(written); !shared.empty()) return printUsageError(shared);

@@ -22,13 +22,14 @@ struct CompressMapArguments {
 };
 
 ExitCode runCompressMap(const CompressMapArguments& arguments) {
-    // Folders take files of other names.
-    const auto fileOf = [](const std::string& path) {
-        return path.empty() || path.back() != '/' ? path : std::string();
+    // The first level stands for a folder of PNGs.
+    const auto fileOf = [](const std::string& path, const std::string& input) {
+        return path.ends_with('/') ? levelPath(path, input, 0) : path;
     };
     const CompressMapFileOptions& wanted = arguments.options;
-    const Result<Done> fit = prepareOutputs({fileOf(arguments.output), fileOf(wanted.roughness_output)},
-                                            {arguments.input, wanted.roughness}, wanted.dry_run);
+    const Result<Done> fit =
+        prepareOutputs({fileOf(arguments.output, arguments.input), fileOf(wanted.roughness_output, wanted.roughness)},
+                       {arguments.input, wanted.roughness}, wanted.dry_run);
     if (!fit) return printUsageError(fit.error().message + "; name another file");
     if (goesToTerminal(arguments)) return printUsageError(kNoTextForATerminal);
     const Result<CompressMapFileReport> result =

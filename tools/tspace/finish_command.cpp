@@ -2,8 +2,11 @@
 // tspace finish: one model, perhaps with a low poly.
 #include <chrono>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "command_table.h"
+#include "commands/bake/match_meshes.h"
 #include "commands/finish/finish_report.h"
 #include "commands/shared/request.h"
 #include "common_options.h"
@@ -39,8 +42,11 @@ Result<FinishReport> finish(const FinishArguments& arguments, InputFiles& read, 
 ExitCode runFinish(const FinishArguments& arguments) {
     const FinishOptions& options = arguments.options;
     const std::string& about_low = options.low.empty() ? arguments.input : options.low;
-    const Result<Done> fit =
-        prepareOutputs({arguments.output, options.page, arguments.report}, {arguments.input, options.low});
+    std::vector<std::string> outputs = {options.page, arguments.report};
+    const std::vector<std::string> made = finishOutputs(outputs, arguments.output, options);
+    outputs.insert(outputs.begin(), made.begin(), made.end());
+    const Result<Done> fit = prepareOutputs(
+        outputs, {arguments.input, options.low, matchFileOf(options.bake.match), options.bake.cage, options.bake.skew});
     if (!fit) return printUsageError(fit.error().message);
     const Result<PageOrigin> origin = pageOrigin();
     if (!options.page.empty() && !origin) return printUsageError(origin.error().message);

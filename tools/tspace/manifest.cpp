@@ -12,6 +12,7 @@
 
 #include "commands/shared/report.h"
 #include "console.h"
+#include "model/io/abandoned_files.h"
 #include "model/io/file_io.h"
 #include "model/io/system_files.h"
 #include "model/io/uri.h"
@@ -193,7 +194,7 @@ Result<Done> BatchRecord::open(const BatchArguments& batch, const std::vector<Jo
         for (const Job& job : jobs) {
             if (!job.output.empty() && job.output != "-") folders.insert(folderOf(job.output).string());
         }
-        for (const std::string& folder : folders) removeAbandonedFiles(folder, false);
+        for (const std::string& folder : folders) removeAbandonedOnce(folder);
     }
     path_ = batch.manifest;
     if (path_.empty()) return Done{};

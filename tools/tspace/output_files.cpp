@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 
+#include "model/io/abandoned_files.h"
 #include "model/io/file_error.h"
 #include "model/io/file_io.h"
 #include "model/io/system_files.h"
@@ -28,7 +29,7 @@ Result<Done> prepareOutputs(const std::vector<std::string>& outputs, const std::
         folders.insert(folderOf(output).string());
     }
     if (is_dry_run) return Done{};
-    for (const std::string& folder : folders) removeAbandonedFiles(folder, false);
+    for (const std::string& folder : folders) removeAbandonedOnce(folder);
     return Done{};
 }
 

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "commands/bake/bake_outputs.h"
 
+#include <algorithm>
 #include <set>
 #include <utility>
 
 #include "maps/uv_coverage.h"
+#include "model/gltf/container.h"
+#include "model/io/file_error.h"
+#include "model/io/file_io.h"
 
 namespace tspace {
 namespace {
@@ -28,19 +32,33 @@ std::string fileWord(const std::string& name) {
 }
 
 /// What the images of a low poly are called, and the pictures beside them.
-std::vector<std::string> outputsOf(const std::string& output, const BakeFileOptions& options,
+std::vector<std::string> outputsOf(const BakeNames& bake, const BakeFileOptions& options,
                                    const std::vector<std::string>& words) {
     std::vector<std::string> names;
     const auto add = [&](const std::string& path) {
         if (path.empty()) return;
         for (const std::string& word : words) names.push_back(withWord(path, word));
     };
-    if (options.layers.has_normal) add(output);
-    for (const MapLayer layer : options.layers.layers) add(withLayer(output, layer));
+    if (options.layers.has_normal) add(bake.output);
+    const std::string& layers_output = bake.layers_output.empty() ? bake.output : bake.layers_output;
+    for (const MapLayer layer : options.layers.layers) add(withLayer(layers_output, layer));
     add(options.misses);
     add(options.heat);
-    if (!options.out_mesh.empty()) names.push_back(options.out_mesh);
+    if (options.out_mesh.empty()) return names;
+    names.push_back(options.out_mesh);
+    for (std::string& buffer : gltf::bufferFilesOf(options.out_mesh)) names.push_back(std::move(buffer));
     return names;
+}
+
+/// Whether words of materials and tiles may make one of `plain` the file `path`.
+bool mayBecome(const std::vector<std::string>& plain, const std::string& path) {
+    for (const std::string& shorter : withoutWords(path)) {
+        const std::string identity = identityOf(shorter);
+        if (std::any_of(plain.begin(), plain.end(),
+                        [&](const std::string& name) { return identityOf(name) == identity; }))
+            return true;
+    }
+    return false;
 }
 
 }  // namespace
@@ -73,14 +91,25 @@ std::string tileWord(const std::string& image, std::uint32_t tile) {
     return image.empty() ? std::to_string(tile) : image + "." + std::to_string(tile);
 }
 
-std::vector<std::string> plainOutputs(const std::string& output, const BakeFileOptions& options) {
-    return outputsOf(output, options, {""});
+std::vector<std::string> plainOutputs(const BakeNames& bake, const BakeFileOptions& options) {
+    return outputsOf(bake, options, {""});
 }
 
-std::vector<std::string> outputsFor(const std::string& low, const std::string& output, const BakeFileOptions& options) {
+std::vector<std::string> outputsBeside(const std::vector<std::string>& others, const std::string& low,
+                                       const BakeNames& bake, const BakeFileOptions& options) {
+    std::vector<std::string> names = plainOutputs(bake, options);
+    if (std::none_of(others.begin(), others.end(),
+                     [&](const std::string& other) { return !other.empty() && mayBecome(names, other); }))
+        return names;
+    // The bake itself reports a low poly that cannot be read.
+    static_cast<void>(tryFile([&] { names = outputsFor(low, bake, options); }));
+    return names;
+}
+
+std::vector<std::string> outputsFor(const std::string& low, const BakeNames& bake, const BakeFileOptions& options) {
     const LowModel model = readLowImages(low, options);
     std::vector<std::string> words = imageWords(model);
-    if (!options.udim) return outputsOf(output, options, words);
+    if (!options.udim) return outputsOf(bake, options, words);
     std::set<std::string> of_tiles;
     for (std::size_t i = 0; i < words.size(); ++i) {
         const LowPart& part = model.images[i].part;
@@ -89,7 +118,7 @@ std::vector<std::string> outputsFor(const std::string& low, const std::string& o
                 of_tiles.insert(tileWord(words[i], tile));
         }
     }
-    return outputsOf(output, options, {of_tiles.begin(), of_tiles.end()});
+    return outputsOf(bake, options, {of_tiles.begin(), of_tiles.end()});
 }
 
 std::vector<std::string> withoutWords(const std::string& path) {

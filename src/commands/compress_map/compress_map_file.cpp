@@ -116,13 +116,6 @@ class MapCompression {
         return bytes.size();
     }
 
-    /// FOLDER/NAME.LEVEL.png
-    [[nodiscard]] static std::string levelPath(const std::string& folder, const std::string& input, std::size_t level) {
-        std::string name = fileNameOf(input);
-        if (const std::size_t dot = name.rfind('.'); dot != std::string::npos && dot > 0) name.resize(dot);
-        return folder + (name.empty() || name == "-" ? "map" : name) + "." + std::to_string(level) + ".png";
-    }
-
     static std::uint64_t addPng(const FloatImage& image, unsigned bits, const std::string& path, AtomicOutput& files) {
         const std::optional<std::vector<std::uint8_t>> png = encodePng(image, bits);
         if (!png) failFile(ErrorCode::unsupportedFile, "this build of tspace writes no PNG");
@@ -177,6 +170,12 @@ class MapCompression {
 };
 
 }  // namespace
+
+std::string levelPath(const std::string& folder, const std::string& input, std::size_t level) {
+    std::string name = fileNameOf(input);
+    if (const std::size_t dot = name.rfind('.'); dot != std::string::npos && dot > 0) name.resize(dot);
+    return folder + (name.empty() || name == "-" ? "map" : name) + "." + std::to_string(level) + ".png";
+}
 
 bool isTextureName(const std::string& path) {
     const std::string extension = lowerExtension(path);

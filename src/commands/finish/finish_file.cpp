@@ -6,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include "commands/bake/bake_outputs.h"
 #include "commands/bake/bake_report.h"
 #include "commands/bake/bake_step.h"
 #include "commands/check/check_report.h"
@@ -54,6 +55,7 @@ CheckReport checked(const std::string& name, ByteSpan content, const FinishOptio
     check.file.content = content;
     check.weld_distance = options.weld_distance;
     check.execution = options.execution;
+    check.progress = options.progress;
     return valueOrThrow(checkFile(name, check));
 }
 
@@ -241,6 +243,11 @@ class ModelInWork {
     CheckReport check_ = {};  ///< of the bytes
 };
 
+BakeNames namesOf(const std::string& output) {
+    const std::string stem = output.substr(0, output.find_last_of('.'));
+    return {.output = stem + "_normal.png", .layers_output = stem + ".png"};
+}
+
 class Finishing {
   public:
     explicit Finishing(const FinishOptions& options) : options_(options) { inputs_.watch(options_.file); }
@@ -318,14 +325,14 @@ class Finishing {
             bytes.insert(bytes.end(), more.begin(), more.end());
             return true;
         }});
-        const std::string stem = output.substr(0, output.find_last_of('.'));
+        const BakeNames names = namesOf(output);
         const BakeStep step{.sources = {.low = low, .high = high},
-                            .layers_output = stem + ".png",
+                            .layers_output = names.layers_output,
                             .notes_noise = false,
                             .inputs = inputs_,
                             .map_files = files_,
                             .model_files = model};
-        report_.bake = bakeAsStep(options_.low, input, stem + "_normal.png", bake, step);
+        report_.bake = bakeAsStep(options_.low, input, names.output, bake, step);
         return bytes;
     }
 
@@ -355,6 +362,15 @@ BakeFileOptions allMaps() {
     BakeFileOptions bake;
     for (std::uint32_t i = 0; i < kMapLayerCount; ++i) bake.layers.layers.push_back(static_cast<MapLayer>(i));
     return bake;
+}
+
+std::vector<std::string> finishOutputs(const std::vector<std::string>& others, const std::string& output,
+                                       const FinishOptions& options) {
+    if (options.low.empty()) return {output};
+    BakeFileOptions bake = options.bake;
+    bake.out_mesh = output;
+    bake.file = options.file;
+    return outputsBeside(others, options.low, namesOf(output), bake);
 }
 
 Result<FinishReport> finishFile(const std::string& input, const std::string& output, const FinishOptions& options) {

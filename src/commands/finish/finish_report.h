@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "commands/shared/page/page_parts.h"
 #include "commands/shared/report.h"
@@ -16,6 +17,10 @@ namespace tspace {
 /// `output`: its bytes; pictures of the models as they were are drawn of their files, which are read once more. Throws FileError.
 std::string finishPage(const FinishReport& report, const std::string& output_path, std::span<const std::uint8_t> output,
                        const FileOptions& file, const PageOrigin& origin);
+
+/// The files that finishFile() writes, for a comparison with `others` as in outputsBeside(), but for the page.
+std::vector<std::string> finishOutputs(const std::vector<std::string>& others, const std::string& output,
+                                       const FinishOptions& options);
 
 }  // namespace tspace
 

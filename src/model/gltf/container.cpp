@@ -365,6 +365,12 @@ std::string freeFileName(const Document& document, const OutputTarget& target, c
     return name;
 }
 
+std::vector<std::string> bufferFilesOf(const std::string& path) {
+    if (!isGltfName(path) || isGlbOutput(path)) return {};
+    const std::string stem = path.substr(0, path.rfind('.'));
+    return {stem + ".bin", stem + kNewBufferEnding};
+}
+
 void convertContainer(Document& document, const OutputTarget& target, bool will_edit,
                       std::vector<std::string>& warnings) {
     if (target.container == Container::glb) {

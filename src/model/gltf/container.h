@@ -67,6 +67,9 @@ bool namesFile(const Document& document, const std::string& name);
 /// Name for a buffer file of the output that no URI of the document has: "<stem><ending>".
 std::string freeFileName(const Document& document, const OutputTarget& target, const std::string& ending);
 
+/// Buffer files that a model may get beside it; none unless its name ends in .gltf.
+std::vector<std::string> bufferFilesOf(const std::string& path);
+
 /// Writes model, own buffers, and copies of the other files it names when the folder is another one.
 void writeDocument(Document& document, const OutputTarget& target, AtomicOutput& output,
                    std::vector<std::string>& warnings, const Execution& execution);

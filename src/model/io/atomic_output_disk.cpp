@@ -16,6 +16,7 @@
 
 #include "core/base/border.h"
 #include "core/base/unique_index.h"
+#include "model/io/abandoned_files.h"
 #include "model/io/atomic_output.h"
 #include "model/io/file_error.h"
 #include "model/io/file_io.h"
@@ -195,6 +196,16 @@ std::uint64_t removeAbandonedFiles(const std::string& folder, bool with_folders_
         return Done{};
     }));
     return count;
+}
+
+void removeAbandonedOnce(const Path& folder) {
+    static std::mutex mutex;
+    static std::set<std::string> known;
+    {
+        const std::lock_guard lock(mutex);
+        if (!known.insert(folder.string()).second) return;
+    }
+    removeAbandonedFiles(folder.string(), false);
 }
 
 namespace {
@@ -412,6 +423,7 @@ void AtomicOutput::addFile(File planned, const std::function<int(const Sink&)>& 
         if (failure != 0) failToWrite(added.target, std::strerror(failure));
         return;
     }
+    removeAbandonedOnce(folderOf(added.target));
     makeFolders(added.target);
     CFile file;
     {
