@@ -67,11 +67,10 @@ class DdsReader {
 
     std::optional<TextureFile> read() {
         constexpr std::size_t kHeadBytes = 128, kHeightAt = 12, kWidthAt = 16;
-        constexpr std::uint32_t kMostSize = std::uint32_t{1} << 30;  // no product overflows
         why_ = "it is a broken DDS";
         if (bytes_.size() < kHeadBytes || number(4) != kHeadBytes - 4) return {};
         texture_.container = "DDS";
-        texture_.size = {std::min(number(kWidthAt), kMostSize), std::min(number(kHeightAt), kMostSize)};
+        texture_.size = {std::min(number(kWidthAt), kMostTextureSide), std::min(number(kHeightAt), kMostTextureSide)};
         data_at_ = kHeadBytes;
         if (texture_.size.pixels() == 0 || !isPicture() || !findFormat()) return {};
         why_ = "it is a broken DDS";

@@ -10,8 +10,6 @@ namespace tspace {
 
 namespace {
 
-constexpr std::uint32_t kMostSize = std::uint32_t{1} << 30;  // no product overflows
-
 /// Vulkan's number of a format, and whether it has the sRGB curve.
 struct VulkanFormat {
     std::uint16_t number;
@@ -54,7 +52,7 @@ class Ktx2Reader {
         if (bytes_.size() < kHeadBytes || !std::equal(std::begin(kIdentifier), std::end(kIdentifier), bytes_.begin()))
             return {};
         texture_.container = "KTX2";
-        texture_.size = {std::min(number(20), kMostSize), std::min(number(24), kMostSize)};
+        texture_.size = {std::min(number(20), kMostTextureSide), std::min(number(24), kMostTextureSide)};
         if (texture_.size.pixels() == 0 || !isPicture() || !readDescription() || !findFormat() || !findRepacking() ||
             !findLevel())
             return {};

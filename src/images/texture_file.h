@@ -79,9 +79,12 @@ class LayoutGuess {
 /// How KTX2 packs its levels once more.
 enum class Repacking : std::uint8_t { none, zstd, zlib, basisLz };
 
+/// Sizes in headers are clamped to this. The product of two sides and up to 256 bytes for each texel then fits 64 bits.
+inline constexpr std::uint32_t kMostTextureSide = std::uint32_t{1} << 28;
+
 struct TextureFile {
     const char* container = "";  ///< "KTX2", "DDS"
-    ImageSize size = {};         ///< at most 2^30 each
+    ImageSize size = {};         ///< at most kMostTextureSide each
     TexelFormat format = {};
     Repacking repacking = Repacking::none;
     /// The first, which is the largest, as it lies in the file. Of a KTX2 that is packed once more any number of bytes.

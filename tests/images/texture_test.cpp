@@ -345,6 +345,15 @@ TEST(Texture, RefusesAFewBytesThatClaimManyPixels) {
               "it is a broken DDS");
 }
 
+TEST(Texture, SizesWhoseProductWith64BitsWouldBeZeroAreRefused) {
+    // 2^30 * 2^30 texels of 16 bytes (RGBA as floats).
+    constexpr std::uint32_t kSide = std::uint32_t{1} << 30;
+    constexpr std::uint64_t kAny = ~std::uint64_t{0};
+    EXPECT_EQ(whyNot(ddsFile(2, kSide, kSide, ""), kAny), "it is a broken DDS");
+    EXPECT_EQ(whyNot(ktx2File({.format = 109, .width = kSide, .height = kSide, .levels = {""}}), kAny),
+              "it is a broken KTX2");
+}
+
 TEST(Texture, ReadsTheLevelThatIsAskedFor) {
     // Red tells levels apart; 4 x 2, 2 x 1 and 1 x 1 texels of two bytes.
     const std::vector<std::string> levels = {std::string(16, '\x10'), std::string(4, '\x20'), std::string(2, '\x30')};
