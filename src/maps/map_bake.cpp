@@ -47,6 +47,7 @@ class Baking {
                                                          allocator_, shared_ == nullptr ? nullptr : shared_->surface);
         if (!surfaces) return std::move(surfaces).error();
         if (shared_ != nullptr) shared_->surface = surfaces->surface();
+        tell("tracing");
         const LowUvs uvs(low_, allocator_);
         const std::uint32_t padding = std::max(options_.padding, kFilterTexels);
         std::optional<TexelTriangles> triangles =
@@ -58,6 +59,7 @@ class Baking {
         if (triangles->counts.inside == 0)
             return makeError(ErrorCode::missingAttribute, kNoElement, "the UVs of the low poly cover no texel");
         traceTexels(*surfaces, *triangles, options_, work_, traced_);
+        tell("tracing");
         countOrigins(*triangles);
         if (map_.hit_count == 0 && shared_ == nullptr)
             return makeError(ErrorCode::missingAttribute, kNoElement, "no line from the low poly meets the high poly");
@@ -68,7 +70,7 @@ class Baking {
         if (solves()) {
             solve(*surfaces, *triangles);
         } else {
-            tellOfFitting();
+            tell("fitting");
             if (options_.bits == 8) takeNearest();
         }
         writeTexels();
@@ -106,8 +108,8 @@ class Baking {
         return std::move(map_);
     }
 
-    void tellOfFitting() const {
-        if (work_.progress) work_.progress("fitting", 0, 1);
+    void tell(const char* what) const {
+        if (work_.progress) work_.progress(what, 0, 1);
     }
 
     /// Takes the triangles: their memory is not needed beside that of the system.
@@ -117,7 +119,7 @@ class Baking {
         const TexelPlan plan = planTexels(traced_, triangles, sampling.tolerance, has_integers, parallel_, allocator_);
         triangles = {};
         solveInStrips(surfaces, plan, sampling.points, options_, work_, traced_);
-        tellOfFitting();
+        tell("fitting");
         if (has_integers) return;
         const std::span<Vec3> texels(traced_.wanted.data(), traced_.wanted.size());
         // What shows nothing is rounded as it is written.
@@ -166,11 +168,13 @@ class Baking {
     }
 
     BakedMap measured(const MapSurfaces& surfaces) {
+        tell("measuring");
         if (options_.rays.target == RayTarget::outermost || !low_.cage.empty()) {
             map_.error = errorAgainst(surfaces, options_.heat);
             return std::move(map_);
         }
         map_.own_error = errorAgainst(surfaces, false);
+        tell("measuring");
         RayOptions seen = options_.rays;
         seen.target = RayTarget::outermost;
         map_.error = errorAgainst(surfaces.withRays(seen, 0, parallel_, allocator_), options_.heat);

@@ -418,6 +418,9 @@ BakeModels readBakeModels(const std::string& low_path, const std::string& high_p
                           const BakeSources& sources) {
     BakeModels models;
     const OpenedModel low(low_path, sources.low, options.file), high(high_path, sources.high, options.file);
+    const auto tell = [&] {
+        if (options.progress) options.progress("reading", 0, 1);
+    };
     DrawnScene low_scene = aboutInput(BakeInput::low, [&] {
         BakeFileOptions of_low = options;
         of_low.file = low.file;
@@ -432,10 +435,12 @@ BakeModels readBakeModels(const std::string& low_path, const std::string& high_p
             return read;
         });
     }
+    tell();
     DrawnScene high_scene = aboutInput(BakeInput::high, [&] {
         return showsMaterials(options.layers) ? readMaterialScene(high.name, high.file, !options.ignore_high_maps)
                                               : readDrawnScene(high.name, high.file, !options.ignore_high_maps);
     });
+    tell();
     const DVec3 of_high = farPlace(high_scene);
     const DVec3 origin = length(of_high) > 0 ? of_high : farPlace(low_scene);
     for (DrawnScene* const scene : {&low_scene, &cage_scene, &high_scene}) moveBy(origin, *scene);
@@ -446,12 +451,14 @@ BakeModels readBakeModels(const std::string& low_path, const std::string& high_p
                             [&] { return lowModel(low_scene, options.cage.empty() ? nullptr : &cage_scene, used); });
     models.low.frames_made = frames_made;
     models.low.origin = origin;
+    tell();
     models.high = aboutInput(BakeInput::high, [&] { return highModel(high_scene, used, high.name, options); });
     if (showsMaterials(options.layers) || shows(options.layers, MapLayer::id))
         models.high_scene = std::move(high_scene);
     if (!options.skew.empty())
         models.skew =
             aboutInput(BakeInput::skew, [&] { return readFloatImage(options.skew, options.file, ImageUse::numbers); });
+    tell();
     models.high.warnings.insert(models.high.warnings.end(), match.warnings.begin(), match.warnings.end());
     const std::string why = misplacement(models.lowBox(), PositionBox(models.high.view().positions));
     if (!why.empty()) models.high.warnings.push_back(why);

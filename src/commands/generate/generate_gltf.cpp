@@ -175,12 +175,14 @@ WorkedOn edit(Input& input, const Storage& storage, Decisions&& decisions, Gener
     stripTangents(editor, primitives, reports);
     // What follows looks at the new tangents.
     input.model.wasEdited();
+    tell(options, "writing", 0, 1);
     if (decisions.maps) report.converted_maps = decisions.maps->run(editor, input.target, reports);
     if (options.pack) writePackedFrames(editor, document, options, reports);
     MapFlips& flips = decisions.flips;
     report.normal_maps = std::move(flips.reports);
     if (!flips.images.empty() || !flips.mended.empty()) applyFlips(document, editor, input.target, std::move(flips));
     editor.finish();
+    tell(options, "writing", 0, 1);
     const bool is_packed = packGeometry(document, options.compression, storage.new_file);
     report.primitives = std::move(reports);
     report.changed = editor.changed() || input.is_converted || storage.is_unpacked || is_packed;
@@ -239,9 +241,11 @@ WorkedOn generate(Input& input, bool with_images, const GenerateStep& step, Gene
     std::copy_n(document.coordinate_offset.begin(), 3, report.coordinate_offset);
     const Storage storage = prepareStorage(input, report.warnings);
     const bool were_mended = mendNormalLengths(input, storage, report.warnings);
+    tell(input.options, "reading", 1, 1);
     WindingPlan winding;
     const bool was_turned = turnWrong(input, storage, step.wound_meshes, were_mended, winding, report.warnings);
     report.windings = std::move(winding.reports);
+    tell(input.options, "reading", 1, 1);
     Decisions decisions = decide(input.model, input.options, step.normals, report.warnings);
     report.input_bytes = document.input_bytes;
     if (input.options.compression == Compression::keep && !was_turned && !were_mended) {
@@ -302,6 +306,7 @@ void writeGenerated(const std::string& input, Document& document, const OutputTa
     } else {
         writeUnchanged(document, target, files, report.warnings);
     }
+    tell(options, "writing", 1, 1);
     tellFiles(input, document, files, report);
     addWarnings(options, worked_on, is_step, report);
     tell(options, "writing", 1, 1);

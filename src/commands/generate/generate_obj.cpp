@@ -193,6 +193,10 @@ void packWritten(const GenerateOptions& options, FinishedPrimitive& finished, Pr
     if (report.normals_dropped) mesh.normals.clear();
 }
 
+void tell(const GenerateOptions& options, const char* what, std::uint64_t done, std::uint64_t total) {
+    if (options.progress) options.progress(what, done, total);
+}
+
 /// `replaced`: its normals were there.
 FinishedPrimitive finish(const Model& model, const ObjPrimitive& primitive, bool replaced,
                          const GenerateOptions& options, PrimitiveReport& report) {
@@ -203,6 +207,7 @@ FinishedPrimitive finish(const Model& model, const ObjPrimitive& primitive, bool
     FinishedPrimitive finished{
         .shape = primitive.shape, .material = primitive.material, .mesh = buildMesh(model, primitive)};
     OwnedMesh& mesh = finished.mesh;
+    tell(options, "computing tangents", 0, 0);
     // Before tangents are computed: they belong to the normals that are written.
     if (primitive.normals_generated) roundUnits(mesh.normals, options.format);
     if (decide(material, primitive, options, report)) {
@@ -210,6 +215,7 @@ FinishedPrimitive finish(const Model& model, const ObjPrimitive& primitive, bool
     } else {
         cutPolygons(mesh, report);
     }
+    tell(options, "computing tangents", 0, 0);
     report.normals_generated = primitive.normals_generated;
     report.normals_replaced = replaced;
     if (primitive.normals_generated)
@@ -218,10 +224,6 @@ FinishedPrimitive finish(const Model& model, const ObjPrimitive& primitive, bool
     finished.tangent_format = options.format;
     if (options.pack) packWritten(options, finished, report);
     return finished;
-}
-
-void tell(const GenerateOptions& options, const char* what, std::uint64_t done, std::uint64_t total) {
-    if (options.progress) options.progress(what, done, total);
 }
 
 /// What is made of an OBJ file, and what only the writer needs of how.
@@ -239,8 +241,10 @@ Made generate(const std::string& input, const std::string& output, const Generat
     }
     tell(options, "reading", 0, 0);
     Model model = readModel(input, options.file);
+    tell(options, "reading", 1, 1);
     std::vector<std::uint8_t> turned;
     if (options.mend_winding) turned = mendObjWinding(model, options, report);
+    tell(options, "reading", 1, 1);
     std::vector<ObjPrimitive> primitives = collectPrimitives(model);
     tell(options, "computing normals", 0, 0);
     std::vector<bool> had_normals;
@@ -266,6 +270,7 @@ Made generate(const std::string& input, const std::string& output, const Generat
         // some.
         if (primitive.normals_generated) entry.normals = std::exchange(normals, {});
     }
+    tell(options, "writing", 0, 1);
     report.changed = true;
     report.input_bytes = model.input_bytes;
     report.warnings = model.warnings;

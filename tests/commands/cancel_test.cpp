@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+// Progress callbacks come often enough to end a call within a second, and a call that they end has written nothing.
+#include <gtest/gtest.h>
+#include <time.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <sstream>
+
+#include "support/temp_folder.h"
+#include "tspace/asset.h"
+#include "tspace/bake_file.h"
+#include "tspace/finish_file.h"
+
+namespace tspace::test {
+namespace {
+
+/// A square of side * side quads with hills, and UVs.
+std::string grid(int side) {
+    std::ostringstream text;
+    for (int y = 0; y <= side; ++y) {
+        for (int x = 0; x <= side; ++x) {
+            const double u = 1.0 * x / side, v = 1.0 * y / side;
+            text << "v " << u << ' ' << v << ' ' << 0.01 * std::sin(40 * u) << "\nvt " << u << ' ' << v << '\n';
+        }
+    }
+    for (int y = 0; y < side; ++y) {
+        for (int x = 1; x <= side; ++x) {
+            text << 'f';
+            const int corner = y * (side + 1) + x;
+            for (const int at : {corner, corner + 1, corner + side + 2, corner + side + 1})
+                text << ' ' << at << '/' << at;
+            text << '\n';
+        }
+    }
+    return text.str();
+}
+
+/// Processor time of this thread, which the load of the machine does not change.
+double seconds() {
+    timespec time{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+/// Runs call(progress) whole, then stops it at some of its callbacks.
+void expectStops(const std::string& name, const TempFolder& folder,
+                 const std::function<ErrorCode(const Progress&)>& call) {
+    const std::set<std::string> inputs = folder.files();
+    int count = 0;
+    double last = seconds(), longest = 0;
+    const auto measure = [&] {
+        const double now = seconds();
+        longest = std::max(longest, now - last);
+        last = now;
+    };
+    const ErrorCode code = call([&](const char*, std::uint64_t, std::uint64_t) {
+        measure();
+        ++count;
+    });
+    measure();
+    if (code == ErrorCode::unsupportedFile) GTEST_SKIP() << "this build bakes no maps";
+    ASSERT_EQ(code, ErrorCode::ok) << name;
+    EXPECT_LT(longest, 0.6) << name;
+    for (const std::string& file : folder.files()) {
+        if (!inputs.contains(file)) std::filesystem::remove(folder.path(file));
+    }
+    for (const int stop : {0, 1, count / 3, 2 * count / 3, count - 2}) {
+        int left = stop;
+        EXPECT_EQ(call([&](const char*, std::uint64_t, std::uint64_t) {
+                      if (left-- == 0) throw Cancelled{};
+                  }),
+                  ErrorCode::cancelled)
+            << name << ", callback " << stop << " of " << count;
+        EXPECT_EQ(folder.files(), inputs) << name;
+    }
+}
+
+template <class Report>
+ErrorCode codeOf(const Result<Report>& result) {
+    return result ? ErrorCode::ok : result.error().code;
+}
+
+TEST(Cancel, EndsFileCallsWithinASecond) {
+    const TempFolder folder;
+    const std::string high = folder.write("high.obj", grid(400)), low = folder.write("low.obj", grid(8));
+    expectStops("generate OBJ", folder, [&](const Progress& progress) {
+        GenerateOptions options;
+        options.all = options.mend_winding = true;
+        options.normals.weighting = NormalWeighting::best;
+        options.normals.crease_angle_deg = NormalOptions::crease_auto;
+        options.progress = progress;
+        return codeOf(generateFile(high, folder.path("a.glb").string(), options));
+    });
+    const std::string model = folder.path("model.glb").string();
+    ASSERT_EQ(codeOf(generateFile(high, model)), ErrorCode::ok);
+    expectStops("generate glTF", folder, [&](const Progress& progress) {
+        GenerateOptions options;
+        options.all = options.overwrite_normals = options.mend_winding = true;
+        options.existing = ExistingTangents::replace;
+        options.progress = progress;
+        return codeOf(generateFile(model, folder.path("a.glb").string(), options));
+    });
+    expectStops("bake", folder, [&](const Progress& progress) {
+        BakeFileOptions options;
+        options.map.width = options.map.height = 512;
+        options.progress = progress;
+        return codeOf(bakeFile(low, model, folder.path("a.png").string(), options));
+    });
+    expectStops("finish", folder, [&](const Progress& progress) {
+        FinishOptions options;
+        options.progress = progress;
+        return codeOf(finishFile(model, folder.path("a.glb").string(), options));
+    });
+}
+
+}  // namespace
+}  // namespace tspace::test
