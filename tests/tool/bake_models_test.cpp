@@ -3,10 +3,12 @@
 #include "tool/baked_sheets.h"
 
 #include <cmath>
+#include <fstream>
 #include <sstream>
 
 #include "core/base/vec_math.h"
 #include "maps/shading.h"
+#include "support/shared_data.h"
 
 namespace tspace::test {
 namespace {
@@ -221,6 +223,29 @@ TEST_F(BakeModels, AMapInObjectSpaceMayHaveZUp) {
     for (const std::string axes : {"x,y", "x,y,y", "x,y,w", "up", "x,y,z,x"})
         EXPECT_EQ(runTool(folder, "bake low.obj --high high.obj -o o.png --space object --axes " + axes).exit_code, 2)
             << axes;
+}
+
+TEST_F(BakeModels, InstancesOfAMirroredHalfGetTheRayDistanceOfWhatTheyShow) {
+    TSPACE_NEEDS_SHARED("reports/second/bake_low_negnode.glb");
+    const std::filesystem::path file = shared("reports/second/bake_low_negnode.glb");
+    const std::string both = "'" + file.string() + "'";
+    std::ostringstream bytes;
+    bytes << std::ifstream(file, std::ios::binary).rdbuf();
+    // The scene without the mirrored node.
+    std::string half = bytes.str();
+    const std::string nodes = R"("nodes": [0, 1])";
+    const std::size_t at = half.find(nodes);
+    ASSERT_NE(at, std::string::npos);
+    half.replace(at, nodes.size(), R"("nodes": [0   ])");
+    folder.write("half.glb", half);
+    const auto distanceOf = [&](const std::string& low, const std::string& high) {
+        const ToolRun run = runTool(folder, "bake " + low + " --high " + high + " --size 16 --json -o n.png");
+        return json::parse(run.out)["files"][0]["reach"].get<double>();
+    };
+    const double alone = distanceOf("half.glb", "half.glb");
+    EXPECT_DOUBLE_EQ(distanceOf(both, "half.glb"), alone);
+    // By the size of the whole, not by the half that the high poly has beyond the low poly's first instance.
+    EXPECT_LT(distanceOf(both, both), 1.5 * alone);
 }
 
 TEST_F(BakeModels, ASizeMayBeWiderThanHigh) {

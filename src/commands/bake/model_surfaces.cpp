@@ -138,6 +138,19 @@ void addPlaced(const MeshView& triangles, std::span<const Vec4> tangents, const 
     }
 }
 
+/// Adds the bounding boxes of a primitive at all of its places.
+void addPlaces(const DrawnScene& drawn, std::size_t primitive, PositionBox& box) {
+    const PositionBox own(drawn.scene.primitives[primitive].positions);
+    if (own.isEmpty()) return;
+    for (const ScenePlacement& placement : drawn.placements) {
+        if (placement.primitive != primitive) continue;
+        for (unsigned corner = 0; corner < 8; ++corner)
+            box.add(placement.to_world.point({(corner & 1) != 0 ? own.most.x : own.least.x,
+                                              (corner & 2) != 0 ? own.most.y : own.least.y,
+                                              (corner & 4) != 0 ? own.most.z : own.least.z}));
+    }
+}
+
 void addCage(const ScenePrimitive& cage, const Affine& place, LowPart& part) {
     for (std::size_t i = 0; i < cage.corners.size(); ++i)
         part.cage.push_back(toFloat(place.point(toDouble(cage.positions[cage.corners[placedCorner(place, i)]]))));
@@ -172,6 +185,7 @@ LowModel lowModel(const DrawnScene& drawn, const DrawnScene* cage, const MeshMat
              .uv_set = use != nullptr ? use->uv_set : 0,
              .transform = use != nullptr ? use->transform : UvTransform{}});
         addPlaced(primitive.view(uvs), primitive.tangents.span(), firstPlace(drawn, i), part.corners);
+        addPlaces(drawn, i, model.all_places);
         part.groups.insert(part.groups.end(), primitive.corners.size() / 3, group);
         if (cage != nullptr) addCage(cage->scene.primitives[i], firstPlace(*cage, i), part);
     }
@@ -368,7 +382,9 @@ PositionBox BakeModels::lowBox() const {
         box.add(part.least);
         box.add(part.most);
     }
-    return box;
+    const PositionBox of_high(high.view().positions);
+    if (box.isEmpty() || of_high.isEmpty()) return box;
+    return low.all_places.difference(of_high) < box.difference(of_high) ? low.all_places : box;
 }
 
 std::size_t LowModel::triangleCount() const {

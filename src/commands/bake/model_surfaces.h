@@ -101,7 +101,8 @@ struct LowModel {
     std::vector<Image> images = {};
     std::vector<std::string> warnings = {};
     bool frames_made = false;
-    DVec3 origin = {};  ///< of the positions, in the world: not zero where both models are far from it
+    PositionBox all_places = {};  ///< bounding box of all instances; `images` has the first instance of each primitive
+    DVec3 origin = {};            ///< of the positions, in the world: not zero where both models are far from it
 
     [[nodiscard]] std::size_t triangleCount() const;
     [[nodiscard]] bool hasCage() const { return !images.empty() && !images.front().part.cage.empty(); }
@@ -149,6 +150,8 @@ struct BakeModels {
     [[nodiscard]] RayOptions rays(const RayOptions& asked, TextureWrap wrap_u, TextureWrap wrap_v) const;
     /// How far rays go for all images alike: what was asked, or by the sizes of both models as a whole.
     [[nodiscard]] double reach(double asked) const;
+    /// Bounding box of the low poly: of the first instances or of all, whichever is nearer to that of the high poly, which may
+    /// have as many instances or only one.
     [[nodiscard]] PositionBox lowBox() const;
 };
 
