@@ -4,6 +4,7 @@
 
 #include "images/image.h"
 #include "support/scene_file.h"
+#include "support/shared_data.h"
 #include "tool/run_tool.h"
 
 namespace tspace::test {
@@ -47,6 +48,15 @@ TEST(RenderCommand, ReportsAsJson) {
     const auto failed = nlohmann::json::parse(runTool(folder, "render --json none.glb -o b.png").out);
     EXPECT_EQ(failed["ok"], false);
     EXPECT_EQ(failed["exitCode"], 4);
+}
+
+TEST(RenderCommand, DrawsAllInstancesOfANode) {
+    TSPACE_NEEDS_SHARED("reports/second/negscale_instance.glb");
+    const TempFolder folder;
+    const ToolRun run = runTool(
+        folder, "render --json '" + shared("reports/second/negscale_instance.glb").string() + "' -o a.png --size 64");
+    // Two of 768 triangles each.
+    EXPECT_EQ(nlohmann::json::parse(run.out)["triangles"], 1536) << run.err;
 }
 
 TEST(RenderCommand, TakesPipes) {

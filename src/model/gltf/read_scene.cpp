@@ -27,6 +27,14 @@ std::optional<TextureReading> readOwnTexture(const Document& document, const Jso
     return readTexture(document, *texture, join(place, key));
 }
 
+Affine transformOf(const double (&move)[3], const double (&turn)[4], const double (&scale)[3]) {
+    const double x = turn[0], y = turn[1], z = turn[2], w = turn[3];
+    return {scale[0] * DVec3{1 - 2 * (y * y + z * z), 2 * (x * y + z * w), 2 * (x * z - y * w)},
+            scale[1] * DVec3{2 * (x * y - z * w), 1 - 2 * (x * x + z * z), 2 * (y * z + x * w)},
+            scale[2] * DVec3{2 * (x * z + y * w), 2 * (y * z - x * w), 1 - 2 * (x * x + y * y)},
+            {move[0], move[1], move[2]}};
+}
+
 /// The local transform of a node: a matrix, or translation, rotation and scale.
 Affine readTransform(const Json& node, const std::string& place) {
     if (findMember(node, "matrix") != nullptr) {
@@ -38,11 +46,37 @@ Affine readTransform(const Json& node, const std::string& place) {
     readNumbers(node, "translation", place, move);
     readNumbers(node, "rotation", place, turn);
     readNumbers(node, "scale", place, scale);
-    const double x = turn[0], y = turn[1], z = turn[2], w = turn[3];
-    return {scale[0] * DVec3{1 - 2 * (y * y + z * z), 2 * (x * y + z * w), 2 * (x * z - y * w)},
-            scale[1] * DVec3{2 * (x * y - z * w), 1 - 2 * (x * x + z * z), 2 * (y * z + x * w)},
-            scale[2] * DVec3{2 * (x * z + y * w), 2 * (y * z - x * w), 1 - 2 * (x * x + y * y)},
-            {move[0], move[1], move[2]}};
+    return transformOf(move, turn, scale);
+}
+
+/// EXT_mesh_gpu_instancing: where a node draws its mesh, relative to the node; one identity without it. An attribute of a
+/// wrong type, or without data, is ignored.
+std::vector<Affine> readInstances(const Document& document, const Json& node, const std::string& place) {
+    const Json* const extension = findExtension(node, "EXT_mesh_gpu_instancing");
+    const Json* const attributes = extension == nullptr ? nullptr : findMember(*extension, "attributes");
+    if (attributes == nullptr || !attributes->is_object()) return {Affine{}};
+    const std::string at = place + "/extensions/EXT_mesh_gpu_instancing/attributes";
+    std::optional<std::size_t> count;
+    const auto read = [&](const char* name, std::size_t width, const auto& decode) {
+        using List = decltype(decode(document, Accessor{}, at));
+        const auto index = readIndex(*attributes, name, at, rootArray(document, "accessors").size(), "accessor");
+        if (!index) return List{};
+        const Accessor accessor = readAccessor(document, *index);
+        if (accessor.component_count != width || !hasData(document, accessor)) return List{};
+        document.memory->require(accessor.count * (sizeof(Affine) + sizeof(Vec4)), join(at, name));
+        count = std::min(count.value_or(accessor.count), accessor.count);
+        return decode(document, accessor, join(at, name));
+    };
+    const std::vector<Vec3> moves = read("TRANSLATION", 3, decodeVec3), scales = read("SCALE", 3, decodeVec3);
+    const std::vector<Vec4> turns = read("ROTATION", 4, decodeVec4);
+    std::vector<Affine> instances(count.value_or(1));
+    for (std::size_t i = 0; i < instances.size(); ++i) {
+        const Vec3 move = moves.empty() ? Vec3{} : moves[i], scale = scales.empty() ? Vec3{1, 1, 1} : scales[i];
+        const Vec4 turn = turns.empty() ? Vec4{0, 0, 0, 1} : turns[i];
+        instances[i] =
+            transformOf({move.x, move.y, move.z}, {turn.x, turn.y, turn.z, turn.w}, {scale.x, scale.y, scale.z});
+    }
+    return instances;
 }
 
 /// The nodes of a document as a forest: nodes with several parents, and cycles, are cut off.
@@ -191,11 +225,15 @@ std::vector<ScenePlacement> readPlacements(const Document& document, std::span<c
         const auto mesh = readIndex(nodes[node], "mesh", join("/nodes", node), mesh_count, "mesh");
         if (!mesh) continue;
         const Affine place = boundPlace(document, nodes, node).value_or(nodes.world(node));
-        document.memory->take(of_mesh[*mesh].size() * sizeof(ScenePlacement), join("/nodes", node));
+        const std::vector<Affine> instances = readInstances(document, nodes[node], join("/nodes", node));
+        document.memory->take(instances.size() * of_mesh[*mesh].size() * sizeof(ScenePlacement), join("/nodes", node));
         // A name that is no text is none: it draws nothing.
         const Json* const given = findMember(nodes[node], "name");
         const std::string name = given != nullptr && given->is_string() ? given->get<std::string>() : std::string();
-        for (const std::size_t primitive : of_mesh[*mesh]) placements.push_back({primitive, place, name});
+        for (const Affine& instance : instances) {
+            for (const std::size_t primitive : of_mesh[*mesh])
+                placements.push_back({primitive, compose(place, instance), name});
+        }
     }
     if (placements.empty()) {
         for (std::size_t i = 0; i < primitives.size(); ++i) placements.push_back({i, {}, {}});
@@ -301,6 +339,7 @@ std::vector<ScenePose> readPoses(const Document& document, DecodedArrays& arrays
             morphWeights(nodes[node], node_place, meshes[*mesh], join("/meshes", *mesh));
         const std::vector<Affine> joints =
             skin ? jointMatrices(document, nodes, skins[*skin], join("/skins", *skin)) : std::vector<Affine>();
+        const std::size_t first = poses.size();
         for (const std::size_t i : of_mesh[*mesh]) {
             const ScenePrimitive& primitive = scene.primitives[i];
             const bool is_moved = !joints.empty() || std::any_of(weights.begin(), weights.end(),
@@ -314,6 +353,17 @@ std::vector<ScenePose> readPoses(const Document& document, DecodedArrays& arrays
             addOffsets(primitive, weights, &SceneMorphTarget::normals, pose.normals);
             addOffsets(primitive, weights, &SceneMorphTarget::tangents, pose.tangents);
             pose.bones = blendedBones(arrays, primitives[i], joints);
+        }
+        const std::size_t count = poses.size() - first,
+                          copies = readInstances(document, nodes[node], node_place).size();
+        for (std::size_t i = 1; i < copies; ++i) {
+            for (std::size_t k = 0; k < count; ++k) {
+                ScenePose copy = poses[first + k];
+                document.memory->take(
+                    sizeof(ScenePose) + copy.bones.size() * sizeof(Affine) + 3 * copy.positions.size() * sizeof(Vec3),
+                    node_place);
+                poses.push_back(std::move(copy));
+            }
         }
     }
     if (poses.empty()) poses.resize(primitives.size());
