@@ -4,10 +4,9 @@
 #include <time.h>
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
-#include <sstream>
 
+#include "support/grid_obj.h"
 #include "support/temp_folder.h"
 #include "tspace/asset.h"
 #include "tspace/bake_file.h"
@@ -15,27 +14,6 @@
 
 namespace tspace::test {
 namespace {
-
-/// A square of side * side quads with hills, and UVs.
-std::string grid(int side) {
-    std::ostringstream text;
-    for (int y = 0; y <= side; ++y) {
-        for (int x = 0; x <= side; ++x) {
-            const double u = 1.0 * x / side, v = 1.0 * y / side;
-            text << "v " << u << ' ' << v << ' ' << 0.01 * std::sin(40 * u) << "\nvt " << u << ' ' << v << '\n';
-        }
-    }
-    for (int y = 0; y < side; ++y) {
-        for (int x = 1; x <= side; ++x) {
-            text << 'f';
-            const int corner = y * (side + 1) + x;
-            for (const int at : {corner, corner + 1, corner + side + 2, corner + side + 1})
-                text << ' ' << at << '/' << at;
-            text << '\n';
-        }
-    }
-    return text.str();
-}
 
 /// Processor time of this thread, which the load of the machine does not change.
 double seconds() {
@@ -84,7 +62,7 @@ ErrorCode codeOf(const Result<Report>& result) {
 
 TEST(Cancel, EndsFileCallsWithinASecond) {
     const TempFolder folder;
-    const std::string high = folder.write("high.obj", grid(400)), low = folder.write("low.obj", grid(8));
+    const std::string high = folder.write("high.obj", gridObj(400, 0.01)), low = folder.write("low.obj", gridObj(8, 0));
     expectStops("generate OBJ", folder, [&](const Progress& progress) {
         GenerateOptions options;
         options.all = options.mend_winding = true;

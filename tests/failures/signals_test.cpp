@@ -2,12 +2,12 @@
 // Signals at random moments of each command: it ends at once, with all outputs or none, and leaves no temporary file.
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <functional>
 #include <iterator>
 #include <random>
 #include <thread>
 
+#include "support/grid_obj.h"
 #include "tool/run_tool.h"
 #include "tool/started_tool.h"
 
@@ -20,29 +20,6 @@ double secondsOf(const std::function<void()>& work) {
     const auto start = std::chrono::steady_clock::now();
     work();
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-/// A square of side * side quads with hills, and UVs.
-std::string grid(int side, double height) {
-    std::ostringstream text;
-    for (int y = 0; y <= side; ++y) {
-        for (int x = 0; x <= side; ++x) {
-            const double u = 1.0 * x / side, v = 1.0 * y / side;
-            text << "v " << u << ' ' << v << ' ' << height * std::sin(40 * u) * std::cos(30 * v) << "\nvt " << u << ' '
-                 << v << '\n';
-        }
-    }
-    text << "usemtl skin\n";
-    for (int y = 0; y < side; ++y) {
-        for (int x = 1; x <= side; ++x) {
-            text << 'f';
-            const int corner = y * (side + 1) + x;
-            for (const int at : {corner, corner + 1, corner + side + 2, corner + side + 1})
-                text << ' ' << at << '/' << at;
-            text << '\n';
-        }
-    }
-    return text.str();
 }
 
 /// An uncompressed TGA of vectors near (0, 0, 1).
@@ -62,8 +39,8 @@ std::string mapOf(unsigned side) {
 
 void writeInputs(const TempFolder& folder) {
     folder.write("skin.mtl", "newmtl skin\nmap_Bump map.tga\n");
-    folder.write("low.obj", "mtllib skin.mtl\n" + grid(8, 0));
-    folder.write("high.obj", "mtllib skin.mtl\n" + grid(150, 0.01));
+    folder.write("low.obj", "mtllib skin.mtl\n" + gridObj(8, 0, "usemtl skin\n"));
+    folder.write("high.obj", "mtllib skin.mtl\n" + gridObj(150, 0.01, "usemtl skin\n"));
     folder.write("map.tga", mapOf(512));
     folder.write("small.tga", mapOf(64));
     folder.write("pairs.txt", "low.obj = high.obj\nlow.obj = high.obj = other.png\n");
