@@ -25,13 +25,15 @@
 //! ```
 //!
 //! The same in steps: [`tangents`] per corner, mended by [`sanitize`], then [`split`]. A mesh that deforms takes a [`Plan`].
-//! Code that calls `bevy_mikktspace` finds its trait in [`mikktspace`].
+//! Code that calls `bevy_mikktspace` finds its trait in [`mikktspace`] (versions up to 0.16) or [`bevy_mikktspace`] (0.17 and 1.0).
 //!
 //! - Slices are read where they lie, interleaved ones too ([`Points::interleaved`]). Nothing is kept after a call.
 //! - Results have the same bits on every CPU, for any number of threads, and in every language that tspace has.
 //! - Broken geometry (NaN, faces without area) is no error: reports count it, and [`sanitize`] mends the result.
 //! - Nothing is printed. A panic is a defect of this crate.
 
+pub mod bevy_mikktspace;
+mod callbacks;
 mod error;
 mod frames;
 mod mesh;

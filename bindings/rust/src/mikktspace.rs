@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-//! For code that calls the crates `mikktspace` or `bevy_mikktspace` today: their trait, and their function, which gives the
-//! same bits.
+//! For code that calls the crate `mikktspace` 0.3, or `bevy_mikktspace` up to 0.16: their trait, and their function, which gives
+//! the same bits. Versions 0.17 and 1.0 of `bevy_mikktspace` have another trait, in [`bevy_mikktspace`](crate::bevy_mikktspace).
 //!
 //! ```
 //! use tspace::mikktspace::{generate_tangents, Geometry};
@@ -22,7 +22,7 @@
 //! assert_eq!(triangle.tangents, [[1.0, 0.0, 0.0, 1.0]; 3]);
 //! ```
 
-use crate::{tangents_full, Convention, Mesh, Ngons, TangentOptions};
+use crate::callbacks::{generate, Reader};
 
 /// What the reference's callbacks are.
 pub trait Geometry {
@@ -57,50 +57,40 @@ pub trait Geometry {
     fn set_tangent_encoded(&mut self, _tangent: [f32; 4], _face: usize, _vert: usize) {}
 }
 
+struct Reading<'a, G: ?Sized>(&'a G);
+
+impl<G: Geometry + ?Sized> Reader for Reading<'_, G> {
+    fn num_faces(&self) -> usize {
+        self.0.num_faces()
+    }
+    fn num_vertices_of_face(&self, face: usize) -> usize {
+        self.0.num_vertices_of_face(face)
+    }
+    fn corner(&self, face: usize, vert: usize) -> ([f32; 3], [f32; 3], [f32; 2]) {
+        (self.0.position(face, vert), self.0.normal(face, vert), self.0.tex_coord(face, vert))
+    }
+}
+
 /// Tangents as the MikkTSpace reference makes them. False where there is nothing that it takes, and nothing is set then.
 ///
 /// Beside the reference this reads all corners first, so that a callback is asked for each of them once.
 pub fn generate_tangents<G: Geometry + ?Sized>(geometry: &mut G) -> bool {
-    let (mut positions, mut normals, mut uvs) = (Vec::new(), Vec::new(), Vec::new());
-    let sizes: Vec<usize> = (0..geometry.num_faces())
-        .map(|face| geometry.num_vertices_of_face(face))
-        .map(|corners| if corners == 3 || corners == 4 { corners } else { 0 })
-        .collect();
-    for (face, &corners) in sizes.iter().enumerate() {
-        for vert in 0..corners {
-            positions.push(geometry.position(face, vert));
-            normals.push(geometry.normal(face, vert));
-            uvs.push(geometry.tex_coord(face, vert));
-        }
-    }
-    if positions.is_empty() {
-        return false;
-    }
-    let options = match Convention::preset("opengl") {
-        Ok(convention) => TangentOptions { ngons: Ngons::Skip, ..TangentOptions::new(convention) },
-        Err(_) => return false,
+    let made = match generate(&Reading(geometry), 180.0) {
+        Ok(made) if !made.tangents.tangents.is_empty() => made,
+        _ => return false,
     };
-    let face_sizes: Vec<u32> = sizes.iter().map(|&corners| corners as u32).collect();
-    let mesh = Mesh::new(&positions).normals(&normals).uvs(&uvs).face_sizes(&face_sizes);
-    let made = match tangents_full(&mesh, &options) {
-        Ok(made) => made,
-        Err(_) => return false,
-    };
-    let mut corner = 0;
-    for (face, &corners) in sizes.iter().enumerate() {
-        for vert in 0..corners {
-            let [x, y, z, sign] = made.tangents[corner];
-            geometry.set_tangent(
-                [x, y, z],
-                made.bitangents[corner],
-                made.magnitudes_s[corner],
-                made.magnitudes_t[corner],
-                sign > 0.0,
-                face,
-                vert,
-            );
-            corner += 1;
-        }
+    for (corner, (face, vert)) in made.corners().enumerate() {
+        let tangents = &made.tangents;
+        let [x, y, z, sign] = tangents.tangents[corner];
+        geometry.set_tangent(
+            [x, y, z],
+            tangents.bitangents[corner],
+            tangents.magnitudes_s[corner],
+            tangents.magnitudes_t[corner],
+            sign > 0.0,
+            face,
+            vert,
+        );
     }
     true
 }
