@@ -2,12 +2,13 @@
 /* The interface of the MikkTSpace reference implementation, answered by tspace with the same bits.
  *
  * A program that uses the reference puts the folder of this file on its include path and links tspace; its
- * sources stay as they are. Names, order and signatures are those of the reference (Morten S. Mikkelsen), the
- * explanations are tspace's.
+ * sources stay as they are. Programs that include "mikktspace/mikktspace.h" find that file in tspace's include
+ * folder. Names, order and signatures are those of the reference (Morten S. Mikkelsen), the explanations are
+ * tspace's. tspace_genTangSpace alone is an addition.
  *
  * Differences, all on the safe side: linear time and no recursion whatever the mesh; missing pointers give 0
- * instead of a crash; each corner is read once; large meshes are computed by several threads. Callbacks are
- * called from the calling thread only, all getters before the first setter.
+ * instead of a crash; each corner is read once. Callbacks are called from the calling thread only, all getters
+ * before the first setter.
  */
 #ifndef TSPACE_COMPAT_MIKKTSPACE_H
 #define TSPACE_COMPAT_MIKKTSPACE_H
@@ -66,6 +67,13 @@ tbool genTangSpaceDefault(const SMikkTSpaceContext* pContext);
 /* The same with a threshold in degrees: faces whose tangents differ by this or more are not averaged. Any
  * float is taken, as by the reference: only its cosine counts. */
 tbool genTangSpace(const SMikkTSpaceContext* pContext, const float fAngularThreshold);
+
+/* genTangSpace with a number of threads and an allocator for all of its memory: tspace_Execution of
+ * tspace/tspace.h, prepared by TSPACE_INIT; null: one thread and operator new. It changes no bit. Also 0 for an
+ * execution that was not prepared. */
+struct tspace_Execution;
+tbool tspace_genTangSpace(const SMikkTSpaceContext* pContext, const float fAngularThreshold,
+                          const struct tspace_Execution* execution);
 
 #ifdef __cplusplus
 }

@@ -47,6 +47,8 @@ auto withMemory(Body&& body) -> std::invoke_result_t<Body> {
         return {};
     } catch (const std::length_error&) {
         return {};
+    } catch (const OutOfMemory&) {
+        return {};
     }
 #else
     return body();

@@ -2,22 +2,27 @@
 // The MikkTSpace reference's interface: reads all corners through the callbacks, then calls generateTangents.
 #include "tspace/compat/mikktspace.h"
 
-#include <numeric>
-#include <vector>
-
 #include "core/base/border.h"
+#include "core/base/memory.h"
+#include "core/c_api/c_convert.h"
 #include "tspace/tangents.h"
 
 namespace {
 
 /// The caller's faces as far as results depend on them.
 struct Corners {
-    std::vector<tspace::Vec3> positions;
-    std::vector<tspace::Vec3> normals;
-    std::vector<tspace::Vec2> uvs;
-    std::vector<std::uint32_t> face_sizes;
-    std::vector<int> face_numbers;  ///< the caller's number of each face
+    tspace::Buffer<tspace::Vec3> positions;
+    tspace::Buffer<tspace::Vec3> normals;
+    tspace::Buffer<tspace::Vec2> uvs;
+    tspace::Buffer<std::uint32_t> face_sizes;
+    tspace::Buffer<int> face_numbers;  ///< the caller's number of each face
 };
+
+/// Views a buffer of results or inputs.
+template <class T>
+tspace::StridedSpan<T> spanOf(tspace::Buffer<T>& buffer) {
+    return {buffer.data(), buffer.size()};
+}
 
 bool isSupported(int vertex_count) { return vertex_count == 3 || vertex_count == 4; }
 
@@ -42,9 +47,10 @@ void forUsedFaces(const SMikkTSpaceContext* context, int face_count, Body&& body
     }
 }
 
-/// Lists the faces; false when there is nothing to compute or too much. Counts first, so that absurd answers
-/// cost no memory.
-bool listFaces(const SMikkTSpaceContext* context, int face_count, Corners& corners) {
+/// Lists the faces, and makes room for their corners; false when there is nothing to compute or too much. Counts first, so
+/// that absurd answers cost no memory.
+bool listFaces(const SMikkTSpaceContext* context, int face_count, const tspace::Allocator* allocator,
+               Corners& corners) {
     std::size_t corner_count = 0;
     std::size_t used_count = 0;
     bool any_supported = false;
@@ -55,22 +61,25 @@ bool listFaces(const SMikkTSpaceContext* context, int face_count, Corners& corne
         return corner_count <= tspace::kMaxCorners;
     });
     if (!any_supported || corner_count > tspace::kMaxCorners) return false;
-    corners.face_sizes.reserve(used_count);
-    corners.face_numbers.reserve(used_count);
+    corners.face_sizes = tspace::Buffer<std::uint32_t>(allocator, used_count);
+    corners.face_numbers = tspace::Buffer<int>(allocator, used_count);
+    std::size_t listed = 0, listed_corners = 0;
     forUsedFaces(context, face_count, [&](int face, std::uint32_t size) {
-        corners.face_sizes.push_back(size);
-        corners.face_numbers.push_back(face);
+        listed_corners += size;
+        if (listed == used_count || listed_corners > corner_count) return false;  // the caller's answers changed
+        corners.face_sizes[listed] = size;
+        corners.face_numbers[listed++] = face;
         return true;
     });
+    if (listed != used_count || listed_corners != corner_count) return false;
+    corners.positions = tspace::Buffer<tspace::Vec3>(allocator, corner_count, tspace::Vec3{});
+    corners.normals = tspace::Buffer<tspace::Vec3>(allocator, corner_count, tspace::Vec3{});
+    corners.uvs = tspace::Buffer<tspace::Vec2>(allocator, corner_count, tspace::Vec2{});
     return true;
 }
 
 void readCorners(const SMikkTSpaceContext* context, Corners& corners) {
     const SMikkTSpaceInterface& calls = *context->m_pInterface;
-    const auto corner_count = std::accumulate(corners.face_sizes.begin(), corners.face_sizes.end(), std::size_t{0});
-    corners.positions.resize(corner_count);
-    corners.normals.resize(corner_count);
-    corners.uvs.resize(corner_count);
     std::size_t corner = 0;
     for (std::size_t i = 0; i < corners.face_sizes.size(); ++i) {
         const int face = corners.face_numbers[i];
@@ -104,35 +113,30 @@ void writeCorners(const SMikkTSpaceContext* context, const Corners& corners, con
 }
 
 /// Reads, computes, then writes: no setter is called unless everything is there.
-bool generate(const SMikkTSpaceContext* context, float angular_threshold_deg) {
+bool generate(const SMikkTSpaceContext* context, float angular_threshold_deg, const tspace::Execution& execution) {
     const SMikkTSpaceInterface& calls = *context->m_pInterface;
     const int face_count = calls.m_getNumFaces(context);
     if (!hasGetters(calls)) return false;
 
     Corners corners;
-    if (!listFaces(context, face_count, corners)) return false;
+    if (!listFaces(context, face_count, execution.allocator, corners)) return false;
     readCorners(context, corners);
-    const std::size_t corner_count = corners.positions.size();
 
-    std::vector<tspace::Vec4> tangents(corner_count);
-    std::vector<tspace::Vec3> bitangents;
-    std::vector<float> magnitudes_s;
-    std::vector<float> magnitudes_t;
-    if (calls.m_setTSpace != nullptr) {
-        bitangents.resize(corner_count);
-        magnitudes_s.resize(corner_count);
-        magnitudes_t.resize(corner_count);
-    }
+    const std::size_t corner_count = corners.positions.size(), full = calls.m_setTSpace != nullptr ? corner_count : 0;
+    tspace::Buffer<tspace::Vec4> tangents(execution.allocator, corner_count);
+    tspace::Buffer<tspace::Vec3> bitangents(execution.allocator, full);
+    tspace::Buffer<float> magnitudes_s(execution.allocator, full), magnitudes_t(execution.allocator, full);
     tspace::MeshView mesh;
-    mesh.positions = corners.positions;
-    mesh.normals = corners.normals;
-    mesh.uvs = corners.uvs;
-    mesh.face_sizes = corners.face_sizes;
+    mesh.positions = spanOf(corners.positions);
+    mesh.normals = spanOf(corners.normals);
+    mesh.uvs = spanOf(corners.uvs);
+    mesh.face_sizes = {corners.face_sizes.data(), corners.face_sizes.size()};
     tspace::TangentOptions options{.convention = tspace::conventions::opengl};
     options.angular_threshold_deg = angular_threshold_deg;
     options.ngons = tspace::Ngons::skip;
-    const tspace::TangentOutput out{tangents, bitangents, magnitudes_s, magnitudes_t};
-    if (!tspace::generateTangents(mesh, options, out)) return false;
+    const tspace::TangentOutput out{
+        spanOf(tangents), spanOf(bitangents), spanOf(magnitudes_s), spanOf(magnitudes_t), {}};
+    if (!tspace::generateTangents(mesh, options, out, execution)) return false;
     writeCorners(context, corners, out);
     return true;
 }
@@ -140,11 +144,19 @@ bool generate(const SMikkTSpaceContext* context, float angular_threshold_deg) {
 }  // namespace
 
 // Exceptions of the caller's own callbacks, if it is C++, pass through; only running out of memory ends here.
-tbool genTangSpace(const SMikkTSpaceContext* pContext, const float fAngularThreshold) {
-    if (pContext == nullptr || pContext->m_pInterface == nullptr || pContext->m_pInterface->m_getNumFaces == nullptr) {
+tbool tspace_genTangSpace(const SMikkTSpaceContext* pContext, const float fAngularThreshold,
+                          const tspace_Execution* execution) {
+    if (pContext == nullptr || pContext->m_pInterface == nullptr || pContext->m_pInterface->m_getNumFaces == nullptr ||
+        tspace::c_api::checkExecution(execution).code != tspace::ErrorCode::ok) {
         return 0;
     }
-    return tspace::withMemory([&]() -> tbool { return generate(pContext, fAngularThreshold) ? 1 : 0; });
+    const tspace::c_api::Hooks hooks(execution);
+    return tspace::withMemory(
+        [&]() -> tbool { return generate(pContext, fAngularThreshold, hooks.execution()) ? 1 : 0; });
+}
+
+tbool genTangSpace(const SMikkTSpaceContext* pContext, const float fAngularThreshold) {
+    return tspace_genTangSpace(pContext, fAngularThreshold, nullptr);
 }
 
 tbool genTangSpaceDefault(const SMikkTSpaceContext* pContext) { return genTangSpace(pContext, 180.0f); }

@@ -5,11 +5,15 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <climits>
 #include <cmath>
+#include <cstdlib>
 #include <string>
 #include <thread>
 #include <vector>
+
+#include "tspace/tspace.h"
 
 namespace {
 
@@ -176,6 +180,45 @@ TEST(Compat, TakesAnyThreshold) {
         EXPECT_TRUE(genTangSpace(&context, threshold)) << threshold;
         EXPECT_EQ(strip.count('b'), 7u);
     }
+}
+
+struct CountedMemory {
+    std::size_t used = 0, most = 0;
+    bool is_empty = false;
+
+    static void* allocate(void* user, std::size_t bytes, std::size_t alignment) {
+        auto& self = *static_cast<CountedMemory*>(user);
+        if (self.is_empty) return nullptr;
+        self.most = std::max(self.most, self.used += bytes);
+        return std::aligned_alloc(alignment, (bytes + alignment - 1) / alignment * alignment);
+    }
+    static void release(void* user, void* memory, std::size_t bytes, std::size_t) {
+        static_cast<CountedMemory*>(user)->used -= bytes;
+        std::free(memory);
+    }
+    tspace_Allocator allocator{allocate, release, this};
+};
+
+TEST(Compat, TakesThreadsAndAnAllocatorForAllOfItsMemory) {
+    Strip plain(std::vector<int>(40000, 4)), threaded(plain.sizes);
+    const SMikkTSpaceContext context = plain.context(), other = threaded.context();
+    CountedMemory memory;
+    tspace_Execution execution;
+    TSPACE_INIT(execution);
+    execution.thread_count = 3;
+    execution.allocator = &memory.allocator;
+    EXPECT_EQ(tspace_genTangSpace(&context, 180.0f, nullptr), 1);
+    EXPECT_EQ(tspace_genTangSpace(&other, 180.0f, &execution), 1);
+    EXPECT_EQ(plain.calls, threaded.calls);
+    EXPECT_TRUE(threaded.only_caller);
+    EXPECT_EQ(memory.used, 0u);
+    EXPECT_GT(memory.most, 4 * plain.sizes.size() * sizeof(float) * (8 + 4 + 3 + 2));
+    memory.is_empty = true;
+    threaded.calls.clear();
+    EXPECT_EQ(tspace_genTangSpace(&other, 180.0f, &execution), 0);
+    EXPECT_TRUE(threaded.calls.empty());
+    execution.struct_size = 3;
+    EXPECT_EQ(tspace_genTangSpace(&other, 180.0f, &execution), 0);
 }
 
 }  // namespace
