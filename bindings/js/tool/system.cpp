@@ -7,6 +7,7 @@
 #include <signal.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
+#include <sys/time.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -75,6 +76,12 @@ void* mmap(void*, std::size_t, int, int, int, off_t) {
     return MAP_FAILED;
 }
 int munmap(void*, std::size_t) { return 0; }
+
+/// There is no timer that raises a signal; the tool then ends at the first signal.
+int setitimer(int, const struct itimerval*, struct itimerval*) {
+    errno = ENOSYS;
+    return -1;
+}
 
 /// The date in UTC by the days since 1970, with years that begin in March (Howard Hinnant, "chrono-compatible low-level date
 /// algorithms", 2021).
