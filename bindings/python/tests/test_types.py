@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: MIT
-"""What type checkers are told. Run where mypy is installed."""
+"""What type checkers are told. Run where mypy (Debian: mypy) and pyright (npm: scripts/setup python-all) are installed."""
 
 import ast
 import inspect
+import json
 import shutil
 import subprocess
+import sys
 import tempfile
 import unittest
 from pathlib import Path
@@ -17,6 +19,7 @@ import tspace
 a = numpy.zeros((3, 3), numpy.float32)
 reveal_type(tspace.tangents(a, a, a, convention="gltf"))
 reveal_type(tspace.tangents(a, a, a, convention="gltf", full=True).report.group_count)
+reveal_type(tspace.tangents(a, a, a, convention="gltf", full=True).has_tangent)
 reveal_type(tspace.normals(a, full=True).report.face_count)
 reveal_type(tspace.Plan(a, a, a, convention="gltf").evaluate(a, a))
 reveal_type(tspace.make_indexed_frames(a, None, a, convention="gltf").source_vertices)
@@ -44,6 +47,7 @@ tspace.split([0, 1, 2], 3, a)
 tspace.pack_frames(a, a, "frame31")
 tspace.check("a.glb", fail_onn="error")
 tspace.generate_file("a.glb", "b.glb", crease="60")
+tspace.generate_file("a.glb", "b.glb", metod="best")
 tspace.bake_file("a.glb", "b.glb", "c.png", maps=["light"])
 tspace.finish_file("a.glb", "b.glb", high="c.glb")
 """
@@ -53,6 +57,7 @@ NUMBERS = "numpy.ndarray[Any, numpy.dtype[numpy.unsignedinteger[numpy._typing._{
 REVEALED = [
     FLOATS,
     "builtins.int",
+    "numpy.ndarray[Any, numpy.dtype[numpy.bool_]]",
     "builtins.int",
     FLOATS,
     NUMBERS.format(32),
@@ -66,9 +71,27 @@ REVEALED = [
     NUMBERS.format(8),
 ]
 
+PYRIGHT = shutil.which("pyright") or shutil.which(
+    "pyright", path=str(Path(__file__).parents[3] / "build/python/programs/node_modules/.bin")
+)
 
-@unittest.skipUnless(shutil.which("mypy"), "mypy is not installed")
+
 class Types(unittest.TestCase):
+    @unittest.skipUnless(PYRIGHT, "pyright is not installed: scripts/setup python-all, or npm install --global pyright")
+    def test_pyright_finds_wrong_calls_and_no_others(self):
+        with tempfile.TemporaryDirectory() as folder:
+            program = Path(folder) / "uses.py"
+            program.write_text(USES + WRONG)
+            settings = {"extraPaths": [str(Path(tspace.__file__).parents[1])], "include": ["uses.py"]}
+            (Path(folder) / "pyrightconfig.json").write_text(json.dumps(settings))
+            command = [PYRIGHT, "--outputjson", "--pythonpath", sys.executable, "--project", folder]
+            answer = json.loads(subprocess.run(command, capture_output=True, text=True).stdout)
+        found = answer["generalDiagnostics"]
+        wrong = [item["range"]["start"]["line"] + 1 for item in found if item["severity"] == "error"]
+        first = len(USES.splitlines())
+        self.assertEqual(wrong, [first + i for i, line in enumerate(WRONG.splitlines(), 1) if line], found)
+
+    @unittest.skipUnless(shutil.which("mypy"), "mypy is not installed")
     def test_the_package_agrees_and_wrong_calls_are_found(self):
         with tempfile.TemporaryDirectory() as folder:
             program = Path(folder) / "uses.py"

@@ -76,7 +76,7 @@ Threads
     uses one thread unless `threads` says more; the bits are the same for any number.
 """
 
-from typing import TYPE_CHECKING as _TYPE_CHECKING
+from typing import TYPE_CHECKING
 
 from ._abi import library as _library
 from ._errors import Error, FileError, IndexRangeError, InputError, ReadWriteError, UnknownOptionError
@@ -107,7 +107,7 @@ from ._tangents import Plan, TangentResult, tangents
 from ._winding import WindingResult, mend_winding
 
 # Type checkers see each option of the functions of files; at run time an unknown one is an error that lists them.
-if _TYPE_CHECKING:
+if TYPE_CHECKING:
     from ._file_calls import (
         bake_file,
         check,
