@@ -18,13 +18,13 @@ namespace tspace {
 
 namespace {
 
-constexpr std::uint32_t kNone = 0xffffffffu;
+constexpr std::uint32_t kNoVertexNear = 0xffffffffu;
 /// weld_auto: so many spacings of floats are the distance, and so many distances long is an edge where it holds. A mesh so
 /// far from the origin that its edges are shorter keeps the shape that its floats still have.
 constexpr double kSpacings = 2, kLeastEdge = 32;
 constexpr double kCellWidth = 4;
 
-double largest(const Vec3& p) {
+double longestCoordinate(const Vec3& p) {
     return std::max({std::fabs(double{p.x}), std::fabs(double{p.y}), std::fabs(double{p.z})});
 }
 
@@ -40,28 +40,29 @@ double spacingAt(float value) {
 }
 
 /// Positions that have been added, by their cells.
-class Cells {
+class PositionCells {
   public:
-    Cells(const StridedSpan<const Vec3>& positions, double distance, std::size_t most, const Allocator* allocator)
+    PositionCells(const StridedSpan<const Vec3>& positions, double distance, std::size_t most,
+                  const Allocator* allocator)
         : positions_(positions),
           distance_(distance),
           width_(kCellWidth * distance),
           slots_(allocator, std::bit_ceil(2 * most + 2)) {
-        std::fill(slots_.begin(), slots_.end(), Slot{0, kNone});
+        std::fill(slots_.begin(), slots_.end(), Slot{0, kNoVertexNear});
     }
 
     void add(std::uint32_t vertex) {
         const Vec3& p = positions_[vertex];
         const std::uint32_t hash = hashOf({cellOf(p.x), cellOf(p.y), cellOf(p.z)});
         std::size_t at = hash & (slots_.size() - 1);
-        while (slots_[at].vertex != kNone) at = (at + 1) & (slots_.size() - 1);
+        while (slots_[at].vertex != kNoVertexNear) at = (at + 1) & (slots_.size() - 1);
         slots_[at] = {hash, vertex};
     }
 
-    /// The lowest vertex within the distance, or kNone.
+    /// The lowest vertex within the distance, or kNoVertexNear.
     [[nodiscard]] std::uint32_t lowestNear(const Vec3& p) const {
         const std::array<double, 2> x = cellsNear(p.x), y = cellsNear(p.y), z = cellsNear(p.z);
-        std::uint32_t lowest = kNone;
+        std::uint32_t lowest = kNoVertexNear;
         for (int i = 0; i < 8; ++i) {
             const bool is_again =
                 ((i & 1) != 0 && x[0] == x[1]) || ((i & 2) != 0 && y[0] == y[1]) || ((i & 4) != 0 && z[0] == z[1]);
@@ -87,8 +88,8 @@ class Cells {
     }
     [[nodiscard]] std::uint32_t lowestIn(const std::array<double, 3>& cell, const Vec3& p) const {
         const std::uint32_t hash = hashOf(cell);
-        std::uint32_t lowest = kNone;
-        for (std::size_t at = hash & (slots_.size() - 1); slots_[at].vertex != kNone;
+        std::uint32_t lowest = kNoVertexNear;
+        for (std::size_t at = hash & (slots_.size() - 1); slots_[at].vertex != kNoVertexNear;
              at = (at + 1) & (slots_.size() - 1)) {
             const Slot& slot = slots_[at];
             if (slot.hash == hash && slot.vertex < lowest && areNear(positions_[slot.vertex], p, distance_))
@@ -111,7 +112,7 @@ Buffer<float> longestEdges(const MeshView& mesh, const Buffer<std::uint32_t>& eq
                 const std::uint32_t a = equal[vertexOf(first + k)], b = equal[vertexOf(first + (k + 1) % size)];
                 const Vec3 edge = mesh.positions[b] - mesh.positions[a];
                 if (!isFinite(edge)) continue;
-                const auto size_of_edge = static_cast<float>(largest(edge));
+                const auto size_of_edge = static_cast<float>(longestCoordinate(edge));
                 longest[a] = std::max(longest[a], size_of_edge);
                 longest[b] = std::max(longest[b], size_of_edge);
             }
@@ -136,7 +137,7 @@ NearPositions::NearPositions(const MeshView& mesh, float distance, const Allocat
         edges = longestEdges(mesh, roots, allocator);
         float most = 0;
         for (std::size_t v = 0; v < count; ++v)
-            if (edges[v] > 0) most = std::max(most, static_cast<float>(largest(mesh.positions[v])));
+            if (edges[v] > 0) most = std::max(most, static_cast<float>(longestCoordinate(mesh.positions[v])));
         distance_ = kSpacings * spacingAt(most);
     }
     std::size_t most = 0;
@@ -145,7 +146,7 @@ NearPositions::NearPositions(const MeshView& mesh, float distance, const Allocat
     };
     for (std::uint32_t v = 0; v < count; ++v) most += takesPart(v) ? 1 : 0;
     if (!(distance_ > 0) || most < 2) return;
-    Cells cells(mesh.positions, distance_, most, allocator);
+    PositionCells cells(mesh.positions, distance_, most, allocator);
     bool any = false;
     for (std::uint32_t v = 0; v < count; ++v) {
         if (!takesPart(v)) {
@@ -153,7 +154,7 @@ NearPositions::NearPositions(const MeshView& mesh, float distance, const Allocat
             continue;
         }
         const std::uint32_t near = cells.lowestNear(mesh.positions[v]);
-        if (near == kNone) {
+        if (near == kNoVertexNear) {
             cells.add(v);
         } else {
             roots[v] = near;
