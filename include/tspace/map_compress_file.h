@@ -42,6 +42,7 @@ struct CompressMapFileOptions {
     Sink sink = {};                              ///< takes the output, a KTX2, in place of a file; without roughness
     bool dry_run = false;                        ///< everything but writing
     Execution execution = {};
+    MapAlpha alpha = MapAlpha::automatic;  ///< of `input`
 };
 
 struct CompressMapFileReport {

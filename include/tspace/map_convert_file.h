@@ -19,6 +19,14 @@ enum class MapFileSpace : std::uint32_t {
     world = 2    ///< those of the scene: the mesh's nodes, which must agree, turn and squeeze them
 };
 
+/// What alpha of a normal map says, where smaller levels are made of it.
+enum class MapAlpha : std::uint32_t {
+    automatic = 0,  ///< coverage where texels with alpha 0 hold no unit vectors and nearly all others do; else data
+    coverage =
+        1,    ///< how much of a texel is surface, as in sprites and foliage: smaller levels are means weighted by it
+    data = 2  ///< anything else, such as heights: it is left out
+};
+
 struct ConvertMapFileOptions {
     std::string mesh = {};     ///< the model that the map was made for; empty: none is needed
     std::string to_mesh = {};  ///< the model that it is to be shown on: the same surface and UVs; empty: `mesh`
@@ -48,6 +56,7 @@ struct ConvertMapFileOptions {
     bool dry_run = false;                        ///< everything but writing
     Execution execution = {};
     Progress progress = {};
+    MapAlpha alpha = MapAlpha::automatic;  ///< of `input`, where the output has levels (KTX2, DDS)
 };
 
 /// What was taken of a model file.

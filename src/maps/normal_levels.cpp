@@ -14,8 +14,9 @@ using Moments = std::array<float, 5>;
 
 struct MeanLevel {
     std::uint32_t width = 0, height = 0;
-    std::vector<Vec3> means = {};  ///< not unit
-    std::vector<Moments> moments = {};
+    std::vector<Vec3> means = {};       ///< not unit; times coverage
+    std::vector<Moments> moments = {};  ///< times coverage
+    std::vector<float> coverage = {};   ///< empty: 1
 };
 
 }  // namespace
@@ -50,8 +51,9 @@ void forCovered(const MeanLevel& from, const Cover& across, const Cover& down, c
 MeanLevel shrink(const MeanLevel& from, std::uint32_t width, std::uint32_t height, Parallel& parallel) {
     const std::vector<Cover> across = coversOf(from.width, width), down = coversOf(from.height, height);
     const std::size_t count = std::size_t{width} * height;
-    MeanLevel to{width, height, std::vector<Vec3>(count), {}};
+    MeanLevel to{width, height, std::vector<Vec3>(count), {}, {}};
     to.moments.resize(from.moments.empty() ? 0 : count);
+    to.coverage.resize(from.coverage.empty() ? 0 : count);
     parallel.forRanges(height, 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t at = begin * width; at < end * width; ++at) {
             const Cover &columns = across[at % width], &rows = down[at / width];
@@ -59,6 +61,13 @@ MeanLevel shrink(const MeanLevel& from, std::uint32_t width, std::uint32_t heigh
             forCovered(from, columns, rows,
                        [&](std::size_t texel, double weight) { sum = sum + weight * toDouble(from.means[texel]); });
             to.means[at] = toFloat(sum);
+            if (!to.coverage.empty()) {
+                double covered = 0;
+                forCovered(from, columns, rows, [&](std::size_t texel, double weight) {
+                    covered += weight * static_cast<double>(from.coverage[texel]);
+                });
+                to.coverage[at] = static_cast<float>(covered);
+            }
             if (to.moments.empty()) continue;
             std::array<double, 5> moments{};
             forCovered(from, columns, rows, [&](std::size_t texel, double weight) {
@@ -81,26 +90,47 @@ float spreadOf(const Moments& m, const Vec3& along) {
 }
 
 NormalLevel unitOf(const MeanLevel& level) {
-    NormalLevel unit{level.width, level.height, level.means, {}};
+    NormalLevel unit{level.width, level.height, level.means, {}, level.coverage};
     unit.spreads.reserve(level.moments.size());
     for (std::size_t i = 0; i < unit.normals.size(); ++i) {
+        const float covered = level.coverage.empty() ? 1.0F : level.coverage[i];
         const DVec3 mean = toDouble(unit.normals[i]);
         const double size = length(mean);
-        unit.normals[i] = size > 1e-6 ? toFloat((1 / size) * mean) : Vec3{0, 0, 1};
-        if (!level.moments.empty()) unit.spreads.push_back(spreadOf(level.moments[i], unit.normals[i]));
+        unit.normals[i] = size > 1e-6 * static_cast<double>(covered) ? toFloat((1 / size) * mean) : Vec3{0, 0, 1};
+        if (level.moments.empty()) continue;
+        Moments moments = level.moments[i];
+        if (covered != 1) {
+            for (float& moment : moments) moment = covered > 0 ? moment / covered : 0;
+        }
+        unit.spreads.push_back(covered > 0 ? spreadOf(moments, unit.normals[i]) : 0.0F);
     }
     return unit;
+}
+
+/// Texels without coverage get the normal of the smaller level.
+void fillUncovered(const NormalLevel& smaller, NormalLevel& level) {
+    for (std::size_t i = 0; i < level.normals.size(); ++i) {
+        if (level.coverage[i] > 0) continue;
+        const std::size_t x = i % level.width * smaller.width / level.width;
+        const std::size_t y = i / level.width * smaller.height / level.height;
+        level.normals[i] = smaller.normals[y * smaller.width + x];
+    }
 }
 
 }  // namespace
 
 std::vector<NormalLevel> makeNormalLevels(NormalLevel first, Parallel& parallel, bool with_spreads) {
     std::vector<NormalLevel> levels;
-    MeanLevel whole{first.width, first.height, first.normals, {}};
+    MeanLevel whole{first.width, first.height, first.normals, {}, first.coverage};
     if (with_spreads) {
         whole.moments.reserve(first.normals.size());
         for (const Vec3& normal : first.normals) whole.moments.push_back(momentsOf(normal));
         first.spreads.assign(first.normals.size(), 0.0F);
+    }
+    for (std::size_t i = 0; i < whole.coverage.size(); ++i) {
+        whole.means[i] = whole.coverage[i] * whole.means[i];
+        if (!with_spreads) continue;
+        for (float& moment : whole.moments[i]) moment *= whole.coverage[i];
     }
     levels.push_back(std::move(first));
     MeanLevel last;
@@ -113,6 +143,8 @@ std::vector<NormalLevel> makeNormalLevels(NormalLevel first, Parallel& parallel,
         last = shrink(is_even ? last : whole, width, height, parallel);
         levels.push_back(unitOf(last));
     }
+    for (std::size_t i = levels.size() - 1; i > 0 && !levels.front().coverage.empty(); --i)
+        fillUncovered(levels[i], levels[i - 1]);
     return levels;
 }
 

@@ -16,6 +16,8 @@ struct NormalLevel {
     /// How far the normals that a texel covers spread around its own: 1 - mean (n . own)^2, the trace of their covariance across it. Empty
     /// unless asked for.
     std::vector<float> spreads = {};
+    /// How much of each texel is surface, 0 to 1; empty: all of it.
+    std::vector<float> coverage = {};
 };
 
 /// What texels of a row of `to` cover of a row of `from` texels: from `begin` on, with weights of the sum 1.
@@ -26,8 +28,10 @@ struct Cover {
 std::vector<Cover> coversOf(std::uint32_t from, std::uint32_t to);
 
 /// The given level and all smaller ones down to 1 x 1, each half as wide and high, rounded down. A texel of any level is the unit mean of
-/// the normals that it covers on the first, in parts where an edge cuts them; z along where that has no direction. Memory: twice
-/// that of the first level, with spreads four times. The same for any number of threads.
+/// the normals that it covers on the first, in parts where an edge cuts them, weighted by their coverage; z along where that has no
+/// direction. Where nothing is covered, a texel of any level, the first too, gets the normal of the next smaller level there, so
+/// that filters at silhouettes read no foreign direction. Memory: twice that of the first level, with spreads four times. The same for
+/// any number of threads.
 std::vector<NormalLevel> makeNormalLevels(NormalLevel first, Parallel& parallel, bool with_spreads = false);
 
 }  // namespace tspace

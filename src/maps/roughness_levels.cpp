@@ -25,19 +25,42 @@ bool findShift(const RoughnessLevel& roughness, std::uint32_t width, std::uint32
     return false;
 }
 
-RoughnessLevel meanLevel(const RoughnessLevel& first, std::uint32_t width, std::uint32_t height, Parallel& parallel) {
+/// Coverage of each texel of the first roughness level; empty: all. `shift`: of findShift.
+std::vector<float> coverageOf(const RoughnessLevel& first, std::span<const NormalLevel> normals, int shift) {
+    const auto level = static_cast<std::size_t>(std::max(shift, 0));
+    if (level >= normals.size() || normals[level].coverage.empty()) return {};
+    const NormalLevel& beside = normals[level];
+    std::vector<float> coverage(first.texels.size());
+    for (std::size_t i = 0; i < coverage.size(); ++i) {
+        const std::size_t x = i % first.width * beside.width / first.width;
+        const std::size_t y = i / first.width * beside.height / first.height;
+        coverage[i] = beside.coverage[y * beside.width + x];
+    }
+    return coverage;
+}
+
+RoughnessLevel meanLevel(const RoughnessLevel& first, std::span<const float> coverage, std::uint32_t width,
+                         std::uint32_t height, Parallel& parallel) {
     const std::vector<Cover> across = coversOf(first.width, width), down = coversOf(first.height, height);
     RoughnessLevel level{width, height, std::vector<Vec3>(std::size_t{width} * height)};
     parallel.forRanges(height, 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t at = begin * width; at < end * width; ++at) {
             const Cover &columns = across[at % width], &rows = down[at / width];
-            DVec3 sum{};
+            DVec3 sum{}, covered_sum{};
+            double covered = 0;
             for (std::size_t j = 0; j < rows.weights.size(); ++j) {
-                const Vec3* const row = &first.texels[(rows.begin + j) * first.width + columns.begin];
-                for (std::size_t i = 0; i < columns.weights.size(); ++i)
-                    sum = sum + rows.weights[j] * columns.weights[i] * toDouble(row[i]);
+                const std::size_t row = (rows.begin + j) * first.width + columns.begin;
+                for (std::size_t i = 0; i < columns.weights.size(); ++i) {
+                    const double weight = rows.weights[j] * columns.weights[i];
+                    const DVec3 texel = toDouble(first.texels[row + i]);
+                    sum = sum + weight * texel;
+                    if (coverage.empty()) continue;
+                    const double part = weight * static_cast<double>(coverage[row + i]);
+                    covered += part;
+                    covered_sum = covered_sum + part * texel;
+                }
             }
-            level.texels[at] = toFloat(sum);
+            level.texels[at] = toFloat(covered > 0 ? (1 / covered) * covered_sum : sum);
         }
     });
     return level;
@@ -64,10 +87,11 @@ std::vector<RoughnessLevel> makeRoughnessLevels(const RoughnessLevel& first, flo
                                                 std::span<const NormalLevel> normals, Parallel& parallel) {
     int shift = 0;
     findShift(first, normals.front().width, normals.front().height, shift);
+    const std::vector<float> coverage = coverageOf(first, normals, shift);
     std::vector<RoughnessLevel> levels;
     for (std::uint32_t width = first.width, height = first.height;;
          width = std::max(width / 2, 1U), height = std::max(height / 2, 1U)) {
-        RoughnessLevel level = levels.empty() ? first : meanLevel(first, width, height, parallel);
+        RoughnessLevel level = levels.empty() ? first : meanLevel(first, coverage, width, height, parallel);
         const std::ptrdiff_t beside = static_cast<std::ptrdiff_t>(levels.size()) + shift;
         const auto count = static_cast<std::ptrdiff_t>(normals.size());
         const std::vector<float>* const spreads =

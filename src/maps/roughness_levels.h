@@ -20,7 +20,7 @@ struct RoughnessLevel {
 /// a power of two larger along both sides.
 std::string whyGridsDiffer(const RoughnessLevel& roughness, std::uint32_t width, std::uint32_t height);
 
-/// All levels down to 1 x 1. Channels are plain means; green, the roughness r, is (mean(r)^4 + spread)^(1/4), 1 at most: a microfacet lobe
+/// All levels down to 1 x 1. Channels are means, weighted by the coverage of the normals where they have one; green, the roughness r, is (mean(r)^4 + spread)^(1/4), 1 at most: a microfacet lobe
 /// (Beckmann) whose slopes have the variance r^4 / 2 along each axis, folded with the normals of that level of the normal map which a
 /// pixel reads at the same time. `factor` is multiplied into green before. `normals`: all levels, with spreads; whyGridsDiffer must be empty.
 std::vector<RoughnessLevel> makeRoughnessLevels(const RoughnessLevel& first, float factor,

@@ -87,5 +87,37 @@ TEST(NormalLevels, KnowHowFarTheNormalsThatTheyCoverSpread) {
     }
 }
 
+/// Texels are covered a quarter, or not at all, and hold a foreign direction there.
+TEST(NormalLevels, AreMeansOfWhatIsCovered) {
+    NormalLevel first = noiseLevel(13, 8);
+    NormalLevel foreign = first;
+    for (std::size_t i = 0; i < first.normals.size(); ++i) {
+        const std::size_t x = i % first.width;
+        first.coverage.push_back(x < 4 ? 0.0F : x == 4 ? 0.25F : 1.0F);
+        if (x < 4) foreign.normals[i] = {-1, 0, 0};
+    }
+    foreign.coverage = first.coverage;
+    Parallel parallel({});
+    const auto levels = makeNormalLevels(first, parallel, true), same = makeNormalLevels(foreign, parallel, true);
+    for (std::size_t level = 0; level < levels.size(); ++level) {
+        EXPECT_EQ(levels[level].normals, same[level].normals) << level;
+        EXPECT_EQ(levels[level].spreads, same[level].spreads) << level;
+    }
+    DVec3 mean{};
+    for (std::size_t i = 0; i < first.normals.size(); ++i)
+        mean = mean + static_cast<double>(first.coverage[i]) * toDouble(first.normals[i]);
+    ASSERT_TRUE(normalize(mean));
+    EXPECT_LT(length(toDouble(levels.back().normals.front()) - mean), 1e-5);
+    // What is not covered gets the direction of the next level.
+    EXPECT_EQ(levels[0].normals[0], levels[1].normals[0]);
+    EXPECT_EQ(levels[0].normals[5], first.normals[5]);
+    // All covered: as without.
+    first.coverage.assign(first.normals.size(), 1.0F);
+    const auto all = makeNormalLevels(first, parallel);
+    first.coverage.clear();
+    const auto none = makeNormalLevels(first, parallel);
+    for (std::size_t level = 0; level < all.size(); ++level) EXPECT_EQ(all[level].normals, none[level].normals);
+}
+
 }  // namespace
 }  // namespace tspace

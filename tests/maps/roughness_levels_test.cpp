@@ -60,6 +60,19 @@ TEST(RoughnessLevels, OfSmallerTexturesHoldTheSpreadFromTheFirstLevelOn) {
     EXPECT_GT(large[2].texels[0].y, 0.5);
 }
 
+TEST(RoughnessLevels, AreMeansOfWhatIsCovered) {
+    NormalLevel normals{8, 8, std::vector<Vec3>(64, Vec3{0, 0, 1}), {}, std::vector<float>(64, 1.0F)};
+    RoughnessLevel roughness = evenRoughness(8, 8, 0.5F);
+    for (std::size_t i = 0; i < 64; ++i) {
+        if (i % 8 < 3) continue;
+        normals.coverage[i] = 0;
+        roughness.texels[i] = {};
+    }
+    const std::vector<RoughnessLevel> levels = levelsOf(normals, roughness);
+    EXPECT_EQ(levels[1].texels[1], (Vec3{1, 0.5F, 0.25F}));
+    EXPECT_EQ(levels[3].texels[0], (Vec3{1, 0.5F, 0.25F}));
+}
+
 TEST(RoughnessLevels, AreRefusedWhereGridsDoNotFit) {
     EXPECT_EQ(whyGridsDiffer(evenRoughness(8, 8, 0), 8, 8), "");
     EXPECT_EQ(whyGridsDiffer(evenRoughness(6, 3, 0), 24, 12), "");

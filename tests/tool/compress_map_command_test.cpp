@@ -9,6 +9,7 @@
 #include "core/base/vec_math.h"
 #include "images/float_image.h"
 #include "images/images.h"
+#include "maps/shading.h"
 #include "run_tool.h"
 
 namespace tspace::test {
@@ -243,6 +244,83 @@ TEST(MapErrorCommand, SaysOfATextureWhatItsFigureDoesNot) {
     folder.write("broken.dds", "DDS ");
     EXPECT_EQ(runTool(folder, "map-error broken.dds --source n16.png").err, "tspace: broken.dds: it is a broken DDS\n");
     EXPECT_NE(runTool(folder, "map-error n8.png --source broken.dds").err.find("the source 'broken.dds'"),
+              std::string::npos);
+}
+
+/// A sphere on nothing: alpha is 1 inside and 0 outside, where texels are black, or hold heights in all of alpha. `edge`: texels of
+/// half alpha around it, whose colors are multiplied by alpha.
+FloatImage sphereSprite(bool alpha_is_height, bool has_edge) {
+    constexpr std::uint32_t kSize = 64;
+    FloatImage image{kSize, kSize, 16, {}, {}};
+    for (std::uint32_t i = 0; i < kSize * kSize; ++i) {
+        const double x = (i % kSize + 0.5) / 30 - 64.0 / 60, y = 64.0 / 60 - (i / kSize + 0.5) / 30;
+        const double square = x * x + y * y, z = std::sqrt(std::max(0.0, 1 - square));
+        const bool is_inside = square < 0.8, is_edge = has_edge && square > 0.75;
+        const float alpha = !is_inside ? 0.0F : is_edge ? 0.5F : 1.0F;
+        Vec3 texel{static_cast<float>(0.5 + 0.5 * x), static_cast<float>(0.5 + 0.5 * y),
+                   static_cast<float>(0.5 + 0.5 * z)};
+        if (alpha_is_height && !is_inside) texel = {0.5F, 0.5F, 1.0F};
+        image.texels.push_back(alpha_is_height ? texel : alpha * texel);
+        image.alpha.push_back(alpha_is_height && is_inside ? static_cast<float>(z) : alpha);
+    }
+    return image;
+}
+
+/// Largest angle on a level between its texels and those of the sphere that is covered there, where any is.
+double mostOff(const TempFolder& folder, unsigned level) {
+    std::string why;
+    const auto image = decodeFloatImage(bytesOf(folder.read("out/s." + std::to_string(level) + ".png")), 1 << 20, why);
+    if (!image) return 180;
+    const FloatImage sprite = sphereSprite(false, false);
+    double most = 0;
+    for (std::uint32_t i = 0; i < image->texels.size(); ++i) {
+        DVec3 mean{};
+        for (std::uint32_t y = 0; y < 1U << level; ++y) {
+            for (std::uint32_t x = 0; x < 1U << level; ++x) {
+                const std::size_t at =
+                    (std::size_t{i / image->width << level} + y) * 64 + (i % image->width << level) + x;
+                const Vec3& t = sprite.texels[at];
+                if (sprite.alpha[at] > 0) mean = mean + DVec3{2 * t.x - 1.0, 2 * t.y - 1.0, 2 * t.z - 1.0};
+            }
+        }
+        if (length(mean) < 0.5) continue;
+        const Vec3& t = image->texels[i];
+        most = std::max(most, degreesBetween({2 * t.x - 1.0, 2 * t.y - 1.0, 2 * t.z - 1.0}, mean));
+    }
+    return most;
+}
+
+TEST(CompressMapCommand, AlphaIsCoverageWhereTheTexelsSaySo) {
+    const TempFolder folder;
+    const auto write = [&](const FloatImage& image) {
+        const auto file = encodePng(image, 16);
+        ASSERT_TRUE(file);
+        folder.write("s.png", std::span<const std::uint8_t>(*file));
+    };
+    write(sphereSprite(false, false));
+    const Json report = reportOf(folder, "s.png -o out/");
+    EXPECT_NE(report["warnings"].dump().find("alpha is read as coverage"), std::string::npos) << report;
+    for (const unsigned level : {0U, 1U, 2U, 3U}) EXPECT_LT(mostOff(folder, level), 0.1) << level;
+    reportOf(folder, "s.png -o out/ --alpha data");
+    EXPECT_GT(mostOff(folder, 2), 20);
+    // Colors that were multiplied by alpha.
+    write(sphereSprite(false, true));
+    EXPECT_NE(reportOf(folder, "s.png -o out/")["warnings"].dump().find("divided by it"), std::string::npos);
+    for (const unsigned level : {0U, 1U, 2U}) EXPECT_LT(mostOff(folder, level), 4) << level;
+    ASSERT_EQ(runTool(folder, "convert-map s.png -q -o c.dds").exit_code, 0);
+    reportOf(folder, "s.png -o d.dds");
+    EXPECT_EQ(folder.read("c.dds").size(), folder.read("d.dds").size());
+    EXPECT_LT(Json::parse(runTool(folder, "map-error c.dds --source d.dds --json").out)["meanErrorDeg"], 0.1);
+    // Heights in alpha: nothing of them shows.
+    write(sphereSprite(true, false));
+    const Json heights = reportOf(folder, "s.png -o e.dds");
+    EXPECT_NE(heights["warnings"].dump().find("set the option alpha to coverage"), std::string::npos) << heights;
+    FloatImage opaque = sphereSprite(true, false);
+    opaque.alpha.clear();
+    write(opaque);
+    reportOf(folder, "s.png -o f.dds");
+    EXPECT_EQ(folder.read("e.dds"), folder.read("f.dds"));
+    EXPECT_NE(reportOf(folder, "s.png -o f.dds --alpha coverage")["warnings"].dump().find("has no alpha"),
               std::string::npos);
 }
 

@@ -82,6 +82,8 @@ export interface CompressMapOptions extends Unpackers {
   /** The first level alone. */
   noLevels?: boolean;
   container?: "ktx2" | "dds";
+  /** Meaning of alpha: how much of a texel is surface, which weights smaller levels; anything else; or, unless given, by the texels. */
+  alpha?: "auto" | "coverage" | "data";
   /** A texture of occlusion, roughness (green) and metalness. Its levels become wider by what the normals of each texel spread. */
   roughness?: MapImage | null;
   /** The material's roughnessFactor, which becomes a part of that texture; 1 unless given. */

@@ -80,6 +80,7 @@ export function readTexture(file, options = {}) {
 const formats = ["bc5", "eac-rg11", "rg8", "astc-4x4"];
 const qualities = ["fast", "best", "quick"];
 const containers = ["ktx2", "dds"];
+const alphas = ["auto", "coverage", "data"];
 const reportNumbers = [
   "width", "height", "bitsBefore", "levels", "outputBytes", "roughnessBytes", "meanErrorDeg", "p99ErrorDeg", "maxErrorDeg", "maxErrorX", "maxErrorY",
   "belowHorizon", "notUnit", "meanRoughness", "meanWidenedRoughness",
@@ -124,7 +125,7 @@ function putImage(call, image) {
   return call.put(new Uint32Array([place, bytes, width, height, bits]));
 }
 
-const ofCompression = ["format", "quality", "signed", "noLevels", "container", "roughness", "roughnessFactor", "decodeImage", ...unpacking];
+const ofCompression = ["format", "quality", "signed", "noLevels", "container", "alpha", "roughness", "roughnessFactor", "decodeImage", ...unpacking];
 
 export function compressMap(image, options = {}) {
   object(options, "options", ofCompression);
@@ -133,13 +134,14 @@ export function compressMap(image, options = {}) {
   const format = choice(options.format ?? "bc5", "format", formats), quality = choice(options.quality ?? "fast", "quality", qualities);
   const isSigned = boolean(options.signed ?? false, "signed"), hasLevels = !boolean(options.noLevels ?? false, "noLevels");
   const isDds = choice(options.container ?? "ktx2", "container", containers) === 1;
+  const alpha = choice(options.alpha ?? "auto", "alpha", alphas);
   const factor = number(options.roughnessFactor ?? 1, "roughnessFactor");
   if (isMissing(options.roughness) && !isMissing(options.roughnessFactor)) fail("invalidOption", "roughnessFactor needs roughness");
   const map = imageOf(image, "the map", decodeImage);
   const rough = isMissing(options.roughness) ? null : imageOf(options.roughness, "the roughness", decodeImage);
   return run(options, (call) => {
     const exports = call.wasm;
-    call.check(exports.compressMap(putImage(call, map), putImage(call, rough), format, quality, isSigned, hasLevels, factor, isDds));
+    call.check(exports.compressMap(putImage(call, map), putImage(call, rough), format, quality, isSigned, hasLevels, factor, isDds, alpha));
     const report = call.report(reportNumbers, {});
     report.format = textAt(exports, exports.madeFormat());
     report.warnings = textAt(exports, exports.madeWarnings()).split("\n").slice(0, -1);

@@ -33,7 +33,7 @@ const notHere = new Set([
   ...["astc", "basis_lz", "bc7", "dds", "ktx2", "texel_format", "texture", "uastc", "unpack_level", "write_texture"].map((name) => `images/${name}.cpp`),
   "images/exr.cpp", "images/float_image.cpp", "images/float_range.cpp", "images/jpeg.cpp", "images/png.cpp", "images/read_tga.cpp", "images/webp.cpp", "maps/rays.cpp",
   "commands/generate/convert_maps.cpp", "commands/generate/mend_maps.cpp", "commands/diff/diff_words.cpp",
-  "commands/shared/map_image_file.cpp", "commands/shared/texture_vectors.cpp", "commands/flip_green/texture_png.cpp",
+  "commands/shared/map_coverage.cpp", "commands/shared/map_image_file.cpp", "commands/shared/texture_vectors.cpp", "commands/flip_green/texture_png.cpp",
   ...["bake/all_maps", "bake/bake_file", "bake/high_maps", "bake/match_meshes", "bake/model_maps", "bake/model_surfaces", "convert_map/convert_map_file",
     "height_to_normal/height_to_normal_file", "render/model_picture", "render/render_file"]
     .map((name) => `commands/${name}.cpp`),
@@ -65,7 +65,7 @@ const modules = {
     files: [
       ...["astc", "basis_lz", "bc7", "dds", "float_range", "image", "ktx2", "texel_format", "texture", "uastc", "write_texture"].map((name) => `images/${name}.cpp`),
       ...["filtered_error", "fit_blocks", "map_layout", "normal_levels", "roughness_levels", "shading"].map((name) => `maps/${name}.cpp`),
-      "commands/compress_map/texture_levels.cpp", "commands/shared/texture_vectors.cpp",
+      "commands/compress_map/texture_levels.cpp", "commands/shared/map_coverage.cpp", "commands/shared/texture_vectors.cpp",
     ],
   },
   gltf: {

@@ -105,22 +105,22 @@ void putNumbers(const FloatImage& image, Number most) {
 template <class Number>
 void takeNumbers(const Number* from, float most, FloatImage& image) {
     bool is_opaque = true;
+    image.alpha.resize(image.texels.size());
     for (std::size_t i = 0; i < image.texels.size(); ++i, from += 4) {
         const auto part = [&](std::size_t k) { return static_cast<float>(from[k]) / most; };
         image.texels[i] = {part(0), part(1), part(2)};
-        // As those of an EXR.
-        if (!isFinite(image.texels[i])) image.texels[i] = {0.5F, 0.5F, 0.5F};
+        image.alpha[i] = part(3);
         is_opaque = is_opaque && (part(3) == 1 || !std::isfinite(part(3)));
     }
-    if (!is_opaque) image.alpha.resize(image.texels.size());  // that it is there is all that counts
+    if (is_opaque) image.alpha.clear();
 }
 
-Result<FloatImage> imageOf(const ImageWords& given) {
+Result<FloatImage> imageOf(const ImageWords& given, ImageUse use) {
     if (given.bits == 0) {
         const ByteSpan file{given.data, given.size};
         if (!isTextureFile(file)) return Error{ErrorCode::unsupportedFile, "it is neither KTX2 nor DDS"};
         std::string why;
-        std::optional<FloatImage> image = decodeFloatTexture(file, kMostPixels, why);
+        std::optional<FloatImage> image = decodeFloatTexture(file, kMostPixels, why, 0, use);
         if (!image) return Error{ErrorCode::invalidFile, why};
         return *std::move(image);
     }
@@ -128,7 +128,10 @@ Result<FloatImage> imageOf(const ImageWords& given) {
     image.texels.resize(std::size_t{given.width} * given.height);
     if (given.bits == 8) takeNumbers(given.data, 255.0F, image);
     if (given.bits == 16) takeNumbers(reinterpret_cast<const std::uint16_t*>(given.data), 65535.0F, image);
-    if (given.bits == 32) takeNumbers(reinterpret_cast<const float*>(given.data), 1.0F, image);
+    if (given.bits == 32) {
+        takeNumbers(reinterpret_cast<const float*>(given.data), 1.0F, image);
+        readFloats(use, image);
+    }
     return image;
 }
 
@@ -171,7 +174,8 @@ std::uint32_t readTexture(const std::uint8_t* data, std::size_t size, std::size_
     const ByteSpan file{data, size};
     if (!isTextureFile(file)) return fail(ErrorCode::unsupportedFile, "it is neither KTX2 nor DDS");
     std::string why;
-    std::optional<FloatImage> image = decodeFloatTexture(file, kMostPixels, why, level);
+    std::optional<FloatImage> image = decodeFloatTexture(file, kMostPixels, why, level,
+                                                         makes_vectors ? ImageUse::vectors : ImageUse::numbers);
     if (!image) return fail(ErrorCode::invalidFile, why);
     const TextureFile head = *readTextureHead(file, why);
     const MapLayout layout = image->texture.layout;
@@ -207,20 +211,22 @@ TSPACE_JS_EXPORT(textureWords) const TextureWords* textureWords() { return &word
 /// `roughness`: null, or the image whose levels are made too. `format` and `quality`: as the enumerations number them.
 TSPACE_JS_EXPORT(compressMap)
 std::uint32_t compressMap(const ImageWords* given, const ImageWords* roughness, std::uint32_t format,
-                          std::uint32_t quality, bool is_signed, bool levels, double roughness_factor, bool is_dds) {
+                          std::uint32_t quality, bool is_signed, bool levels, double roughness_factor, bool is_dds,
+                          std::uint32_t alpha) {
     const CompressMapFileOptions options{.format = static_cast<TextureFormat>(format),
                                          .quality = static_cast<TextureQuality>(quality),
                                          .is_signed = is_signed,
                                          .levels = levels,
-                                         .roughness_factor = roughness_factor};
+                                         .roughness_factor = roughness_factor,
+                                         .alpha = static_cast<MapAlpha>(alpha)};
     if (const std::optional<Error> fault = textureFault(options, is_dds)) return fail(fault->code, fault->message);
-    Result<FloatImage> image = imageOf(*given);
+    Result<FloatImage> image = imageOf(*given, ImageUse::vectors);
     if (!image) return codeOf(image);
     CompressMapFileReport made_report;
     beginReport(*image, made_report);
     RoughnessLevel rough;
     if (roughness != nullptr) {
-        Result<FloatImage> other = imageOf(*roughness);
+        Result<FloatImage> other = imageOf(*roughness, ImageUse::numbers);
         if (!other) return fail(other.error().code, "the roughness: " + other.error().message);
         rough = {other->width, other->height, std::move(other->texels)};
         if (const std::string why = whyGridsDiffer(rough, image->width, image->height); !why.empty())

@@ -183,8 +183,9 @@ bool isTextureName(const std::string& path) {
 }
 
 std::vector<std::uint8_t> packTexture(const std::string& name, std::uint32_t width, std::uint32_t height,
-                                      std::span<const Vec3> texels, const Execution& execution) {
-    NormalLevel first{width, height, {}, {}};
+                                      std::span<const Vec3> texels, const Execution& execution,
+                                      std::vector<float> coverage) {
+    NormalLevel first{width, height, {}, {}, std::move(coverage)};
     first.normals.reserve(texels.size());
     for (const Vec3& texel : texels) first.normals.push_back(toFloat(decodeTexel(texel, {})));
     Parallel parallel(execution);
@@ -275,6 +276,7 @@ OptionList compressMapOptions(CompressMapFileOptions& options) {
         flag("--signed", options.is_signed,
              "Write numbers with a sign (SNORM). Flat parts of maps of more than 8 bits are then exact; engines must "
              "be told."));
+    addAlpha(list, "Texture", options.alpha);
     add(list, "Texture",
         setting("--mips", options.levels, true, "Write all smaller levels too, each from the first. So it is anyway."));
     Option no_levels = setting("--no-levels", options.levels, false, "Write the first level alone.");

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "commands/shared/map_coverage.h"
 #include "commands/shared/texture_vectors.h"
 #include "maps/filtered_error.h"
 #include "maps/fit_blocks.h"
@@ -14,10 +15,15 @@ namespace {
 
 /// Unit vectors, and how many texels of the image were none or look below the horizon. `far_off`: how many are so far from unit that no
 /// normal map has them: `bake --lengths free` and `convert-map --bits 8` write lengths from .7 to 1.1, rounded.
-NormalLevel normalsOf(const FloatImage& image, std::uint64_t& far_off, CompressMapFileReport& report) {
+NormalLevel normalsOf(const FloatImage& image, std::vector<float>&& coverage, std::uint64_t& far_off,
+                      CompressMapFileReport& report) {
     constexpr double kMostOff = 0.1, kShortest = 0.65, kLongest = 1.15;
-    NormalLevel level{image.width, image.height, std::vector<Vec3>(image.texels.size()), {}};
+    NormalLevel level{image.width, image.height, std::vector<Vec3>(image.texels.size()), {}, std::move(coverage)};
     for (std::size_t i = 0; i < image.texels.size(); ++i) {
+        if (!level.coverage.empty() && level.coverage[i] == 0) {
+            level.normals[i] = {0, 0, 1};
+            continue;
+        }
         DVec3 vector = decodeTexel(image.texels[i], {});
         const double size = length(vector);
         if (std::fabs(size - 1) > kMostOff) ++report.not_unit;
@@ -70,7 +76,6 @@ void addWarnings(const FloatImage& image, std::uint64_t far_off, const CompressM
                  CompressMapFileReport& report) {
     const auto warn = [&](std::string text) { report.warnings.push_back(std::move(text)); };
     const std::uint64_t total = image.texels.size();
-    if (!image.alpha.empty()) warn("the image has alpha, which is left out");
     if (report.below_horizon > 0 && !has_three)
         warn(std::to_string(report.below_horizon) + " texels look below the horizon, which two channels cannot say");
     if (far_off > total / 10)
@@ -134,17 +139,22 @@ MapLevels makeMapLevels(FloatImage image, const CompressMapFileOptions& options,
                         Parallel& parallel, CompressMapFileReport& report) {
     MapLevels made;
     std::uint64_t far_off = 0;
-    NormalLevel first = normalsOf(image, far_off, report);
+    std::vector<float> coverage = takeCoverage(options.alpha, image, report.warnings);
+    NormalLevel first = normalsOf(image, std::move(coverage), far_off, report);
     addWarnings(image, far_off, options, has_three, report);
     image = {};
     if (report.below_horizon > 0 && !has_three) {
         made.truth = first;
         layOnHorizon(first);
     }
-    if (options.levels || has_roughness) {
+    const bool has_coverage = !first.coverage.empty();
+    if (options.levels || has_roughness || has_coverage) {
         made.levels = makeNormalLevels(std::move(first), parallel, has_roughness);
     } else {
         made.levels.push_back(std::move(first));
+    }
+    for (std::size_t i = 0; has_coverage && i < made.truth.normals.size(); ++i) {
+        if (made.truth.coverage[i] == 0) made.truth.normals[i] = made.levels.front().normals[i];
     }
     return made;
 }

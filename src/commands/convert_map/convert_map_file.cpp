@@ -8,6 +8,7 @@
 #include "commands/convert_map/convert_map_report.h"
 #include "commands/shared/axes_option.h"
 #include "commands/shared/file_options.h"
+#include "commands/shared/map_coverage.h"
 #include "commands/shared/map_image_file.h"
 #include "commands/shared/request.h"
 #include "commands/shared/texture_vectors.h"
@@ -241,6 +242,11 @@ ConvertMapFileReport convert(const std::string& input, const std::string& output
     FloatImage image = readMapImage(input, options.content, options.file);
     const std::string how_read = options.layout == MapLayout{} ? readTextureVectors(image) : std::string();
     const std::vector<Vec3> before = applyLayout(options.layout, image);
+    std::vector<std::string> alpha_text;
+    std::vector<float> coverage;
+    if (is_texture) coverage = takeCoverage(options.alpha, image, alpha_text);
+    if (!is_texture && options.alpha != MapAlpha::automatic)
+        alpha_text.emplace_back("the meaning of alpha matters only for outputs with levels (.ktx2 and .dds)");
     const Meshes meshes = readMeshes(input, options);
     const MapMesh* const from = meshes.from ? &*meshes.from : nullptr;
     const MapMesh* const to = meshes.to ? &*meshes.to : nullptr;
@@ -270,6 +276,7 @@ ConvertMapFileReport convert(const std::string& input, const std::string& output
     checkConversion(report.texels);
     if (!before.empty()) countLayout(before, image.texels, any == nullptr, report.texels);
     if (!how_read.empty()) report.warnings.push_back(how_read);
+    report.warnings.insert(report.warnings.end(), alpha_text.begin(), alpha_text.end());
     if (image.not_finite > 0)
         report.warnings.push_back(std::to_string(image.not_finite) +
                                   " texels of the image are not finite; they become grey, which has no direction");
@@ -278,7 +285,7 @@ ConvertMapFileReport convert(const std::string& input, const std::string& output
         if (options.bits != 0) report.warnings.emplace_back("the number of bits does not matter for BC5");
         AtomicOutput files({.is_dry_run = options.dry_run, .sync = options.file.sync, .inputs = &inputs});
         const std::vector<std::uint8_t> file =
-            packTexture(output, image.width, image.height, image.texels, options.execution);
+            packTexture(output, image.width, image.height, image.texels, options.execution, std::move(coverage));
         files.add(output, std::span<const std::uint8_t>(file));
         files.commit();
         return report;
@@ -425,6 +432,7 @@ OptionList convertMapOptions(ConvertMapFileOptions& options) {
             "Of a channel of the output: 8 or 16 in a PNG; 16 (half) or 32 (float) in an EXR. Default: the most that "
             "the format has."));
     addLengths(list, group, options.lengths);
+    addAlpha(list, group, options.alpha);
     add(list, group,
         number(
             "--padding", options.padding, 65536,

@@ -92,6 +92,18 @@ void addLengths(OptionList& list, const char* group, TexelLengths& lengths) {
             "map, as engines do; free: 0.7 to 1.1, which errs less close up, and more in smaller levels."));
 }
 
+void addAlpha(OptionList& list, const char* group, MapAlpha& alpha) {
+    static constexpr Named<MapAlpha> kAlphas[] = {
+        {"auto", MapAlpha::automatic}, {"coverage", MapAlpha::coverage}, {"data", MapAlpha::data}};
+    add(list, group,
+        choice(
+            "--alpha", "MEANING", kAlphas, alpha,
+            "Meaning of alpha. coverage: how much of a texel is surface, as in sprites and foliage; smaller levels are "
+            "means weighted by it. data: anything else; it is left out. auto: coverage where texels with alpha 0 hold "
+            "no "
+            "unit vectors and the others do."));
+}
+
 void addMaterialOfMap(OptionList& list, std::string& material) {
     add(list, kInputAndOutput,
         text("--material", "NAME", material,

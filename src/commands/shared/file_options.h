@@ -7,6 +7,7 @@
 
 #include "commands/shared/option_table.h"
 #include "tspace/asset.h"
+#include "tspace/map_convert_file.h"
 #include "tspace/map_reading.h"
 #include "tspace/texel_lengths.h"
 
@@ -47,6 +48,8 @@ void addSync(OptionList& list, bool& sync);
 void addRunning(OptionList& list, Execution& execution, HelpText threads_help, FileOptions& file);
 /// --lengths, of maps of 8 bits.
 void addLengths(OptionList& list, const char* group, TexelLengths& lengths);
+/// --alpha, of normal maps that get levels.
+void addAlpha(OptionList& list, const char* group, MapAlpha& alpha);
 /// Which primitives of a model show a map.
 void addMaterialOfMap(OptionList& list, std::string& material);
 /// The last options of calls that make an image by a model: how tangents are made where it has none (in `group`), and how
