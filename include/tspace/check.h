@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -75,8 +76,11 @@ enum class FindingCode : std::uint32_t {
     positionsNoisy = 47,          ///< positions that lie beside any smooth surface at random, as those of scans do
     normalMapLossy = 48,          ///< packed as pictures are (ETC1S, WebP with loss), which costs vectors degrees
     normalMapLevels = 49,         ///< a texture without smaller levels
+    normalMapLengths = 50,        ///< an image alone: vectors that are far from unit length
+    normalMapConstant = 51,       ///< an image alone: all texels are one color
+    normalMapZero = 52,           ///< an image alone: flat parts are stored as 127, not 128
 };
-inline constexpr std::uint32_t kFindingCodeCount = 50;
+inline constexpr std::uint32_t kFindingCodeCount = 53;
 
 /// Stable lowerCamelCase name: the name of the enumerator.
 const char* findingName(FindingCode code);
@@ -157,8 +161,21 @@ struct PackedFramesInfo {
     std::uint64_t differing_sign_count = 0;
 };
 
+/// What an image holds that was checked without a model.
+struct CheckedImage {
+    std::uint32_t width = 0, height = 0;
+    /// "normals" (in tangent space, as glTF reads them), "twoChannels", "unsignedZ", "xInAlpha", "exchanged", "encoded" (sRGB),
+    /// "hemiOctahedral", "objectSpace", "height", "picture" or "constant".
+    std::string content = {};
+    /// Direction of green, or of y where that is in another channel, if x is right: "up" (OpenGL, glTF), "down" (DirectX), "mixed", or
+    /// "unknown". A map with x and y inverted has the slopes of the same surface with dents for bumps, so no image tells these apart.
+    std::string green = {};
+    double green_confidence = 0;  ///< 0 to 1
+};
+
 struct CheckReport {
-    std::string format = {};             ///< as Inspection::format
+    std::string format =
+        {};  ///< as Inspection::format; of an image "png", "jpeg", "webp", "exr", "ktx2", "dds" or "tga"
     std::string generator = {};          ///< the program that wrote the file; may be empty
     std::vector<Finding> findings = {};  ///< errors first; among equals in file order, then by code
     std::uint64_t error_count = 0;
@@ -169,9 +186,11 @@ struct CheckReport {
     std::uint64_t image_count = 0;                     ///< normal maps that were looked at: what their channels hold
     std::uint64_t green_count = 0;                     ///< those of them whose relief says which way green points
     std::vector<PackedFramesInfo> packed_frames = {};  ///< in file order
+    std::optional<CheckedImage> image = {};            ///< of an image alone
 };
 
-/// Reads a model and says what is wrong with its frames. Near-linear in the size of the model. Memory: the model as
+/// Reads a model and says what is wrong with its frames; or an image (by its extension, or by the first bytes of file.content), and
+/// says what is wrong with it as a normal map: by the same tests as those of a model, without the mesh. Near-linear in the size of the model. Memory: the model as
 /// floats, and about 150 bytes per triangle of the primitives at work. Thread-safe; the report does not depend on the
 /// number of threads. Errors as generateFile; also invalidOption (an angle or share that is negative or not finite).
 Result<CheckReport> checkFile(const std::string& input, const CheckOptions& options = {});

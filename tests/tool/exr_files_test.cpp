@@ -16,21 +16,21 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::uint32_t kSide = 64;
+constexpr std::uint32_t kExrSide = 64;
 
 class ExrFiles : public ::testing::Test {
   protected:
     void SetUp() override {
         if (const char* why = whyNotRead(ImageFormat::exr)) GTEST_SKIP() << why;
-        const RgbImage map = normalMapOf(kSide, bumps);
+        const RgbImage map = normalMapOf(kExrSide, bumps);
         std::vector<float> parts[3];
         for (std::size_t i = 0; i < map.rgb.size(); ++i)
             parts[i % 3].push_back(static_cast<float>(map.rgb[i] / 127.5 - 1));
         folder_.write("n.png", pngFile(map));
-        folder_.write("rgb.exr", exrFile(kSide, kSide, {{"R", parts[0]}, {"G", parts[1]}, {"B", parts[2]}}));
-        folder_.write("layer.exr",
-                      exrFile(kSide, kSide, {{"normal.X", parts[0]}, {"normal.Y", parts[1]}, {"normal.Z", parts[2]}}));
-        folder_.write("xy.exr", exrFile(kSide, kSide, {{"X", parts[0]}, {"Y", parts[1]}}));
+        folder_.write("rgb.exr", exrFile(kExrSide, kExrSide, {{"R", parts[0]}, {"G", parts[1]}, {"B", parts[2]}}));
+        folder_.write("layer.exr", exrFile(kExrSide, kExrSide,
+                                           {{"normal.X", parts[0]}, {"normal.Y", parts[1]}, {"normal.Z", parts[2]}}));
+        folder_.write("xy.exr", exrFile(kExrSide, kExrSide, {{"X", parts[0]}, {"Y", parts[1]}}));
     }
 
     TempFolder folder_;
@@ -68,17 +68,17 @@ TEST_F(ExrFiles, ModelsShowThemAsThePng) {
 }
 
 TEST_F(ExrFiles, HeightsOfOneChannelAreThoseOfThePng) {
-    FloatImage image{kSide, kSide, 16, {}, {}};
+    FloatImage image{kExrSide, kExrSide, 16, {}, {}};
     std::vector<float> heights;
-    for (std::uint32_t i = 0; i < kSide * kSide; ++i) {
-        heights.push_back(static_cast<float>(0.5 + 5 * bumps((i % kSide) / 64.0, (i / kSide) / 64.0)));
+    for (std::uint32_t i = 0; i < kExrSide * kExrSide; ++i) {
+        heights.push_back(static_cast<float>(0.5 + 5 * bumps((i % kExrSide) / 64.0, (i / kExrSide) / 64.0)));
         image.texels.push_back({heights.back(), heights.back(), heights.back()});
     }
     const auto png = encodePng(image, 16);
     ASSERT_TRUE(png);
     folder_.write("h.png", std::string(png->begin(), png->end()));
-    folder_.write("y.exr", exrFile(kSide, kSide, {{"Y", heights}}));
-    folder_.write("r.exr", exrFile(kSide, kSide, {{"R", heights}}));
+    folder_.write("y.exr", exrFile(kExrSide, kExrSide, {{"Y", heights}}));
+    folder_.write("r.exr", exrFile(kExrSide, kExrSide, {{"R", heights}}));
     ASSERT_EQ(runTool(folder_, "height-to-normal h.png -o h.n.png --strength 9").exit_code, 0);
     const FloatImage wanted = imageIn(folder_, "h.n.png");
     for (const std::string name : {"y", "r"}) {

@@ -50,7 +50,7 @@ void addCheckReporting(Command& command, CheckArguments& arguments) {
 
 Result<CheckReport> check(const std::string& input, CheckOptions options, const CheckArguments& arguments) {
     StandardInput standard_input;
-    if (const Result<Done> opened = standard_input.open(input, options.file); !opened) return opened.error();
+    if (const Result<Done> opened = standard_input.open(input, options.file, true); !opened) return opened.error();
     Result<CheckReport> report = checkFile(input, options);
     if (report) options::leaveOut(arguments.request, *report);
     return report;
@@ -111,16 +111,17 @@ Command checkCommand() {
     CheckArguments& arguments = *owned;
     arguments.request.options.execution.thread_count = kAllThreads;
     Command command{
-        .summary = "find what is wrong with normals, tangents and UVs",
+        .summary = "find what is wrong with normals, tangents and UVs, or with a normal map",
         .operands = "IN...",
         .description =
             "Compares tangents with the UVs that the material's textures are read with: signs, directions, seams, UV "
             "sets, texture transforms; also values that are not finite or not unit, normals, morph targets, and normal "
             "maps whose green points down. Every finding says how to mend it. An error surely renders wrong; a warning "
             "renders wrong in some renderers, in a small part, or only perhaps; a note is worth knowing. Changes "
-            "nothing.",
-        .examples = {"tspace check helmet.glb", "tspace check --fail-on warning --jobs 0 models/",
-                     "tspace check --json models/ > findings.json",
+            "nothing. An input that is an image (PNG, JPEG, WebP, EXR, KTX2, DDS, TGA) is judged as a normal map, "
+            "without a model: direction of green, channels, encoding, lengths.",
+        .examples = {"tspace check helmet.glb", "tspace check normal.png",
+                     "tspace check --fail-on warning --jobs 0 models/", "tspace check --json models/ > findings.json",
                      "tspace check --quiet --sarif findings.sarif models/",
                      "tspace check --html report.html helmet.glb"},
         .finish = [&arguments](const Given&) -> std::string {

@@ -6,8 +6,10 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <span>
 #include <string_view>
 
+#include "images/image.h"
 #include "system.h"
 
 namespace tspace::tool {
@@ -21,6 +23,12 @@ bool looksLikeModel(std::string_view text) {
     if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
     const std::size_t begin = text.find_first_not_of(" \t\r\n");
     return begin != std::string_view::npos && text[begin] == '{';
+}
+
+bool looksLikeModelOrImage(std::string_view text) {
+    const std::span bytes(reinterpret_cast<const std::uint8_t*>(text.data()), text.size());
+    const ImageFormat format = imageFormat(bytes);
+    return looksLikeModel(text) || (format != ImageFormat::unknown && format != ImageFormat::tga);
 }
 
 }  // namespace
@@ -44,10 +52,10 @@ Result<std::vector<std::uint8_t>> readStandardInput(const char* what, std::uint6
     return bytes;
 }
 
-Result<Done> StandardInput::open(const std::string& input, FileOptions& options) {
+Result<Done> StandardInput::open(const std::string& input, FileOptions& options, bool takes_images) {
     if (input != "-") return Done{};
     Result<std::vector<std::uint8_t>> bytes =
-        readStandardInput("a model", options.memory_limit_bytes, looksLikeModel,
+        readStandardInput("a model", options.memory_limit_bytes, takes_images ? looksLikeModelOrImage : looksLikeModel,
                           "standard input is neither GLB nor glTF; models of other formats are read from files");
     if (!bytes) return std::move(bytes).error();
     bytes_ = *std::move(bytes);

@@ -27,7 +27,8 @@ class StandardInput {
   public:
     /// Where `input` is "-", reads all of stdin and points `options` at it. Fails with cannotRead, unsupportedFile
     /// (neither GLB nor glTF: other formats are told by their names) and tooLarge.
-    Result<Done> open(const std::string& input, FileOptions& options);
+    /// `takes_images`: an image may come too.
+    Result<Done> open(const std::string& input, FileOptions& options, bool takes_images = false);
 
   private:
     std::vector<std::uint8_t> bytes_ = {};

@@ -10,7 +10,8 @@ export interface CheckReport {
   ok: true;
   /** Null when ok. */
   error: null;
-  /** "glb", "gltf", "obj", or the extension of an imported file such as "fbx". */
+  /** "glb", "gltf", "obj", or the extension of an imported file such as "fbx"; of an image "png", "jpeg", "webp", "exr",
+   * "ktx2", "dds" or "tga". */
   format: string;
   /** The program that wrote the file; may be empty. */
   generator: string;
@@ -22,6 +23,8 @@ export interface CheckReport {
   normalMaps: number;
   /** Those of them whose relief says which way green points. */
   normalMapsWithGreen: number;
+  /** What an image holds as a normal map that was checked without a model; null for a model. */
+  image: CheckedImage | null;
   /** One entry for each format of packed frames of each primitive, in file order. */
   packedFrames: CheckedPackedFrames[];
   /** Findings by severity. */
@@ -30,6 +33,18 @@ export interface CheckReport {
   findings: Finding[];
   /** That of the tool: 0, or 1 where something was found. */
   exitCode: 0 | 1;
+}
+
+export interface CheckedImage {
+  width: number;
+  height: number;
+  /** "normals" in tangent space as glTF reads them, "twoChannels", "unsignedZ", "xInAlpha", "exchanged", "encoded" (sRGB),
+   * "hemiOctahedral", "objectSpace", "height", "picture" or "constant". */
+  content: string;
+  /** Direction of green, or of y where that is in another channel, if x is right: "up", "down", "mixed" or "unknown". */
+  green: string;
+  /** How many blocks of texels agree beyond an even split, 0 to 1. */
+  greenConfidence: number;
 }
 
 export interface CheckedPackedFrames {

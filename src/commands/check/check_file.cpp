@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "commands/check/check_image.h"
 #include "commands/check/check_report.h"
 #include "commands/check/findings.h"
 #include "commands/check/scene_checks.h"
@@ -61,8 +62,23 @@ Finding fileRemark(const std::string& warning) {
     return makeFinding(FindingCode::fileRemark, Severity::note, one, "files", warning);
 }
 
+void countFindings(CheckReport& report) {
+    sortStably(report.findings.begin(), report.findings.end(),
+               [](const Finding& a, const Finding& b) { return a.severity > b.severity; });
+    for (const Finding& finding : report.findings) {
+        report.error_count += finding.severity == Severity::error;
+        report.warning_count += finding.severity == Severity::warning;
+        report.note_count += finding.severity == Severity::note;
+    }
+}
+
 CheckReport check(const std::string& input, const CheckOptions& options) {
     checkOptions(options);
+    if (isImageInput(input, options.file.content)) {
+        CheckReport report = checkImageFile(input, options);
+        countFindings(report);
+        return report;
+    }
     if (options.progress) options.progress("reading", 0, 1);
     const Scene scene = readScene(input, options.file, options.images);
     if (options.progress) options.progress("reading", 1, 1);
@@ -95,13 +111,7 @@ CheckReport check(const std::string& input, const CheckOptions& options) {
         // A finding about their primitives says it.
         if (warning.rfind(kNormalLengths, 0) != 0) report.findings.push_back(fileRemark(warning));
     }
-    sortStably(report.findings.begin(), report.findings.end(),
-               [](const Finding& a, const Finding& b) { return a.severity > b.severity; });
-    for (const Finding& finding : report.findings) {
-        report.error_count += finding.severity == Severity::error;
-        report.warning_count += finding.severity == Severity::warning;
-        report.note_count += finding.severity == Severity::note;
-    }
+    countFindings(report);
     return report;
 }
 
@@ -171,6 +181,13 @@ Json checkedFileJson(const CheckOutcome& outcome) {
     json["normalMapsWithGreen"] = report.green_count;
     json["counts"] =
         Json::object({{"error", report.error_count}, {"warning", report.warning_count}, {"note", report.note_count}});
+    json["image"] = nullptr;
+    if (report.image)
+        json["image"] = Json::object({{"width", report.image->width},
+                                      {"height", report.image->height},
+                                      {"content", report.image->content},
+                                      {"green", report.image->green},
+                                      {"greenConfidence", report.image->green_confidence}});
     json["packedFrames"] = listJson(report.packed_frames, packedJson);
     json["findings"] = listJson(report.findings, findingJson);
     return json;

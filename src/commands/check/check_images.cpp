@@ -18,6 +18,7 @@
 #include "images/texture_file.h"
 #include "maps/texture_sample.h"
 #include "maps/uv_coverage.h"
+#include "model/io/file_error.h"
 #include "model/io/memory_budget.h"
 
 namespace tspace {
@@ -263,6 +264,7 @@ void lookAt(const Scene& scene, const CheckOptions& options, NormalMap& map) {
     TexelMask inside(decoded->width, decoded->height);
     std::uint64_t steps = kCoverSteps;
     for (const MapPart& part : map.parts) cover(part, inside, steps);
+    if (map.parts.empty()) inside.fillAll();
     if (isLossyWebp(image.bytes)) map.packing_deg = webpDegrees(*decoded);
     if (isEtc1s(textureFacts(image.bytes))) map.packing_deg = etc1sDegrees(*decoded);
     lookAtContent(scene, inside, map, *decoded);
@@ -328,13 +330,13 @@ bool isDown(const NormalMap& map) { return map.test && map.test->verdict == Gree
 
 /// Readers of the file know that green points down, and turn it.
 bool isDeclared(const NormalMap& map) {
-    return std::all_of(map.parts.begin(), map.parts.end(),
-                       [](const MapPart& part) { return part.use->is_declared_down; });
+    return !map.parts.empty() && std::all_of(map.parts.begin(), map.parts.end(),
+                                             [](const MapPart& part) { return part.use->is_declared_down; });
 }
 
 bool mayBeHeights(const NormalMap& map) {
-    return std::all_of(map.parts.begin(), map.parts.end(),
-                       [](const MapPart& part) { return part.use->may_be_heights; });
+    return !map.parts.empty() && std::all_of(map.parts.begin(), map.parts.end(),
+                                             [](const MapPart& part) { return part.use->may_be_heights; });
 }
 
 bool readsLevels(const NormalMap& map) {
@@ -408,6 +410,7 @@ std::vector<Finding> describe(const Scene& scene, const NormalMap& map) {
             if (finding.unit == "blocks") finding.confidence = map.test->confidence();
         }
     }
+    if (map.parts.empty()) return findings;
     const MapPart& part = partOf(map);
     for (Finding& finding : findings) placeAt(*part.primitive, part.use->place, finding);
     return findings;
@@ -461,6 +464,18 @@ ImageFindings checkImages(const Scene& scene, const CheckOptions& options) {
         }
     }
     return result;
+}
+
+LoneMap checkLoneMap(const Scene& scene, const CheckOptions& options) {
+    NormalMap map;
+    lookAt(scene, options, map);
+    if (!map.test) failFile(ErrorCode::invalidFile, map.why_not);
+    LoneMap lone{.look = map.look,
+                 .test = *map.test,
+                 .command_name = commandName(scene, map.image),
+                 .findings = describe(scene, map)};
+    lone.pixels = *decodeImage(scene.images[0].bytes, options.most_pixels, map.why_not);
+    return lone;
 }
 
 std::vector<Finding> checkMapScales(const Scene& scene) {

@@ -4,6 +4,7 @@
 #include <map>
 
 #include <fmt/format.h>
+#include "commands/check/check_image.h"
 #include "commands/check/check_report.h"
 #include "commands/shared/text.h"
 #include "model/io/path.h"
@@ -33,6 +34,7 @@ std::string summaryLine(const CheckOutcome& outcome) {
     const std::string what = report.findings.empty()
                                  ? "nothing found"
                                  : countsText(report.error_count, report.warning_count, report.note_count);
+    if (report.image) return fmt::format("{}: {}; {}\n", printable(outcome.input), imageText(report), what);
     std::string text = fmt::format("{}: {} in {}, {} of them with tangents", printable(outcome.input), what,
                                    counted(report.primitive_count, "primitive"), report.tangents_count);
     return text + lookedText(report) + "\n";

@@ -117,6 +117,15 @@ constexpr std::array<CodeText, kFindingCodeCount> kCodes{{
      "beside the glTF: tspace compress-map."},
     {"normalMapLevels",
      "Write all levels with the program that packed it; for engines, beside the glTF: tspace compress-map."},
+    {"normalMapLengths",
+     "Make the vectors unit, unless their lengths are meant: renderers make each unit after the filter, so lengths "
+     "count only "
+     "between texels and in smaller levels."},
+    {"normalMapConstant",
+     "Remove the map where it is flat: it costs memory and changes nothing. Else find the map that is meant."},
+    {"normalMapZero",
+     "Nothing needs to be done for most uses. Else write the map from its source with 128 for flat parts, or with 16 "
+     "bits."},
 }};
 
 }  // namespace
@@ -191,6 +200,9 @@ const char* findingSummary(FindingCode code) {
         "Positions are noisy.",
         "A normal map is packed as pictures are.",
         "A texture of a normal map has no smaller levels.",
+        "Vectors of a normal map are not unit.",
+        "A normal map is one color.",
+        "Flat parts of a normal map are stored as 127.",
     };
     static_assert(kSummaries.size() == kFindingCodeCount);
     const auto number = static_cast<std::size_t>(code);

@@ -165,6 +165,7 @@ class Looker {
 
     [[nodiscard]] MapLook look() const {
         if (const auto found = xInAlpha()) return *found;
+        if (const auto found = lostX()) return *found;
         if (isGreyTexels(texels_)) return made(MapContent::height, {}, 1);
         if (const auto found = twoChannels(kMostMean)) return *found;
         if (const auto found = encoded()) return *found;
@@ -196,6 +197,19 @@ class Looker {
         layout.x.channel = MapChannel::alpha;
         layout.z.channel = MapChannel::none;
         return made(MapContent::xInAlpha, layout, 1);
+    }
+
+    /// Red and blue are the same everywhere, with a red that is x of nothing, and green varies as y does.
+    [[nodiscard]] std::optional<MapLook> lostX() const {
+        constexpr double kFarX = 0.9, kFewUnit = 0.1;
+        const auto isConstant = [&](std::size_t i) { return channels_[i].deviation <= kConstant; };
+        const auto valueOf = [&](std::size_t i) { return channels_[i].mean * kStep - 1; };
+        if (!isConstant(0) || isConstant(1) || !isConstant(2) || (has_alpha_ && !isConstant(3))) return {};
+        if (std::fabs(valueOf(0)) < kFarX || std::fabs(valueOf(1)) > kMostMean || plain_.unit_share > kFewUnit)
+            return {};
+        MapLook look = made(MapContent::picture, {}, 1);
+        look.is_x_lost = true;
+        return look;
     }
 
     /// Blue is the same everywhere, and not what z would be: over all texels, or over those that lean. Maps that are flat

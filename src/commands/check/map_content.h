@@ -46,6 +46,8 @@ struct MapLook {
     std::uint64_t count = 0, total = 0;  ///< texels that say so, of those that were looked at
     /// With objectSpace: the normals of the mesh show it. Otherwise the directions only point all around.
     bool follows_mesh = false;
+    /// With picture: y alone is there, in green, as in a DXT5nm map that lost its alpha, and x with it.
+    bool is_x_lost = false;
     /// With objectSpace: the normals are as a node of the scene turns them.
     bool is_in_world = false;
     /// With two channels: there is relief, and as x and y these channels are the slopes of no height.

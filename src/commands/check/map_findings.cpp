@@ -98,6 +98,11 @@ std::string messageOf(const std::string& name, const MapLook& look) {
                                           : ", with " + axisText("x", layout.x) + ", " + axisText("y", layout.y) +
                                                 " and " + axisText("z", layout.z));
         case MapContent::picture:
+            if (look.is_x_lost) {
+                return name +
+                       " is no normal map that can be used: only green varies, as y of a map with x in alpha (DXT5nm) "
+                       "does, and alpha, with x, is not there";
+            }
             return name +
                    " is a picture in colors, and no normal map: its texels are no unit vectors around one that points "
                    "out of the surface";
@@ -126,6 +131,7 @@ std::string remedyOf(const std::string& file, const MapLook& look, bool green_is
     const std::string flip = green_is_down ? " --flip-green" : "";
     const std::string in_model = "In the model: tspace generate --mend-maps" + flip + ". The image alone: ";
     const std::string convert = "tspace convert-map " + file + " -o OUT.png";
+    if (look.is_x_lost) return "Export the map from its source again, with its alpha channel: x cannot be restored.";
     if (look.content == MapContent::picture) return findingRemedy(FindingCode::normalMapIsPicture);
     if (look.content == MapContent::hemiOctahedral) {
         return "Decode it with the program that encoded it, and export x, y and z. No command here does that, and "

@@ -43,6 +43,16 @@ struct ImageFindings {
 /// Looks at every image that is a normal map, once.
 ImageFindings checkImages(const Scene& scene, const CheckOptions& options);
 
+/// Looks at scene.images[0], which no primitive shows, as checkImages does. Throws FileError where it cannot be read.
+struct LoneMap {
+    MapLook look = {};
+    GreenTest test = {};
+    RgbImage pixels = {};           ///< as stored, of 8 bits
+    std::string command_name = {};  ///< the image as commands in remedies name it
+    std::vector<Finding> findings = {};
+};
+LoneMap checkLoneMap(const Scene& scene, const CheckOptions& options);
+
 /// A note for each normal map whose scale is 0 or below.
 std::vector<Finding> checkMapScales(const Scene& scene);
 

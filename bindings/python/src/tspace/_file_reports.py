@@ -17,7 +17,8 @@ class CheckReport(Findings):
     ok: bool
     #: Null when ok.
     error: None
-    #: "glb", "gltf", "obj", or the extension of an imported file such as "fbx".
+    #: "glb", "gltf", "obj", or the extension of an imported file such as "fbx"; of an image "png", "jpeg", "webp",
+    #: "exr", "ktx2", "dds" or "tga".
     format: str
     #: The program that wrote the file; may be empty.
     generator: str
@@ -29,6 +30,8 @@ class CheckReport(Findings):
     normal_maps: int
     #: Those of them whose relief says which way green points.
     normal_maps_with_green: int
+    #: What an image holds as a normal map that was checked without a model; null for a model.
+    image: Optional[CheckedImage]
     #: One entry for each format of packed frames of each primitive, in file order.
     packed_frames: List[CheckedPackedFrames]
     #: Findings by severity.
@@ -37,6 +40,18 @@ class CheckReport(Findings):
     findings: List[Finding]
     #: That of the tool: 0, or 1 where something was found.
     exit_code: int
+
+
+class CheckedImage(Report):
+    width: int
+    height: int
+    #: "normals" in tangent space as glTF reads them, "twoChannels", "unsignedZ", "xInAlpha", "exchanged", "encoded"
+    #: (sRGB), "hemiOctahedral", "objectSpace", "height", "picture" or "constant".
+    content: str
+    #: Direction of green, or of y where that is in another channel, if x is right: "up", "down", "mixed" or "unknown".
+    green: str
+    #: How many blocks of texels agree beyond an even split, 0 to 1.
+    green_confidence: float
 
 
 class CheckedPackedFrames(Report):

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "commands/check/check_image.h"
 #include "commands/generate/generate_model.h"
 #include "commands/shared/page/place_pictures.h"
 #include "commands/shared/report.h"
@@ -224,6 +225,11 @@ std::string fileHtml(const report::CheckOutcome& outcome, std::size_t number, Pi
                htmlText(outcome.result.error().message) + "</p></article>\n</section>\n";
     }
     const CheckReport& report = *outcome.result;
+    if (report.image) {
+        html += "<p>" + severityCounts(report) + "; " + htmlText(imageText(report)) + "</p>\n";
+        for (const Finding& finding : report.findings) html += findingHtml(finding, nullptr);
+        return html + "</section>\n";
+    }
     html += "<p>" + severityCounts(report) + " in " + counted(report.primitive_count, "primitive") + ", " +
             std::to_string(report.tangents_count) + " of them with tangents; looked at " +
             counted(report.image_count, "normal map") +

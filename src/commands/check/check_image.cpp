@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: MIT
+#include "commands/check/check_image.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <optional>
+
+#include "commands/check/findings.h"
+#include "commands/check/scene_checks.h"
+#include "core/base/numbers.h"
+#include "images/float_image.h"
+#include "model/io/file_error.h"
+#include "model/io/file_io.h"
+#include "model/io/memory_budget.h"
+
+namespace tspace {
+namespace {
+
+const char* contentName(MapContent content) {
+    switch (content) {
+        case MapContent::normals:
+            return "normals";
+        case MapContent::twoChannels:
+            return "twoChannels";
+        case MapContent::unsignedZ:
+            return "unsignedZ";
+        case MapContent::xInAlpha:
+            return "xInAlpha";
+        case MapContent::exchanged:
+            return "exchanged";
+        case MapContent::encoded:
+            return "encoded";
+        case MapContent::objectSpace:
+            return "objectSpace";
+        case MapContent::height:
+            return "height";
+        case MapContent::hemiOctahedral:
+            return "hemiOctahedral";
+        case MapContent::picture:
+            break;
+    }
+    return "picture";
+}
+
+const char* greenName(GreenVerdict verdict) {
+    switch (verdict) {
+        case GreenVerdict::up:
+            return "up";
+        case GreenVerdict::down:
+            return "down";
+        case GreenVerdict::mixed:
+            return "mixed";
+        case GreenVerdict::unknown:
+            break;
+    }
+    return "unknown";
+}
+
+std::string lowerName(ImageFormat format) {
+    std::string name = formatName(format);
+    for (char& letter : name) letter = letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter;
+    return name;
+}
+
+std::string texelText(const std::uint8_t* rgb) {
+    return "(" + std::to_string(rgb[0]) + ", " + std::to_string(rgb[1]) + ", " + std::to_string(rgb[2]) + ")";
+}
+
+double lengthOf(const std::uint8_t* rgb) {
+    const auto part = [&](std::size_t i) { return rgb[i] / 127.5 - 1; };
+    return std::sqrt(part(0) * part(0) + part(1) * part(1) + part(2) * part(2));
+}
+
+Finding noteOn(FindingCode code, std::uint64_t count, std::uint64_t total, std::string message) {
+    return makeFinding(code, Severity::note, {.count = count, .total = total}, "texels", std::move(message));
+}
+
+/// Texels of one color: flat, or no normal map.
+std::optional<Finding> constantFinding(const std::string& name, const RgbImage& image) {
+    const std::uint8_t* const first = image.rgb.data();
+    const std::size_t count = image.rgb.size() / 3;
+    for (std::size_t i = 0; i < count; ++i) {
+        if (!std::equal(first, first + 3, first + 3 * i)) return {};
+    }
+    const bool is_vector = std::fabs(lengthOf(first) - 1) < 0.1;
+    const bool is_flat = is_vector && first[0] - 126 < 4 && first[1] - 126 < 4 && first[0] > 125 && first[1] > 125;
+    Finding finding = noteOn(FindingCode::normalMapConstant, count, count,
+                             "all texels of " + name + " are " + texelText(first) +
+                                 (is_flat     ? ": the map is flat"
+                                  : is_vector ? ": one direction, which is not that of a flat map"
+                                              : ": it is one color, and no normal map"));
+    if (!is_flat) finding.severity = Severity::warning;
+    return finding;
+}
+
+/// Lengths of vectors far from 1.
+std::optional<Finding> lengthFinding(const std::string& name, const RgbImage& image) {
+    constexpr double kOff = 0.1, kLeastShare = 0.1;
+    constexpr int kBlack = 8, kWhite = 247;
+    std::size_t count = 0, total = 0;
+    double sum = 0;
+    for (std::size_t i = 0; i < image.rgb.size(); i += 3) {
+        const std::uint8_t* const rgb = &image.rgb[i];
+        const auto [least, most] = std::minmax({rgb[0], rgb[1], rgb[2]});
+        if (most <= kBlack || least >= kWhite) continue;  // never painted or baked
+        const double size = lengthOf(rgb);
+        ++total;
+        sum += size;
+        count += std::fabs(size - 1) > kOff ? 1 : 0;
+    }
+    if (total == 0 || static_cast<double>(count) < kLeastShare * static_cast<double>(total)) return {};
+    return noteOn(FindingCode::normalMapLengths, count, total,
+                  "vectors of " + name + " are not unit: " + std::to_string(count) + " of " + std::to_string(total) +
+                      " texels are off by more than a tenth, and their mean length is " +
+                      shortNumber(sum / static_cast<double>(total)));
+}
+
+/// Flat parts of 8 bits whose x and y are 127: half a step below 0, as 128 is half a step above.
+std::optional<Finding> zeroFinding(const std::string& name, const RgbImage& image) {
+    constexpr double kLeastShare = 0.05;
+    const std::size_t total = image.rgb.size() / 3;
+    std::size_t low = 0, high = 0;
+    for (std::size_t i = 0; i < total; ++i) {
+        const std::uint8_t* const rgb = &image.rgb[3 * i];
+        low += rgb[0] == 127 && rgb[1] == 127 ? 1 : 0;
+        high += rgb[0] == 128 && rgb[1] == 128 ? 1 : 0;
+    }
+    if (low <= high || static_cast<double>(low) < kLeastShare * static_cast<double>(total)) return {};
+    return noteOn(
+        FindingCode::normalMapZero, low, total,
+        "flat texels of " + name +
+            " are (127, 127), where most programs write (128, 128): both lean by 0.3 degrees, to opposite sides, and "
+            "a reader that subtracts 128 / 255 sees twice that");
+}
+
+/// Without a model there is nothing that generate could do.
+void keepImageCommand(const std::string& file, const LoneMap& map, Finding& finding) {
+    const std::string mark = "The image alone: ";
+    if (const std::size_t at = finding.remedy.find(mark); at != std::string::npos)
+        finding.remedy = "Convert it: " + finding.remedy.substr(at + mark.size());
+    if (finding.code == FindingCode::greenFlipped)
+        finding.remedy = "If it was made for DirectX and is read by glTF or OpenGL, invert green: tspace flip-green " +
+                         file + " -o OUT.png. If bumps are dents then, it was red: tspace convert-map " + file +
+                         " -o OUT.png --flip-red. The map alone does not tell the two apart.";
+    if (finding.code != FindingCode::normalMapInObjectSpace || map.look.follows_mesh) return;
+    const std::string of_mesh = ", though not along the normals of this mesh";
+    if (const std::size_t at = finding.message.find(of_mesh); at != std::string::npos)
+        finding.message.erase(at, of_mesh.size());
+    finding.remedy = "Convert it with the model that it was made for: tspace convert-map " + file +
+                     " -o OUT.png --from object --mesh MODEL (or --from world, where the nodes of the scene counted).";
+}
+
+}  // namespace
+
+bool isImageInput(const std::string& input, ByteSpan content) {
+    static constexpr std::array<const char*, 9> kExtensions = {".png", ".jpg",  ".jpeg", ".webp", ".exr",
+                                                               ".tga", ".ktx2", ".dds",  ".avif"};
+    const std::string extension = lowerExtension(input);
+    const bool is_named = std::find(kExtensions.begin(), kExtensions.end(), extension) != kExtensions.end();
+    if (content.data() == nullptr) return is_named;
+    const ImageFormat format = imageFormat(content);
+    return format != ImageFormat::unknown && (format != ImageFormat::tga || is_named);
+}
+
+std::string imageText(const CheckReport& report) {
+    const CheckedImage& image = *report.image;
+    const auto by = [&](const char* text) {
+        return std::string("; ") + text + " (confidence " +
+               std::to_string(static_cast<int>(std::lround(100 * image.green_confidence))) + " %)";
+    };
+    std::string text = report.format + ", " + std::to_string(image.width) + " x " + std::to_string(image.height) + ": ";
+    if (image.content == "normals") {
+        text += "a normal map in tangent space";
+    } else if (image.content == "height") {
+        return text + "gray, as height maps are, and no normal map";
+    } else if (image.content == "picture") {
+        return text + "no normal map";
+    } else if (image.content == "constant") {
+        return text + "one color";
+    } else if (image.content == "objectSpace") {
+        return text + "a normal map, and not in tangent space";
+    } else {
+        text += "a normal map whose channels are not those of glTF";
+    }
+    if (image.green == "up")
+        text += by("green points up, as in OpenGL and glTF, or red and green are both inverted (dents for bumps)");
+    if (image.green == "down") text += by("green points down, as in DirectX, or red is inverted (dents for bumps)");
+    if (image.green == "mixed") text += by("green points up in one part and down in another");
+    if (image.green == "unknown") text += "; which way green points does not show";
+    return text;
+}
+
+CheckReport checkImageFile(const std::string& input, const CheckOptions& options) {
+    Bytes read;
+    ByteSpan bytes = options.file.content;
+    if (bytes.data() == nullptr) {
+        read = readFile(input);
+        bytes = read;
+    }
+    const ImageFormat format = imageFormat(bytes);
+    if (const char* why_not = whyNotRead(format)) failFile(ErrorCode::unsupportedFile, why_not);
+    Scene scene;
+    scene.images.push_back({.bytes = {bytes.begin(), bytes.end()}});
+    scene.images[0].uri = input;
+    constexpr std::uint64_t kPixelBytes = 8;  // two copies of 3 bytes, masks, alpha
+    scene.memory = std::make_shared<MemoryBudget>(options.file.memory_limit_bytes);
+    scene.memory->allow(bytes.size());
+    scene.memory->require(bytes.size() + imageWorkBytes(bytes) + kPixelBytes * claimedSize(bytes).pixels(), {});
+    LoneMap map = checkLoneMap(scene, options);
+    CheckReport report{.format = lowerName(format), .findings = std::move(map.findings), .image_count = 1};
+    report.green_count = map.test.verdict == GreenVerdict::unknown ? 0 : 1;
+    report.image = CheckedImage{.width = map.pixels.width,
+                                .height = map.pixels.height,
+                                .content = contentName(map.look.content),
+                                .green = greenName(map.test.verdict),
+                                .green_confidence = map.test.confidence()};
+    const std::string name = "'" + scene.images[0].uri + "'";
+    const std::optional<TextureFacts> facts = textureFacts(bytes);
+    const bool is_declared = facts && !(facts->layout == MapLayout{});
+    if (std::optional<Finding> constant = constantFinding(name, map.pixels)) {
+        report.image->content = "constant";
+        report.findings = {*std::move(constant)};
+        return report;
+    }
+    for (Finding& finding : report.findings) {
+        keepImageCommand(map.command_name, map, finding);
+        const bool is_layout =
+            finding.code == FindingCode::normalMapTwoChannels || finding.code == FindingCode::normalMapChannels;
+        // Engines read what the format says, so only glTF's viewers are wrong.
+        if (is_declared && is_layout) finding.severity = Severity::note;
+    }
+    if (map.look.content != MapContent::normals) return report;
+    for (std::optional<Finding> finding : {lengthFinding(name, map.pixels), zeroFinding(name, map.pixels)}) {
+        if (finding) report.findings.push_back(*std::move(finding));
+    }
+    return report;
+}
+
+}  // namespace tspace
