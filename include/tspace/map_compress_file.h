@@ -42,7 +42,8 @@ struct CompressMapFileOptions {
     Sink sink = {};                              ///< takes the output, a KTX2, in place of a file; without roughness
     bool dry_run = false;                        ///< everything but writing
     Execution execution = {};
-    MapAlpha alpha = MapAlpha::automatic;  ///< of `input`
+    MapAlpha alpha = MapAlpha::automatic;    ///< of `input`
+    DdsHeader dds_header = DdsHeader::dx10;  ///< of outputs in DDS
 };
 
 struct CompressMapFileReport {

@@ -27,6 +27,13 @@ enum class MapAlpha : std::uint32_t {
     data = 2  ///< anything else, such as heights: it is left out
 };
 
+/// The header of a DDS.
+enum class DdsHeader : std::uint32_t {
+    dx10 = 0,    ///< that of Direct3D 10, with a number of DXGI: the only one that names every format
+    legacy = 1,  ///< that of Direct3D 9: BC5 as FourCC ATI2 (with a sign BC5S), plain texels by masks
+    bc5u = 2     ///< as legacy, but BC5 as FourCC BC5U
+};
+
 struct ConvertMapFileOptions {
     std::string mesh = {};     ///< the model that the map was made for; empty: none is needed
     std::string to_mesh = {};  ///< the model that it is to be shown on: the same surface and UVs; empty: `mesh`
@@ -56,7 +63,8 @@ struct ConvertMapFileOptions {
     bool dry_run = false;                        ///< everything but writing
     Execution execution = {};
     Progress progress = {};
-    MapAlpha alpha = MapAlpha::automatic;  ///< of `input`, where the output has levels (KTX2, DDS)
+    MapAlpha alpha = MapAlpha::automatic;    ///< of `input`, where the output has levels (KTX2, DDS)
+    DdsHeader dds_header = DdsHeader::dx10;  ///< of an output in DDS
 };
 
 /// What was taken of a model file.

@@ -115,7 +115,27 @@ const char* whyNotDds(TexelKind kind) {
                                    : "a DDS holds no EAC; write a .ktx2";
 }
 
-std::vector<std::uint8_t> writeDds(const Texture& texture) {
+namespace {
+
+/// The pixel format of Direct3D 9, 32 bytes: a FourCC for blocks, else masks. V8U8 has masks of numbers with a sign.
+void addOldFormat(const TexelFormat& format, const char* four_cc, TextureBytes& out) {
+    constexpr std::uint32_t kAlpha = 1, kHasCode = 4, kColors = 0x40, kSigned = 0x80000;
+    out.add32(32);
+    if (format.width > 1) {
+        out.add32(kHasCode);
+        out.add(four_cc);
+        for (int i = 0; i < 5; ++i) out.add32(0);
+        return;
+    }
+    out.add32(format.is_signed ? kSigned : format.channels == 4 ? kColors | kAlpha : kColors);
+    out.add32(0);
+    out.add32(8U * format.block_bytes);
+    for (std::uint32_t i = 0; i < 4; ++i) out.add32(i < format.channels ? 0xffU << 8 * i : 0);
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> writeDds(const Texture& texture, const OldDdsHeader* old) {
     const auto levels = static_cast<std::uint32_t>(texture.levels.size());
     constexpr std::uint32_t kPlain = 0x1007, kPitch = 8, kLinearSize = 0x80000, kWithLevels = 0x20000, kCaps = 0x1000,
                             kCapsOfLevels = 0x400008, kHasCode = 4, kFlat = 3;
@@ -128,13 +148,19 @@ std::vector<std::uint8_t> writeDds(const Texture& texture) {
     out.add("DDS ");
     for (const std::uint32_t number : {124U, flags, texture.height, texture.width, size, 0U, levels}) out.add32(number);
     out.bytes.resize(76);
-    out.add32(32);
-    out.add32(kHasCode);
-    out.add("DX10");
+    if (old != nullptr) {
+        addOldFormat(format, format.is_signed ? "BC5S" : old->four_cc, out);
+    } else {
+        out.add32(32);
+        out.add32(kHasCode);
+        out.add("DX10");
+    }
     out.bytes.resize(108);
     out.add32(kCaps | (levels > 1 ? kCapsOfLevels : 0));
     out.bytes.resize(128);
-    for (const std::uint32_t number : {writtenFormat(texture.kind).dxgi, kFlat, 0U, 1U, 0U}) out.add32(number);
+    if (old == nullptr) {
+        for (const std::uint32_t number : {writtenFormat(texture.kind).dxgi, kFlat, 0U, 1U, 0U}) out.add32(number);
+    }
     for (const std::vector<std::uint8_t>& level : texture.levels) out.add(level);
     return out.bytes;
 }

@@ -24,8 +24,12 @@ struct Texture {
 
 /// Null, or why no DDS holds the format: half a sentence.
 const char* whyNotDds(TexelKind kind);
-/// With the head of Direct3D 10. whyNotDds must be null.
-std::vector<std::uint8_t> writeDds(const Texture& texture);
+/// The header of Direct3D 9 in place of that of Direct3D 10. `four_cc` names BC5, with a sign or not; texels are described by masks.
+struct OldDdsHeader {
+    const char* four_cc = "ATI2";
+};
+/// With the header of Direct3D 10, or `old`. whyNotDds must be null.
+std::vector<std::uint8_t> writeDds(const Texture& texture, const OldDdsHeader* old = nullptr);
 
 /// Null, or why this build does not pack levels by Zstandard: a sentence.
 const char* whyNotZstd();

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: MIT
 """python3 texture_maps.py write MAP.png NUMBERS: a normal map of waves, 64 x 48 texels of 16 bits, and its x and y as bytes
 python3 texture_maps.py pillow NUMBERS DDS...: Pillow reads these as that map
-python3 texture_maps.py old DDS OUT: with the head of Direct3D 9 (ATI2): nvdecompress 2.0.8 gives black for BC5 behind the new one
 python3 texture_maps.py tga NUMBERS TGA: this is that map
 """
 
@@ -57,15 +56,6 @@ def pillow(numbers, *files):
         compare(f"Pillow {PIL.__version__}, {path.rsplit('/', 1)[-1]}", numbers, list(image.convert("RGB").getdata()))
 
 
-def old(path, out):
-    with open(path, "rb") as file:
-        data = file.read()
-    if data[84:88] != b"DX10" or data[128:132] != b"\x53\0\0\0":
-        sys.exit(f"FAILED {path}: it is no BC5 with a DX10 head")
-    with open(out, "wb") as file:
-        file.write(data[:84] + b"ATI2" + data[88:128] + data[148:])
-
-
 def tga(numbers, path):
     with open(path, "rb") as file:
         data = file.read()
@@ -79,4 +69,4 @@ def tga(numbers, path):
     compare("nvdecompress", numbers, [(blue_first[2], blue_first[1]) for row in rows for blue_first in row])
 
 
-{"write": write, "pillow": pillow, "old": old, "tga": tga}[sys.argv[1]](*sys.argv[2:])
+{"write": write, "pillow": pillow, "tga": tga}[sys.argv[1]](*sys.argv[2:])

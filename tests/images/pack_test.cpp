@@ -45,6 +45,19 @@ TEST(WriteTexture, WhatIsWrittenIsReadAgain) {
         const auto from_dds = decodeFloatImage(writeDds(texture), 1 << 20, why);
         ASSERT_TRUE(from_dds) << why;
         EXPECT_EQ(from_dds->texels, from_ktx2->texels);
+        for (const char* four_cc : {"ATI2", "BC5U"}) {
+            const OldDdsHeader old{four_cc};
+            const std::vector<std::uint8_t> file = writeDds(texture, &old);
+            EXPECT_EQ(file.size() + 20, writeDds(texture).size());
+            if (kind == TexelKind::bc5 || kind == TexelKind::bc5s) {
+                EXPECT_EQ(std::string(file.begin() + 84, file.begin() + 88), kind == TexelKind::bc5 ? four_cc : "BC5S");
+            }
+            const auto from_old = decodeFloatImage(file, 1 << 20, why);
+            ASSERT_TRUE(from_old) << why;
+            EXPECT_EQ(from_old->texels, from_ktx2->texels);
+            EXPECT_EQ(from_old->texture.layout, from_ktx2->texture.layout);
+            EXPECT_EQ(readTextureHead(file, why)->levels.size(), texture.levels.size());
+        }
     }
 }
 

@@ -337,6 +337,24 @@ TEST(ConvertMapCommand, WritesTheSameBlocksAsCompressMapDoes) {
     EXPECT_NE(runTool(folder, "convert-map n16.png --from object --to object -o c.dds").exit_code, 0);
 }
 
+TEST(CompressMapCommand, WritesHeadersOfOlderReaders) {
+    const TempFolder folder;
+    writeWaves(folder);
+    reportOf(folder, "n8.png -o new.dds");
+    const std::string blocks = folder.read("new.dds").substr(148);
+    for (const auto& [option, code] : {std::pair{"legacy", "ATI2"}, {"bc5u", "BC5U"}, {"legacy --signed", "BC5S"}}) {
+        reportOf(folder, std::string("n8.png -o old.dds --dds-header ") + option);
+        const std::string file = folder.read("old.dds");
+        EXPECT_EQ(file.substr(84, 4), code);
+        EXPECT_EQ(file.substr(128) == blocks, std::string(code) != "BC5S");
+        EXPECT_LT(Json::parse(runTool(folder, "map-error old.dds --source n8.png --json").out)["meanErrorDeg"], 0.5);
+        ASSERT_EQ(runTool(folder, "convert-map n8.png -q -o c.dds --dds-header legacy").exit_code, 0);
+        EXPECT_EQ(folder.read("c.dds").substr(84, 4), "ATI2");
+    }
+    EXPECT_EQ(runTool(folder, "compress-map n8.png -o a.ktx2 --dds-header legacy").exit_code, 2);
+    EXPECT_EQ(runTool(folder, "convert-map n8.png -o a.png --dds-header legacy").exit_code, 2);
+}
+
 TEST(CompressMapCommand, PacksLevelsOnceMore) {
     const TempFolder folder;
     writeWaves(folder);

@@ -84,6 +84,8 @@ export interface CompressMapOptions extends Unpackers {
   container?: "ktx2" | "dds";
   /** Meaning of alpha: how much of a texel is surface, which weights smaller levels; anything else; or, unless given, by the texels. */
   alpha?: "auto" | "coverage" | "data";
+  /** Of a DDS: Direct3D 10's, unless given; Direct3D 9's with BC5 as ATI2 (with a sign BC5S), or as BC5U. */
+  ddsHeader?: "dx10" | "legacy" | "bc5u";
   /** A texture of occlusion, roughness (green) and metalness. Its levels become wider by what the normals of each texel spread. */
   roughness?: MapImage | null;
   /** The material's roughnessFactor, which becomes a part of that texture; 1 unless given. */

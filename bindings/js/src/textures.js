@@ -81,6 +81,7 @@ const formats = ["bc5", "eac-rg11", "rg8", "astc-4x4"];
 const qualities = ["fast", "best", "quick"];
 const containers = ["ktx2", "dds"];
 const alphas = ["auto", "coverage", "data"];
+const headers = ["dx10", "legacy", "bc5u"];
 const reportNumbers = [
   "width", "height", "bitsBefore", "levels", "outputBytes", "roughnessBytes", "meanErrorDeg", "p99ErrorDeg", "maxErrorDeg", "maxErrorX", "maxErrorY",
   "belowHorizon", "notUnit", "meanRoughness", "meanWidenedRoughness",
@@ -125,7 +126,7 @@ function putImage(call, image) {
   return call.put(new Uint32Array([place, bytes, width, height, bits]));
 }
 
-const ofCompression = ["format", "quality", "signed", "noLevels", "container", "alpha", "roughness", "roughnessFactor", "decodeImage", ...unpacking];
+const ofCompression = ["format", "quality", "signed", "noLevels", "container", "alpha", "ddsHeader", "roughness", "roughnessFactor", "decodeImage", ...unpacking];
 
 export function compressMap(image, options = {}) {
   object(options, "options", ofCompression);
@@ -135,13 +136,15 @@ export function compressMap(image, options = {}) {
   const isSigned = boolean(options.signed ?? false, "signed"), hasLevels = !boolean(options.noLevels ?? false, "noLevels");
   const isDds = choice(options.container ?? "ktx2", "container", containers) === 1;
   const alpha = choice(options.alpha ?? "auto", "alpha", alphas);
+  const header = choice(options.ddsHeader ?? "dx10", "ddsHeader", headers);
+  if (header !== 0 && !isDds) fail("invalidOption", "ddsHeader needs the container dds");
   const factor = number(options.roughnessFactor ?? 1, "roughnessFactor");
   if (isMissing(options.roughness) && !isMissing(options.roughnessFactor)) fail("invalidOption", "roughnessFactor needs roughness");
   const map = imageOf(image, "the map", decodeImage);
   const rough = isMissing(options.roughness) ? null : imageOf(options.roughness, "the roughness", decodeImage);
   return run(options, (call) => {
     const exports = call.wasm;
-    call.check(exports.compressMap(putImage(call, map), putImage(call, rough), format, quality, isSigned, hasLevels, factor, isDds, alpha));
+    call.check(exports.compressMap(putImage(call, map), putImage(call, rough), format, quality, isSigned, hasLevels, factor, isDds, alpha, header));
     const report = call.report(reportNumbers, {});
     report.format = textAt(exports, exports.madeFormat());
     report.warnings = textAt(exports, exports.madeWarnings()).split("\n").slice(0, -1);

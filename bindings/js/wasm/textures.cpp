@@ -135,8 +135,8 @@ Result<FloatImage> imageOf(const ImageWords& given, ImageUse use) {
     return image;
 }
 
-std::vector<std::uint8_t> fileOf(const Texture& texture, bool is_dds) {
-    return is_dds ? writeDds(texture) : *writeKtx2(texture);
+std::vector<std::uint8_t> fileOf(const Texture& texture, bool is_dds, DdsHeader header) {
+    return is_dds ? ddsFileOf(texture, header) : *writeKtx2(texture);
 }
 
 /// The report in the order of textures.js; warnings one a line.
@@ -212,13 +212,14 @@ TSPACE_JS_EXPORT(textureWords) const TextureWords* textureWords() { return &word
 TSPACE_JS_EXPORT(compressMap)
 std::uint32_t compressMap(const ImageWords* given, const ImageWords* roughness, std::uint32_t format,
                           std::uint32_t quality, bool is_signed, bool levels, double roughness_factor, bool is_dds,
-                          std::uint32_t alpha) {
+                          std::uint32_t alpha, std::uint32_t dds_header) {
     const CompressMapFileOptions options{.format = static_cast<TextureFormat>(format),
                                          .quality = static_cast<TextureQuality>(quality),
                                          .is_signed = is_signed,
                                          .levels = levels,
                                          .roughness_factor = roughness_factor,
-                                         .alpha = static_cast<MapAlpha>(alpha)};
+                                         .alpha = static_cast<MapAlpha>(alpha),
+                                         .dds_header = static_cast<DdsHeader>(dds_header)};
     if (const std::optional<Error> fault = textureFault(options, is_dds)) return fail(fault->code, fault->message);
     Result<FloatImage> image = imageOf(*given, ImageUse::vectors);
     if (!image) return codeOf(image);
@@ -238,12 +239,12 @@ std::uint32_t compressMap(const ImageWords* given, const ImageWords* roughness, 
     made_roughness = {};
     if (roughness != nullptr) {
         const std::vector<RoughnessLevel> all = makeRoughness(rough, options, map, parallel, made_report);
-        made_roughness = fileOf(roughnessTexture(all), is_dds);
+        made_roughness = fileOf(roughnessTexture(all), is_dds, options.dds_header);
         made_report.roughness_bytes = made_roughness.size();
     }
     if (!levels) map.levels.resize(1);
     made_report.level_count = static_cast<std::uint32_t>(map.levels.size());
-    made = fileOf(*packLevels(map, options, parallel, made_report), is_dds);
+    made = fileOf(*packLevels(map, options, parallel, made_report), is_dds, options.dds_header);
     made_report.output_bytes = made.size();
     keepReport(made_report);
     return 0;

@@ -70,6 +70,9 @@ class MapCompression {
         if (options_.bits != 8 && options_.bits != 16) failFile(ErrorCode::invalidOption, "a PNG has 8 or 16 bits");
         if (std::optional<Error> fault = textureFault(options_, container_ == Container::dds))
             throw FileError{*std::move(fault)};
+        if (options_.dds_header != DdsHeader::dx10 && container_ != Container::dds &&
+            roughness_container_ != Container::dds)
+            failFile(ErrorCode::invalidOption, "the header of a DDS is for outputs that end in .dds");
         if (options_.zstd_level == 0) return;
         if (options_.zstd_level > kMostZstd) failFile(ErrorCode::invalidOption, "levels of Zstandard are 1 to 22");
         if (const char* why_not = whyNotZstd()) failFile(ErrorCode::unsupportedFile, why_not);
@@ -106,7 +109,7 @@ class MapCompression {
                              AtomicOutput& files) const {
         std::vector<std::uint8_t> bytes;
         if (container == Container::dds) {
-            bytes = writeDds(texture);
+            bytes = ddsFileOf(texture, options_.dds_header);
         } else {
             std::optional<std::vector<std::uint8_t>> file = writeKtx2(texture, static_cast<int>(options_.zstd_level));
             if (!file) failFile(ErrorCode::outOfMemory, "the levels cannot be packed");
@@ -184,7 +187,7 @@ bool isTextureName(const std::string& path) {
 
 std::vector<std::uint8_t> packTexture(const std::string& name, std::uint32_t width, std::uint32_t height,
                                       std::span<const Vec3> texels, const Execution& execution,
-                                      std::vector<float> coverage) {
+                                      std::vector<float> coverage, DdsHeader header) {
     NormalLevel first{width, height, {}, {}, std::move(coverage)};
     first.normals.reserve(texels.size());
     for (const Vec3& texel : texels) first.normals.push_back(toFloat(decodeTexel(texel, {})));
@@ -192,7 +195,7 @@ std::vector<std::uint8_t> packTexture(const std::string& name, std::uint32_t wid
     Texture texture{.width = width, .height = height, .kind = TexelKind::bc5, .levels = {}};
     for (const NormalLevel& level : makeNormalLevels(std::move(first), parallel))
         texture.levels.push_back(packLevel(level, {}, parallel)->bytes);
-    if (lowerExtension(name) == ".dds") return writeDds(texture);
+    if (lowerExtension(name) == ".dds") return ddsFileOf(texture, header);
     std::optional<std::vector<std::uint8_t>> file = writeKtx2(texture);
     if (!file) failFile(ErrorCode::outOfMemory, "the levels cannot be packed");
     return *std::move(file);
@@ -277,6 +280,7 @@ OptionList compressMapOptions(CompressMapFileOptions& options) {
              "Write numbers with a sign (SNORM). Flat parts of maps of more than 8 bits are then exact; engines must "
              "be told."));
     addAlpha(list, "Texture", options.alpha);
+    addDdsHeader(list, "Texture", options.dds_header);
     add(list, "Texture",
         setting("--mips", options.levels, true, "Write all smaller levels too, each from the first. So it is anyway."));
     Option no_levels = setting("--no-levels", options.levels, false, "Write the first level alone.");

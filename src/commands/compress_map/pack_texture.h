@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "tspace/execution.h"
+#include "tspace/map_convert_file.h"
 #include "tspace/vec.h"
 
 namespace tspace {
@@ -20,6 +21,6 @@ bool isTextureName(const std::string& path);
 /// `coverage`: how much of each texel is surface; empty: all of it.
 std::vector<std::uint8_t> packTexture(const std::string& name, std::uint32_t width, std::uint32_t height,
                                       std::span<const Vec3> texels, const Execution& execution,
-                                      std::vector<float> coverage = {});
+                                      std::vector<float> coverage = {}, DdsHeader header = DdsHeader::dx10);
 
 }  // namespace tspace

@@ -114,6 +114,11 @@ TexelKind textureKind(const CompressMapFileOptions& options) {
     return kKinds[static_cast<std::size_t>(options.format)][options.is_signed ? 1 : 0];
 }
 
+std::vector<std::uint8_t> ddsFileOf(const Texture& texture, DdsHeader header) {
+    const OldDdsHeader old{header == DdsHeader::bc5u ? "BC5U" : "ATI2"};
+    return writeDds(texture, header == DdsHeader::dx10 ? nullptr : &old);
+}
+
 std::optional<Error> textureFault(const CompressMapFileOptions& options, bool is_dds) {
     if (!(options.roughness_factor >= 0 && options.roughness_factor <= 1))
         return Error{ErrorCode::invalidOption, "the factor of roughness must be from 0 to 1"};

@@ -29,6 +29,9 @@ std::optional<PackedLevel> packLevel(const NormalLevel& level, const CompressMap
 
 TexelKind textureKind(const CompressMapFileOptions& options);
 
+/// The DDS of a texture, with that header.
+std::vector<std::uint8_t> ddsFileOf(const Texture& texture, DdsHeader header);
+
 /// Why there is no texture of these options.
 std::optional<Error> textureFault(const CompressMapFileOptions& options, bool is_dds);
 

@@ -238,6 +238,8 @@ ConvertMapFileReport convert(const std::string& input, const std::string& output
     const bool is_texture = !options.sink && isTextureName(output);
     const ImageFormat format = is_texture ? ImageFormat::ktx2 : outputFormat(output, options);
     const bool is_tga = !options.sink && isTgaName(output);
+    if (options.dds_header != DdsHeader::dx10 && (options.sink || lowerExtension(output) != ".dds"))
+        failFile(ErrorCode::invalidOption, "the header of a DDS is for outputs that end in .dds");
     const unsigned bits = is_texture ? 16 : outputBits(format, is_tga ? 8 : options.bits);
     FloatImage image = readMapImage(input, options.content, options.file);
     const std::string how_read = options.layout == MapLayout{} ? readTextureVectors(image) : std::string();
@@ -284,8 +286,8 @@ ConvertMapFileReport convert(const std::string& input, const std::string& output
     if (is_texture) {
         if (options.bits != 0) report.warnings.emplace_back("the number of bits does not matter for BC5");
         AtomicOutput files({.is_dry_run = options.dry_run, .sync = options.file.sync, .inputs = &inputs});
-        const std::vector<std::uint8_t> file =
-            packTexture(output, image.width, image.height, image.texels, options.execution, std::move(coverage));
+        const std::vector<std::uint8_t> file = packTexture(output, image.width, image.height, image.texels,
+                                                           options.execution, std::move(coverage), options.dds_header);
         files.add(output, std::span<const std::uint8_t>(file));
         files.commit();
         return report;
@@ -433,6 +435,7 @@ OptionList convertMapOptions(ConvertMapFileOptions& options) {
             "the format has."));
     addLengths(list, group, options.lengths);
     addAlpha(list, group, options.alpha);
+    addDdsHeader(list, group, options.dds_header);
     add(list, group,
         number(
             "--padding", options.padding, 65536,

@@ -104,6 +104,16 @@ void addAlpha(OptionList& list, const char* group, MapAlpha& alpha) {
             "unit vectors and the others do."));
 }
 
+void addDdsHeader(OptionList& list, const char* group, DdsHeader& header) {
+    static constexpr Named<DdsHeader> kHeaders[] = {
+        {"dx10", DdsHeader::dx10}, {"legacy", DdsHeader::legacy}, {"bc5u", DdsHeader::bc5u}};
+    add(list, group,
+        choice("--dds-header", "HEADER", kHeaders, header,
+               "Header of a .dds. dx10: that of Direct3D 10. legacy: that of Direct3D 9 for older readers, BC5 as "
+               "FourCC ATI2, "
+               "or BC5S with a sign. bc5u: as legacy, with BC5U in place of ATI2."));
+}
+
 void addMaterialOfMap(OptionList& list, std::string& material) {
     add(list, kInputAndOutput,
         text("--material", "NAME", material,

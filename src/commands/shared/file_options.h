@@ -50,6 +50,8 @@ void addRunning(OptionList& list, Execution& execution, HelpText threads_help, F
 void addLengths(OptionList& list, const char* group, TexelLengths& lengths);
 /// --alpha, of normal maps that get levels.
 void addAlpha(OptionList& list, const char* group, MapAlpha& alpha);
+/// --dds-header, of outputs in DDS.
+void addDdsHeader(OptionList& list, const char* group, DdsHeader& header);
 /// Which primitives of a model show a map.
 void addMaterialOfMap(OptionList& list, std::string& material);
 /// The last options of calls that make an image by a model: how tangents are made where it has none (in `group`), and how

@@ -49,9 +49,9 @@ _OPTIONS = {
     "diff": f"tolerance worst {_LIMITS}",
     "flipGreen": "dry_run memory_limit no_sync",
     "convertMap": "mesh to_mesh material tile from_ to axes from_convention to_convention from_bitangent to_bitangent channels srgb"
-    f" linearised flip_red flip_green bits lengths alpha padding method dry_run threads no_sync {_LIMITS}",
+    f" linearised flip_red flip_green bits lengths alpha dds_header padding method dry_run threads no_sync {_LIMITS}",
     "heightToNormal": f"strength encoding texel_size mesh material clamp convention bits method dry_run threads no_sync {_LIMITS}",
-    "compressMap": "format quality signed alpha mips no_levels zstd bits roughness roughness_output roughness_factor"
+    "compressMap": "format quality signed alpha dds_header mips no_levels zstd bits roughness roughness_output roughness_factor"
     " dry_run threads no_sync memory_limit import_seconds",
     "bake": f"{_BAKED} out_mesh misses heat space axes convention unit fit lengths udim skew cage method denoise threads no_sync {_LIMITS}",
     "finish": f"low html normals crease denoise weld_distance keep_winding keep_coordinates {_BAKED} threads no_sync {_LIMITS}",
