@@ -15,7 +15,8 @@ enum class BitangentPlace : std::uint32_t {
     perVertex = 1  ///< at the vertices, and interpolated
 };
 
-/// The default is glTF's and MikkTSpace's: unit(x T + y B + z N), (x, y, z) = 2c - 1, with T and N as interpolated.
+/// The default is green up as in glTF, and MikkTSpace's rule, since glTF specifies none: unit(x T + y B + z N),
+/// (x, y, z) = 2c - 1, with T and N as interpolated.
 struct MapReading {
     Green green = Green::up;
     BitangentPlace bitangent = BitangentPlace::perPixel;

@@ -60,9 +60,9 @@ export function showAcross(host: HTMLElement, rows: HTMLElement, perPixel: HTMLI
     numbers.set("T there", `\u03a3 share \u00b7 T of the corner = ${tuple(interpolated.slice(0, 2))}, of length ${text(length(interpolated))}`);
     const n = texel(place), one = shade(n, interpolated), other = shade(n, unit(interpolated));
     numbers.set("texel", tuple(n));
-    numbers.set("shaded normal", `${tuple(shade(n, t))}; made unit at each pixel or not: ${text(angle(one, other), 1)} degrees between the two`);
+    numbers.set("shaded normal", `${tuple(shade(n, t))}; normalized at each pixel or not: ${text(angle(one, other), 1)} degrees between the two`);
     numbers.set("which means", length(interpolated) > 0.95 ? "corners agree here: it makes (nearly) no difference"
-      : "where corners disagree T is shorter, and the relief flatter. MikkTSpace and glTF leave it so; three.js makes it unit. A map baked for the one shows faint edges in the other");
+      : "where corners disagree T is shorter, and the relief flatter. MikkTSpace leaves it so, three.js and Khronos' viewer normalize, and glTF does not specify. A map baked for the one shows faint edges in the other");
   });
   figure.handle(kArrows, "the point that is shaded", () => place, (to) => {
     const w = weightsAt(to), least = 0.02;

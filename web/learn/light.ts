@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Figure 5: the light in tangent space, and its dot product with the texel.
+// Figure 7: the light in tangent space, and its dot product with the texel.
 
 import { generateTangents } from "tspace";
 import { Figure, Matrix, Numbers, type Plane } from "./figure";
@@ -15,6 +15,12 @@ const onHemisphere = ([x, y]: Vec2): Vec3 => {
   const most = 0.98, size = Math.hypot(x, y), k = size > most ? most / size : 1;
   return [k * x, k * y, Math.sqrt(1 - k * k * size * size)];
 };
+
+/** M^-1 v by Cramer's rule, for the columns of M; null where M is singular. */
+function inverse([a, b, c]: readonly [Vec3, Vec3, Vec3], v: Vec3): Vec3 | null {
+  const determinant = dot(a, cross(b, c));
+  return Math.abs(determinant) < 1e-6 ? null : scale(1 / determinant, [dot(v, cross(b, c)), dot(v, cross(c, a)), dot(v, cross(a, b))]);
+}
 
 /** The normal map of a round bump, as a function of the place on it, -1 to 1. */
 function bump(x: number, y: number): Vec3 {
@@ -91,11 +97,12 @@ export function showLight(host: HTMLElement, rows: HTMLElement, canvas: HTMLCanv
     numbers.set("light in tangent space", `l = (T\u00b7L, B\u00b7L, N\u00b7L) = ${tuple(inTangentSpace)}`);
     numbers.set("texel", `rgb(${colour.join(", ")}) = (n + 1) / 2, n = ${tuple(n)}`);
     numbers.set("brightness", `max(0, n\u00b7l) = ${text(Math.max(0, one), 3)}`);
-    numbers.set("the other way round", `n in space = x T + y B + z N = ${tuple(inSpace)}, and its dot product with L is ${text(Math.max(0, other), 3)} as well`);
+    numbers.set("the other way round", `M n = x T + y B + z N = ${tuple(inSpace)}, and its dot product with L is ${text(Math.max(0, other), 3)} as well`);
+    const fromSpace = inverse(shown, l);
     const isRight = [length(tangent), length(bitangent), length(normal)].every((size) => Math.abs(size - 1) < 0.02)
       && [dot(tangent, bitangent), dot(bitangent, normal), dot(normal, tangent)].every((cosine) => Math.abs(cosine) < 0.02);
-    numbers.set("the matrix", isRight ? "its columns are unit and at right angles, so its transpose is its inverse"
-      : `its columns are no longer unit and at right angles: n in space has length ${text(length(inSpace))}, and a shader that makes it unit shades ${text(Math.max(0, dot(l, unit(inSpace))), 3)}, not ${text(Math.max(0, one), 3)}`);
+    numbers.set("the matrix", isRight ? "its columns are unit and at right angles, so its transpose is its inverse, and M n is unit"
+      : `its columns are no longer unit and at right angles. Both ways still agree, but M\u1d40L is not the light in tangent space: ${fromSpace ? `M\u207b\u00b9L = ${tuple(fromSpace)} is` : "M has no inverse"}. M n has length ${text(length(inSpace))}, and a shader that normalizes it shades ${text(Math.max(0, dot(l, unit(inSpace))), 3)}, not ${text(Math.max(0, one), 3)}`);
   });
   const disc: [Vec2, Vec2] = [[-1, 1], [-1, 1]];
   figure.handle(kLight, "the light", () => onHemisphere(light).slice(0, 2) as unknown as Vec2, (to) => (light = to), disc, "light");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The lesson: eight figures and a picture, made when the library is there.
+// The lesson: nine figures and a picture, made when the library is there.
 
 import { ready } from "tspace";
 import { showAcross } from "./across";
@@ -8,6 +8,7 @@ import { showHero } from "./hero";
 import { showLight } from "./light";
 import { showMethods } from "./methods";
 import { showMirror } from "./mirror";
+import { showScale } from "./scaled";
 import { showRelief } from "./relief";
 import { showSeam } from "./seam";
 import { showTriangle } from "./triangle";
@@ -31,7 +32,8 @@ try {
   showMirror(figure("mirror"), numbers("mirror"), find("#dropped", HTMLInputElement));
   showSeam(figure("seam"), numbers("seam"), find("#shared", HTMLInputElement));
   showLight(figure("light"), numbers("light"), find("#light canvas", HTMLCanvasElement), find("#light .system", HTMLElement));
-  showMethods(figure("methods"), find("#methods tbody", HTMLTableSectionElement), find("#surface", HTMLSelectElement));
+  showMethods(figure("methods"), find("#methods tbody", HTMLTableSectionElement), find("#surface", HTMLSelectElement), find("#methods .said-of-surface", HTMLElement));
+  showScale(figure("scaled"), numbers("scaled"));
   document.documentElement.dataset["state"] = "ready";
 } catch (error) {
   const line = find("#trouble", HTMLElement);

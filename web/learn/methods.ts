@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: MIT
-// Figure 6: where methods differ, against the true surface.
+// Figure 8: where methods differ, against the true surface.
 
 import { generateTangents, type TangentOptions } from "tspace";
 import { Figure, type Plane } from "./figure";
 import { bevel, mirrored, sheet, type Surface } from "./surfaces";
 import { add, angle, scale, sub, text, unit, type Vec2, type Vec3 } from "./vector";
 
-const kMethods: readonly NonNullable<TangentOptions["method"]>[] = ["lengyel", "angle", "mikktspace", "best"];
-const kView: Plane = { origin: [230, 190], unit: 165 };
-const kPad: Plane = { origin: [540, 235], unit: 45 };
+const kMethods = ["lengyel", "angle", "mikktspace", "best"] as const satisfies readonly TangentOptions["method"][];
+/** The middle of the surface of each method, what it may fill, and where the name of the method stands above its arrows. */
+const kPanels = { lengyel: [122, 106], angle: [368, 106], mikktspace: [122, 286], best: [368, 286] } as const satisfies Record<string, Vec2>;
+const kPanel: Vec2 = [228, 112], kName = 88;
+const kPad: Plane = { origin: [547, 186], unit: 42 };
+/** Length of an arrow, and the least distance between two vertices that have one, so that no two arrows meet. */
+const kArrow = 24, kApart = 27;
 const kSurfaces = { sheet, bevel, mirrored };
 export type SurfaceName = keyof typeof kSurfaces;
 
@@ -24,8 +28,8 @@ function tangentsOf(surface: Surface, method: (typeof kMethods)[number]): Vec3[]
   return surface.indices.map((_, i) => [made[4 * i]!, made[4 * i + 1]!, made[4 * i + 2]!]);
 }
 
-export function showMethods(host: HTMLElement, table: HTMLTableSectionElement, choice: HTMLSelectElement) {
-  const figure = new Figure(host, 600, 340, "A surface, its true tangents, and those of four methods");
+export function showMethods(host: HTMLElement, table: HTMLTableSectionElement, choice: HTMLSelectElement, words: HTMLElement) {
+  const figure = new Figure(host, 600, 352, "A surface, its true tangents, and those of four methods");
   const at: Record<SurfaceName, Vec2> = { sheet: [0.05, -0.04], bevel: [0.6, 0.4], mirrored: [0.5, 0] };
   const name = () => choice.value as SurfaceName;
   const rows = new Map(kMethods.map((method) => {
@@ -39,37 +43,39 @@ export function showMethods(host: HTMLElement, table: HTMLTableSectionElement, c
   }));
 
   figure.show(() => {
-    const surface = kSurfaces[name()](at[name()]);
-    const points = surface.positions.map(project);
-    for (let i = 0; i < surface.indices.length; i += 3) {
-      figure.polygon(kView, surface.indices.slice(i, i + 3).map((vertex) => points[vertex]!), "face front thin");
-    }
-    // One arrow a vertex is enough to look at; corners of one vertex may differ, so the first of each side is drawn.
+    const surface = kSurfaces[name()](at[name()]), points = surface.positions.map(project);
+    const low = [0, 1].map((k) => Math.min(...points.map((p) => p[k]!))), high = [0, 1].map((k) => Math.max(...points.map((p) => p[k]!)));
+    const unitLength = Math.min(...[0, 1].map((k) => kPanel[k]! / (high[k]! - low[k]!)));
+    // One arrow a vertex and side of the surface; vertices near one that has arrows already have none.
     const drawn = new Map<string, number>();
     for (const corner of surface.watched) {
-      const side = surface.truth[corner]![0] > 0 ? "+" : "-";
-      if (!drawn.has(surface.indices[corner]! + side)) drawn.set(surface.indices[corner]! + side, corner);
+      const vertex = surface.indices[corner]!, key = vertex + (surface.truth[corner]![0] > 0 ? "+" : "-");
+      const isNear = (other: number) => other !== vertex && Math.hypot(...[0, 1].map((k) => points[other]![k]! - points[vertex]![k]!)) * unitLength < kApart;
+      if (!drawn.has(key) && ![...drawn.values()].some((other) => isNear(surface.indices[other]!))) drawn.set(key, corner);
     }
-    /** `aside`: in pixels, so that the methods' arrows lie beside each other. */
-    const arrow = (corner: number, v: Vec3, kind: string, aside = 0) => {
-      const step = project(v), [x, y] = project(surface.truth[corner]!), from = points[surface.indices[corner]!]!, shift = aside / kView.unit / (Math.hypot(x, y) || 1);
-      figure.arrow(kView, [from[0] - shift * y, from[1] + shift * x], [0.17 * step[0], 0.17 * step[1]], kind);
-    };
-    for (const corner of drawn.values()) arrow(corner, surface.truth[corner]!, "truth");
-    for (const [i, method] of kMethods.entries()) {
+    for (const method of kMethods) {
+      const [x, y] = kPanels[method];
+      const plane: Plane = { origin: [x - (unitLength * (low[0]! + high[0]!)) / 2, y + (unitLength * (low[1]! + high[1]!)) / 2], unit: unitLength };
+      for (let i = 0; i < surface.indices.length; i += 3) figure.polygon(plane, surface.indices.slice(i, i + 3).map((vertex) => points[vertex]!), "face front thin");
+      figure.add("text", { class: `word ${method}`, x, y: y - kName, "text-anchor": "middle" }, method);
       const made = tangentsOf(surface, method);
       for (const corner of drawn.values()) {
-        const truth = surface.truth[corner]!;
-        arrow(corner, unit(add(truth, scale(surface.enlarged, sub(made[corner]!, truth)))), `method ${method}`, 4 * (i - 1.5));
+        const truth = surface.truth[corner]!, from = points[surface.indices[corner]!]!;
+        // All true tangents are drawn alike, however the view shortens them.
+        const size = kArrow / unitLength / Math.max(0.3, Math.hypot(...project(truth)));
+        for (const [v, kind] of [[truth, "truth"], [unit(add(truth, scale(surface.enlarged, sub(made[corner]!, truth)))), `method ${method}`]] as const) {
+          const [stepX, stepY] = project(v);
+          figure.arrow(plane, from, [size * stepX, size * stepY], kind);
+        }
       }
       const errors = surface.watched.map((corner) => angle(made[corner]!, surface.truth[corner]!));
       const [mean, most] = rows.get(method)!;
       mean.textContent = text(errors.reduce((sum, error) => sum + error, 0) / errors.length);
       most.textContent = text(Math.max(...errors));
     }
-    figure.word(kView, [0.35, -0.8], surface.words + (surface.enlarged > 1 ? `; errors are drawn ${surface.enlarged} times as large` : ""));
     figure.polygon(kPad, [[-1, -1], [1, -1], [1, 1], [-1, 1]], "face");
-    figure.word(kPad, [0, 1.2], { sheet: "middle", bevel: "angle, width", mirrored: "curvature" }[name()]);
+    const moves = { sheet: "the vertex in the middle", bevel: "the angle of the texture and the width of the bevel", mirrored: "the curvature" }[name()];
+    words.textContent = `Above: ${surface.words}${surface.enlarged > 1 ? `; errors are drawn ${surface.enlarged} times as large` : ""}. The square changes ${moves}.`;
   });
   const reach = (): number => (name() === "sheet" ? 0.25 : 1);
   figure.handle(kPad, "the shape of the surface", () => [at[name()][0] / reach(), at[name()][1] / reach()],

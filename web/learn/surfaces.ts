@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Meshes of surfaces whose true tangents are known, for figure 5.
+// Meshes of surfaces whose true tangents are known, for figure 8.
 
 import { across, scale, unit, type Vec2, type Vec3 } from "./vector";
 

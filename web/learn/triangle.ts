@@ -78,7 +78,7 @@ export function showTriangle(host: HTMLElement, rows: HTMLElement, system: HTMLE
     numbers.set("dP/dv", `(s\u2081 E\u2082 \u2212 s\u2082 E\u2081) / d = ${isFlat ? "nothing to divide by" : tuple(d.bitangent.slice(0, 2))}`);
     numbers.set("the library", `T = ${tuple([x, y, made[2]!])}   sign = ${sign > 0 ? "+1" : "\u22121"}`);
     numbers.set("which means", Math.abs(d.determinant) < 1e-3
-      ? "the triangle has (nearly) no area in the texture: there is no direction in which u grows"
+      ? "the triangle has (nearly) no area in the texture: u and v do not tell its directions apart, and there is no dP/du"
       : d.determinant < 0 ? "the texture lies mirrored on the triangle: B = \u2212cross(N, T)" : "the texture lies on it as it is: B = cross(N, T)");
   });
   const bounds: [Vec2, Vec2] = [[0, 1], [0, 1]];

@@ -182,6 +182,12 @@ it("takes typed edges and frames, and says what follows", { skip }, async () => 
   assert.match(await number(tab, "light", "the matrix"), /transpose is its inverse/);
   await tab.fill('[aria-label="T, B and N in columns: row 1, column 1"]', "0.3");
   assert.match(await number(tab, "light", "the matrix"), /no longer unit/);
+  // n.(M^T L) = (M n).L for this matrix as well; only the inverse is another one.
+  const bright = (await number(tab, "light", "brightness")).match(/[\d.]+$/)[0], values = (text) => text.replaceAll("\u2212", "-").match(/-?\d+\.\d+/g).map(Number);
+  assert.ok((await number(tab, "light", "the other way round")).endsWith(`is ${bright} as well`));
+  const matrix = await tab.$$eval("#light .system input", (fields) => fields.map((field) => field.valueAsNumber)), given = await tab.$eval('[aria-label="the light"]', (knob) => knob.getAttribute("aria-valuetext").split(", ").map(Number));
+  const [lx, ly, lz] = values((await number(tab, "light", "the matrix")).match(/M\u207b\u00b9L = \(([^)]*)\)/)[1]);
+  given.forEach((wanted, row) => assert.ok(Math.abs(matrix[3 * row] * lx + matrix[3 * row + 1] * ly + matrix[3 * row + 2] * lz - wanted) < 0.03, "M takes it back to L"));
   await press(tab, "how the texture is turned", "ArrowUp", 1);
   assert.match(await number(tab, "light", "the matrix"), /transpose is its inverse/);
   assert.deepEqual(tab.faults, []);
@@ -202,6 +208,50 @@ it("mixes tangents between corners, shorter where they disagree", { skip }, asyn
   assert.ok((await at()) > 0.95, String(await at()));
   assert.match(await number(tab, "across", "which means"), /agree/);
 });
+
+it("scales T by the matrix and N by its inverse transpose, and says how much relief changes where lengths stay", { skip }, async () => {
+  const tab = await open();
+  const values = async (name) => (await number(tab, "scaled", name)).replaceAll("\u2212", "-").match(/-?\d+\.\d+/g).map(Number);
+  assert.ok(Math.abs((await values("N by M"))[2] - 90) > 30, "N by the matrix leans");
+  assert.equal((await values("N by the inverse transpose"))[3], 90);
+  // From (1.6, 0.6) to (1.6, 1.5), and then to (1.5, 1.5).
+  await press(tab, "how the node scales", "Shift+ArrowDown", 12);
+  await press(tab, "how the node scales", "Shift+ArrowLeft", 1);
+  assert.deepEqual((await values("the matrix")).slice(0, 2), [1.5, 1.5]);
+  assert.equal((await values("N by M"))[2], 90, "a uniform scale keeps right angles");
+  assert.equal((await values("without normalizing"))[0], 2.25, "the scale squared");
+  assert.match(await number(tab, "scaled", "which means"), /does not mirror/);
+  await press(tab, "how the node scales", "Shift+ArrowLeft", 14);
+  assert.match(await number(tab, "scaled", "which means"), /node mirrors/);
+  assert.equal((await values("N by the inverse transpose"))[3], 90);
+  assert.deepEqual(tab.faults, []);
+});
+
+it("says that glTF does not specify whether interpolated frames are normalized", { skip }, async () => {
+  const tab = await open();
+  assert.match(await number(tab, "across", "which means"), /glTF does not specify/);
+  assert.match(await tab.textContent("#across"), /glTF does not\s+specify which/);
+});
+
+for (const width of [390, 1280])
+  it(`draws no arrow of a method over another one or over a word, at ${width}`, { skip }, async () => {
+    const tab = await open({ viewport: { width, height: 844 } });
+    for (const surface of ["sheet", "bevel", "mirrored"]) {
+      await tab.selectOption("#surface", surface);
+      const { arrows, over } = await tab.$eval("#methods svg", (svg) => {
+        const ends = (line) => [["x1", "y1"], ["x2", "y2"]].map((names) => names.map((name) => line[name].baseVal.value));
+        const lines = [...svg.querySelectorAll("line.method")].map(ends), words = [...svg.querySelectorAll("text")].map((word) => word.getBBox());
+        const points = ([a, b]) => [0, 0.25, 0.5, 0.75, 1, 1.25].map((t) => a.map((x, k) => x + t * (b[k] - x)));
+        const isSameStart = (one, other) => Math.hypot(one[0][0] - other[0][0], one[0][1] - other[0][1]) < 0.01;
+        const near = lines.flatMap((one, i) => lines.slice(i + 1).filter((other) => !isSameStart(one, other) && points(one).some(([x, y]) => points(other).some(([u, v]) => Math.hypot(x - u, y - v) < 4))));
+        const hidden = words.filter(({ x, y, width, height }) => lines.some((line) => points(line).some(([u, v]) => u > x && u < x + width && v > y && v < y + 0.8 * height)));
+        return { arrows: lines.length, over: near.length + hidden.length };
+      });
+      assert.ok(arrows >= 12, `${surface}: ${arrows} arrows`);
+      assert.equal(over, 0, surface);
+    }
+    assert.deepEqual(tab.faults, []);
+  });
 
 it("splits vertices at a seam, and shows what sharing them does", { skip }, async () => {
   const tab = await open();

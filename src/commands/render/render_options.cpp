@@ -117,9 +117,11 @@ Option readingOption(RenderOptions& options) {
         if (const MapReading* reading = findMapReading(name.c_str())) options.reading = *reading;
         return std::string();
     };
-    Option made = option("--reading", "PROGRAM", take,
-                         "How normal maps are read: as glTF says, or as this program does it: opengl, directx, unreal, "
-                         "unity, blender, godot or three. Frames stay those of glTF.");
+    Option made =
+        option("--reading", "PROGRAM", take,
+               "How normal maps are read: gltf (green up; T and N as interpolated, which glTF does not specify), or "
+               "as this program does it: opengl, directx, unreal, unity, blender, godot or three. Frames stay "
+               "those of glTF.");
     for (const char* name : kReadings) made.choices.emplace_back(name);
     made.default_text = kReadings[0];
     return made;
