@@ -72,10 +72,11 @@ tspace_ErrorCode tspace_generateFile(const char* input, const char* output, cons
 tspace_ErrorCode tspace_generateBytes(const tspace_Model* model, const char* options, tspace_Bytes* output,
                                       tspace_Bytes* report, tspace_Error* error) TSPACE_NOEXCEPT;
 
-/* Reads a model and says what is wrong with its frames. Near-linear in the size of the model. Memory: the model as
- * floats, and about 150 bytes per triangle of the primitives at work. Thread-safe; the report does not depend on the
- * number of threads. Errors as tspace_generateFile; also INVALID_OPTION (an angle or share that is negative or not
- * finite).
+/* Reads a model and says what is wrong with its frames; or an image (by its extension, or by the first bytes of
+ * file.content), and says what is wrong with it as a normal map: by the same tests as those of a model, without the
+ * mesh. Near-linear in the size of the model. Memory: the model as floats, and about 150 bytes per triangle of the
+ * primitives at work. Thread-safe; the report does not depend on the number of threads. Errors as
+ * tspace_generateFile; also INVALID_OPTION (an angle or share that is negative or not finite).
  * In C: options of `tspace check`, report tspace.check/1. */
 tspace_ErrorCode tspace_checkFile(const char* input, const char* options, tspace_Bytes* report,
                                   tspace_Error* error) TSPACE_NOEXCEPT;
