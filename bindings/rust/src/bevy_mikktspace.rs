@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //! For code that calls the crate `bevy_mikktspace` 0.17 or 1.0: the trait, types and functions of these
-//! versions, which give the same bits. Replace `bevy_mikktspace::` by `tspace::bevy_mikktspace::`. The trait of `mikktspace` 0.3 and
+//! versions, with the bits of the MikkTSpace reference in C. (The crate's own differ from these at 1 % of the corners of 4,000
+//! random meshes over few points, where many triangles are doubled or degenerate.) Replace `bevy_mikktspace::` by `tspace::bevy_mikktspace::`. The trait of `mikktspace` 0.3 and
 //! of `bevy_mikktspace` up to 0.16 is in [`mikktspace`](crate::mikktspace).
 //!
 //! Only [`Geometry`]'s parameter `Ops` is missing, which `no_std` programs need for their own square roots.
