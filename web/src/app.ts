@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // One model at a time: what is asked of the worker, in which order, and what the views are told. What comes back for a model
 // that is no longer the current one is dropped.
-import { loadModel } from "./model/load.js";
+import { LoaderError, loadModel } from "./model/load.js";
 import { glbOfObj } from "./model/obj.js";
 import { triangleCount, type Model, type Part } from "./model/part.js";
 import { missingFiles, Refusal, type ModelFiles } from "./files.js";
@@ -47,8 +47,9 @@ const sentenceOf = (error: unknown): string => (error instanceof Error ? error.m
 /** Files that did not come with the model, and what to do. */
 const lacking = (missing: string[]): string => `It names files that are not here: ${missing.slice(0, 8).join(", ")}${missing.length > 8 ? ` and ${missing.length - 8} more` : ""}. Drop them, too.`;
 
-/** What the loader of three.js says, for people. */
+/** Why there is no picture. Only what the loader of three.js could not read is said of the file. */
 function plainly(error: unknown): string {
+  if (!(error instanceof LoaderError || error instanceof WorkError || error instanceof Refusal)) return `this page failed, which need not be the fault of the file (${String(error)}). The findings do not depend on the picture.`;
   const text = sentenceOf(error).replace(/^THREE\.\w+: /, "");
   if (/Unsupported asset|Legacy binary/.test(text)) return "its version of glTF is older than 2.0.";
   if (/^Failed to load buffer/.test(text)) return "a file with its geometry is missing.";
@@ -167,7 +168,7 @@ export class App {
     } catch (error) {
       if (!isCurrent()) return;
       if (error instanceof WorkError && error.code === "stopped") return this.#stopped();
-      const sentence = error instanceof WorkError || error instanceof Refusal ? sentenceOf(error) : `This file cannot be opened: ${sentenceOf(error)}`;
+      const sentence = error instanceof WorkError || error instanceof Refusal ? sentenceOf(error) : error instanceof TypeError || error instanceof ReferenceError ? `This page failed, which need not be the fault of the file (${String(error)}).` : `This file cannot be opened: ${sentenceOf(error)}`;
       this.fail(missing.length > 0 ? `${lacking(missing)} (${sentence})` : sentence);
     }
   }

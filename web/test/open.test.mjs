@@ -6,7 +6,7 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
 import { Glb } from "./glb.mjs";
-import { drawn, missing, settled, shoot, withPage } from "./support.mjs";
+import { drawn, missing, openBytes, settled, shoot, withPage } from "./support.mjs";
 
 let folder;
 const at = (...names) => join(folder, ...names);
@@ -154,4 +154,14 @@ test("one finger turns the model, and two come nearer", { skip: missing }, async
     assert.equal(await tab.evaluate(() => scrollY), 0, "the page does not scroll under the fingers");
     await tab.waitForSelector(".texel dl"); // what a finger touches is read
   }, { width: 390, height: 844, hasTouch: true });
+});
+
+test("a fault of the page is not blamed on the file, and its findings are there", { skip: missing }, async () => {
+  await withPage(async (tab) => {
+    const bytes = Buffer.from(await tab.evaluate(() => [...window.tspaceView.model.bytes]));
+    await tab.evaluate(() => (window.tspaceView.views.stage.viewport.reset = () => undefined.parts));
+    await openBytes(tab, "crate.glb", bytes);
+    assert.match(await tab.locator(".remark").textContent(), /^The picture cannot be drawn: this page failed, which need not be the fault of the file \(TypeError: .*The findings do not depend on the picture/);
+    assert.ok((await tab.locator(".finding").count()) > 0);
+  }, { allowMessages: true });
 });

@@ -3,7 +3,7 @@
 import { InstancedMesh, LoadingManager, Matrix3, Matrix4, Mesh, SkinnedMesh, Vector3, type Group, type Material, type MeshStandardMaterial, type Object3D, type Texture } from "three";
 import { GLTFLoader, type GLTF } from "three/examples/jsm/loaders/GLTFLoader.js";
 import type { ModelFiles } from "../files.js";
-import type { Work } from "../worker/client.js";
+import { WorkError, type Work } from "../worker/client.js";
 import { arraysOf, uvsOf } from "./arrays.js";
 import { Motion } from "./motion.js";
 import { poseOf } from "./pose.js";
@@ -15,6 +15,13 @@ import { missingImages, normalImagesOf, readTextureFiles } from "./textures.js";
 /** More is not drawn, since a browser's memory ends there; findings are complete all the same. */
 const kMostCorners = 12_000_000;
 const kMostInstances = 1000;
+
+/** The loader of three.js could not read the file. Every other error while a model is drawn is a fault of the page. */
+export class LoaderError extends Error {}
+
+const byLoader = <T>(work: Promise<T>): Promise<T> => work.catch((error: unknown) => {
+  throw error instanceof WorkError ? error : new LoaderError(error instanceof Error ? error.message : String(error));
+});
 
 const decoded = (uri: string): string => {
   try {
@@ -150,11 +157,11 @@ export async function loadModel(model: ModelFiles, work: Work, variant = -1): Pr
   try {
     const buffer = model.bytes.buffer.slice(model.bytes.byteOffset, model.bytes.byteOffset + model.bytes.byteLength);
     const isText = /\.gltf$/i.test(model.name);
-    const gltf = await loader.parseAsync(isText ? new TextDecoder().decode(buffer) : buffer, "");
+    const gltf = await byLoader(loader.parseAsync(isText ? new TextDecoder().decode(buffer) : buffer, ""));
     const parts = new Map<string, Part>(), normalImages = normalImagesOf(gltf);
     let corners = 0, left = 0;
-    const roots = await sceneOf(gltf, remarks), objects: [Part, Mesh][] = [], drawnBy = new Map<Object3D, TreeNode["draws"][number]>();
-    const lost = await putOn(gltf, variant, roots, originOf);
+    const roots = await byLoader(sceneOf(gltf, remarks)), objects: [Part, Mesh][] = [], drawnBy = new Map<Object3D, TreeNode["draws"][number]>();
+    const lost = await byLoader(putOn(gltf, variant, roots, originOf));
     if (lost) remarks.push(lost);
     for (const root of roots) {
       root.updateMatrixWorld(true);
