@@ -245,7 +245,7 @@ TEST(CFilesInMemory, AnImageThatIsNotGivenStaysOutside) {
     ASSERT_EQ(tspace_generateBytes(&view, nullptr, &output.bytes, &report.bytes, nullptr), TSPACE_OK);
     const Json warnings = Json::parse(report.text()).at("files")[0].at("warnings");
     ASSERT_FALSE(warnings.empty());
-    EXPECT_EQ(warnings[0].text(), "the image 'n.png' does not exist; its URI is kept");
+    EXPECT_EQ(warnings[0].text(), "the image 'n.png' stays outside of the GLB, and its URI is kept: it does not exist");
 }
 
 TEST(CFilesInMemory, AnErrorOfTheCallerEndsTheCallWithItsCode) {

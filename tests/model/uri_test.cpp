@@ -29,19 +29,26 @@ TEST(DataUri, DecodesPercentsAndMissingPadding) {
     EXPECT_EQ(errorOf([] { decodeDataUri("data:;base64", "p"); }).code, ErrorCode::invalidFile);
 }
 
+/// Exporters break base64 into lines; browsers ignore that.
+TEST(DataUri, IgnoresWhiteSpaceInBase64) {
+    EXPECT_EQ(decodeDataUri("data:;base64,YWJj\nZGVm\r\n", "").bytes, test::toBytes("abcdef"));
+    EXPECT_EQ(decodeDataUri("data:;base64,YW Jj\tZG%0AU=\n", "").bytes, test::toBytes("abcde"));
+    EXPECT_EQ(errorOf([] { decodeDataUri("data:;base64,YWJj\nY", "p"); }).place, "p");
+}
+
 TEST(ResolveUri, StaysInsideTheFolder) {
     const TempFolder folder;
     folder.write("model/sub/a b.bin", std::string("x"));
     const auto resolve = [&](const char* uri, bool allow = false) {
         return errorOf([&] { resolveUri(folder.path("model"), uri, allow, "/buffers/0/uri"); }).code;
     };
-    for (const char* uri :
-         {"sub/a%20b.bin", "sub/a b.bin", "./sub/x", "missing.bin", "a..b", "100%.bin", "sub\\x", "sub%5Cx"}) {
+    for (const char* uri : {"sub/a%20b.bin", "sub/a b.bin", "./sub/x", "missing.bin", "a..b", "100%.bin", "sub\\x",
+                            "sub%5Cx", "sub/../x", "gone/../x", "gone\\..\\sub\\x", "gone/%2e%2e/x"}) {
         EXPECT_EQ(resolve(uri), ErrorCode::ok) << uri;
     }
-    for (const char* uri :
-         {"../x", "sub/../../x", "%2e%2e/x", "..%2Fx", "/etc/passwd", "//host/x", "..\\x", "sub\\..\\../x", "..%5Cx",
-          "\\etc", "\\\\host\\x", "http://host/x", "file:///etc/passwd", "C:/x", "sub/../x"}) {
+    for (const char* uri : {"../x", "sub/../../x", "%2e%2e/x", "..%2Fx", "/etc/passwd", "//host/x", "..\\x",
+                            "sub\\..\\../x", "..%5Cx", "\\etc", "\\\\host\\x", "http://host/x", "file:///etc/passwd",
+                            "C:/x", "C:\\x", "d%3A%5Cx", "/sub/../x", "sub/..//../x"}) {
         EXPECT_EQ(resolve(uri), ErrorCode::forbiddenPath) << uri;
     }
     EXPECT_EQ(resolve("../x", true), ErrorCode::ok);
@@ -84,7 +91,7 @@ TEST(ResolveUri, IsAskedForBuffersAndImages) {
     EXPECT_EQ(load(buffer, false).code, ErrorCode::forbiddenPath);
     EXPECT_EQ(load(buffer, false).place, "/buffers/0/uri");
     EXPECT_EQ(load(buffer, true).code, ErrorCode::ok);
-    EXPECT_EQ(load(R"("images":[{"uri":"../secret.bin"}])", false).place, "/images/0/uri");
+    EXPECT_EQ(load(R"("images":[{"uri":"../secret.bin"}])", false).code, ErrorCode::ok) << "only a warning";
     EXPECT_EQ(load(R"("buffers":[{"byteLength":4,"uri":"gone.bin"}])", false).code, ErrorCode::invalidFile);
     EXPECT_EQ(load(R"("buffers":[{"byteLength":4,"uri":"."}])", false).code, ErrorCode::invalidFile);
 }
@@ -94,13 +101,36 @@ TEST(ResolveUri, OfModelsInMemoryWithoutFilesIsNotFollowedAndYetAUri) {
         const std::string text = R"({"asset":{"version":"2.0"},"images":[{"uri":")" + uri + "\"}]}";
         FileOptions options;
         options.content = {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
-        return errorOf([&] { gltf::loadDocument("m.gltf", options); });
+        return gltf::loadDocument("m.gltf", options).warnings.size();
     };
-    EXPECT_EQ(load(":").code, ErrorCode::invalidFile);
-    EXPECT_EQ(load(":").place, "/images/0/uri");
-    EXPECT_EQ(load("a%00b").code, ErrorCode::invalidFile);
-    for (const char* uri : {"a.png", "../a.png", "/a.png", "http://a/b.png", ""})
-        EXPECT_EQ(load(uri).code, ErrorCode::ok) << uri;
+    for (const char* uri : {":", "a%00b"}) EXPECT_EQ(load(uri), 1u) << uri;
+    for (const char* uri : {"a.png", "../a.png", "/a.png", "http://a/b.png", ""}) EXPECT_EQ(load(uri), 0u) << uri;
+}
+
+/// Geometry does not depend on images.
+TEST(ResolveUri, OfAnImageThatIsRefusedIsAWarning) {
+    const TempFolder folder;
+    folder.write("secret.png", std::string("x"));
+    folder.write("model/n.png", std::string("x"));
+    std::filesystem::create_symlink("../secret.png", folder.path("model/out.png"));
+    const auto warnings = [&](const std::string& uri, bool allow = false) {
+        const std::string text = R"({"asset":{"version":"2.0"},"images":[{"uri":")" + uri + "\"}]}";
+        const gltf::Document document =
+            gltf::loadDocument(folder.write("model/m.gltf", text), {.allow_external = allow});
+        return document.warnings.empty() ? std::string() : document.warnings[0];
+    };
+    for (const char* uri :
+         {"../secret.png", "C:\\\\tex\\\\c.png", "D:/c.png", "/c.png", "out.png", "a/../../secret.png"}) {
+        EXPECT_NE(warnings(uri).find("image 0 is not read: "), std::string::npos) << uri;
+        EXPECT_NE(warnings(uri).find("--allow-external"), std::string::npos) << uri;
+        EXPECT_EQ(warnings(uri, true), "") << uri;
+    }
+    for (const char* uri : {"https://cdn.example.com/c.png", "file:///c.png", "file:c.png"}) {
+        EXPECT_NE(warnings(uri).find("scheme"), std::string::npos) << uri;
+        EXPECT_EQ(warnings(uri).find("--allow-external"), std::string::npos) << uri;
+    }
+    for (const char* uri : {"n.png", "textures/../n.png", "textures\\\\..\\\\n.png", "gone.png"})
+        EXPECT_EQ(warnings(uri), "") << uri;
 }
 
 }  // namespace

@@ -389,6 +389,10 @@ std::vector<Finding> describe(const Scene& scene, const NormalMap& map) {
     std::vector<Finding> findings;
     if (!map.test) {
         findings.push_back(unreadable(name, map.why_not));
+        if (scene.images[map.image].is_unavailable) {
+            findings.back().severity = Severity::warning;
+            findings.back().remedy = "Put the image where the model names it, or correct its name in the model.";
+        }
     } else {
         const bool has_own_green = hasOwnGreen(map.look.layout);
         const std::optional<TextureFacts> facts = textureFacts(scene.images[map.image].bytes);

@@ -8,6 +8,7 @@
 
 #include "images/image.h"
 #include "model/gltf/material_needs.h"
+#include "model/io/folder_rule.h"
 #include "model/io/uri.h"
 
 namespace tspace::gltf {
@@ -207,9 +208,9 @@ void ImagePlacer::putInFile(std::size_t image, const std::string& uri, Bytes&& b
 /// A name beside the old one that no other file has, or one with these bytes.
 std::string ImagePlacer::freeName(const std::string& uri, const Bytes& bytes) {
     namespace fs = std::filesystem;
-    fs::path old = fs::path(Path(pathOfUri(uri))).lexically_normal();
+    fs::path old = Path(pathOfUri(uri));
     // What lies outside of the model's folder gets its new file inside.
-    if (old.has_root_path() || *old.begin() == "..") old = old.filename();
+    if (leadsAway(old) != nullptr) old = old.filename();
     const bool becomes_png = imageFormat(bytes) == ImageFormat::png && lowerExtension(Path(old)) != ".png";
     for (int number = 1;; ++number) {
         std::string ending = ending_;

@@ -9,6 +9,7 @@
 #include "images/image.h"
 #include "model/gltf/meshopt_views.h"
 #include "model/io/file_error.h"
+#include "model/io/folder_rule.h"
 #include "model/io/uri.h"
 
 namespace tspace::gltf {
@@ -142,14 +143,12 @@ std::optional<DataUri> loadImage(Document& document, const std::string& uri, con
         warnings.push_back("the image " + inQuotes(uri) + " is not a file and stays outside of the GLB");
         return {};
     } else {
-        const Path path = document.files.resolve(uri, join(place, "uri"));
-        const NamedFiles::Kind kind = document.files.kindOf(path);
         // FBX files name the folder of an image that has no name.
-        if (kind != NamedFiles::Kind::file) {
-            const char* why = kind == NamedFiles::Kind::folder ? " is a folder" : " does not exist";
-            warnings.push_back("the image " + inQuotes(uri) + why + "; its URI is kept");
+        if (const std::string why = document.files.whyNotRead(uri, place); !why.empty()) {
+            warnings.push_back("the image " + inQuotes(uri) + " stays outside of the GLB, and its URI is kept: " + why);
             return {};
         }
+        const Path path = document.files.resolve(uri, join(place, "uri"));
         image.bytes = document.files.read(path, join(place, "uri"));
         document.input_files.push_back(path.string());
         image.mime_type = declared;
@@ -276,21 +275,15 @@ void copyNamedFile(const Document& document, const OutputTarget& target, const s
         warnings.push_back("the file " + inQuotes(uri) + " that the model names does not come along");
         return;
     }
-    const Path from = document.files.resolve(uri, place);
-    const fs::path relative = fs::path(Path(pathOfUri(uri))).lexically_normal();
-    if (relative.has_root_path() || *relative.begin() == "..") {
-        warnings.push_back("the file " + inQuotes(uri) + " lies outside of the model's folder and was not copied");
-        return;
-    }
-    const NamedFiles::Kind kind = document.files.kindOf(from);
-    if (kind != NamedFiles::Kind::file) {
+    const fs::path relative = Path(pathOfUri(uri));
+    std::string why = document.files.whyNotRead(uri, place);
+    if (leadsAway(relative) != nullptr) why = "it lies outside of the model's folder";
+    if (!why.empty()) {
         // Embedding it failed before, with a warning.
-        if (!target.takes_images_in) {
-            const char* why = kind == NamedFiles::Kind::folder ? " is a folder" : " does not exist";
-            warnings.push_back("the file " + inQuotes(uri) + why + " and was not copied");
-        }
+        if (!target.takes_images_in) warnings.push_back("the file " + inQuotes(uri) + " was not copied: " + why);
         return;
     }
+    const Path from = document.files.resolve(uri, place);
     output.addSource(from);
     const Path to = besideTarget(target, relative);
     const std::vector<std::string> planned = output.files();
@@ -306,10 +299,23 @@ void copyNamedFile(const Document& document, const OutputTarget& target, const s
     output.addShared(to, document.files.read(from, place));
 }
 
+/// Warns about images that are missing where nothing else looks for them.
+void noteMissingImages(const Document& document, const OutputTarget& target, std::vector<std::string>& warnings) {
+    if (target.takes_images_in || document.files.areNone()) return;
+    for (const Json& image : rootArray(document, "images")) {
+        const std::string uri = readString(image, "uri", "/images");
+        if (uri.empty() || uriKind(uri) != UriKind::path || document.new_files.contains(pathOfUri(uri))) continue;
+        tryFile([&] {
+            if (document.files.kindOf(document.files.resolve(uri, "/images")) == NamedFiles::Kind::missing)
+                warnings.push_back("the image " + inQuotes(uri) + " does not exist");
+        });
+    }
+}
+
 void copyNamedFiles(const Document& document, const OutputTarget& target, AtomicOutput& output,
                     std::vector<std::string>& warnings) {
     for (const auto& [path, bytes] : document.new_files) output.add(besideTarget(target, path), bytes);
-    if (target.same_folder) return;
+    if (target.same_folder) return noteMissingImages(document, target, warnings);
     const Json& buffers = rootArray(document, "buffers");
     for (std::size_t i = 0; i < buffers.size(); ++i) {
         if (document.buffers[i].own || document.buffers[i].source != BufferSource::file) continue;
@@ -444,7 +450,7 @@ void writeDocument(Document& document, const OutputTarget& target, AtomicOutput&
 
 void writeUnchanged(const Document& document, const OutputTarget& target, AtomicOutput& output,
                     std::vector<std::string>& warnings) {
-    if (target.in_place) return;
+    if (target.in_place) return noteMissingImages(document, target, warnings);
     output.add(target.path, document.file_bytes);
     for (const Buffer& buffer : document.buffers) {
         if (buffer.source == BufferSource::file && buffer.own && !target.same_folder) {

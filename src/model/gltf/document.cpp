@@ -341,23 +341,31 @@ Buffer loadBuffer(Document& document, const Json& entry, std::size_t index, cons
     return buffer;
 }
 
-/// Images are not read here, but a URI that leads out is refused for every file that a model names, and each of them is part
-/// of the input.
-void checkImageUris(const Document& document) {
+/// Images are not read here, but each of their files is part of the input. A URI that is refused gets a warning: geometry
+/// does not depend on it.
+void checkImageUris(Document& document) {
+    constexpr std::size_t kMostWarnings = 8;
     const Json& images = rootArray(document, "images");
+    std::size_t refused_count = 0;
     for (std::size_t i = 0; i < images.size(); ++i) {
         const std::string place = join("/images", i);
         const std::string uri = readString(images[i], "uri", place);
         if (uri.empty() || uriKind(uri) == UriKind::data) continue;
         // With allow_external a web address is left as it is: it names no local file.
         if (uriKind(uri) == UriKind::otherScheme && document.options.allow_external) continue;
-        if (document.files.areNone()) {
-            // No URI is followed, wherever it leads; but it is one.
-            if (uriKind(uri) == UriKind::path) static_cast<void>(checkedPathOfUri(uri, true, join(place, "uri")));
-            continue;
-        }
-        document.files.note(document.files.resolve(uri, join(place, "uri")));
+        const std::optional<Error> failure = tryFile([&] {
+            if (!document.files.areNone()) {
+                document.files.note(document.files.resolve(uri, join(place, "uri")));
+            } else if (uriKind(uri) == UriKind::path) {
+                // No URI is followed, wherever it leads; but it is one.
+                static_cast<void>(checkedPathOfUri(uri, true, join(place, "uri")));
+            }
+        });
+        if (failure && ++refused_count <= kMostWarnings)
+            document.warnings.push_back("image " + std::to_string(i) + " is not read: " + failure->message);
     }
+    if (refused_count > kMostWarnings)
+        document.warnings.push_back(std::to_string(refused_count - kMostWarnings) + " more images are not read either");
 }
 
 /// Charges each entry a fixed cost for tables of uses, places and reports: an entry takes only a few bytes of JSON.

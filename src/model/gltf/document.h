@@ -156,8 +156,8 @@ struct Document {
 };
 
 /// Reads a .glb or .gltf (told apart by content) from its bytes, and its buffers. Checks asset.version, buffers, buffer views
-/// and accessors (types, ranges), and that no URI of a buffer or image leads out of the folder, which is that of `path`.
-/// Images are not read.
+/// and accessors (types, ranges), and that no URI of a buffer leads out of the folder, which is that of `path`. Images are
+/// not read; a URI of one that may not be followed gets a warning.
 Document parseDocument(Bytes file_bytes, const Path& path, const FileOptions& options);
 
 /// Fails with unsupportedFile when a required extension hides the geometry and this build cannot decode it. Adds one

@@ -504,7 +504,9 @@ Bytes readImageBytes(const Document& document, const Json& image, const std::str
     }
     const std::string uri = readString(image, "uri", place);
     if (uriKind(uri) == UriKind::data) return decodeDataUri(uri, join(place, "uri")).bytes;
-    if (uri.empty() || uriKind(uri) == UriKind::otherScheme) return {};
+    if (uri.empty()) return {};
+    const std::string why = document.files.whyNotRead(uri, join(place, "uri"));
+    if (!why.empty()) failFile(ErrorCode::invalidFile, why, join(place, "uri"));
     return document.files.read(document.files.resolve(uri, join(place, "uri")));
 }
 
@@ -545,8 +547,11 @@ void readImages(const Document& document, const std::set<std::size_t>& wanted, S
             document.memory->take(bytes.size(), place);
             scene.images[i].bytes.assign(bytes.begin(), bytes.end());
         });
+        if (!failure) continue;
         // The geometry is none the worse for it.
-        if (failure && failure->code == ErrorCode::tooLarge) throw FileError{*failure};
+        if (failure->code == ErrorCode::tooLarge) throw FileError{*failure};
+        scene.images[i].why_empty = failure->message;
+        scene.images[i].is_unavailable = !uri.empty() && !document.files.areNone();
     }
 }
 

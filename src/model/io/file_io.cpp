@@ -104,7 +104,7 @@ Path resolveUri(const Path& in_folder, std::string_view uri, bool allow_external
                  "the URI " + inQuotes(uri, 200) + " can be no file: " + failure.code().message(), place);
     }
     if (!allow_external && !isBelow(root, file)) {
-        refuseUri(uri, "leads out of the model's folder by a symbolic link", place);
+        refuseUri(uri, std::string("leads out of the model's folder by a symbolic link") + kFollowed, place);
     }
     return folder / relative;
 }

@@ -8,12 +8,19 @@
 
 namespace tspace {
 
-/// Why a path as a model spells it is refused; null when its text stays below the folder.
+/// Whether a path begins with a drive of Windows and a separator, on any system: "C:/".
+inline bool startsAtDrive(const std::filesystem::path& path) {
+    const std::filesystem::path::string_type& text = path.native();
+    if (text.size() < 3 || text[1] != ':' || (text[2] != '/' && text[2] != '\\')) return false;
+    return (text[0] >= 'a' && text[0] <= 'z') || (text[0] >= 'A' && text[0] <= 'Z');
+}
+
+/// Why a path as a model spells it is refused; null when its text stays below the folder, as "textures/../n.png" does.
 inline const char* leadsAway(const std::filesystem::path& relative) {
     // On Windows a path may begin at a root, or in a folder of a drive, and not be absolute.
-    if (relative.has_root_path()) return "is an absolute path";
-    const bool goes_up = std::find(relative.begin(), relative.end(), std::filesystem::path("..")) != relative.end();
-    return goes_up ? "leads out of the model's folder" : nullptr;
+    if (relative.has_root_path() || startsAtDrive(relative)) return "is an absolute path";
+    const std::filesystem::path normal = relative.lexically_normal();
+    return !normal.empty() && *normal.begin() == ".." ? "leads out of the model's folder" : nullptr;
 }
 
 /// Whether `path` is `folder` or below it. Both must be without links and "..".

@@ -29,6 +29,9 @@ int hexDigit(char c) {
 bool isLetter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
 bool isDigit(char c) { return c >= '0' && c <= '9'; }
 
+/// Whether browsers ignore a character in base64 (forgiving-base64 of the WHATWG).
+bool isBase64Space(char c) { return c == '\n' || c == '\r' || c == ' ' || c == '\t' || c == '\f'; }
+
 /// Length of the scheme before the colon, or 0.
 std::size_t schemeLength(std::string_view uri) {
     if (uri.empty() || !isLetter(uri[0])) return 0;
@@ -54,15 +57,14 @@ std::array<std::int8_t, 256> makeBase64Values() {
 
 Bytes decodeBase64(std::string_view text, const std::string& place) {
     static const std::array<std::int8_t, 256> values = makeBase64Values();
-    while (!text.empty() && text.back() == '=') text.remove_suffix(1);
-    if (text.size() % 4 == 1)
-        failFile(ErrorCode::invalidFile, "the base64 data of a data URI has a wrong length", place);
+    while (!text.empty() && (text.back() == '=' || isBase64Space(text.back()))) text.remove_suffix(1);
     Bytes bytes;
     bytes.reserve(text.size() / 4 * 3 + 2);
     std::uint32_t bits = 0;
     int bit_count = 0;
     for (const char c : text) {
         const int value = values[static_cast<unsigned char>(c)];
+        if (isBase64Space(c)) continue;
         if (value < 0) failFile(ErrorCode::invalidFile, "a data URI has a character that is not base64", place);
         bits = bits << 6 | static_cast<std::uint32_t>(value);
         bit_count += 6;
@@ -71,6 +73,7 @@ Bytes decodeBase64(std::string_view text, const std::string& place) {
             bytes.push_back(static_cast<std::uint8_t>(bits >> bit_count));
         }
     }
+    if (bit_count == 6) failFile(ErrorCode::invalidFile, "the base64 data of a data URI has a wrong length", place);
     return bytes;
 }
 
@@ -92,13 +95,14 @@ std::string encodeBase64(const Bytes& bytes) {
     return text;
 }
 
-void refuseUri(std::string_view uri, const char* why, const std::string& place) {
+void refuseUri(std::string_view uri, const std::string& why, const std::string& place) {
     failFile(ErrorCode::forbiddenPath, "the URI " + inQuotes(uri, 200) + " " + why, place);
 }
 
 UriKind uriKind(std::string_view uri) {
     const std::size_t length = schemeLength(uri);
-    if (length == 0) return UriKind::path;
+    // One letter is a drive of Windows: no scheme is so short.
+    if (length <= 1) return UriKind::path;
     return equalsIgnoringCase(uri.substr(0, length), "data") ? UriKind::data : UriKind::otherScheme;
 }
 
@@ -163,7 +167,7 @@ std::string percentEncode(std::string_view path) {
 std::string pathOfUri(std::string_view uri) {
     std::string path = percentDecode(uri);
     std::replace(path.begin(), path.end(), '\\', '/');
-    return path;
+    return Path(fs::path(Path(path)).lexically_normal()).string();
 }
 
 std::string checkedPathOfUri(std::string_view uri, bool allow_external, const std::string& place) {
@@ -175,7 +179,7 @@ std::string checkedPathOfUri(std::string_view uri, bool allow_external, const st
         failFile(ErrorCode::invalidFile, "a URI names no file", place);
     }
     if (allow_external) return path;
-    if (const char* why = leadsAway(fs::path{Path(path)})) refuseUri(uri, why, place);
+    if (const char* why = leadsAway(fs::path{Path(path)})) refuseUri(uri, std::string(why) + kFollowed, place);
     return path;
 }
 
@@ -214,6 +218,13 @@ NamedFiles::Kind NamedFiles::kindOf(const Path& file) const {
     if (is_in_memory_) return find(file) ? Kind::file : Kind::missing;
     if (isFolder(file)) return Kind::folder;
     return isThere(file) ? Kind::file : Kind::missing;
+}
+
+std::string NamedFiles::whyNotRead(std::string_view uri, const std::string& place) const {
+    Kind kind = Kind::file;
+    const std::optional<Error> failure = tryFile([&] { kind = kindOf(resolve(uri, place)); });
+    if (failure) return failure->message;
+    return kind == Kind::file ? "" : kind == Kind::folder ? "it is a folder" : "it does not exist";
 }
 
 void NamedFiles::note(const Path& file) const {

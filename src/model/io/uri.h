@@ -38,15 +38,18 @@ std::string percentDecode(std::string_view text);
 std::string percentEncode(std::string_view path);
 
 /// The path that a relative URI stands for: escapes decoded, and Windows' separators, which some exporters write, as
-/// slashes.
+/// slashes, without "." and with ".." only at the front.
 std::string pathOfUri(std::string_view uri);
 
-/// pathOfUri with checks. Fails with forbiddenPath when the path is absolute, has a scheme or a `..`; `allow_external`
-/// lifts all of these but the scheme.
+/// pathOfUri with checks. Fails with forbiddenPath when the path is absolute (also at a drive of Windows), has a scheme or
+/// leads out of the folder; `allow_external` lifts all of these but the scheme.
 std::string checkedPathOfUri(std::string_view uri, bool allow_external, const std::string& place);
 
+/// How messages on refused paths end: the option that lifts the rule.
+inline constexpr const char* kFollowed = " (--allow-external follows it)";
+
 /// Fails with forbiddenPath. `why`: the fault, a predicate of the URI.
-[[noreturn]] void refuseUri(std::string_view uri, const char* why, const std::string& place);
+[[noreturn]] void refuseUri(std::string_view uri, const std::string& why, const std::string& place);
 
 /// The file that `uri` names in a folder on the disk. Fails as checkedPathOfUri, and with forbiddenPath when a symbolic
 /// link leads out of `folder`, unless `allow_external`; with invalidFile where no file can have that name, as one that is
@@ -78,6 +81,8 @@ class NamedFiles {
     [[nodiscard]] Path resolve(const Path& folder, std::string_view uri, const std::string& place) const;
 
     [[nodiscard]] Kind kindOf(const Path& file) const;
+    /// Why the file that `uri` names cannot be read; empty: it is there. Not if areNone().
+    [[nodiscard]] std::string whyNotRead(std::string_view uri, const std::string& place) const;
     /// Reports a named file that is not read, or not yet.
     void note(const Path& file) const;
     /// Fails as readFile.

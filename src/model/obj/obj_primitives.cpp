@@ -195,12 +195,19 @@ class ImageFiles {
   private:
     void readBytes(const Texture& texture, SceneImage& image) const {
         // An image that cannot be read does not affect geometry.
-        tryFile([&] {
-            const Bytes bytes = files_.read(files_.resolve(texture.folder, percentEncode(texture.file), "material"));
+        const std::optional<Error> failure = tryFile([&] {
+            const std::string uri = percentEncode(texture.file);
+            const Path file = files_.resolve(texture.folder, uri, "material");
+            if (files_.kindOf(file) == NamedFiles::Kind::missing)
+                failFile(ErrorCode::invalidFile, "it does not exist", "material");
+            const Bytes bytes = files_.read(file);
             memory_.allow(bytes.size());
             memory_.take(bytes.size(), "material");
             image.bytes.assign(bytes.begin(), bytes.end());
         });
+        if (!failure) return;
+        image.why_empty = failure->message;
+        image.is_unavailable = !files_.areNone();
     }
 
     const NamedFiles& files_;

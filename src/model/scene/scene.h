@@ -186,7 +186,8 @@ struct SceneImage {
     std::string uri = {};   ///< as the file says; empty when embedded
     /// The encoded image (PNG, JPEG, ...); empty when it was not asked for or cannot be read.
     std::vector<std::uint8_t> bytes = {};
-    const char* why_empty = "it cannot be read";
+    bool is_unavailable = false;  ///< the file that the model names is not there, or may not be read
+    std::string why_empty = "it cannot be read";
 };
 
 struct Scene {

@@ -369,7 +369,7 @@ TEST(CheckFile, LeavesOpenWhatAMapThatItCannotReadWouldCancel) {
         EXPECT_EQ(codes(report), (CodeCounts{"warning signsInverted", "note normalMapUnreadable"})) << content;
         EXPECT_EQ(report.findings[0].remedy.find("tspace generate"), std::string::npos);
         std::filesystem::remove(model.folder.path("normal.png"));
-        EXPECT_EQ(codes(model.check()), (CodeCounts{"warning signsInverted", "note normalMapUnreadable"}));
+        EXPECT_EQ(codes(model.check()), (CodeCounts{"warning signsInverted", "warning normalMapUnreadable"}));
     }
     EXPECT_EQ(codes(TestModel(false, true).check({.images = false})), CodeCounts{"warning signsInverted"});
 }
@@ -475,7 +475,10 @@ TEST(CheckFile, SaysThatAnImageWasNotLookedAt) {
     EXPECT_EQ(codes(report), CodeCounts{"note normalMapUnreadable"});
     EXPECT_EQ(report.image_count, 0u);
     std::filesystem::remove(model.folder.path("normal.png"));
-    EXPECT_EQ(codes(model.check()), CodeCounts{"note normalMapUnreadable"});
+    report = model.check();
+    EXPECT_EQ(codes(report), CodeCounts{"warning normalMapUnreadable"});
+    EXPECT_NE(report.findings[0].message.find("does not exist"), std::string::npos) << report.findings[0].message;
+    EXPECT_EQ(report.findings[0].remedy.find("PNG"), std::string::npos) << report.findings[0].remedy;
 }
 
 TEST(CheckFile, GivesEachPrimitiveItsOwnFindings) {
