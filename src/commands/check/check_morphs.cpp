@@ -283,16 +283,17 @@ bool isThin(const TangentView& mesh, std::size_t face, float area) {
 
 /// Takes out the vertices of triangles that are degenerate either before or after, and vertices equal to them. The groups
 /// are those of the base, so a triangle that collapses still counts in them, with an arbitrary direction, and one that
-/// opens does not. Triangles that are degenerate before and after change nothing.
+/// opens does not. One that is flipped collapses on the way there. Triangles that are degenerate before and after change nothing.
 void forgetCollapsed(const TangentView& mesh, const Surface& base, const TangentView& morphed_mesh,
                      const Surface& morphed, const EqualVertices& equal, std::vector<bool>& good) {
-    constexpr float kCollapsed = 1e-4f;  // of the area: a hundredth of each side
+    constexpr float kCollapsed = 1e-4f;            // of the area: a hundredth of each side
+    constexpr double kFlipped = -0.8660254037844;  // cosine of 150 degrees, as in SurfaceTurns
     std::vector<bool> is_out(equal.class_count, false);
     for (std::size_t f = 0; f < base.faces.size(); ++f) {
         const SurfaceFrame &before = base.faces[f], &after = morphed.faces[f];
         if (before.tangent == Vec3{} && after.tangent == Vec3{}) continue;
         if (after.area >= kCollapsed * before.area && !isThin(mesh, f, before.area) &&
-            !isThin(morphed_mesh, f, after.area))
+            !isThin(morphed_mesh, f, after.area) && dot(toDouble(before.normal), toDouble(after.normal)) > kFlipped)
             continue;
         for (std::size_t k = 0; k < 3; ++k) is_out[equal.class_of[mesh.corners[3 * f + k]]] = true;
     }

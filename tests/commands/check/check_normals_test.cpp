@@ -174,6 +174,23 @@ TEST(CheckMorphNormals, FindsWhatIsMissingAndWhatIsWrong) {
     EXPECT_TRUE(checkPrimitive(unlit, {}, true)->empty());
 }
 
+/// A target that mirrors a piece turns its triangles over, and exporters write the normals of the mirrored piece. On the way
+/// all of them collapse, so neither answer is wrong.
+TEST(CheckMorphNormals, DoesNotJudgeWhereTrianglesAreFlipped) {
+    for (const float turn : {-2.0f, 0.0f, -1.9f}) {
+        ScenePrimitive mirrored = rolled(1);
+        std::vector<Vec3> offsets;
+        for (const Vec3& position : mirrored.positions) offsets.push_back({-2 * position.x, 0, 0.3f * position.x});
+        mirrored.morph_targets[0].positions = offsets;
+        mirrored.morph_targets[0].normals = std::vector<Vec3>(offsets.size(), Vec3{0.2f, 0, turn});
+        EXPECT_TRUE(checkPrimitive(mirrored, {}, true)->empty()) << turn;
+    }
+    // Beside what is folded over, the other normals are judged still.
+    ScenePrimitive folded = rolled(-1);
+    edit(folded.morph_targets[0].positions, [&](auto& offsets) { offsets[40] = {0.5f, 0, 0}; });
+    EXPECT_EQ(checkPrimitive(folded, {}, true)->front().code, FindingCode::morphNormalsWrong);
+}
+
 TEST(CheckMorphNormals, LooksAtTheChangeAndNotAtTheNormals) {
     ScenePrimitive tilted = rolled(1);
     const Vec3 lean{0, 0.6f, 0.8f};

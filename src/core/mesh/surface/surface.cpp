@@ -134,6 +134,9 @@ namespace {
 constexpr double kVanished = 1e-3;
 /// Ratio of areas below which a triangle has collapsed: a hundredth of each side.
 constexpr double kCollapsed = 1e-4;
+/// Cosine of 150 degrees. A triangle that turns further nearly collapses on the way there, since vertices move along lines,
+/// and may have been flipped: then no sum of a base and an offset is its normal at all weights.
+constexpr double kFlipped = -0.86602540378443865;
 /// Beside the square of the longest edge: what rounding leaves of a triangle without area.
 constexpr double kThin = 1e-6;
 
@@ -205,7 +208,8 @@ std::vector<VertexTurn> SurfaceTurns::under(std::span<const Vec3> offsets) const
         const auto moved = [&](std::size_t k) { return old(k) + toDouble(offsets[corners_[c + k]]); };
         const Triangle from({old(0), old(1), old(2)}), to({moved(0), moved(1), moved(2)});
         normals.push_back({from.is_thin ? Vec3{} : toFloat(from.normal), to.is_thin ? Vec3{} : toFloat(to.normal)});
-        const bool is_certain = !from.is_thin && !to.is_thin && to.area >= kCollapsed * from.area;
+        const bool is_certain =
+            !from.is_thin && !to.is_thin && to.area >= kCollapsed * from.area && dot(from.normal, to.normal) > kFlipped;
         for (std::size_t k = 0; k < 3; ++k) {
             Fan& fan = fans[fan_of[corners_[c + k]]];
             add(from, k, fan.from, fan.from_weight);

@@ -165,8 +165,8 @@ EqualVertices findEqualVertices(const TangentView& mesh, bool with_uvs);
 /// The mean normals of the triangles around a vertex before and after, weighted by their angles.
 struct VertexTurn {
     Vec3 from = {}, to = {};  ///< unit; both zero where one of them cannot be had
-    /// No triangle around the vertex collapses or opens, and none is more than 40 degrees from the mean, before or after: else
-    /// the mean is a matter of weights, and exporters differ.
+    /// No triangle around the vertex collapses, opens or is flipped (turned by more than 150 degrees), and none is more than 40
+    /// degrees from the mean, before or after: else the mean is a matter of weights, and exporters differ.
     bool is_certain = false;
 
     [[nodiscard]] bool isKnown() const { return !(from == Vec3{}); }
