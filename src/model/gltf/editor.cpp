@@ -260,7 +260,7 @@ std::size_t Editor::store(ElementData&& data, std::optional<std::size_t> replace
         // The bytes are moved into Draco data below.
     } else if (!data.places) {
         view = storeView(data, form);
-    } else if (!data.places->empty()) {
+    } else {
         sparse = storeSparse(data);
     }
     Json& accessors = editableRootArray(document_, "accessors");

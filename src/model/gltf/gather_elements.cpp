@@ -127,7 +127,9 @@ void makeSparseWhereSmaller(ElementData& data) {
             places.push_back(static_cast<std::uint32_t>(i));
         }
     }
-    const std::size_t sparse_bytes = places.empty() ? 0 : places.size() * (size + sizeof(std::uint32_t)) + kJsonBytes;
+    // An accessor without a view and without sparse values is all zero, but Assimp and others cannot load it: it keeps one.
+    if (places.empty() && data.count != 0) places.push_back(0);
+    const std::size_t sparse_bytes = places.size() * (size + sizeof(std::uint32_t)) + kJsonBytes;
     if (2 * places.size() > data.count || sparse_bytes >= data.bytes.size()) return;
     Bytes kept(places.size() * size);
     for (std::size_t i = 0; i < places.size(); ++i) {
