@@ -12,7 +12,9 @@
 
 #include "model/io/file_error.h"
 #include "model/io/file_io.h"
+#include "model/io/folder_rule.h"
 #include "model/io/uri.h"
+#include "model/obj/legacy_text.h"
 #include "model/obj/obj_reader.h"
 #include "model/obj/tiny_obj_loader.h"
 
@@ -184,9 +186,47 @@ std::set<std::string> materialsWithDiffuse(const std::string& text) {
     return names;
 }
 
-Material toMaterial(const tinyobj::material_t& source, const fs::path& folder, bool has_diffuse) {
+/// Finds the files that an OBJ file or a material library names.
+class FileFinder {
+  public:
+    FileFinder(const NamedFiles& files, Path folder, std::vector<std::string>& warnings)
+        : files_(files), folder_(std::move(folder)), warnings_(warnings) {}
+
+    /// The path in the folder as a URI's text is resolved: the plain path where it is a file. An absolute path is
+    /// that of another computer in nearly all files, so the name alone is a reading of it. Without a file: the plain path.
+    std::string find(const std::string& text) {
+        const std::string plain = plainPath(text);
+        if (isThere(plain)) return plain;
+        const fs::path path = Path(plain);
+        if (!path.has_root_path() && !startsAtDrive(path)) return plain;
+        std::string name = Path(path.filename()).string();
+        if (name.empty() || !isThere(name)) return plain;
+        if (told_.insert(plain).second)
+            warnings_.push_back("the path " + inQuotes(plain, 200) + " is absolute; the file " + inQuotes(name, 200) +
+                                " beside the file that names it is read instead");
+        return name;
+    }
+
+  private:
+    [[nodiscard]] bool isThere(const std::string& path) const {
+        bool is_there = false;
+        if (path.empty() || files_.areNone()) return false;
+        tryFile([&] {
+            const Path file = files_.resolve(folder_, percentEncode(path), "material");
+            is_there = files_.kindOf(file) == NamedFiles::Kind::file;
+        });
+        return is_there;
+    }
+
+    const NamedFiles& files_;
+    Path folder_;
+    std::vector<std::string>& warnings_;
+    std::set<std::string> told_ = {};
+};
+
+Material toMaterial(const tinyobj::material_t& source, FileFinder& finder, const Path& folder, bool has_diffuse) {
     Material material{.name = source.name, .found = true};
-    material.base_color_texture = {plainPath(source.diffuse_texname), folder};
+    material.base_color_texture = {finder.find(source.diffuse_texname), folder};
     // With a texture, Kd is ignored: exporters write anything there, even black.
     if (has_diffuse && !material.base_color_texture.used()) material.base_color = color(source.diffuse);
     material.opacity = inUnitRange(source.dissolve, 1);
@@ -194,7 +234,7 @@ Material toMaterial(const tinyobj::material_t& source, const fs::path& folder, b
     material.metallic = inUnitRange(source.metallic, 0);
     material.roughness = roughnessOf(source);
     const bool has_norm = !source.normal_texname.empty();
-    material.normal_texture = {plainPath(has_norm ? source.normal_texname : source.bump_texname), folder};
+    material.normal_texture = {finder.find(has_norm ? source.normal_texname : source.bump_texname), folder};
     material.normal_is_bump = !has_norm && !source.bump_texname.empty();
     const auto scale = static_cast<float>((has_norm ? source.normal_texopt : source.bump_texopt).bump_multiplier);
     if (std::isfinite(scale)) material.normal_scale = scale;
@@ -211,7 +251,8 @@ std::uint64_t countOf(const std::string& word, const std::string& text) {
 /// forbiddenPath.
 bool readLibrary(const std::string& name, Model& model, std::vector<Material>& materials) {
     if (model.files.areNone()) return false;
-    const Path path = model.files.resolve(percentEncode(plainPath(name)), "mtllib");
+    FileFinder libraries(model.files, model.files.folder(), model.warnings);
+    const Path path = model.files.resolve(percentEncode(libraries.find(name)), "mtllib");
     if (model.files.kindOf(path) != NamedFiles::Kind::file) return false;
     const auto& known = model.input_files;
     if (std::find(known.begin(), known.end(), path.string()) != known.end()) return true;
@@ -221,6 +262,9 @@ bool readLibrary(const std::string& name, Model& model, std::vector<Material>& m
     model.memory->allow(bytes.size());
     std::string text(bytes.begin(), bytes.end());
     makeLineEndsPlain(text);
+    if (!isUtf8(text))
+        model.warnings.push_back("material library " + inQuotes(Path(fs::path(path).filename()).string(), 200) + ": " +
+                                 kNotUtf8);
     if (completeTextureOptions(text) != 0) {
         model.warnings.push_back("the material library '" + Path(fs::path(path).filename()).string() +
                                  "' moves or scales textures (-o, -s, -t), which is not carried over");
@@ -230,9 +274,10 @@ bool readLibrary(const std::string& name, Model& model, std::vector<Material>& m
     model.memory->take(countOf("newmtl", text) * (2 * sizeof(tinyobj::material_t) + sizeof(Material)), "mtllib");
     const std::vector<tinyobj::material_t> sources = parseMtl(text);
     const std::set<std::string> with_diffuse = materialsWithDiffuse(text);
-    for (const tinyobj::material_t& source : sources) {
-        materials.push_back(toMaterial(source, folderOf(path), with_diffuse.count(source.name) != 0));
-    }
+    const Path folder = folderOf(path);
+    FileFinder finder(model.files, folder, model.warnings);
+    for (const tinyobj::material_t& source : sources)
+        materials.push_back(toMaterial(source, finder, folder, with_diffuse.count(source.name) != 0));
     return true;
 }
 

@@ -15,6 +15,7 @@
 #include "model/io/file_error.h"
 #include "model/io/file_io.h"
 #include "model/json/json.h"
+#include "model/obj/legacy_text.h"
 #include "model/obj/tiny_obj_loader.h"
 #include "tspace/mesh.h"
 
@@ -128,6 +129,7 @@ void makeLineEndsPlain(std::string& text) {
 LineNotes prepareLines(std::string& text) {
     makeLineEndsPlain(text);
     LineNotes notes;
+    notes.is_utf8 = isUtf8(text);
     LineState state;
     std::size_t begin = 0;
     std::uint32_t joined = 0;
@@ -135,7 +137,8 @@ LineNotes prepareLines(std::string& text) {
         if (i < text.size() && text[i] != '\n') continue;
         std::size_t last = i;
         while (last > begin && isBlank(text[last - 1])) --last;
-        if (i < text.size() && last > begin && text[last - 1] == '\\') {
+        const bool is_continued = i < text.size() && last > begin && text[last - 1] == '\\';
+        if (is_continued && (notes.is_utf8 || !isSecondByte(text, last - 1))) {
             text[last - 1] = ' ';
             text[i] = ' ';
             ++joined;
@@ -450,6 +453,7 @@ void addWarnings(const Build& build, Model& model) {
         warn("numbers that cannot be read and were taken as 0: " + std::to_string(notes.unreadable_number_count) +
              ", the first in line " + std::to_string(notes.unreadable_number_line));
     }
+    if (!notes.is_utf8) warn(kNotUtf8);
     warnCount(build.bad_position_count, "positions that are not finite and were moved to the origin");
     warnCount(build.bad_uv_count, "texture coordinates that are not finite and were set to 0");
     warnCount(build.bad_normal_count, "normals that are zero or not finite; the faces that use them get new ones");

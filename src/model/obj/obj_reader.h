@@ -28,6 +28,7 @@ struct FaceLine {
 struct LineNotes {
     std::vector<FaceLine> faces = {};                  ///< in file order: the parser reports exactly these
     std::vector<std::string> material_libraries = {};  ///< what follows `mtllib`, in file order
+    bool is_utf8 = true;
     bool has_smoothing_groups = false;
     std::uint64_t unreadable_number_count = 0;  ///< in v, vt, vn lines: not a number, or NaN or infinity by name
     std::uint32_t unreadable_number_line = 0;   ///< the first of them

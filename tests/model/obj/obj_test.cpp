@@ -368,6 +368,40 @@ TEST(Obj, TexturesThatAreMissingForbiddenOrNoImagesAreLeftOutWithAWarning) {
     EXPECT_TRUE(made.document.json.contains("images"));
 }
 
+/// In Shift-JIS the second byte of a character may be that of a backslash, which continues no line.
+TEST(Obj, TextThatIsNotUtf8KeepsItsBytesAndGivesAWarning) {
+    const TempFolder folder;
+    folder.write("in/m.mtl", "newmtl \x94\xa7\nnorm \x94\xa7.png\n");
+    folder.write("in/\x94\xa7.png", kPng);
+    const std::string faces = std::string(kQuad) + "usemtl \x94\xa7\nf 1/1 2/2 3/3\n";
+    const ObjModel made = make(folder, "o \x91\xcc\x95\x5c\nmtllib m.mtl\n" + faces, {});
+    EXPECT_EQ(made.report.primitives[0].action, PrimitiveAction::generated) << "the material was found";
+    EXPECT_TRUE(made.document.json.contains("images"));
+    EXPECT_TRUE(mentions(made.report.warnings, "not UTF-8"));
+    EXPECT_TRUE(mentions(made.report.warnings, "m.mtl"));
+    const ObjModel utf8 = make(folder, "o \xe4\xbd\x93\\\n 2\nmtllib m.mtl\n" + faces, {});
+    EXPECT_TRUE(mentions(utf8.report.warnings, "not UTF-8")) << "its usemtl is not";
+    const ObjModel plain = make(folder, "o \xe4\xbd\x93\n" + std::string(kQuad) + "f 1/1 2/2 3/3\n", {});
+    EXPECT_FALSE(mentions(plain.report.warnings, "not UTF-8"));
+}
+
+TEST(Obj, AbsolutePathsAreLookedForByTheirNames) {
+    const TempFolder folder;
+    folder.write("in/maps/m.mtl", "newmtl a\nmap_Kd /home/me/c.png\nmap_Bump C:\\Users\\me\\Desktop\\n.png\n");
+    folder.write("in/maps/n.png", flatPng());
+    folder.write("in/maps/c.png", kPng);
+    const std::string faces = std::string(kQuad) + "usemtl a\nf 1/1 2/2 3/3\n";
+    const ObjModel made = make(folder, "mtllib maps/m.mtl\n" + faces, {});
+    EXPECT_EQ(made.document.json["images"].size(), 2u);
+    EXPECT_TRUE(mentions(made.report.warnings, "'C:/Users/me/Desktop/n.png' is absolute"));
+    EXPECT_TRUE(mentions(made.report.warnings, "'/home/me/c.png' is absolute"));
+    folder.write("in/m.mtl", "newmtl a\nnorm maps/n.png\n");
+    for (const char* library : {"D:\\x\\m.mtl", "/home/me/m.mtl"}) {
+        const ObjModel beside = make(folder, "mtllib " + std::string(library) + "\n" + faces, {});
+        EXPECT_EQ(beside.document.json["images"].size(), 1u) << library;
+    }
+}
+
 TEST(Obj, MaterialLibrariesOutsideTheFolderAreNotRead) {
     const TempFolder folder;
     folder.write("m.mtl", "newmtl a\nnorm n.png\n");

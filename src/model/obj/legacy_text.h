@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// Text that is not UTF-8. OBJ and MTL files do not name their encoding; older programs write that of their system.
+#pragma once
+
+#include <cstddef>
+#include <string_view>
+
+namespace tspace::obj {
+
+inline constexpr const char* kNotUtf8 =
+    "the text is not UTF-8: its bytes are kept, but names may be shown wrong, and files of such names may not be found";
+
+/// Whether the text is valid UTF-8 (ASCII is). Linear.
+inline bool isUtf8(std::string_view text) {
+    for (std::size_t i = 0; i < text.size();) {
+        const auto byte = static_cast<unsigned char>(text[i++]);
+        if (byte < 0x80) continue;
+        const int more = byte >= 0xc2 && byte < 0xe0   ? 1
+                         : byte >= 0xe0 && byte < 0xf0 ? 2
+                         : byte >= 0xf0 && byte < 0xf5 ? 3
+                                                       : 0;
+        if (more == 0) return false;
+        for (int k = 0; k < more; ++k, ++i) {
+            if (i == text.size() || (static_cast<unsigned char>(text[i]) & 0xc0) != 0x80) return false;
+        }
+    }
+    return true;
+}
+
+/// Whether the byte at `at` is the second of a character of Shift-JIS, where it may be that of a backslash: an odd number
+/// of bytes before it begin a character. `text` is not UTF-8.
+inline bool isSecondByte(std::string_view text, std::size_t at) {
+    std::size_t leads = 0;
+    while (leads < at) {
+        const auto byte = static_cast<unsigned char>(text[at - leads - 1]);
+        if (!((byte >= 0x81 && byte <= 0x9f) || (byte >= 0xe0 && byte <= 0xfc))) break;
+        ++leads;
+    }
+    return leads % 2 != 0;
+}
+
+}  // namespace tspace::obj
