@@ -79,8 +79,9 @@ enum class FindingCode : std::uint32_t {
     normalMapLengths = 50,        ///< an image alone: vectors that are far from unit length
     normalMapConstant = 51,       ///< an image alone: all texels are one color
     normalMapZero = 52,           ///< an image alone: flat parts are stored as 127, not 128
+    attributeUnreadable = 53,  ///< NORMAL, TEXCOORD_n or COLOR_n has a type or a number of elements that it cannot have
 };
-inline constexpr std::uint32_t kFindingCodeCount = 53;
+inline constexpr std::uint32_t kFindingCodeCount = 54;
 
 /// Stable lowerCamelCase name: the name of the enumerator.
 const char* findingName(FindingCode code);

@@ -304,7 +304,9 @@ bool isUnreadable(const ScenePrimitive& primitive) {
 }
 
 void checkTangentsMissing(PrimitiveFacts& facts) {
-    if (facts.primitive.uses.empty() || isUnreadable(facts.primitive)) return;
+    // Where an attribute cannot be read, its own finding says what to do.
+    if (facts.primitive.uses.empty() || isUnreadable(facts.primitive) || !facts.primitive.attribute_faults.empty())
+        return;
     Tally all{.count = facts.mesh.positions.size(), .total = facts.mesh.positions.size()};
     const char* state =
         facts.primitive.tangents_not_read ? "were not read (the importer cannot give them)" : "are missing";
@@ -350,6 +352,7 @@ Result<Done> checkTangents(PrimitiveFacts& facts) {
         return Done{};
     }
     if (facts.mesh.normals.empty()) {
+        if (facts.primitive.findFault("NORMAL") != nullptr) return Done{};
         facts.add(FindingCode::tangentsIgnored, Severity::warning, all, "vertices",
                   "it has tangents but no normals, and glTF tells readers to ignore such tangents");
         return Done{};

@@ -126,6 +126,9 @@ constexpr std::array<CodeText, kFindingCodeCount> kCodes{{
     {"normalMapZero",
      "Nothing needs to be done for most uses. Else write the map from its source with 128 for flat parts, or with 16 "
      "bits."},
+    {"attributeUnreadable",
+     "Export the attribute again; or make new normals: tspace generate --overwrite-normals. Other attributes are "
+     "removed: tspace generate --repair."},
 }};
 
 }  // namespace
@@ -203,6 +206,7 @@ const char* findingSummary(FindingCode code) {
         "Vectors of a normal map are not unit.",
         "A normal map is one color.",
         "Flat parts of a normal map are stored as 127.",
+        "Normals, UVs or colors are stored in a form that they cannot have.",
     };
     static_assert(kSummaries.size() == kFindingCodeCount);
     const auto number = static_cast<std::size_t>(code);

@@ -16,6 +16,11 @@
 #include "tspace/winding.h"
 
 namespace tspace {
+namespace {
+
+std::string setName(std::size_t set) { return "TEXCOORD_" + std::to_string(set); }
+
+}  // namespace
 
 // Positions and normals: finite, unit, and on the front of their triangles.
 
@@ -229,7 +234,31 @@ void checkNoise(PrimitiveFacts& facts) {
                   " of the length of an edge beside a smooth surface, in the mean square");
 }
 
+/// NORMAL, TEXCOORD_n and COLOR_n of a wrong type or number. A command stands in a remedy only where it leaves no finding.
+void checkAttributes(PrimitiveFacts& facts) {
+    const auto needs = [&](const std::string& name) {
+        return std::any_of(facts.primitive.uses.begin(), facts.primitive.uses.end(),
+                           [&](const TangentUse& use) { return use.has_texture && name == setName(use.uv_set); });
+    };
+    for (const SceneAttributeFault& fault : facts.primitive.attribute_faults) {
+        const Tally all{.count = facts.mesh.positions.size(), .total = facts.mesh.positions.size()};
+        facts.add(FindingCode::attributeUnreadable, Severity::error, all, "vertices",
+                  "the elements of " + fault.name + " cannot be read: " + fault.why);
+        Finding& finding = facts.findings.back();
+        if (fault.is_repairable) {
+            finding.remedy = "Keep the components that it may have: tspace generate --repair.";
+        } else if (fault.name == "NORMAL") {
+            finding.remedy = "Export the normals again; or make new ones: tspace generate --overwrite-normals.";
+        } else if (needs(fault.name)) {
+            finding.remedy = "Export the UVs again: tangents follow them.";
+        } else {
+            finding.remedy = "Export the attribute again; or remove it: tspace generate --repair.";
+        }
+    }
+}
+
 void checkNormals(PrimitiveFacts& facts) {
+    if (facts.primitive.findFault("NORMAL") != nullptr) return;
     if (facts.mesh.normals.empty()) {
         Tally all{.count = facts.mesh.positions.size(), .total = facts.mesh.positions.size()};
         facts.add(FindingCode::normalsMissing, Severity::note, all, "vertices",
@@ -258,13 +287,12 @@ constexpr double kSomeUvs = 0.01;
 
 bool isFinite(const Vec2& uv) { return std::isfinite(uv.x) && std::isfinite(uv.y); }
 
-std::string setName(std::size_t set) { return "TEXCOORD_" + std::to_string(set); }
-
 void checkUvsMissing(PrimitiveFacts& facts) {
     std::set<std::size_t> reported;
     for (const TangentUse& use : facts.primitive.uses) {
         if (!use.has_texture) continue;
         if (!plainReading(facts.primitive, use.uv_set).uvs.empty() || !reported.insert(use.uv_set).second) continue;
+        if (facts.primitive.findFault(setName(use.uv_set)) != nullptr) continue;
         Tally all{.count = facts.mesh.positions.size(), .total = facts.mesh.positions.size()};
         facts.add(FindingCode::uvsMissing, Severity::error, all, "vertices",
                   facts.is_gltf ? use.needed_by + " is read with " + setName(use.uv_set) + ", which is not there"
@@ -435,6 +463,7 @@ Result<PrimitiveVerdict> judgePrimitive(const ScenePrimitive& primitive, const C
                   .position_step = primitive.position_step};
     facts.surface = describeSurface(facts.mesh);
     facts.used = usedVertices(facts.mesh);
+    checkAttributes(facts);
     checkPositions(facts);
     checkRounding(facts);
     checkNormals(facts);

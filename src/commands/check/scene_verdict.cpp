@@ -30,12 +30,17 @@ class PrimitiveKey {
         words_.push_back(primitive.mode);
         add({primitive.is_unlit, primitive.is_double_sided, primitive.packedAlone() != nullptr,
              primitive.other_reader.empty(), primitive.uv_sets.size(), primitive.tangent_faults.size(),
-             primitive.morph_targets.size(), std::bit_cast<std::uint64_t>(primitive.position_step)});
+             primitive.attribute_faults.size(), primitive.morph_targets.size(),
+             std::bit_cast<std::uint64_t>(primitive.position_step)});
         arrays_ = {primitive.corners.data(), primitive.positions.data(), primitive.normals.data(),
                    primitive.tangents.data()};
         for (const SharedArray<Vec2>& uvs : primitive.uv_sets) arrays_.push_back(uvs.data());
         for (const SceneTangentFault& fault : primitive.tangent_faults) {
             add({static_cast<std::uint64_t>(fault.target)});
+            words_.push_back(fault.why);
+        }
+        for (const SceneAttributeFault& fault : primitive.attribute_faults) {
+            words_.push_back(fault.name);
             words_.push_back(fault.why);
         }
         for (const SceneMorphTarget& target : primitive.morph_targets)

@@ -206,6 +206,24 @@ bool turnWrong(Input& input, const Storage& storage, std::span<const std::uint32
     return true;
 }
 
+/// Repairs attributes where that is asked for. Returns whether any were, and the container then is that of the output.
+/// Primitives that lost their normals get new ones.
+bool repairFaults(Input& input, const Storage& storage, NormalWishes& wishes, std::vector<std::string>& warnings) {
+    const GenerateOptions& options = input.options;
+    if (!options.overwrite_normals && options.existing != ExistingTangents::repair) return false;
+    const std::span<const Primitive> primitives = input.model.primitives();
+    if (std::all_of(primitives.begin(), primitives.end(),
+                    [](const Primitive& primitive) { return primitive.attribute_faults.empty(); }))
+        return false;
+    Document& document = input.model.document();
+    if (options.compression == Compression::keep) convertContainer(document, input.target, true, warnings);
+    const std::vector<bool> lost = repairAttributes(document, storage.new_file, primitives, warnings);
+    wishes.anew.resize(lost.size());
+    for (std::size_t i = 0; i < lost.size(); ++i) wishes.anew[i] = wishes.anew[i] || lost[i];
+    input.model.wasEdited();
+    return true;
+}
+
 /// Writes unit normals where a repair finds others. Returns whether it found any.
 bool mendNormalLengths(Input& input, const Storage& storage, std::vector<std::string>& warnings) {
     const auto is_scaled = [](const Primitive& primitive) { return primitive.normal_scales != nullptr; };
@@ -240,15 +258,18 @@ WorkedOn generate(Input& input, bool with_images, const GenerateStep& step, Gene
     report.warnings = document.warnings;
     std::copy_n(document.coordinate_offset.begin(), 3, report.coordinate_offset);
     const Storage storage = prepareStorage(input, report.warnings);
+    NormalWishes wishes = step.normals;
+    const bool was_repaired = repairFaults(input, storage, wishes, report.warnings);
     const bool were_mended = mendNormalLengths(input, storage, report.warnings);
     tell(input.options, "reading", 1, 1);
     WindingPlan winding;
-    const bool was_turned = turnWrong(input, storage, step.wound_meshes, were_mended, winding, report.warnings);
+    const bool was_turned =
+        turnWrong(input, storage, step.wound_meshes, were_mended || was_repaired, winding, report.warnings);
     report.windings = std::move(winding.reports);
     tell(input.options, "reading", 1, 1);
-    Decisions decisions = decide(input.model, input.options, step.normals, report.warnings);
+    Decisions decisions = decide(input.model, input.options, wishes, report.warnings);
     report.input_bytes = document.input_bytes;
-    if (input.options.compression == Compression::keep && !was_turned && !were_mended) {
+    if (input.options.compression == Compression::keep && !was_turned && !were_mended && !was_repaired) {
         const bool will_edit = decisions.changeGeometryOrMaps() || input.options.pack.has_value();
         convertContainer(document, input.target, will_edit, report.warnings);
     }
@@ -256,7 +277,7 @@ WorkedOn generate(Input& input, bool with_images, const GenerateStep& step, Gene
     if (with_images) takeImagesIn(document, input.target, report.warnings);
     tell(input.options, "reading", 1, 1);
     const WorkedOn worked_on = edit(input, storage, std::move(decisions), report);
-    report.changed = report.changed || was_turned || were_mended;
+    report.changed = report.changed || was_turned || were_mended || was_repaired;
     sayThatNormalsAreUnit(scaled, were_mended, report);
     countTurned(winding, report.primitives);
     return worked_on;

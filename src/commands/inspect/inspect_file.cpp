@@ -101,6 +101,11 @@ void describeAttributes(const Document& document, const Primitive& primitive, Pr
         const Accessor found = readAccessor(document, tangents.accessor);
         info.attributes.push_back("TANGENT " + formatName(found) + " of " + std::to_string(found.count) + " elements");
     }
+    for (const AttributeFault& fault : primitive.attribute_faults) {
+        const Accessor found = readAccessor(document, fault.accessor);
+        info.attributes.push_back(fault.name + " " + formatName(found) + " of " + std::to_string(found.count) +
+                                  " elements");
+    }
     for (const StoredPacking& packing : findPacked(document, primitive)) {
         if (packing.fault.empty()) info.packed_frames.push_back(packing.layout->format);
     }

@@ -170,6 +170,54 @@ void noteUnreadableTangents(std::span<const Primitive> primitives, std::span<Pri
 
 namespace {
 
+/// The elements of an accessor without their last components.
+ElementData firstComponents(const Document& document, std::size_t index, std::size_t kept_count) {
+    const Accessor accessor = readAccessor(document, index);
+    const Bytes elements = copyElements(document, accessor);
+    ElementData data{.component = accessor.component,
+                     .type = "VEC" + std::to_string(kept_count),
+                     .normalized = accessor.normalized,
+                     .count = accessor.count,
+                     .element_bytes = kept_count * bytesOf(accessor.component)};
+    data.bytes.resize(data.count * data.element_bytes);
+    for (std::size_t i = 0; i < data.count; ++i)
+        std::copy_n(elements.data() + i * accessor.element_bytes, data.element_bytes,
+                    data.bytes.data() + i * data.element_bytes);
+    return data;
+}
+
+}  // namespace
+
+std::vector<bool> repairAttributes(Document& document, const std::string& new_file,
+                                   std::span<const Primitive> primitives, std::vector<std::string>& warnings) {
+    std::vector<bool> lost_normals(primitives.size(), false);
+    Editor editor(document, new_file);
+    std::map<std::pair<std::size_t, std::size_t>, std::size_t> stored;  // by accessor and number of components
+    for (std::size_t i = 0; i < primitives.size(); ++i) {
+        const Primitive& primitive = primitives[i];
+        for (const AttributeFault& fault : primitive.attribute_faults) {
+            const std::string start = primitive.place() + ": " + fault.name;
+            if (fault.kept_count == 0) {
+                eraseAttribute(editor, primitive, fault.name.c_str());
+                if (hasKnownType(editor.accessor(fault.accessor))) editor.release(fault.accessor);
+                lost_normals[i] = lost_normals[i] || fault.name == "NORMAL";
+                warnings.push_back(start + " was removed: " + fault.why);
+                continue;
+            }
+            const auto [entry, is_new] = stored.try_emplace({fault.accessor, fault.kept_count}, 0);
+            if (is_new) entry->second = editor.store(firstComponents(document, fault.accessor, fault.kept_count), {});
+            editor.primitive(primitive.mesh, primitive.index)["attributes"][fault.name] = entry->second;
+            editor.moveUse(fault.accessor, entry->second);
+            warnings.push_back(start + " has its first " + std::to_string(fault.kept_count) +
+                               " components now: " + fault.why);
+        }
+    }
+    editor.finish();
+    return lost_normals;
+}
+
+namespace {
+
 std::vector<std::uint32_t> turnedCorners(const Document& document, const Primitive& primitive,
                                          const std::vector<std::uint8_t>& turned) {
     std::vector<std::uint32_t> corners = readTriangleCorners(document, primitive);

@@ -53,6 +53,11 @@ void removeUnreadableTangents(Editor& editor, std::span<const Primitive> primiti
 /// Notes the removal in the reports; call when all tangents are computed.
 void noteUnreadableTangents(std::span<const Primitive> primitives, std::span<PrimitiveReport> reports);
 
+/// Keeps the components that Primitive::attribute_faults may have, where there are more, and removes the other attributes;
+/// says so in `warnings`. The model was edited then. Returns the primitives that lost their normals, one entry per primitive.
+std::vector<bool> repairAttributes(Document& document, const std::string& new_file,
+                                   std::span<const Primitive> primitives, std::vector<std::string>& warnings);
+
 /// Removes the name of an attribute from a primitive and from its Draco extension. The accessor still counts as used.
 void eraseAttribute(Editor& editor, const Primitive& primitive, const char* name);
 

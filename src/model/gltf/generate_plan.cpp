@@ -133,6 +133,11 @@ bool decide(PrimitiveReport& report, const Document& document, const Primitive& 
         return leave(PrimitiveAction::kept, "its frames are packed in " + packed);
     const bool keeps = hasUsableTangents(primitive) && options.existing == ExistingTangents::keep && !normals.anew;
     if (keeps && !lacksDeltas(primitive) && normals.morphs.empty()) return leave(PrimitiveAction::kept, kKeptReason);
+    if (!primitive.attribute_faults.empty()) {
+        const AttributeFault& fault = primitive.attribute_faults.front();
+        return leave(PrimitiveAction::impossible, "the elements of its " + fault.name + " cannot be read: " +
+                                                      fault.why + " (--repair or --overwrite-normals mends that)");
+    }
     const auto cannot = [&](const std::string& reason) {
         if (!keeps) return leave(PrimitiveAction::impossible, reason);
         return leave(PrimitiveAction::kept,

@@ -81,6 +81,48 @@ void setUnreadableApart(const Document& document, Primitive& primitive) {
         setApart(primitive.targets[i], static_cast<std::ptrdiff_t>(i));
 }
 
+/// The most components that an attribute may have; 0: any.
+std::size_t mostComponents(const std::string& name) {
+    if (name == "NORMAL") return 3;
+    if (name.starts_with("TEXCOORD_")) return 2;
+    return name.starts_with("COLOR_") ? 4 : 0;
+}
+
+/// Nothing: the attribute can be what its name promises.
+std::optional<AttributeFault> attributeFault(const std::string& name, std::size_t index, const Accessor& accessor,
+                                             std::size_t vertex_count) {
+    const std::size_t most = mostComponents(name);
+    if (most == 0) return {};
+    AttributeFault fault{.name = name, .accessor = index};
+    const bool is_color = most == 4, is_vector = accessor.type.starts_with("VEC");
+    const std::size_t least = is_color ? 3 : most;
+    if (accessor.count != vertex_count) {
+        fault.why = "there are " + std::to_string(accessor.count) + " of them for " + std::to_string(vertex_count) +
+                    " vertices";
+    } else if (!is_vector || accessor.component_count < least || accessor.component_count > most) {
+        fault.why = "they do not have " + std::string(is_color ? "3 or 4" : std::to_string(most)) + " components";
+        if (is_vector && accessor.component_count > most) fault.kept_count = most;
+    } else {
+        return {};
+    }
+    return fault;
+}
+
+/// Attributes that can be repaired or made again are no reason to refuse a file.
+void setFaultyApart(const Document& document, Primitive& primitive) {
+    AttributeList good;
+    for (const auto& [name, index] : primitive.attributes) {
+        std::optional<AttributeFault> fault =
+            attributeFault(name, index, readAccessor(document, index), primitive.vertex_count);
+        if (fault) {
+            primitive.attribute_faults.push_back(*std::move(fault));
+        } else {
+            good.emplace_back(name, index);
+        }
+    }
+    primitive.attributes = std::move(good);
+}
+
 std::size_t trianglesOf(Mode mode, std::size_t corners) {
     if (mode == Mode::triangles) return corners / 3;
     return hasTriangles(mode) && corners >= 3 ? corners - 2 : 0;
@@ -112,6 +154,7 @@ Primitive readPrimitive(const Document& document, const Json& object, std::uint3
     }
     setMiscountedApart(document, primitive);
     setUnreadableApart(document, primitive);
+    setFaultyApart(document, primitive);
     checkCounts(document, primitive.attributes, primitive.vertex_count, join(place, "attributes"));
     for (std::size_t i = 0; i < primitive.targets.size(); ++i) {
         checkCounts(document, primitive.targets[i], primitive.vertex_count, join(join(place, "targets"), i));

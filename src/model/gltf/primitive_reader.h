@@ -49,6 +49,15 @@ struct UnreadableTangents {
     std::string why = {};  ///< "they do not have 4 components"
 };
 
+/// A NORMAL, TEXCOORD_n or COLOR_n of a type or a number of elements that it cannot have.
+struct AttributeFault {
+    std::string name = {};
+    std::size_t accessor = 0;
+    std::string why = {};  ///< "they do not have 3 components"
+    std::size_t kept_count =
+        0;  ///< components that a repair keeps, the first ones; 0: the attribute cannot be repaired
+};
+
 struct Primitive {
     std::uint32_t mesh = 0;
     std::uint32_t index = 0;  ///< in its mesh
@@ -64,6 +73,8 @@ struct Primitive {
     std::vector<UnreadableTangents> unreadable_tangents = {};
     /// Null: none has to be scaled. Primitives with one NORMAL share them.
     std::shared_ptr<const NormalScales> normal_scales = {};
+    /// Not among `attributes`: they count as missing.
+    std::vector<AttributeFault> attribute_faults = {};
     std::size_t vertex_count = 0;
     std::size_t corner_count = 0;  ///< entries of the index list, or vertices
 
@@ -78,8 +89,8 @@ struct Primitive {
     [[nodiscard]] std::size_t triangleCount() const;
 };
 
-/// All primitives in file order. Checks that attributes exist and agree in length, but for `miscounted` and tangents. Looks at
-/// the lengths of all normals.
+/// All primitives in file order. Checks that attributes exist and agree in length, but for `miscounted`, tangents and
+/// `attribute_faults`. Looks at the lengths of all normals.
 std::vector<Primitive> readPrimitives(const Document& document);
 
 /// Three vertices per triangle in file order; strips and fans as the specification cuts them. Incomplete

@@ -102,6 +102,13 @@ struct SceneTangentFault {
     std::string why = {};        ///< "they do not have 4 components"
 };
 
+/// A NORMAL, TEXCOORD_n or COLOR_n that cannot be read, and so counts as absent.
+struct SceneAttributeFault {
+    std::string name = {};
+    std::string why = {};        ///< "they do not have 3 components"
+    bool is_repairable = false;  ///< it has more components than it may have, and the first ones can be kept
+};
+
 /// Packed frames in one format.
 struct ScenePacked {
     FrameFormat format = FrameFormat::frame32;
@@ -136,6 +143,7 @@ struct ScenePrimitive {
     std::shared_ptr<const NormalScales> normal_scales = {};  ///< null: none had to be scaled
     SharedArray<Vec4> tangents = {};                         ///< one per vertex, or empty: absent
     std::vector<SceneTangentFault> tangent_faults = {};      ///< of those that count as absent
+    std::vector<SceneAttributeFault> attribute_faults = {};
     bool tangents_not_read = false;               ///< they are empty, but the importer cannot tell that there are none
     std::vector<SharedArray<Vec2>> uv_sets = {};  ///< entry n: TEXCOORD_n, empty where absent; v runs down
     std::vector<SceneMorphTarget> morph_targets = {};
@@ -158,6 +166,12 @@ struct ScenePrimitive {
     /// Whether a texture is read with the tangents, so that its UVs say where they must point.
     [[nodiscard]] bool uvsDecide() const {
         return std::any_of(uses.begin(), uses.end(), [](const TangentUse& use) { return use.has_texture; });
+    }
+
+    [[nodiscard]] const SceneAttributeFault* findFault(const std::string& name) const {
+        const auto found = std::find_if(attribute_faults.begin(), attribute_faults.end(),
+                                        [&](const SceneAttributeFault& fault) { return fault.name == name; });
+        return found == attribute_faults.end() ? nullptr : &*found;
     }
 
     /// There are tangents that something may read, but no texture with them: somebody may have drawn them, along hair or
