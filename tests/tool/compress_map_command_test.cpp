@@ -310,7 +310,7 @@ TEST(CompressMapCommand, AlphaIsCoverageWhereTheTexelsSaySo) {
     ASSERT_EQ(runTool(folder, "convert-map s.png -q -o c.dds").exit_code, 0);
     reportOf(folder, "s.png -o d.dds");
     EXPECT_EQ(folder.read("c.dds").size(), folder.read("d.dds").size());
-    EXPECT_LT(Json::parse(runTool(folder, "map-error c.dds --source d.dds --json").out)["meanErrorDeg"], 0.1);
+    EXPECT_LT(Json::parse(runTool(folder, "map-error c.dds --source d.dds --json").out)["meanErrorDeg"], 0.6);
     // Heights in alpha: nothing of them shows.
     write(sphereSprite(true, false));
     const Json heights = reportOf(folder, "s.png -o e.dds");
