@@ -24,7 +24,7 @@ namespace {
 
 /// The functions of the library that is there at run time.
 struct Astc {
-    LoadedLibrary library = LoadedLibrary(TSPACE_ASTC_LIBRARY);
+    LoadedLibrary library = LoadedLibrary(TSPACE_ASTC_LIBRARY, std::size_t{8} << 20);
     decltype(&astcenc_config_init) initConfig = library.find("astcenc_config_init");
     decltype(&astcenc_context_alloc) allocateContext = library.find("astcenc_context_alloc");
     decltype(&astcenc_context_free) freeContext = library.find("astcenc_context_free");
@@ -76,10 +76,11 @@ bool decodeAstc(const TextureFile& texture, ByteSpan blocks, std::span<std::uint
     astcenc_context* made = nullptr;
     // With the sRGB curve too: it would only change what the stored numbers mean.
     if (astc().initConfig(ASTCENC_PRF_LDR, format.width, format.height, 1, ASTCENC_PRE_FASTEST,
-                          ASTCENC_FLG_DECOMPRESS_ONLY, &config) != ASTCENC_SUCCESS ||
-        astc().allocateContext(&config, 1, &made) != ASTCENC_SUCCESS) {
+                          ASTCENC_FLG_DECOMPRESS_ONLY, &config) != ASTCENC_SUCCESS)
         return false;
-    }
+    const astcenc_error result = astc().allocateContext(&config, 1, &made);
+    if (result == ASTCENC_ERR_OUT_OF_MEM) throwOutOfMemory();
+    if (result != ASTCENC_SUCCESS) return false;
     const AstcContext context(made);
     void* slice = texels.data();
     astcenc_image image{texture.size.width, texture.size.height, 1, ASTCENC_TYPE_F32, &slice};

@@ -14,6 +14,7 @@
 #include "images/codecs.h"
 #include "images/float_image.h"
 #include "images/loaded_library.h"
+#include "images/noted_memory.h"
 #include "images/texture_file.h"
 
 namespace tspace {
@@ -107,7 +108,7 @@ class ExrHeadReader {
 
 /// The functions of the library that is there at run time.
 struct OpenExr {
-    LoadedLibrary library = LoadedLibrary(TSPACE_OPENEXR_LIBRARY);
+    LoadedLibrary library = LoadedLibrary(TSPACE_OPENEXR_LIBRARY, std::size_t{8} << 20);
     decltype(&exr_start_read) startRead = library.find("exr_start_read");
     decltype(&exr_start_write) startWrite = library.find("exr_start_write");
     decltype(&exr_finish) finish = library.find("exr_finish");
@@ -290,6 +291,8 @@ class ExrReader {
         why_ = "it is a broken EXR";
         exr_context_initializer_t setup = EXR_DEFAULT_CONTEXT_INITIALIZER;
         setup.error_handler_fn = ignoreError;
+        setup.alloc_fn = notedMalloc;
+        setup.free_fn = std::free;
         setup.user_data = &bytes_;
         setup.read_fn = readExrBytes;
         setup.size_fn = exrByteCount;
@@ -512,7 +515,7 @@ std::optional<FloatImage> decodeExr(ByteSpan bytes, std::uint64_t most_pixels, s
     if (head->has_more) why = "it has several parts, or several values a pixel";
     if (!head->is_plain) why = "it is packed with loss (B44 or DWA), which is not read";
     if (head->channel_count > kMostChannels || head->has_more || !head->is_plain) return {};
-    return ExrReader(bytes, *head, use, why).read();
+    return orOutOfMemory([&] { return ExrReader(bytes, *head, use, why).read(); });
 }
 
 std::optional<std::vector<std::uint8_t>> encodeExr(const FloatImage& image, unsigned bits) {
@@ -521,6 +524,8 @@ std::optional<std::vector<std::uint8_t>> encodeExr(const FloatImage& image, unsi
     ExrContext file;
     exr_context_initializer_t setup = EXR_DEFAULT_CONTEXT_INITIALIZER;
     setup.error_handler_fn = ignoreError;
+    setup.alloc_fn = notedMalloc;
+    setup.free_fn = std::free;
     setup.user_data = &bytes;
     setup.write_fn = writeExrBytes;
     int part = kPart;

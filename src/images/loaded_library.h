@@ -3,13 +3,42 @@
 #pragma once
 
 #include <dlfcn.h>
+#include <sys/mman.h>
+
+#include <cerrno>
+#include <cstddef>
+#include <cstring>
+
+#include "core/base/memory.h"
 
 namespace tspace {
+
+/// Throws OutOfMemory unless this many bytes can be mapped now. For libraries whose own handling of failed allocations
+/// is not trusted: called before them, with more than they take.
+inline void requireMemory(std::size_t bytes) {
+    void* const memory = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    if (memory == MAP_FAILED) throwOutOfMemory();
+    munmap(memory, bytes);
+}
 
 /// Stays loaded as long as the process lives.
 class LoadedLibrary {
   public:
-    explicit LoadedLibrary(const char* name) : library_(dlopen(name, RTLD_NOW | RTLD_LOCAL)) {}
+    /// `needed_bytes`: more address space than the library and its dependencies take. Throws OutOfMemory if that is not
+    /// available or the loader reports anything but an absent or unusable library. A static variable is then
+    /// initialized again by the next call.
+    LoadedLibrary(const char* name, std::size_t needed_bytes) {
+        requireMemory(needed_bytes);
+        library_ = dlopen(name, RTLD_NOW | RTLD_LOCAL);
+        if (library_ != nullptr) return;
+        const char* const reason = dlerror();
+        const auto says = [reason](const char* part) {
+            return reason != nullptr && std::strstr(reason, part) != nullptr;
+        };
+        if (says("ELF") || says("symbol") || says("version") || says("no such")) return;
+        if (says(std::strerror(ENOENT)) || says(std::strerror(EACCES))) return;
+        throwOutOfMemory();
+    }
 
     /// Becomes a pointer to a function, whose type the caller knows.
     class Address {
@@ -35,7 +64,7 @@ class LoadedLibrary {
     [[nodiscard]] bool hasAll() const { return library_ != nullptr && has_all_; }
 
   private:
-    void* library_;
+    void* library_ = nullptr;
     bool has_all_ = true;
 };
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <limits>
 #include <vector>
@@ -29,7 +30,9 @@ namespace {
 
 /// The functions of Embree that are used, from the library that is there at run time.
 struct Embree {
-    LoadedLibrary library = LoadedLibrary(TSPACE_EMBREE_LIBRARY);
+    /// Embree 3 and TBB take 47 MB. Their constructors end the process where memory ends.
+    static constexpr std::size_t kLoadedBytes = std::size_t{64} << 20;
+    LoadedLibrary library = LoadedLibrary(TSPACE_EMBREE_LIBRARY, kLoadedBytes);
     decltype(&rtcNewDevice) newDevice = library.find("rtcNewDevice");
     decltype(&rtcReleaseDevice) releaseDevice = library.find("rtcReleaseDevice");
     decltype(&rtcGetDeviceError) getDeviceError = library.find("rtcGetDeviceError");
@@ -57,6 +60,9 @@ const Embree& embree() {
     return loaded;
 }
 
+/// Whether Embree ran out of memory in this process, which must not call it again.
+std::atomic<bool> has_embree_failed = false;
+
 #if RTC_VERSION_MAJOR >= 4
 using QueryContext = RTCRayQueryContext;
 #else
@@ -82,6 +88,15 @@ struct RaySurface::State {
     std::vector<Vec4> placed = {};  // 16 bytes each: Embree reads them so
     RTCDevice device = nullptr, second_device = nullptr;
     RTCScene scene = nullptr;
+
+    /// Leaks what Embree made and reports a lack of memory. Embree's devices share state whose locks stay locked after a
+    /// failed call: releasing them, or any further device, would wait forever.
+    Error abandon() {
+        has_embree_failed = true;
+        scene = nullptr;
+        device = second_device = nullptr;
+        return makeError(ErrorCode::outOfMemory, kNoElement, "out of memory for the rays");
+    }
 
     ~State() {
         if (scene != nullptr) embree().releaseScene(scene);
@@ -247,10 +262,13 @@ void findPlace(RaySurface::State& state) {
 /// the limit of TBB for the whole process, and so for a host that uses it too, as long as no device has a larger one: a
 /// second device, which has none, takes that back, and the first keeps its arena. False where there are no devices.
 bool makeDevices(RaySurface::State& state, unsigned threads) {
-    char settings[64];
-    std::snprintf(settings, sizeof settings, "threads=%u,user_threads=%u", threads, threads);
+    char settings[96];
+    // Without this each device reserves 128 MB for subdivision surfaces.
+    constexpr const char* kNoCache = "tessellation_cache_size=0";
+    std::snprintf(settings, sizeof settings, "threads=%u,user_threads=%u,%s", threads, threads, kNoCache);
     state.device = embree().newDevice(settings);
-    state.second_device = embree().newDevice(nullptr);
+    if (state.device == nullptr) return false;
+    state.second_device = embree().newDevice(kNoCache);
     return state.device != nullptr && state.second_device != nullptr;
 }
 
@@ -287,17 +305,21 @@ Result<std::unique_ptr<const RaySurface>> RaySurface::make(StridedSpan<const Vec
         const Vec3 at = toFloat(state->scale * (toDouble(positions[i]) - state->centre));
         state->placed[i] = {at.x, at.y, at.z, 0};
     }
+    // More than devices, threads and a tree of triangles take. What fails inside of Embree may end the process.
+    constexpr std::size_t kDeviceBytes = std::size_t{16} << 20, kThreadBytes = std::size_t{1} << 20,
+                          kTriangleBytes = 256;
+    requireMemory(kDeviceBytes + kThreadBytes * parallel.width() + kTriangleBytes * (corners.size() / 3));
+    if (has_embree_failed)
+        return makeError(ErrorCode::outOfMemory, kNoElement, "Embree ran out of memory earlier in this process");
     if (!makeDevices(*state, parallel.width())) {
-        const RTCError why = api.getDeviceError(nullptr);
-        if (why == RTC_ERROR_UNSUPPORTED_CPU)
+        if (state->device == nullptr && api.getDeviceError(nullptr) == RTC_ERROR_UNSUPPORTED_CPU)
             return makeError(ErrorCode::unsupportedFile, kNoElement, "Embree does not run on this CPU");
-        // Settings are right, so any error here is a lack of memory, for which Embree has several codes.
-        return makeError(ErrorCode::outOfMemory, kNoElement, "Embree does not start for lack of memory: its code is %u",
-                         static_cast<unsigned>(why));
+        return state->abandon();  // settings are right, and Embree has several codes for a lack of memory
     }
     state->scene = api.newScene(state->device);
-    api.setSceneFlags(state->scene, RTC_SCENE_FLAG_ROBUST);
     const RTCGeometry geometry = api.newGeometry(state->device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    if (state->scene == nullptr || geometry == nullptr) return state->abandon();
+    api.setSceneFlags(state->scene, RTC_SCENE_FLAG_ROBUST);
     api.setSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, state->placed.data(), 0,
                                 sizeof(Vec4), state->placed.size());
     api.setSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, corners.data(), 0,
@@ -307,12 +329,11 @@ Result<std::unique_ptr<const RaySurface>> RaySurface::make(StridedSpan<const Vec
     api.commitGeometry(geometry);
     api.attachGeometry(state->scene, geometry);
     api.releaseGeometry(geometry);
-    RTCError error = buildScene(*state, parallel);
-    if (error == RTC_ERROR_NONE) error = api.getDeviceError(state->device);  // of the calls above
-    if (error == RTC_ERROR_OUT_OF_MEMORY)
-        return makeError(ErrorCode::outOfMemory, kNoElement, "out of memory for the rays");
-    if (error != RTC_ERROR_NONE)
+    RTCError error = api.getDeviceError(state->device);  // of the calls above
+    if (error == RTC_ERROR_NONE) error = buildScene(*state, parallel);
+    if (error == RTC_ERROR_INVALID_ARGUMENT || error == RTC_ERROR_INVALID_OPERATION)
         return makeError(ErrorCode::internal, kNoElement, "Embree fails with code %u", static_cast<unsigned>(error));
+    if (error != RTC_ERROR_NONE) return state->abandon();
     return std::unique_ptr<const RaySurface>(new RaySurface(std::move(state)));
 }
 

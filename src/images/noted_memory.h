@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// Memory for C libraries whose error codes do not tell a lack of memory from a broken file.
+#pragma once
+
+#include <cstddef>
+#include <cstdlib>
+
+#include "core/base/memory.h"
+
+namespace tspace {
+
+/// Whether an allocation of a C library has failed in this thread since it was last cleared.
+inline thread_local bool has_allocation_failed = false;
+
+inline void* noted(void* memory, std::size_t bytes) {
+    has_allocation_failed = has_allocation_failed || (memory == nullptr && bytes != 0);
+    return memory;
+}
+inline void* notedMalloc(std::size_t bytes) { return noted(std::malloc(bytes), bytes); }
+inline void* notedRealloc(void* old, std::size_t bytes) { return noted(std::realloc(old, bytes), bytes); }
+inline void* notedCalloc(std::size_t count, std::size_t bytes) {
+    return noted(std::calloc(count, bytes), count * bytes);
+}
+
+/// Calls body(), which returns something that is false for a file that cannot be read. Throws OutOfMemory where it is
+/// false because an allocation failed.
+template <class Body>
+auto orOutOfMemory(const Body& body) -> decltype(body()) {
+    has_allocation_failed = false;
+    auto result = body();
+    if (!result && has_allocation_failed) throwOutOfMemory();
+    return result;
+}
+
+}  // namespace tspace
