@@ -200,9 +200,8 @@ class OneMap {
             why = why_not;
             return {};
         }
-        const std::uint64_t limit = options_.file.memory_limit_bytes;
-        if (limit != 0 && kMapPixelBytes * claimedSize(file_).pixels() > limit) {
-            why = "it takes more memory than the limit";
+        if (const std::string needed = whyTooMuchMemory(file_, options_.file); !needed.empty()) {
+            why = "it " + needed;
             return {};
         }
         std::optional<FloatImage> image = decodeFloatImage(file_, kMostModelMapPixels, why);
