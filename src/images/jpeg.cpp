@@ -2,6 +2,7 @@
 // JPEG by libjpeg-turbo, through its TurboJPEG interface, which returns errors and prints nothing.
 #include <turbojpeg.h>
 
+#include <cstring>
 #include <memory>
 
 #include "core/base/memory.h"
@@ -17,6 +18,18 @@ struct Destroy {
 };
 using Decompressor = std::unique_ptr<void, Destroy>;
 
+Decompressor makeDecompressor() {
+    Decompressor made(tjInitDecompress());
+    if (!made) throw OutOfMemory{};
+    return made;
+}
+
+/// Whether a call succeeded. Throws where its message names memory ("Insufficient memory", "Memory allocation failure").
+bool succeeds(int result, const Decompressor& decompressor) {
+    if (result != 0 && std::strstr(tjGetErrorStr2(decompressor.get()), "emory") != nullptr) throw OutOfMemory{};
+    return result == 0;
+}
+
 struct JpegHead {
     ImageSize size = {};  ///< 0: broken
     int color_space = 0;
@@ -26,10 +39,10 @@ struct JpegHead {
 
 JpegHead readHead(const Decompressor& decompressor, ByteSpan bytes) {
     int width = 0, height = 0, subsampling = 0, color_space = 0;
-    if (!decompressor || tjDecompressHeader3(decompressor.get(), bytes.data(), bytes.size(), &width, &height,
-                                             &subsampling, &color_space) != 0) {
+    if (!succeeds(tjDecompressHeader3(decompressor.get(), bytes.data(), bytes.size(), &width, &height, &subsampling,
+                                      &color_space),
+                  decompressor))
         return {};
-    }
     if (width <= 0 || height <= 0) return {};
     return {{static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height)}, color_space};
 }
@@ -39,15 +52,16 @@ JpegHead readHead(const Decompressor& decompressor, ByteSpan bytes) {
 bool decompress(const Decompressor& decompressor, ByteSpan bytes, ImageSize size, std::vector<std::uint8_t>& rgb) {
     constexpr int kFlags = TJFLAG_ACCURATEDCT | TJFLAG_LIMITSCANS | TJFLAG_STOPONWARNING;
     rgb.resize(3 * size.pixels());
-    return tjDecompress2(decompressor.get(), bytes.data(), bytes.size(), rgb.data(), static_cast<int>(size.width), 0,
-                         static_cast<int>(size.height), TJPF_RGB, kFlags) == 0;
+    return succeeds(tjDecompress2(decompressor.get(), bytes.data(), bytes.size(), rgb.data(),
+                                  static_cast<int>(size.width), 0, static_cast<int>(size.height), TJPF_RGB, kFlags),
+                    decompressor);
 }
 
 }  // namespace
 
 std::optional<RgbImage> decodeJpeg(ByteSpan bytes, std::uint64_t most_pixels, std::string& why) {
     why = "it is a broken JPEG";
-    const Decompressor decompressor(tjInitDecompress());
+    const Decompressor decompressor = makeDecompressor();
     const JpegHead head = readHead(decompressor, bytes);
     if (head.size.pixels() == 0 || isTooLarge(head.size, bytes.size(), most_pixels, why)) return {};
     if (head.isForPrint()) {
@@ -60,7 +74,7 @@ std::optional<RgbImage> decodeJpeg(ByteSpan bytes, std::uint64_t most_pixels, st
 }
 
 Result<ChannelImage> readJpegPixels(ByteSpan bytes) {
-    const Decompressor decompressor(tjInitDecompress());
+    const Decompressor decompressor = makeDecompressor();
     const JpegHead head = readHead(decompressor, bytes);
     if (head.size.pixels() == 0) return Error{ErrorCode::invalidFile, "it is a broken JPEG"};
     if (head.color_space == TJCS_GRAY) {

@@ -9,6 +9,7 @@
 #include "core/base/memory.h"
 #include "images/codecs.h"
 #include "images/flip_green.h"
+#include "images/noted_memory.h"
 
 namespace tspace {
 
@@ -21,13 +22,28 @@ struct FreePngContext {
 };
 using PngContext = std::unique_ptr<spng_ctx, FreePngContext>;
 
+/// A decoder or encoder. Never null.
+PngContext makeContext(int flags) {
+    has_allocation_failed = false;
+    spng_alloc memory{notedMalloc, notedRealloc, notedCalloc, std::free};
+    PngContext context(spng_ctx_new2(&memory, flags));
+    if (!context) throw OutOfMemory{};
+    return context;
+}
+
+/// Whether a call succeeded. Throws where it failed for lack of memory, which libspng also reports as broken data.
+bool succeeds(int result) {
+    if (result == SPNG_EMEM || (result != 0 && has_allocation_failed)) throw OutOfMemory{};
+    return result == 0;
+}
+
 /// Opens a PNG that may be decoded. Returns false and says why where it is broken or too large.
 bool openPng(ByteSpan bytes, std::uint64_t most_pixels, PngContext& context, spng_ihdr& header, std::string& why) {
     why = "it is a broken PNG";
-    context.reset(spng_ctx_new(0));
-    return context && spng_set_chunk_limits(context.get(), kMostChunkBytes, kMostChunkBytes) == 0 &&
-           spng_set_png_buffer(context.get(), bytes.data(), bytes.size()) == 0 &&
-           spng_get_ihdr(context.get(), &header) == 0 &&
+    context = makeContext(0);
+    return succeeds(spng_set_chunk_limits(context.get(), kMostChunkBytes, kMostChunkBytes)) &&
+           succeeds(spng_set_png_buffer(context.get(), bytes.data(), bytes.size())) &&
+           succeeds(spng_get_ihdr(context.get(), &header)) &&
            !isTooLarge({header.width, header.height}, bytes.size(), most_pixels, why);
 }
 
@@ -71,8 +87,8 @@ std::optional<std::vector<std::uint8_t>> encodeSamples(spng_ihdr header, const s
     struct Free {
         void operator()(void* memory) const { std::free(memory); }
     };
-    const PngContext context(spng_ctx_new(SPNG_CTX_ENCODER));
-    if (!context || spng_set_option(context.get(), SPNG_ENCODE_TO_BUFFER, 1) != 0 ||
+    const PngContext context = makeContext(SPNG_CTX_ENCODER);
+    if (spng_set_option(context.get(), SPNG_ENCODE_TO_BUFFER, 1) != 0 ||
         spng_set_option(context.get(), SPNG_FILTER_CHOICE, SPNG_FILTER_CHOICE_PAETH) != 0 ||
         spng_set_option(context.get(), SPNG_IMG_COMPRESSION_LEVEL, level) != 0 ||
         spng_set_ihdr(context.get(), &header) != 0 ||
@@ -93,8 +109,7 @@ std::optional<std::vector<std::uint8_t>> encodeSamples(spng_ihdr header, const s
 struct BrokenPng {};
 
 void check(int result) {
-    if (result == SPNG_EMEM) throw OutOfMemory{};
-    if (result != 0) throw BrokenPng{};
+    if (!succeeds(result)) throw BrokenPng{};
 }
 
 /// The result of `body`, or the error for what libspng refused in it.
@@ -108,8 +123,7 @@ auto orBroken(Body&& body) -> decltype(body()) {
 }
 
 PngContext decoderOf(ByteSpan bytes) {
-    PngContext decoder(spng_ctx_new(0));
-    if (!decoder) throw OutOfMemory{};
+    PngContext decoder = makeContext(0);
     check(spng_set_chunk_limits(decoder.get(), kMostChunkBytes, kMostChunkBytes));
     check(spng_set_png_buffer(decoder.get(), bytes.data(), bytes.size()));
     return decoder;
@@ -119,8 +133,7 @@ PngContext decoderOf(ByteSpan bytes) {
 class RowPacker {
   public:
     RowPacker(std::uint32_t width, std::uint32_t height, std::uint8_t bits, std::uint8_t color)
-        : encoder_(spng_ctx_new(SPNG_CTX_ENCODER)) {
-        if (!encoder_) throw OutOfMemory{};
+        : encoder_(makeContext(SPNG_CTX_ENCODER)) {
         spng_ihdr header{};
         header.width = width;
         header.height = height;
@@ -201,23 +214,24 @@ std::optional<RgbImage> decodePng(ByteSpan bytes, std::uint64_t most_pixels, std
         return {};
     }
     RgbImage image{size.width, size.height, std::vector<std::uint8_t>(byte_count)};
-    if (spng_decode_image(context.get(), image.rgb.data(), byte_count, SPNG_FMT_RGB8, 0) != 0) return {};
+    if (!succeeds(spng_decode_image(context.get(), image.rgb.data(), byte_count, SPNG_FMT_RGB8, 0))) return {};
     return image;
 }
 
 std::vector<std::uint8_t> decodePngRgba(ByteSpan bytes) {
-    const PngContext context(spng_ctx_new(0));
+    const PngContext context = makeContext(0);
     spng_ihdr header{};
     spng_trns transparency{};
     std::size_t byte_count = 0;
-    if (!context || spng_set_png_buffer(context.get(), bytes.data(), bytes.size()) != 0 ||
-        spng_get_ihdr(context.get(), &header) != 0 ||
-        ((header.color_type & 4) == 0 && spng_get_trns(context.get(), &transparency) != 0) ||
+    if (!succeeds(spng_set_png_buffer(context.get(), bytes.data(), bytes.size())) ||
+        !succeeds(spng_get_ihdr(context.get(), &header)) ||
+        ((header.color_type & 4) == 0 && !succeeds(spng_get_trns(context.get(), &transparency))) ||
         spng_decoded_image_size(context.get(), SPNG_FMT_RGBA8, &byte_count) != 0) {
         return {};
     }
     std::vector<std::uint8_t> pixels(byte_count);
-    if (spng_decode_image(context.get(), pixels.data(), byte_count, SPNG_FMT_RGBA8, SPNG_DECODE_TRNS) != 0) return {};
+    if (!succeeds(spng_decode_image(context.get(), pixels.data(), byte_count, SPNG_FMT_RGBA8, SPNG_DECODE_TRNS)))
+        return {};
     return pixels;
 }
 
@@ -232,7 +246,8 @@ std::optional<FloatImage> decodeDeepPng(ByteSpan bytes, std::uint64_t most_pixel
     if (spng_decoded_image_size(context.get(), SPNG_FMT_RGBA16, &byte_count) != 0 || byte_count != 8 * size.pixels())
         return {};
     std::vector<std::uint16_t> words(4 * size.pixels());
-    if (spng_decode_image(context.get(), words.data(), byte_count, SPNG_FMT_RGBA16, SPNG_DECODE_TRNS) != 0) return {};
+    if (!succeeds(spng_decode_image(context.get(), words.data(), byte_count, SPNG_FMT_RGBA16, SPNG_DECODE_TRNS)))
+        return {};
     FloatImage image{size.width, size.height, header.bit_depth == 16 ? 16u : 8u, std::vector<Vec3>(size.pixels()), {}};
     spng_trns transparency{};
     const bool has_alpha = (header.color_type & 4) != 0 || spng_get_trns(context.get(), &transparency) == 0;

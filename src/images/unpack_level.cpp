@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 // What KTX2 packs its levels with: Zstandard by libzstd, zlib by zlib. Both stop at the size that the level must have.
 // The page has other libraries for it (bindings/js/wasm/textures.cpp).
+#include "core/base/memory.h"
 #include "images/texture_file.h"
 
 #ifdef TSPACE_HAS_ZSTD
 #include <zstd.h>
+#include <zstd_errors.h>
 #endif
 #ifdef TSPACE_HAS_ZLIB
 #include <zlib.h>
@@ -27,15 +29,19 @@ const char* whyNotUnpacked(Repacking repacking) {
 bool unpackLevel([[maybe_unused]] Repacking repacking, [[maybe_unused]] ByteSpan packed,
                  [[maybe_unused]] std::span<std::uint8_t> out) {
 #ifdef TSPACE_HAS_ZSTD
-    if (repacking == Repacking::zstd)
-        return ZSTD_decompress(out.data(), out.size(), packed.data(), packed.size()) == out.size();
+    if (repacking == Repacking::zstd) {
+        const std::size_t count = ZSTD_decompress(out.data(), out.size(), packed.data(), packed.size());
+        if (ZSTD_getErrorCode(count) == ZSTD_error_memory_allocation) throwOutOfMemory();
+        return count == out.size();
+    }
 #endif
 #ifdef TSPACE_HAS_ZLIB
     if (repacking == Repacking::zlib) {
         uLongf count = static_cast<uLongf>(out.size());
-        return count == out.size() && packed.size() == static_cast<uLong>(packed.size()) &&
-               uncompress(out.data(), &count, packed.data(), static_cast<uLong>(packed.size())) == Z_OK &&
-               count == out.size();
+        if (count != out.size() || packed.size() != static_cast<uLong>(packed.size())) return false;
+        const int result = uncompress(out.data(), &count, packed.data(), static_cast<uLong>(packed.size()));
+        if (result == Z_MEM_ERROR) throwOutOfMemory();
+        return result == Z_OK && count == out.size();
     }
 #endif
     return false;

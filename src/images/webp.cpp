@@ -30,6 +30,19 @@ ImageSize sizeOf(const WebPBitstreamFeatures& features) {
     return {static_cast<std::uint32_t>(features.width), static_cast<std::uint32_t>(features.height)};
 }
 
+/// Decodes into `pixels`, of which each has `channels` bytes: RGB or RGBA. Throws OutOfMemory; false: it is broken.
+bool decodeInto(ByteSpan bytes, ImageSize size, unsigned channels, std::vector<std::uint8_t>& pixels) {
+    WebPDecoderConfig config;
+    if (WebPInitDecoderConfig(&config) == 0) return false;
+    config.output.colorspace = channels == 4 ? MODE_RGBA : MODE_RGB;
+    config.output.is_external_memory = 1;
+    config.output.u.RGBA = {
+        .rgba = pixels.data(), .stride = static_cast<int>(channels * size.width), .size = pixels.size()};
+    const VP8StatusCode status = WebPDecode(bytes.data(), bytes.size(), &config);
+    if (status == VP8_STATUS_OUT_OF_MEMORY) throw OutOfMemory{};
+    return status == VP8_STATUS_OK;
+}
+
 }  // namespace
 
 ImageClaim claimOfWebp(ByteSpan bytes) {
@@ -46,9 +59,7 @@ std::optional<RgbImage> decodeWebp(ByteSpan bytes, std::uint64_t most_pixels, st
     if (!head || isTooLarge(sizeOf(*head), bytes.size(), most_pixels, why)) return {};
     const ImageSize size = sizeOf(*head);
     RgbImage image{size.width, size.height, std::vector<std::uint8_t>(3 * size.pixels())};
-    if (WebPDecodeRGBInto(bytes.data(), bytes.size(), image.rgb.data(), image.rgb.size(), 3 * head->width) == nullptr) {
-        return {};
-    }
+    if (!decodeInto(bytes, size, 3, image.rgb)) return {};
     return image;
 }
 
@@ -59,11 +70,8 @@ Result<ChannelImage> readWebpPixels(ByteSpan bytes) {
     const ImageSize size = sizeOf(*head);
     ChannelImage image{size.width, size.height, head->has_alpha != 0 ? 4U : 3U, {}};
     image.pixels.resize(image.channels * size.pixels());
-    const auto decode = image.channels == 4 ? WebPDecodeRGBAInto : WebPDecodeRGBInto;
-    const int stride = static_cast<int>(image.channels) * head->width;
-    if (decode(bytes.data(), bytes.size(), image.pixels.data(), image.pixels.size(), stride) == nullptr) {
+    if (!decodeInto(bytes, size, image.channels, image.pixels))
         return Error{ErrorCode::invalidFile, "it is a broken WebP"};
-    }
     return image;
 }
 

@@ -2,6 +2,7 @@
 // Loaded into a program in front of the C library (LD_PRELOAD): calls that it makes fail, or a signal comes in between.
 //
 // TSPACE_FAIL_CALL=K       the Kth call of those below fails, as on a disk that breaks
+// TSPACE_FAIL_MALLOC=K     the Kth allocation of the C library fails, and all further ones with TSPACE_FAIL_MALLOC_AFTER=1
 // TSPACE_FAIL_MARK=FILE    is made at the end of a program that has reached that call
 // TSPACE_SIGNAL_AT_SYNC=N  signal N comes where the first file is sent to the disk
 // TSPACE_SIGNAL_AFTER_COMMIT=N  signal N comes once, where a folder is sent to the disk after its files were renamed
@@ -36,6 +37,24 @@ bool fails(int why) {
     return true;
 }
 
+std::atomic<long> allocation_count = 0;
+long failing_allocation = 0;
+bool allocations_fail_after = false;
+
+[[gnu::constructor]] void readFailingAllocation() {
+    failing_allocation = numberOf("TSPACE_FAIL_MALLOC");
+    allocations_fail_after = numberOf("TSPACE_FAIL_MALLOC_AFTER") != 0;
+    allocation_count = 0;
+}
+
+bool allocationFails() {
+    if (failing_allocation == 0) return false;
+    const long count = ++allocation_count;
+    if (count != failing_allocation && !(allocations_fail_after && count > failing_allocation)) return false;
+    errno = ENOMEM;
+    return true;
+}
+
 template <class Function>
 Function* real(const char* name) {
     return reinterpret_cast<Function*>(dlsym(RTLD_NEXT, name));
@@ -50,6 +69,24 @@ int openReal(const char* name, const char* path, int flags, va_list more) {
 }  // namespace
 
 extern "C" {
+
+#ifdef __GLIBC__
+void* __libc_malloc(size_t bytes);
+void* __libc_calloc(size_t count, size_t bytes);
+void* __libc_realloc(void* old, size_t bytes);
+void* __libc_memalign(size_t alignment, size_t bytes);
+
+void* malloc(size_t bytes) { return allocationFails() ? nullptr : __libc_malloc(bytes); }
+void* calloc(size_t count, size_t bytes) { return allocationFails() ? nullptr : __libc_calloc(count, bytes); }
+void* realloc(void* old, size_t bytes) { return allocationFails() ? nullptr : __libc_realloc(old, bytes); }
+void* aligned_alloc(size_t alignment, size_t bytes) {
+    return allocationFails() ? nullptr : __libc_memalign(alignment, bytes);
+}
+int posix_memalign(void** memory, size_t alignment, size_t bytes) {
+    *memory = allocationFails() ? nullptr : __libc_memalign(alignment, bytes);
+    return *memory == nullptr ? ENOMEM : 0;
+}
+#endif
 
 // open and openat have no fixed number of arguments.
 int open(const char* path, int flags, ...) {
@@ -124,7 +161,10 @@ int pthread_create(pthread_t* thread, const pthread_attr_t* attributes, void* (*
 
 [[gnu::destructor]] void tellWhetherReached() {
     const char* path = std::getenv("TSPACE_FAIL_MARK");
-    if (path == nullptr || call_count < numberOf("TSPACE_FAIL_CALL")) return;
+    const bool was_reached =
+        failing_allocation != 0 ? allocation_count >= failing_allocation : call_count >= numberOf("TSPACE_FAIL_CALL");
+    failing_allocation = 0;
+    if (path == nullptr || !was_reached) return;
     const int file = real<int(const char*, int, mode_t)>("open")(path, O_WRONLY | O_CREAT, 0600);
     if (file >= 0) close(file);
 }

@@ -208,6 +208,57 @@ TEST(Signals, LeaveNoTemporaryFileInAnyCommand) {
     }
 }
 
+/// Runs the command with each allocation of the C library failing, alone or with all that follow. Memory alone may be
+/// blamed, and outputs are there exactly where the exit code says so.
+void failEachMalloc(const TempFolder& folder, const Writing& writing) {
+    if (!isThere(folder, writing)) return;
+    std::map<std::string, std::string> after;
+    for (const std::string& name : writing.outputs) {
+        after[name] = folder.read(name);
+        folder.write(name, "old");
+    }
+    const std::set<std::string> files = folder.files();
+    for (const char* const mode : {"0", "1"}) {
+        for (int k = 1;; k += 1 + k / TSPACE_EVERY_MALLOC_UP_TO) {
+            const std::string settings =
+                "TSPACE_FAIL_MARK=mark TSPACE_FAIL_MALLOC=" + std::to_string(k) + " TSPACE_FAIL_MALLOC_AFTER=" + mode;
+            const ToolRun run = runTool(folder, writing.command, "timeout -s KILL 20 env " + with(settings));
+            const bool was_reached = folder.has("mark");
+            std::filesystem::remove(folder.path("mark"));
+            const std::string where = writing.command + ", " + settings + ": " + run.err;
+            // std::filesystem::directory_iterator::increment of GCC's library ends the process where an allocation fails.
+            const bool is_ended_by_library = run.exit_code == 128 + SIGABRT;
+            const bool is_told_by_system =
+                run.exit_code == 4 && run.err.find("Cannot allocate memory") != std::string::npos;
+            const bool has_failed = run.exit_code == 5 || is_ended_by_library || is_told_by_system;
+            EXPECT_TRUE(has_failed || run.exit_code <= 1 || hasWritten(run)) << run.exit_code << where;
+            EXPECT_EQ(folder.files(), files) << where;
+            for (const auto& [name, bytes] : after) {
+                EXPECT_EQ(folder.read(name) == "old", has_failed) << name << ": " << where;
+                folder.write(name, "old");
+            }
+            if (::testing::Test::HasFailure() || !was_reached) break;
+        }
+    }
+    for (const std::string& name : writing.outputs) std::filesystem::remove(folder.path(name));
+}
+
+TEST(FailingAllocations, OfTheCLibraryAreCalledSoAndLeaveNoOutput) {
+    const TempFolder folder;
+    writeModel(folder);
+    runTool(folder, "convert-map bump.png -q -o bump.exr");
+    for (const Writing& writing : std::vector<Writing>{
+             {"generate made.glb --overwrite --jobs 1 -o new.glb", {"new.glb"}},
+             {"flip-green bump.png -o new.png", {"new.png"}},
+             {"convert-map bump.png --flip-green -o new.png", {"new.png"}},
+             {"convert-map bump.exr -o new.exr", {"new.exr"}},
+             {"height-to-normal bump.png --json -o new.png", {"new.png"}},
+             {"compress-map bump.png -o new.ktx2", {"new.ktx2"}},
+             {"render plain.glb --size 16 -o new.png", {"new.png"}},
+         })
+        failEachMalloc(folder, writing);
+}
+
 TEST(NoThreads, LeavesTheWorkToTheOneThatIsThere) {
     const TempFolder folder;
     writeModel(folder);

@@ -16,6 +16,7 @@
 #include "jobs.h"
 #include "model/io/system_files.h"
 #include "output_files.h"
+#include "report_outputs.h"
 
 namespace tspace::tool {
 namespace {
@@ -57,24 +58,26 @@ ExitCode runBake(const BakeArguments& arguments) {
     ExitCode exit_code =
         result ? report::exitCodeOf(*result)
                : printErrorOfFiles({arguments.low, arguments.high, options.cage, "", options.skew}, result.error());
-    // Who reads no report shall see why there is no map.
-    if (result && result->output_files.empty()) {
-        for (const std::string& finding : result->findings) printRemark(finding);
-    }
-    const report::Outcome<BakeFileReport> outcome{
-        .input = arguments.low, .output = arguments.output, .result = result, .seconds = took.count()};
-    if (!arguments.report.empty()) {
-        const Result<Done> written =
-            writeTextFile(arguments.report, report::bakeJson(outcome, arguments.high, exit_code), &read);
-        if (!written) exit_code = worse(exit_code, printError(arguments.report, written.error()));
-    }
-    std::string text;
-    if (arguments.json) {
-        text = report::bakeJson(outcome, arguments.high, exit_code);
-    } else if (!arguments.quiet && result) {
-        text = report::bakeText(outcome, options.out_mesh);
-    }
-    return printResult(text) ? exit_code : ExitCode::cannotReadOrWrite;
+    return reportOutputs(result.ok(), [&] {
+        // Who reads no report shall see why there is no map.
+        if (result && result->output_files.empty()) {
+            for (const std::string& finding : result->findings) printRemark(finding);
+        }
+        const report::Outcome<BakeFileReport> outcome{
+            .input = arguments.low, .output = arguments.output, .result = result, .seconds = took.count()};
+        if (!arguments.report.empty()) {
+            const Result<Done> written =
+                writeTextFile(arguments.report, report::bakeJson(outcome, arguments.high, exit_code), &read);
+            if (!written) exit_code = worse(exit_code, printError(arguments.report, written.error()));
+        }
+        std::string text;
+        if (arguments.json) {
+            text = report::bakeJson(outcome, arguments.high, exit_code);
+        } else if (!arguments.quiet && result) {
+            text = report::bakeText(outcome, options.out_mesh);
+        }
+        return printResult(text) ? exit_code : ExitCode::cannotReadOrWrite;
+    });
 }
 
 ExitCode runPairs(const BakeArguments& arguments) {

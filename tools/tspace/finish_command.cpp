@@ -14,6 +14,7 @@
 #include "jobs.h"
 #include "output_files.h"
 #include "page_origin.h"
+#include "report_outputs.h"
 
 namespace tspace::tool {
 namespace {
@@ -56,24 +57,26 @@ ExitCode runFinish(const FinishArguments& arguments) {
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
     ExitCode exit_code =
         result ? report::exitCodeOf(*result) : printErrorOfFiles({about_low, arguments.input}, result.error());
-    // Who reads no report shall see why there is no model.
-    if (result && result->output_files.empty()) {
-        for (const std::string& finding : result->bake->findings) printRemark(finding);
-    }
-    const report::Outcome<FinishReport> outcome{
-        .input = arguments.input, .output = arguments.output, .result = result, .seconds = took.count()};
-    if (!arguments.report.empty()) {
-        const Result<Done> written =
-            writeTextFile(arguments.report, report::finishJson(outcome, options.low, exit_code), &read);
-        if (!written) exit_code = worse(exit_code, printError(arguments.report, written.error()));
-    }
-    std::string text;
-    if (arguments.json) {
-        text = report::finishJson(outcome, options.low, exit_code);
-    } else if (!arguments.quiet && result) {
-        text = report::finishText(outcome);
-    }
-    return printResult(text) ? exit_code : ExitCode::cannotReadOrWrite;
+    return reportOutputs(result.ok(), [&] {
+        // Who reads no report shall see why there is no model.
+        if (result && result->output_files.empty()) {
+            for (const std::string& finding : result->bake->findings) printRemark(finding);
+        }
+        const report::Outcome<FinishReport> outcome{
+            .input = arguments.input, .output = arguments.output, .result = result, .seconds = took.count()};
+        if (!arguments.report.empty()) {
+            const Result<Done> written =
+                writeTextFile(arguments.report, report::finishJson(outcome, options.low, exit_code), &read);
+            if (!written) exit_code = worse(exit_code, printError(arguments.report, written.error()));
+        }
+        std::string text;
+        if (arguments.json) {
+            text = report::finishJson(outcome, options.low, exit_code);
+        } else if (!arguments.quiet && result) {
+            text = report::finishText(outcome);
+        }
+        return printResult(text) ? exit_code : ExitCode::cannotReadOrWrite;
+    });
 }
 
 }  // namespace

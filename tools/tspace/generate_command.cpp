@@ -17,6 +17,7 @@
 #include "interrupt.h"
 #include "manifest.h"
 #include "output_files.h"
+#include "report_outputs.h"
 #include "standard_input.h"
 
 namespace tspace::tool {
@@ -110,15 +111,17 @@ class GenerateRun {
         progress_.clear();
         if (wasInterrupted()) endByInterrupt();
         if (output_is_closed_) return ExitCode::cannotReadOrWrite;
-        std::vector<report::GenerateOutcome> outcomes;
-        for (std::optional<report::GenerateOutcome>& outcome : outcomes_) outcomes.push_back(std::move(*outcome));
-        std::string last;
-        if (arguments_.json) {
-            last = report::generateJson(outcomes, exit_code_, secondsSince(start_));
-        } else if (wants_text_ && outcomes.size() > 1) {
-            last = report::generateSummary(outcomes, secondsSince(start_));
-        }
-        return printResult(last, report_to_) ? exit_code_ : ExitCode::cannotReadOrWrite;
+        const auto outcome_of = [](std::optional<report::GenerateOutcome>& outcome) { return *outcome; };
+        return reportOutputs(exit_code_ == ExitCode::done, [&] {
+            std::string last;
+            if (arguments_.json || (wants_text_ && outcomes_.size() > 1)) {
+                std::vector<report::GenerateOutcome> outcomes(outcomes_.size());
+                std::transform(outcomes_.begin(), outcomes_.end(), outcomes.begin(), outcome_of);
+                last = arguments_.json ? report::generateJson(outcomes, exit_code_, secondsSince(start_))
+                                       : report::generateSummary(outcomes, secondsSince(start_));
+            }
+            return printResult(last, report_to_) ? exit_code_ : ExitCode::cannotReadOrWrite;
+        });
     }
 
   private:
@@ -174,8 +177,13 @@ class GenerateRun {
             exit_code_ = worse(exit_code_, code);
         } else if (wants_text_ && !output_is_closed_) {
             const bool wants_details = jobs_.size() == 1 || arguments_.batch.verbose;
-            output_is_closed_ =
-                !printResult(wants_details ? report::generateText(outcome) : report::generateLine(outcome), report_to_);
+            const ExitCode printed = reportOutputs(true, [&] {
+                output_is_closed_ = !printResult(
+                    wants_details ? report::generateText(outcome) : report::generateLine(outcome), report_to_);
+                return ExitCode::done;
+            });
+            const std::lock_guard lock(mutex_);
+            exit_code_ = worse(exit_code_, printed);
         }
     }
 

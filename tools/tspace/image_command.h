@@ -11,6 +11,7 @@
 
 #include "commands/shared/report.h"
 #include "console.h"
+#include "report_outputs.h"
 #include "standard_input.h"
 #include "system.h"
 
@@ -56,17 +57,19 @@ auto callOnImage(const std::string& input, const std::string& output, std::uint6
 template <class Arguments, class Report, class JsonOf, class TextOf>
 ExitCode printOutcome(const Arguments& arguments, const Result<Report>& result, JsonOf jsonOf, TextOf textOf) {
     const ExitCode exit_code = result ? ExitCode::done : printError(arguments.input, result.error());
-    const report::Outcome<Report> outcome{.input = arguments.input,
-                                          .output = arguments.output,
-                                          .result = result,
-                                          .is_dry_run = arguments.options.dry_run};
-    std::string text;
-    if (arguments.json) {
-        text = jsonOf(outcome, exit_code);
-    } else if (!arguments.quiet && result) {
-        text = textOf(outcome);
-    }
-    return printResult(text, arguments.output == "-" ? stderr : stdout) ? exit_code : ExitCode::cannotReadOrWrite;
+    return reportOutputs(result.ok(), [&] {
+        const report::Outcome<Report> outcome{.input = arguments.input,
+                                              .output = arguments.output,
+                                              .result = result,
+                                              .is_dry_run = arguments.options.dry_run};
+        std::string text;
+        if (arguments.json) {
+            text = jsonOf(outcome, exit_code);
+        } else if (!arguments.quiet && result) {
+            text = textOf(outcome);
+        }
+        return printResult(text, arguments.output == "-" ? stderr : stdout) ? exit_code : ExitCode::cannotReadOrWrite;
+    });
 }
 
 }  // namespace tspace::tool
