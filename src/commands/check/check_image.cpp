@@ -65,7 +65,10 @@ std::string lowerName(ImageFormat format) {
 }
 
 std::string texelText(const std::uint8_t* rgb) {
-    return "(" + std::to_string(rgb[0]) + ", " + std::to_string(rgb[1]) + ", " + std::to_string(rgb[2]) + ")";
+    // GCC 12 warns of "(" + std::to_string().
+    std::string text = "(";
+    for (std::size_t i = 0; i < 3; ++i) text.append(i == 0 ? "" : ", ").append(std::to_string(rgb[i]));
+    return text + ")";
 }
 
 double lengthOf(const std::uint8_t* rgb) {
