@@ -277,14 +277,20 @@ TEST(NearPositions, GiveMadeNormalsNoSeam) {
             options.normals.weighting = weighting;
             options.normals.crease_angle_deg = is_torus ? 180 : 40;
             generated(shared(input).string(), files.output(), options);
-            if (is_torus) EXPECT_LT(worstAcross(files.output()), 0.01) << name;
+            if (is_torus) {
+                EXPECT_LT(worstAcross(files.output()), 0.01) << name;
+            }
             options.normals.weld_distance = 0;
             generated(shared(input).string(), files.output(), options);
-            if (name == std::string("three_torus_bare")) EXPECT_GT(worstAcross(files.output()), 4);
+            if (name == std::string("three_torus_bare")) {
+                EXPECT_GT(worstAcross(files.output()), 4);
+            }
         }
         const Files files;
         ASSERT_TRUE(finishFile(shared(input).string(), files.output()));
-        if (is_torus) EXPECT_LT(worstAcross(files.output()), 0.01) << name;
+        if (is_torus) {
+            EXPECT_LT(worstAcross(files.output()), 0.01) << name;
+        }
     }
 }
 
