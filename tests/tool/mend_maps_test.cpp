@@ -374,6 +374,12 @@ TEST(MendMaps, OverwriteWarnsWhereSignsAndGreenCancel) {
     };
     ASSERT_EQ(runTool(folder, "generate -q --overwrite --convention opengl map.gltf -o before.glb").exit_code, 0);
     const FloatImage before = picture("before.glb");
+    const Json found = findingsIn(folder, "before.glb");
+    EXPECT_EQ(found.size(), 2U) << found.dump(1);
+    for (const Json& finding : found) {
+        EXPECT_TRUE(finding["remedy"].get<std::string>().ends_with("tspace generate --overwrite --flip-green."))
+            << finding["remedy"];
+    }
     const auto run = [&](const std::string& arguments) {
         const ToolRun done = runTool(folder, "generate --json before.glb " + arguments);
         EXPECT_EQ(done.exit_code, 0) << done.err;

@@ -132,6 +132,41 @@ TEST(MendWindingOfFiles, FollowsTheVolumeWhereNormalsAreMadeAnew) {
     EXPECT_FALSE(findsNormalsAgainstWinding(folder, "b.glb"));
 }
 
+/// Cards around a point, with normals that point away from it; every second is wound against them.
+TEST(MendWindingOfFiles, TurnsEachCardTowardItsOwnNormals) {
+    TempFolder folder;
+    constexpr int kCards = 10;
+    std::string text, faces;
+    const auto put = [&](const char* what, double x, double y, double z) {
+        text += what + std::to_string(x) + " " + std::to_string(y) + " " + std::to_string(z) + "\n";
+    };
+    for (int i = 0; i < kCards; ++i) {
+        const double angle = 6.283185307179586 * i / kCards, c = std::cos(angle), s = std::sin(angle);
+        for (const double up : {-0.2, 0.2}) {
+            for (const double aside : {-0.2, 0.2}) {
+                put("v ", c - s * aside, s + c * aside, up);
+                const double length = std::sqrt(1 + aside * aside + up * up);
+                put("vn ", (c - s * aside) / length, (s + c * aside) / length, up / length);
+            }
+        }
+        const auto corner = [&](int k) {
+            const std::string v = std::to_string(4 * i + k);
+            return " " + v + "//" + v;
+        };
+        faces += i % 2 == 0 ? "f" + corner(1) + corner(2) + corner(4) + corner(3) + "\n"
+                            : "f" + corner(1) + corner(3) + corner(4) + corner(2) + "\n";
+    }
+    folder.write("a.obj", text + faces);
+    ASSERT_EQ(0, runTool(folder, "generate -q a.obj -o a.glb").exit_code);
+    const ToolRun found = runTool(folder, "check a.glb");
+    EXPECT_NE(std::string::npos, found.out.find("tspace generate --mend-winding")) << found.out;
+    const Json report = fileReport(folder, "generate --mend-winding a.glb -o b.glb");
+    expectMended(report, kCards, kCards);
+    EXPECT_EQ(kCards, report["windings"][0]["byNormals"].get<int>());
+    EXPECT_FALSE(findsNormalsAgainstWinding(folder, "b.glb"));
+    EXPECT_EQ(0, fileReport(folder, "generate --mend-winding b.glb -o c.glb")["windings"][0]["turned"].get<int>());
+}
+
 /// A tetrahedron without indices, as `mode`: its faces are given by corners.
 std::string tetrahedron(unsigned mode, const std::vector<int>& corners, bool with_indices) {
     constexpr float kPoints[4][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};

@@ -404,7 +404,7 @@ std::vector<Finding> describe(const Scene& scene, const NormalMap& map) {
             content->message = name + " is a height map (map_bump), and no normal map";
             content->remedy =
                 "Nothing needs to be done: generate makes a normal map of it, with -bm as its height in units of "
-                "the model. For the image alone: tspace height-to-normal.";
+                "the model. For the image alone: tspace height-to-normal MAP -o OUT.png --strength S.";
         }
         if (content) findings.push_back(*std::move(content));
         if (has_own_green && isDown(map) && !isDeclared(map)) findings.push_back(flipped(name, *map.test));

@@ -93,7 +93,7 @@ std::string verticesText(const Finding& finding) {
                        fmt::join(finding.vertices, ", "));
 }
 
-/// The findings of one code and severity, with the remedy once.
+/// The findings of one code, severity and remedy.
 std::string groupText(std::span<const Finding* const> group, bool in_color) {
     const Finding& first = *group.front();
     std::string text = fmt::format("\n  {}  {}", severityText(first.severity, in_color), findingName(first.code));
@@ -118,7 +118,8 @@ std::string checkText(const CheckOutcome& outcome, bool in_color) {
     std::vector<std::vector<const Finding*>> groups;
     for (const Finding& finding : outcome.result->findings) {
         const auto group = std::find_if(groups.begin(), groups.end(), [&](const auto& candidate) {
-            return candidate.front()->code == finding.code && candidate.front()->severity == finding.severity;
+            const Finding& first = *candidate.front();
+            return first.code == finding.code && first.severity == finding.severity && first.remedy == finding.remedy;
         });
         if (group != groups.end()) {
             group->push_back(&finding);

@@ -64,17 +64,18 @@ constexpr std::array<CodeText, kFindingCodeCount> kCodes{{
      "Give both textures the same UV set and the same rotation and mirroring; a mesh can hold only one tangent per "
      "vertex."},
     {"greenFlipped",
-     "If it was made for DirectX, invert its green channel: tspace generate --flip-green does that. If bumps are dents "
-     "then, it was red: tspace convert-map MAP -o OUT.png --flip-red is for that. The map alone does not tell the two "
-     "apart; where the high poly is at hand, tspace map-error MAP MODEL --high HIGH does, in degrees."},
+     "If it was made for DirectX, invert its green channel: tspace generate --flip-green. If bumps look like dents "
+     "then, it is red that is inverted: tspace convert-map MAP -o OUT.png --flip-red. The map alone does not tell the "
+     "two apart; a comparison with the high poly does: tspace map-error MAP MODEL --high HIGH."},
     {"normalMapUnreadable", "Convert the image to PNG, JPEG or WebP to have it looked at."},
     {"fileRemark", "Mend the file where that matters. The rest of this report is about what could be read."},
     {"greenMixed",
      "Bake the map anew, all of it one way (tspace bake MODEL --high HIGH -o MAP.png); or invert green with an image "
      "editor where it points down, and nowhere else. To invert the whole map would spoil the other part."},
-    {"packedFramesUnreadable", "Pack them anew, in the format that the attribute names: tspace generate --pack."},
+    {"packedFramesUnreadable",
+     "Pack them again, in the format that the attribute names: tspace generate --pack FORMAT."},
     {"packedFramesDiffer",
-     "Pack them anew from NORMAL and TANGENT, in the format that the attribute names: tspace generate --pack."},
+     "Pack them again from NORMAL and TANGENT, in the format that the attribute names: tspace generate --pack FORMAT."},
     {"tangentsUnreadable",
      "Run tspace generate: it computes tangents where a material needs them, and takes the attribute away elsewhere."},
     {"positionsRounded",
@@ -90,20 +91,19 @@ constexpr std::array<CodeText, kFindingCodeCount> kCodes{{
     {"morphNormalsMissing", "Give the targets normals too: tspace generate --morph-normals missing."},
     {"morphNormalsWrong", "Compute what the targets add to normals anew: tspace generate --morph-normals all."},
     {"normalMapTwoChannels",
-     "In the model: tspace generate --mend-maps does it. The image alone: tspace convert-map MAP -o OUT.png --channels "
+     "In the model: tspace generate --mend-maps. The image alone: tspace convert-map MAP -o OUT.png --channels "
      "rg"},
     {"normalMapUnsigned",
-     "In the model: tspace generate --mend-maps does it. The image alone: tspace convert-map MAP -o OUT.png --channels "
+     "In the model: tspace generate --mend-maps. The image alone: tspace convert-map MAP -o OUT.png --channels "
      "rg"},
     {"normalMapChannels",
-     "In the model: tspace generate --mend-maps does it. The image alone: tspace convert-map MAP -o OUT.png "
-     "--channels, with "
-     "the channels that x, y and z are in."},
+     "In the model: tspace generate --mend-maps. The image alone: tspace convert-map MAP -o OUT.png --channels "
+     "LETTERS, with the channels that x, y and z are in."},
     {"normalMapIsSrgb",
-     "In the model: tspace generate --mend-maps does it. The image alone: tspace convert-map MAP -o OUT.png --srgb (or "
-     "--linearised)"},
+     "In the model: tspace generate --mend-maps. The image alone: tspace convert-map MAP -o OUT.png --srgb; "
+     "or, where the curve was taken off: tspace convert-map MAP -o OUT.png --linearised"},
     {"normalMapInObjectSpace",
-     "In the model: tspace generate --mend-maps does it. The image alone: tspace convert-map MAP -o OUT.png --from "
+     "In the model: tspace generate --mend-maps. The image alone: tspace convert-map MAP -o OUT.png --from "
      "object --mesh MODEL"},
     {"normalMapIsHeight", "Make a normal map of it: tspace height-to-normal MAP -o OUT.png --strength S"},
     {"normalMapScale", "Give the texture a scale above 0, or take the normal map away, if that is what is meant."},
@@ -113,10 +113,11 @@ constexpr std::array<CodeText, kFindingCodeCount> kCodes{{
      "where "
      "they are: tspace generate --overwrite-normals --normals best --denoise auto."},
     {"normalMapLossy",
-     "Pack it from the source anew: as PNG or WebP without loss, or as UASTC where it must stay small; for engines, "
-     "beside the glTF: tspace compress-map."},
+     "Pack it again from the source: as PNG or lossless WebP, or as UASTC where it must stay small. For engines, "
+     "compress-map packs the source as BC5 beside the glTF."},
     {"normalMapLevels",
-     "Write all levels with the program that packed it; for engines, beside the glTF: tspace compress-map."},
+     "Write all mip levels with the program that packed it. For engines, compress-map packs the source as BC5 with all "
+     "levels beside the glTF."},
     {"normalMapLengths",
      "Make the vectors unit, unless their lengths are meant: renderers make each unit after the filter, so lengths "
      "count only "

@@ -52,15 +52,15 @@ struct Tally {
 
 /// The remedy of inverted signs and green that points down, which cancel out.
 inline constexpr const char* kBothOrNeither =
-    "Do both or neither: negate every w and invert the green channel of the normal map, or leave both as they are. "
-    "They cancel out.";
+    "Nothing needs to be done: the two cancel out, so correct both or neither. For both: tspace generate --overwrite "
+    "--flip-green.";
 
 /// The remedy of green that points down where the convention that is asked for has it so.
 inline constexpr const char* kNothingToDo = "Nothing needs to be done; a reader of plain glTF wants green to point up.";
 
 /// The remedy of green that points down where the signs of some meshes, but not of all, are made for that.
 inline constexpr const char* kSignsFirst =
-    "Do both together: negate every w of the meshes whose signs are inverted, and invert the green channel.";
+    "Correct the green channel and the inverted signs together: tspace generate --overwrite --flip-green.";
 
 /// A finding with the tally's numbers, without a place.
 Finding makeFinding(FindingCode code, Severity severity, const Tally& tally, const char* unit, std::string message);

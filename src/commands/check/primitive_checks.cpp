@@ -366,6 +366,12 @@ bool readsTheSame(const TangentUse& a, const TangentUse& b) {
            a.transform.scale[0] == b.transform.scale[0] && a.transform.scale[1] == b.transform.scale[1];
 }
 
+/// Names the texture, and its material where it is one of several (KHR_materials_variants).
+std::string textureText(const TangentUse& use, bool with_material) {
+    if (!with_material) return use.needed_by;
+    return use.needed_by + " of material " + std::to_string(use.material) + (use.only_in_variant ? " (a variant)" : "");
+}
+
 }  // namespace
 
 void checkTextures(PrimitiveFacts& facts) {
@@ -378,9 +384,10 @@ void checkTextures(PrimitiveFacts& facts) {
         if (known || reading.uvs.empty()) continue;
         const Tally different = compareReadings(facts, reading);
         if (different.count == 0) continue;
+        const bool of_two = uses[i].material != uses[0].material;
         facts.add(FindingCode::texturesDisagree, Severity::warning, different, "triangles",
-                  uses[i].needed_by + " needs other tangents than " + uses[0].needed_by + " on " +
-                      countText(different, "triangles") + "; tangents can follow only the first of them");
+                  textureText(uses[i], of_two) + " needs other tangents than " + textureText(uses[0], of_two) + " on " +
+                      countText(different, "triangles") + "; tangents can follow only the second of them");
         facts.findings.back().place = uses[i].place;
     }
 }

@@ -7,6 +7,7 @@
 #include <initializer_list>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <string_view>
 #include <tuple>
@@ -47,6 +48,9 @@ class PrimitiveKey {
             arrays_.insert(arrays_.end(), {target.positions.data(), target.normals.data(), target.tangents.data()});
         for (const TangentUse& use : primitive.uses) {
             words_.push_back(use.needed_by);
+            // Findings name the materials where there are several.
+            if (use.material != primitive.uses.front().material)
+                add({use.material, primitive.uses.front().material, use.only_in_variant ? 1U : 0U});
             add({use.has_texture, static_cast<std::uint64_t>(use.uv_set),
                  std::bit_cast<std::uint64_t>(use.transform.rotation),
                  std::bit_cast<std::uint64_t>(use.transform.scale[0]),
@@ -144,6 +148,27 @@ Finding placed(Finding finding, const ScenePrimitive& primitive, const ScenePrim
     }
     placeAt(primitive, place, finding);
     return finding;
+}
+
+/// The preset that a convention is; of two that are equal the first.
+std::string nameOf(const Convention& convention) {
+    for (const char* name : {"opengl", "directx", "unreal", "unity"}) {
+        if (*findConvention(name) == convention) return name;
+    }
+    return "opengl";  // it has the same signs
+}
+
+void replaceAll(std::string& text, std::string_view old, const std::string& with) {
+    for (std::size_t at = text.find(old); at != std::string::npos; at = text.find(old, at + with.size())) {
+        text.replace(at, old.size(), with);
+    }
+}
+
+/// Adds the convention to the commands of a remedy: who checks by another convention than the format's has to compute by it.
+void addConvention(const CheckOptions& options, Finding& finding) {
+    if (signFactor(options.convention) == signFactor(conventions::gltf)) return;
+    for (const std::string command : {"tspace generate --repair", "tspace generate --overwrite"})
+        replaceAll(finding.remedy, command, command + " --convention " + nameOf(options.convention));
 }
 
 /// Whether the normal maps of a primitive cancel inverted signs.
@@ -273,10 +298,12 @@ void weighImages(const Scene& scene, const CheckOptions& options, ImageFindings&
             continue;
         }
         if (is_cancelled[images.images[i]]) finding.remedy = kSignsFirst;
-        if (is_needed[images.images[i]]) continue;
-        finding.severity = Severity::note;
-        finding.message += "; but the signs of its meshes are inverted too, and the two cancel out";
-        finding.remedy = kBothOrNeither;
+        if (!is_needed[images.images[i]]) {
+            finding.severity = Severity::note;
+            finding.message += "; but the signs of its meshes are inverted too, and the two cancel out";
+            finding.remedy = kBothOrNeither;
+        }
+        addConvention(options, finding);
     }
 }
 
@@ -289,8 +316,11 @@ constexpr const char* kUnwrapFirst =
 constexpr const char* kNoUvsToFollow =
     "Give the mesh UVs for the tangents to follow, or export the tangents that are meant.";
 constexpr const char* kOtherTool =
-    "Compute them anew with the tool that made them. Doing it here for the whole file would turn signs round that the "
-    "normal maps of this file may want as they are.";
+    "Recompute them with the tool that made them. Recomputing all tangents of the file here would invert signs that "
+    "its normal maps may need as they are.";
+constexpr const char* kBothByHand =
+    "Nothing needs to be done: the two cancel out, so correct both or neither: negate every w, and invert the green "
+    "channel of the normal map.";
 constexpr const char* kLookAtTheMap =
     "Look at the normal map. If its green points up, negate every w. If it points down, do both or neither: negate "
     "every w and invert the green channel, or leave both as they are. Where the high poly is at hand, tspace map-error "
@@ -308,6 +338,7 @@ constexpr const char* kDrawnTangents =
     "point.";
 
 constexpr std::string_view kRepairOption = "--repair", kOverwriteOption = "--overwrite";
+constexpr const char* kOverwriteBoth = "--overwrite --flip-green";
 
 /// Findings that computing the tangents anew mends.
 bool isOfTangents(FindingCode code) {
@@ -320,37 +351,24 @@ bool isOfValues(FindingCode code) {
            code == FindingCode::signsNotOne;
 }
 
-/// The preset that a convention is; of two that are equal the first.
-std::string nameOf(const Convention& convention) {
-    for (const char* name : {"opengl", "directx", "unreal", "unity"}) {
-        if (*findConvention(name) == convention) return name;
-    }
-    return "opengl";  // it has the same signs
-}
-
-void replaceAll(std::string& text, std::string_view old, const std::string& with) {
-    for (std::size_t at = text.find(old); at != std::string::npos; at = text.find(old, at + with.size())) {
-        text.replace(at, old.size(), with);
-    }
-}
-
 class Advice {
   public:
-    Advice(const CheckOptions& options, bool signs_stay_somewhere)
-        : signs_stay_somewhere_(signs_stay_somewhere),
-          convention_(signFactor(options.convention) == signFactor(conventions::gltf)
-                          ? ""
-                          : " --convention " + nameOf(options.convention)) {}
+    /// `signs`: the verdicts of all primitives.
+    Advice(const CheckOptions& options, const std::set<SignVerdict>& signs)
+        : options_(options),
+          inverts_green_(options.convention.green == Green::up),
+          any_cancelled_(signs.contains(SignVerdict::cancelled)),
+          any_open_(signs.contains(SignVerdict::open)) {}
 
     void give(const ScenePrimitive& primitive, const PrimitiveJudgement& judgement, Finding& finding) const {
         const bool can_compute = canCompute(primitive);
         if (finding.code == FindingCode::tangentsMissing && primitive.packedAlone() != nullptr) {
             finding.remedy = primitive.normals.empty() || !can_compute ? kOnlyForItsReaders : kAlsoForOthers;
-            return addConvention(finding);
+            return addConvention(options_, finding);
         }
         if (finding.code == FindingCode::tangentsMissing || finding.code == FindingCode::tangentsIgnored) {
             if (!can_compute) finding.remedy = primitive.uvsDecide() ? kUnwrapFirst : kNoUvsToFollow;
-            return addConvention(finding);
+            return addConvention(options_, finding);
         }
         if (!isOfTangents(finding.code)) return;
         const bool is_of_signs = finding.code == FindingCode::signsInverted || finding.code == FindingCode::signsWrong;
@@ -362,29 +380,24 @@ class Advice {
         } else if (!can_compute) {
             finding.remedy = kUnwrapFirst;
         } else if (is_of_signs && judgement.signs != SignVerdict::plain) {
-            finding.remedy = judgement.signs == SignVerdict::cancelled ? kBothOrNeither : kLookAtTheMap;
+            finding.remedy = judgement.signs == SignVerdict::open ? kLookAtTheMap
+                             : inverts_green_                     ? kBothOrNeither
+                                                                  : kBothByHand;
         } else if (is_error) {
             replaceAll(finding.remedy, kOverwriteOption, std::string(kRepairOption));
-        } else if (signs_stay_somewhere_) {
+        } else if (any_open_ || (any_cancelled_ && !inverts_green_)) {
             finding.remedy = kOtherTool;
         } else {
             replaceAll(finding.remedy, kRepairOption, std::string(kOverwriteOption));
+            if (any_cancelled_) replaceAll(finding.remedy, kOverwriteOption, kOverwriteBoth);
         }
-        addConvention(finding);
+        addConvention(options_, finding);
     }
 
   private:
-    /// Who checks by another convention has to compute by it.
-    void addConvention(Finding& finding) const {
-        if (convention_.empty()) return;
-        for (const std::string_view command :
-             {std::string_view("tspace generate --repair"), std::string_view("tspace generate --overwrite")}) {
-            replaceAll(finding.remedy, command, std::string(command) + convention_);
-        }
-    }
-
-    bool signs_stay_somewhere_;
-    std::string convention_;
+    const CheckOptions& options_;
+    bool inverts_green_;  ///< generate inverts green that points down, but none that points up
+    bool any_cancelled_, any_open_;
 };
 
 }  // namespace
@@ -395,10 +408,9 @@ bool canCompute(const ScenePrimitive& primitive) {
 }
 
 void adviseOn(const Scene& scene, const CheckOptions& options, std::span<PrimitiveJudgement> judgements) {
-    const bool signs_stay_somewhere =
-        std::any_of(judgements.begin(), judgements.end(),
-                    [](const PrimitiveJudgement& judgement) { return judgement.signs != SignVerdict::plain; });
-    const Advice advice(options, signs_stay_somewhere);
+    std::set<SignVerdict> signs;
+    for (const PrimitiveJudgement& judgement : judgements) signs.insert(judgement.signs);
+    const Advice advice(options, signs);
     for (std::size_t i = 0; i < judgements.size(); ++i) {
         for (Finding& finding : judgements[i].findings) advice.give(scene.primitives[i], judgements[i], finding);
     }

@@ -207,7 +207,7 @@ class Mending {
     void decide(Component& component) {
         ++report_.component_count;
         report_.conflict_count_before += component.conflicts_before;
-        if (component.size() < kFewest) return leave(component, report_.small_count);
+        if (component.size() < kFewest) return decideSmall(component);
         if (component.conflicts_after != 0 && component.conflicts_after >= component.conflicts_before) {
             for (std::uint32_t i = component.begin; i < component.end; ++i) call_.turned[memory_.order[i]] = 0;
             component.conflicts_after = component.conflicts_before;
@@ -216,8 +216,7 @@ class Mending {
             return finish(component, number < -kLeastWindingNumber, report_.one_sided_count);
         }
         measure(call_, memory_.order, component);
-        // Half of the area has normals, and four fifths of that agree.
-        if (component.faced > 0.5 * component.area && std::fabs(component.facing) > 0.6 * component.faced) {
+        if (normalsAgree(component)) {
             finish(component, component.facing < 0, report_.by_normals_count);
         } else if (component.is_closed && hasVolume(component)) {
             // Which of them lie in others can be seen when all are known.
@@ -225,6 +224,19 @@ class Mending {
         } else {
             decideOpen(component);
         }
+    }
+
+    /// Half of the area has normals, and four fifths of that agree.
+    static bool normalsAgree(const Component& component) {
+        return component.faced > 0.5 * component.area && std::fabs(component.facing) > 0.6 * component.faced;
+    }
+
+    /// Only normals say which side of a leaf or a card is out.
+    void decideSmall(Component& component) {
+        if (component.conflicts_after != 0) return leave(component, report_.small_count);
+        measure(call_, memory_.order, component);
+        if (!normalsAgree(component)) return leave(component, report_.small_count);
+        finish(component, component.facing < 0, report_.by_normals_count);
     }
 
     /// Nothing is turned.

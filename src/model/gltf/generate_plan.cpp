@@ -3,9 +3,11 @@
 #include "model/gltf/generate_plan.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -17,6 +19,7 @@
 #include "model/gltf/apply_frames.h"
 #include "model/gltf/material_needs.h"
 #include "model/gltf/packed.h"
+#include "model/gltf/read_scene.h"
 #include "model/io/file_error.h"
 
 namespace tspace::gltf {
@@ -349,6 +352,25 @@ class MeshPieces {
     }
 
     [[nodiscard]] std::size_t othersOf(std::uint32_t piece) const { return joined_->othersOf(piece); }
+    struct OtherMesh {
+        std::size_t primitive = 0;  ///< of that mesh, the first at the border
+        std::set<std::uint32_t> points = {};
+    };
+    /// The other meshes that a piece forms one surface with, and the points that both have: by piece and mesh.
+    [[nodiscard]] std::map<std::pair<std::uint32_t, std::uint32_t>, OtherMesh> otherMeshes() const {
+        std::map<std::pair<std::uint32_t, std::uint32_t>, OtherMesh> others;
+        for (const JoinedPieces::Border& border : joined_->borders()) {
+            for (const std::size_t side : {0, 1}) {
+                const std::uint32_t piece = border.triangles[side].piece;
+                const std::size_t number = numbers_[border.triangles[1 - side].piece];
+                if (primitives_[number].mesh == primitives_[numbers_[piece]].mesh) continue;
+                OtherMesh& other =
+                    others.try_emplace({piece, primitives_[number].mesh}, OtherMesh{number, {}}).first->second;
+                other.points.insert(border.points.begin(), border.points.end());
+            }
+        }
+        return others;
+    }
     /// Whether another one of its surface keeps its normals.
     [[nodiscard]] bool anyKeeps(std::uint32_t piece, const std::vector<bool>& makes_normals) const {
         for (std::uint32_t other = 0; other < numbers_.size(); ++other) {
@@ -430,6 +452,66 @@ std::string noteOf(std::size_t others, std::uint64_t points, bool any_keeps) {
     return note;
 }
 
+std::string noteOf(const Primitive& other, std::size_t points) {
+    const std::string name = other.mesh_name.empty() ? "" : " \"" + other.mesh_name + "\"";
+    return "it forms one surface with mesh " + std::to_string(other.mesh) + name + " (" + std::to_string(points) +
+           " shared border positions), but normals are smoothed within each mesh only: join the meshes where no edge "
+           "is "
+           "meant";
+}
+
+/// The primitives with triangles, by where nodes put them. Each stands at its first place.
+std::vector<std::vector<std::size_t>> primitivesByPlace(const Document& document,
+                                                        std::span<const Primitive> primitives) {
+    std::vector<ScenePlacement> placements;
+    if (tryFile([&] { placements = readPlacements(document, primitives); })) return {};
+    std::map<std::array<double, 12>, std::vector<std::size_t>> at;
+    std::vector<bool> is_known(primitives.size(), false);
+    for (const ScenePlacement& placement : placements) {
+        const Primitive& primitive = primitives[placement.primitive];
+        if (is_known[placement.primitive] || !hasTriangles(primitive.mode) || !primitive.find("POSITION") ||
+            primitive.triangleCount() == 0) {
+            continue;
+        }
+        is_known[placement.primitive] = true;
+        const auto& [x, y, z, o] = placement.to_world;
+        at[{x.x, x.y, x.z, y.x, y.y, y.z, z.x, z.y, z.z, o.x, o.y, o.z}].push_back(placement.primitive);
+    }
+    std::vector<std::vector<std::size_t>> groups;
+    for (auto& [place, numbers] : at) {
+        std::sort(numbers.begin(), numbers.end());
+        groups.push_back(std::move(numbers));
+    }
+    return groups;
+}
+
+/// Notes primitives whose normals are made, and that form one surface with another mesh.
+void noteOtherMeshes(Model& model, const GenerateOptions& options, const std::vector<bool>& makes_normals,
+                     GeneratePlan& plan) {
+    constexpr std::size_t kMostNotes = 4;
+    const std::span<const Primitive> primitives = model.primitives();
+    if (std::find(makes_normals.begin(), makes_normals.end(), true) == makes_normals.end()) return;
+    if (primitives.front().mesh == primitives.back().mesh) return;
+    for (const std::vector<std::size_t>& numbers : primitivesByPlace(model.document(), primitives)) {
+        std::uint64_t bytes = 0;
+        bool any_made = false;
+        for (const std::size_t number : numbers) {
+            const Primitive& primitive = primitives[number];
+            bytes += kBytesPerVertex * primitive.vertex_count + kBytesPerCorner * 3 * primitive.triangleCount();
+            any_made = any_made || makes_normals[number];
+        }
+        if (!any_made || primitives[numbers.front()].mesh == primitives[numbers.back()].mesh) continue;
+        if (!model.document().memory->has(bytes)) continue;
+        const MeshPieces pieces(model, numbers, options.normals.weld_distance);
+        std::map<std::uint32_t, std::size_t> counts;
+        for (const auto& [key, other] : pieces.otherMeshes()) {
+            const std::size_t number = numbers[key.first];
+            if (makes_normals[number] && ++counts[key.first] <= kMostNotes)
+                plan.reports[number].notes.push_back(noteOf(primitives[other.primitive], other.points.size()));
+        }
+    }
+}
+
 /// How far a normal looks. A step of `best` looks one triangle further, and what removes noise through three rings, over
 /// which it averages eight times what it found; so far away it does not count any more.
 unsigned ringsAround(const NormalOptions& options) {
@@ -475,6 +557,7 @@ void planSurroundings(Model& model, const GenerateOptions& options, GeneratePlan
             }
         }
     }
+    noteOtherMeshes(model, options, makes_normals, plan);
 }
 
 }  // namespace tspace::gltf

@@ -13,6 +13,7 @@
 #include "images/textures.h"
 #include "model/gltf_builder.h"
 #include "support/temp_folder.h"
+#include "tspace/asset.h"
 
 namespace tspace::test {
 namespace {
@@ -357,7 +358,7 @@ TEST(CheckFile, SaysWhichPartOfAMixedMapPointsDown) {
 TEST(CheckFile, AdvisesBothOrNeitherWhereTwoFaultsCancelOut) {
     for (const Finding& finding : TestModel(true, true).check().findings) {
         EXPECT_NE(finding.remedy.find("both or neither"), std::string::npos) << finding.remedy;
-        EXPECT_EQ(finding.remedy.find("tspace generate"), std::string::npos) << finding.remedy;
+        EXPECT_TRUE(finding.remedy.ends_with("tspace generate --overwrite --flip-green.")) << finding.remedy;
     }
 }
 
@@ -389,12 +390,17 @@ TEST(CheckFile, TakesGreenThatPointsDownForRightWhereTheConventionHasItSo) {
     EXPECT_EQ(report.findings[0].remedy.find("tspace"), std::string::npos);
 }
 
-TEST(CheckFile, NamesNoCommandForAMapThatHalfOfItsMeshesAreMadeFor) {
+TEST(CheckFile, CorrectsSignsAndAMapTogetherThatHalfOfItsMeshesAreMadeFor) {
     TestModel model(true, true);
     addPatch(model.builder, goodPatch(Seam::turned));
     const CheckReport report = model.check();
     ASSERT_EQ(codes(report), (CodeCounts{"warning signsInverted", "warning greenFlipped"}));
-    for (const Finding& finding : report.findings) EXPECT_EQ(finding.remedy.find("tspace"), std::string::npos);
+    for (const Finding& finding : report.findings)
+        EXPECT_TRUE(finding.remedy.ends_with("tspace generate --overwrite --flip-green.")) << finding.remedy;
+    const std::string output = model.folder.path("corrected.gltf").string();
+    ASSERT_TRUE(generateFile(model.folder.path("model.gltf").string(), output,
+                             {.existing = ExistingTangents::replace, .flip_green = FlipGreen::down}));
+    EXPECT_EQ(codes(*checkFile(output)), CodeCounts{});
 }
 
 TEST(CheckFile, WeighsEveryNormalMapOfAPrimitive) {

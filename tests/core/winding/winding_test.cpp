@@ -230,6 +230,32 @@ TEST(MendWinding, TurnsNoLeavesAndCards) {
     EXPECT_LT(0u, mended.report.conflict_count_after);
 }
 
+TEST(MendWinding, TurnsEachLeafTowardItsOwnNormals) {
+    Bodies leaves;
+    for (int i = 0; i < 50; ++i) {
+        const auto x = static_cast<float>(i);
+        addSheet(leaves, 1, 1, [x](double u, double v) { return vec3(x + 0.5 * u, v, 0); });
+    }
+    Bodies damaged = leaves;
+    for (std::size_t f = 0; f < damaged.faceCount(); ++f) {
+        if (f / 2 % 2 == 0) damaged.turn(f);
+    }
+    // Rounded normals, as of a tree crown around the leaves, on the side from which they were wound.
+    std::vector<Vec3> normals;
+    for (std::size_t v = 0; v < damaged.mesh.positions.size(); ++v)
+        normals.push_back(v % 3 == 0 ? Vec3{0.6F, 0, 0.8F} : Vec3{0, -0.6F, 0.8F});
+    MeshView with_normals = damaged.view();
+    with_normals.normals = normals;
+    const Mended mended = mend(with_normals);
+    EXPECT_EQ(50u, mended.report.by_normals_count);
+    EXPECT_EQ(50u, mended.report.turned_count);
+    for (std::size_t f = 0; f < damaged.faceCount(); ++f) EXPECT_EQ(f / 2 % 2 == 0, mended.turned[f] != 0) << f;
+    // Normals of both sides agree on nothing.
+    for (std::size_t v = 0; v < normals.size(); ++v) normals[v].z *= v % 2 == 0 ? 1.0F : -1.0F;
+    EXPECT_EQ(50u, mend(with_normals).report.small_count);
+    EXPECT_EQ(50u, mend(with_normals, {.use_normals = false}).report.small_count);
+}
+
 TEST(MendWinding, LeavesAMoebiusBandAsItIsAndMendsWhatIsDamagedInOne) {
     const Bodies band = moebiusBand(40);
     const Mended mended = mend(band.view());
