@@ -8,8 +8,6 @@ install(DIRECTORY "${PROJECT_SOURCE_DIR}/include/tspace" DESTINATION "${CMAKE_IN
         FILES_MATCHING PATTERN "*.h" PATTERN "*.hpp"
         PATTERN "asset.h" EXCLUDE PATTERN "bake_file.h" EXCLUDE PATTERN "check.h" EXCLUDE PATTERN "diff.h" EXCLUDE PATTERN "finish_file.h" EXCLUDE PATTERN "identify.h" EXCLUDE PATTERN "maps.h" EXCLUDE PATTERN "map_*.h" EXCLUDE PATTERN "flip_green.h" EXCLUDE PATTERN "render.h" EXCLUDE PATTERN "tspace_files.h" EXCLUDE)
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/include/mikktspace" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" COMPONENT tspace_core)
-install(FILES "${PROJECT_BINARY_DIR}/include/tspace/version.h" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/tspace"
-        COMPONENT tspace_core)
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/shaders" DESTINATION "${CMAKE_INSTALL_DATADIR}/tspace" COMPONENT tspace_core)
 tspace_install_export(core tspace_core tspace)
 

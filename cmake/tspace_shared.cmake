@@ -15,7 +15,6 @@ function(tspace_shared_library target name output_name)
                           LINKER_LANGUAGE CXX EXPORT_NAME ${name} LIBRARY_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}"
                           LINK_DEPENDS "${PROJECT_SOURCE_DIR}/cmake/exported.map")
     target_include_directories(${target} INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>
-                                                   $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/include>
                                                    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
     target_link_options(${target} PRIVATE "-Wl,--version-script=${PROJECT_SOURCE_DIR}/cmake/exported.map")
     if(TSPACE_SANITIZE)

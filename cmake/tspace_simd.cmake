@@ -4,6 +4,7 @@
 include_guard(GLOBAL)
 include(CheckCXXSourceCompiles)
 
+set(CMAKE_REQUIRED_QUIET ON)  # "Failed" only means another CPU
 check_cxx_source_compiles("
     #if !defined(__x86_64__)
     #error
@@ -19,6 +20,7 @@ check_cxx_source_compiles("
     #error
     #endif
     int main() { return 0; }" TSPACE_SIMD_WASM)
+unset(CMAKE_REQUIRED_QUIET)
 if(TSPACE_SIMD_X86)
     set(tspace_simd_cpus sse2 avx2 avx512)
 elseif(TSPACE_SIMD_ARM64)

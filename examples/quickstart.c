@@ -1,17 +1,17 @@
 /* SPDX-License-Identifier: MIT */
-/* Tangents for a small mesh from C: one call, and what it gives. */
+/* Tangents for a small mesh from C: one call, and its result. */
 #include <stdio.h>
 #include <tspace/tspace.h>
 
-enum { VERTICES = 6, CORNERS = 8, FLOATS = 8 };
+enum { VERTICES = 6, CORNERS = 12, FLOATS = 8 };
 
-/* Two quads side by side. The texture runs to the right on the first and is mirrored on the second, so the
- * two vertices between them need two tangents each. Interleaved: position, normal, uv. */
+/* Two squares side by side, as an interleaved vertex buffer: position, normal, UV. The texture runs to the right on the
+ * first square and is mirrored on the second, so the two vertices between them need two tangents each. */
 static const float vertices[VERTICES][FLOATS] = {
     {0, 0, 0, 0, 0, 1, 0, 0}, {1, 0, 0, 0, 0, 1, 1, 0}, {2, 0, 0, 0, 0, 1, 0, 0},
     {0, 1, 0, 0, 0, 1, 0, 1}, {1, 1, 0, 0, 0, 1, 1, 1}, {2, 1, 0, 0, 0, 1, 0, 1},
 };
-static const uint16_t indices[CORNERS] = {0, 1, 4, 3, 1, 2, 5, 4};
+static const uint16_t indices[CORNERS] = {0, 1, 4, 0, 4, 3, 1, 2, 5, 1, 5, 4};
 
 static int fail(const tspace_Error* error) {
     fprintf(stderr, "%s: %s\n", tspace_errorName(error->code), error->message);
@@ -26,7 +26,6 @@ int main(void) {
     mesh.normals = (tspace_ConstSpan){&vertices[0][3], VERTICES, sizeof(vertices[0])};
     mesh.uvs = (tspace_ConstSpan){&vertices[0][6], VERTICES, sizeof(vertices[0])};
     mesh.indices = (tspace_Indices){indices, CORNERS, TSPACE_INDEX_U16};
-    mesh.face_size = 4;
 
     tspace_TangentOptions tangents;
     TSPACE_INIT(tangents); /* method mikktspace */
@@ -37,7 +36,7 @@ int main(void) {
     tspace_IndexedFrames* frames = NULL;
     if (tspace_makeIndexedFrames(&mesh, &options, NULL, &frames, &error) != TSPACE_OK) return fail(&error);
 
-    /* Corners that disagree got a vertex of their own. */
+    /* A vertex whose corners need different tangents is split: the copies come after the vertices of the mesh. */
     for (size_t v = 0; v < frames->vertex_count; ++v) {
         const float* t = frames->tangents + 4 * v;
         printf("vertex %zu copies %u: tangent %g %g %g sign %g\n", v, (unsigned)frames->source_vertices[v], t[0], t[1],

@@ -12,6 +12,11 @@ states() { # FILE TEXT: the file has this line, or a part of it
     grep -qF "$2" "$1" || { echo "$1 does not have: $2"; status=1; }
 }
 states CHANGELOG.md "## $version"
+IFS=. read -r major minor patch <<<"$version"
+states include/tspace/version.h "TSPACE_VERSION_MAJOR $major"
+states include/tspace/version.h "TSPACE_VERSION_MINOR $minor"
+states include/tspace/version.h "TSPACE_VERSION_PATCH $patch"
+states include/tspace/version.h "TSPACE_VERSION_STRING \"$version\""
 states bindings/rust/Cargo.toml "version = \"$version\""
 states bindings/csharp/Tspace.csproj "<Version>$version</Version>"
 states bindings/blender/tspace_addon/blender_manifest.toml "version = \"$version\""

@@ -6,7 +6,9 @@
 #pragma once
 
 #include <cstdint>
+#include <iterator>
 #include <span>
+#include <type_traits>
 
 #include "tspace/result.h"
 #include "tspace/span.h"
@@ -30,9 +32,13 @@ struct IndexView {
 
     constexpr IndexView() = default;
     constexpr IndexView(const void* d, std::size_t n, IndexType t) : data(d), count(n), type(t) {}
-    constexpr IndexView(std::span<const std::uint8_t> s) : IndexView(s.data(), s.size(), IndexType::u8) {}
-    constexpr IndexView(std::span<const std::uint16_t> s) : IndexView(s.data(), s.size(), IndexType::u16) {}
-    constexpr IndexView(std::span<const std::uint32_t> s) : IndexView(s.data(), s.size(), IndexType::u32) {}
+    /// Any contiguous container of 8-, 16- or 32-bit unsigned integers (array, std::vector, std::span); implicit.
+    template <class Container>
+    requires std::is_constructible_v < std::span<const std::uint8_t>,
+    const Container& > || std::is_constructible_v<std::span<const std::uint16_t>, const Container&> ||
+        std::is_constructible_v<std::span<const std::uint32_t>, const Container&> constexpr IndexView(
+            const Container& list)
+        : IndexView(std::data(list), std::size(list), static_cast<IndexType>(sizeof(*std::data(list)))) {}
 
     /// The vertex of corner c. Not checked.
     [[nodiscard]] std::uint32_t operator[](std::size_t c) const {

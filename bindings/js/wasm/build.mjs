@@ -189,10 +189,6 @@ async function link(name, module, objects) {
   console.log(`${name}.wasm: ${bytes.length} bytes, ${gzipSync(bytes, { level: 9 }).length} gzipped`);
 }
 
-const version = readFileSync(join(root, "CMakeLists.txt"), "utf8").match(/project\(tspace VERSION (\d+)\.(\d+)\.(\d+)/);
-const [major, minor, patch] = version.slice(1).map(Number);
-write(join(out, "include/tspace/version.h"),
-  `#pragma once\n#define TSPACE_VERSION_NUMBER ${10000 * major + 100 * minor + patch}\n#define TSPACE_VERSION_STRING "${major}.${minor}.${patch}"\n`);
 // The system's own folder of headers would hide those of emscripten.
 for (const name of ["nlohmann", "tiny_obj_loader.h"])
   if (!existsSync(join(out, "include", name))) symlinkSync(join("/usr/include", name), join(out, "include", name));
