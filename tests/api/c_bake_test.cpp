@@ -114,7 +114,7 @@ TEST_F(CFilesBake, AnErrorOfABakeSaysWhichFileItIsAboutAndNothingIsWritten) {
           Wrong{"low.obj", "high.obj", "a.png", R"({"cage": "none.obj"})", TSPACE_ERROR_CANNOT_READ, 2},
           Wrong{"low.obj", "high.obj", "a.png", R"({"skew": "none.png"})", TSPACE_ERROR_CANNOT_READ, 4},
           Wrong{"high.obj", "high.obj", "a.png", nullptr, TSPACE_ERROR_MISSING_ATTRIBUTE, 0},
-          Wrong{"low.obj", "high.obj", "a.jpg", nullptr, TSPACE_ERROR_UNSUPPORTED_FILE, TSPACE_NO_ELEMENT},
+          Wrong{"low.obj", "high.obj", "a.jpg", nullptr, TSPACE_ERROR_INVALID_OPTION, TSPACE_NO_ELEMENT},
           Wrong{"low.obj", "high.obj", "a.png", R"({"sise": 32})", TSPACE_ERROR_INVALID_OPTION, TSPACE_NO_ELEMENT},
           Wrong{"low.obj", "high.obj", "a.png", R"({"pairs": "a"})", TSPACE_ERROR_INVALID_OPTION, TSPACE_NO_ELEMENT},
           Wrong{"low.obj", "high.obj", "a.png", R"({"high": "a"})", TSPACE_ERROR_INVALID_OPTION, TSPACE_NO_ELEMENT},
@@ -147,7 +147,7 @@ TEST_F(CFilesBake, AnErrorOfFinishSaysWhichModelItIsAboutAndNothingIsWritten) {
     for (const Wrong& wrong :
          {Wrong{"none.obj", "a.glb", nullptr, TSPACE_ERROR_CANNOT_READ, 1},
           Wrong{"high.obj", "a.glb", R"({"low": "none.obj"})", TSPACE_ERROR_CANNOT_READ, 0},
-          Wrong{"high.obj", "a.gltf", nullptr, TSPACE_ERROR_UNSUPPORTED_FILE, TSPACE_NO_ELEMENT},
+          Wrong{"high.obj", "a.gltf", nullptr, TSPACE_ERROR_INVALID_OPTION, TSPACE_NO_ELEMENT},
           Wrong{"high.obj", "a.glb", R"({"crese": 60})", TSPACE_ERROR_INVALID_OPTION, TSPACE_NO_ELEMENT},
           Wrong{"high.obj", "a.glb", R"({"size": 32})", TSPACE_ERROR_INVALID_OPTION, TSPACE_NO_ELEMENT},
           Wrong{nullptr, "a.glb", nullptr, TSPACE_ERROR_NULL_DATA, TSPACE_NO_ELEMENT},

@@ -427,7 +427,7 @@ void expectFilesOfTheTool(Function* make, const std::string& command, const char
     EXPECT_TRUE(folder.read("out.png") == bytes);
     tspace_Error error;
     EXPECT_EQ(make("none.png", "out.png", nullptr, nullptr, &error), TSPACE_ERROR_CANNOT_READ);
-    EXPECT_EQ(make("bump.png", "out.jpg", nullptr, nullptr, &error), TSPACE_ERROR_UNSUPPORTED_FILE);
+    EXPECT_EQ(make("bump.png", "out.jpg", nullptr, nullptr, &error), TSPACE_ERROR_INVALID_OPTION);
     EXPECT_EQ(make("bump.png", "out.png", unknown, nullptr, &error), TSPACE_ERROR_INVALID_OPTION);
     EXPECT_EQ(make(nullptr, "out.png", nullptr, nullptr, &error), TSPACE_ERROR_NULL_DATA);
     EXPECT_EQ(make("bump.png", nullptr, nullptr, nullptr, &error), TSPACE_ERROR_NULL_DATA);
@@ -472,7 +472,7 @@ TEST(CFilesCompressMap, FilesAndBytesAreThoseOfTheTool) {
     EXPECT_TRUE(output.text() == bytes);
     tspace_Error error;
     EXPECT_EQ(tspace_compressMapFile("none.png", "out.dds", nullptr, nullptr, &error), TSPACE_ERROR_CANNOT_READ);
-    EXPECT_EQ(tspace_compressMapFile("bump.png", "out.png", nullptr, nullptr, &error), TSPACE_ERROR_UNSUPPORTED_FILE);
+    EXPECT_EQ(tspace_compressMapFile("bump.png", "out.png", nullptr, nullptr, &error), TSPACE_ERROR_INVALID_OPTION);
     EXPECT_EQ(tspace_compressMapFile("bump.png", "out.dds", R"({"format":"uastc"})", nullptr, &error),
               TSPACE_ERROR_INVALID_OPTION);
     EXPECT_NE(std::string(error.message).find("basisu"), std::string::npos) << error.message;

@@ -340,7 +340,7 @@ TEST(FlipGreenFile, WritesTheFormatOfTheNameAtOnceOrNothing) {
     ASSERT_TRUE(report) << report.error().message;
     EXPECT_EQ(report->format, ImageFileFormat::png);
     EXPECT_TRUE(report->is_exact);
-    EXPECT_EQ(flipGreenFile(in, folder.path("out.tga").string()).error().code, ErrorCode::unsupportedFile);
+    EXPECT_EQ(flipGreenFile(in, folder.path("out.tga").string()).error().code, ErrorCode::invalidOption);
     EXPECT_EQ(flipGreenFile(folder.path("none.png").string(), folder.path("b.png").string()).error().code,
               ErrorCode::cannotRead);
     EXPECT_FALSE(std::filesystem::exists(folder.path("b.png")));

@@ -398,7 +398,7 @@ TEST(GenerateGltf, RefusesOtherOutputs) {
     const std::string input = folder.write("in.glb", gridModel(Grid(4)).glb());
     const auto obj = generateFile(input, folder.path("out.obj").string());
     ASSERT_FALSE(obj);
-    EXPECT_EQ(obj.error().code, ErrorCode::unsupportedFile);
+    EXPECT_EQ(obj.error().code, ErrorCode::invalidOption);
     EXPECT_EQ(folder.entryCount(), 1u);
 }
 

@@ -294,7 +294,7 @@ TEST(ConvertMapCommand, SaysInOneLineWhatIsWrong) {
              {"bump.png -o b.png --to-convention three", 2},
              {"bump.png -o b.png --bits 12", 2},
              {"bump.png -o b.png --from-convention quake", 2},
-             {"bump.png -o b.bmp", 3},
+             {"bump.png -o b.bmp", 2},
              {"broken.png -o b.png", 3},
              {"text.png -o b.png", 3},
              {"bump.png -o b.png --mesh broken.glb", 3},

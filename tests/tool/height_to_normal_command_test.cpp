@@ -104,7 +104,7 @@ TEST(HeightToNormalCommand, SaysWhatIsOdd) {
               std::string::npos);
     folder.write("color.png", pngFile(normalMapOf(16, bumps)));
     EXPECT_NE(runTool(folder, "height-to-normal color.png -o n.png").out.find("has colors"), std::string::npos);
-    EXPECT_EQ(runTool(folder, "height-to-normal height.png -o n.jpg").exit_code, 3);
+    EXPECT_EQ(runTool(folder, "height-to-normal height.png -o n.jpg").exit_code, 2);
     EXPECT_EQ(runTool(folder, "height-to-normal height.png -o n.png --strength x").exit_code, 2);
     EXPECT_EQ(runTool(folder, "height-to-normal none.png -o n.png").exit_code, 4);
 }

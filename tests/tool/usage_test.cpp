@@ -19,7 +19,6 @@ TEST(Usage, WrongCommandLinesExitWithTwoAndOneLine) {
     writeFoldedObj(folder, "a.obj");
     writeFoldedObj(folder, "b.obj");
     const std::vector<std::string> wrong = {
-        "",
         "nonsense",
         "generate",
         "generate a.obj",
@@ -86,6 +85,56 @@ TEST(Usage, ACommandThatDoesNotExistIsNamed) {
     }
 }
 
+TEST(Usage, WithoutACommandTheToolListsAllCommands) {
+    const ToolRun run = runTool(TempFolder(), "");
+    EXPECT_EQ(run.exit_code, 2);
+    for (const char* name : {"generate", "check", "identify", "bake"})
+        EXPECT_NE(run.out.find(name), std::string::npos) << run.out;
+}
+
+TEST(Usage, AWordOfOtherToolsIsAnsweredWithTheCommandLine) {
+    for (const auto& [word, says] : {std::pair("fix", "generate --repair IN"),
+                                     {"repair", "generate --repair IN"},
+                                     {"version", "tspace --version"},
+                                     {"validate", "check IN"}}) {
+        const ToolRun run = runTool(TempFolder(), word);
+        EXPECT_EQ(run.exit_code, 2) << word;
+        EXPECT_EQ(run.errorLines(), 1) << run.err;
+        EXPECT_NE(run.err.find(says), std::string::npos) << run.err;
+    }
+}
+
+TEST(Usage, AnImageInPlaceOfAModelIsAnsweredWithTheCommandForImagesAndTheReverse) {
+    for (const char* command : {"identify a.png", "inspect a.KTX2", "render a.png -o b.png", "generate a.jpg -o b.glb",
+                                "finish a.dds -o b.glb", "diff a.png b.png", "bake a.png --high b.glb -o c.png"}) {
+        const ToolRun run = runTool(TempFolder(), command);
+        EXPECT_EQ(run.exit_code, 2) << command;
+        EXPECT_EQ(run.errorLines(), 1) << run.err;
+        EXPECT_NE(run.err.find("tspace check"), std::string::npos) << run.err;
+    }
+    for (const char* command : {"flip-green a.glb -o b.png", "convert-map a.gltf --mesh a.glb --to-mesh b.glb -o b.png",
+                                "compress-map a.obj -o b.ktx2", "height-to-normal a.glb -o b.png"}) {
+        const ToolRun run = runTool(TempFolder(), command);
+        EXPECT_EQ(run.exit_code, 2) << command;
+        EXPECT_NE(run.err.find("tspace generate --flip-green"), std::string::npos) << run.err;
+    }
+}
+
+TEST(Usage, AWrongExtensionOfAnOutputIsAWrongCommandLineInEveryCommand) {
+    const TempFolder folder;
+    for (const char* command :
+         {"generate a.glb -o b.foo", "finish a.glb -o b.foo", "bake a.glb --high a.glb -o b.foo",
+          "bake a.glb --high a.glb -o b.png --out-mesh c.foo", "flip-green a.png -o b.foo",
+          "height-to-normal a.png -o b.foo", "convert-map a.png --mesh a.glb --to-mesh b.glb -o b.foo",
+          "compress-map a.png -o b.foo", "render a.glb -o b.foo", "check a.glb --html b.pdf",
+          "diff a.glb b.glb --html b.pdf", "finish a.glb -o b.glb --html b.pdf", "view a.glb -o b.pdf"}) {
+        const ToolRun run = runTool(folder, command);
+        EXPECT_EQ(run.exit_code, 2) << command << "\n" << run.err;
+        EXPECT_EQ(run.errorLines(), 1) << run.err;
+        EXPECT_NE(run.err.find("must end in ."), std::string::npos) << run.err;
+    }
+}
+
 TEST(Usage, AMistypedWordIsAnsweredWithTheOneThatIsNear) {
     struct Case {
         const char* arguments;
@@ -139,7 +188,6 @@ TEST(Usage, AWrongLineSaysWhatIsWrongWithIt) {
         const char* says;
     };
     const std::vector<Case> cases = {
-        {"", "a command is missing"},
         {"--json check a.obj", "a command comes first"},
         {"inspect", "IN... is missing"},
         {"diff a.obj", "B is missing"},

@@ -85,10 +85,9 @@ TEST(ViewCommand, FollowsTheRulesForFilesThatAModelNames) {
     fs::create_symlink("../bump.png", installed.folder().path() / "m" / "link.png");
     for (const char* name : {"long", "m/out"}) {
         const ToolRun run = installed.run("view " + std::string(name) + ".gltf -o x.html");
-        EXPECT_EQ(run.exit_code, 3) << run.err;
-        EXPECT_EQ(run.errorLines(), 1) << run.err;
-        EXPECT_NE(run.err.find("/images/0/uri"), std::string::npos) << run.err;
-        EXPECT_FALSE(fs::exists(installed.folder().path() / "x.html"));
+        EXPECT_EQ(run.exit_code, 0) << run.err;
+        EXPECT_EQ(installed.folder().read("x.html").find("data:image/png"), std::string::npos)
+            << "an image from outside";
     }
     installed.folder().write("m/in.gltf", model("./sub/./bump.png"));
     installed.folder().write("m/sub/bump.png", installed.folder().read("bump.png"));

@@ -150,6 +150,7 @@ Command bakeCommand() {
     command.add(kReporting, text("--report", "JSON", arguments.report, "Also write the result as JSON to this file."))
         .is_file = true;
     addReporting(command, arguments.json, arguments.quiet);
+    command.reads = Reads::models;
     command.run = [owned] {
         owned->options.file.importer = importerPath();
         return owned->pairs.empty() ? runBake(*owned) : runPairs(*owned);

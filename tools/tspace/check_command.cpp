@@ -38,11 +38,10 @@ void addCheckReporting(Command& command, CheckArguments& arguments) {
                                                  "Write the findings to this file as SARIF 2.1.0, which CI systems "
                                                  "show beside the code; '-': to stdout, in place of the text."));
     sarif.is_file = true;
-    command
-        .add(kReporting, text("--html", "FILE", arguments.html,
-                              "Write the findings to this file as a page for people, with pictures of their places, "
-                              "before and after. It needs no other file."))
-        .is_file = true;
+    command.add(kReporting,
+                htmlOutput("--html", "FILE", arguments.html,
+                           "Write the findings to this file as a page for people, with pictures of their places, "
+                           "before and after. It needs no other file."));
     command.add(kReporting, choice("--color", "WHEN", kColors, arguments.color,
                                    "Colour severities: always, never, or auto: on a terminal, unless the environment "
                                    "variable NO_COLOR is set."));

@@ -18,6 +18,9 @@ namespace tspace::tool {
 
 using namespace tspace::options;  // NOLINT: the words of the table
 
+/// What the first operand of a command must be, as far as its name tells.
+enum class Reads { anything, models, images };
+
 /// A command owns its arguments, and its copies share them: options write them, and `run` reads them.
 struct Command {
     std::string name = {};                   ///< set by the table
@@ -30,6 +33,7 @@ struct Command {
     std::function<std::string(const Given& given)> finish = {};
     /// Does what the options ask for, prints, and says how it went.
     std::function<report::ExitCode()> run = {};
+    Reads reads = Reads::anything;
     bool keeps_freed_memory = false;  ///< memory that one primitive gave back serves the next one (main.cpp)
 
     Option& add(const char* group, Option option) { return options::add(options, group, std::move(option)); }

@@ -69,6 +69,7 @@ Command compressMapCommand() {
     command.add(group, output);
     command.add(compressMapOptions(arguments.options));
     addReporting(command, arguments.json, arguments.quiet);
+    command.reads = Reads::images;
     command.run = [owned] { return runCompressMap(*owned); };
     return command;
 }

@@ -23,7 +23,9 @@ void printPlain(std::string_view text) noexcept {
 }
 
 ExitCode printError(const std::string& file, const Error& error) {
-    std::string line = "tspace: " + printable(file) + ": " + printable(error.message);
+    // A wrong option is no fault of the file.
+    const std::string about = error.code == ErrorCode::invalidOption ? "" : printable(file) + ": ";
+    std::string line = "tspace: " + about + printable(error.message);
     if (!error.place.empty() && error.place != file) line += " (at " + printable(error.place) + ")";
     printLine(line);
     return report::exitCodeOf(error.code);

@@ -65,6 +65,7 @@ Command convertMapCommand() {
     command.add(group, output);
     command.add(convertMapOptions(arguments.options));
     addReporting(command, arguments.json, arguments.quiet);
+    command.reads = Reads::images;
     command.run = [owned] {
         owned->options.file.importer = importerPath();
         return runConvertMap(*owned);

@@ -73,13 +73,12 @@ Command diffCommand() {
     command.add(kInputAndOutput, operand("A", arguments.a, "A model file."));
     command.add(kInputAndOutput, operand("B", arguments.b, "Another one."));
     command.add(diffOptions(arguments.request));
-    command
-        .add(kReporting,
-             text("--html", "FILE", arguments.html,
-                  "Write the comparison to this file as a page for people, with a heat map of the angles and "
-                  "pictures of the worst places. It needs no other file."))
-        .is_file = true;
+    command.add(kReporting,
+                htmlOutput("--html", "FILE", arguments.html,
+                           "Write the comparison to this file as a page for people, with a heat map of the angles and "
+                           "pictures of the worst places. It needs no other file."));
     addReporting(command, arguments.json, arguments.quiet);
+    command.reads = Reads::models;
     command.run = [owned] {
         owned->request.options.file.importer = importerPath();
         return runDiff(*owned);

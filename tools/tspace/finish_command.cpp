@@ -108,6 +108,7 @@ Command finishCommand() {
     command.add(kReporting, text("--report", "JSON", arguments.report, "Also write the result as JSON to this file."))
         .is_file = true;
     addReporting(command, arguments.json, arguments.quiet);
+    command.reads = Reads::models;
     command.run = [owned] {
         owned->options.file.importer = importerPath();
         return runFinish(*owned);

@@ -75,6 +75,7 @@ Command flipGreenCommand() {
     in_place.excludes = {"--output"};
     command.add(flipGreenOptions(arguments.options));
     addReporting(command, arguments.json, arguments.quiet);
+    command.reads = Reads::images;
     command.run = [owned] { return runFlipGreen(*owned); };
     return command;
 }

@@ -244,6 +244,7 @@ Command generateCommand() {
     addBatch(command, arguments.batch, true);
     addReporting(command, arguments.json, arguments.quiet);
     command.keeps_freed_memory = true;
+    command.reads = Reads::models;
     command.run = [owned] {
         owned->options.file.importer = importerPath();
         return runGenerate(*owned);

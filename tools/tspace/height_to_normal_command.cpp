@@ -64,6 +64,7 @@ Command heightToNormalCommand() {
     command.add(group, output);
     command.add(heightToNormalOptions(arguments.options));
     addReporting(command, arguments.json, arguments.quiet);
+    command.reads = Reads::images;
     command.run = [owned] {
         owned->options.file.importer = importerPath();
         return runHeightToNormal(*owned);

@@ -61,6 +61,7 @@ Command identifyCommand() {
     command.add(identifyOptions(arguments.options));
     addBatch(command, arguments.batch, false);
     addReporting(command, arguments.json, arguments.quiet);
+    command.reads = Reads::models;
     command.run = [owned] {
         owned->options.file.importer = importerPath();
         return runIdentify(*owned);

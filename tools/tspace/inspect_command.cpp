@@ -56,6 +56,7 @@ Command inspectCommand() {
     command.add(inspectOptions(arguments.file));
     addBatch(command, arguments.batch, false);
     addReporting(command, arguments.json, arguments.quiet);
+    command.reads = Reads::models;
     command.run = [owned] {
         owned->file.importer = importerPath();
         return runInspect(*owned);

@@ -144,7 +144,7 @@ Result<std::vector<Job>> jobWithNamedOutput(const JobRequest& request) {
         job.remark = "the output has no extension, so it is the file " + job.output + "; a folder would be " +
                      request.output + "/";
     } else if (!isGltfName(job.output)) {
-        return usage("the output must end in .glb, .vrm or .gltf: " + job.output);
+        return usage("the output '" + job.output + "' must end in .glb, .vrm or .gltf");
     } else if (request.container != Container::sameAsInput && is_glb != (request.container == Container::glb)) {
         return usage("--container says otherwise than the name of the output: " + job.output);
     }

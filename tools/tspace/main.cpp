@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Starts the command that the command line asks for.
+#include <algorithm>
 #include <exception>
+#include <initializer_list>
 #include <new>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #ifdef __GLIBC__
@@ -16,6 +19,7 @@
 #include "console.h"
 #include "help.h"
 #include "interrupt.h"
+#include "model/io/path.h"
 #include "page_origin.h"
 #include "read_command_line.h"
 #include "system.h"
@@ -44,6 +48,45 @@ void giveMemoryBack() {
 
 ExitCode print(const std::string& page) { return printResult(page) ? ExitCode::done : ExitCode::cannotReadOrWrite; }
 
+/// Words that people try, and the command line that does it.
+struct Synonym {
+    std::string_view word;
+    const char* command_line;
+};
+constexpr Synonym kSynonyms[] = {
+    {"add", "generate IN -o OUT"},
+    {"compare", "diff A B"},
+    {"convert", "convert-map IN -o OUT"},
+    {"fix", "generate --repair IN -o OUT"},
+    {"flip", "flip-green IN -o OUT"},
+    {"info", "inspect IN"},
+    {"lint", "check IN"},
+    {"repair", "generate --repair IN -o OUT"},
+    {"tangents", "generate IN -o OUT"},
+    {"validate", "check IN"},
+    {"version", "--version"},
+};
+
+/// Returns a message where the names of all inputs say that another command is meant.
+std::string wrongKindOfInput(const Command& command, const Given& given) {
+    constexpr std::string_view kImages[] = {".png", ".jpg", ".jpeg", ".webp", ".exr", ".ktx2", ".dds", ".tga"};
+    constexpr std::string_view kModels[] = {".glb", ".gltf", ".vrm", ".obj", ".fbx"};
+    const bool is_for_models = command.reads == Reads::models;
+    const std::span<const std::string_view> wrong =
+        is_for_models ? std::span<const std::string_view>(kImages) : kModels;
+    std::string input;
+    for (const Given::Item& item : given.items) {
+        if (!item.option->names.empty()) continue;
+        if (std::find(wrong.begin(), wrong.end(), tspace::lowerExtension(item.value)) == wrong.end()) return {};
+        if (input.empty()) input = item.value;
+    }
+    if (input.empty() || command.reads == Reads::anything) return {};
+    if (is_for_models)
+        return command.name + " reads models, but '" + input + "' is an image; tspace check judges a normal map";
+    return command.name + " reads images, but '" + input +
+           "' is a model; tspace generate --flip-green and --convert-maps change the maps of a model";
+}
+
 /// Handles a first word that is no command.
 ExitCode runWithoutCommand(const std::string& word) {
     const ToolTable tool = toolTable();
@@ -53,6 +96,10 @@ ExitCode runWithoutCommand(const std::string& word) {
     std::vector<std::string> names;
     if (!word.starts_with('-')) {
         for (const Command& command : tool.commands) names.push_back(command.name);
+        for (const Synonym& synonym : kSynonyms) {
+            if (word == synonym.word)
+                return printUsageError("there is no command '" + word + "'; use tspace " + synonym.command_line + see);
+        }
         return printUsageError("there is no command '" + word + "'" + didYouMean(word, names) + see);
     }
     for (const Option& option : tool.options) names.insert(names.end(), option.names.begin(), option.names.end());
@@ -61,7 +108,7 @@ ExitCode runWithoutCommand(const std::string& word) {
 }
 
 ExitCode run(int argc, char** argv) {
-    if (argc < 2) return printUsageError("a command is missing (see tspace --help)");
+    if (argc < 2) return print(helpPage(toolTable())) == ExitCode::done ? ExitCode::usage : ExitCode::cannotReadOrWrite;
     const std::optional<Command> command = findCommand(argv[1]);
     if (!command) return runWithoutCommand(argv[1]);
     Given given;
@@ -69,6 +116,8 @@ ExitCode run(int argc, char** argv) {
     const std::string wrong = readCommandLine(*command, arguments, given);
     if (!wrong.empty()) return printUsageError(wrong + " (see tspace " + command->name + " --help)");
     if (given.has("--help")) return print(helpPage(*command));
+    const std::string wrong_kind = wrongKindOfInput(*command, given);
+    if (!wrong_kind.empty()) return printUsageError(wrong_kind);
     command->keeps_freed_memory ? keepFreedMemory() : giveMemoryBack();
     return command->run();
 }

@@ -36,7 +36,7 @@ ExitCode runRender(const RenderArguments& arguments) {
     if (goesToTerminal(arguments))
         return printUsageError("a picture is no text for a terminal; send stdout to a file or a pipe");
     if (!to_stdout && lowerExtension(arguments.output) != ".png")
-        return printUsageError("the picture " + arguments.output + " must end in .png");
+        return printUsageError("the output '" + arguments.output + "' must end in .png");
     const Result<Done> fit = prepareOutputs({arguments.output}, {arguments.input}, arguments.options.dry_run);
     if (!fit) return printUsageError(fit.error().message);
     const Result<RenderReport> result = render(arguments);
@@ -75,6 +75,7 @@ Command renderCommand() {
     output.is_file = output.is_required = true;
     command.add(renderOptions(arguments.options));
     addReporting(command, arguments.json, arguments.quiet);
+    command.reads = Reads::models;
     command.run = [owned] {
         owned->options.file.importer = importerPath();
         return runRender(*owned);

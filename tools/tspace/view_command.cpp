@@ -82,9 +82,10 @@ Command viewCommand() {
     const char* group = kInputAndOutput;
     command.add(group,
                 operand("IN", arguments.input, "A model: .glb, .vrm, .gltf or .obj; what it names goes in too."));
-    command.add(group, text("-o, --output", "OUT", arguments.output, "Where to write the page.")).is_file = true;
+    command.add(group, htmlOutput("-o, --output", "OUT", arguments.output, "Where to write the page."));
     command.add(inspectOptions(arguments.file));
     addReporting(command, arguments.json, arguments.quiet);
+    command.reads = Reads::models;
     command.run = [owned] { return runView(*owned); };
     return command;
 }

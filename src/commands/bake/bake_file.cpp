@@ -22,6 +22,7 @@
 #include "model/io/atomic_output.h"
 #include "model/io/file_error.h"
 #include "model/io/file_io.h"
+#include "model/io/output_name.h"
 
 namespace tspace {
 namespace {
@@ -101,9 +102,7 @@ class FileBaking {
             options_.map.bits = 8;
             return;
         }
-        if (!isTextureName(output_))
-            failFile(ErrorCode::unsupportedFile,
-                     "the output " + pathInQuotes(output_) + " ends in none of .png, .tga, .ktx2 and .dds");
+        if (!isTextureName(output_)) failEnding(output_, {".png", ".tga", ".ktx2", ".dds"});
         if (!options_.layers.layers.empty() || !options_.layers.has_normal)
             failFile(ErrorCode::invalidOption, "other maps than normals are written as .png alone");
         if (!options_.out_mesh.empty())
@@ -123,9 +122,7 @@ class FileBaking {
     /// A model that is written reads the map as glTF says.
     void checkOutMesh() const {
         if (options_.out_mesh.empty()) return;
-        if (!isGltfName(options_.out_mesh))
-            failFile(ErrorCode::unsupportedFile,
-                     "the output " + pathInQuotes(options_.out_mesh) + " is neither .glb nor .gltf");
+        if (!isGltfName(options_.out_mesh)) failEnding(options_.out_mesh, {".glb", ".vrm", ".gltf"});
         if (options_.udim) failFile(ErrorCode::invalidOption, "a glTF model has one image per material, and no tiles");
         if (options_.map.space == MapSpace::object)
             failFile(ErrorCode::invalidOption, "normal maps of glTF models are in tangent space");

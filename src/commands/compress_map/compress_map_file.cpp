@@ -15,6 +15,7 @@
 #include "maps/shading.h"
 #include "model/io/atomic_output.h"
 #include "model/io/file_error.h"
+#include "model/io/output_name.h"
 
 namespace tspace {
 namespace {
@@ -27,8 +28,8 @@ Container containerOf(const std::string& output, bool takes_png) {
     if (extension == ".ktx2") return Container::ktx2;
     if (extension == ".dds") return Container::dds;
     if (extension == ".png" && takes_png) return Container::png;
-    failFile(ErrorCode::unsupportedFile, "the output " + pathInQuotes(output) + " ends in none of .ktx2, .dds" +
-                                             (takes_png ? ", .png" : "") + " and / (a folder of PNGs)");
+    if (takes_png) failEnding(output, {".ktx2", ".dds", ".png", "/ (a folder of PNGs)"});
+    failEnding(output, {".ktx2", ".dds", "/ (a folder of PNGs)"});
 }
 
 [[noreturn]] void failAstcenc() { failFile(ErrorCode::outOfMemory, "the library astcenc fails to pack the levels"); }

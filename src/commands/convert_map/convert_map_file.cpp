@@ -17,6 +17,7 @@
 #include "model/io/atomic_output.h"
 #include "model/io/file_error.h"
 #include "model/io/file_io.h"
+#include "model/io/output_name.h"
 
 namespace tspace {
 namespace {
@@ -183,8 +184,7 @@ ImageFormat outputFormat(const std::string& output, const ConvertMapFileOptions&
     const ImageFormat format = extension == ".exr" ? ImageFormat::exr : ImageFormat::png;
     const bool is_tga = !options.sink && isTgaName(output);
     if (!options.sink && extension != ".png" && extension != ".exr" && !is_tga)
-        failFile(ErrorCode::unsupportedFile,
-                 "the output " + pathInQuotes(output) + " ends in none of .png, .exr, .tga, .ktx2 and .dds");
+        failEnding(output, {".png", ".exr", ".tga", ".ktx2", ".dds"});
     if (is_tga && options.bits > 8) failFile(ErrorCode::invalidOption, "a TGA has 8 bits");
     if (const char* why_not = whyNotRead(format))
         failFile(ErrorCode::unsupportedFile, "the output cannot be written: " + std::string(why_not));

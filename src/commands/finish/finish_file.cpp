@@ -18,6 +18,7 @@
 #include "model/io/atomic_output.h"
 #include "model/io/file_error.h"
 #include "model/io/file_io.h"
+#include "model/io/output_name.h"
 #include "model/read/read_scene.h"
 
 namespace tspace {
@@ -253,9 +254,7 @@ class Finishing {
     explicit Finishing(const FinishOptions& options) : options_(options) { inputs_.watch(options_.file); }
 
     FinishReport run(const std::string& input, const std::string& output) {
-        if (!isGlbName(output))
-            failFile(ErrorCode::unsupportedFile,
-                     "the output " + pathInQuotes(output) + " ends in neither .glb nor .vrm");
+        requireEnding(output, {".glb", ".vrm"});
         // The low poly first: it is small, and what is wrong with it is known soon.
         ModelInWork model(input, output, false, options_, report_.model);
         if (options_.low.empty()) {

@@ -80,10 +80,10 @@ OptionList finishOptions(FinishOptions& options) {
     addRunning(list, options.execution,
                "Number of threads; 0: as many as there are cores. Changes no bit of the result.", options.file);
     add(list, kReporting,
-        text("--html", "PAGE", options.page,
-             "Also write a page for people, with pictures before and after, and what check finds. It needs no other "
-             "file."))
-        .is_file = true;
+        htmlOutput(
+            "--html", "PAGE", options.page,
+            "Also write a page for people, with pictures before and after, and what check finds. It needs no other "
+            "file."));
     return list;
 }
 

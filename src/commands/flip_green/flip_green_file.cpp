@@ -8,6 +8,7 @@
 #include "model/io/atomic_output.h"
 #include "model/io/file_error.h"
 #include "model/io/memory_budget.h"
+#include "model/io/output_name.h"
 #include "tspace/flip_green.h"
 
 namespace tspace {
@@ -49,8 +50,7 @@ ImageFileFormat namedFormat(const std::string& output) {
     if (extension == ".webp") return ImageFileFormat::webp;
     if (extension == ".ktx2") return ImageFileFormat::ktx2;
     if (extension == ".dds") return ImageFileFormat::dds;
-    failFile(ErrorCode::unsupportedFile,
-             "the output " + pathInQuotes(output) + " ends in none of .png, .jpg, .jpeg, .webp, .ktx2 and .dds");
+    failEnding(output, {".png", ".jpg", ".jpeg", ".webp", ".ktx2", ".dds"});
 }
 
 }  // namespace

@@ -15,6 +15,7 @@
 #include "model/gltf/packed.h"
 #include "model/io/atomic_output.h"
 #include "model/io/file_error.h"
+#include "model/io/output_name.h"
 #include "model/obj/obj_primitives.h"
 #include "model/obj/obj_reader.h"
 #include "model/obj/obj_writer.h"
@@ -127,9 +128,7 @@ namespace {
 using namespace obj;
 
 void checkOutput(const std::string& output) {
-    if (!isGltfName(output) && !isGlbOutput(output)) {
-        failFile(ErrorCode::invalidOption, "the output must end in .glb, .vrm or .gltf: " + output);
-    }
+    if (!isGltfName(output) && !isGlbOutput(output)) failEnding(output, {".glb", ".vrm", ".gltf"});
 }
 
 /// Sets action and reason. true when tangents are to be computed.

@@ -11,6 +11,7 @@
 #include "model/io/atomic_output.h"
 #include "model/io/file_error.h"
 #include "model/io/file_io.h"
+#include "model/io/output_name.h"
 #include "tspace/map_height_file.h"
 
 namespace tspace {
@@ -73,8 +74,7 @@ HeightToNormalFileReport convertHeights(const std::string& input, const std::str
     HeightToNormalFileOptions options = requested;
     inputs.watch(options.file);
     if (options.content.data() == nullptr) inputs.add(input);
-    if (!options.sink && lowerExtension(output) != ".png")
-        failFile(ErrorCode::unsupportedFile, "the output " + pathInQuotes(output) + " does not end in .png");
+    if (!options.sink) requireEnding(output, {".png"});
     if (const char* why_not = whyNotRead(ImageFormat::png))
         failFile(ErrorCode::unsupportedFile, "the output cannot be written: " + std::string(why_not));
     if (options.bits != 8 && options.bits != 16) failFile(ErrorCode::invalidOption, "a PNG has 8 or 16 bits");

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <optional>
 
+#include "model/io/path.h"
 #include "model/json/json.h"
 
 namespace tspace::options {
@@ -32,8 +33,7 @@ std::string givePart(const Option& option, const std::string& value) {
         constexpr std::size_t kMostListed = 12;
         wrong = option.take(value);  // says of some names why they are none
         if (wrong.empty()) {
-            wrong = choices.size() <= kMostListed ? "must be one of " + joined(choices)
-                                                  : "there is no such " + option.value;
+            wrong = choices.size() <= kMostListed ? "must be one of " + joined(choices) : "not a known " + option.value;
             wrong += didYouMean(value, choices);
         }
     } else {
@@ -160,6 +160,18 @@ Option text(const char* names, const char* value_name, std::string& target, Help
         return std::string();
     };
     return option(names, value_name, take, std::move(help));
+}
+
+Option htmlOutput(const char* names, const char* value_name, std::string& target, HelpText help) {
+    const auto take = [&target](const std::string& given) -> std::string {
+        const std::string extension = lowerExtension(given);
+        if (!extension.empty() && extension != ".html" && extension != ".htm") return "must end in .html";
+        target = given;
+        return {};
+    };
+    Option made = option(names, value_name, take, std::move(help));
+    made.is_file = true;
+    return made;
 }
 
 Option numberOption(const char* names, std::uint64_t default_value, unsigned most,

@@ -102,6 +102,8 @@ Option degreesOption(const char* names, double default_value, int most, std::fun
                      HelpText help);
 
 Option text(const char* names, const char* value_name, std::string& target, HelpText help);
+/// The name of an HTML file that is written: any name without an extension (a pipe, a device), else one that ends in .html or .htm.
+Option htmlOutput(const char* names, const char* value_name, std::string& target, HelpText help);
 /// A whole number from 0 to `most`. The default is what `target` holds.
 template <class Unsigned>
 Option number(const char* names, Unsigned& target, unsigned most, HelpText help) {

@@ -10,6 +10,7 @@
 #include "model/gltf/meshopt_views.h"
 #include "model/io/file_error.h"
 #include "model/io/folder_rule.h"
+#include "model/io/output_name.h"
 #include "model/io/uri.h"
 
 namespace tspace::gltf {
@@ -336,9 +337,7 @@ std::span<const std::uint8_t> bytesOf(const std::string& text) {
 OutputTarget outputTarget(const Document& document, const Path& path, bool is_stream) {
     OutputTarget target;
     target.path = path;
-    if (!isGltfName(path) && !isGlbOutput(path)) {
-        failFile(ErrorCode::unsupportedFile, "the output " + pathInQuotes(path) + " is neither .glb nor .gltf");
-    }
+    if (!isGltfName(path) && !isGlbOutput(path)) failEnding(path, {".glb", ".vrm", ".gltf"});
     target.container = isGlbOutput(path) ? Container::glb : Container::gltf;
     target.takes_images_in =
         target.container == Container::glb && (document.container == Container::gltf || document.imported);
