@@ -27,6 +27,11 @@ ErrorCode codeOf(const Result<Value>& result) {
     return result.error().code;
 }
 
+/// After an allocation failed inside of Embree, the process refuses to call it: its locks may stay locked.
+inline bool isEmbreeRefused() {
+    return std::string_view(last_message.data()).starts_with("Embree ran out of memory earlier");
+}
+
 /// Calls call() with an allocation that fails, the first, the second and so on, until one comes back that needed fewer; once
 /// with that one alone, once with all that follow. call() gives an ErrorCode; look(k) is asked after each.
 template <class Call, class Look>
@@ -39,6 +44,7 @@ void failEachAllocation(const char* name, const Call& call, const Look& look) {
             failAllocation(k, all_after);
             const ErrorCode code = call();
             const bool was_reached = stopFailing();
+            if (code == ErrorCode::outOfMemory && isEmbreeRefused()) return look(k, code);
             if (!was_reached && code != ErrorCode::ok)
                 FAIL() << name << ": " << errorName(code) << " without a failure";
             if (!was_reached) {
@@ -88,7 +94,9 @@ class FailingMemory : public ::testing::Test {
     template <class Call>
     void onlyReads(const char* name, const Call& call) {
         const std::set<std::string> files = folder_.files();
-        ASSERT_EQ(call(), ErrorCode::ok) << name;
+        const ErrorCode whole_code = call();
+        if (whole_code == ErrorCode::outOfMemory && isEmbreeRefused()) return;
+        ASSERT_EQ(whole_code, ErrorCode::ok) << name;
         failEachAllocation(name, call,
                            [&](long k, ErrorCode) { EXPECT_EQ(folder_.files(), files) << name << " " << k; });
     }
@@ -96,7 +104,9 @@ class FailingMemory : public ::testing::Test {
     template <class Call>
     void writesOne(const char* name, const std::string& output, const Call& call) {
         std::filesystem::remove(at(output));
-        ASSERT_EQ(call(), ErrorCode::ok) << name;
+        const ErrorCode whole_code = call();
+        if (whole_code == ErrorCode::outOfMemory && isEmbreeRefused()) return;
+        ASSERT_EQ(whole_code, ErrorCode::ok) << name;
         const std::string whole = folder_.read(output);
         const std::set<std::string> files = folder_.files();
         folder_.write(output, std::string("old"));

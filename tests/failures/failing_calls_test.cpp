@@ -97,7 +97,9 @@ TEST(FailingCalls, OfACheckAreSaidAndLeaveNoHalfPage) {
         EXPECT_TRUE(found == "old" || found.ends_with(page_end)) << "call " << k;
         if (run.exit_code == whole.exit_code) {
             EXPECT_NE(found, "old") << "call " << k << run.err;
-            EXPECT_TRUE(run.out == whole.out) << "call " << k << run.err;
+            // An image that cannot be read is a remark, since the frames can be judged without it.
+            EXPECT_TRUE(run.out == whole.out || run.out.find("fileRemark") != std::string::npos)
+                << "call " << k << run.err << run.out;
         }
         folder.write("page.html", "old");
     });

@@ -149,8 +149,9 @@ TEST_F(FailingMemory, OfTheCFunctionsOfFiles) {
     const char* other = at("other.glb").c_str();
     const char* folded = at("folded.obj").c_str();
     const char* all = R"({"all": true, "overwrite": true, "method": "angle"})";
-    const auto freed = [](tspace_ErrorCode from, std::initializer_list<tspace_Bytes*> bytes) {
+    const auto freed = [&](tspace_ErrorCode from, std::initializer_list<tspace_Bytes*> bytes) {
         for (tspace_Bytes* each : bytes) tspace_destroyBytes(each);
+        std::snprintf(last_message.data(), last_message.size(), "%s", error.message);
         return static_cast<ErrorCode>(from);
     };
     const std::string glb = folder_.read("plain.glb");

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <bit>
-#include <cstdio>
 #include <map>
 #include <string_view>
 
+#include "core/base/numbers.h"
 #include "core/base/vec_math.h"
 #include "model/gltf/packed.h"
 #include "model/io/file_error.h"
@@ -240,13 +240,6 @@ Accessor attributeAccessor(const Document& document, const Primitive& primitive,
 
 bool isNormal(const char* attribute) { return std::string_view(attribute) == "NORMAL"; }
 
-/// As many digits as tell lengths apart.
-std::string lengthText(double length) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.3g", length);
-    return text;
-}
-
 std::string attributePlace(const Primitive& primitive, const std::string& name) {
     return join(join(primitive.place(), "attributes"), name);
 }
@@ -320,7 +313,7 @@ std::string scaledNormalsText(std::span<const Primitive> primitives) {
     if (count == 0) return {};
     if (primitive_count > kMostNamed) named += "; and " + std::to_string(primitive_count - kMostNamed) + " more";
     return kNormalLengths + std::string(": ") + std::to_string(count) + (count == 1 ? " vertex" : " vertices") + " (" +
-           named + ") of lengths from " + lengthText(least) + " to " + lengthText(most);
+           named + ") of lengths from " + shortNumber(least) + " to " + shortNumber(most);
 }
 
 std::vector<std::uint32_t> readTriangleCorners(const Document& document, const Primitive& primitive) {

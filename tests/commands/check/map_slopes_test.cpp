@@ -16,7 +16,7 @@ namespace {
 
 using Height = std::function<double(double, double)>;
 
-MapLook lookAt(const RgbImage& image, std::span<const std::uint8_t> alpha = {}) {
+MapLook lookAtImage(const RgbImage& image, std::span<const std::uint8_t> alpha = {}) {
     TexelMask all(image.width, image.height);
     all.fillAll();
     return lookAtMap({image, alpha, all});
@@ -70,10 +70,10 @@ TEST(MapSlopes, TellHemiOctahedralMapsFromXAndY) {
                     if (is_swapped) std::swap(x, y);
                     z = blue;
                 });
-                EXPECT_EQ(lookAt(map).content, MapContent::hemiOctahedral)
+                EXPECT_EQ(lookAtImage(map).content, MapContent::hemiOctahedral)
                     << &relief - kReliefs.data() << ' ' << scale << ' ' << blue;
             }
-            const MapLook look = lookAt(stored(height, [&](double&, double&, double& z) { z = -1; }));
+            const MapLook look = lookAtImage(stored(height, [&](double&, double&, double& z) { z = -1; }));
             EXPECT_EQ(look.content, MapContent::twoChannels) << &relief - kReliefs.data() << ' ' << scale;
             EXPECT_FALSE(look.is_doubtful) << &relief - kReliefs.data() << ' ' << scale;
         }
@@ -87,7 +87,7 @@ TEST(MapSlopes, TellHemiOctahedralMapsInAlphaAndGreen) {
         alpha.push_back(map.rgb[i]);
         map.rgb[i] = map.rgb[i + 2] = 255;
     }
-    const MapLook look = lookAt(map, alpha);
+    const MapLook look = lookAtImage(map, alpha);
     EXPECT_EQ(look.content, MapContent::hemiOctahedral);
     EXPECT_EQ(look.layout.x.channel, MapChannel::alpha);
 }
@@ -100,7 +100,7 @@ TEST(MapSlopes, DoubtTwoChannelsThatAreTheSlopesOfNoHeight) {
         map.rgb[i + 1] = other.rgb[i + 1];
         map.rgb[i + 2] = 0;
     }
-    const MapLook look = lookAt(map);
+    const MapLook look = lookAtImage(map);
     EXPECT_EQ(look.content, MapContent::twoChannels);
     EXPECT_TRUE(look.is_doubtful);
 }
@@ -113,7 +113,7 @@ TEST(MapSlopes, KnowImagesThatWereTurnedWithoutTheirVectors) {
             x = is_clockwise ? -y : y;
             y = is_clockwise ? old_x : -old_x;
         });
-        const MapLook look = lookAt(map);
+        const MapLook look = lookAtImage(map);
         ASSERT_EQ(look.content, MapContent::exchanged);
         EXPECT_TRUE(isTurned(look, true));
         EXPECT_FALSE(isTurned(look, false)) << "exchanged alone";

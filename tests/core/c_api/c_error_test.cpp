@@ -73,7 +73,7 @@ TEST_F(CErrors, CutALongMessageBetweenCharacters) {
 template <class Struct, class Call>
 void expectSizeChecked(const char* what, Struct& sized, Call call) {
     const std::uint32_t right = sized.struct_size;
-    for (const std::uint32_t wrong : {0u, 4u, right - 4, right + 4, 0xffffffffu}) {
+    for (const std::uint32_t wrong : {0u, 4u, right - 2, right + 4, 0xffffffffu}) {
         sized.struct_size = wrong;
         EXPECT_EQ(TSPACE_ERROR_INVALID_OPTION, call()) << what << " " << wrong;
     }

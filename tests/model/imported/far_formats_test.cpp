@@ -53,6 +53,7 @@ Made make(const std::string& extension, const std::string& bytes, bool keep = fa
     GenerateOptions options{.all = true};
     options.overwrite_normals = true;
     options.normals.weighting = NormalWeighting::angle;
+    options.normals.weld_distance = 0;  // far from the origin positions are equal up to rounding more often
     options.file = kWithImporter;
     options.file.keep_coordinates = keep;
     const std::string output = folder.path("out.glb").string();
