@@ -190,6 +190,7 @@ async function link(name, module, objects) {
 }
 
 // The system's own folder of headers would hide those of emscripten.
+mkdirSync(join(out, "include"), { recursive: true });
 for (const name of ["nlohmann", "tiny_obj_loader.h"])
   if (!existsSync(join(out, "include", name))) symlinkSync(join("/usr/include", name), join(out, "include", name));
 flags.push(`-I${join(out, "include")}`);

@@ -225,9 +225,9 @@ class Bakes(Files):
             tspace.finish_file(self.high, self.folder / "out.glb", high=self.high)
         with self.assertRaisesRegex(tspace.InputError, "^size 0: must"):
             tspace.bake_file(self.low, self.high, out, size=0)
-        with self.assertRaises(tspace.FileError) as caught:
+        with self.assertRaises(tspace.InputError) as caught:
             tspace.finish_file(self.high, self.folder / "out.gltf")
-        self.assertEqual(caught.exception.code, "unsupportedFile")
+        self.assertEqual(caught.exception.code, "invalidOption")
         self.assertEqual(list(self.folder.glob("out*")), [])
 
 
