@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/base/ascii.h"
 #include "images/codecs.h"
 #include "images/float_image.h"
 #include "images/loaded_library.h"
@@ -193,12 +194,6 @@ struct ExrChannels {
     }
 };
 
-std::string lowerText(std::string_view text) {
-    std::string lower(text);
-    for (char& letter : lower) letter = letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter;
-    return lower;
-}
-
 /// The names of channels of one layer ("layer.R"; empty: none), without the layer, in lower case.
 struct ExrLayer {
     std::string prefix = {};  ///< with the dot
@@ -207,7 +202,7 @@ struct ExrLayer {
     /// The channel of that lower case letter; empty where there is none.
     [[nodiscard]] std::string find(const char* letter) const {
         for (const std::string_view name : names) {
-            if (lowerText(name.substr(prefix.size())) == letter) return std::string(name);
+            if (lowerAscii(std::string(name.substr(prefix.size()))) == letter) return std::string(name);
         }
         return {};
     }
@@ -254,7 +249,7 @@ std::optional<ExrChannels> chooseExrChannels(std::span<const std::string_view> n
         if (!vectors) continue;
         if (layer.prefix.empty()) return vectors;
         found.push_back(*vectors);
-        if (lowerText(layer.prefix).find("normal") != std::string::npos) of_normals.push_back(*vectors);
+        if (lowerAscii(layer.prefix).find("normal") != std::string::npos) of_normals.push_back(*vectors);
     }
     if (of_normals.size() == 1) return of_normals.front();
     if (found.size() == 1) return found.front();

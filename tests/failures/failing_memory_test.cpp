@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "failures/each_allocation.h"
+#include "support/grid_obj.h"
 #include "tspace/bake_file.h"
 #include "tspace/check.h"
 #include "tspace/diff.h"
@@ -106,23 +107,7 @@ TEST_F(FailingMemory, OfFinish) {
 
 TEST_F(FailingMemory, ASinkThatThrowsEndsTheCallWithAnError) {
     // Large enough for helper threads.
-    std::string text;
-    constexpr int kSide = 150;
-    for (int y = 0; y <= kSide; ++y) {
-        for (int x = 0; x <= kSide; ++x) {
-            text += "v " + std::to_string(x) + " " + std::to_string(y) + " " + std::to_string((x * y) % 3) + "\n";
-            text += "vt " + std::to_string(x / 150.0) + " " + std::to_string(y / 150.0) + "\n";
-        }
-    }
-    for (int y = 0; y < kSide; ++y) {
-        for (int x = 0; x < kSide; ++x) {
-            const int a = y * (kSide + 1) + x + 1, b = a + kSide + 1;
-            for (const int corner : {a, a + 1, b + 1, b})
-                text += (corner == a ? "f " : " ") + std::to_string(corner) + "/" + std::to_string(corner);
-            text += "\n";
-        }
-    }
-    folder_.write("grid.obj", text);
+    folder_.write("grid.obj", gridObj(150, 0.01));
     for (const unsigned threads : {1U, 2U, 8U}) {
         for (int round = 0; round < 10; ++round) {
             GenerateOptions options;

@@ -8,30 +8,15 @@
 #include <string>
 #include <vector>
 
+#include "support/grid_obj.h"
 #include "tool/run_tool.h"
 
 namespace tspace::test {
 namespace {
 
-/// A waved grid with UVs and a material with a normal map, large enough for helper threads and arenas.
+/// A waved grid, large enough for helper threads and arenas.
 void writeGrid(const TempFolder& folder) {
-    constexpr int kSide = 150;
-    std::string text = "mtllib folded.mtl\nusemtl skin\n";
-    for (int y = 0; y <= kSide; ++y) {
-        for (int x = 0; x <= kSide; ++x) {
-            text += "v " + std::to_string(x) + " " + std::to_string(y) + " " + std::to_string((x * y) % 3) + "\n";
-            text += "vt " + std::to_string(x / 150.0) + " " + std::to_string(y / 150.0) + "\n";
-        }
-    }
-    for (int y = 0; y < kSide; ++y) {
-        for (int x = 0; x < kSide; ++x) {
-            const int a = y * (kSide + 1) + x + 1, b = a + kSide + 1;
-            for (const int corner : {a, a + 1, b + 1, b})
-                text += (corner == a ? "f " : " ") + std::to_string(corner) + "/" + std::to_string(corner);
-            text += "\n";
-        }
-    }
-    folder.write("grid.obj", text);
+    folder.write("grid.obj", "mtllib folded.mtl\n" + gridObj(150, 0.01, "usemtl skin\n"));
     EXPECT_EQ(runTool(folder, "generate grid.obj --all -q -o grid.glb").exit_code, 0);
 }
 

@@ -86,8 +86,9 @@ TEST_P(Models, SurviveRepairAndStrip) {
     if (!report) GTEST_SKIP() << report.error().message;
     const auto before = gltf::loadDocument(input_, {}), after = gltf::loadDocument(output, {});
     // Repair makes normals unit, and so writes other ones.
-    if (!hasFinding(input_.string(), FindingCode::normalsNotUnit)) {
-        for (const std::string& difference : test::differences(before, after, *report)) ADD_FAILURE() << difference;
+    const bool scales_normals = hasFinding(input_.string(), FindingCode::normalsNotUnit);
+    for (const std::string& difference : test::differences(before, after, *report)) {
+        if (!scales_normals || !difference.ends_with(" has other bytes")) ADD_FAILURE() << difference;
     }
     const Bytes first = readFile(output);
     const auto second = generateFile(output, output, options);

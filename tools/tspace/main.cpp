@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Starts the command that the command line asks for.
-#include <algorithm>
 #include <exception>
-#include <initializer_list>
 #include <new>
 #include <optional>
 #include <span>
@@ -67,21 +65,23 @@ constexpr Synonym kSynonyms[] = {
     {"version", "--version"},
 };
 
+bool isModelName(const std::string& name) {
+    const std::string extension = tspace::lowerExtension(name);
+    return tspace::isGltfName(name) || extension == ".obj" || extension == ".fbx";
+}
+
 /// Returns a message where the names of all inputs say that another command is meant.
 std::string wrongKindOfInput(const Command& command, const Given& given) {
-    constexpr std::string_view kImages[] = {".png", ".jpg", ".jpeg", ".webp", ".exr", ".ktx2", ".dds", ".tga"};
-    constexpr std::string_view kModels[] = {".glb", ".gltf", ".vrm", ".obj", ".fbx"};
-    const bool is_for_models = command.reads == Reads::models;
-    const std::span<const std::string_view> wrong =
-        is_for_models ? std::span<const std::string_view>(kImages) : kModels;
+    if (command.reads == Reads::anything) return {};
+    const bool reads_models = command.reads == Reads::models;
     std::string input;
     for (const Given::Item& item : given.items) {
         if (!item.option->names.empty()) continue;
-        if (std::find(wrong.begin(), wrong.end(), tspace::lowerExtension(item.value)) == wrong.end()) return {};
+        if (!(reads_models ? tspace::isImageName(item.value) : isModelName(item.value))) return {};
         if (input.empty()) input = item.value;
     }
-    if (input.empty() || command.reads == Reads::anything) return {};
-    if (is_for_models)
+    if (input.empty()) return {};
+    if (reads_models)
         return command.name + " reads models, but '" + input + "' is an image; tspace check judges a normal map";
     return command.name + " reads images, but '" + input +
            "' is a model; tspace generate --flip-green and --convert-maps change the maps of a model";

@@ -2,13 +2,13 @@
 #include "commands/check/check_image.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <memory>
 #include <optional>
 
 #include "commands/check/findings.h"
 #include "commands/check/scene_checks.h"
+#include "core/base/ascii.h"
 #include "core/base/numbers.h"
 #include "images/float_image.h"
 #include "model/io/file_error.h"
@@ -56,12 +56,6 @@ const char* greenName(GreenVerdict verdict) {
             break;
     }
     return "unknown";
-}
-
-std::string lowerName(ImageFormat format) {
-    std::string name = formatName(format);
-    for (char& letter : name) letter = letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter;
-    return name;
 }
 
 std::string texelText(const std::uint8_t* rgb) {
@@ -158,10 +152,7 @@ void keepImageCommand(const std::string& file, const LoneMap& map, Finding& find
 }  // namespace
 
 bool isImageInput(const std::string& input, ByteSpan content) {
-    static constexpr std::array<const char*, 9> kExtensions = {".png", ".jpg",  ".jpeg", ".webp", ".exr",
-                                                               ".tga", ".ktx2", ".dds",  ".avif"};
-    const std::string extension = lowerExtension(input);
-    const bool is_named = std::find(kExtensions.begin(), kExtensions.end(), extension) != kExtensions.end();
+    const bool is_named = isImageName(input) || lowerExtension(input) == ".avif";  // its error names the format
     if (content.data() == nullptr) return is_named;
     const ImageFormat format = imageFormat(content);
     return format != ImageFormat::unknown && (format != ImageFormat::tga || is_named);
@@ -212,7 +203,7 @@ CheckReport checkImageFile(const std::string& input, const CheckOptions& options
     scene.memory->allow(bytes.size());
     scene.memory->require(bytes.size() + imageWorkBytes(bytes) + kPixelBytes * claimedSize(bytes).pixels(), {});
     LoneMap map = checkLoneMap(scene, options);
-    CheckReport report{.format = lowerName(format), .findings = std::move(map.findings), .image_count = 1};
+    CheckReport report{.format = lowerAscii(formatName(format)), .findings = std::move(map.findings), .image_count = 1};
     report.green_count = map.test.verdict == GreenVerdict::unknown ? 0 : 1;
     report.image = CheckedImage{.width = map.pixels.width,
                                 .height = map.pixels.height,

@@ -8,7 +8,9 @@
 #include "commands/generate/flip_maps.h"
 #include "commands/generate/generate_model.h"
 #include "commands/generate/generate_steps.h"
+#include "core/base/near_positions.h"
 #include "core/base/numbers.h"
+#include "core/base/parallel.h"
 #include "core/mesh/pools/local_mesh.h"
 #include "core/mesh/pools/primitive.h"
 #include "core/mesh/pools/unit_lattice.h"
@@ -217,8 +219,12 @@ FinishedPrimitive finish(const Model& model, const ObjPrimitive& primitive, bool
     tell(options, "computing tangents", 0, 0);
     report.normals_generated = primitive.normals_generated;
     report.normals_replaced = replaced;
-    if (primitive.normals_generated)
-        countFaults(mesh.positions, mesh.normals, mesh.indices, true, options.normals.weld_distance, report);
+    if (primitive.normals_generated) {
+        Parallel parallel(Execution{}, mesh.indices.size());
+        const NearMesh near({.positions = mesh.positions, .indices = mesh.indices}, options.normals.weld_distance,
+                            nullptr, parallel);
+        countFaults(near.view().positions, mesh.normals, mesh.indices, report);
+    }
     if (primitive.normals_generated) finished.normal_format = options.format;
     finished.tangent_format = options.format;
     if (options.pack) packWritten(options, finished, report);

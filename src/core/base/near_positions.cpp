@@ -13,6 +13,7 @@
 #include "core/base/unique_index.h"
 #include "core/base/vec_math.h"
 #include "core/base/weld.h"
+#include "tspace/normals.h"
 
 namespace tspace {
 
@@ -122,6 +123,12 @@ Buffer<float> longestEdges(const MeshView& mesh, const Buffer<std::uint32_t>& eq
 }
 
 }  // namespace
+
+Error checkWeldDistance(float distance) {
+    const bool is_valid = (distance >= 0 && std::isfinite(distance)) || distance == NormalOptions::weld_auto;
+    if (is_valid) return {ErrorCode::ok, {}};
+    return {ErrorCode::invalidOption, "weld_distance is neither a length from 0 on nor weld_auto (-1)"};
+}
 
 NearPositions::NearPositions(const MeshView& mesh, float distance, const Allocator* allocator, Parallel& parallel)
     : allocator_(allocator), distance_(distance) {

@@ -31,6 +31,9 @@ class NearPositions {
     Buffer<std::uint32_t> roots_;
 };
 
+/// An Error with code ok for a valid weld_distance: a length, or NormalOptions::weld_auto.
+Error checkWeldDistance(float distance);
+
 /// A mesh whose positions are those of NearPositions. `mesh` must outlive it.
 class NearMesh {
   public:

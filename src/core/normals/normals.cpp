@@ -3,7 +3,6 @@
 // and weights are the pose's. Then the rounds of `best`.
 #include "tspace/normals.h"
 
-#include <cmath>
 #include <cstring>
 #include <utility>
 
@@ -35,10 +34,7 @@ Error checkOptions(const MeshView& mesh, const NormalOptions& options) {
     if (!((options.denoise >= 0 && options.denoise <= 4) || options.denoise == NormalOptions::denoise_auto)) {
         return {ErrorCode::invalidOption, "denoise is neither between 0 and 4 nor denoise_auto"};
     }
-    if (!((options.weld_distance >= 0 && std::isfinite(options.weld_distance)) ||
-          options.weld_distance == NormalOptions::weld_auto)) {
-        return {ErrorCode::invalidOption, "weld_distance is neither a length from 0 on nor weld_auto"};
-    }
+    if (Error e = checkWeldDistance(options.weld_distance); e.code != ErrorCode::ok) return e;
     if (!options.smoothing_groups.empty()) {
         const StridedSpan<const std::uint32_t> groups = options.smoothing_groups;
         if (Error e = checkSpan(groups, mesh.faceCount(), "smoothing_groups"); e.code != ErrorCode::ok) return e;

@@ -319,8 +319,7 @@ Result<WindingReport> checkAndMend(const MeshView& given, const Call<WindingOpti
     Parallel parallel(options.execution, 4 * given.cornerCount());
     if (Error e = checkMesh(given, &parallel); e.code != ErrorCode::ok) return e;
     if (Error e = checkSpan(turned, given.faceCount(), "turned"); e.code != ErrorCode::ok) return e;
-    if (!((options.weld_distance >= 0 && std::isfinite(options.weld_distance)) || options.weld_distance == -1.0f))
-        return Error{ErrorCode::invalidOption, "weld_distance is neither a length from 0 on nor -1"};
+    if (Error e = checkWeldDistance(options.weld_distance); e.code != ErrorCode::ok) return e;
     const Allocator* const allocator = options.execution.allocator;
     const NearMesh near(given, options.weld_positions ? options.weld_distance : 0, allocator, parallel);
     const MeshView& mesh = near.view();

@@ -9,6 +9,7 @@
 #include <set>
 #include <utility>
 
+#include "core/base/ascii.h"
 #include "model/gltf/packed.h"
 #include "model/io/file_error.h"
 
@@ -135,18 +136,12 @@ bool isKnownExtension(const std::string& name) {
 /// for readers that do not know them.
 constexpr std::array kOverridesUnlit{"VRMC_materials_mtoon"};
 
-/// Converts ASCII letters to lower case.
-std::string lowered(std::string text) {
-    for (char& c : text) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-    return text;
-}
-
 /// Whether an object, at any depth, has a texture reference whose name says that it is a normal or bump map.
 bool namesNormalMap(const Json& object) {
     if (object.is_array()) return std::any_of(object.begin(), object.end(), namesNormalMap);
     if (!object.is_object()) return false;
     for (const auto& [key, value] : object.items()) {
-        const std::string name = lowered(key);
+        const std::string name = lowerAscii(key);
         const bool is_map = name.find("normal") != std::string::npos || name.find("bump") != std::string::npos;
         if ((is_map && findMember(value, "index") != nullptr) || namesNormalMap(value)) return true;
     }
@@ -163,7 +158,7 @@ std::vector<std::string> extensionsOf(const Json& object) {
 
 /// Whether a name suggests hand-made directions on a surface (flow maps, hair, brushed metal).
 bool namesFlow(const std::string& text) {
-    const std::string name = lowered(text);
+    const std::string name = lowerAscii(text);
     static constexpr std::array kWords{"tangent", "flow", "aniso", "hair", "brush"};
     return std::any_of(kWords.begin(), kWords.end(), [&](const char* word) {
         // _BITANGENT is tspace's own attribute.

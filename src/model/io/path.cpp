@@ -2,7 +2,11 @@
 // Paths as text, without access to the disk.
 #include "model/io/path.h"
 
+#include <algorithm>
+#include <array>
 #include <filesystem>
+
+#include "core/base/ascii.h"
 
 namespace tspace {
 
@@ -17,13 +21,7 @@ Path folderOf(const Path& file) {
 
 std::string stemOf(const Path& file) { return Path(fs::path(file).stem()).string(); }
 
-std::string lowerExtension(const Path& path) {
-    std::string extension = Path(fs::path(path).extension()).string();
-    for (char& c : extension) {
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-    }
-    return extension;
-}
+std::string lowerExtension(const Path& path) { return lowerAscii(Path(fs::path(path).extension()).string()); }
 
 bool isGlbName(const Path& path) {
     const std::string extension = lowerExtension(path);
@@ -31,5 +29,12 @@ bool isGlbName(const Path& path) {
 }
 
 bool isGltfName(const Path& path) { return isGlbName(path) || lowerExtension(path) == ".gltf"; }
+
+bool isImageName(const Path& path) {
+    static constexpr std::array<const char*, 8> kExtensions = {".png", ".jpg", ".jpeg", ".webp",
+                                                               ".exr", ".tga", ".ktx2", ".dds"};
+    const std::string extension = lowerExtension(path);
+    return std::find(kExtensions.begin(), kExtensions.end(), extension) != kExtensions.end();
+}
 
 }  // namespace tspace

@@ -55,5 +55,7 @@ std::string lowerExtension(const Path& path);
 bool isGlbName(const Path& path);
 /// isGlbName, or .gltf.
 bool isGltfName(const Path& path);
+/// Names of images end in .png, .jpg, .jpeg, .webp, .exr, .tga, .ktx2 or .dds.
+bool isImageName(const Path& path);
 
 }  // namespace tspace

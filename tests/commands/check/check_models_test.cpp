@@ -20,9 +20,7 @@ const Finding* find(const CheckReport& report, FindingCode code) {
 std::string errorsOf(const CheckReport& report) {
     std::string text;
     for (const Finding& finding : report.findings) {
-        // Normals that the file has stay in these calls; those of one model are not unit, as other validators say too.
-        if (finding.severity == Severity::error && finding.code != FindingCode::normalsNotUnit)
-            text += finding.place + ": " + finding.message + "\n";
+        if (finding.severity == Severity::error) text += finding.place + ": " + finding.message + "\n";
     }
     return text;
 }
@@ -96,7 +94,13 @@ TEST_P(Models, HaveNoErrorAfterGenerate) {
     const Result<CheckReport> report = checkFile(output);
     if (!report && report.error().code == ErrorCode::unsupportedFile) GTEST_SKIP() << report.error().message;
     ASSERT_TRUE(report) << report.error().message;
-    EXPECT_EQ(errorsOf(*report), "");
+    CheckReport rest = *report;
+    // generate keeps the normals of a file. Those of this one have lengths from 1.1 to 1.7; the glTF validator reports them too.
+    if (GetParam() == "features/meshopt-fallback/meshopt-fallback.gltf") {
+        const auto is_own = [](const Finding& finding) { return finding.code == FindingCode::normalsNotUnit; };
+        EXPECT_EQ(std::erase_if(rest.findings, is_own), 2u);
+    }
+    EXPECT_EQ(errorsOf(rest), "");
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Models, testing::ValuesIn(modelFiles("models")),

@@ -7,6 +7,8 @@
 
 #include "core/base/border.h"
 #include "core/base/memory.h"
+#include "core/base/near_positions.h"
+#include "core/base/parallel.h"
 #include "core/mesh/pools/local_mesh.h"
 #include "core/mesh/pools/morph_frames.h"
 #include "core/mesh/pools/primitive.h"
@@ -441,8 +443,14 @@ void countFaults(const PoolView& pool, const PoolFrames& frames, float weld_dist
         (after - before) * kManySplit > before || (frames.normals_generated && !frames.normals.empty());
     if (!counts_winding) return;
     const std::vector<Vec3> positions = gather(pool.positions, frames.source_vertices);
+    // Once for all primitives: each may use a small part of the vertices.
+    std::vector<std::uint32_t> corners;
     for (std::size_t p = 0; p < reports.size(); ++p)
-        countFaults(positions, frames.normals, frames.indices[p], true, weld_distance, reports[p]);
+        corners.insert(corners.end(), frames.indices[p].begin(), frames.indices[p].end());
+    Parallel parallel(Execution{}, corners.size());
+    const NearMesh near({.positions = positions, .indices = corners}, weld_distance, nullptr, parallel);
+    for (std::size_t p = 0; p < reports.size(); ++p)
+        countFaults(near.view().positions, frames.normals, frames.indices[p], reports[p]);
 }
 
 }  // namespace

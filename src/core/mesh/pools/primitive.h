@@ -154,11 +154,13 @@ Result<PoolFrames> computeFrames(const PoolView& pool, std::span<const Primitive
 
 // Faults of the triangles that frames were made on, counted for a report.
 
-/// Fills normals_behind_count, and with `counts_winding` turned_triangle_count and two_sided_triangle_count.
-/// `normals`: those that were made, one per vertex, or empty. `corners`: three per triangle. `weld_distance`: as in
-/// NormalOptions, for neighbours.
-void countFaults(std::span<const Vec3> positions, std::span<const Vec3> normals, std::span<const std::uint32_t> corners,
-                 bool counts_winding, float weld_distance, PrimitiveReport& report);
+/// Fills normals_behind_count, turned_triangle_count and two_sided_triangle_count.
+///
+/// positions  those of NearMesh: neighbors are found by equal positions
+/// normals    those that were generated, one per vertex, or empty
+/// corners    three per triangle
+void countFaults(const StridedSpan<const Vec3>& positions, std::span<const Vec3> normals,
+                 std::span<const std::uint32_t> corners, PrimitiveReport& report);
 
 // Repair of tangents and bitangents: values that are wrong are mended, and all others keep their bits.
 

@@ -12,8 +12,6 @@
 #include <utility>
 #include <vector>
 
-#include "core/base/near_positions.h"
-#include "core/base/parallel.h"
 #include "core/base/sort.h"
 #include "core/base/unique_index.h"
 #include "core/base/vec_math.h"
@@ -199,12 +197,8 @@ WindingCounts countWinding(const StridedSpan<const Vec3>& positions, std::span<c
 
 }  // namespace
 
-void countFaults(std::span<const Vec3> stored, std::span<const Vec3> normals, std::span<const std::uint32_t> corners,
-                 bool counts_winding, float weld_distance, PrimitiveReport& report) {
-    Parallel parallel(Execution{}, corners.size());
-    const MeshView mesh{.positions = stored, .indices = corners};
-    const NearMesh near(mesh, weld_distance, nullptr, parallel);
-    const StridedSpan<const Vec3>& positions = near.view().positions;
+void countFaults(const StridedSpan<const Vec3>& positions, std::span<const Vec3> normals,
+                 std::span<const std::uint32_t> corners, PrimitiveReport& report) {
     for (std::size_t c = 0; !normals.empty() && c + 2 < corners.size(); c += 3) {
         const DVec3 first = toDouble(positions[corners[c]]);
         const DVec3 face =
@@ -212,7 +206,6 @@ void countFaults(std::span<const Vec3> stored, std::span<const Vec3> normals, st
         for (std::size_t k = 0; k < 3; ++k)
             report.normals_behind_count += dot(face, toDouble(normals[corners[c + k]])) < 0 ? 1U : 0U;
     }
-    if (!counts_winding) return;
     const WindingCounts winding = countWinding(positions, corners);
     report.turned_triangle_count = winding.turned_count;
     report.two_sided_triangle_count = winding.two_sided_count;
