@@ -162,7 +162,7 @@ struct PackedFramesInfo {
     std::uint64_t differing_sign_count = 0;
 };
 
-/// What an image holds that was checked without a model.
+/// The result of checking an image without a model.
 struct CheckedImage {
     std::uint32_t width = 0, height = 0;
     /// "normals" (in tangent space, as glTF reads them), "twoChannels", "unsignedZ", "xInAlpha", "exchanged", "encoded" (sRGB),

@@ -19,7 +19,7 @@ enum class MapFileSpace : std::uint32_t {
     world = 2    ///< those of the scene: the mesh's nodes, which must agree, turn and squeeze them
 };
 
-/// What alpha of a normal map says, where smaller levels are made of it.
+/// The meaning of the alpha channel of a normal map from which smaller mip levels are made.
 enum class MapAlpha : std::uint32_t {
     automatic = 0,  ///< coverage where texels with alpha 0 hold no unit vectors and nearly all others do; else data
     coverage =

@@ -208,8 +208,8 @@ std::vector<bool> repairAttributes(Document& document, const std::string& new_fi
             if (is_new) entry->second = editor.store(firstComponents(document, fault.accessor, fault.kept_count), {});
             editor.primitive(primitive.mesh, primitive.index)["attributes"][fault.name] = entry->second;
             editor.moveUse(fault.accessor, entry->second);
-            warnings.push_back(start + " has its first " + std::to_string(fault.kept_count) +
-                               " components now: " + fault.why);
+            warnings.push_back(start + " has more components than it may have: the first " +
+                               std::to_string(fault.kept_count) + " are kept");
         }
     }
     editor.finish();
