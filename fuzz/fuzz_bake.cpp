@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "byte_reader.h"
-#include "tspace/map_bake.h"
+#include "tspace/maps.h"
 
 namespace {
 

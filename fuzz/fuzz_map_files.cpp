@@ -10,8 +10,7 @@
 #include "made_image.h"
 #include "made_model.h"
 #include "tspace/bake_file.h"
-#include "tspace/map_convert_file.h"
-#include "tspace/map_height_file.h"
+#include "tspace/map_files.h"
 
 namespace {
 

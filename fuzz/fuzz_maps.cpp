@@ -6,9 +6,7 @@
 #include <vector>
 
 #include "made_image.h"
-#include "tspace/map_convert.h"
-#include "tspace/map_error.h"
-#include "tspace/map_height.h"
+#include "tspace/maps.h"
 
 namespace {
 

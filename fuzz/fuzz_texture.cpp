@@ -9,7 +9,7 @@
 #include "byte_reader.h"
 #include "images/float_image.h"
 #include "images/image.h"
-#include "tspace/flip_green.h"
+#include "tspace/images.h"
 
 namespace {
 

@@ -3,8 +3,8 @@
 
 C_HEADERS = ("tspace.h", "tspace_normals.h", "tspace_indexed_frames.h", "tspace_frame.h", "tspace_pack.h", "tspace_winding.h",
              "tspace_files.h")
-FILE_HEADERS = ("asset.h", "bake_file.h", "check.h", "diff.h", "finish_file.h", "flip_green.h", "identify.h",
-                "map_compress_file.h", "map_convert_file.h", "map_height_file.h")
+FILE_HEADERS = ("asset.h", "bake_file.h", "check.h", "diff.h", "finish_file.h", "identify.h", "images.h",
+                "map_files.h")
 # Headers whose first comment is that of a C++ header.
 HEADS = {f"tspace_{name}": name for name in ("frame.h", "indexed_frames.h", "normals.h", "pack.h", "winding.h")}
 
@@ -53,6 +53,7 @@ CPP_ALONE = {
     r"[tT]extureError\w+": "a part of `tspace map-error`, which is for C++ and the tool",
     r"Cancelled": "C has no function that is told of progress",
     r"mapErrorFile": "`tspace map-error`, which is for C++ and the tool",
+    r"MapLayout|MapComponent|readTexel": "of maps in arrays, which C does not have",
     r"allMaps": "the default of FinishOptions::bake",
 }
 

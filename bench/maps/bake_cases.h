@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "surfaces.h"
-#include "tspace/map_bake.h"
+#include "tspace/maps.h"
 #include "tspace/tangents.h"
 
 namespace tspace::bench {

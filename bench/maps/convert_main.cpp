@@ -10,7 +10,7 @@
 #include "bake_cases.h"
 #include "maps/shading.h"
 #include "maps/texture_sample.h"
-#include "tspace/map_convert.h"
+#include "tspace/maps.h"
 
 namespace {
 

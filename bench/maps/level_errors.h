@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "tspace/map_bake.h"
+#include "tspace/maps.h"
 
 namespace tspace::bench {
 

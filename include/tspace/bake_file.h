@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "tspace/asset.h"
-#include "tspace/map_layers.h"
+#include "tspace/maps.h"
 
 namespace tspace {
 

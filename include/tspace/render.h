@@ -9,7 +9,7 @@
 
 #include "tspace/asset.h"
 #include "tspace/execution.h"
-#include "tspace/map_reading.h"
+#include "tspace/maps.h"
 #include "tspace/result.h"
 #include "tspace/tangents.h"
 #include "tspace/vec.h"

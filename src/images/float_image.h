@@ -3,7 +3,7 @@
 #pragma once
 
 #include "images/image.h"
-#include "tspace/map_layout.h"
+#include "tspace/images.h"
 #include "tspace/vec.h"
 
 namespace tspace {

@@ -12,7 +12,7 @@
 
 #include "images/image.h"
 #include "images/texel_format.h"
-#include "tspace/map_layout.h"
+#include "tspace/images.h"
 
 namespace tspace {
 

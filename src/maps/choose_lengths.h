@@ -8,8 +8,7 @@
 #include "core/base/memory.h"
 #include "core/base/parallel.h"
 #include "maps/solve_texels.h"
-#include "tspace/map_image.h"
-#include "tspace/texel_lengths.h"
+#include "tspace/maps.h"
 
 namespace tspace {
 

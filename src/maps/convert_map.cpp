@@ -16,7 +16,7 @@
 #include "maps/map_surfaces.h"
 #include "maps/solve_texels.h"
 #include "maps/texel_triangles.h"
-#include "tspace/map_convert.h"
+#include "tspace/maps.h"
 
 namespace tspace {
 

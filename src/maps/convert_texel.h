@@ -10,7 +10,7 @@
 #include "core/base/parallel.h"
 #include "maps/shading.h"
 #include "maps/uv_coverage.h"
-#include "tspace/map_convert.h"
+#include "tspace/maps.h"
 
 namespace tspace {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // heightToNormal: differences of heights, and what they are on the surface.
-#include "tspace/map_height.h"
+#include "tspace/maps.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tspace/map_bake.h"
+#include "tspace/maps.h"
 
 #include <algorithm>
 #include <cmath>

@@ -11,8 +11,7 @@
 #include "maps/rays.h"
 #include "maps/shading.h"
 #include "maps/uv_coverage.h"
-#include "tspace/map_bake.h"
-#include "tspace/map_error.h"
+#include "tspace/maps.h"
 #include "tspace/span.h"
 
 namespace tspace {
@@ -41,7 +40,7 @@ double reachBetween(const PositionBox& low, const PositionBox& high);
 /// sentence. Empty where none shows.
 std::string misplacement(const PositionBox& low, const PositionBox& high);
 
-/// Checks the meshes of a call of map_error.h or map_bake.h. An Error with code ok when all is well.
+/// Checks the meshes of measureMap, bakeMap and the calls like them. An Error with code ok when all is well.
 Error checkSurfaces(const LowPoly& low, const HighPoly& high, bool needs_tangents);
 
 /// Checks the options of bakeMap for meshes of so many triangles. An Error with code ok when all is well.

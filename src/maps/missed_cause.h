@@ -8,7 +8,7 @@
 #include "core/base/memory.h"
 #include "core/base/parallel.h"
 #include "maps/rays.h"
-#include "tspace/map_layers.h"
+#include "tspace/maps.h"
 
 namespace tspace {
 

@@ -9,7 +9,7 @@
 #include "core/base/memory.h"
 #include "core/base/parallel.h"
 #include "core/base/vec_math.h"
-#include "tspace/map_error.h"
+#include "tspace/maps.h"
 #include "tspace/span.h"
 
 namespace tspace {

@@ -20,7 +20,7 @@
 #endif
 
 #include "core/base/border.h"
-#include "tspace/map_error.h"
+#include "tspace/maps.h"
 
 namespace tspace {
 

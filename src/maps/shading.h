@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: MIT
 // The shading reference: from a texel and the frames of a triangle to the normal that a renderer shades, and back. In
-// double, so that measured errors are not its own rounding. See tspace/map_reading.h.
+// double, so that measured errors are not its own rounding. See MapReading.
 #pragma once
 
 #include <array>
 #include <cmath>
 
 #include "core/base/vec_math.h"
-#include "tspace/map_axes.h"
-#include "tspace/map_reading.h"
+#include "tspace/maps.h"
 
 namespace tspace {
 

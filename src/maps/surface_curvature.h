@@ -4,7 +4,7 @@
 
 #include "core/base/memory.h"
 #include "core/base/parallel.h"
-#include "tspace/map_error.h"
+#include "tspace/maps.h"
 
 namespace tspace {
 

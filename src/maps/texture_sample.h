@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <span>
 
-#include "tspace/texture_wrap.h"
+#include "tspace/maps.h"
 #include "tspace/vec.h"
 
 namespace tspace {

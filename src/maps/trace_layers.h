@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// The layers of a map, traced: see tspace/map_layers.h.
+// The layers of a map, traced: see tspace/maps.h.
 #pragma once
 
 #include "maps/measure_points.h"
 #include "maps/texel_triangles.h"
-#include "tspace/map_layers.h"
+#include "tspace/maps.h"
 
 namespace tspace {
 

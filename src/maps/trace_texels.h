@@ -5,7 +5,7 @@
 #include "maps/measure_points.h"
 #include "maps/solve_texels.h"
 #include "maps/texel_triangles.h"
-#include "tspace/map_bake.h"
+#include "tspace/maps.h"
 
 namespace tspace {
 

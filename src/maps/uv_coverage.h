@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "tspace/texture_wrap.h"
+#include "tspace/maps.h"
 #include "tspace/vec.h"
 
 namespace tspace {

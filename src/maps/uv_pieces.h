@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/base/memory.h"
-#include "tspace/map_bake.h"
+#include "tspace/maps.h"
 
 namespace tspace {
 

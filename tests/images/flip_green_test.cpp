@@ -12,7 +12,7 @@
 #include "images/images.h"
 #include "images/textures.h"
 #include "support/temp_folder.h"
-#include "tspace/flip_green.h"
+#include "tspace/images.h"
 
 namespace tspace::test {
 namespace {

@@ -8,7 +8,7 @@
 #include "images/float_image.h"
 #include "images/image.h"
 #include "images/tga.h"
-#include "tspace/flip_green.h"
+#include "tspace/images.h"
 
 namespace tspace::test {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What a map shows on one set of frames, it shows on the other after conversion.
-#include "tspace/map_convert.h"
+#include "tspace/maps.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

@@ -8,7 +8,7 @@
 
 #include "core/base/vec_math.h"
 #include "maps/shading.h"
-#include "tspace/map_height.h"
+#include "tspace/maps.h"
 
 namespace tspace::test {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "maps/shading.h"
 #include "support/filled_memory.h"
-#include "tspace/map_bake.h"
+#include "tspace/maps.h"
 
 namespace tspace::test {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Baked maps: how near they are to the surface, and what becomes of bad input.
-#include "tspace/map_bake.h"
+#include "tspace/maps.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Maps beside the normal map, against formulas.
-#include "tspace/map_layers.h"
+#include "tspace/maps.h"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 
 #include "bake_cases.h"
 #include "core/base/vec_math.h"
-#include "tspace/map_bake.h"
+#include "tspace/maps.h"
 
 namespace tspace::test {
 namespace {

@@ -10,7 +10,7 @@
 
 #include "bake_cases.h"
 #include "support/thread_team.h"
-#include "tspace/map_bake.h"
+#include "tspace/maps.h"
 
 namespace tspace::test {
 namespace {

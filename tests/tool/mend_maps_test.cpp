@@ -12,7 +12,7 @@
 #include "maps/shading.h"
 #include "tool/folder_files.h"
 #include "tool/run_tool.h"
-#include "tspace/map_layout.h"
+#include "tspace/images.h"
 
 namespace tspace::test {
 namespace {

@@ -63,8 +63,8 @@ const modules = {
   textures: {
     sources: ["memory.cpp", "textures.cpp"], isFast: true, hot: /fit_blocks|filtered_error/, defines: [], rooms: [], kernels: [], imports: ["canUnpack", "endCall", "unpack"],
     files: [
-      ...["astc", "basis_lz", "bc7", "dds", "float_range", "image", "ktx2", "texel_format", "texture", "uastc", "write_texture"].map((name) => `images/${name}.cpp`),
-      ...["filtered_error", "fit_blocks", "map_layout", "normal_levels", "roughness_levels", "shading"].map((name) => `maps/${name}.cpp`),
+      ...["astc", "basis_lz", "bc7", "dds", "float_range", "image", "ktx2", "map_layout", "texel_format", "texture", "uastc", "write_texture"].map((name) => `images/${name}.cpp`),
+      ...["filtered_error", "fit_blocks", "normal_levels", "roughness_levels", "shading"].map((name) => `maps/${name}.cpp`),
       "commands/compress_map/texture_levels.cpp", "commands/shared/map_coverage.cpp", "commands/shared/texture_vectors.cpp",
     ],
   },

@@ -10,7 +10,7 @@
 
 #include "model/io/file_error.h"
 #include "model/io/file_io.h"
-#include "tspace/map_bake.h"
+#include "tspace/maps.h"
 
 namespace tspace {
 namespace {

@@ -28,7 +28,7 @@
 #include "model/read/read_scene.h"
 #include "model/scene/scene.h"
 #include "tspace/asset.h"
-#include "tspace/map_error.h"
+#include "tspace/maps.h"
 
 namespace tspace {
 

@@ -18,7 +18,7 @@
 #include "model/io/file_io.h"
 #include "model/scene/scene.h"
 #include "tspace/bake_file.h"
-#include "tspace/map_bake.h"
+#include "tspace/maps.h"
 
 namespace tspace {
 

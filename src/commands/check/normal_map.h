@@ -7,7 +7,7 @@
 
 #include "images/image.h"
 #include "maps/uv_coverage.h"
-#include "tspace/map_layout.h"
+#include "tspace/images.h"
 
 namespace tspace {
 

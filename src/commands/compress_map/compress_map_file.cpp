@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // compressMapFile: the image, its levels, their blocks, and how far they are off. Its options, and its report as JSON.
-#include "tspace/map_compress_file.h"
+#include "tspace/map_files.h"
 
 #include <algorithm>
 #include <cmath>

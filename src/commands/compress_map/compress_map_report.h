@@ -6,7 +6,7 @@
 #include <string>
 
 #include "commands/shared/report.h"
-#include "tspace/map_compress_file.h"
+#include "tspace/map_files.h"
 
 namespace tspace {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "tspace/execution.h"
-#include "tspace/map_convert_file.h"
+#include "tspace/map_files.h"
 #include "tspace/vec.h"
 
 namespace tspace {

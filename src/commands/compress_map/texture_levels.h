@@ -13,7 +13,7 @@
 #include "maps/filtered_error.h"
 #include "maps/normal_levels.h"
 #include "maps/roughness_levels.h"
-#include "tspace/map_compress_file.h"
+#include "tspace/map_files.h"
 
 namespace tspace {
 

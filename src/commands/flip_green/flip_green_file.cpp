@@ -9,7 +9,7 @@
 #include "model/io/file_error.h"
 #include "model/io/memory_budget.h"
 #include "model/io/output_name.h"
-#include "tspace/flip_green.h"
+#include "tspace/images.h"
 
 namespace tspace {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "commands/shared/report.h"
-#include "tspace/flip_green.h"
+#include "tspace/images.h"
 
 namespace tspace::report {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "images/image.h"
-#include "tspace/flip_green.h"
+#include "tspace/images.h"
 
 namespace tspace {
 

@@ -7,7 +7,7 @@
 #include "commands/check/map_slopes.h"
 #include "commands/shared/map_image_file.h"
 #include "model/io/file_error.h"
-#include "tspace/map_height.h"
+#include "tspace/maps.h"
 
 namespace tspace {
 namespace {

@@ -12,7 +12,7 @@
 #include "model/io/file_error.h"
 #include "model/io/file_io.h"
 #include "model/io/output_name.h"
-#include "tspace/map_height_file.h"
+#include "tspace/map_files.h"
 
 namespace tspace {
 namespace {

@@ -8,7 +8,7 @@
 #include "maps/filtered_error.h"
 #include "maps/shading.h"
 #include "model/io/file_error.h"
-#include "tspace/map_compress_file.h"
+#include "tspace/map_files.h"
 
 namespace tspace {
 namespace {

@@ -5,7 +5,7 @@
 #include <functional>
 
 #include "commands/shared/option_table.h"
-#include "tspace/map_axes.h"
+#include "tspace/maps.h"
 
 namespace tspace::options {
 

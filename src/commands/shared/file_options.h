@@ -7,9 +7,8 @@
 
 #include "commands/shared/option_table.h"
 #include "tspace/asset.h"
-#include "tspace/map_convert_file.h"
-#include "tspace/map_reading.h"
-#include "tspace/texel_lengths.h"
+#include "tspace/map_files.h"
+#include "tspace/maps.h"
 
 namespace tspace::options {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "images/float_image.h"
-#include "tspace/map_convert_file.h"
+#include "tspace/map_files.h"
 
 namespace tspace {
 

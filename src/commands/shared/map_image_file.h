@@ -11,8 +11,8 @@
 #include "images/float_image.h"
 #include "model/io/atomic_output.h"
 #include "model/scene/scene.h"
-#include "tspace/map_convert.h"
-#include "tspace/map_convert_file.h"
+#include "tspace/map_files.h"
+#include "tspace/maps.h"
 
 namespace tspace {
 

@@ -9,7 +9,7 @@
 
 #include "commands/shared/exit_code.h"
 #include "model/json/json.h"
-#include "tspace/map_convert_file.h"
+#include "tspace/map_files.h"
 #include "tspace/result.h"
 
 namespace tspace::report {

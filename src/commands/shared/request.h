@@ -12,11 +12,9 @@
 #include "tspace/check.h"
 #include "tspace/diff.h"
 #include "tspace/finish_file.h"
-#include "tspace/flip_green.h"
 #include "tspace/identify.h"
-#include "tspace/map_compress_file.h"
-#include "tspace/map_convert_file.h"
-#include "tspace/map_height_file.h"
+#include "tspace/images.h"
+#include "tspace/map_files.h"
 #include "tspace/render.h"
 
 namespace tspace::options {

@@ -17,8 +17,8 @@
 #include "core/mesh/surface/affine.h"
 #include "model/io/memory_budget.h"
 #include "tspace/asset.h"
+#include "tspace/maps.h"
 #include "tspace/mesh.h"
-#include "tspace/texture_wrap.h"
 #include "tspace/vec.h"
 
 namespace tspace {

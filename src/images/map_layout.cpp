@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tspace/map_layout.h"
+#include "tspace/images.h"
 
 #include <algorithm>
 #include <cmath>
