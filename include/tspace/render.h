@@ -23,11 +23,10 @@ enum class RenderShow : std::uint32_t {
     tangents = 2,  ///< T, likewise
     sign =
         3,  ///< w: blue +1, orange -1, magenta neither; stripes where the UV map is mirrored, red where both disagree
-    error = 4,    ///< the angle between the stored frames and those of a method, as a heat map with a scale
-    uv = 5,       ///< the UV map: its islands in colours, mirrored ones with stripes
-    mapped = 6,   ///< the normal that `lit` shades, in the colours of `normals`
-    surface = 7,  ///< metal and roughness in a grey room with three lamps, emission, and the lamp of `to_light`
-    both = 8,     ///< `surface`, left of a line with the stored frames, right of it with those of a method
+    error = 4,   ///< the angle between the stored frames and those of a method, as a heat map with a scale
+    uv = 5,      ///< the UV map: its islands in colours, mirrored ones with stripes
+    mapped = 6,  ///< the normal that `lit` shades, in the colours of `normals`
+    both = 7,    ///< `lit`, left of a line with the stored frames, right of it with those of a method
 };
 /// "lit", "normals", ...: the name of the enumerator.
 const char* renderShowName(RenderShow show);
@@ -92,9 +91,9 @@ struct RenderReport {
 /// Draws the model into a PNG of 8 bits. Pixels have the same bytes on every machine and for any number of threads.
 ///
 /// Surfaces are drawn where the nodes of the file's scene put them, as its joints and the weights of its morph targets pose
-/// them. Materials: baseColorFactor and baseColorTexture, COLOR_0, normalTexture with its scale, doubleSided, alphaMode MASK and BLEND (eight layers, in
-/// `lit` and `surface`), KHR_texture_transform, KHR_materials_unlit; in `surface` metal, roughness and emission with their textures,
-/// KHR_materials_emissive_strength. Back faces of other materials than double-sided ones are not drawn. Textures
+/// them. Materials: baseColorFactor and baseColorTexture, COLOR_0, normalTexture with its scale, doubleSided, alphaMode MASK,
+/// KHR_texture_transform, KHR_materials_unlit. Nothing shows through alphaMode BLEND: `lit` draws such a surface where its alpha is
+/// at least half of the material's. Back faces of other materials than double-sided ones are not drawn. Textures
 /// are read bilinearly, without mipmaps. Errors: those of generateFile for reading; invalidOption (a size, angle or
 /// direction out of range); tooLarge (also where nodes draw triangles without
 /// end, or these cover the picture a hundred times over); unsupportedFile

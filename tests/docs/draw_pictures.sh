@@ -32,11 +32,10 @@ draw crate tangents
 draw crate sign
 draw flat error
 draw crate uv
-draw crate surface
 draw lost both
-"$programs/tspace" render -q "$work/crate.glb" -o "$images/render-turn.png" --show surface --turntable 4 --size 130 --no-legend --view 20,15
+"$programs/tspace" render -q "$work/crate.glb" -o "$images/render-turn.png" --show lit --turntable 4 --size 130 --no-legend --view 20,15
 python3 "$(dirname "$0")/posed_pipe.py" "$work/pipe.glb"
-pipe() { "$programs/tspace" render -q "$work/pipe.glb" -o "$images/render-$1.png" --show surface --size 260x200 --samples 3 --no-legend --view 25,10 "${@:2}"; }
+pipe() { "$programs/tspace" render -q "$work/pipe.glb" -o "$images/render-$1.png" --show lit --size 260x200 --samples 3 --no-legend --view 25,10 "${@:2}"; }
 pipe posed
 pipe unposed --no-pose
 

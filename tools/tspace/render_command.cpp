@@ -57,7 +57,7 @@ Command renderCommand() {
             "Draws a PNG: the model in the light of one lamp, as its normal maps and tangents say, or these "
             "themselves: normals, tangents, signs, how far the tangents are from those of a method, the UV map. "
             "Without a display and the same bytes everywhere. It is the shading reference made visible, no renderer: "
-            "no shadows. surface shows metal and roughness in a grey room.",
+            "no shadows, no reflections and no transparency.",
         .examples = {"tspace render helmet.glb -o helmet.png", "tspace render helmet.glb -o signs.png --show sign",
                      "tspace render helmet.glb -o error.png --show error --view front --size 512",
                      "tspace render helmet.glb -o right.png --frames computed"},

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <optional>
 
@@ -64,6 +65,13 @@ std::vector<UvSide> sidesOf(const ScenePrimitive& primitive, const CornerValues<
         sides.push_back(!is_known ? UvSide::unknown : face.orientation > 0 ? UvSide::mirrored : UvSide::plain);
     }
     return sides;
+}
+
+/// The smallest alpha at which a surface is drawn. In `lit` a blended surface is drawn where its alpha is at least half of the
+/// material's factor: nothing shows through it, but glass is seen and leaves keep their shape.
+float alphaCutoff(const SurfaceLook& look, RenderShow show) {
+    if (show != RenderShow::lit || !look.is_blended) return static_cast<float>(look.alpha_cutoff);
+    return std::max(0.5f * look.base_color[3], std::numeric_limits<float>::min());
 }
 
 /// A PNG of 16 bits a channel.
@@ -225,13 +233,8 @@ void ModelPicture::prepare(std::size_t primitive) {
                                            : CornerValues<Vec3>{source.normals.span(), false};
     const SurfaceLook& look = drawn_.looks[primitive];
     shown.base_color = look.base_color;
-    shown.alpha_cutoff = static_cast<float>(look.alpha_cutoff);
+    shown.alpha_cutoff = alphaCutoff(look, show_);
     shown.is_unlit = look.is_unlit;
-    shown.is_blended = look.is_blended;
-    shown.metalness = static_cast<float>(std::clamp(look.metalness, 0.0, 1.0));
-    shown.roughness = static_cast<float>(std::clamp(look.roughness, 0.0, 1.0));
-    const double strength = look.emission_strength;
-    shown.emission = toFloat({strength * look.emission[0], strength * look.emission[1], strength * look.emission[2]});
     if (primitive < drawn_.colors.size() && drawn_.colors[primitive].size() == source.positions.size())
         shown.colors = drawn_.colors[primitive].span();
     shown.reading = reading_;
@@ -252,15 +255,10 @@ void ModelPicture::prepareTextures(std::size_t primitive) {
         result.uvs = uvs;
         return result;
     };
-    const bool is_surface = show_ == RenderShow::surface, is_light = is_surface || show_ == RenderShow::lit;
-    const bool is_masked = look.alpha_cutoff > 0, reads_alpha = is_masked || (is_light && look.is_blended);
-    if (is_light || is_masked)
+    const bool is_lit = show_ == RenderShow::lit, reads_alpha = surface.shown.alpha_cutoff > 0;
+    if (is_lit || reads_alpha)
         surface.shown.base = placed(look.base_texture, Use::color, reads_alpha, surface.base_uvs);
-    if (is_surface && !look.is_unlit) {
-        surface.shown.metal = placed(look.metal_texture, Use::factors, false, surface.metal_uvs);
-        surface.shown.emission_map = placed(look.emission_texture, Use::color, false, surface.emission_uvs);
-    }
-    const bool reads_map = (is_light && !look.is_unlit) || show_ == RenderShow::mapped;
+    const bool reads_map = (is_lit && !look.is_unlit) || show_ == RenderShow::mapped;
     if (reads_map) surface.shown.normal_map = placed(look.normal_texture, Use::normals, false, surface.normal_uvs);
 }
 

@@ -79,7 +79,7 @@ class ModelTextures {
 struct ModelSurface {
     std::vector<Vec3> flat_normals = {};  ///< one per corner, where the file has none
     std::vector<Vec4> computed = {};      ///< one per corner
-    std::vector<Vec2> base_uvs = {}, normal_uvs = {}, metal_uvs = {}, emission_uvs = {};
+    std::vector<Vec2> base_uvs = {}, normal_uvs = {};
     std::vector<UvSide> sides = {};
     std::vector<std::uint32_t> islands = {};
     std::vector<Vec3> uv_positions = {};  ///< (u, -v, 0)

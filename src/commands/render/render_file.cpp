@@ -58,8 +58,8 @@ class ModelPictures {
             models_.emplace_back(posed.drawn, show, choice, options.reading, textures, poses);
         };
         if (options.show == RenderShow::both) {
-            add(RenderShow::surface, RenderFrames::stored);
-            add(RenderShow::surface, RenderFrames::computed);
+            add(RenderShow::lit, RenderFrames::stored);
+            add(RenderShow::lit, RenderFrames::computed);
         } else {
             add(options.show, compares ? RenderFrames::stored : options.frames);
         }
@@ -77,7 +77,7 @@ class ModelPictures {
             options.legend ? legendOfBoth(models_[0].tangentSources(), models_[1].tangentSources(), options.method)
                            : Legend{};
         const std::uint32_t rows = legendRows(legend, options.width, options.height);
-        options.show = RenderShow::surface;
+        options.show = RenderShow::lit;
         options.legend = false;
         options.height -= rows;
         SurfacePicture picture{
@@ -145,7 +145,7 @@ RenderReport renderModel(const std::string& input, const std::string& output, co
 }  // namespace
 
 const char* renderShowName(RenderShow show) {
-    constexpr const char* kNames[] = {"lit", "normals", "tangents", "sign", "error", "uv", "mapped", "surface", "both"};
+    constexpr const char* kNames[] = {"lit", "normals", "tangents", "sign", "error", "uv", "mapped", "both"};
     const auto number = static_cast<std::size_t>(show);
     return number < std::size(kNames) ? kNames[number] : "";
 }

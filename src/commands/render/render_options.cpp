@@ -13,7 +13,7 @@ namespace {
 constexpr Named<RenderShow> kShows[] = {
     {"lit", RenderShow::lit},       {"normals", RenderShow::normals}, {"tangents", RenderShow::tangents},
     {"sign", RenderShow::sign},     {"error", RenderShow::error},     {"uv", RenderShow::uv},
-    {"mapped", RenderShow::mapped}, {"surface", RenderShow::surface}, {"both", RenderShow::both},
+    {"mapped", RenderShow::mapped}, {"both", RenderShow::both},
 };
 constexpr Named<RenderFrames> kShownFrames[] = {
     {"auto", RenderFrames::automatic},
@@ -86,10 +86,10 @@ Option lightOption(RenderOptions& options) {
         const Vec3& light = options.to_light;
         return light.x == 0 && light.y == 0 && light.z == 0 ? "must not be 0" : "";
     };
-    Option made =
-        option("--light", "DIRECTION", take,
-               "For lit: towards the lamp, as the camera sees it. X,Y,Z: to the right, up, and to the camera; or "
-               "YAW,PITCH in degrees, where 0,0 is the camera.");
+    Option made = option(
+        "--light", "DIRECTION", take,
+        "For lit and both: towards the lamp, as the camera sees it. X,Y,Z: to the right, up, and to the camera; or "
+        "YAW,PITCH in degrees, where 0,0 is the camera.");
     made.default_text = "-0.45,0.65,0.8";
     return made;
 }
@@ -138,10 +138,8 @@ OptionList renderOptions(RenderOptions& options) {
         choice("--show", "WHAT", kShows, options.show,
                "lit: the model in the light of one lamp, with its normal maps; normals, tangents: N and T as colours; "
                "sign: w, and mirrored parts of the UV map; error: how far the tangents are from those of --method; uv: "
-               "the UV map and its islands; mapped: the normals that lit shades, as colours; surface: metal, roughness "
-               "and "
-               "emission, in a grey room; both: surface, with the file's tangents left of a line and those of --method "
-               "right of it."));
+               "the UV map and its islands; mapped: the normals that lit shades, as colours; both: lit, with the "
+               "file's tangents left of a line and those of --method right of it."));
     add(list, picture, viewOption(options));
     add(list, picture, lightOption(options));
     add(list, picture, sizeOption(options));

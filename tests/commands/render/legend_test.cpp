@@ -8,9 +8,8 @@
 namespace tspace::test {
 namespace {
 
-constexpr RenderShow kEveryShow[] = {RenderShow::lit,    RenderShow::normals, RenderShow::tangents,
-                                     RenderShow::sign,   RenderShow::error,   RenderShow::uv,
-                                     RenderShow::mapped, RenderShow::surface, RenderShow::both};
+constexpr RenderShow kEveryShow[] = {RenderShow::lit,   RenderShow::normals, RenderShow::tangents, RenderShow::sign,
+                                     RenderShow::error, RenderShow::uv,      RenderShow::mapped,   RenderShow::both};
 
 std::string wordsOf(const Legend& legend) {
     std::string words;

@@ -107,7 +107,6 @@ bool isInStripe(const SurfacePoint& point) { return (point.column + point.row) %
 
 Vec3 product(const Vec3& a, const Vec3& b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
 Vec3 sum(const Vec3& a, const Vec3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-Vec3 times(float factor, const Vec3& a) { return {factor * a.x, factor * a.y, factor * a.z}; }
 
 Vec4 vertexColor(const ShownSurface& surface, const ShownTriangle& triangle, const Weights& weights) {
     if (surface.colors.empty()) return {1, 1, 1, 1};
@@ -137,123 +136,6 @@ float alphaOf(const ShownSurface& surface, std::size_t index, const Weights& wei
     const float texel = surface.base.image == nullptr ? 1 : alphaAt(surface.base, triangle, weights);
     const float vertex = surface.colors.empty() ? 1 : vertexColor(surface, triangle, weights).w;
     return texel * surface.base_color[3] * vertex;
-}
-
-/// The room of web/src/picture/environment.ts by formula: a grey gradient from below to above, and three lamps as they are
-/// seen from its middle.
-struct RoomLamp {
-    DVec3 direction;
-    float solid_angle, light;
-};
-constexpr Vec3 kAbove{0.62f, 0.64f, 0.68f}, kBelow{0.16f, 0.15f, 0.14f};
-constexpr RoomLamp kRoomLamps[] = {
-    {{-0.5121, 0.7682, 0.3841}, 0.21f, 9}, {{0.9045, 0.3015, 0.3015}, 0.19f, 4}, {{0, 0.1414, -0.9899}, 0.24f, 2}};
-constexpr float kInvPi = 0.31830989f;
-/// The lamp of `to_light`, as bright as that of the page.
-constexpr float kSurfaceLamp = 2;
-
-Vec3 gradientAt(float height) {
-    const float t = 0.5f + 0.5f * height;
-    return sum(times(1 - t, kBelow), times(t, kAbove));
-}
-
-float cosineOf(const DVec3& a, const DVec3& b) { return static_cast<float>(std::max(0.0, dot(a, b))); }
-
-/// The mean of the light that falls on a surface, weighted by the cosine: of a linear gradient two thirds remain.
-Vec3 roomDiffuse(const DVec3& normal) {
-    Vec3 light = gradientAt(static_cast<float>(normal.y) * (2.0f / 3));
-    for (const RoomLamp& lamp : kRoomLamps) {
-        const float share = lamp.light * lamp.solid_angle * kInvPi * cosineOf(normal, lamp.direction);
-        light = sum(light, {share, share, share});
-    }
-    return light;
-}
-
-/// Trowbridge-Reitz, of the squared cosine between normal and half-vector. `wide`: the square of its width.
-float microfacets(float cosine_squared, float wide) {
-    const float d = cosine_squared * (wide - 1) + 1;
-    return wide * kInvPi / std::max(1e-7f, d * d);
-}
-
-/// What a surface mirrors along a direction. A lamp is a lobe as wide as itself and the roughness together, so that a mirror
-/// shows its own brightness.
-Vec3 roomMirrored(const DVec3& direction, float alpha) {
-    Vec3 light = gradientAt(static_cast<float>(direction.y) * (1 - alpha / 3));
-    for (const RoomLamp& lamp : kRoomLamps) {
-        const float wide = alpha * alpha + 0.25f * kInvPi * lamp.solid_angle;
-        const float half_squared = 0.5f + 0.5f * static_cast<float>(dot(direction, lamp.direction));
-        const float seen = std::min(1.0f, 0.25f * lamp.solid_angle * microfacets(half_squared, wide));
-        light = sum(light, {lamp.light * seen, lamp.light * seen, lamp.light * seen});
-    }
-    return light;
-}
-
-/// Karis 2014, "Physically Based Shading on Mobile": how much a surface mirrors of light from everywhere, as factor and summand
-/// of its reflectance. exp2(-9.28 x) is (1 - 6.432 x / 64)^64 here, which every machine computes alike.
-void mirroredShare(float roughness, float cosine, float& factor, float& summand) {
-    float power = 1 - 6.432f / 64 * cosine;
-    for (int i = 0; i < 6; ++i) power *= power;
-    const float rx = 1 - roughness, ry = 0.0425f - 0.0275f * roughness, rz = 1.04f - 0.572f * roughness,
-                rw = 0.022f * roughness - 0.04f;
-    const float a = std::min(rx * rx, power) * rx + ry;
-    factor = std::max(0.0f, rz - 1.04f * a);
-    summand = std::max(0.0f, rw + 1.04f * a);
-}
-
-/// The Khronos tone mapper "PBR Neutral" (2024), which the page has, too.
-Vec3 toneMapped(Vec3 color) {
-    constexpr float kStart = 0.8f - 0.04f, kDesaturation = 0.15f;
-    const float least = std::min({color.x, color.y, color.z});
-    const float offset = least < 0.08f ? least - 6.25f * least * least : 0.04f;
-    color = {color.x - offset, color.y - offset, color.z - offset};
-    const float peak = std::max({color.x, color.y, color.z});
-    if (peak < kStart) return color;
-    constexpr float d = 1 - kStart;
-    const float new_peak = 1 - d * d / (peak + d - kStart), white = 1 - 1 / (kDesaturation * (peak - new_peak) + 1);
-    color = times(new_peak / peak, color);
-    return sum(times(1 - white, color), {white * new_peak, white * new_peak, white * new_peak});
-}
-
-/// Metal and roughness as glTF has them, in the room and in the light of the lamp.
-Vec3 surfaceColor(const ShownSurface& surface, const Affine& to_world, const Lighting& lighting,
-                  const SurfacePoint& point) {
-    const Vec3 base = baseColor(surface, point);
-    if (surface.is_unlit) return base;
-    const ShownTriangle triangle = shownTriangle(surface, point.triangle);
-    float metalness = surface.metalness, roughness = surface.roughness;
-    if (surface.metal.image != nullptr) {
-        const Vec3 texel = sampleAt(surface.metal, triangle.vertices, point.weights);
-        roughness *= texel.y;
-        metalness *= texel.z;
-    }
-    Vec3 emission = surface.emission;
-    if (surface.emission_map.image != nullptr)
-        emission = product(emission, sampleAt(surface.emission_map, triangle.vertices, point.weights));
-    constexpr float kLeastRoughness = 0.0525f, kGlass = 0.04f;
-    roughness = std::clamp(roughness, kLeastRoughness, 1.0f);
-    metalness = std::clamp(metalness, 0.0f, 1.0f);
-    const Vec3 diffuse = times(1 - metalness, base);
-    const Vec3 mirrors = sum(times(metalness, base), times(1 - metalness, {kGlass, kGlass, kGlass}));
-    const DVec3 normal = mappedNormal(surface, to_world, point), eye = lighting.to_eye;
-    const float alpha = roughness * roughness, to_eye = std::max(1e-3f, cosineOf(normal, eye));
-    float factor = 0, summand = 0;
-    mirroredShare(roughness, to_eye, factor, summand);
-    const DVec3 mirrored = (2 * dot(normal, eye)) * normal - eye;
-    const Vec3 share = sum(times(factor, mirrors), {summand, summand, summand});
-    Vec3 color = sum(product(diffuse, roomDiffuse(normal)), product(share, roomMirrored(mirrored, alpha)));
-    const float to_light = cosineOf(normal, lighting.to_light);
-    DVec3 half = eye + lighting.to_light;
-    if (to_light > 0 && normalize(half)) {
-        const float cosine = cosineOf(normal, half), wide = alpha * alpha, at_eye = cosineOf(eye, half);
-        // Heitz 2014: the correlated form of Smith's shadowing.
-        const float shadow = to_light * std::sqrt(to_eye * to_eye * (1 - wide) + wide) +
-                             to_eye * std::sqrt(to_light * to_light * (1 - wide) + wide);
-        const float glancing = 1 - at_eye, fresnel = glancing * glancing * glancing * glancing * glancing;
-        const float gloss = microfacets(cosine * cosine, wide) * 0.5f / std::max(1e-6f, shadow);
-        const Vec3 reflectance = sum(times(1 - fresnel, mirrors), {fresnel, fresnel, fresnel});
-        color = sum(color, times(kSurfaceLamp * to_light, sum(times(kInvPi, diffuse), times(gloss, reflectance))));
-    }
-    return toneMapped(sum(color, emission));
 }
 
 Vec3 litColor(const ShownSurface& surface, const Affine& to_world, const Lighting& lighting,
@@ -358,10 +240,8 @@ Vec3 shadePoint(RenderShow show, const ShownSurface& surface, const Affine& to_w
                 const SurfacePoint& point) {
     switch (show) {
         case RenderShow::lit:
-            return litColor(surface, to_world, lighting, point);
-        case RenderShow::surface:
         case RenderShow::both:
-            return surfaceColor(surface, to_world, lighting, point);
+            return litColor(surface, to_world, lighting, point);
         case RenderShow::normals:
             return vectorColor(toFloat(plainNormal(surface, to_world, point)));
         case RenderShow::mapped:
@@ -383,11 +263,6 @@ Vec3 shadePoint(RenderShow show, const ShownSurface& surface, const Affine& to_w
 
 namespace {
 
-/// Views whose colours are light, and through which what is blended shows what lies behind.
-bool isLight(RenderShow show) {
-    return show == RenderShow::lit || show == RenderShow::surface || show == RenderShow::both;
-}
-
 /// What is seen at one sample.
 struct SeenSample {
     const ShownSurface* surface = nullptr;  ///< null: nothing
@@ -402,17 +277,14 @@ class RowShader {
         : show_(show),
           meshes_(meshes),
           surfaces_(surfaces),
-          camera_(camera),
           lighting_{.to_light = to_light, .to_eye = camera.back()},
           size_(size) {
-        if (isLight(show)) {
+        if (show == RenderShow::lit) {
             background_ = {static_cast<float>(srgbToLight(kBackground.x)),
                            static_cast<float>(srgbToLight(kBackground.y)),
                            static_cast<float>(srgbToLight(kBackground.z))};
         }
     }
-
-    [[nodiscard]] const Vec3& background() const { return background_; }
 
     /// A row of pixels: three bytes each.
     void shade(const VisibleTriangles& visible, std::uint32_t row, std::span<std::uint8_t> pixels,
@@ -426,16 +298,11 @@ class RowShader {
                     errors.add(frameError(*seen.surface, seen.point));
             });
         }
-        writePixels(sums, pixels);
-    }
-
-    /// The mean of the samples of each pixel.
-    void writePixels(std::span<const Vec3> sums, std::span<std::uint8_t> pixels) const {
         const float share = 1.0f / static_cast<float>(size_.samples * size_.samples);
         for (std::uint32_t x = 0; x < size_.width; ++x) {
             const float color[3] = {share * sums[x].x, share * sums[x].y, share * sums[x].z};
             for (std::size_t c = 0; c < 3; ++c)
-                pixels[3 * x + c] = isLight(show_) ? lightToSrgb(color[c]) : storedByte(color[c]);
+                pixels[3 * x + c] = show_ == RenderShow::lit ? lightToSrgb(color[c]) : storedByte(color[c]);
         }
     }
 
@@ -446,7 +313,6 @@ class RowShader {
         std::uint32_t known = VisibleTriangles::kNone;
         VisibleTriangles::Place place;
         SeenTriangle seen({});
-        Lighting lighting = lighting_;
         for (std::uint32_t x = 0; x < numbers.size(); ++x) {
             SeenSample sample{.color = background_};
             if (numbers[x] != VisibleTriangles::kNone) {
@@ -462,86 +328,19 @@ class RowShader {
                                 .is_back = seen.isFront() == (mesh.to_world.determinant() < 0),
                                 .column = x / size_.samples,
                                 .row = sample_row / size_.samples};
-                if (show_ == RenderShow::surface) lighting.to_eye = camera_.toEye(pointOf(mesh, sample.point));
-                sample.color = shadePoint(show_, *sample.surface, mesh.to_world, lighting, sample.point);
+                sample.color = shadePoint(show_, *sample.surface, mesh.to_world, lighting_, sample.point);
             }
             take(x, sample);
         }
     }
 
   private:
-    static DVec3 pointOf(const DrawnMesh& mesh, const SurfacePoint& point) {
-        DVec3 place;
-        for (std::size_t k = 0; k < 3; ++k)
-            place = place + point.weights[k] * toDouble(mesh.positions[mesh.corners[3 * point.triangle + k]]);
-        return mesh.to_world.point(place);
-    }
-
     RenderShow show_;
     std::span<const DrawnMesh> meshes_;
     std::span<const ShownSurface* const> surfaces_;
-    Camera camera_;
     Lighting lighting_;
     PictureSize size_;
     Vec3 background_ = kBackground;
-};
-
-/// Layers of what is blended, from the front: so many at most, what lies behind them is not seen.
-constexpr int kMostBlended = 8;
-
-/// What each sample sees through blended surfaces.
-class Layers {
-  public:
-    Layers(const RowShader& shader, std::uint32_t width, std::uint32_t height)
-        : shader_(shader),
-          width_(width),
-          height_(height),
-          colors_(std::size_t{width} * height),
-          left_(colors_.size(), 1.0f),
-          limits_(colors_.size(), -HUGE_VALF) {}
-
-    [[nodiscard]] std::span<const float> limits() const { return limits_; }
-
-    /// Puts a layer behind those before it. False: nothing shines through any more.
-    bool add(const VisibleTriangles& visible, Parallel& parallel) {
-        std::vector<std::uint8_t> goes_on(height_, 0);
-        parallel.forRanges(height_, 8, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t row = begin; row < end; ++row)
-                goes_on[row] = addRow(visible, static_cast<std::uint32_t>(row)) ? 1 : 0;
-        });
-        return std::find(goes_on.begin(), goes_on.end(), 1) != goes_on.end();
-    }
-
-    [[nodiscard]] Vec3 colorAt(std::size_t sample) const {
-        return sum(colors_[sample], times(left_[sample], shader_.background()));
-    }
-
-  private:
-    bool addRow(const VisibleTriangles& visible, std::uint32_t row) {
-        constexpr float kSeen = 1.0f / 512;
-        bool goes_on = false;
-        shader_.forSamples(visible, row, [&](std::uint32_t x, const SeenSample& seen) {
-            const std::size_t sample = std::size_t{row} * width_ + x;
-            limits_[sample] = -HUGE_VALF;
-            if (seen.surface == nullptr) return;
-            const bool is_blended = seen.surface->is_blended;
-            const float alpha =
-                is_blended ? std::clamp(alphaOf(*seen.surface, seen.point.triangle, seen.point.weights), 0.0f, 1.0f)
-                           : 1;
-            colors_[sample] = sum(colors_[sample], times(left_[sample] * alpha, seen.color));
-            left_[sample] *= 1 - alpha;
-            if (!is_blended || left_[sample] < kSeen) return;
-            limits_[sample] = visible.nearness(sample);
-            goes_on = true;
-        });
-        return goes_on;
-    }
-
-    const RowShader& shader_;
-    std::uint32_t width_, height_;
-    std::vector<Vec3> colors_;
-    std::vector<float> left_;    ///< how much of what lies behind shines through
-    std::vector<float> limits_;  ///< how near the last layer was, where it is blended
 };
 
 }  // namespace
@@ -567,24 +366,6 @@ SurfacePicture drawSurfaces(RenderShow show, std::span<const DrawnMesh> meshes,
     const auto pixels = [&](std::size_t row) {
         return std::span(picture.image.rgb).subspan(row * row_bytes, row_bytes);
     };
-    const bool is_blended = isLight(show) && std::any_of(surfaces.begin(), surfaces.end(),
-                                                         [](const ShownSurface* one) { return one->is_blended; });
-    if (is_blended) {
-        Layers layers(shader, width, height);
-        bool goes_on = layers.add(VisibleTriangles(meshes, camera, width, height, effort), parallel);
-        for (int i = 1; goes_on && i < kMostBlended; ++i)
-            goes_on = layers.add(VisibleTriangles(meshes, camera, width, height, effort, layers.limits()), parallel);
-        for (std::uint32_t row = 0; row < size.height; ++row) {
-            std::vector<Vec3> sums(size.width);
-            for (std::uint32_t k = 0; k < size.samples; ++k) {
-                const std::size_t first = std::size_t{row * size.samples + k} * width;
-                for (std::uint32_t x = 0; x < width; ++x)
-                    sums[x / size.samples] = sum(sums[x / size.samples], layers.colorAt(first + x));
-            }
-            shader.writePixels(sums, pixels(row));
-        }
-        return picture;
-    }
     const VisibleTriangles visible(meshes, camera, width, height, effort);
     std::vector<ErrorStatistics> errors(size.height);
     parallel.forRanges(size.height, 8, [&](std::size_t begin, std::size_t end) {

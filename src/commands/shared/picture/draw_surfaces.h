@@ -87,12 +87,7 @@ struct ShownSurface {
     MapReading reading = {};
     float alpha_cutoff = 0;
     bool is_unlit = false;
-    bool is_blended = false;            ///< what lies behind shines through, in `lit` and `surface`
     std::span<const Vec4> colors = {};  ///< of vertices, linear; empty: none
-    PlacedTexture metal = {};           ///< green: roughness; blue: metalness
-    PlacedTexture emission_map = {};    ///< linear
-    float metalness = 0, roughness = 1;
-    Vec3 emission = {0, 0, 0};
 };
 
 struct Lighting {

@@ -188,10 +188,6 @@ Legend legendOf(RenderShow show, const TangentSources& sources, Method method) {
             say("LIT BY ONE LAMP");
             appendEntries(entries, tangents);
             break;
-        case RenderShow::surface:
-            say("METAL AND ROUGHNESS");
-            appendEntries(entries, tangents);
-            break;
         case RenderShow::normals:
             say("NORMALS");
             appendEntries(entries, axes);

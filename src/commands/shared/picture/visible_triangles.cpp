@@ -206,12 +206,11 @@ DVec3 SeenTriangle::nearness() const {
 }
 
 VisibleTriangles::VisibleTriangles(std::span<const DrawnMesh> meshes, const Camera& camera, std::uint32_t width,
-                                   std::uint32_t height, Effort& effort, std::span<const float> limits)
+                                   std::uint32_t height, Effort& effort)
     : meshes_(meshes),
       camera_(camera),
       width_(width),
       height_(height),
-      limits_(limits),
       nearness_(std::size_t{width} * height, -HUGE_VALF),
       triangles_(std::size_t{width} * height, kNone) {
     std::uint64_t count = 0;
@@ -274,7 +273,6 @@ void VisibleTriangles::drawPart(const Job& job, const SeenPoint& a, const SeenPo
             const auto nearness = static_cast<float>(std::min(std::max(job.plane.x * x + at_row, least), most));
             const std::size_t sample = first + static_cast<std::size_t>(column);
             if (!(nearness > nearness_[sample])) continue;
-            if (!limits_.empty() && !(nearness < limits_[sample])) continue;
             if (job.mesh.is_there && !job.mesh.is_there(job.triangle, job.seen.weightsAt(x, y))) continue;
             nearness_[sample] = nearness;
             triangles_[sample] = job.number;

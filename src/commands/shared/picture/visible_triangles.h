@@ -51,11 +51,6 @@ class Camera {
     [[nodiscard]] const DVec3& up() const { return up_; }
     /// The direction from the scene to the eye.
     [[nodiscard]] const DVec3& back() const { return back_; }
-    /// Unit, from a point to the eye.
-    [[nodiscard]] DVec3 toEye(const DVec3& point) const {
-        DVec3 way = eye_ - point;
-        return is_perspective_ && normalize(way) ? way : back_;
-    }
 
   private:
     DVec3 right_{1, 0, 0}, up_{0, 1, 0}, back_{0, 0, 1}, eye_{};
@@ -117,16 +112,13 @@ class VisibleTriangles {
 
     /// Draws all meshes. Of two triangles at one distance the first is seen. Neighbours that share an edge leave no gap
     /// and no sample twice. Throws FileError: tooLarge for 2^32 - 1 triangles or more, too, and where `effort` ends.
-    /// `limits`: one per sample, or none: only what is farther away than this nearness is seen.
     VisibleTriangles(std::span<const DrawnMesh> meshes, const Camera& camera, std::uint32_t width, std::uint32_t height,
-                     Effort& effort, std::span<const float> limits = {});
+                     Effort& effort);
 
     /// Row by row from the top.
     [[nodiscard]] std::span<const std::uint32_t> row(std::uint32_t y) const {
         return std::span(triangles_).subspan(std::size_t{y} * width_, width_);
     }
-    /// Row by row; what no triangle has is infinitely far away.
-    [[nodiscard]] float nearness(std::size_t sample) const { return nearness_[sample]; }
     [[nodiscard]] Place placeOf(std::uint32_t number) const;
     [[nodiscard]] SeenTriangle seen(const Place& place) const;
 
@@ -147,7 +139,6 @@ class VisibleTriangles {
     Camera camera_;
     std::uint32_t width_, height_;
     std::vector<std::uint32_t> first_;  ///< per mesh: the number of its first triangle
-    std::span<const float> limits_;
     std::vector<float> nearness_;
     std::vector<std::uint32_t> triangles_;
 };
