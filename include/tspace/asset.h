@@ -62,7 +62,7 @@ struct FileOptions {
     /// A written file is on the disk, and not in its cache alone, before it takes its name: after a power cut the old file is
     /// there or the new one, and never half of one. false: for many small files, where that takes most of the time.
     bool sync = true;
-    /// OBJ, PLY, STL, COLLADA and FBX: coordinates so far from the origin (metres of a map) that 32-bit floats would not hold the shape are
+    /// OBJ, PLY and STL: coordinates so far from the origin (metres of a map) that 32-bit floats would not hold the shape are
     /// read in double, and an offset is taken out of them before they become floats. In glTF it is the translation of the
     /// nodes. true: no offset; the shape then loses what floats lose, and a warning says so.
     bool keep_coordinates = false;

@@ -6,7 +6,6 @@
 #include <assimp/scene.h>
 
 #include <algorithm>
-#include <array>
 #include <assimp/Importer.hpp>
 #include <cmath>
 #include <map>
@@ -29,8 +28,8 @@ namespace {
 
 class SceneWriter {
   public:
-    SceneWriter(const aiScene& scene, bool takes_tangents, const ExactTranslations& translations, MovedMeshes moved)
-        : scene_(scene), takes_tangents_(takes_tangents), translations_(translations), moved_(std::move(moved)) {}
+    SceneWriter(const aiScene& scene, bool takes_tangents, MovedMeshes moved)
+        : scene_(scene), takes_tangents_(takes_tangents), moved_(std::move(moved)) {}
 
     std::vector<std::uint8_t> write() {
         aiString generator;
@@ -39,6 +38,8 @@ class SceneWriter {
             builder_.json()["asset"]["generator"] = generator.C_Str();
         }
         listNodes();
+        const aiMatrix4x4 root = inMetres() * scene_.mRootNode->mTransformation;
+        meters_ = std::cbrt(std::fabs(static_cast<double>(root.Determinant())));
         addMaterials(builder_, scene_);
         for (std::size_t i = 0; i < nodes_.size(); ++i) builder_.append("nodes", nodeJson(i));
         for (std::size_t i = 0; i < nodes_.size(); ++i) addMeshes(i);
@@ -72,21 +73,18 @@ class SceneWriter {
         aiMatrix4x4 place = node.mTransformation;
         if (i == 0) place = inMetres() * place;
         const std::vector<float> matrix = columnsOf(place, builder_.mended());
-        const DVec3* const exact = i == 0 ? nullptr : translations_.of(node);
+        if (i > 0) countCoarsePlace(node.mTransformation, meters_, builder_.mended());
         if (isAnimated(node) && isFinite(place[0], 16)) {
             // A matrix cannot be animated.
             aiVector3D scale, translation;
             aiQuaternion rotation;
             place.Decompose(scale, rotation, translation);
             json["translation"] = {translation.x, translation.y, translation.z};
-            if (exact != nullptr) json["translation"] = {exact->x, exact->y, exact->z};
             rotation = unitRotation(rotation);
             json["rotation"] = {rotation.x, rotation.y, rotation.z, rotation.w};
             json["scale"] = {scale.x, scale.y, scale.z};
         } else if (matrix != columnsOf(aiMatrix4x4(), builder_.mended())) {
             json["matrix"] = matrix;
-            for (std::size_t k = 0; exact != nullptr && k < 3; ++k)
-                json["matrix"][12 + k] = std::array{exact->x, exact->y, exact->z}[k];
         }
         return json;
     }
@@ -293,8 +291,8 @@ class SceneWriter {
 
     const aiScene& scene_;
     bool takes_tangents_;
-    const ExactTranslations& translations_;
     MovedMeshes moved_;
+    double meters_ = 1;  ///< one unit of the nodes below the root
     GlbBuilder builder_;
     std::vector<const aiNode*> nodes_ = {};
     std::vector<std::size_t> first_child_ = {};
@@ -309,7 +307,6 @@ struct Reading {
     const ImportRules& rules;
     Assimp::Importer& importer;
     bool takes_tangents;
-    const ExactTranslations& translations;
 };
 
 /// Reads the file once more, near the origin. Returns why that does not help; nothing where it does. `scene` is gone then.
@@ -325,9 +322,7 @@ std::string readNearOrigin(const Reading& reading, const aiScene& scene, Importe
     const aiScene* const near = reading.importer.ReadFile(reading.path, 0);
     if (near == nullptr || near->mRootNode == nullptr) return "; reading it near the origin failed";
     const MovedMeshes meshes = movedMeshes(*near, first_vertices, moved->offset);
-    if (meshes.has_skin)
-        return "; no offset is taken out of meshes with skins: move the model to the origin before it is exported";
-    SceneWriter writer(*near, reading.takes_tangents, reading.translations, meshes);
+    SceneWriter writer(*near, reading.takes_tangents, meshes);
     std::vector<std::uint8_t> glb = writer.write();
     if (writer.mended().isCoarse()) return no_common;
     imported.glb = std::move(glb);
@@ -347,7 +342,9 @@ void mendCoarse(const Reading& reading, const aiScene& scene, const Mended& mend
     const std::string coarse = mended.coarseness();
     std::string why;
     if (!isReadInDouble(reading.path)) {
-        why = "; its format is read as such, OBJ, PLY, STL, COLLADA and FBX are read in double";
+        why =
+            "; this format is read as 32-bit floats, so the digits beyond them are lost: move the model to the origin "
+            "before it is exported, or export OBJ, PLY or STL, which are read in double";
     } else if (reading.rules.keep_coordinates) {
         imported.keeps_coordinates = true;
         why = "; without --keep-coordinates an offset is taken out of them where that helps";
@@ -385,12 +382,11 @@ Imported importScene(const std::string& path, const ImportRules& rules) {
     if (!has_faces) return {.error = not_read.empty() ? "it has no faces" : "it has no faces; " + not_read[0]};
     const StoredTangents stored = storedTangents(path);
     const bool takes_tangents = stored == StoredTangents::withBitangents;
-    const ExactTranslations translations(*scene, path);
-    SceneWriter writer(*scene, takes_tangents, translations, {});
+    SceneWriter writer(*scene, takes_tangents, {});
     Imported imported{.glb = writer.write()};
     imported.warnings = writer.mended().warnings();
     if (writer.mended().isCoarse())
-        mendCoarse({path, rules, importer, takes_tangents, translations}, *scene, writer.mended(), imported);
+        mendCoarse({path, rules, importer, takes_tangents}, *scene, writer.mended(), imported);
     imported.warnings.insert(imported.warnings.end(), not_read.begin(), not_read.end());
     imported.has_no_tangents = stored == StoredTangents::none;
     return imported;

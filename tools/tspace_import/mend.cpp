@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <charconv>
 #include <cmath>
 #include <limits>
 
@@ -46,6 +47,14 @@ std::vector<std::string> Mended::warnings() const {
     add(normals, "normals that are zero or not finite and were taken from a face");
     add(tangents, "tangents that are not finite and were set to 0");
     add(transforms, "matrices of nodes or joints that are not finite and were left out");
+    if (coarse_places != 0) {
+        char meters[32];
+        const auto end = std::to_chars(meters, meters + sizeof meters, worst_place, std::chars_format::general, 2);
+        list.push_back(
+            "places of nodes are so far from the origin that 32-bit floats, which the importer reads, may move "
+            "them by up to " +
+            std::string(meters, end.ptr) + " m: " + std::to_string(coarse_places));
+    }
     return list;
 }
 
@@ -130,6 +139,19 @@ void countCoarseEdges(const std::vector<float>& positions, const std::vector<std
     if (mended.edges != edges_before || !is_far) return;
     mended.edges += triangles.size();
     mended.coarse_edges += triangles.size();
+}
+
+void countCoarsePlace(const aiMatrix4x4& matrix, double meters, Mended& mended) {
+    constexpr double kLeastMeters = 0.001;
+    float largest = 0;
+    for (const float value : {matrix.a4, matrix.b4, matrix.c4}) {
+        if (std::isfinite(value)) largest = std::max(largest, std::fabs(value));
+    }
+    const double step = double{std::nextafter(largest, std::numeric_limits<float>::infinity())} - double{largest};
+    const double error = meters * step / 2;
+    if (!std::isfinite(error) || error < kLeastMeters) return;
+    ++mended.coarse_places;
+    mended.worst_place = std::max(mended.worst_place, error);
 }
 
 std::vector<float> columnsOf(const aiMatrix4x4& matrix, Mended& mended) {

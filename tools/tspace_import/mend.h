@@ -15,6 +15,8 @@ namespace tspace::import {
 struct Mended {
     std::size_t positions = 0, uvs = 0, normals = 0, tangents = 0, transforms = 0;
     std::size_t edges = 0, coarse_edges = 0;  ///< of triangles; countCoarseEdges
+    std::size_t coarse_places = 0;            ///< nodes whose translation floats hold less exactly than to a millimeter
+    double worst_place = 0;                   ///< how far rounding to floats may have moved one of them, in meters
 
     /// Whether so many edges are coarse that it shows: one in twenty, as for OBJ.
     [[nodiscard]] bool isCoarse() const { return coarse_edges != 0 && 20 * coarse_edges >= edges; }
@@ -41,6 +43,10 @@ std::size_t mendNormals(std::vector<float>& normals, const std::vector<float>& p
 /// numbers as, may change them by a five-hundredth of their length along an axis. All of them where none has a length, and the mesh is so far
 /// away that they may have been rounded to it.
 void countCoarseEdges(const std::vector<float>& positions, const std::vector<std::uint32_t>& triangles, Mended& mended);
+
+/// Counts a node whose translation is so large that rounding it to floats may move the node by a millimeter or more.
+/// `meters`: one unit of the translation.
+void countCoarsePlace(const aiMatrix4x4& matrix, double meters, Mended& mended);
 
 /// Column by column, as glTF wants it; Assimp stores rows. The last row is exactly 0 0 0 1. The identity, counted,
 /// where a number is not finite.

@@ -24,8 +24,8 @@ export interface GenerateReport {
   outputFiles: string[];
   /** Sentences for a person. */
   warnings: string[];
-  /** What was taken out of the coordinates of an OBJ, PLY, STL, COLLADA or FBX file, and is the translation of the nodes;
-   * zeros: nothing was. */
+  /** What was taken out of the coordinates of an OBJ, PLY or STL file, and is the translation of the nodes; zeros: nothing
+   * was. */
   coordinateOffset: [number, number, number];
   /** Sums over the primitives. */
   totals: GenerateTotals;

@@ -141,8 +141,7 @@ export interface InspectReport {
   variants: string[];
   /** Sentences for a person about the file as a whole: what was left out or mended as it was read. */
   warnings: string[];
-  /** What "generate" would take out of the coordinates of an OBJ, PLY, STL, COLLADA or FBX file far from the origin; zeros:
-   * nothing. */
+  /** What "generate" would take out of the coordinates of an OBJ, PLY or STL file far from the origin; zeros: nothing. */
   coordinateOffset: [number, number, number];
   /** One entry per primitive, in file order. */
   primitives: InspectedPrimitive[];

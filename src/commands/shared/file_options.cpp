@@ -47,7 +47,7 @@ void addAllowExternal(OptionList& list, FileOptions& file) {
 void addKeepCoordinates(OptionList& list, FileOptions& file) {
     add(list, kInputAndOutput,
         flag("--keep-coordinates", file.keep_coordinates,
-             "For OBJ, PLY, STL, COLLADA and FBX: write coordinates as they are. By default an offset is taken out of "
+             "For OBJ, PLY and STL: write coordinates as they are. By default an offset is taken out of "
              "those that are too far from the origin for the 32-bit floats of glTF, such as metres of a map, and "
              "becomes "
              "the translation of the nodes."));

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "far_files.h"
 
-#include <zlib.h>
-
 #include <charconv>
 #include <cmath>
 
@@ -63,7 +61,7 @@ std::string collada(const std::vector<Part>& parts, const FileStyle& style) {
     }
     return "<?xml version='1.0'?><COLLADA xmlns='http://www.collada.org/2005/11/COLLADASchema' version='1.4.1'>"
            "<asset><unit meter='" +
-           std::string(style.unit) + "'/><up_axis>" + style.up + "</up_axis></asset><library_geometries>" + geometries +
+           std::string(style.unit) + "'/><up_axis>Y_UP</up_axis></asset><library_geometries>" + geometries +
            "</library_geometries><library_visual_scenes><visual_scene id='s'>" + nodes +
            "</visual_scene></library_visual_scenes><scene><instance_visual_scene url='#s'/></scene></COLLADA>";
 }
@@ -91,130 +89,6 @@ std::string fbxText(const std::vector<Part>& parts, const FileStyle& style) {
            "GlobalSettings:  {\n Properties70:  {\n  P: \"UnitScaleFactor\", \"double\", \"Number\", \"\",100\n }\n}\n"
            "Objects:  {\n" +
            objects + "}\nConnections:  {\n" + connections + "}\n";
-}
-
-/// Records of FBX in binary, one after the other.
-class FbxWriter {
-  public:
-    FbxWriter(std::uint32_t version, bool deflates, const FileStyle& style)
-        : field_size_(version >= 7500 ? 8 : 4), deflates_(deflates), style_(style) {
-        file_ = std::string("Kaydara FBX Binary  \0\x1a\0", 23);
-        append(version);
-    }
-
-    /// `properties`: bytes; `children` writes what is in it.
-    template <class Children>
-    void record(const std::string& name, std::size_t count, const std::string& properties, Children&& children) {
-        const std::size_t begin = file_.size();
-        appendField(0);
-        appendField(count);
-        appendField(properties.size());
-        file_ += static_cast<char>(name.size());
-        file_ += name + properties;
-        const std::size_t inside = file_.size();
-        children();
-        if (file_.size() != inside) end();
-        std::string position;
-        std::swap(position, file_);
-        appendField(position.size());
-        std::swap(position, file_);
-        file_.replace(begin, field_size_, position);
-    }
-    void record(const std::string& name, std::size_t count, const std::string& properties) {
-        record(name, count, properties, [] {});
-    }
-    void end() { file_.append(3 * field_size_ + 1, '\0'); }
-
-    [[nodiscard]] static std::string text(const std::string& value) {
-        return 'S' + bytes(static_cast<std::uint32_t>(value.size())) + value;
-    }
-    template <class Number>
-    [[nodiscard]] static std::string number(char type, Number value) {
-        return type + bytes(value);
-    }
-    template <class Number>
-    [[nodiscard]] std::string array(char type, const std::vector<Number>& values) const {
-        std::string data;
-        for (const Number value : values) data += bytes(value);
-        if (deflates_) {
-            uLongf size = compressBound(data.size());
-            std::string deflated(size, '\0');
-            compress(reinterpret_cast<Bytef*>(deflated.data()), &size, reinterpret_cast<const Bytef*>(data.data()),
-                     data.size());
-            data = deflated.substr(0, size);
-        }
-        const auto count = static_cast<std::uint32_t>(values.size());
-        return type + bytes(style_.claimed_count != 0 ? style_.claimed_count : count) +
-               bytes(std::uint32_t{deflates_}) + bytes(static_cast<std::uint32_t>(data.size())) + data;
-    }
-    [[nodiscard]] std::string finish() {
-        end();
-        return file_ + std::string(160, 'f');
-    }
-
-  private:
-    template <class Number>
-    static std::string bytes(Number value) {
-        std::array<std::uint8_t, sizeof value> stored;
-        storeLittleEndian(value, stored.data());
-        return {stored.begin(), stored.end()};
-    }
-    void append(std::uint32_t value) { file_ += bytes(value); }
-    void appendField(std::uint64_t value) {
-        file_ += field_size_ == 8 ? bytes(value) : bytes(static_cast<std::uint32_t>(value));
-    }
-
-    std::string file_ = {};
-    std::size_t field_size_;
-    bool deflates_;
-    FileStyle style_;
-};
-
-void writePart(FbxWriter& fbx, std::size_t i, const Part& part, const FileStyle& style) {
-    std::vector<double> numbers;
-    for (const DVec3& p : part.positions) numbers.insert(numbers.end(), {p.x, p.y, p.z});
-    std::vector<std::int32_t> corners;
-    for (const std::array<int, 3>& face : part.faces) corners.insert(corners.end(), {face[0], face[1], -1 - face[2]});
-    const auto id = static_cast<std::int64_t>(i);
-    const std::string kind = fbx.text("Mesh"), name = "m" + std::to_string(i);
-    fbx.record("Geometry", 3, fbx.number('L', 1000 + id) + fbx.text(std::string("g\0\1Geometry", 11)) + kind, [&] {
-        fbx.record("Vertices", 1,
-                   style.has_floats ? fbx.array('f', std::vector<float>(numbers.begin(), numbers.end()))
-                                    : fbx.array('d', numbers));
-        fbx.record("PolygonVertexIndex", 1, fbx.array('i', corners));
-    });
-    fbx.record("Model", 3, fbx.number('L', 2000 + id) + fbx.text(name + std::string("\0\1Model", 7)) + kind, [&] {
-        fbx.record("Version", 1, fbx.number('I', 232));
-        if (!part.translation) return;
-        const std::string lcl = fbx.text("Lcl Translation");
-        fbx.record("Properties70", 0, "", [&] {
-            fbx.record("P", 7,
-                       lcl + lcl + fbx.text("") + fbx.text("A") + fbx.number('D', part.translation->x) +
-                           fbx.number('D', part.translation->y) + fbx.number('D', part.translation->z));
-        });
-    });
-}
-
-std::string fbxBinary(std::uint32_t version, bool deflates, const std::vector<Part>& parts, const FileStyle& style) {
-    FbxWriter fbx(version, deflates, style);
-    fbx.record("FBXHeaderExtension", 0, "", [&] { fbx.record("FBXVersion", 1, fbx.number('I', std::int32_t{7400})); });
-    fbx.record("GlobalSettings", 0, "", [&] {
-        fbx.record("Properties70", 0, "", [&] {
-            fbx.record("P", 5,
-                       fbx.text("UnitScaleFactor") + fbx.text("double") + fbx.text("Number") + fbx.text("") +
-                           fbx.number('D', 100.0));
-        });
-    });
-    fbx.record("Objects", 0, "", [&] {
-        for (std::size_t i = 0; i < parts.size(); ++i) writePart(fbx, i, parts[i], style);
-    });
-    fbx.record("Connections", 0, "", [&] {
-        for (std::int64_t i = 0; i < static_cast<std::int64_t>(parts.size()); ++i) {
-            for (const auto& [from, to] : {std::pair{1000 + i, 2000 + i}, {2000 + i, std::int64_t{0}}})
-                fbx.record("C", 3, fbx.text("OO") + fbx.number('L', from) + fbx.number('L', to));
-        }
-    });
-    return fbx.finish();
 }
 
 }  // namespace
@@ -248,14 +122,6 @@ std::string fileOf(FarFormat format, const std::vector<Part>& parts, const FileS
             return collada(parts, style);
         case FarFormat::fbxText:
             return fbxText(parts, style);
-        case FarFormat::fbxRaw:
-            return fbxBinary(7400, false, parts, style);
-        case FarFormat::fbxDeflated:
-            return fbxBinary(7400, true, parts, style);
-        case FarFormat::fbxRaw7500:
-            return fbxBinary(7500, false, parts, style);
-        case FarFormat::fbxDeflated7500:
-            return fbxBinary(7500, true, parts, style);
     }
     return {};
 }

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Bumpy sheets as files of the formats that have more digits than floats.
+// Bumpy sheets as files of formats that have more digits than floats.
 #pragma once
 
 #include <array>
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,16 +21,13 @@ struct Part {
 /// A sheet of `side` x `side` vertices, 0.15 apart, with its corner at `place`.
 Part sheet(int side, const DVec3& place);
 
-enum class FarFormat { stlText, collada, fbxText, fbxRaw, fbxDeflated, fbxRaw7500, fbxDeflated7500 };
+enum class FarFormat { stlText, collada, fbxText };
 
 /// What differs from file to file.
 struct FileStyle {
-    int decimals = 4;                 ///< of numbers in text
-    bool has_floats = false;          ///< FBX in binary: arrays of floats
-    const char* up = "Y_UP";          ///< COLLADA
-    const char* unit = "1";           ///< COLLADA, in metres
-    bool has_matrices = false;        ///< COLLADA: translations as matrices
-    std::uint32_t claimed_count = 0;  ///< FBX in binary: of numbers in the arrays; 0: as many as there are
+    int decimals = 4;           ///< of numbers in text
+    const char* unit = "1";     ///< COLLADA, in meters
+    bool has_matrices = false;  ///< COLLADA: translations as matrices
 };
 
 std::string extensionOf(FarFormat format);

@@ -1,19 +1,15 @@
 // SPDX-License-Identifier: MIT
-// STL, COLLADA and FBX in metres of a map projection: the shape that the file has in double, and not what floats leave of it.
-#include <assimp/postprocess.h>
-#include <assimp/scene.h>
+// Files in meters of a map projection: STL with the shape that the file has in double, COLLADA and FBX with a warning that names what
+// floats lose.
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <assimp/Exporter.hpp>
-#include <assimp/Importer.hpp>
 #include <cmath>
 
 #include "far_files.h"
 #include "model/gltf/primitive_reader.h"
 #include "model/imported/with_importer.h"
 #include "model/read/read_scene.h"
-#include "support/shared_data.h"
 #include "support/temp_folder.h"
 #include "tspace/asset.h"
 
@@ -170,45 +166,42 @@ TEST_P(FarFormats, WhatIsWrittenFromFloatsIsNotSaidToBeMended) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Import, FarFormats,
-                         testing::Values(FarFormat::stlText, FarFormat::collada, FarFormat::fbxText, FarFormat::fbxRaw,
-                                         FarFormat::fbxDeflated, FarFormat::fbxRaw7500, FarFormat::fbxDeflated7500));
+INSTANTIATE_TEST_SUITE_P(Import, FarFormats, testing::Values(FarFormat::stlText));
 
-class FarNodes : public testing::TestWithParam<FarFormat> {};
+class FarFloats : public testing::TestWithParam<FarFormat> {};
 
-TEST_P(FarNodes, KeepTheirTranslationInDouble) {
-    // In floats they are at the same place.
-    constexpr DVec3 kFirst{500000.123, 5200000.456, 7.89}, kSecond{500000.124, 5200000.457, 7.89};
-    for (const bool has_matrices : {false, true}) {
-        std::vector<Part> parts = {sheet(3, {0, 0, 0}), sheet(3, {0, 0, 0})};
-        parts[0].translation = kFirst;
-        parts[1].translation = kSecond;
-        const Made made = make(GetParam(), parts, false, {.has_matrices = has_matrices});
+TEST_P(FarFloats, ShapesThatFloatsDoNotHoldAreNamed) {
+    for (const bool keep : {false, true}) {
+        const Made made = make(GetParam(), {sheet(kSide, kFar)}, keep);
         EXPECT_FALSE(made.hasOffset());
-        EXPECT_TRUE(made.report.warnings.empty());
-        ASSERT_EQ(made.drawn.placements.size(), 2U);
-        EXPECT_EQ(length(made.drawn.placements[0].to_world.origin - kFirst), 0);
-        EXPECT_EQ(length(made.drawn.placements[1].to_world.origin - kSecond), 0);
+        EXPECT_TRUE(made.warns(" edges of triangles")) << testing::PrintToString(made.report.warnings);
+        EXPECT_TRUE(made.warns("the digits beyond them are lost"));
+        EXPECT_EQ(made.warns("--keep-coordinates"), keep) << "it has no effect";
+    }
+    EXPECT_TRUE(make(GetParam(), {sheet(kSide, {0, 0, 0})}).report.warnings.empty());
+}
+
+TEST_P(FarFloats, PlacesOfNodesThatFloatsDoNotHoldAreNamed) {
+    std::vector<Part> parts = {sheet(3, {0, 0, 0}), sheet(3, {0, 0, 0})};
+    for (const bool has_matrices : {false, true}) {
+        const FileStyle style{.has_matrices = has_matrices};
+        parts[0].translation = DVec3{500000.123, 5200000.456, 7.89};
+        parts[1].translation = DVec3{1000, 2, 3};
+        const Made made = make(GetParam(), parts, false, style);
+        EXPECT_EQ(made.report.warnings.size(), 1U);
+        EXPECT_TRUE(made.warns("may move them by up to 0.25 m: 1")) << testing::PrintToString(made.report.warnings);
+        parts[0].translation = DVec3{16000, -16000, 0};
+        EXPECT_TRUE(make(GetParam(), parts, false, style).report.warnings.empty());
     }
 }
 
-TEST_P(FarNodes, GetAChildForTheOffsetOfTheirGeometry) {
-    std::vector<Part> parts = {sheet(kSide, kFar)};
-    parts[0].translation = DVec3{500000.125, 5200000.5, 7.75};
-    const Made made = make(GetParam(), parts);
-    EXPECT_TRUE(made.hasOffset());
-    ASSERT_EQ(made.drawn.placements.size(), 1U);
-    EXPECT_LT(length(made.at(0, 0) - *parts[0].translation - kFar), 1e-5);
-}
+INSTANTIATE_TEST_SUITE_P(Import, FarFloats, testing::Values(FarFormat::collada, FarFormat::fbxText));
 
-INSTANTIATE_TEST_SUITE_P(Import, FarNodes,
-                         testing::Values(FarFormat::collada, FarFormat::fbxText, FarFormat::fbxRaw,
-                                         FarFormat::fbxDeflated7500));
-
-TEST(FarCollada, UnitAndUpAxisHoldForTheOffset) {
-    const Made made = make(FarFormat::collada, {sheet(kSide, kFar)}, false, {.up = "Z_UP", .unit = "0.01"});
-    EXPECT_TRUE(made.hasOffset());
-    EXPECT_LT(length(made.at(0, 0) - 0.01 * DVec3{kFar.x, kFar.z, -kFar.y}), 0.01) << "floats in Assimp's root matrix";
+TEST(FarCollada, TheUnitCountsForPlacesOfNodes) {
+    std::vector<Part> parts = {sheet(3, {0, 0, 0})};
+    parts[0].translation = DVec3{500000, 1000000, 0};
+    EXPECT_TRUE(make(FarFormat::collada, parts).warns("up to 0.031 m"));
+    EXPECT_TRUE(make(FarFormat::collada, parts, false, {.unit = "0.01"}).report.warnings.empty());
 }
 
 TEST(FarStl, FloatsOfBinaryFilesHaveTheSameNormalsNearTheOrigin) {
@@ -225,32 +218,6 @@ TEST(FarStl, FloatsOfBinaryFilesHaveTheSameNormalsNearTheOrigin) {
     EXPECT_TRUE(std::equal(a.begin(), a.end(), b.begin(), b.end())) << "differences of neighbours are exact in floats";
 }
 
-TEST(FarFbx, ArraysOfFloatsHaveNothingMoreToGive) {
-    const Made made = make(FarFormat::fbxDeflated, {sheet(kSide, kFar)}, false, {.has_floats = true});
-    EXPECT_FALSE(made.hasOffset());
-    EXPECT_TRUE(made.warns("no more digits"));
-}
-
-TEST(FarFbx, MeshesWithSkinsAreSaidToBeRounded) {
-    const char* const file = "models/asset-generator/Animation_SkinType/Animation_SkinType_02.gltf";
-    TSPACE_NEEDS_SHARED(file);
-    const TempFolder folder;
-    Assimp::Importer importer;
-    const aiScene* const scene = importer.ReadFile(shared(file).string(), 0);
-    ASSERT_NE(scene, nullptr);
-    Assimp::Exporter exporter;
-    ASSERT_EQ(exporter.Export(scene, "fbxa", folder.path("skin.fbx").string()), AI_SUCCESS);
-    std::string text = folder.read("skin.fbx");
-    const std::size_t begin = text.find("a: ", text.find("Vertices: *")) + 3, end = text.find('}', begin);
-    std::string moved;
-    std::istringstream numbers(text.substr(begin, end - begin));
-    for (std::string number; std::getline(numbers, number, ',');)
-        moved += (moved.empty() ? "" : ",") + std::to_string(std::stod(number) * 0.1 + 5200000.123);
-    const Made made = make(".fbx", text.replace(begin, end - begin, moved));
-    EXPECT_FALSE(made.hasOffset());
-    EXPECT_TRUE(made.warns("skins")) << testing::PrintToString(made.report.warnings);
-}
-
 TEST(FarFormatsElsewhere, AreSaidToBeReadAsFloats) {
     std::string text = "OFF\n400 722 0\n";
     const Part part = sheet(kSide, kFar);
@@ -258,7 +225,7 @@ TEST(FarFormatsElsewhere, AreSaidToBeReadAsFloats) {
         text += std::to_string(p.x) + ' ' + std::to_string(p.y) + ' ' + std::to_string(p.z) + '\n';
     for (const std::array<int, 3>& face : part.faces)
         text += "3 " + std::to_string(face[0]) + ' ' + std::to_string(face[1]) + ' ' + std::to_string(face[2]) + '\n';
-    EXPECT_TRUE(make(".off", text).warns("its format is read as such"));
+    EXPECT_TRUE(make(".off", text).warns("this format is read as 32-bit floats"));
 }
 
 }  // namespace

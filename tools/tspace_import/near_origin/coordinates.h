@@ -55,11 +55,6 @@ using Coordinates = std::unique_ptr<FileCoordinates>;
 
 Coordinates readPly(std::vector<char> bytes);
 Coordinates readStl(std::vector<char> bytes);
-Coordinates readCollada(std::vector<char> bytes);
-Coordinates readFbx(std::vector<char> bytes);
-
-std::vector<ExactPlace> placesInCollada(const std::vector<char>& bytes);
-std::vector<ExactPlace> placesInFbx(const std::vector<char>& bytes);
 
 inline bool isBlank(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 

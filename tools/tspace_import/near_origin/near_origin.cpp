@@ -19,12 +19,9 @@ namespace {
 struct FormatReader {
     const char* extension;
     Coordinates (*coordinates)(std::vector<char>);
-    std::vector<ExactPlace> (*places)(const std::vector<char>&);
 };
 
-constexpr std::array kFormats = {FormatReader{".ply", readPly, nullptr}, FormatReader{".stl", readStl, nullptr},
-                                 FormatReader{".dae", readCollada, placesInCollada},
-                                 FormatReader{".fbx", readFbx, placesInFbx}};
+constexpr std::array kFormats = {FormatReader{".ply", readPly}, FormatReader{".stl", readStl}};
 
 const FormatReader* formatOf(const std::string& path) {
     std::string extension = std::filesystem::path(path).extension().string();
@@ -130,12 +127,6 @@ std::optional<NearFile> nearOrigin(const std::string& path) {
         }
     }
     return NearFile{file->rewritten(), offset};
-}
-
-std::vector<ExactPlace> exactPlaces(const std::string& path) {
-    const FormatReader* const format = formatOf(path);
-    if (format == nullptr || format->places == nullptr) return {};
-    return format->places(bytesOf(path));
 }
 
 }  // namespace tspace::import

@@ -16,7 +16,7 @@ struct NearFile {
     DVec3 offset = {};             ///< what was taken out of those that are nearer to it than to the origin
 };
 
-/// Whether nearOrigin reads such files: PLY, STL, COLLADA, and FBX from version 7.1 on.
+/// Whether nearOrigin reads such files: PLY and STL.
 bool isReadInDouble(const std::string& path);
 
 /// The file with one offset taken out, in double, of the vertices of every geometry that is nearer to it than to the origin.
@@ -25,14 +25,5 @@ bool isReadInDouble(const std::string& path);
 /// offset may be of no use, where vertices are far from each other; it is zero, and there are no bytes, where none is far from
 /// the origin.
 std::optional<NearFile> nearOrigin(const std::string& path);
-
-/// A translation of a node, as the file has it.
-struct ExactPlace {
-    std::string id = {}, name = {};  ///< of the node
-    DVec3 translation = {};
-};
-
-/// All translations of nodes in FBX and COLLADA. None in other formats.
-std::vector<ExactPlace> exactPlaces(const std::string& path);
 
 }  // namespace tspace::import

@@ -149,8 +149,8 @@ class InspectReport(Report):
     variants: List[str]
     #: Sentences for a person about the file as a whole: what was left out or mended as it was read.
     warnings: List[str]
-    #: What "generate" would take out of the coordinates of an OBJ, PLY, STL, COLLADA or FBX file far from the origin;
-    #: zeros: nothing.
+    #: What "generate" would take out of the coordinates of an OBJ, PLY or STL file far from the origin; zeros:
+    #: nothing.
     coordinate_offset: List[float]
     #: One entry per primitive, in file order.
     primitives: List[InspectedPrimitive]

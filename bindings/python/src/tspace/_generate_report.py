@@ -31,8 +31,8 @@ class GenerateReport(Report):
     output_files: List[str]
     #: Sentences for a person.
     warnings: List[str]
-    #: What was taken out of the coordinates of an OBJ, PLY, STL, COLLADA or FBX file, and is the translation of the
-    #: nodes; zeros: nothing was.
+    #: What was taken out of the coordinates of an OBJ, PLY or STL file, and is the translation of the nodes; zeros:
+    #: nothing was.
     coordinate_offset: List[float]
     #: Sums over the primitives.
     totals: GenerateTotals
