@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "mesh.h"
+#include "model/gltf/load_document.h"
 #include "model/gltf/primitive_reader.h"
 #include "model/io/file_error.h"
 #include "model/obj/obj_reader.h"

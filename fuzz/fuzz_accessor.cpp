@@ -6,6 +6,7 @@
 
 #include "model/gltf/accessor.h"
 #include "model/gltf/document.h"
+#include "model/gltf/load_document.h"
 #include "model/io/file_error.h"
 #include "model/io/uri.h"
 

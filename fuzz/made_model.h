@@ -11,7 +11,7 @@
 
 #include "byte_reader.h"
 #include "model/gltf/container.h"
-#include "model/gltf/packed.h"
+#include "model/gltf/packed_layout.h"
 
 namespace tspace::fuzz {
 

@@ -8,6 +8,7 @@
 
 #include "gltf_builder.h"
 #include "model/gltf/accessor.h"
+#include "model/gltf/load_document.h"
 #include "model/gltf/references.h"
 
 namespace tspace::gltf {

@@ -6,6 +6,7 @@
 #include "model/gltf/container.h"
 #include "model/gltf/document.h"
 #include "model/gltf/draco_primitives.h"
+#include "model/gltf/load_document.h"
 #include "model/gltf/meshopt_views.h"
 
 namespace tspace::gltf {

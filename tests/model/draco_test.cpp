@@ -12,6 +12,7 @@
 #include "gltf_builder.h"
 #include "model/gltf/accessor.h"
 #include "model/gltf/draco_primitives.h"
+#include "model/gltf/load_document.h"
 #include "model/gltf/primitive_reader.h"
 #include "model/read/read_scene.h"
 #include "model_files.h"

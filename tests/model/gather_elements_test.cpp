@@ -8,6 +8,7 @@
 #include "gltf_builder.h"
 #include "model/gltf/editor.h"
 #include "model/gltf/gather_elements.h"
+#include "model/gltf/load_document.h"
 #include "model/io/atomic_output.h"
 #include "support/temp_folder.h"
 

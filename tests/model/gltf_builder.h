@@ -11,6 +11,7 @@
 #include "core/base/numbers.h"
 #include "model/gltf/container.h"
 #include "model/gltf/document.h"
+#include "model/gltf/load_document.h"
 #include "model/io/file_error.h"
 #include "model/io/uri.h"
 

@@ -10,6 +10,7 @@
 #include "gltf_builder.h"
 #include "model/gltf/accessor.h"
 #include "model/gltf/container.h"
+#include "model/gltf/load_document.h"
 #include "model/gltf/meshopt_views.h"
 #include "model/gltf/primitive_reader.h"
 #include "model/read/read_scene.h"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A model and its arrays: what is decoded once, what the budget is charged, and what a change makes anew.
 #include "model/gltf/model.h"
+#include "model/gltf/load_document.h"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,8 @@
 
 #include "core/base/vec_math.h"
 #include "generate_run.h"
-#include "model/gltf/packed.h"
+#include "model/gltf/packed_frames.h"
+#include "model/gltf/packed_layout.h"
 #include "model/read/read_scene.h"
 
 namespace tspace {

@@ -23,6 +23,7 @@
 #include "core/base/vec_math.h"
 #include "core/mesh/surface/float_loss.h"
 #include "maps/map_surfaces.h"
+#include "model/gltf/load_document.h"
 #include "model/io/file_error.h"
 #include "model/io/file_io.h"
 #include "model/read/read_scene.h"

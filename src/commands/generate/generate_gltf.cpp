@@ -4,16 +4,18 @@
 #include <optional>
 #include <utility>
 
+#include "commands/generate/apply_frames.h"
+#include "commands/generate/compute_pools.h"
 #include "commands/generate/flip_maps.h"
 #include "commands/generate/generate_model.h"
+#include "commands/generate/generate_plan.h"
 #include "commands/generate/generate_steps.h"
+#include "commands/generate/pack_frames.h"
 #include "core/base/parallel.h"
-#include "model/gltf/apply_frames.h"
 #include "model/gltf/compression.h"
-#include "model/gltf/compute_pools.h"
 #include "model/gltf/container.h"
-#include "model/gltf/generate_plan.h"
-#include "model/gltf/packed.h"
+#include "model/gltf/load_document.h"
+#include "model/gltf/packed_frames.h"
 #include "model/gltf/vertex_numbers.h"
 #include "model/io/file_error.h"
 #include "model/read/read_scene.h"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "model/gltf/generate_plan.h"
+#include "commands/generate/generate_plan.h"
 #include "model/gltf/model.h"
 #include "tspace/asset.h"
 

@@ -14,7 +14,7 @@
 #include "core/mesh/pools/local_mesh.h"
 #include "core/mesh/pools/primitive.h"
 #include "core/mesh/pools/unit_lattice.h"
-#include "model/gltf/packed.h"
+#include "model/gltf/packed_layout.h"
 #include "model/io/atomic_output.h"
 #include "model/io/file_error.h"
 #include "model/io/output_name.h"

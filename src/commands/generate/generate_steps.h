@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "commands/generate/flip_maps.h"
+#include "commands/generate/generate_plan.h"
 #include "model/gltf/container.h"
 #include "model/gltf/editor.h"
-#include "model/gltf/generate_plan.h"
 #include "model/gltf/model.h"
 #include "model/io/atomic_output.h"
 #include "model/obj/obj_reader.h"

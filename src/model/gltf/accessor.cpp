@@ -7,7 +7,7 @@
 #include <cstring>
 
 #include "core/base/numbers.h"
-#include "model/gltf/meshopt_views.h"
+#include "model/gltf/compression_extensions.h"
 #include "model/io/file_error.h"
 #include "tspace/mesh.h"
 

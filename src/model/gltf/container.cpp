@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "images/image.h"
-#include "model/gltf/meshopt_views.h"
+#include "model/gltf/compression_extensions.h"
 #include "model/io/file_error.h"
 #include "model/io/folder_rule.h"
 #include "model/io/output_name.h"

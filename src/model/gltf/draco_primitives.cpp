@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "model/gltf/accessor.h"
-#include "model/gltf/packed.h"
+#include "model/gltf/packed_layout.h"
 #include "model/gltf/references.h"
 #include "model/io/file_error.h"
 

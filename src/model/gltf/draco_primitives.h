@@ -8,11 +8,10 @@
 #include <optional>
 #include <set>
 
+#include "model/gltf/compression_extensions.h"
 #include "model/gltf/document.h"
 
 namespace tspace::gltf {
-
-inline constexpr const char* kDraco = "KHR_draco_mesh_compression";
 
 /// The kind of attribute that Draco is told for this name.
 DracoKind dracoKind(const std::string& name);

@@ -14,40 +14,11 @@
 #include "model/gltf/accessor.h"
 #include "model/gltf/document.h"
 #include "model/gltf/document_builder.h"
+#include "model/gltf/gather_elements.h"
 #include "model/gltf/meshopt_views.h"
 #include "model/gltf/references.h"
 
 namespace tspace::gltf {
-
-/// Elements for a new or replaced accessor, tightly packed.
-struct ElementData {
-    ComponentType component = ComponentType::f32;
-    std::string type = "SCALAR";
-    bool normalized = false;
-    std::size_t count = 0;
-    std::size_t element_bytes = 4;
-    Bytes bytes = {};
-    std::shared_ptr<const ByteMaker> later = {};  ///< makes the elements when they are written; `bytes` is then empty
-    unsigned target = kVertexTarget;
-    /// The accessor whose compression the new elements get.
-    std::optional<std::size_t> like = {};
-    /// The same elements before `filter` of meshopt, in rows of a multiple of 4 bytes; empty: only `bytes` are known.
-    bool in_draco = false;  ///< they lie in data of a Draco primitive, which the caller stores
-    Bytes unfiltered = {};
-    MeshoptFilter filter = MeshoptFilter::none;
-    /// Where set, `bytes` holds only the elements at these ascending places and all others of the `count` are zero: they
-    /// are stored as a sparse accessor.
-    std::optional<std::vector<std::uint32_t>> places = {};
-    Json min = nullptr, max = nullptr;  ///< written unless null
-
-    [[nodiscard]] std::size_t byteCount() const { return later ? later->size() : bytes.size(); }
-    void makeNow() {
-        if (!later) return;
-        bytes = Bytes(later->size());
-        later->make(0, bytes);
-        later.reset();
-    }
-};
 
 class Editor {
   public:

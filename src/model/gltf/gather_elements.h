@@ -4,18 +4,50 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "core/mesh/pools/primitive.h"
-#include "model/gltf/editor.h"
-#include "model/gltf/generate_plan.h"
+#include "model/gltf/accessor.h"
+#include "model/gltf/document.h"
+#include "model/gltf/document_builder.h"
+#include "model/gltf/meshopt_views.h"
+#include "model/gltf/primitive_reader.h"
 #include "model/io/atomic_output.h"
 
 namespace tspace::gltf {
+
+/// Elements for a new or replaced accessor, tightly packed.
+struct ElementData {
+    ComponentType component = ComponentType::f32;
+    std::string type = "SCALAR";
+    bool normalized = false;
+    std::size_t count = 0;
+    std::size_t element_bytes = 4;
+    Bytes bytes = {};
+    std::shared_ptr<const ByteMaker> later = {};  ///< makes the elements when they are written; `bytes` is then empty
+    unsigned target = kVertexTarget;
+    /// The accessor whose compression the new elements get.
+    std::optional<std::size_t> like = {};
+    /// The same elements before `filter` of meshopt, in rows of a multiple of 4 bytes; empty: only `bytes` are known.
+    bool in_draco = false;  ///< they lie in data of a Draco primitive, which the caller stores
+    Bytes unfiltered = {};
+    MeshoptFilter filter = MeshoptFilter::none;
+    /// Where set, `bytes` holds only the elements at these ascending places and all others of the `count` are zero: they
+    /// are stored as a sparse accessor.
+    std::optional<std::vector<std::uint32_t>> places = {};
+    Json min = nullptr, max = nullptr;  ///< written unless null
+
+    [[nodiscard]] std::size_t byteCount() const { return later ? later->size() : bytes.size(); }
+    void makeNow() {
+        if (!later) return;
+        bytes = Bytes(later->size());
+        later->make(0, bytes);
+        later.reset();
+    }
+};
 
 /// The old vertex of each new one: the first `kept` keep their numbers, the others are `copies`.
 struct SplitSources {
@@ -59,57 +91,10 @@ void renewBounds(ElementData& data);
 /// Keeps only the elements that are not zero, with their places, where most are zero and the file becomes smaller.
 void makeSparseWhereSmaller(ElementData& data);
 
-// The frames of a pool as elements of accessors: all that can be made without changing the document, and so by several
-// threads.
-
-inline constexpr std::ptrdiff_t kBase = -1;  ///< in place of a morph target: the attributes themselves
-
-/// A reference of a primitive to an accessor.
-struct AttributeSlot {
-    std::size_t primitive = 0;
-    std::ptrdiff_t target = kBase;
-    std::string name = {};
-};
-
-struct CarriedElements {
-    std::vector<AttributeSlot> users = {};
-    ElementData data = {};
-};
-
-struct PoolElements {
-    std::string warning = {};  ///< about what frames were made from; may be empty
-    std::size_t vertex_count = 0;
-    bool was_split = false;
-    bool normals_generated = false, bitangents_generated = false;
-    /// After a split: what else the vertices have, by accessor, so that what was shared stays shared; and the index
-    /// list of each geometry.
-    std::map<std::size_t, CarriedElements> carried = {};
-    std::vector<ElementData> indices = {};
-    /// After a split, where an extension may name vertices (vertex_numbers.h): the old vertex that each was, and the corners
-    /// of each geometry.
-    std::vector<std::uint32_t> sources = {};
-    std::vector<std::vector<std::uint32_t>> corners = {};
-    ElementData normals = {}, tangents = {}, bitangents = {};
-    bool has_tangent_deltas = false;       ///< `morphs` has those of tangents
-    std::vector<MorphFrames> morphs = {};  ///< as in PoolFrames, like the next one
-    std::uint64_t differing_count = 0;
-};
-
-struct PackingRule {
-    VectorFormat format = VectorFormat::float32;
-    bool is_welded = false;  ///< not all old vertices are there, or not in their order
-};
-
-PoolElements packFrames(const Document& document, std::span<const Primitive> primitives, const PoolPlan& pool,
-                        PoolFrames&& frames, const PackingRule& rule);
-
-/// Numbers of vertices. u8 and u16 keep their width while every vertex fits below the primitive restart value.
-/// The same, as a primitive has its old list: no narrower, and with bounds if that has some.
+/// Index lists as elements. u8 and u16 keep their width while every vertex fits below the primitive restart value.
+ElementData indexElements(std::vector<std::uint32_t>&& indices, ComponentType narrowest, std::size_t vertex_count);
+/// The index list of a primitive in place of its old one: no narrower, and with bounds if that has some.
 ElementData newIndices(const Document& document, const Primitive& primitive, std::vector<std::uint32_t>&& indices,
                        std::size_t vertex_count);
-ElementData indexElements(std::vector<std::uint32_t>&& indices, ComponentType narrowest, std::size_t vertex_count);
-
-/// Offsets as elements, one for each vertex.
-ElementData offsetElements(const VertexOffsets& offsets, std::size_t vertex_count);
 
 }  // namespace tspace::gltf

@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "core/base/ascii.h"
-#include "model/gltf/packed.h"
+#include "model/gltf/packed_layout.h"
 #include "model/io/file_error.h"
 
 namespace tspace::gltf {

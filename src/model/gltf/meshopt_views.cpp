@@ -122,13 +122,6 @@ void makeFallback(Document& document, std::size_t index, std::span<const std::si
 
 }  // namespace
 
-const char* meshoptExtension(const Json& object) {
-    for (const char* name : {kExtMeshopt, kKhrMeshopt}) {
-        if (findExtension(object, name) != nullptr) return name;
-    }
-    return nullptr;
-}
-
 std::optional<MeshoptView> readMeshoptView(const Document& document, std::size_t index) {
     const Json& object = rootArray(document, "bufferViews")[index];
     const char* extension = meshoptExtension(object);

@@ -12,12 +12,10 @@
 
 #include "model/gltf/accessor.h"
 #include "model/gltf/codecs/codecs.h"
+#include "model/gltf/compression_extensions.h"
 #include "model/gltf/document.h"
 
 namespace tspace::gltf {
-
-inline constexpr const char* kExtMeshopt = "EXT_meshopt_compression";
-inline constexpr const char* kKhrMeshopt = "KHR_meshopt_compression";
 
 /// The extension of one buffer view.
 struct MeshoptView {
@@ -25,9 +23,6 @@ struct MeshoptView {
     std::size_t buffer = 0, begin = 0, byte_count = 0;  ///< the compressed bytes
     MeshoptCoding coding = {};
 };
-
-/// Name of the compression extension of a buffer view or buffer; null when it has none.
-const char* meshoptExtension(const Json& object);
 
 /// The checked extension of view `index`, or nothing.
 std::optional<MeshoptView> readMeshoptView(const Document& document, std::size_t index);

@@ -9,7 +9,7 @@
 
 #include "core/base/numbers.h"
 #include "core/base/vec_math.h"
-#include "model/gltf/packed.h"
+#include "model/gltf/packed_layout.h"
 #include "model/io/file_error.h"
 
 namespace tspace::gltf {

@@ -10,7 +10,7 @@
 #include "model/gltf/accessor.h"
 #include "model/gltf/document.h"
 #include "model/gltf/material_needs.h"
-#include "model/gltf/packed.h"
+#include "model/gltf/packed_frames.h"
 #include "model/io/file_error.h"
 #include "model/io/uri.h"
 

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "model/gltf/decoded_arrays.h"
 #include "model/gltf/document.h"
-#include "model/gltf/model.h"
 #include "model/gltf/primitive_reader.h"
 #include "model/scene/scene.h"
 

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "model/gltf/load_document.h"
 #include "model/io/file_error.h"
 #include "model/io/file_io.h"
 

@@ -7,7 +7,7 @@
 
 #include "core/base/owned_mesh.h"
 #include "model/gltf/document.h"
-#include "model/gltf/packed.h"
+#include "model/gltf/packed_layout.h"
 #include "model/io/path.h"
 #include "model/obj/obj_reader.h"
 

@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "model/gltf/load_document.h"
 #include "model/gltf/model.h"
 #include "model/gltf/read_scene.h"
 #include "model/imported/import_document.h"

@@ -5,7 +5,7 @@
 #include <functional>
 
 #include "model/generate_run.h"
-#include "model/gltf/packed.h"
+#include "model/gltf/packed_layout.h"
 #include "model/io/file_io.h"
 #include "support/shared_data.h"
 #include "tspace/check.h"

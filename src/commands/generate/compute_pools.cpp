@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Large pools one after the other, each on all threads; then the others, each on one thread.
-#include "model/gltf/compute_pools.h"
+#include "commands/generate/compute_pools.h"
 
 #include <algorithm>
 #include <array>
@@ -22,7 +22,7 @@
 #include "core/mesh/pools/local_mesh.h"
 #include "core/mesh/pools/morph_frames.h"
 #include "core/mesh/surface/surface.h"
-#include "model/gltf/packed.h"
+#include "model/gltf/packed_layout.h"
 #include "model/io/file_error.h"
 #include "tspace/arena.h"
 

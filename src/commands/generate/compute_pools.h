@@ -7,10 +7,10 @@
 #include <span>
 #include <vector>
 
+#include "commands/generate/generate_plan.h"
+#include "commands/generate/pool_elements.h"
 #include "core/mesh/pools/primitive.h"
 #include "model/gltf/document.h"
-#include "model/gltf/gather_elements.h"
-#include "model/gltf/generate_plan.h"
 #include "model/gltf/model.h"
 #include "model/gltf/primitive_reader.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What `generate` changes in a file.
-#include "model/gltf/apply_frames.h"
+#include "commands/generate/apply_frames.h"
 
 #include <algorithm>
 #include <array>
@@ -13,7 +13,7 @@
 #include "model/gltf/editor.h"
 #include "model/gltf/gather_elements.h"
 #include "model/gltf/material_needs.h"
-#include "model/gltf/packed.h"
+#include "model/gltf/packed_layout.h"
 
 namespace tspace::gltf {
 

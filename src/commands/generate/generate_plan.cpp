@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Choosing an action for each primitive and grouping primitives into pools of shared vertices.
-#include "model/gltf/generate_plan.h"
+#include "commands/generate/generate_plan.h"
 
 #include <algorithm>
 #include <array>
@@ -12,13 +12,13 @@
 #include <tuple>
 #include <utility>
 
+#include "commands/generate/apply_frames.h"
 #include "core/base/sort.h"
 #include "core/base/vec_math.h"
 #include "core/mesh/pools/local_mesh.h"
 #include "core/mesh/surface/surface.h"
-#include "model/gltf/apply_frames.h"
 #include "model/gltf/material_needs.h"
-#include "model/gltf/packed.h"
+#include "model/gltf/packed_frames.h"
 #include "model/gltf/read_scene.h"
 #include "model/io/file_error.h"
 

@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
+#include "commands/generate/generate_plan.h"
+#include "commands/generate/pool_elements.h"
 #include "model/gltf/document.h"
 #include "model/gltf/editor.h"
-#include "model/gltf/gather_elements.h"
-#include "model/gltf/generate_plan.h"
 #include "model/gltf/primitive_reader.h"
 #include "model/gltf/vertex_numbers.h"
 
