@@ -9,7 +9,7 @@
 #include "commands/check/findings.h"
 #include "commands/check/frame_health.h"
 #include "commands/check/scene_verdict.h"
-#include "commands/generate/apply_frames.h"
+#include "commands/generate/edit_attributes.h"
 #include "commands/generate/generate_steps.h"
 #include "commands/shared/uv_reading.h"
 #include "core/base/sort.h"

@@ -6,6 +6,7 @@
 
 #include "commands/generate/apply_frames.h"
 #include "commands/generate/compute_pools.h"
+#include "commands/generate/edit_attributes.h"
 #include "commands/generate/flip_maps.h"
 #include "commands/generate/generate_model.h"
 #include "commands/generate/generate_plan.h"

@@ -12,7 +12,7 @@
 #include <tuple>
 #include <utility>
 
-#include "commands/generate/apply_frames.h"
+#include "commands/generate/edit_attributes.h"
 #include "core/base/sort.h"
 #include "core/base/vec_math.h"
 #include "core/mesh/pools/local_mesh.h"

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "commands/generate/apply_frames.h"
+#include "commands/generate/edit_attributes.h"
 #include "model/gltf/packed_frames.h"
 #include "tspace/pack.h"
 

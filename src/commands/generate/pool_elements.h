@@ -10,13 +10,12 @@
 #include <string>
 #include <vector>
 
+#include "commands/generate/edit_attributes.h"
 #include "commands/generate/generate_plan.h"
 #include "core/mesh/pools/primitive.h"
 #include "model/gltf/gather_elements.h"
 
 namespace tspace::gltf {
-
-inline constexpr std::ptrdiff_t kBase = -1;  ///< in place of a morph target: the attributes themselves
 
 /// A reference of a primitive to an accessor.
 struct AttributeSlot {
