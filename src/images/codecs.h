@@ -4,11 +4,12 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
-#include "images/float_image.h"
-#include "images/image.h"
+#include "images/pixels.h"
 #include "tspace/result.h"
 
 namespace tspace {
@@ -96,5 +97,17 @@ Result<std::vector<std::uint8_t>> packInverted(ByteSpan bytes, const PngHeader& 
 
 /// An error (or code ok) where the pixels of a PNG with a palette are broken.
 Error checkPixels(ByteSpan bytes, const PngHeader& header);
+
+/// Pixels of a JPEG or WebP. Fails for grey images, and for those that are broken or animated.
+Result<ChannelImage> readJpegPixels(ByteSpan bytes);
+Result<ChannelImage> readWebpPixels(ByteSpan bytes);
+
+Result<std::vector<std::uint8_t>> writePng(const ChannelImage& image);
+/// `like`: the JPEG whose Exif data, profile and comments it gets.
+Result<std::vector<std::uint8_t>> writeJpeg(const ChannelImage& image, int quality, ByteSpan like);
+/// `packed`, which begins as JPEG files do, with those of `like`.
+std::vector<std::uint8_t> joinJpeg(ByteSpan packed, ByteSpan like);
+/// Without loss, also where it is transparent.
+Result<std::vector<std::uint8_t>> writeWebp(const ChannelImage& image);
 
 }  // namespace tspace

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "images/codecs.h"
+#include "images/image.h"
 
 namespace tspace {
 

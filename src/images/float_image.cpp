@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "images/float_image.h"
+#include "images/image.h"
 
 #include "images/codecs.h"
 

@@ -7,8 +7,6 @@
 
 #include "core/base/numbers.h"
 #include "images/codecs.h"
-#include "images/flip_green.h"
-#include "images/image.h"
 
 namespace tspace {
 

@@ -8,11 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "images/pixels.h"
+
 namespace tspace {
-
-using ByteSpan = std::span<const std::uint8_t>;
-
-enum class ImageFormat { unknown, png, jpeg, webp, ktx2, basis, dds, avif, exr, tga };
 
 /// Told by the first bytes, whatever a file says of itself. TGA has no mark: what is nothing else and has a head that is right for its
 /// length. Not in JavaScript (TSPACE_SMALL).
@@ -24,26 +22,8 @@ const char* mimeType(ImageFormat format);
 /// Null, or why this build reads no pixels of that format: half a sentence, "it is AVIF, which is not read".
 const char* whyNotRead(ImageFormat format);
 
-/// 8 bits a channel; the first row is the top one.
-struct RgbImage {
-    std::uint32_t width = 0, height = 0;
-    std::vector<std::uint8_t> rgb = {};
-};
-
 /// About the most memory that decodeImage holds for these bytes; 0 where it decodes nothing.
 std::uint64_t imageWorkBytes(ByteSpan bytes);
-
-struct ImageSize {
-    std::uint32_t width = 0, height = 0;
-
-    [[nodiscard]] std::uint64_t pixels() const { return std::uint64_t{width} * height; }
-};
-
-/// What an image is read for. Files of floats do not say whether they hold vectors from -1 to 1 or numbers from 0 to 1.
-enum class ImageUse {
-    vectors,  ///< a normal map: floats from -1 to 1 become (v + 1) / 2, as all other files hold them
-    numbers   ///< heights, colors, roughness: floats as stored
-};
 
 /// The size in the file's header, without any check; at most 2^30 each. 0 where decodeImage decodes nothing.
 ImageSize claimedSize(ByteSpan bytes);

@@ -5,6 +5,8 @@
 
 #include "images/codecs.h"
 #include "images/flip_green.h"
+#include "images/float_image.h"
+#include "images/image.h"
 #include "images/texture_file.h"
 
 namespace tspace {

@@ -6,7 +6,7 @@
 #include "core/base/parallel.h"
 #include "maps/solve_texels.h"
 #include "maps/texel_triangles.h"
-#include "maps/trace_texels.h"
+#include "maps/traced_texels.h"
 
 namespace tspace {
 

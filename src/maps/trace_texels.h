@@ -4,28 +4,16 @@
 
 #include "maps/measure_points.h"
 #include "maps/solve_texels.h"
+#include "maps/texel_plan.h"
 #include "maps/texel_triangles.h"
+#include "maps/traced_texels.h"
 #include "tspace/maps.h"
 
 namespace tspace {
 
-/// The results of rays for texels. All vectors are unit, along T, B and N, or of the object.
-struct TracedTexels {
-    Buffer<Vec3> wanted = {};  ///< at the centre; the mean where several triangles show it. Zero: not known
-    Buffer<TexelOrigin> origins = {};
-    /// Texels whose triangles want over 2 degrees different vectors; the sum and the largest of these angles.
-    std::uint64_t conflict_count = 0;
-    double conflict_sum_deg = 0, conflict_max_deg = 0;
-    Buffer<std::uint32_t> ranks = {};   ///< ranksOfPieces; empty: all triangles of a texel count
-    Buffer<std::uint32_t> owners = {};  ///< with ranks, of each texel: the smallest one of those that show its centre
-};
-
 /// A ray at the centre of each texel that a triangle shows or that continues one.
 void traceTexels(const MapSurfaces& surfaces, const TexelTriangles& triangles, const BakeOptions& options,
                  const MapWork& work, TracedTexels& traced);
-
-struct TexelPlan;
-struct TexelWindow;
 
 /// Where rays are shot between texel centres.
 struct PointsBetween {

@@ -9,6 +9,7 @@
 #include "core/base/vec_math.h"
 #include "images/codecs.h"
 #include "images/float_image.h"
+#include "images/image.h"
 #include "images/images.h"
 
 namespace tspace::test {

@@ -9,6 +9,7 @@
 #include <functional>
 
 #include "images/float_image.h"
+#include "images/image.h"
 #include "images/images.h"
 #include "images/textures.h"
 #include "support/temp_folder.h"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Images as numbers, to and from files.
 #include "images/float_image.h"
+#include "images/image.h"
 
 #include <gtest/gtest.h>
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "images/image.h"
 #include "images/images.h"
 #include "images/textures.h"
 

@@ -10,6 +10,7 @@
 
 #include "images/codecs.h"
 #include "images/float_image.h"
+#include "images/image.h"
 #include "images/images.h"
 #include "images/known_blocks.h"
 #include "images/textures.h"

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <functional>
 
+#include "images/image.h"
 #include "images/images.h"
 #include "model/gltf/read_scene.h"
 #include "model/gltf_builder.h"

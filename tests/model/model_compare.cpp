@@ -9,6 +9,7 @@
 
 #include "model/gltf/accessor.h"
 #include "model/gltf/primitive_reader.h"
+#include "model/io/named_files.h"
 #include "model/io/uri.h"
 
 namespace tspace::test {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "gltf_builder.h"
+#include "model/io/named_files.h"
 #include "model/io/uri.h"
 #include "model/read/read_scene.h"
 #include "support/temp_folder.h"

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "images/float_image.h"
+#include "images/image.h"
 #include "images/images.h"
 #include "images/textures.h"
 #include "tool/folder_files.h"

@@ -6,6 +6,7 @@
 
 #include "core/base/vec_math.h"
 #include "images/float_image.h"
+#include "images/image.h"
 #include "images/images.h"
 #include "maps/shading.h"
 #include "tool/folder_files.h"

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "images/image.h"
 #include "images/images.h"
 #include "run_tool.h"
 

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "images/float_image.h"
+#include "images/image.h"
 #include "images/images.h"
 #include "images/tga.h"
 #include "run_tool.h"

@@ -6,6 +6,7 @@
 
 #include "codecs.h"
 #include "commands/flip_green/texture_png.h"
+#include "images/image.h"
 #include "images/codecs.h"
 #include "images/flip_green.h"
 #include "model/io/file_error.h"

@@ -7,6 +7,7 @@
 #include "model/io/atomic_output.h"
 #include "model/io/file_error.h"
 #include "model/imported/import_document.h"
+#include "model/io/named_files.h"
 #include "model/io/uri.h"
 #include "commands/generate/generate_steps.h"
 #include "commands/generate/flip_maps.h"

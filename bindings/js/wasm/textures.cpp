@@ -10,6 +10,7 @@
 #include "commands/shared/texture_vectors.h"
 #include "core/base/vec_math.h"
 #include "exports.h"
+#include "images/image.h"
 #include "images/codecs.h"
 #include "images/texture_file.h"
 

@@ -31,14 +31,6 @@ std::uint64_t mostPixels(std::uint64_t memory_limit) {
 
 }  // namespace
 
-bool shows(const LayerOptions& layers, MapLayer layer) {
-    return std::find(layers.layers.begin(), layers.layers.end(), layer) != layers.layers.end();
-}
-
-bool showsMaterials(const LayerOptions& layers) {
-    return shows(layers, MapLayer::color) || shows(layers, MapLayer::orm) || shows(layers, MapLayer::emission);
-}
-
 HighDetail::HighDetail(const BakeModels& models, const std::string& path, const BakeFileOptions& options)
     : high_(models.high),
       scene_(models.high_scene),

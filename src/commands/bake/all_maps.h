@@ -10,10 +10,6 @@
 
 namespace tspace {
 
-bool shows(const LayerOptions& layers, MapLayer layer);
-/// Whether a layer shows what materials do.
-bool showsMaterials(const LayerOptions& layers);
-
 /// The ids and materials of the triangles of a high poly. Must stay where it is while a bake looks at it.
 class HighDetail {
   public:

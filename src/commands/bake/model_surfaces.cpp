@@ -14,7 +14,6 @@
 #include <utility>
 #include <vector>
 
-#include "commands/bake/all_maps.h"
 #include "commands/bake/match_meshes.h"
 #include "commands/generate/generate_model.h"
 #include "commands/shared/map_image_file.h"
@@ -32,6 +31,14 @@
 #include "tspace/maps.h"
 
 namespace tspace {
+
+bool shows(const LayerOptions& layers, MapLayer layer) {
+    return std::find(layers.layers.begin(), layers.layers.end(), layer) != layers.layers.end();
+}
+
+bool showsMaterials(const LayerOptions& layers) {
+    return shows(layers, MapLayer::color) || shows(layers, MapLayer::orm) || shows(layers, MapLayer::emission);
+}
 
 std::size_t placedCorner(const Affine& place, std::size_t i) {
     constexpr std::size_t kMirrored[3] = {0, 2, 1};

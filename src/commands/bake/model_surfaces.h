@@ -184,6 +184,10 @@ LowModel readLowImages(const std::string& low, const BakeFileOptions& options);
 std::optional<LowModel> readLowAnew(const std::string& low, const BakeFileOptions& options, Faces faces,
                                     const LowModel& known);
 
+bool shows(const LayerOptions& layers, MapLayer layer);
+/// Whether a layer shows what materials do.
+bool showsMaterials(const LayerOptions& layers);
+
 // Pictures of a bake: what each texel is, and where the error is.
 
 /// Red: nothing was met; yellow: several triangles; green: baked; dark green: padding; black: background.

@@ -11,6 +11,7 @@
 #include "core/base/ascii.h"
 #include "core/base/numbers.h"
 #include "images/float_image.h"
+#include "images/image.h"
 #include "model/io/file_error.h"
 #include "model/io/file_io.h"
 #include "model/io/memory_budget.h"

@@ -15,6 +15,7 @@
 #include "core/base/numbers.h"
 #include "core/base/vec_math.h"
 #include "images/float_image.h"
+#include "images/image.h"
 #include "images/texture_file.h"
 #include "maps/texture_sample.h"
 #include "maps/uv_coverage.h"

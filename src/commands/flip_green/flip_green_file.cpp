@@ -5,6 +5,7 @@
 #include "commands/flip_green/flip_green_report.h"
 #include "commands/flip_green/texture_png.h"
 #include "images/flip_green.h"
+#include "images/image.h"
 #include "model/io/atomic_output.h"
 #include "model/io/file_error.h"
 #include "model/io/memory_budget.h"

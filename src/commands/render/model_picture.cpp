@@ -18,6 +18,7 @@
 #include "core/mesh/surface/surface.h"
 #include "core/mesh/surface/uvs.h"
 #include "images/float_image.h"
+#include "images/image.h"
 #include "model/io/file_error.h"
 #include "tspace/sanitize.h"
 

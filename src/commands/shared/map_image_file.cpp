@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "commands/shared/uv_reading.h"
+#include "images/image.h"
 #include "images/tga.h"
 #include "maps/grey.h"
 #include "maps/uv_coverage.h"

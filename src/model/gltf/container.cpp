@@ -10,6 +10,7 @@
 #include "model/gltf/compression_extensions.h"
 #include "model/io/file_error.h"
 #include "model/io/folder_rule.h"
+#include "model/io/named_files.h"
 #include "model/io/output_name.h"
 #include "model/io/uri.h"
 

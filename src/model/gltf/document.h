@@ -19,6 +19,7 @@
 #include "model/gltf/json_access.h"
 #include "model/io/file_io.h"
 #include "model/io/memory_budget.h"
+#include "model/io/named_files.h"
 #include "model/io/path.h"
 #include "model/io/uri.h"
 #include "model/json/json.h"

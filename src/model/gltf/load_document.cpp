@@ -14,6 +14,7 @@
 #include "model/gltf/draco_primitives.h"
 #include "model/gltf/meshopt_views.h"
 #include "model/io/file_error.h"
+#include "model/io/named_files.h"
 #include "model/io/uri.h"
 
 namespace tspace::gltf {

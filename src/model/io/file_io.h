@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "model/io/bytes.h"
 #include "model/io/path.h"
@@ -24,6 +25,11 @@ bool isOneFile(const Path& a, const Path& b);
 std::string identityOf(const Path& path);
 /// True when both paths name the same existing file, or are the same path where nothing exists yet.
 bool isSameFile(const Path& a, const Path& b);
+
+/// The file that `uri` names in a folder on the disk. Fails as checkedPathOfUri, and with forbiddenPath when a symbolic
+/// link leads out of `folder`, unless `allow_external`; with invalidFile where no file can have that name, as one that is
+/// longer than the system takes.
+Path resolveUri(const Path& folder, std::string_view uri, bool allow_external, const std::string& place);
 
 /// In bytes; 0 where there is no such file.
 std::uint64_t fileSize(const Path& path);

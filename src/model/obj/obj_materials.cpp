@@ -13,6 +13,7 @@
 #include "model/io/file_error.h"
 #include "model/io/file_io.h"
 #include "model/io/folder_rule.h"
+#include "model/io/named_files.h"
 #include "model/io/uri.h"
 #include "model/obj/legacy_text.h"
 #include "model/obj/obj_reader.h"

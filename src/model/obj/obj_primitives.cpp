@@ -11,6 +11,7 @@
 
 #include "core/base/unique_index.h"
 #include "model/io/file_error.h"
+#include "model/io/named_files.h"
 #include "model/io/uri.h"
 #include "model/obj/obj_reader.h"
 #include "tspace/triangulate.h"

@@ -11,6 +11,7 @@
 #include "core/base/vec_math.h"
 #include "model/io/file_io.h"
 #include "model/io/memory_budget.h"
+#include "model/io/named_files.h"
 #include "model/io/path.h"
 #include "model/io/uri.h"
 #include "tspace/asset.h"

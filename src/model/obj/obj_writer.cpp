@@ -17,6 +17,7 @@
 #include "model/gltf/container.h"
 #include "model/gltf/document_builder.h"
 #include "model/io/file_error.h"
+#include "model/io/named_files.h"
 #include "model/io/uri.h"
 
 namespace tspace::obj {

@@ -8,6 +8,7 @@
 
 #include "commands/check/patch.h"
 #include "images/float_image.h"
+#include "images/image.h"
 #include "images/images.h"
 #include "images/known_blocks.h"
 #include "images/textures.h"

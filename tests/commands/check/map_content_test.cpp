@@ -11,6 +11,7 @@
 
 #include "commands/check/map_content.h"
 #include "core/base/vec_math.h"
+#include "images/image.h"
 #include "images/images.h"
 
 namespace tspace::test {

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "commands/check/normal_map.h"
+#include "images/image.h"
 #include "images/images.h"
 
 namespace tspace::test {

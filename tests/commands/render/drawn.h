@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 
+#include "images/image.h"
 #include "images/images.h"
 #include "model/gltf_builder.h"
 #include "tspace/render.h"

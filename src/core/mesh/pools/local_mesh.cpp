@@ -12,7 +12,6 @@
 #include "core/base/parallel.h"
 #include "core/base/unique_index.h"
 #include "core/base/vec_math.h"
-#include "core/mesh/pools/morph_frames.h"
 #include "core/mesh/surface/surface.h"
 #include "core/normals/pose_normals.h"
 #include "tspace/split.h"
