@@ -5,9 +5,9 @@
 // hold the same functions. docs/pack.md of tspace says what the words mean and how exact they are; docs/shaders.md has
 // the rules for everything else.
 //
-// Costs are scalar operations of GLSL's own counting: each + - * < ? & | ^ << >> and each conversion is one for each
-// component, a division of whole numbers by a constant two (high product and shift). Roots are inverse square roots or
-// square roots. Compilers merge some: what they leave is less.
+// Costs are scalar operations as GLSL's compiler counts them: each + - * < ? & | ^ << >> and each conversion is one for
+// each component, a division of whole numbers by a constant two (high product and shift). Roots are inverse square
+// roots or square roots. Compilers merge some: what they leave is less.
 #ifndef TSPACE_GLSL
 #define TSPACE_GLSL
 
@@ -128,7 +128,8 @@ tspace_Frame tspace_decodeFrame48(uvec2 words) {
 // 8 bytes, N within 0.0001 and T within 0.00015 degrees.
 // Cost: 99 operations, 2 roots, 1 division.
 tspace_Frame tspace_decodeFrame64(uvec2 words) {
-    uint i = min(words.y >> 11u, 2097150u), j = min((words.y << 10u & 2096128u) | words.x >> 22u, 2097150u);
+    uint i = min(words.y >> 11u, 2097150u);
+    uint j = min((words.y << 10u & 2096128u) | words.x >> 22u, 2097150u);
     return tspace_frameOfAngle(vec2(float(i), float(j)), words.x >> 20u & 3u, float(words.x >> 1u & 524287u), 1048575.0,
                                524288.0, words.x & 1u);
 }
@@ -231,8 +232,8 @@ vec3 tspace_applyMikktspacePerVertex(vec3 texel, vec3 normal, vec3 tangent, vec3
 // whose frame is turned as a whole, else 1.
 // Cost: 50 operations, 4 roots.
 vec3 tspace_applyThree(vec3 texel, vec3 normal, vec3 tangent, vec3 bitangent, float face) {
-    return normalize(texel.x * normalize(tangent) + texel.y * normalize(bitangent) + texel.z * normalize(normal)) *
-           face;
+    vec3 t = normalize(tangent), b = normalize(bitangent), n = normalize(normal);
+    return normalize(texel.x * t + texel.y * b + texel.z * n) * face;
 }
 
 // Unreal: MikkTSpace per pixel, maps of two channels. Unreal's bitangents run the way V does, down, as green in its
@@ -246,7 +247,7 @@ vec3 tspace_applyUnreal(vec2 rg, vec3 normal, vec4 tangent) {
 // vertex shader hands over is TANGENT.w * unity_WorldTransformParams.w.
 // Cost: 47 operations, 2 roots.
 vec3 tspace_applyUnity(vec4 rgba, vec3 normal, vec4 tangent) {
-    return tspace_applyMikktspace(tspace_texelOfTwo(vec2(rgba.r * rgba.a, rgba.g)), normal, tangent);
+    return tspace_applyMikktspace(tspace_texelOfTwo(vec2(rgba.x * rgba.w, rgba.y)), normal, tangent);
 }
 
 // Godot 4: bitangent per vertex, each vector made unit before, maps of two channels, and `depth` (normal_map_depth)
@@ -260,13 +261,13 @@ vec3 tspace_applyGodot(vec2 rg, vec3 normal, vec3 tangent, vec3 bitangent, float
 
 // ---- deformed meshes: glTF's order is morphing, then skinning, then the node's matrix.
 
-// A frame after the linear map m (without the translation). T, a direction on the surface, goes by m itself. N goes by
-// the cofactor matrix: cof(m) cross(a, b) = cross(m a, m b), and dot(cof(m) N, m T) = det(m) dot(N, T) = 0, so N and T
-// stay at a right angle under any scale or shear, which m alone would break; and unlike the inverse transpose it needs
-// no division and holds when m is flat. Where m mirrors (det < 0), cof(m) N points inwards: N is turned outwards again,
-// and the sign turns with it, so that the bitangent stays m B. Where m is flat, rounding decides the sign of det, so
-// the least volume counts as none. A renderer that flips normals of back faces and cannot turn the winding of such
-// triangles (skins) wants N and the sign both negated: same bitangent.
+// A frame after the linear map m (without the translation). T, a direction on the surface, goes by m itself.
+// N goes by the cofactor matrix: cof(m) cross(a, b) = cross(m a, m b), and dot(cof(m) N, m T) = det(m) dot(N, T) = 0, so
+// N and T stay at a right angle under any scale or shear, which m alone would break; and unlike the inverse transpose
+// it needs no division and holds when m is flat. Where m mirrors (det < 0), cof(m) N points inwards: N is turned
+// outwards again, and the sign turns with it, so that the bitangent stays m B. Where m is flat, rounding decides the
+// sign of det, so the least volume counts as none. A renderer that flips normals of back faces and cannot turn the
+// winding of such triangles (skins) wants N and the sign both negated: same bitangent.
 // Cost: 111 operations, 2 roots.
 tspace_Frame tspace_transformFrame(tspace_Frame frame, mat3 m) {
     vec3 c0 = cross(m[1], m[2]), c1 = cross(m[2], m[0]), c2 = cross(m[0], m[1]);
@@ -302,7 +303,7 @@ tspace_Frame tspace_morphFrame(tspace_Frame frame, vec3 normal_delta, vec3 tange
 tspace_Frame tspace_frameOfSteps(vec3 normal, vec3 p_dx, vec3 p_dy, vec2 uv_dx, vec2 uv_dy) {
     vec3 n = normalize(normal);
     float area = uv_dx.x * uv_dy.y - uv_dx.y * uv_dy.x;
-    vec3 t = tspace_unit((p_dx * uv_dy.y - p_dy * uv_dx.y) * tspace_signOf(area), vec3(0.0));
+    vec3 t = tspace_unit((p_dx * uv_dy.y - p_dy * uv_dx.y) * tspace_signOf(area), vec3(0.0, 0.0, 0.0));
     float s = tspace_signOf(area) * tspace_signOf(dot(cross(p_dx, p_dy), n));
     return tspace_Frame(n, vec4(tspace_unit(t - n * dot(n, t), tspace_axisAcross(n)), s));
 }

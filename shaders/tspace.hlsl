@@ -128,7 +128,8 @@ tspace_Frame tspace_decodeFrame48(uint2 words) {
 // 8 bytes, N within 0.0001 and T within 0.00015 degrees.
 // Cost: 99 operations, 2 roots, 1 division.
 tspace_Frame tspace_decodeFrame64(uint2 words) {
-    uint i = min(words.y >> 11u, 2097150u), j = min((words.y << 10u & 2096128u) | words.x >> 22u, 2097150u);
+    uint i = min(words.y >> 11u, 2097150u);
+    uint j = min((words.y << 10u & 2096128u) | words.x >> 22u, 2097150u);
     return tspace_frameOfAngle(float2(float(i), float(j)), words.x >> 20u & 3u, float(words.x >> 1u & 524287u),
                                1048575.0, 524288.0, words.x & 1u);
 }
@@ -233,8 +234,8 @@ float3 tspace_applyMikktspacePerVertex(float3 texel, float3 normal, float3 tange
 // whose frame is turned as a whole, else 1.
 // Cost: 50 operations, 4 roots.
 float3 tspace_applyThree(float3 texel, float3 normal, float3 tangent, float3 bitangent, float face) {
-    return normalize(texel.x * normalize(tangent) + texel.y * normalize(bitangent) + texel.z * normalize(normal)) *
-           face;
+    float3 t = normalize(tangent), b = normalize(bitangent), n = normalize(normal);
+    return normalize(texel.x * t + texel.y * b + texel.z * n) * face;
 }
 
 // Unreal: MikkTSpace per pixel, maps of two channels. Unreal's bitangents run the way V does, down, as green in its
@@ -248,7 +249,7 @@ float3 tspace_applyUnreal(float2 rg, float3 normal, float4 tangent) {
 // vertex shader hands over is TANGENT.w * unity_WorldTransformParams.w.
 // Cost: 47 operations, 2 roots.
 float3 tspace_applyUnity(float4 rgba, float3 normal, float4 tangent) {
-    return tspace_applyMikktspace(tspace_texelOfTwo(float2(rgba.r * rgba.a, rgba.g)), normal, tangent);
+    return tspace_applyMikktspace(tspace_texelOfTwo(float2(rgba.x * rgba.w, rgba.y)), normal, tangent);
 }
 
 // Godot 4: bitangent per vertex, each vector made unit before, maps of two channels, and `depth` (normal_map_depth)
@@ -262,8 +263,8 @@ float3 tspace_applyGodot(float2 rg, float3 normal, float3 tangent, float3 bitang
 
 // ---- deformed meshes: glTF's order is morphing, then skinning, then the node's matrix.
 
-// A frame after the linear map mul(m, v) (without the translation). T, a direction on the surface, goes by m itself. N
-// goes by the cofactor matrix: cof(m) cross(a, b) = cross(m a, m b), and dot(cof(m) N, m T) = det(m) dot(N, T) = 0, so
+// A frame after the linear map mul(m, v) (without the translation). T, a direction on the surface, goes by m itself.
+// N goes by the cofactor matrix: cof(m) cross(a, b) = cross(m a, m b), and dot(cof(m) N, m T) = det(m) dot(N, T) = 0, so
 // N and T stay at a right angle under any scale or shear, which m alone would break; and unlike the inverse transpose
 // it needs no division and holds when m is flat. Where m mirrors (det < 0), cof(m) N points inwards: N is turned
 // outwards again, and the sign turns with it, so that the bitangent stays m B. Where m is flat, rounding decides the

@@ -262,13 +262,13 @@ inline float3 tspace_applyGodot(float2 rg, float3 normal, float3 tangent, float3
 
 // ---- deformed meshes: glTF's order is morphing, then skinning, then the node's matrix.
 
-// A frame after the linear map m (without the translation). T, a direction on the surface, goes by m itself. N goes by
-// the cofactor matrix: cof(m) cross(a, b) = cross(m a, m b), and dot(cof(m) N, m T) = det(m) dot(N, T) = 0, so N and T
-// stay at a right angle under any scale or shear, which m alone would break; and unlike the inverse transpose it needs
-// no division and holds when m is flat. Where m mirrors (det < 0), cof(m) N points inwards: N is turned outwards again,
-// and the sign turns with it, so that the bitangent stays m B. Where m is flat, rounding decides the sign of det, so
-// the least volume counts as none. A renderer that flips normals of back faces and cannot turn the winding of such
-// triangles (skins) wants N and the sign both negated: same bitangent.
+// A frame after the linear map m (without the translation). T, a direction on the surface, goes by m itself.
+// N goes by the cofactor matrix: cof(m) cross(a, b) = cross(m a, m b), and dot(cof(m) N, m T) = det(m) dot(N, T) = 0, so
+// N and T stay at a right angle under any scale or shear, which m alone would break; and unlike the inverse transpose
+// it needs no division and holds when m is flat. Where m mirrors (det < 0), cof(m) N points inwards: N is turned
+// outwards again, and the sign turns with it, so that the bitangent stays m B. Where m is flat, rounding decides the
+// sign of det, so the least volume counts as none. A renderer that flips normals of back faces and cannot turn the
+// winding of such triangles (skins) wants N and the sign both negated: same bitangent.
 // Cost: 111 operations, 2 roots.
 inline tspace_Frame tspace_transformFrame(tspace_Frame frame, metal::float3x3 m) {
     float3 c0 = metal::cross(m[1], m[2]), c1 = metal::cross(m[2], m[0]), c2 = metal::cross(m[0], m[1]);
@@ -305,7 +305,7 @@ inline tspace_Frame tspace_morphFrame(tspace_Frame frame, float3 normal_delta, f
 inline tspace_Frame tspace_frameOfSteps(float3 normal, float3 p_dx, float3 p_dy, float2 uv_dx, float2 uv_dy) {
     float3 n = metal::normalize(normal);
     float area = uv_dx.x * uv_dy.y - uv_dx.y * uv_dy.x;
-    float3 t = tspace_unit((p_dx * uv_dy.y - p_dy * uv_dx.y) * tspace_signOf(area), float3(0.0f));
+    float3 t = tspace_unit((p_dx * uv_dy.y - p_dy * uv_dx.y) * tspace_signOf(area), float3(0.0f, 0.0f, 0.0f));
     float s = tspace_signOf(area) * tspace_signOf(metal::dot(metal::cross(p_dx, p_dy), n));
     return tspace_Frame{n, float4(tspace_unit(t - n * metal::dot(n, t), tspace_axisAcross(n)), s)};
 }
