@@ -52,6 +52,31 @@ DrawnScene Model::drawnScene(bool with_images) {
     return drawn;
 }
 
+namespace {
+
+/// COLOR_0 of each primitive; empty where there is none.
+std::vector<SharedArray<Vec4>> colorsOf(const Document& document, DecodedArrays& arrays,
+                                        std::span<const Primitive> primitives) {
+    std::vector<SharedArray<Vec4>> all(primitives.size());
+    for (std::size_t i = 0; i < primitives.size(); ++i) {
+        const auto accessor = primitives[i].find("COLOR_0");
+        if (!accessor || primitives[i].vertex_count == 0) continue;
+        const std::string place = join(join(primitives[i].place(), "attributes"), "COLOR_0");
+        if (readAccessor(document, *accessor).component_count == 4) {
+            all[i] = arrays.vec4(*accessor, place);
+            continue;
+        }
+        const SharedArray<Vec3> opaque = arrays.vec3(*accessor, place);
+        document.memory->take(opaque.size() * sizeof(Vec4), place);
+        std::vector<Vec4> values;
+        for (const Vec3& color : opaque) values.push_back({color.x, color.y, color.z, 1});
+        all[i] = SharedArray<Vec4>(std::move(values));
+    }
+    return all;
+}
+
+}  // namespace
+
 DrawnScene Model::materialScene(bool with_normal_maps) {
     DrawnScene drawn = drawnScene(false);
     for (std::size_t i = 0; i < drawn.looks.size(); ++i)
@@ -59,26 +84,13 @@ DrawnScene Model::materialScene(bool with_normal_maps) {
     std::set<std::size_t> images = materialImagesOf(drawn.looks);
     if (with_normal_maps) images.merge(imagesOf(drawn.looks));
     readImages(*document_, images, drawn.scene);
-    for (const Primitive& primitive : primitives()) {
-        SharedArray<Vec4>& colors = drawn.colors.emplace_back();
-        const auto accessor = primitive.find("COLOR_0");
-        if (!accessor || primitive.vertex_count == 0) continue;
-        const std::string place = join(join(primitive.place(), "attributes"), "COLOR_0");
-        if (readAccessor(*document_, *accessor).component_count == 4) {
-            colors = arrays_->vec4(*accessor, place);
-            continue;
-        }
-        const SharedArray<Vec3> opaque = arrays_->vec3(*accessor, place);
-        document_->memory->take(opaque.size() * sizeof(Vec4), place);
-        std::vector<Vec4> values;
-        for (const Vec3& color : opaque) values.push_back({color.x, color.y, color.z, 1});
-        colors = SharedArray<Vec4>(std::move(values));
-    }
+    drawn.colors = colorsOf(*document_, *arrays_, primitives());
     return drawn;
 }
 
 PosedScene Model::posedScene(bool with_images) {
-    PosedScene posed{.drawn = with_images ? materialScene(true) : drawnScene(false)};
+    PosedScene posed{.drawn = drawnScene(with_images)};
+    if (with_images) posed.drawn.colors = colorsOf(*document_, *arrays_, primitives());
     posed.poses = readPoses(*document_, *arrays_, primitives(), posed.drawn.scene);
     return posed;
 }
