@@ -70,11 +70,11 @@ namespace Tspace
             return made;
         }
 
-        /// <summary>The same into the caller's memory, with counts; bitangents (3 floats) and magnitudes (1) where they are
-        /// not empty.</summary>
+        /// <summary>The same into the caller's memory, with counts; bitangents (3 floats), magnitudes (1) and hasTangent (false
+        /// at corners with a default or no tangent) where they are not empty.</summary>
         public static TangentReport Tangents(in Mesh mesh, TangentOptions options, Span<float> tangents,
                                              Span<float> bitangents = default, Span<float> magnitudesS = default,
-                                             Span<float> magnitudesT = default)
+                                             Span<float> magnitudesT = default, Span<bool> hasTangent = default)
         {
             if (options == null) throw new ArgumentNullException(nameof(options));
             Native.TangentOptions how = options.Raw();
@@ -82,11 +82,13 @@ namespace Tspace
             Native.TangentReport report = new Native.TangentReport { StructSize = (uint)sizeof(Native.TangentReport) };
             fixed (float* t = &MemoryMarshal.GetReference(tangents), b = &MemoryMarshal.GetReference(bitangents))
             fixed (float* u = &MemoryMarshal.GetReference(magnitudesS), v = &MemoryMarshal.GetReference(magnitudesT))
+            fixed (bool* mask = &MemoryMarshal.GetReference(hasTangent))
             {
                 Native.TangentOutput made = Output(t, Whole(tangents, 4));
                 made.Bitangents = new Native.Span(b, Whole(bitangents, 3), 0);
                 made.MagnitudesS = new Native.Span(u, magnitudesS.Length, 0);
                 made.MagnitudesT = new Native.Span(v, magnitudesT.Length, 0);
+                made.HasTangent = new Native.ByteSpan { Data = mask, Count = (UIntPtr)(uint)hasTangent.Length };
                 // Lambdas hold no pointers to locals that are fixed, but may hold their addresses as numbers.
                 IntPtr output = (IntPtr)(&made), counts = (IntPtr)(&report), choices = (IntPtr)(&how), run = (IntPtr)(&execution);
                 Pinned.Use(mesh, raw =>

@@ -37,6 +37,14 @@ namespace Tspace
         }
 
         [StructLayout(LayoutKind.Sequential)]
+        internal struct ByteSpan
+        {
+            public bool* Data;
+            public UIntPtr Count;
+            public UIntPtr StrideBytes;
+        }
+
+        [StructLayout(LayoutKind.Sequential)]
         internal struct Indices
         {
             public void* Data;
@@ -119,6 +127,7 @@ namespace Tspace
             public Span Bitangents;
             public Span MagnitudesS;
             public Span MagnitudesT;
+            public ByteSpan HasTangent;
         }
 
         [StructLayout(LayoutKind.Sequential)]
@@ -155,7 +164,7 @@ namespace Tspace
             public uint Refine;
             public uint Reserved;
             public float Denoise;
-            public uint ReservedEnd;
+            public float WeldDistance;
         }
 
         [StructLayout(LayoutKind.Sequential)]

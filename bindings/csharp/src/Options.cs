@@ -153,6 +153,9 @@ namespace Tspace
         public float CreaseAngleDeg { get; set; }
         /// <summary>Vertices at the same position are one point.</summary>
         public bool WeldPositions { get; set; }
+        /// <summary>With WeldPositions: positions that differ by no more than this in each coordinate are one point. 0: only
+        /// equal positions are. -1: twice the spacing of floats at the largest coordinate, where edges are 32 times that.</summary>
+        public float WeldDistance { get; set; }
         /// <summary>Steps that Best takes after its fit: 0, 1 or 2.</summary>
         public int Refine { get; set; }
         /// <summary>For noisy positions: 0 is off, -1 by the measured noise, up to 4 so many times that.</summary>
@@ -166,6 +169,7 @@ namespace Tspace
             Weighting = (NormalWeighting)raw.Weighting;
             CreaseAngleDeg = raw.CreaseAngleDeg;
             WeldPositions = raw.WeldPositions != 0;
+            WeldDistance = raw.WeldDistance;
             Refine = (int)raw.Refine;
             Denoise = raw.Denoise;
         }
@@ -185,6 +189,7 @@ namespace Tspace
             raw.Weighting = (uint)Weighting;
             raw.CreaseAngleDeg = CreaseAngleDeg;
             raw.WeldPositions = WeldPositions ? 1u : 0u;
+            raw.WeldDistance = WeldDistance;
             // The C API refuses all of 0 as forgotten; Flat, which is 0, does not look at this.
             raw.Refine = Weighting == NormalWeighting.Flat && Refine == 0 ? 1u : (uint)Refine;
             raw.Denoise = Denoise;

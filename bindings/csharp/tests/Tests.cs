@@ -176,7 +176,7 @@ internal static class Tests
         Check(tangents.AngularThresholdDeg == 180 && tangents.Refine == 1 && tangents.Method == Method.Mikktspace, "tangents");
         NormalOptions normals = new NormalOptions(Convention.Gltf);
         Check(normals.Weighting == NormalWeighting.Angle && normals.CreaseAngleDeg == 180 && normals.WeldPositions &&
-              normals.Refine == 2, "normals");
+              normals.Refine == 2 && normals.WeldDistance == 0, "normals");
     }
 
     public static void TestOptionsOfZeroCanBeSaid()
@@ -214,6 +214,58 @@ internal static class Tests
         float right = Frames.Normals(Square(), new NormalOptions(Convention.Gltf))[2];
         float unity = Frames.Normals(Square(), new NormalOptions(Convention.Unity))[2];
         Check(right == 1 && unity == 1, "clockwise and left-handed cancel");
+    }
+
+    public static void TestNormalsOfOtherLengthsAreScaledWhereTheOptionSaysSo()
+    {
+        Vector3[] tilted = Enumerable.Repeat(new Vector3(0.6f, 0, 0.8f), 4).ToArray();
+        Vector3[] longer = Enumerable.Repeat(new Vector3(6, 0, 8), 4).ToArray();
+        Mesh unit = Square(), scaled = Square();
+        unit.Normals = Points.Of(tilted);
+        scaled.Normals = Points.Of(longer);
+        float[] expected = Frames.Tangents(unit, new TangentOptions(Convention.Gltf));
+        float[] asGiven = Frames.Tangents(scaled, new TangentOptions(Convention.Gltf));
+        float[] made = Frames.Tangents(scaled, new TangentOptions(Convention.Gltf) { NormalizeNormals = true });
+        Check(Math.Abs(asGiven[0] - expected[0]) > 0.1, "without it normals are used as given");
+        for (int i = 0; i < made.Length; ++i) Check(Math.Abs(made[i] - expected[i]) < 1e-6, "with it they have length 1");
+        IndexedFrames frames = Frames.MakeIndexedFrames(scaled, new TangentOptions(Convention.Gltf) { NormalizeNormals = true });
+        Check(Math.Abs(frames.Normals[0] - 0.6) < 1e-6, "indexed frames have the scaled normals");
+    }
+
+    public static void TestPositionsWithinTheWeldDistanceAreOnePoint()
+    {
+        // Two squares at a right angle; their corners on the common edge differ by rounding.
+        Vector3[] positions =
+        {
+            new Vector3(0, 0, 0), new Vector3(1, 0, 0), new Vector3(1, 1, 0), new Vector3(0, 1, 0),
+            new Vector3(1 + 1e-7f, 0, 0), new Vector3(1, 0, -1), new Vector3(1, 1, -1), new Vector3(1 + 1e-7f, 1, 0)
+        };
+        Mesh mesh = new Mesh
+        {
+            Positions = Points.Of(positions), FaceSize = 4, Indices = Tspace.Indices.Of(new[] { 0, 1, 2, 3, 4, 5, 6, 7 })
+        };
+        foreach (float distance in new[] { 0, -1, 1e-6f })
+        {
+            float[] normals = Frames.Normals(mesh, new NormalOptions(Convention.Gltf) { WeldDistance = distance });
+            Check(Math.Abs(normals[3] - (distance == 0 ? 0 : Math.Sqrt(0.5))) < 1e-4, "smooth at a distance of " + distance);
+        }
+        Check(Fails(() => Frames.Normals(Square(), new NormalOptions(Convention.Gltf) { WeldDistance = -2 })).Code ==
+              ErrorCode.InvalidOption, "another negative distance");
+    }
+
+    public static void TestAMaskTellsCornersWithoutATangent()
+    {
+        Vector2[] uvs = { new Vector2(0, 1), new Vector2(1, 1), new Vector2(1, 0), new Vector2(1, 0) };
+        Mesh mesh = Square();
+        mesh.Uvs = Points.Of(uvs);
+        mesh.Indices = Tspace.Indices.Of(new[] { 0, 1, 2, 2, 3, 3 });
+        float[] tangents = new float[24];
+        bool[] has = new bool[6];
+        TangentReport report = Frames.Tangents(mesh, new TangentOptions(Convention.Gltf), tangents, hasTangent: has);
+        Check(has.Take(3).All(one => one), "the first face has tangents");
+        Check(has.Count(one => !one) == report.DefaultCornerCount && report.DefaultCornerCount > 0, "defaults are counted");
+        Check(Fails(() => Frames.Tangents(Square(), new TangentOptions(Convention.Gltf), new float[24], hasTangent: new bool[5]))
+              .Code == ErrorCode.CountMismatch, "a mask of another length");
     }
 
     public static void TestBrokenTangentsAreMended()
