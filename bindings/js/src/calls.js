@@ -49,7 +49,7 @@ export function setMesh(call, { positions, normals, uvs, ...lists }) {
 }
 
 /** Names of options of tangents. */
-export const mikktspaceOptions = ["method", "threshold", "pairing", "ngons", "convention"];
+export const mikktspaceOptions = ["method", "threshold", "pairing", "ngons", "convention", "normalizeNormals"];
 
 /** What the module takes for options of tangents. */
 export function tangentArguments(options, { methods, ngons }) {

@@ -10,7 +10,7 @@ const wasm = new Wasm();
 export const start = (source) => wasm.start(source);
 
 const methods = ["mikktspace", "lengyel", "uniform", "angle", "area", "flat", "basis", "fast", "best"];
-const tangentOptions = [...mikktspaceOptions, "frame", "refine", "normalizeNormals"];
+const tangentOptions = [...mikktspaceOptions, "frame", "refine"];
 const choices = { methods, ngons: ["triangulate", "skip"], options: tangentOptions };
 const steps = ["makeNormals", "sanitize", "orthogonalizeAll"];
 

@@ -13,8 +13,6 @@ export interface TangentOptions extends Omit<MikktspaceOptions, "method"> {
   frame?: "gramSchmidt" | "symmetric";
   /** 0, 1 (the default) or 2 steps after the fit of `best`. */
   refine?: 0 | 1 | 2;
-  /** true: normals whose length is further from 1 than 0.00674 are scaled to length 1 first. false (the default): they are used as given. */
-  normalizeNormals?: boolean;
 }
 
 /**

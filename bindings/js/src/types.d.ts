@@ -90,6 +90,8 @@ export interface MikktspaceOptions extends TangentOutputs {
    * does, and is all that "tspace/mikktspace" has.
    */
   ngons?: "triangulate" | "skip";
+  /** true: normals whose length is further from 1 than 0.00674 are scaled to length 1 first. false (the default): they are used as given. */
+  normalizeNormals?: boolean;
 }
 
 export interface SanitizeReport {

@@ -56,6 +56,16 @@ describe("calls", () => {
     }
   });
 
+  it("scale normals to length 1 first where normalizeNormals says so", () => {
+    const longer = { ...mesh, normals: mesh.normals.map((x) => 4 * x) };
+    for (const entry of [whole, small]) {
+      const wanted = entry.generateTangents(mesh, { convention: "gltf" });
+      const made = entry.generateTangents(longer, { convention: "gltf", normalizeNormals: true });
+      made.forEach((x, i) => assert.ok(Math.abs(x - wanted[i]) < 1e-5));
+      assert.throws(() => entry.generateTangents(mesh, { convention: "gltf", normalizeNormals: 1 }), TypeError);
+    }
+  });
+
   it("turn the sign over where v runs the other way", () => {
     const [a, b] = ["gltf", "opengl"].map((convention) => generateTangents(mesh, { convention }));
     assert.ok(a.every((x, i) => x === (i % 4 === 3 ? -b[i] : b[i])));
