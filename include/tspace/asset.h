@@ -250,6 +250,9 @@ struct PrimitiveReport {
     std::uint64_t triangle_count = 0;
     std::uint64_t vertices_before = 0;
     std::uint64_t vertices_after = 0;
+    /// Numbers of vertex lists: primitives with one `source_list` share their vertices in the input, and primitives with one
+    /// `split_list` share the vertices that a split added. Sums over primitives count each list once.
+    std::uint32_t source_list = 0, split_list = 0;
     std::uint64_t mended_vertex_count = 0;     ///< of vertices_before: those whose tangents were wrong (`repair`)
     std::uint32_t morph_target_count = 0;      ///< morph targets that the primitive has
     std::uint32_t morph_deltas_computed = 0;   ///< those whose tangent deltas were computed
@@ -341,9 +344,10 @@ struct TangentUseInfo {
     std::string needed_by = {};  ///< "normalTexture", "clearcoatNormalTexture" or "anisotropy"
     std::string place = {};      ///< JSON pointer of the texture reference or extension; empty for OBJ
     std::uint32_t material = 0;
-    bool only_in_variant = false;  ///< not the primitive's own material, but one of KHR_materials_variants
-    std::int32_t uv_set = 0;       ///< n of TEXCOORD_n
-    double uv_offset[2] = {0, 0};  ///< KHR_texture_transform
+    std::string material_name = {};  ///< may be empty
+    bool only_in_variant = false;    ///< not the primitive's own material, but one of KHR_materials_variants
+    std::int32_t uv_set = 0;         ///< n of TEXCOORD_n
+    double uv_offset[2] = {0, 0};    ///< KHR_texture_transform
     double uv_rotation_rad = 0;
     double uv_scale[2] = {1, 1};
     bool follows_first = true;  ///< tangents made for the first use of the primitive fit this one too
@@ -358,6 +362,7 @@ struct PrimitiveInfo {
     std::string mode = {};  ///< "triangles", "triangle strip", "points", ...
     std::uint64_t triangle_count = 0;
     std::uint64_t vertex_count = 0;
+    std::uint32_t vertex_list = 0;             ///< the same number for primitives that share their vertices
     std::string index_type = {};               ///< "u8", "u16", "u32" or "none"
     std::string compression = {};              ///< "meshopt", "draco" or "none"
     std::vector<std::string> attributes = {};  ///< "POSITION float3", "NORMAL snorm16x3", ...

@@ -78,6 +78,8 @@ struct FrameDiff {
     std::uint64_t unpaired_triangle_count = 0;  ///< triangles of A and B without a partner
     std::uint64_t missing_count = 0;            ///< paired primitives of which only one has tangents
     std::vector<FrameDifference> worst = {};    ///< the largest angle of T, B or N first; equal vertices once
+    std::vector<std::string> warnings =
+        {};  ///< sentences about A, then B, found while they were read; each names its file
 
     /// True when every triangle has a partner, no sign differs, and no angle is above `tolerance_deg`.
     [[nodiscard]] bool isWithin(double tolerance_deg) const;

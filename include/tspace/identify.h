@@ -74,8 +74,9 @@ struct IdentifyOptions {
 };
 
 struct Identification {
-    std::string format = {};     ///< "glb", "gltf", "obj"
-    std::string generator = {};  ///< may be empty
+    std::string format = {};                 ///< "glb", "gltf", "obj"
+    std::string generator = {};              ///< may be empty
+    std::vector<std::string> warnings = {};  ///< sentences about the file, found while it was read
     /// Over all primitives, the best first: every method, along the texture's set in the reading that explains more.
     std::vector<Explanation> explanations = {};
     std::vector<PrimitiveIdentity> primitives = {};  ///< in file order

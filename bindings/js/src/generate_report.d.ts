@@ -49,9 +49,9 @@ export interface GenerateTotals {
   actions: ActionCounts;
   /** Triangles of the primitives that were computed. */
   triangles: number;
-  /** Their vertices in the input. */
+  /** Their vertices in the input; vertices that several of them share count once. */
   verticesBefore: number;
-  /** Their vertices in the output. */
+  /** The same after vertices were split. */
   verticesAfter: number;
   /** Corners whose tangents were mended. */
   mended: number;

@@ -212,6 +212,8 @@ export interface TangentUse {
   place: string;
   /** Index of the material. */
   material: number;
+  /** May be empty. */
+  materialName: string;
   /** The material is one of KHR_materials_variants, not the primitive's own. */
   onlyInVariant: boolean;
   /** The n of "TEXCOORD_n". */
@@ -237,6 +239,8 @@ export interface IdentifyReport {
   format: string;
   /** The program that wrote the file; may be empty. */
   generator: string;
+  /** Sentences for a person about the file as a whole. */
+  warnings: string[];
   /** Two or three sentences for a person. */
   verdict: string;
   /** Over all primitives, along the texture's UV set, the best method first. */
@@ -325,6 +329,8 @@ export interface DiffReport {
   normals: AngleStatistics;
   /** Angles between "sign * cross(N, T)". */
   bitangents: AngleStatistics;
+  /** Sentences for a person about the files, each behind the name of its file. */
+  warnings: string[];
   /** The worst places, the largest angle first. */
   worst: FrameDifference[];
   /** Those of A in file order, then those of B without a partner. */

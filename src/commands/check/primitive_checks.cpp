@@ -368,8 +368,7 @@ bool readsTheSame(const TangentUse& a, const TangentUse& b) {
 
 /// Names the texture, and its material where it is one of several (KHR_materials_variants).
 std::string textureText(const TangentUse& use, bool with_material) {
-    if (!with_material) return use.needed_by;
-    return use.needed_by + " of material " + std::to_string(use.material) + (use.only_in_variant ? " (a variant)" : "");
+    return with_material ? textureName(use) : use.needed_by;
 }
 
 }  // namespace
@@ -450,8 +449,10 @@ void checkRounding(PrimitiveFacts& facts) {
 
 }  // namespace
 
-Result<PrimitiveVerdict> judgePrimitive(const ScenePrimitive& primitive, const CheckOptions& options, bool is_gltf) {
+Result<PrimitiveVerdict> judgePrimitive(const ScenePrimitive& primitive, const CheckOptions& options, bool is_gltf,
+                                        std::span<const ScenePrimitive> all) {
     PrimitiveFacts facts{.primitive = primitive, .options = options, .is_gltf = is_gltf};
+    facts.all = all;
     if (primitive.corners.empty()) {
         // glTF lights points and lines by their tangents where the material has a normal map.
         if (!primitive.tangents.empty() && primitive.uses.empty()) {

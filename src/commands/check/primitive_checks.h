@@ -38,9 +38,10 @@ struct PrimitiveFacts {
     std::vector<bool> used = {};  ///< vertices that triangles have
     QuadReading quads = {};       ///< holds the corners of `mesh` where its tangents were made on quads
     std::vector<Finding> findings = {};
-    std::vector<std::uint32_t> faults = {};  ///< of the tangents, as FrameHealth::faults; empty: none
-    double wrong_sign_share = 0;             ///< as FrameHealth::wrong_sign_share
-    bool looked_at_values = false;           ///< there are tangents, and they were examined
+    std::vector<std::uint32_t> faults = {};    ///< of the tangents, as FrameHealth::faults; empty: none
+    double wrong_sign_share = 0;               ///< as FrameHealth::wrong_sign_share
+    std::span<const ScenePrimitive> all = {};  ///< primitives of the scene, or nothing
+    bool looked_at_values = false;             ///< there are tangents, and they were examined
 
     void fault(std::uint32_t vertex, FindingCode code) {
         if (faults.empty()) faults.resize(mesh.positions.size());
@@ -59,7 +60,9 @@ struct PrimitiveVerdict {
 };
 
 /// All findings of a primitive, but for those of its images. Fails for lack of memory only.
-Result<PrimitiveVerdict> judgePrimitive(const ScenePrimitive& primitive, const CheckOptions& options, bool is_gltf);
+/// `all`: the primitives of the scene, whose surface may go on over borders of primitives.
+Result<PrimitiveVerdict> judgePrimitive(const ScenePrimitive& primitive, const CheckOptions& options, bool is_gltf,
+                                        std::span<const ScenePrimitive> all = {});
 /// The findings alone.
 Result<std::vector<Finding>> checkPrimitive(const ScenePrimitive& primitive, const CheckOptions& options, bool is_gltf);
 

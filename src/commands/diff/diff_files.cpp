@@ -254,7 +254,10 @@ Result<FrameDiff> diffFiles(const std::string& a, const std::string& b, const Di
         const Scene scene_b = readNumbered(b, options.file_b.value_or(options.file), 1);
         Comparison comparison(options);
         comparison.compare(scene_a, scene_b);
-        return comparison.result();
+        FrameDiff result = comparison.result();
+        for (const std::string& warning : scene_a.warnings) result.warnings.push_back(a + ": " + warning);
+        for (const std::string& warning : scene_b.warnings) result.warnings.push_back(b + ": " + warning);
+        return result;
     });
 }
 
@@ -375,6 +378,7 @@ std::string diffJson(const std::string& a, const std::string& b, double toleranc
     json["tangents"] = anglesJson(diff->tangents);
     json["normals"] = anglesJson(diff->normals);
     json["bitangents"] = anglesJson(diff->bitangents);
+    json["warnings"] = diff->warnings;
     json["worst"] = listJson(diff->worst, worstJson);
     json["primitives"] = listJson(diff->primitives, comparedPrimitiveJson);
     return jsonText(json);

@@ -53,6 +53,7 @@ void addSentences(const std::string& a, const std::string& b, const FrameDiff& d
         words.remarks.push_back(counted(diff.unpaired_triangle_count, "triangle") + " without a partner");
     if (diff.missing_count != 0 && not_read.empty())
         words.remarks.push_back(counted(diff.missing_count, "primitive") + " with tangents in one file only");
+    for (const std::string& warning : diff.warnings) words.remarks.push_back("warning: " + warning);
 }
 
 void addAngles(TextTable& table, const char* name, const AngleStatistics& angles) {

@@ -77,6 +77,12 @@ bool wasComputed(PrimitiveAction action) {
            action == PrimitiveAction::unchanged;
 }
 
+void VertexTotals::add(const PrimitiveReport& primitive) {
+    if (source_lists_.insert(primitive.source_list).second) before_ += primitive.vertices_before;
+    if (split_lists_.insert(primitive.split_list).second)
+        split_ += primitive.vertices_after - primitive.vertices_before;
+}
+
 Totals totalsOf(const GenerateReport& report) {
     Totals totals;
     for (const PrimitiveReport& primitive : report.primitives) {
@@ -96,8 +102,7 @@ Totals totalsOf(const GenerateReport& report) {
         totals.morph_sign_flip_count += primitive.morph_sign_flip_count;
         if (!wasComputed(primitive.action)) continue;
         totals.triangle_count += primitive.triangle_count;
-        totals.vertices_before += primitive.vertices_before;
-        totals.vertices_after += primitive.vertices_after;
+        totals.vertices.add(primitive);
         totals.degenerate_uv_count += primitive.tangents.degenerate_uv_count;
         totals.degenerate_triangle_count += primitive.tangents.degenerate_triangle_count;
         totals.reference_order_abandoned |= primitive.tangents.reference_order_abandoned;
@@ -179,8 +184,8 @@ Json totalsJson(const GenerateReport& report) {
         json["actions"][actionName(action)] = totals.actions[static_cast<std::size_t>(action)];
     }
     json["triangles"] = totals.triangle_count;
-    json["verticesBefore"] = totals.vertices_before;
-    json["verticesAfter"] = totals.vertices_after;
+    json["verticesBefore"] = totals.vertices.before();
+    json["verticesAfter"] = totals.vertices.after();
     json["mended"] = totals.sanitize.mendedCount();
     json["morphDeltas"] = totals.morph_deltas_computed;
     json["packed"] = totals.frames_packed;

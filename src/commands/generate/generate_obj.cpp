@@ -265,6 +265,7 @@ Made generate(const std::string& input, const std::string& output, const Generat
     for (const ObjPrimitive& primitive : primitives) {
         tell(options, "computing tangents", finished.size(), primitives.size());
         PrimitiveReport& entry = report.primitives.emplace_back();
+        entry.source_list = entry.split_list = static_cast<std::uint32_t>(finished.size());
         const bool replaced = options.overwrite_normals && had_normals[finished.size()];
         finished.push_back(finish(model, primitive, replaced, options, entry));
         for (const std::uint32_t face : primitive.faces) {

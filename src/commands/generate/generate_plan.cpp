@@ -13,7 +13,6 @@
 #include <utility>
 
 #include "commands/generate/edit_attributes.h"
-#include "core/base/sort.h"
 #include "core/base/vec_math.h"
 #include "core/mesh/pools/local_mesh.h"
 #include "core/mesh/surface/surface.h"
@@ -175,23 +174,15 @@ std::string noteOnDrawn(const Document& document, const Primitive& primitive, co
     return "tangents that somebody may have drawn (" + reader + ") were computed anew" + (along_u ? " along u" : "");
 }
 
-/// Two primitives with the same key share every vertex.
+/// Two primitives with the same key are computed together.
 std::string poolKey(const Primitive& primitive, std::int32_t uv_set, const UvMatrix& matrix, bool makes_tangents,
                     bool overwrites_normals) {
-    const auto append = [](std::string& key, AttributeList list) {
-        sortList(list.begin(), list.end());
-        for (const auto& [name, accessor] : list)
-            key += std::to_string(name.size()) + name + ' ' + std::to_string(accessor) + ' ';
-        key += '|';
-    };
     std::string key = std::to_string(uv_set) + (makes_tangents ? "" : "without") + (overwrites_normals ? "anew" : "");
     for (const double entry : {matrix.uu, matrix.uv, matrix.vu, matrix.vv})
         key += ',' + std::to_string(std::bit_cast<std::uint64_t>(entry));
     // Plain triangles without indices need no split, so no other primitive may force one on them.
     key += !primitive.indices && primitive.mode == Mode::triangles ? "n|" : "i|";
-    append(key, primitive.attributes);
-    for (const AttributeList& target : primitive.targets) append(key, target);
-    return key;
+    return key + vertexKey(primitive);
 }
 
 bool comesFromBlender(const Document& document) {
@@ -215,6 +206,7 @@ GeneratePlan planGenerate(const Document& document, std::span<const Primitive> p
     const bool is_blenders = comesFromBlender(document);
     plan.reports.resize(primitives.size());
     std::map<std::string, std::size_t> pool_of;
+    VertexLists lists;
     std::map<std::tuple<std::size_t, std::size_t, Mode>, std::size_t> geometry_of;
     for (std::size_t i = 0; i < primitives.size(); ++i) {
         const Primitive& primitive = primitives[i];
@@ -226,6 +218,7 @@ GeneratePlan planGenerate(const Document& document, std::span<const Primitive> p
         report.triangle_count = primitive.triangleCount();
         report.morph_target_count = static_cast<std::uint32_t>(primitive.targets.size());
         report.vertices_before = report.vertices_after = primitive.vertex_count;
+        report.source_list = report.split_list = lists.numberOf(primitive);
         const std::vector<TangentUse> uses = tangentUses(document, primitive);
         NormalsPlan normals{.anew = makesNormalsAnew(report, document, primitive, uses, options, isIn(wishes.anew, i))};
         if (!normals.anew)
@@ -274,6 +267,7 @@ GeneratePlan planGenerate(const Document& document, std::span<const Primitive> p
         }
         PoolPlan& pool = plan.pools[pool_number];
         pool.primitives.push_back(i);
+        report.split_list = static_cast<std::uint32_t>(pool.primitives.front());
         const std::size_t no_indices = rootArray(document, "accessors").size();
         const auto [geometry_entry, is_new_geometry] = geometry_of.try_emplace(
             {pool_number, primitive.indices.value_or(no_indices), primitive.mode}, pool.geometries.size());

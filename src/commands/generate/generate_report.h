@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <iterator>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -56,13 +57,25 @@ inline constexpr PrimitiveAction kActions[] = {
 /// Whether tangents of it were computed.
 bool wasComputed(PrimitiveAction action);
 
+/// Sums of vertices over primitives: shared vertices count once.
+class VertexTotals {
+  public:
+    void add(const PrimitiveReport& primitive);
+
+    [[nodiscard]] std::uint64_t before() const { return before_; }
+    [[nodiscard]] std::uint64_t after() const { return before_ + split_; }
+
+  private:
+    std::uint64_t before_ = 0, split_ = 0;
+    std::set<std::uint32_t> source_lists_ = {}, split_lists_ = {};
+};
+
 /// Sums over primitives; vertices and triangles of those that were computed only.
 struct Totals {
     std::uint64_t actions[std::size(kActions)] = {};
     std::uint64_t primitive_count = 0;
     std::uint64_t triangle_count = 0;
-    std::uint64_t vertices_before = 0;
-    std::uint64_t vertices_after = 0;
+    VertexTotals vertices = {};
     std::uint64_t normals_generated = 0, normals_replaced = 0;
     std::uint64_t morph_normals_computed = 0;
     std::uint64_t on_quads = 0, quad_count = 0;  ///< primitives, and their quads

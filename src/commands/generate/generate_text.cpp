@@ -145,9 +145,8 @@ std::string summaryRows(const GenerateOutcome& outcome, const Totals& totals) {
             table.addRow({"faces", fmt::format("{} in {}, the rest triangles", counted(totals.quad_count, "quad"),
                                                counted(totals.on_quads, "primitive"))});
         }
-        const std::uint64_t split = totals.vertices_after - std::min(totals.vertices_before, totals.vertices_after);
-        table.addRow(
-            {"vertices", fmt::format("{} -> {} ({} split)", totals.vertices_before, totals.vertices_after, split)});
+        const std::uint64_t before = totals.vertices.before(), after = totals.vertices.after();
+        table.addRow({"vertices", fmt::format("{} -> {} ({} split)", before, after, after - before)});
         const std::string faults = inputFaultsText(totals);
         if (!faults.empty()) table.addRow({"in the input", faults});
         table.addRow({"mended", mendedText(totals.sanitize)});

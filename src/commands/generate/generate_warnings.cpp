@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "commands/generate/generate_report.h"
 #include "core/base/numbers.h"
 
 namespace tspace {
@@ -15,31 +16,28 @@ std::string counted(std::uint64_t count, const char* noun) {
     return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
 }
 
-bool wasComputed(const PrimitiveReport& primitive) {
-    return primitive.action == PrimitiveAction::generated || primitive.action == PrimitiveAction::replaced ||
-           primitive.action == PrimitiveAction::unchanged;
-}
+bool wasComputed(const PrimitiveReport& primitive) { return report::wasComputed(primitive.action); }
 
 }  // namespace
 
 void warnOfWinding(const GenerateOptions& options, GenerateReport& report) {
-    std::uint64_t turned = 0, two_sided = 0, behind = 0, triangles = 0, before = 0, after = 0;
+    std::uint64_t turned = 0, two_sided = 0, behind = 0, triangles = 0;
+    report::VertexTotals vertices;
     for (const PrimitiveReport& primitive : report.primitives) {
         turned += primitive.turned_triangle_count;
         two_sided += primitive.two_sided_triangle_count;
         behind += primitive.normals_behind_count;
         if (primitive.turned_triangle_count == 0) continue;
         triangles += primitive.triangle_count;
-        before += primitive.vertices_before;
-        after += primitive.vertices_after;
+        vertices.add(primitive);
     }
     if (turned != 0) {
         std::string text = std::to_string(turned) + " of " + counted(triangles, "triangle") +
                            (turned == 1 ? " is" : " are") + " wound against the neighbours" +
                            (options.mend_winding ? "" : ": --mend-winding turns them");
-        if (after > before)
-            text += ", and vertices are split between them (" + std::to_string(before) + " -> " +
-                    std::to_string(after) + ")";
+        if (vertices.after() > vertices.before())
+            text += ", and vertices are split between them (" + std::to_string(vertices.before()) + " -> " +
+                    std::to_string(vertices.after()) + ")";
         report.warnings.push_back(text);
     }
     if (two_sided != 0) {

@@ -124,7 +124,7 @@ SignReading Explanation::signs() const {
 Result<Identification> identifyFile(const std::string& input, const IdentifyOptions& options) {
     return atFileBorder([&]() -> Result<Identification> {
         const Scene scene = readScene(input, options.file, false);
-        Identification result{.format = scene.format, .generator = scene.generator};
+        Identification result{.format = scene.format, .generator = scene.generator, .warnings = scene.warnings};
         for (const ScenePrimitive& primitive : scene.primitives) {
             result.primitives.push_back(identify(primitive, options));
         }
@@ -169,6 +169,7 @@ Json identifiedJson(const IdentifyOutcome& outcome) {
     Json json = fileJson(outcome);
     if (!outcome.result) return json;
     const Identification& result = *outcome.result;
+    json["warnings"] = result.warnings;
     json["verdict"] = result.verdict;
     json["explanations"] = listJson(result.explanations, explanationJson);
     json["primitives"] = listJson(result.primitives, identityJson);

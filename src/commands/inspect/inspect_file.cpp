@@ -154,6 +154,7 @@ void describeUses(const std::vector<TangentUse>& uses, PrimitiveInfo& info) {
         entry.needed_by = use.needed_by;
         entry.place = use.place;
         entry.material = static_cast<std::uint32_t>(use.material);
+        entry.material_name = use.material_name;
         entry.only_in_variant = use.only_in_variant;
         entry.uv_set = static_cast<std::int32_t>(use.uv_set);
         std::copy_n(use.transform.offset, 2, entry.uv_offset);
@@ -246,12 +247,16 @@ Inspection inspectGltf(const std::string& input, const FileOptions& options) {
     result.extensions_used = readNames(document.json, "extensionsUsed");
     result.extensions_required = readNames(document.json, "extensionsRequired");
     checkRequiredExtensions(document);
+    const std::vector<Primitive> primitives = readPrimitives(document);
+    warnOfScaledNormals(document, primitives);
     result.warnings = document.warnings;
     std::copy_n(document.coordinate_offset.begin(), 3, result.coordinate_offset);
     result.variants = variantNames(document);
     const std::vector<MeshDraws> draws = meshDraws(document);
-    for (const Primitive& primitive : readPrimitives(document)) {
+    VertexLists lists;
+    for (const Primitive& primitive : primitives) {
         PrimitiveInfo& info = result.primitives.emplace_back(describePrimitive(document, primitive));
+        info.vertex_list = lists.numberOf(primitive);
         info.node_count = draws[primitive.mesh].node_count;
         info.instance_count = draws[primitive.mesh].instance_count;
     }
@@ -282,7 +287,8 @@ PrimitiveInfo describePrimitive(const obj::Model& model, const ObjPrimitive& pri
     info.needs_tangents = material.normal_texture.used();
     if (info.needs_tangents) {
         info.needed_by = "normalTexture";
-        info.tangent_uses.push_back({.needed_by = info.needed_by, .material = primitive.material});
+        info.tangent_uses.push_back(
+            {.needed_by = info.needed_by, .material = primitive.material, .material_name = material.name});
     }
     info.node_count = 1;
     info.instance_count = 1;
@@ -322,6 +328,7 @@ Inspection inspectObj(const std::string& input, const FileOptions& options) {
     for (const ObjPrimitive& primitive : collectPrimitives(model)) {
         PrimitiveInfo info = describePrimitive(model, primitive);
         info.primitive = next_in_mesh[primitive.shape]++;
+        info.vertex_list = static_cast<std::uint32_t>(result.primitives.size());
         result.primitives.push_back(std::move(info));
     }
     return result;
@@ -346,6 +353,7 @@ Json useJson(const TangentUseInfo& use) {
         {"neededBy", use.needed_by},
         {"place", use.place},
         {"material", use.material},
+        {"materialName", use.material_name},
         {"onlyInVariant", use.only_in_variant},
         {"uvSet", use.uv_set},
         {"uvOffset", use.uv_offset},

@@ -2,6 +2,8 @@
 // Results of tspace inspect as text.
 #include <fmt/format.h>
 
+#include <set>
+
 #include "commands/inspect/inspect_report.h"
 #include "commands/shared/text.h"
 
@@ -41,7 +43,9 @@ void addUseRows(const PrimitiveInfo& primitive, Table& table) {
     if (uses.empty() || (uses.size() == 1 && transformText(uses[0]).empty())) return;
     for (const TangentUseInfo& use : uses) {
         table.addRow({&use == &uses[0] ? "needed for" : "",
-                      fmt::format("{} of material {}{}: UV set {}{}{}", use.needed_by, use.material,
+                      fmt::format("{} of material {}{}: UV set {}{}{}", use.needed_by,
+                                  use.material_name.empty() ? std::to_string(use.material)
+                                                            : "'" + printable(use.material_name) + "'",
                                   use.only_in_variant ? " (a variant)" : "", use.uv_set, transformText(use),
                                   use.follows_first ? "" : "; other tangents than the first")});
     }
@@ -60,9 +64,10 @@ std::string summaryLine(const InspectOutcome& outcome) {
     std::uint64_t vertices = 0;
     std::uint64_t needed = 0;
     std::uint64_t missing = 0;
+    std::set<std::uint32_t> lists;
     for (const PrimitiveInfo& primitive : file.primitives) {
         triangles += primitive.triangle_count;
-        vertices += primitive.vertex_count;
+        if (lists.insert(primitive.vertex_list).second) vertices += primitive.vertex_count;
         needed += primitive.needs_tangents;
         missing += primitive.needs_tangents && !primitive.has_tangents;
     }

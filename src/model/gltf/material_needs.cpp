@@ -185,6 +185,10 @@ bool declaresGreenDown(const Json& object) {
     return convention != nullptr && convention->is_string() && convention->text() == "DirectX";
 }
 
+std::string materialName(const Document& document, std::size_t material) {
+    return readString(rootArray(document, "materials")[material], "name", join("/materials", material));
+}
+
 /// Collects the uses of one material.
 class MaterialUses {
   public:
@@ -222,6 +226,7 @@ class MaterialUses {
         use.needed_by = needed_by;
         use.place = std::move(place);
         use.material = material_;
+        use.material_name = materialName(document_, material_);
         use.only_in_variant = only_in_variant_;
         return use;
     }
@@ -350,9 +355,7 @@ SurfaceKind surfaceKind(const Document& document, const Primitive& primitive) {
 }
 
 std::string materialName(const Document& document, const Primitive& primitive) {
-    if (!primitive.material) return {};
-    return readString(rootArray(document, "materials")[*primitive.material], "name",
-                      join("/materials", *primitive.material));
+    return primitive.material ? materialName(document, *primitive.material) : std::string();
 }
 
 // Notes on textures that disagree, on texture transforms, and on their animations.
@@ -362,17 +365,13 @@ namespace {
 /// The most notes per primitive: a file may have any number of variants.
 constexpr std::size_t kMaxDifferences = 8;
 
-std::string nameOf(const TangentUse& use) {
-    return use.needed_by + " of material " + std::to_string(use.material) + (use.only_in_variant ? " (a variant)" : "");
-}
-
 /// Why tangents for `first` do not fit `other`.
 std::string difference(const TangentUse& first, const TangentUse& other) {
     if (first.uv_set != other.uv_set) {
-        return "follow TEXCOORD_" + std::to_string(first.uv_set) + " for " + nameOf(first) + ", but " + nameOf(other) +
-               " is on TEXCOORD_" + std::to_string(other.uv_set);
+        return "follow TEXCOORD_" + std::to_string(first.uv_set) + " for " + textureName(first) + ", but " +
+               textureName(other) + " is on TEXCOORD_" + std::to_string(other.uv_set);
     }
-    return "fit the KHR_texture_transform of " + nameOf(first) + ", but " + nameOf(other) +
+    return "fit the KHR_texture_transform of " + textureName(first) + ", but " + textureName(other) +
            " is turned or mirrored in another way";
 }
 
@@ -390,7 +389,7 @@ void addDifferences(const std::vector<TangentUse>& uses, TextureTransform readin
 void addTransform(const TangentUse& use, TextureTransform reading, std::vector<std::string>& notes) {
     const UvMatrix matrix = uvMatrixOf(use, TextureTransform::apply);
     if (matrix.isIdentity()) return;
-    notes.push_back(kTransformNote + std::string(matrix.mirrors() ? "mirrors " : "turns ") + nameOf(use) +
+    notes.push_back(kTransformNote + std::string(matrix.mirrors() ? "mirrors " : "turns ") + textureName(use) +
                     (reading == TextureTransform::apply ? ": the tangents follow the transformed UVs"
                                                         : ": as asked for, the tangents follow the UVs before it"));
 }
@@ -400,7 +399,7 @@ void addAnimations(const std::vector<TangentUse>& uses, const std::set<std::stri
     for (const TangentUse& use : uses) {
         const std::string transform = use.place + "/extensions/KHR_texture_transform/";
         if (animated.count(transform + "rotation") == 0 && animated.count(transform + "scale") == 0) continue;
-        notes.push_back("an animation moves the KHR_texture_transform of " + nameOf(use) +
+        notes.push_back("an animation moves the KHR_texture_transform of " + textureName(use) +
                         ": the tangents fit the values in the material only");
         return;
     }

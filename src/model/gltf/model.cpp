@@ -20,13 +20,7 @@ std::vector<Primitive>& Model::primitives() {
         const std::int64_t left = document_->memory->left();
         primitives_ = readPrimitives(*document_);
         primitive_bytes_ = left - document_->memory->left();
-        std::string scaled = scaledNormalsText(*primitives_);
-        std::vector<std::string>& warnings = document_->warnings;
-        std::erase_if(warnings, [](const std::string& warning) { return warning.rfind(kNormalLengths, 0) == 0; });
-        if (!scaled.empty())
-            warnings.push_back(std::move(scaled) +
-                               ". They were scaled to it before anything was computed from them; the file has them as "
-                               "before (tspace generate --repair writes unit normals)");
+        warnOfScaledNormals(*document_, *primitives_);
     }
     return *primitives_;
 }
@@ -91,7 +85,7 @@ DrawnScene Model::materialScene(bool with_normal_maps) {
 PosedScene Model::posedScene(bool with_images) {
     PosedScene posed{.drawn = drawnScene(with_images)};
     if (with_images) posed.drawn.colors = colorsOf(*document_, *arrays_, primitives());
-    posed.poses = readPoses(*document_, *arrays_, primitives(), posed.drawn.scene);
+    posed.poses = readPoses(*document_, *arrays_, primitives(), posed.drawn);
     return posed;
 }
 

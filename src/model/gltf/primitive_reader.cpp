@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "core/base/numbers.h"
+#include "core/base/sort.h"
 #include "core/base/vec_math.h"
 #include "model/gltf/packed_layout.h"
 #include "model/io/file_error.h"
@@ -273,6 +274,19 @@ std::optional<std::size_t> findAttribute(const AttributeList& list, const std::s
     return {};
 }
 
+std::string vertexKey(const Primitive& primitive) {
+    std::string key;
+    const auto append = [&key](AttributeList list) {
+        sortList(list.begin(), list.end());
+        for (const auto& [name, accessor] : list)
+            key += std::to_string(name.size()) + name + ' ' + std::to_string(accessor) + ' ';
+        key += '|';
+    };
+    append(primitive.attributes);
+    for (const AttributeList& target : primitive.targets) append(target);
+    return key;
+}
+
 std::size_t Primitive::triangleCount() const { return trianglesOf(mode, corner_count); }
 
 std::vector<Primitive> readPrimitives(const Document& document) {
@@ -293,7 +307,8 @@ std::vector<Primitive> readPrimitives(const Document& document) {
     return primitives;
 }
 
-std::string scaledNormalsText(std::span<const Primitive> primitives) {
+void warnOfScaledNormals(Document& document, std::span<const Primitive> primitives) {
+    std::erase_if(document.warnings, [](const std::string& warning) { return warning.rfind(kNormalLengths, 0) == 0; });
     constexpr std::size_t kMostNamed = 3;
     std::map<const NormalScales*, const Primitive*> first_with;
     std::string named;
@@ -310,10 +325,13 @@ std::string scaledNormalsText(std::span<const Primitive> primitives) {
         most = std::max(most, scales->most_length);
         count += scales->count;
     }
-    if (count == 0) return {};
+    if (count == 0) return;
     if (primitive_count > kMostNamed) named += "; and " + std::to_string(primitive_count - kMostNamed) + " more";
-    return kNormalLengths + std::string(": ") + std::to_string(count) + (count == 1 ? " vertex" : " vertices") + " (" +
-           named + ") of lengths from " + shortNumber(least) + " to " + shortNumber(most);
+    document.warnings.push_back(
+        kNormalLengths + std::string(": ") + std::to_string(count) + (count == 1 ? " vertex" : " vertices") + " (" +
+        named + ") of lengths from " + shortNumber(least) + " to " + shortNumber(most) +
+        ". They were scaled to it before anything was computed from them; the file has them as before (tspace generate "
+        "--repair writes unit normals)");
 }
 
 std::vector<std::uint32_t> readTriangleCorners(const Document& document, const Primitive& primitive) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -89,6 +90,21 @@ struct Primitive {
     [[nodiscard]] std::size_t triangleCount() const;
 };
 
+/// The accessors of the attributes and morph targets, in one order: primitives with one key share all vertices.
+std::string vertexKey(const Primitive& primitive);
+
+/// Numbers the vertex lists of a file by the first primitive that uses each. Primitives are given in file order.
+class VertexLists {
+  public:
+    std::uint32_t numberOf(const Primitive& primitive) {
+        return numbers_.try_emplace(vertexKey(primitive), count_++).first->second;
+    }
+
+  private:
+    std::map<std::string, std::uint32_t> numbers_ = {};
+    std::uint32_t count_ = 0;  ///< primitives that were given
+};
+
 /// All primitives in file order. Checks that attributes exist and agree in length, but for `miscounted`, tangents and
 /// `attribute_faults`. Looks at the lengths of all normals.
 std::vector<Primitive> readPrimitives(const Document& document);
@@ -97,8 +113,8 @@ std::vector<Primitive> readPrimitives(const Document& document);
 /// triangles at the end are left out. Every index is checked.
 std::vector<std::uint32_t> readTriangleCorners(const Document& document, const Primitive& primitive);
 
-/// A sentence on the normals that are scaled, behind that: at how many vertices of which primitives. Empty: none is.
-std::string scaledNormalsText(std::span<const Primitive> primitives);
+/// Adds a warning to the document where normals are scaled: at how many vertices of which primitives. Replaces an earlier one.
+void warnOfScaledNormals(Document& document, std::span<const Primitive> primitives);
 
 /// One attribute as floats. The attribute must be there. Normals have length 1: see NormalScales.
 std::vector<Vec2> readUvs(const Document& document, const Primitive& primitive, std::size_t uv_set);

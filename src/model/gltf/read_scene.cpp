@@ -232,11 +232,11 @@ std::vector<ScenePlacement> readPlacements(const Document& document, std::span<c
         const std::string name = given != nullptr && given->is_string() ? given->get<std::string>() : std::string();
         for (const Affine& instance : instances) {
             for (const std::size_t primitive : of_mesh[*mesh])
-                placements.push_back({primitive, compose(place, instance), name});
+                placements.push_back({primitive, compose(place, instance), name, node});
         }
     }
     if (placements.empty()) {
-        for (std::size_t i = 0; i < primitives.size(); ++i) placements.push_back({i, {}, {}});
+        for (std::size_t i = 0; i < primitives.size(); ++i) placements.push_back({i});
     }
     return placements;
 }
@@ -323,7 +323,7 @@ std::vector<Affine> blendedBones(DecodedArrays& arrays, const Primitive& primiti
 }  // namespace
 
 std::vector<ScenePose> readPoses(const Document& document, DecodedArrays& arrays, std::span<const Primitive> primitives,
-                                 const Scene& scene) {
+                                 const DrawnScene& drawn) {
     const Json& meshes = rootArray(document, "meshes");
     const Json& skins = rootArray(document, "skins");
     std::vector<std::vector<std::size_t>> of_mesh(meshes.size());
@@ -333,15 +333,17 @@ std::vector<ScenePose> readPoses(const Document& document, DecodedArrays& arrays
     for (const std::size_t node : nodes.shown()) {
         const std::string node_place = join("/nodes", node);
         const auto mesh = readIndex(nodes[node], "mesh", node_place, meshes.size(), "mesh");
-        if (!mesh) continue;
+        const auto is_here = [&] {
+            return poses.size() < drawn.placements.size() && drawn.placements[poses.size()].node == node;
+        };
+        if (!mesh || !is_here()) continue;
         const auto skin = readIndex(nodes[node], "skin", node_place, skins.size(), "skin");
         const std::vector<double> weights =
             morphWeights(nodes[node], node_place, meshes[*mesh], join("/meshes", *mesh));
         const std::vector<Affine> joints =
             skin ? jointMatrices(document, nodes, skins[*skin], join("/skins", *skin)) : std::vector<Affine>();
-        const std::size_t first = poses.size();
         for (const std::size_t i : of_mesh[*mesh]) {
-            const ScenePrimitive& primitive = scene.primitives[i];
+            const ScenePrimitive& primitive = drawn.scene.primitives[i];
             const bool is_moved = !joints.empty() || std::any_of(weights.begin(), weights.end(),
                                                                  [](double weight) { return weight != 0; });
             constexpr std::uint64_t kVertexBytes = sizeof(Affine) + 3 * sizeof(Vec3);
@@ -354,16 +356,12 @@ std::vector<ScenePose> readPoses(const Document& document, DecodedArrays& arrays
             addOffsets(primitive, weights, &SceneMorphTarget::tangents, pose.tangents);
             pose.bones = blendedBones(arrays, primitives[i], joints);
         }
-        const std::size_t count = poses.size() - first,
-                          copies = readInstances(document, nodes[node], node_place).size();
-        for (std::size_t i = 1; i < copies; ++i) {
-            for (std::size_t k = 0; k < count; ++k) {
-                ScenePose copy = poses[first + k];
-                document.memory->take(
-                    sizeof(ScenePose) + copy.bones.size() * sizeof(Affine) + 3 * copy.positions.size() * sizeof(Vec3),
-                    node_place);
-                poses.push_back(std::move(copy));
-            }
+        while (is_here()) {
+            ScenePose copy = poses[poses.size() - of_mesh[*mesh].size()];
+            document.memory->take(
+                sizeof(ScenePose) + copy.bones.size() * sizeof(Affine) + 3 * copy.positions.size() * sizeof(Vec3),
+                node_place);
+            poses.push_back(std::move(copy));
         }
     }
     if (poses.empty()) poses.resize(primitives.size());

@@ -26,10 +26,10 @@ void readMetalAndEmission(const Document& document, const Primitive& primitive, 
 /// tooLarge where the budget does not suffice.
 std::vector<ScenePlacement> readPlacements(const Document& document, std::span<const Primitive> primitives);
 
-/// How the nodes pose the primitives at the places of readPlacements, in that order: by skins, and by weights of morph targets. `scene`: of these
+/// How the nodes pose the primitives at the places of readPlacements, in that order: by skins, and by weights of morph targets. `drawn`: of these
 /// primitives. A skin that cannot be read moves nothing. Fails as readPlacements.
 std::vector<ScenePose> readPoses(const Document& document, DecodedArrays& arrays, std::span<const Primitive> primitives,
-                                 const Scene& scene);
+                                 const DrawnScene& drawn);
 
 /// Sets `places` of the scene's primitives, which must be these, in this order. Nodes that cannot be read draw nothing.
 void tellPlaces(const Document& document, std::span<const Primitive> primitives, Scene& scene);

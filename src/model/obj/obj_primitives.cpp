@@ -235,7 +235,8 @@ ScenePrimitive loadPrimitive(const Model& model, const ObjPrimitive& primitive, 
                                .place = result.place,
                                .image = maps.indexOf(material.normal_texture),
                                .may_be_heights = material.normal_is_bump,
-                               .material = primitive.material});
+                               .material = primitive.material,
+                               .material_name = material.name});
     }
     return result;
 }

@@ -15,6 +15,7 @@
 
 #include "core/base/vec_math.h"
 #include "core/mesh/surface/affine.h"
+#include "model/io/file_error.h"
 #include "model/io/memory_budget.h"
 #include "tspace/asset.h"
 #include "tspace/maps.h"
@@ -61,8 +62,15 @@ struct TangentUse {
     bool may_be_heights = false;    ///< the format takes a grey image for a height map there (map_bump of OBJ)
     bool reads_levels = true;       ///< as in TextureReading
     std::size_t material = 0;
-    bool only_in_variant = false;  ///< the material is one of KHR_materials_variants, not the primitive's own
+    std::string material_name = {};  ///< may be empty
+    bool only_in_variant = false;    ///< the material is one of KHR_materials_variants, not the primitive's own
 };
+
+/// "normalTexture of material 'Paint' (a variant)"; a material without a name is named by its index.
+inline std::string textureName(const TangentUse& use) {
+    const std::string material = use.material_name.empty() ? std::to_string(use.material) : inQuotes(use.material_name);
+    return use.needed_by + " of material " + material + (use.only_in_variant ? " (a variant)" : "");
+}
 
 // What a model file holds that frames depend on, in one form for every format. Read-only: check, diff and identify look
 // at it; generate decides by it, and edits the file's own document (gltf/model.h).
@@ -238,7 +246,8 @@ struct SurfaceLook {
 struct ScenePlacement {
     std::size_t primitive = 0;  ///< of the scene
     Affine to_world = {};
-    std::string node_name = {};  ///< of the node that puts it there; may be empty
+    std::string node_name = {};            ///< of the node that puts it there; may be empty
+    std::optional<std::size_t> node = {};  ///< its index in the file (glTF)
 };
 
 struct DrawnScene {

@@ -11,7 +11,9 @@
 #include "support/scene_file.h"
 #include "support/shared_data.h"
 #include "tspace/check.h"
+#include "tspace/diff.h"
 #include "tspace/finish_file.h"
+#include "tspace/identify.h"
 
 namespace tspace::test {
 namespace {
@@ -53,7 +55,8 @@ GenerateReport generated(const std::string& input, const std::string& output, co
     return report ? *std::move(report) : GenerateReport{};
 }
 
-std::size_t warningsOnLengths(const GenerateReport& report) {
+template <class Report>
+std::size_t warningsOnLengths(const Report& report) {
     return static_cast<std::size_t>(
         std::count_if(report.warnings.begin(), report.warnings.end(),
                       [](const std::string& warning) { return warning.rfind(kNormalLengths, 0) == 0; }));
@@ -119,6 +122,26 @@ TEST(NormalLengths, AreSaidOnceAndOnlyWhereTheyAreOff) {
     for (const float length : {1.0f, 0.994f, 1.006f}) {
         const Files files;
         EXPECT_EQ(warningsOnLengths(generated(files.input(sheetOf(length)), files.output())), 0u) << length;
+    }
+}
+
+TEST(NormalLengths, AreSaidByCommandsThatOnlyRead) {
+    for (const float length : {1.0f, 2.0f}) {
+        const Files files;
+        const std::string input = files.input(sheetOf(length)), other = files.folder.write("b.glb", sheetOf(1).glb());
+        const auto inspection = inspectFile(input);
+        const auto identification = identifyFile(input);
+        const auto diff = diffFiles(input, other), swapped = diffFiles(other, input);
+        ASSERT_TRUE(inspection && identification && diff && swapped);
+        const std::size_t wanted = length == 1 ? 0 : 1;
+        EXPECT_EQ(warningsOnLengths(*inspection), wanted);
+        EXPECT_EQ(warningsOnLengths(*identification), wanted);
+        for (const FrameDiff* both : {&*diff, &*swapped}) {
+            ASSERT_EQ(both->warnings.size(), wanted);
+            if (wanted != 0) {
+                EXPECT_EQ(both->warnings[0].rfind(input + ": " + kNormalLengths, 0), 0u);
+            }
+        }
     }
 }
 

@@ -221,6 +221,8 @@ class TangentUse(Report):
     place: str
     #: Index of the material.
     material: int
+    #: May be empty.
+    material_name: str
     #: The material is one of KHR_materials_variants, not the primitive's own.
     only_in_variant: bool
     #: The n of "TEXCOORD_n".
@@ -246,6 +248,8 @@ class IdentifyReport(Report):
     format: str
     #: The program that wrote the file; may be empty.
     generator: str
+    #: Sentences for a person about the file as a whole.
+    warnings: List[str]
     #: Two or three sentences for a person.
     verdict: str
     #: Over all primitives, along the texture's UV set, the best method first.
@@ -335,6 +339,8 @@ class DiffReport(Report):
     normals: AngleStatistics
     #: Angles between "sign * cross(N, T)".
     bitangents: AngleStatistics
+    #: Sentences for a person about the files, each behind the name of its file.
+    warnings: List[str]
     #: The worst places, the largest angle first.
     worst: List[FrameDifference]
     #: Those of A in file order, then those of B without a partner.

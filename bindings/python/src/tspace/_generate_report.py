@@ -56,9 +56,9 @@ class GenerateTotals(Report):
     actions: ActionCounts
     #: Triangles of the primitives that were computed.
     triangles: int
-    #: Their vertices in the input.
+    #: Their vertices in the input; vertices that several of them share count once.
     vertices_before: int
-    #: Their vertices in the output.
+    #: The same after vertices were split.
     vertices_after: int
     #: Corners whose tangents were mended.
     mended: int
