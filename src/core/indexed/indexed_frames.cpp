@@ -69,7 +69,9 @@ class FramesMaker {
 
     Result<Done> makeTangents() {
         tangents_.resize(mesh_.cornerCount());
-        Result<TangentReport> made = generateTangents(mesh_, options_.tangents, {.tangents = tangents_}, execution_);
+        TangentOptions options = options_.tangents;
+        options.normalize_normals = false;  // those of mesh_ are normalized already
+        Result<TangentReport> made = generateTangents(mesh_, options, {.tangents = tangents_}, execution_);
         if (!made) return std::move(made).error();
         frames_.report.tangents = *made;
         if (!options_.sanitize) return Done{};
