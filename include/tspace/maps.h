@@ -11,6 +11,7 @@
 #include "tspace/callbacks.h"
 #include "tspace/convention.h"
 #include "tspace/execution.h"
+#include "tspace/normals.h"
 #include "tspace/result.h"
 #include "tspace/span.h"
 #include "tspace/vec.h"
@@ -100,6 +101,8 @@ struct RayOptions {
     /// In place of `directions`: its first channel, by the low poly's UVs, is 0 where rays are averaged and 1 where they
     /// are at right angles to the triangle. Without texels: none.
     MapImage skew = {};
+    /// Which positions are one point, for directions of rays and for curvature: as NormalOptions::weld_distance.
+    float weld_distance = NormalOptions::weld_auto;
 };
 
 // How far a normal map is from the surface that it stands for, in degrees, as a renderer shades it.

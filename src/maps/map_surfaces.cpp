@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/base/border.h"
+#include "core/base/near_positions.h"
 #include "core/base/numbers.h"
 #include "maps/texture_sample.h"
 
@@ -173,7 +174,7 @@ Error checkRays(const RayOptions& rays, double reach) {
     const MapImage& skew = rays.skew;
     if (skew.texels.size() != std::size_t{skew.width} * skew.height)
         return makeError(ErrorCode::countMismatch, kNoElement, "the image of the skew needs width * height texels");
-    return {ErrorCode::ok};
+    return checkWeldDistance(rays.weld_distance);
 }
 
 Result<MapSurfaces> MapSurfaces::make(const LowPoly& low, const HighPoly& high, double reach, const RayOptions& rays,

@@ -8,6 +8,7 @@
 
 #include "core/base/disjoint_sets.h"
 #include "core/base/mesh_loops.h"
+#include "core/base/near_positions.h"
 #include "core/base/vec_math.h"
 #include "core/base/weld.h"
 #include "maps/texture_sample.h"
@@ -165,9 +166,9 @@ constexpr double kBend = 0.5;
 
 DVec3 unitOr(DVec3 v, const DVec3& other) { return normalize(v) ? v : other; }
 
-/// The whole mesh: what the map shows, and the rest.
+/// The whole mesh: the triangles that the map shows, and the rest. Near positions are one.
 struct WholeMesh {
-    explicit WholeMesh(const LowPoly& low, const Allocator* allocator, Parallel& parallel)
+    WholeMesh(const LowPoly& low, float weld_distance, const Allocator* allocator, Parallel& parallel)
         : positions(allocator, low.positions.count + low.rest_positions.count),
           normals(allocator, positions.size()),
           faces(allocator, positions.size() / 3) {
@@ -176,6 +177,8 @@ struct WholeMesh {
             positions[i] = i < shown ? low.positions[i] : low.rest_positions[i - shown];
             normals[i] = i < shown ? low.normals[i] : low.rest_normals[i - shown];
         }
+        const NearPositions near({.positions = view()}, weld_distance, allocator, parallel);
+        if (!near.empty()) positions = near.moved(view());
         for (std::size_t i = 0; i < faces.size(); ++i) {
             const DVec3 at = toDouble(positions[3 * i]);
             faces[i] = unitOr(cross(toDouble(positions[3 * i + 1]) - at, toDouble(positions[3 * i + 2]) - at), {});
@@ -265,7 +268,7 @@ RayField::RayField(const LowPoly& low, const RayOptions& rays, double offset, Pa
     if (!low.cage.empty()) return;
     const bool is_painted = !rays.skew.texels.empty();
     if (rays.directions == RayDirections::normals && !is_painted) return;
-    const WholeMesh mesh(low, allocator, parallel);
+    const WholeMesh mesh(low, rays.weld_distance, allocator, parallel);
     const std::size_t shown = low.positions.count;
     const Buffer<Vec3> means = meanWays(mesh, allocator);
     averaged_ = averagedWays(mesh, means, shown, allocator);

@@ -6,6 +6,7 @@
 
 #include <array>
 
+#include "core/base/near_positions.h"
 #include "core/base/vec_math.h"
 #include "core/base/weld.h"
 
@@ -15,9 +16,10 @@ namespace {
 
 class Curvature {
   public:
-    Curvature(const HighPoly& mesh, Parallel& parallel, const Allocator* allocator)
+    Curvature(const HighPoly& mesh, float weld_distance, Parallel& parallel, const Allocator* allocator)
         : mesh_(mesh),
-          roots_(weldPositions({.positions = mesh.positions, .indices = {mesh.corners}}, allocator, parallel)),
+          near_({.positions = mesh.positions, .indices = {mesh.corners}}, weld_distance, allocator, parallel),
+          roots_(weldPositions(near_.view(), allocator, parallel)),
           normals_(allocator, mesh.positions.count, DVec3{}),
           bends_(allocator, mesh.positions.count, 0.0),
           areas_(allocator, mesh.positions.count, 0.0),
@@ -53,7 +55,7 @@ class Curvature {
         std::array<DVec3, 3> at{};
         for (std::size_t i = 0; i < 3; ++i) {
             triangle.vertices[i] = mesh_.corners[3 * number + i];
-            at[i] = toDouble(mesh_.positions[triangle.vertices[i]]);
+            at[i] = toDouble(near_.view().positions[triangle.vertices[i]]);
         }
         for (std::size_t i = 0; i < 3; ++i) triangle.edges[i] = at[(i + 1) % 3] - at[i];
         triangle.normal = cross(triangle.edges[0], triangle.edges[1]);
@@ -90,6 +92,7 @@ class Curvature {
     }
 
     const HighPoly& mesh_;
+    NearMesh near_;
     Buffer<std::uint32_t> roots_;
     Buffer<DVec3> normals_;
     Buffer<double> bends_, areas_;
@@ -98,8 +101,9 @@ class Curvature {
 
 }  // namespace
 
-Buffer<float> vertexCurvature(const HighPoly& mesh, Parallel& parallel, const Allocator* allocator) {
-    return Curvature(mesh, parallel, allocator).run();
+Buffer<float> vertexCurvature(const HighPoly& mesh, float weld_distance, Parallel& parallel,
+                              const Allocator* allocator) {
+    return Curvature(mesh, weld_distance, parallel, allocator).run();
 }
 
 }  // namespace tspace

@@ -78,7 +78,9 @@ class LayerTracing {
     }
 
     std::vector<BakedLayer> run() {
-        if (has(MapLayer::curvature)) curvature_ = vertexCurvature(surfaces_.high(), work_.parallel, work_.allocator);
+        if (has(MapLayer::curvature))
+            curvature_ =
+                vertexCurvature(surfaces_.high(), surfaces_.rays().weld_distance, work_.parallel, work_.allocator);
         if (has_material_ && !fits()) traceMeans();
         traceCentres();
         if (has_material_ && fits()) {

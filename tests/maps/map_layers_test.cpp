@@ -275,7 +275,7 @@ double curvatureError(int cells) {
         return DVec3{radius * a.cosine, radius * a.sine, kSmall * b.sine};
     });
     Parallel parallel({.thread_count = 1});
-    const Buffer<float> curvature = vertexCurvature(torus.view(), parallel, nullptr);
+    const Buffer<float> curvature = vertexCurvature(torus.view(), 0, parallel, nullptr);
     double sum = 0;
     for (std::size_t i = 0; i < curvature.size(); ++i) {
         const double cosine = double{torus.positions[i].z} / kSmall;
@@ -298,8 +298,31 @@ TEST(SurfaceCurvature, OfACoarseBallWithoutNormalsIsOneByItsRadius) {
     Mesh ball;
     ball.addBall({1, 2, 3}, 0.5, 64);
     Parallel parallel({.thread_count = 1});
-    const Buffer<float> curvature = vertexCurvature(ball.view(), parallel, nullptr);
+    const Buffer<float> curvature = vertexCurvature(ball.view(), 0, parallel, nullptr);
     for (std::size_t i = 65; i + 65 < curvature.size(); ++i) EXPECT_NEAR(curvature[i], 2, 0.02) << i;
+}
+
+TEST(SurfaceCurvature, AtPositionsThatAreEqualButForRoundingIsThatOfOnePoint) {
+    // A tube whose ends meet along a line of its own.
+    constexpr int kCells = 32;
+    const auto curvature = [&](float nudge, float weld_distance) {
+        Mesh tube;
+        tube.addGrid(kCells, [&](double u, double v) {
+            const SineCosine a = sineCosine(2 * kPi * (u < 1 ? u : 0));
+            return DVec3{a.cosine, a.sine + (u < 1 ? 0 : double{nudge}), 2 * v};
+        });
+        Parallel parallel({.thread_count = 1});
+        return vertexCurvature(tube.view(), weld_distance, parallel, nullptr);
+    };
+    const Buffer<float> equal = curvature(0, 0), near = curvature(1e-7F, NormalOptions::weld_auto),
+                        apart = curvature(1e-7F, 0);
+    float most_near = 0, most_apart = 0;
+    for (std::size_t i = 0; i < equal.size(); ++i) {
+        most_near = std::max(most_near, std::fabs(near[i] - equal[i]));
+        most_apart = std::max(most_apart, std::fabs(apart[i] - equal[i]));
+    }
+    EXPECT_LT(most_near, 1e-4F);
+    EXPECT_GT(most_apart, 0.1F);
 }
 
 TEST_F(MapLayers, CurvatureIsBrightWhereTheSurfaceIsConvexAndGreyWhereItIsFlat) {

@@ -110,6 +110,27 @@ class RayDirectionsTest : public testing::Test {
     }
 };
 
+/// Corners of one side that differ by rounding from those of its neighbors still meet them.
+TEST_F(RayDirectionsTest, PositionsThatAreEqualButForRoundingAreOne) {
+    const HighMesh high = roundedBox(false);
+    LowMesh nudged = box();
+    for (std::size_t i = 6; i < 12; ++i) nudged.positions[i].x = std::nextafter(nudged.positions[i].x, 2.0F);
+    for (const RayDirections directions : {RayDirections::automatic, RayDirections::averaged}) {
+        const BakedMap equal = baked(high, {.directions = directions});
+        const BakedMap near = baked(nudged.view(), high.view(), options({.directions = directions}));
+        EXPECT_EQ(near.missed_count, equal.missed_count);
+        ASSERT_EQ(near.texels.size(), equal.texels.size());
+        for (std::size_t i = 0; i < near.texels.size(); ++i) {
+            const Vec3 apart = near.texels[i] - equal.texels[i];
+            ASSERT_LT(std::max({std::fabs(apart.x), std::fabs(apart.y), std::fabs(apart.z)}), 1e-3F) << i;
+        }
+        const RayOptions exact{.directions = directions, .weld_distance = 0};
+        EXPECT_GT(baked(nudged.view(), high.view(), options(exact)).missed_count, equal.missed_count);
+    }
+    BakeOptions wrong = options({.weld_distance = -2});
+    EXPECT_EQ(bakeMap(box().view(), high.view(), wrong).error().code, ErrorCode::invalidOption);
+}
+
 TEST_F(RayDirectionsTest, NothingIsMissedAtHardEdges) {
     const HighMesh high = roundedBox(false);
     EXPECT_GT(baked(high, {.directions = RayDirections::normals}).missed_count, 0U);

@@ -8,6 +8,7 @@
 #include "commands/shared/picture/colors.h"
 #include "commands/shared/uv_reading.h"
 #include "core/base/disjoint_sets.h"
+#include "core/base/near_positions.h"
 #include "core/base/weld.h"
 #include "images/float_image.h"
 #include "model/io/file_error.h"
@@ -38,7 +39,7 @@ HighDetail::HighDetail(const BakeModels& models, const std::string& path, const 
       textures_(models.high_scene.scene, mostPixels(options.file.memory_limit_bytes)) {
     if (shows(layers_, MapLayer::id)) {
         if (options.ids == BakeIds::shell) {
-            findShells();
+            findShells(options.map.rays.weld_distance);
         } else {
             findNames(options.ids);
         }
@@ -78,10 +79,11 @@ void HighDetail::findNames(BakeIds how) {
     listIds(names);
 }
 
-void HighDetail::findShells() {
+void HighDetail::findShells(float weld_distance) {
     const std::size_t triangles = high_.triangleCount();
     Parallel parallel({.thread_count = 1});
-    const Buffer<std::uint32_t> roots = weldPositions(high_.mesh.view(), nullptr, parallel);
+    const NearMesh near(high_.mesh.view(), weld_distance, nullptr, parallel);
+    const Buffer<std::uint32_t> roots = weldPositions(near.view(), nullptr, parallel);
     const auto pointOf = [&](std::size_t corner) {
         const std::uint32_t vertex = high_.mesh.indices[corner];
         return roots.empty() ? vertex : roots[vertex];

@@ -32,7 +32,7 @@ class HighDetail {
     };
 
     void findNames(BakeIds how);
-    void findShells();
+    void findShells(float weld_distance);
     void listIds(const std::vector<std::string>& names);
     void readMaterials(const std::string& path);
     PlacedTexture placed(std::size_t primitive, const std::optional<TextureReading>& texture, ModelTextures::Use use);

@@ -144,6 +144,12 @@ void addRayOptions(OptionList& list, double& reach, RayOptions& rays, std::strin
                      "How far from the low poly the high poly is looked for, outwards and inwards, in units of the "
                      "models. Default: a twentieth of the size of the larger one, or more where their boxes differ by "
                      "more; the report says how much."));
+    add(list, group,
+        numberOrAuto("--weld-distance", "DISTANCE", "a distance", rays.weld_distance, NormalOptions::weld_auto,
+                     1000000000,
+                     "Positions that differ by no more than this in each coordinate are one point for ray directions, "
+                     "curvature, shells and normals that are made, in units of the models. 0: only equal ones are. "
+                     "auto: twice the spacing of floats at the largest coordinate of the mesh."));
     Option painted = fileOption("--skew", "IMAGE", skew,
                                 "In place of --directions: an image by the UVs of the map, black where rays are "
                                 "averaged and white where they go straight at the triangles.");

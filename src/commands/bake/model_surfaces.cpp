@@ -248,7 +248,7 @@ std::vector<Vec3> smoothNormals(const ScenePrimitive& primitive, const BakeFileO
     valueOrThrow(generateNormals(primitive.view(),
                                  {.weighting = NormalWeighting::angle,
                                   .convention = conventions::gltf,
-                                  .weld_distance = NormalOptions::weld_auto},
+                                  .weld_distance = options.map.rays.weld_distance},
                                  of_corners, options.execution));
     for (std::size_t i = 0; i < of_corners.size(); ++i) normals[primitive.corners[i]] = of_corners[i];
     return normals;
@@ -274,7 +274,7 @@ std::vector<Vec3> denoisedNormals(const ScenePrimitive& primitive, const BakeFil
     std::vector<Vec3> of_corners(primitive.corners.size());
     const NormalOptions how{.weighting = NormalWeighting::best,
                             .convention = conventions::gltf,
-                            .weld_distance = NormalOptions::weld_auto,
+                            .weld_distance = options.map.rays.weld_distance,
                             .denoise = options.denoise};
     const NormalReport report = valueOrThrow(generateNormals(primitive.view(), how, of_corners, options.execution));
     if (!(report.noise > 0)) return {};

@@ -223,6 +223,7 @@ class ModelInWork {
             now.winding_mended_count = first.winding_mended_count;
             now.winding_mended = std::move(first.winding_mended);
             now.vertices_before = first.vertices_before;
+            now.source_list = first.source_list;
             first = std::move(now);
         }
     }
@@ -315,6 +316,7 @@ class Finishing {
     /// The model with its maps; the maps go to the outputs.
     Bytes bake(const std::string& input, const std::string& output, ByteSpan low, ByteSpan high) {
         BakeFileOptions bake = options_.bake;
+        bake.map.rays.weld_distance = options_.weld_distance;
         bake.out_mesh = output;
         bake.file = options_.file;
         bake.execution = options_.execution;

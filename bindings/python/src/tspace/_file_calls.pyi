@@ -306,6 +306,7 @@ def bake_file(
     cage: PathLike = ...,
     method: MethodName = ...,
     denoise: DegreesOrAuto = ...,
+    weld_distance: DegreesOrAuto = ...,
     threads: int = ...,
     no_sync: bool = ...,
     allow_external: bool = ...,

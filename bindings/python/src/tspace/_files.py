@@ -53,7 +53,7 @@ _OPTIONS = {
     "heightToNormal": f"strength encoding texel_size mesh material clamp convention bits method dry_run threads no_sync {_LIMITS}",
     "compressMap": "format quality signed alpha dds_header mips no_levels zstd bits roughness roughness_output roughness_factor"
     " dry_run threads no_sync memory_limit import_seconds",
-    "bake": f"{_BAKED} out_mesh misses heat space axes convention unit fit lengths udim skew cage method denoise threads no_sync {_LIMITS}",
+    "bake": f"{_BAKED} out_mesh misses heat space axes convention unit fit lengths udim skew cage method denoise weld_distance threads no_sync {_LIMITS}",
     "finish": f"low html normals crease denoise weld_distance keep_winding keep_coordinates {_BAKED} threads no_sync {_LIMITS}",
 }
 
