@@ -355,7 +355,7 @@ const PosedSurface& ModelPicture::pose(std::size_t primitive, const ScenePose& p
     } else {
         for (std::size_t v = 0; v < source.normals.size(); ++v) {
             const Vec3 normal = added(source.normals[v], pose.normals, v);
-            result.normals.push_back(pose.bones.empty() ? normal : normalAt(pose.bones[v], normal));
+            result.normals.push_back(withUnitLength(pose.bones.empty() ? normal : normalAt(pose.bones[v], normal)));
         }
     }
     result.shown.normals = {result.normals, source.normals.empty()};

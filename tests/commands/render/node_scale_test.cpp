@@ -53,6 +53,21 @@ TEST(NodeScale, AMapIsShadedAsThreeJsAndTheViewerOfKhronosDo) {
     }
 }
 
+TEST(NodeScale, TangentsOfAnyLengthAreShadedAsUnitOnes) {
+    const Leaning mesh;
+    Leaning longer = mesh;
+    const std::array<float, 3> lengths{0.25F, 1, 3};
+    for (std::size_t i = 0; i < 3; ++i) {
+        Vec4& t = longer.tangents[i];
+        t = {lengths[i] * t.x, lengths[i] * t.y, lengths[i] * t.z, t.w};
+    }
+    const SurfacePoint point{.triangle = 0, .weights = {0.5, 0.3, 0.2}};
+    for (const Affine& place : {Affine{}, Affine{{1, 0, 0}, {0, 2.5, 0}, {0, 0, 0.6}, {}}}) {
+        const DVec3 expected = mappedNormal(mesh.shown(), place, point);
+        EXPECT_LT(degreesBetween(mappedNormal(longer.shown(), place, point), expected), 1e-4);
+    }
+}
+
 TEST(NodeScale, BakingAndPicturesHaveOneFrame) {
     const Leaning mesh;
     const std::array<double, 3> weights{0.2, 0.2, 0.6};

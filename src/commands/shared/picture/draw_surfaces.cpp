@@ -88,11 +88,21 @@ DVec3 plainNormal(const ShownSurface& surface, const Affine& to_world, const Sur
     return worldNormal(to_world, normal, point.is_back);
 }
 
+/// As viewers of glTF do it, tangents are unit at the vertices: relief does not grow with their length.
+std::array<Vec4, 3> unitTangents(const CornerValues<Vec4>& tangents, const ShownTriangle& triangle) {
+    std::array<Vec4, 3> values = valuesAt(tangents, triangle);
+    for (Vec4& value : values) {
+        const Vec3 unit = withUnitLength(xyz(value));
+        value = {unit.x, unit.y, unit.z, value.w};
+    }
+    return values;
+}
+
 ShadingFrame frameAt(const ShownSurface& surface, const CornerValues<Vec3>& normals, const CornerValues<Vec4>& tangents,
                      const SurfacePoint& point) {
     const ShownTriangle triangle = shownTriangle(surface, point.triangle);
     CornerFrames frames{.normals = valuesAt(normals, triangle)};
-    if (!tangents.empty()) frames.tangents = valuesAt(tangents, triangle);
+    if (!tangents.empty()) frames.tangents = unitTangents(tangents, triangle);
     return shadingFrame(frames, point.weights, surface.reading);
 }
 
@@ -210,7 +220,7 @@ DVec3 mappedNormal(const ShownSurface& surface, const Affine& to_world, const Su
     // As three.js and the viewer of Khronos do it: N by the inverse transpose, T by the matrix, unit at the vertices, and B of
     // these two, so that what a texel leans by is not squeezed by the node.
     const ShownTriangle triangle = shownTriangle(surface, point.triangle);
-    CornerFrames frames{valuesAt(surface.normals, triangle), valuesAt(surface.tangents, triangle)};
+    CornerFrames frames{valuesAt(surface.normals, triangle), unitTangents(surface.tangents, triangle)};
     for (Vec3& normal : frames.normals) normal = normalAt(to_world, normal);
     for (Vec4& tangent : frames.tangents) tangent = tangentAt(to_world, tangent);
     const DVec3 normal = shadedNormal(shadingFrame(frames, point.weights, surface.reading), vector);
