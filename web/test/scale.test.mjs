@@ -114,6 +114,38 @@ test("an uneven or mirroring scale of the node is lit as the same scale in the v
   }, { ...small, url: pathToFileURL(plain).href, allowMessages: true });
 });
 
+/** The crate on one bone with this scale. Its triangles are wound for what the bone makes of them. */
+function boned(bytes, scale) {
+  const glb = new Glb(bytes), isMirror = scale[0] * scale[1] * scale[2] < 0;
+  for (const primitive of glb.primitives("POSITION", "NORMAL", "TANGENT")) {
+    const { count } = glb.json.accessors[primitive.attributes.POSITION];
+    const zeros = glb.json.accessors.push({ bufferView: glb.addView(new Uint8Array(4 * count)), componentType: 5121, count, type: "VEC4" }) - 1;
+    Object.assign(primitive.attributes, { JOINTS_0: zeros, WEIGHTS_0: glb.addFloats(Array.from({ length: 4 * count }, (_, i) => (i % 4 === 0 ? 1 : 0)), "VEC4") });
+    if (!isMirror) continue;
+    const indices = glb.indices(primitive);
+    for (let i = 0; i < indices.length; i += 3) [indices[i + 1], indices[i + 2]] = [indices[i + 2], indices[i + 1]];
+    primitive.indices = glb.addIndices(indices);
+  }
+  const bone = glb.json.nodes.push({ scale }) - 1;
+  glb.json.skins = [{ joints: [bone] }];
+  for (const node of glb.json.nodes) if (node.mesh !== undefined) node.skin = 0;
+  for (const scene of glb.json.scenes) scene.nodes.push(bone);
+  return glb.finish();
+}
+
+test("a bone that mirrors is lit as the same mirror in the vertices is", { skip: missing, timeout: 600_000 }, async () => {
+  await withPage(async (tab) => {
+    const bytes = await crate(tab), wanted = ["lit", "clay", "normals", "difference"];
+    for (const scale of [[1, 1, 1], [-1, 1, 1]]) {
+      const same = await pictures(tab, applied(bytes, scale), wanted);
+      for (const [name, picture] of await pictures(tab, boned(bytes, scale), wanted)) {
+        const { mean, count } = difference(picture, same.get(name));
+        assert.ok(count > 1000 && mean < 0.3, `${scale}, ${name}: ${mean} of 255`);
+      }
+    }
+  }, small);
+});
+
 test("crates that their nodes scale look alike on both sides, and their sides differ by no degree", { skip: noShared, timeout: 600_000 }, async () => {
   await withPage(async (tab) => {
     let first = null;

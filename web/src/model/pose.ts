@@ -43,13 +43,13 @@ export function poseOf(mesh: Mesh): Pose | null {
 }
 
 /** Changes vectors of `stride` numbers, one per corner. */
-function moved(data: Float32Array, stride: number, arrays: Arrays, added: Float32Array | null, change: ((vertex: number, v: Vector3) => void) | null): void {
+function moved(data: Float32Array, stride: number, arrays: Arrays, added: Float32Array | null, change: ((vertex: number, v: Vector3, corner: number) => void) | null): void {
   const v = new Vector3();
   for (let corner = 0; corner < data.length / stride; ++corner) {
     const vertex = arrays.indices ? arrays.indices[corner] : corner;
     v.fromArray(data, stride * corner);
     if (added) v.set(v.x + added[3 * vertex], v.y + added[3 * vertex + 1], v.z + added[3 * vertex + 2]);
-    change?.(vertex, v);
+    change?.(vertex, v, corner);
     v.toArray(data, stride * corner);
   }
 }
@@ -67,7 +67,12 @@ export function poseCorners({ morphed, matrices }: Pose, arrays: Arrays, corners
   if (corners.tangents) poseTangents(matrices, arrays, corners.tangents);
 }
 
+/** Where bones mirror, cross(N, T) turns over and the surface does not: w changes sign, so that B goes with the surface. */
 export function poseTangents(matrices: Float32Array | null, arrays: Arrays, tangents: Float32Array): void {
   const matrix = new Matrix4();
-  if (matrices) moved(tangents, 4, arrays, null, (vertex, v) => void v.transformDirection(matrix.fromArray(matrices, 16 * vertex)));
+  if (!matrices) return;
+  moved(tangents, 4, arrays, null, (vertex, v, corner) => {
+    v.transformDirection(matrix.fromArray(matrices, 16 * vertex));
+    if (matrix.determinant() < 0) tangents[4 * corner + 3] *= -1;
+  });
 }
