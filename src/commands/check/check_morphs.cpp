@@ -9,6 +9,7 @@
 
 #include "commands/check/direction_cones.h"
 #include "commands/check/findings.h"
+#include "commands/check/moved_faces.h"
 #include "commands/check/primitive_checks.h"
 #include "core/base/vec_math.h"
 #include "core/mesh/surface/surface.h"
@@ -155,28 +156,34 @@ class MorphNormalsChecker {
     /// The normal of the base is turned as the surface turns: exporters weight triangles in other ways, and normals of the
     /// base may be somebody's choice, but how they change is the surface's.
     void check(std::size_t number, const SceneMorphTarget& target) {
-        MorphFault& fault = addsNothing(target.normals) ? missing_ : wrong_;
+        const bool is_missing = addsNothing(target.normals);
+        MorphFault& fault = is_missing ? missing_ : wrong_;
         ++fault.targets.total;
         const std::vector<VertexTurn> turns = turns_.under(target.positions.span());
-        Tally tally;
-        double far_area = 0, turning_area = 0;
+        const double limit = facts_.options.direction_deg;
+        std::vector<OffNormal> off;
+        double turning_area = 0;
         for (std::uint32_t v = 0; v < turns.size(); ++v) {
             const Vec3& base = facts_.mesh.normals[v];
             if (!turns[v].isKnown() || !turns[v].is_certain || !isDirection(base)) continue;
             const Vec3 moved = target.normals.empty() ? base : base + target.normals[v];
             DVec3 is = toDouble(moved), should = toDouble(turns[v].apply(base));
             if (!normalize(is) || !normalize(should)) continue;
-            const double limit = facts_.options.direction_deg, error = angleBetween(is, should) * 180 / kPi;
+            const double error = angleBetween(is, should) * 180 / kPi;
             DVec3 was = toDouble(base);
             normalize(was);
             const double turn = std::max(angleBetween(was, should), angleBetween(was, is)) * 180 / kPi;
             if (turn > limit) turning_area += facts_.surface.vertex_areas[v];
-            if (error <= std::max(limit, kOfTurn * turn)) continue;
-            tally.add(v, facts_.surface.vertex_areas[v], error);
-            if (error > facts_.options.error_deg) far_area += facts_.surface.vertex_areas[v];
+            if (error > std::max(limit, kOfTurn * turn)) off.push_back({v, error, was, is});
         }
-        tally.finish(facts_.surface.area);
-        if (tally.count == 0 || tally.area < kOffShare * turning_area) return;
+        if (!isMuch(tallyOf(off), turning_area)) return;
+        if (!is_missing) dropPlausible(number, turns, off);
+        const Tally tally = tallyOf(off);
+        if (!isMuch(tally, turning_area)) return;
+        double far_area = 0;
+        for (const OffNormal& one : off) {
+            if (one.error_deg > facts_.options.error_deg) far_area += facts_.surface.vertex_areas[one.vertex];
+        }
         fault.addTarget(number, tally, far_area, facts_.surface.area);
     }
 
@@ -192,6 +199,42 @@ class MorphNormalsChecker {
     }
 
   private:
+    /// A vertex whose normal does not turn with the triangles around it.
+    struct OffNormal {
+        std::uint32_t vertex = 0;
+        double error_deg = 0;
+        DVec3 was = {}, is = {};  ///< unit
+    };
+
+    [[nodiscard]] Tally tallyOf(const std::vector<OffNormal>& off) const {
+        Tally tally;
+        for (const OffNormal& one : off) tally.add(one.vertex, facts_.surface.vertex_areas[one.vertex], one.error_deg);
+        tally.finish(facts_.surface.area);
+        return tally;
+    }
+
+    static bool isMuch(const Tally& tally, double turning_area) {
+        return tally.count != 0 && tally.area >= kOffShare * turning_area;
+    }
+
+    /// Drops the normals that fit the moved surface although they turn otherwise: exporters such as Blender compute those of
+    /// a target anew, over borders of materials, over whole polygons, and with hard edges by the angles of the target. Normals
+    /// that lean from their faces on the base may lean the other way, since the turn does not say how a face spins.
+    void dropPlausible(std::size_t number, const std::vector<VertexTurn>& turns, std::vector<OffNormal>& off) const {
+        std::vector<std::uint32_t> vertices;
+        for (const OffNormal& one : off) vertices.push_back(one.vertex);
+        const MovedFaces faces(facts_.primitive, facts_.all, number, vertices);
+        const double slack = facts_.options.direction_deg * kPi / 180;
+        std::size_t i = 0;
+        std::erase_if(off, [&](const OffNormal& one) {
+            const std::size_t at = i++;
+            const VertexTurn& turn = turns[one.vertex];
+            const double lean = angleBetween(one.was, toDouble(turn.from));
+            return angleBetween(one.is, toDouble(turn.to)) <= lean + slack ||
+                   faces.admit(at, one.is, turn, lean <= slack, slack);
+        });
+    }
+
     PrimitiveFacts& facts_;
     SurfaceTurns turns_;
     MorphFault missing_ = {}, wrong_ = {};

@@ -450,9 +450,9 @@ void checkRounding(PrimitiveFacts& facts) {
 }  // namespace
 
 Result<PrimitiveVerdict> judgePrimitive(const ScenePrimitive& primitive, const CheckOptions& options, bool is_gltf,
-                                        std::span<const ScenePrimitive> all) {
+                                        std::span<const ScenePrimitive> scene) {
     PrimitiveFacts facts{.primitive = primitive, .options = options, .is_gltf = is_gltf};
-    facts.all = all;
+    facts.all = scene;
     if (primitive.corners.empty()) {
         // glTF lights points and lines by their tangents where the material has a normal map.
         if (!primitive.tangents.empty() && primitive.uses.empty()) {

@@ -60,9 +60,9 @@ struct PrimitiveVerdict {
 };
 
 /// All findings of a primitive, but for those of its images. Fails for lack of memory only.
-/// `all`: the primitives of the scene, whose surface may go on over borders of primitives.
+/// `scene`: its primitives, whose surface may go on over borders of primitives.
 Result<PrimitiveVerdict> judgePrimitive(const ScenePrimitive& primitive, const CheckOptions& options, bool is_gltf,
-                                        std::span<const ScenePrimitive> all = {});
+                                        std::span<const ScenePrimitive> scene = {});
 /// The findings alone.
 Result<std::vector<Finding>> checkPrimitive(const ScenePrimitive& primitive, const CheckOptions& options, bool is_gltf);
 

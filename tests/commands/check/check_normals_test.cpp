@@ -201,6 +201,72 @@ TEST(CheckMorphNormals, LooksAtTheChangeAndNotAtTheNormals) {
     EXPECT_TRUE(checkPrimitive(tilted, {}, true)->empty());
 }
 
+// Exporters such as Blender compute the normals of a target anew.
+
+/// A square of two triangles, one unit above x = `left`, facing z.
+ScenePrimitive squareFrom(float left) {
+    ScenePrimitive square;
+    square.place = "/meshes/0/primitives/0";
+    square.positions = std::vector<Vec3>{{left, 0, 0}, {left + 1, 0, 0}, {left + 1, 1, 0}, {left, 1, 0}};
+    square.normals = std::vector<Vec3>(4, Vec3{0, 0, 1});
+    square.corners = std::vector<std::uint32_t>{0, 1, 2, 0, 2, 3};
+    return square;
+}
+
+/// A target that moves vertices and gives them these normals.
+SceneMorphTarget targetOf(std::vector<Vec3> offsets, const std::vector<Vec3>& normals) {
+    std::vector<Vec3> turns;
+    for (const Vec3& normal : normals) turns.push_back(normal - Vec3{0, 0, 1});
+    return {.positions = std::move(offsets), .normals = std::move(turns)};
+}
+
+std::size_t wrongNormals(const ScenePrimitive& primitive, std::span<const ScenePrimitive> all) {
+    const Result<PrimitiveVerdict> verdict = judgePrimitive(primitive, {}, true, all);
+    EXPECT_TRUE(verdict);
+    return static_cast<std::size_t>(
+        std::count_if(verdict->findings.begin(), verdict->findings.end(),
+                      [](const Finding& finding) { return finding.code == FindingCode::morphNormalsWrong; }));
+}
+
+TEST(CheckMorphNormals, OfBentPolygonsMayBeThoseOfTheWholePolygon) {
+    ScenePrimitive square = squareFrom(0);
+    const Vec3 of_polygon{-0.348F, -0.348F, 0.87F};
+    square.morph_targets = {targetOf({{}, {}, {0, 0, 0.8F}, {}}, std::vector<Vec3>(4, of_polygon))};
+    EXPECT_EQ(wrongNormals(square, {}), 0u);
+    square.morph_targets = {targetOf({{}, {}, {0, 0, 0.8F}, {}}, std::vector<Vec3>(4, Vec3{0.6F, 0.6F, 0.53F}))};
+    EXPECT_EQ(wrongNormals(square, {}), 1u);
+}
+
+TEST(CheckMorphNormals, AtBordersAreThoseOfTheWholeMesh) {
+    std::vector<ScenePrimitive> roof = {squareFrom(-1), squareFrom(0)};
+    const Vec3 left{-0.7071F, 0, 0.7071F}, right{0.7071F, 0, 0.7071F}, ridge{0, 0, 1};
+    const auto raise = [&](const Vec3& at_ridge) {
+        roof[0].morph_targets = {targetOf({{}, {0, 0, 1}, {0, 0, 1}, {}}, {left, at_ridge, at_ridge, left})};
+        roof[1].morph_targets = {targetOf({{0, 0, 1}, {}, {}, {0, 0, 1}}, {at_ridge, right, right, at_ridge})};
+    };
+    raise(ridge);
+    for (const ScenePrimitive& side : roof) {
+        EXPECT_EQ(wrongNormals(side, roof), 0u);
+        EXPECT_EQ(wrongNormals(side, {}), 1u) << "alone it does not fit";
+    }
+    raise({0, 0.95F, 0.3F});
+    for (const ScenePrimitive& side : roof) EXPECT_EQ(wrongNormals(side, roof), 1u);
+    // Another mesh at the same place is no part of the surface.
+    raise(ridge);
+    roof[1].mesh = 1;
+    EXPECT_EQ(wrongNormals(roof[0], roof), 1u);
+}
+
+TEST(CheckMorphNormals, ThatLeanMayLeanTheOtherWayWhereAFaceSpins) {
+    ScenePrimitive square = squareFrom(0);
+    square.normals = std::vector<Vec3>(4, Vec3{0.6F, 0, 0.8F});
+    const std::vector<Vec3> spin = {{1, 1, 0}, {-1, 1, 0}, {-1, -1, 0}, {1, -1, 0}};
+    square.morph_targets = {{.positions = spin, .normals = std::vector<Vec3>(4, Vec3{-1.2F, 0, 0})}};
+    EXPECT_EQ(wrongNormals(square, {}), 0u);
+    square.morph_targets = {{.positions = spin, .normals = std::vector<Vec3>(4, Vec3{-1.55F, 0, -0.5F})}};
+    EXPECT_EQ(wrongNormals(square, {}), 1u);
+}
+
 TEST(CheckMorphNormals, FindsOneOffsetThatIsNotFinite) {
     for (const float bad : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
         for (const bool in_normals : {false, true}) {
