@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::uint32_t kNoPoint = 0xffffffffu;
 /// Triangles of a polygon, and directions around a point, that are looked at: so time stays linear.
-constexpr std::size_t kMostTriangles = 64, kMostFaces = 64;
+constexpr std::size_t kMostOfPolygon = 64, kMostFaces = 64;
 
 /// A primitive under one of its targets.
 struct MovedPrimitive {
@@ -89,7 +89,7 @@ MovedFaces::MovedFaces(const ScenePrimitive& primitive, std::span<const ScenePri
     const auto addFaces = [&](const MovedPrimitive& moved) {
         for (std::size_t first = 0, end = 0; first < moved.triangleCount(); first = end) {
             end = first + 1;
-            while (end < std::min(moved.triangleCount(), first + kMostTriangles) && isOnePolygon(moved, end - 1, end))
+            while (end < std::min(moved.triangleCount(), first + kMostOfPolygon) && isOnePolygon(moved, end - 1, end))
                 ++end;
             for (std::size_t corner = 3 * first; corner < 3 * end; ++corner) {
                 const std::uint32_t vertex = moved.vertexAt(corner);
