@@ -8,13 +8,13 @@
 
 #include "commands/check/findings.h"
 #include "commands/check/scene_checks.h"
+#include "commands/shared/image_budget.h"
 #include "core/base/ascii.h"
 #include "core/base/numbers.h"
 #include "images/float_image.h"
 #include "images/image.h"
 #include "model/io/file_error.h"
 #include "model/io/file_io.h"
-#include "model/io/memory_budget.h"
 
 namespace tspace {
 namespace {
@@ -200,9 +200,8 @@ CheckReport checkImageFile(const std::string& input, const CheckOptions& options
     scene.images.push_back({.bytes = {bytes.begin(), bytes.end()}});
     scene.images[0].uri = input;
     constexpr std::uint64_t kPixelBytes = 8;  // two copies of 3 bytes, masks, alpha
-    scene.memory = std::make_shared<MemoryBudget>(options.file.memory_limit_bytes);
-    scene.memory->allow(bytes.size());
-    scene.memory->require(bytes.size() + imageWorkBytes(bytes) + kPixelBytes * claimedSize(bytes).pixels(), {});
+    scene.memory = imageBudget(bytes, options.file);
+    scene.memory->require(imageNeed(bytes, kPixelBytes), {});
     LoneMap map = checkLoneMap(scene, options);
     CheckReport report{.format = lowerAscii(formatName(format)), .findings = std::move(map.findings), .image_count = 1};
     report.green_count = map.test.verdict == GreenVerdict::unknown ? 0 : 1;

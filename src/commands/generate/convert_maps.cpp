@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "commands/generate/map_references.h"
+#include "commands/shared/image_budget.h"
 #include "commands/shared/map_image_file.h"
 #include "commands/shared/texture_vectors.h"
 #include "maps/convert_texel.h"
@@ -200,8 +201,9 @@ class OneMap {
             why = why_not;
             return {};
         }
-        if (const std::string needed = whyTooMuchMemory(file_, options_.file); !needed.empty()) {
-            why = "it " + needed;
+        const std::shared_ptr<MemoryBudget> budget = imageBudget(file_, options_.file);
+        if (const std::uint64_t bytes = imageNeed(file_); !budget->has(bytes)) {
+            why = "it " + budget->whyNot(bytes);
             return {};
         }
         std::optional<FloatImage> image = decodeFloatImage(file_, kMostModelMapPixels, why);

@@ -9,6 +9,7 @@
 #include <map>
 #include <optional>
 
+#include "commands/shared/image_budget.h"
 #include "commands/shared/uv_reading.h"
 #include "images/image.h"
 #include "images/tga.h"
@@ -16,7 +17,6 @@
 #include "maps/uv_coverage.h"
 #include "model/io/file_error.h"
 #include "model/io/file_io.h"
-#include "model/io/memory_budget.h"
 #include "model/read/read_scene.h"
 #include "tspace/indexed_frames.h"
 
@@ -274,23 +274,7 @@ namespace {
 
 constexpr std::uint64_t kMostMapPixels = std::uint64_t{1} << 28;
 
-/// Number of pixels that a file of this size is expected to hold at most: 64 for each byte, as isTooLarge has it. A PNG
-/// of one color has up to 344 for each byte, so images of up to 2048 x 2048 may have 512. Any file may have 1024 x 1024.
-std::uint64_t expectedPixels(std::uint64_t byte_count) {
-    constexpr std::uint64_t kAnyFile = std::uint64_t{1} << 20, kOneColor = std::uint64_t{1} << 22;
-    return std::max({kAnyFile, std::min(512 * byte_count, kOneColor), 64 * byte_count});
-}
-
 }  // namespace
-
-std::string whyTooMuchMemory(ByteSpan bytes, const FileOptions& file) {
-    constexpr std::uint64_t kDecoderBytes = 24;  // per pixel, with any format
-    MemoryBudget budget(file.memory_limit_bytes);
-    budget.allow(bytes.size());
-    budget.allow((kMapPixelBytes + kDecoderBytes) * expectedPixels(bytes.size()) / MemoryBudget::kPerByte);
-    const std::uint64_t needed = bytes.size() + imageWorkBytes(bytes) + kMapPixelBytes * claimedSize(bytes).pixels();
-    return budget.has(needed) ? "" : budget.whyNot(needed);
-}
 
 FloatImage readMapImage(const std::string& input, ByteSpan content, const FileOptions& file, ImageUse use) {
     Bytes read;
@@ -300,8 +284,7 @@ FloatImage readMapImage(const std::string& input, ByteSpan content, const FileOp
         bytes = read;
     }
     if (const char* why_not = whyNotRead(imageFormat(bytes))) failFile(ErrorCode::unsupportedFile, why_not);
-    if (const std::string needed = whyTooMuchMemory(bytes, file); !needed.empty())
-        failFile(ErrorCode::tooLarge, "what the file claims " + needed);
+    imageBudget(bytes, file)->require(imageNeed(bytes), {});
     std::string why;
     std::optional<FloatImage> image = decodeFloatImage(bytes, kMostMapPixels, why, use);
     if (!image) failFile(ErrorCode::invalidFile, why);

@@ -49,10 +49,6 @@ struct MapMeshChoice {
 MapMesh readMapMesh(const std::string& model, const MapMeshChoice& choice, const TangentOptions& tangents,
                     const FileOptions& file, const Execution& execution);
 
-/// Empty, or "needs ..." where working on the image takes more memory than the limit or, by default, than an image file
-/// of its size may take. Every call that reads a map decides here.
-std::string whyTooMuchMemory(ByteSpan bytes, const FileOptions& file);
-
 /// `content`: the image in place of the file, where it has data. Within file.memory_limit_bytes, and 2^28 pixels.
 FloatImage readMapImage(const std::string& input, ByteSpan content, const FileOptions& file,
                         ImageUse use = ImageUse::vectors);
