@@ -6,6 +6,7 @@
 #include <set>
 
 #include "model/io/path.h"
+#include "model/io/system_files.h"
 #include "system.h"
 
 namespace tspace::tool {
@@ -23,31 +24,23 @@ Names namesOf(const fs::path& path) {
     return names;
 }
 
-std::vector<fs::directory_entry> entriesOf(const fs::path& folder) {
-    std::error_code failed;
-    std::vector<fs::directory_entry> entries;
-    fs::directory_iterator entry(folder.empty() ? fs::path(".") : folder, failed);
-    for (; !failed && entry != fs::directory_iterator(); entry.increment(failed)) entries.push_back(*entry);
-    return entries;
-}
-
 /// Adds the files below `folder` that match the names from `first` on. Recursion is as deep as the folders are.
 void match(const fs::path& folder, const Names& names, std::size_t first, std::set<fs::path>& found) {
     const bool is_last = first + 1 == names.size();
     const bool is_any_depth = names[first] == "**" && !is_last;
     if (is_any_depth) match(folder, names, first + 1, found);
-    for (const fs::directory_entry& entry : entriesOf(folder)) {
-        const fs::path path = folder / entry.path().filename();
-        const std::string name = Path(path.filename()).string();
-        std::error_code ignored;
+    std::vector<FolderEntry> entries;
+    listFolder(folder.empty() ? Path(".") : Path(folder), entries);
+    for (const FolderEntry& entry : entries) {
+        const fs::path path = folder / fs::path(Path(entry.name));
         if (is_any_depth) {
             // Links to folders could lead in a circle.
-            if (name.front() != '.' && entry.is_directory(ignored) && !entry.is_symlink(ignored))
+            if (entry.name.front() != '.' && entry.kind == PathKind::folder && !entry.is_link)
                 match(path, names, first, found);
-        } else if (matchesName(names[first], name)) {
+        } else if (matchesName(names[first], entry.name)) {
             if (!is_last) {
-                if (entry.is_directory(ignored)) match(path, names, first + 1, found);
-            } else if (entry.is_regular_file(ignored)) {
+                if (entry.kind == PathKind::folder) match(path, names, first + 1, found);
+            } else if (entry.kind == PathKind::file) {
                 found.insert(path);
             }
         }

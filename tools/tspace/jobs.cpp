@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstring>
 #include <filesystem>
 #include <iterator>
 #include <map>
@@ -35,21 +36,23 @@ struct Found {
 /// that cannot be read are missing.
 void listModels(const fs::path& folder, const std::string& skipped_folder, std::vector<fs::path>& models,
                 std::vector<Found>& failures) {
-    std::error_code failed;
     std::vector<fs::path> folders;
-    for (fs::directory_iterator entry(folder, failed), end; !failed && entry != end; entry.increment(failed)) {
-        std::error_code ignored;
-        if (entry->is_directory(ignored)) {
+    std::vector<FolderEntry> entries;
+    const int failed = listFolder(folder, entries);
+    for (const FolderEntry& entry : entries) {
+        const fs::path path = folder / fs::path(Path(entry.name));
+        if (entry.kind == PathKind::folder) {
             // No links to folders: they may lead in a circle.
-            if (!entry->is_symlink(ignored)) folders.push_back(entry->path());
-        } else if (entry->is_regular_file(ignored) && isModelFile(Path(entry->path()).string())) {
-            models.push_back(entry->path());
+            if (!entry.is_link) folders.push_back(path);
+        } else if (entry.kind == PathKind::file && isModelFile(Path(path).string())) {
+            models.push_back(path);
         }
     }
-    if (failed) {
-        failures.push_back({{.input = Path(folder).string(),
-                             .error = {ErrorCode::cannotRead, "cannot read the folder: " + failed.message()}},
-                            {}});
+    if (failed != 0) {
+        failures.push_back(
+            {{.input = Path(folder).string(),
+              .error = {ErrorCode::cannotRead, std::string("cannot read the folder: ") + std::strerror(failed)}},
+             {}});
     }
     for (const fs::path& below : folders) {
         if (skipped_folder.empty() || canonicalName(below) != skipped_folder)

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <iterator>
+#include <utility>
 
 #include "core/base/parallel.h"
 #include "model/io/file_error.h"
@@ -101,7 +103,8 @@ void AtomicOutput::add(const Path& requested_path, std::span<const OutputPiece> 
 }
 
 void AtomicOutput::commit() {
-    if (!way_.sink && !way_.is_dry_run) renameFiles();
+    HeldOutputs* const held = HeldOutputs::ofThread();
+    if (!way_.sink && !way_.is_dry_run) held != nullptr ? held->take(*this) : renameFiles();
     committed_ = true;
 }
 
@@ -115,6 +118,42 @@ std::vector<std::string> AtomicOutput::files() const {
     std::vector<std::string> names;
     for (const File& file : files_) names.push_back(file.target.string());
     return names;
+}
+
+namespace {
+
+thread_local HeldOutputs* held_outputs = nullptr;
+
+}  // namespace
+
+HeldOutputs::HeldOutputs() : outer_(std::exchange(held_outputs, this)) {}
+HeldOutputs::~HeldOutputs() { held_outputs = outer_; }
+HeldOutputs* HeldOutputs::ofThread() { return held_outputs; }
+
+void HeldOutputs::take(AtomicOutput& output) {
+    all_.files_.reserve(all_.files_.size() + output.files_.size());
+    all_.created_folders_.reserve(all_.created_folders_.size() + output.created_folders_.size());
+    // No memory is allocated from here on.
+    std::move(output.files_.begin(), output.files_.end(), std::back_inserter(all_.files_));
+    std::move(output.created_folders_.begin(), output.created_folders_.end(),
+              std::back_inserter(all_.created_folders_));
+    all_.identities_.merge(output.identities_);
+    all_.way_.sync = all_.way_.sync || output.way_.sync;
+    output.files_.clear();
+    output.created_folders_.clear();
+}
+
+Result<Done> HeldOutputs::commit() {
+    if (all_.files_.empty()) return Done{};
+    Result<Done> done = atFileBorder([&]() -> Result<Done> {
+        all_.renameFiles();
+        return Done{};
+    });
+    if (!done) all_.removeTemporaryFiles();
+    all_.files_.clear();
+    all_.created_folders_.clear();
+    all_.identities_.clear();
+    return done;
 }
 
 }  // namespace tspace

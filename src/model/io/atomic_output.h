@@ -200,7 +200,8 @@ class AtomicOutput {
     [[nodiscard]] const std::vector<std::string>& sources() const { return sources_; }
 
     /// Renames all temporary files to their targets, the last one added first kept for the end. When a rename
-    /// fails, the files renamed before it are put back as they were.
+    /// fails, the files renamed before it are put back as they were. While HeldOutputs live on this thread, it hands the files
+    /// to them.
     void commit();
 
     /// Targets in the order they were added, and the bytes of all of them.
@@ -208,6 +209,7 @@ class AtomicOutput {
     [[nodiscard]] std::uint64_t byteCount() const { return byte_count_; }
 
   private:
+    friend class HeldOutputs;
     struct File {
         Path target;  ///< with links resolved
         Path temporary = {};
@@ -215,6 +217,7 @@ class AtomicOutput {
         Bytes held = {};       ///< for a stream
         bool is_stream = false;
         bool is_shared = false;  ///< see addShared()
+        std::uint64_t call = 0;  ///< InputFiles::call() of its call; 0: none
     };
 
     [[noreturn]] static void failToWrite(const Path& target, const std::string& why);
@@ -237,6 +240,29 @@ class AtomicOutput {
     std::vector<std::string> sources_;
     std::uint64_t byte_count_ = 0;
     bool committed_ = false;
+};
+
+/// While it lives, AtomicOutput::commit() on this thread keeps its files back, and commit() of this object puts all of them in
+/// place together. A caller prepares its report in between: nothing that needs memory follows once outputs are in place.
+/// Without commit() the destructor removes the files. Of several on one thread, the innermost holds.
+class HeldOutputs {
+  public:
+    HeldOutputs();
+    ~HeldOutputs();
+    HeldOutputs(const HeldOutputs&) = delete;
+    HeldOutputs& operator=(const HeldOutputs&) = delete;
+
+    /// After an error no file is in place, and none is held any more.
+    [[nodiscard]] Result<Done> commit();
+
+  private:
+    friend class AtomicOutput;
+    /// The object of this thread, or null.
+    static HeldOutputs* ofThread();
+    void take(AtomicOutput& output);
+
+    AtomicOutput all_{{.sync = false}};
+    HeldOutputs* outer_;
 };
 
 }  // namespace tspace

@@ -140,14 +140,12 @@ std::optional<Abandoned> abandoned(std::string_view name) {
     return found;
 }
 
-bool removeAbandoned(const fs::directory_entry& entry) {
-    std::error_code ignored;
+bool removeAbandoned(const Path& folder, const FolderEntry& entry) {
     // Links are left alone: abandoned files are regular ones.
-    if (entry.symlink_status(ignored).type() != fs::file_type::regular) return false;
-    const std::optional<Abandoned> found = abandoned(Path(entry.path().filename()).string());
+    if (entry.kind != PathKind::file || entry.is_link) return false;
+    const std::optional<Abandoned> found = abandoned(entry.name);
     if (!found) return false;
-    const Path path = entry.path();
-    const Path target = folderOf(path) / found->target_name;
+    const Path path = folder / entry.name, target = folder / found->target_name;
     // The run was killed between two renames: the old file is restored.
     if (found->is_aside && kindOf(target) == PathKind::nothing) return renameFile(path, target) == 0;
     return removePath(path) == 0;
@@ -172,17 +170,19 @@ Path besideName(const Path& target, const char* ending) {
 
 namespace {
 
-void removeAbandonedFiles(const std::string& folder, bool with_folders_below, std::uint64_t& count) {
-    std::error_code error;
-    const auto options = fs::directory_options::skip_permission_denied;
-    const fs::path root = Path(folder);
-    if (with_folders_below) {
-        for (fs::recursive_directory_iterator entry(root, options, error), end; !error && entry != end;
-             entry.increment(error))
-            count += removeAbandoned(*entry);
-    } else {
-        for (fs::directory_iterator entry(root, options, error), end; !error && entry != end; entry.increment(error))
-            count += removeAbandoned(*entry);
+void removeAbandonedFiles(const std::string& top, bool with_folders_below, std::uint64_t& count) {
+    std::vector<Path> folders = {top};
+    while (!folders.empty()) {
+        const Path folder = std::move(folders.back());
+        folders.pop_back();
+        std::vector<FolderEntry> entries;
+        // Folders that cannot be read are skipped.
+        listFolder(folder, entries);
+        for (const FolderEntry& entry : entries) {
+            count += removeAbandoned(folder, entry);
+            if (with_folders_below && entry.kind == PathKind::folder && !entry.is_link)
+                folders.push_back(folder / entry.name);
+        }
     }
 }
 
@@ -375,7 +375,8 @@ AtomicOutput::File AtomicOutput::planFile(const Path& requested) {
         failToWrite(requested, "it is a link that another user made in a folder where everybody may write");
     // A stream keeps its name: /dev/stdout links into /proc, where a pipe has no path.
     const PathKind kind = kindOf(requested);
-    if (kind == PathKind::stream) return {.target = requested, .is_stream = true};
+    const std::uint64_t call = way_.inputs != nullptr ? way_.inputs->call() : 0;
+    if (kind == PathKind::stream) return {.target = requested, .is_stream = true, .call = call};
     if (kind == PathKind::folder) failToWrite(requested, "it is a folder");
     if (kind == PathKind::other) failToWrite(requested, "it is neither a file nor a stream of bytes");
     const bool is_link = fs::is_symlink(fs::path(requested), error);
@@ -385,9 +386,11 @@ AtomicOutput::File AtomicOutput::planFile(const Path& requested) {
     if (way_.inputs != nullptr && !way_.replaces_inputs && way_.inputs->has(target))
         failToWrite(requested, "it is an input");
     const std::string identity = identityOf(target);
-    if (isKept(identity) || !identities_.insert(identity).second)
+    const HeldOutputs* const held = HeldOutputs::ofThread();
+    const bool is_held = held != nullptr && held->all_.identities_.contains(identity);
+    if (isKept(identity) || is_held || !identities_.insert(identity).second)
         failToWrite(requested, "another output is the same file");
-    return {.target = target, .temporary = besideName(target, kTemporaryEnding)};
+    return {.target = target, .temporary = besideName(target, kTemporaryEnding), .call = call};
 }
 
 void AtomicOutput::makeFolders(const Path& target) {
@@ -455,13 +458,12 @@ void AtomicOutput::leave(File& file) {
 }
 
 void AtomicOutput::leaveSharedFiles() {
-    const std::uint64_t call = way_.inputs != nullptr ? way_.inputs->call() : 0;
     for (File& file : files_) {
         if (!file.is_made) continue;
         bool is_of_other = false, is_read_by_other = false;
         inRun(file.target, [&](const RunFile& known) {
-            is_of_other = known.owner != 0 && known.owner != call;
-            is_read_by_other = known.readers.size() > known.readers.count(call);
+            is_of_other = known.owner != 0 && known.owner != file.call;
+            is_read_by_other = known.readers.size() > known.readers.count(file.call);
         });
         if (kindOf(file.target) == PathKind::nothing || !(file.is_shared || is_of_other || is_read_by_other)) continue;
         if (!hasBytes(file.target, readFile(file.temporary)))
@@ -469,7 +471,7 @@ void AtomicOutput::leaveSharedFiles() {
                                      : is_of_other    ? "this run has written another file of that name"
                                                       : "a file of that name is there by now, and is another one");
         leave(file);
-        inRun(file.target, [&](RunFile& known) { known.owner = call; });
+        inRun(file.target, [&](RunFile& known) { known.owner = file.call; });
     }
 }
 
@@ -549,10 +551,10 @@ void AtomicOutput::renameFiles() {
     committed_ = true;
     {
         const std::lock_guard run_lock(runFiles().mutex);
-        for (RunFile* const known : in_run) {
-            if (known == nullptr) continue;
-            known->owner = way_.inputs != nullptr ? way_.inputs->call() : 0;
-            known->is_written = true;
+        for (std::size_t i = 0; i < files_.size(); ++i) {
+            if (in_run[i] == nullptr) continue;
+            in_run[i]->owner = files_[i].call;
+            in_run[i]->is_written = true;
         }
     }
     lock.unlock();

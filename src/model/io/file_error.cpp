@@ -3,7 +3,9 @@
 #include "model/io/file_error.h"
 
 #include <filesystem>
+#include <new>
 #include <string_view>
+#include <system_error>
 
 namespace tspace {
 
@@ -62,6 +64,7 @@ Error fileErrorInFlight() try { throw; } catch (const FileError& failure) {
 } catch (const CallerError& failure) {
     return failure.error;
 } catch (const std::filesystem::filesystem_error& failure) {
+    if (failure.code() == std::errc::not_enough_memory) throw std::bad_alloc();
     return Error{ErrorCode::cannotRead,
                  "cannot look up " + pathInQuotes(failure.path1()) + ": " + failure.code().message()};
 }

@@ -8,6 +8,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "model/io/path.h"
 
@@ -19,7 +20,8 @@ struct CloseFile {
 };
 using CFile = std::unique_ptr<std::FILE, CloseFile>;
 
-/// As fopen, for UTF-8 paths: null, with errno, on failure.
+/// As fopen, for UTF-8 paths: null, with errno, on failure. Like all functions here that are not noexcept, it throws
+/// std::bad_alloc where the system is out of memory.
 CFile openFile(const Path& path, const char* mode);
 
 /// Fills `to` with the bytes of an open file from `begin` on, independently of the file's position. Thread-safe. False
@@ -35,6 +37,16 @@ std::string fileIdentity(const Path& path);
 /// The kind of file at a path, with links followed. A stream is a character device or FIFO.
 enum class PathKind { nothing, file, folder, stream, other };
 PathKind kindOf(const Path& path);
+
+/// A file or folder in a folder.
+struct FolderEntry {
+    std::string name = {};
+    PathKind kind = PathKind::nothing;  ///< as kindOf()
+    bool is_link = false;
+};
+/// Appends the entries of a folder. Returns 0, or errno where it could not be read to its end. (The increment of GCC's
+/// std::filesystem::directory_iterator ends the process where an allocation fails.)
+int listFolder(const Path& folder, std::vector<FolderEntry>& entries);
 
 /// Whether a path is a symbolic link that another user may have planted: in a world-writable sticky folder (/tmp), and
 /// owned by neither this user nor the folder's owner. The rule of Linux' protected_symlinks.

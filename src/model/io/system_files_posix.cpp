@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <dirent.h>
 #include <fcntl.h>
 #include <poll.h>
 #include <signal.h>
@@ -14,6 +15,8 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <new>
+#include <string_view>
 
 #include "model/io/system_files.h"
 
@@ -21,7 +24,19 @@ namespace tspace {
 
 namespace fs = std::filesystem;
 
-CFile openFile(const Path& path, const char* mode) { return CFile(std::fopen(path.string().c_str(), mode)); }
+namespace {
+
+void throwIfOutOfMemory(int error) {
+    if (error == ENOMEM) throw std::bad_alloc();
+}
+
+}  // namespace
+
+CFile openFile(const Path& path, const char* mode) {
+    CFile file(std::fopen(path.string().c_str(), mode));
+    if (!file) throwIfOutOfMemory(errno);
+    return file;
+}
 
 bool readAt(std::FILE* file, std::size_t begin, std::span<std::uint8_t> to) {
     const int number = ::fileno(file);
@@ -35,7 +50,14 @@ bool readAt(std::FILE* file, std::size_t begin, std::span<std::uint8_t> to) {
     return true;
 }
 
-Path canonicalPath(const Path& path) { return fs::weakly_canonical(fs::absolute(fs::path(path))); }
+Path canonicalPath(const Path& path) {
+    try {
+        return fs::weakly_canonical(fs::absolute(fs::path(path)));
+    } catch (const fs::filesystem_error& failure) {
+        throwIfOutOfMemory(failure.code().value());
+        throw;
+    }
+}
 
 std::string fileIdentity(const Path& path) {
     struct stat status = {};
@@ -43,12 +65,47 @@ std::string fileIdentity(const Path& path) {
     return std::to_string(status.st_dev) + ":" + std::to_string(status.st_ino);
 }
 
-PathKind kindOf(const Path& path) {
-    struct stat status = {};
-    if (::stat(path.string().c_str(), &status) != 0) return PathKind::nothing;
+namespace {
+
+PathKind kindOf(const struct stat& status) {
     if (S_ISREG(status.st_mode)) return PathKind::file;
     if (S_ISDIR(status.st_mode)) return PathKind::folder;
     return S_ISCHR(status.st_mode) || S_ISFIFO(status.st_mode) ? PathKind::stream : PathKind::other;
+}
+
+}  // namespace
+
+PathKind kindOf(const Path& path) {
+    struct stat status = {};
+    return ::stat(path.string().c_str(), &status) == 0 ? kindOf(status) : PathKind::nothing;
+}
+
+int listFolder(const Path& folder, std::vector<FolderEntry>& entries) {
+    struct Close {
+        void operator()(::DIR* open) const { ::closedir(open); }
+    };
+    const std::unique_ptr<::DIR, Close> open(::opendir(folder.string().c_str()));
+    if (!open) {
+        throwIfOutOfMemory(errno);
+        return errno;
+    }
+    for (errno = 0; const ::dirent* const found = ::readdir(open.get()); errno = 0) {
+        const std::string_view name = found->d_name;
+        if (name == "." || name == "..") continue;
+        FolderEntry entry{.name = std::string(name)};
+        if (found->d_type == DT_REG || found->d_type == DT_DIR) {
+            entry.kind = found->d_type == DT_REG ? PathKind::file : PathKind::folder;
+        } else {
+            struct stat status = {};
+            const int number = ::dirfd(open.get());
+            entry.is_link =
+                ::fstatat(number, found->d_name, &status, AT_SYMLINK_NOFOLLOW) == 0 && S_ISLNK(status.st_mode);
+            if (::fstatat(number, found->d_name, &status, 0) == 0) entry.kind = kindOf(status);
+        }
+        entries.push_back(std::move(entry));
+    }
+    throwIfOutOfMemory(errno);
+    return errno;
 }
 
 bool isForeignLink(const Path& path) {
@@ -70,6 +127,7 @@ CFile createFile(const Path& path, const Path& like) {
         const int why = errno;
         ::close(number);
         ::unlink(path.string().c_str());
+        throwIfOutOfMemory(why);
         errno = why;
     }
     return file;

@@ -115,6 +115,16 @@ PathKind kindOf(const Path& path) {
     }
 }
 
+int listFolder(const Path& folder, std::vector<FolderEntry>& entries) {
+    std::error_code error, ignored;
+    for (fs::directory_iterator entry(fs::path(folder), error), end; !error && entry != end; entry.increment(error)) {
+        entries.push_back({.name = Path(entry->path().filename()).string(),
+                           .kind = kindOf(entry->path()),
+                           .is_link = entry->is_symlink(ignored)});
+    }
+    return error.default_error_condition().value();
+}
+
 bool isForeignLink(const Path&) { return false; }
 
 CFile createFile(const Path& path, const Path&) {
