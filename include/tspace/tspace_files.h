@@ -11,8 +11,8 @@
  *
  * Reports are the JSON that the tool prints by --json (docs/json.md), here always of one file. A report has `exitCode`
  * and `ok` as the tool would: a check that finds errors succeeds, and its report has exit code 1. `report` may be null.
- * Free it by tspace_destroyBytes; it is empty after an error, and where the output is written and no memory is left for
- * the report of it.
+ * Free it by tspace_destroyBytes; it is empty after an error. Output files are put in place when the report is complete,
+ * so an error always means that none was written.
  *
  * Functions on files take paths, and read all formats that asset.h names; those on bytes do the same in memory.
  */

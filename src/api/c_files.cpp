@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // C API of files: each function reads its options, calls the C++ function of its name, and gives its report as JSON.
 #include <chrono>
-#include <new>
 
 #include "api/c_call.h"
 #include "commands/bake/bake_report.h"
@@ -16,6 +15,7 @@
 #include "commands/identify/identify_report.h"
 #include "commands/inspect/inspect_report.h"
 #include "commands/shared/request.h"
+#include "model/io/atomic_output.h"
 
 using namespace tspace;           // NOLINT: this file only forwards
 using namespace tspace::c_files;  // NOLINT
@@ -43,14 +43,14 @@ void giveReport(const std::string& json, tspace_Bytes* to) {
     if (to != nullptr) GrowingBytes(json).giveTo(to);
 }
 
-/// As giveReport, of a call whose output is written: it is done, also where no memory is left to say so.
-template <class MakeJson>
-void giveReportOfOutput(const MakeJson& makeJson, tspace_Bytes* to) {
-    try {
-        if (to != nullptr) giveReport(makeJson(), to);
-    } catch (const std::bad_alloc&) {
-        // `to` stays empty.
-    }
+/// Gives the outcome the result of call(), which writes files, and its report, toJson(). The files are put in place when the
+/// report is complete.
+template <class Outcome, class Call, class ToJson>
+void giveOutcome(Outcome& outcome, const Call& call, const ToJson& toJson, tspace_Bytes* to) {
+    HeldOutputs outputs;
+    timeCall(outcome, call);
+    if (to != nullptr) giveReport(toJson(), to);
+    valueOrThrow(outputs.commit());
 }
 
 /// "a.b/helmet.gltf" without ".gltf".
@@ -65,9 +65,8 @@ void makeFile(Result<Report> (*make)(const std::string&, const std::string&, con
               std::string (*toJson)(const report::Outcome<Report>&, ExitCode), const std::string& input,
               const std::string& output, const Options& options, tspace_Bytes* json) {
     report::Outcome<Report> outcome{.input = input, .output = output, .is_dry_run = options.dry_run};
-    outcome.result = make(input, output, options);
-    throwError(outcome.result);
-    giveReportOfOutput([&] { return toJson(outcome, ExitCode::done); }, json);
+    giveOutcome(
+        outcome, [&] { return make(input, output, options); }, [&] { return toJson(outcome, ExitCode::done); }, json);
 }
 
 /// Options that mean something together. `list` must stay until they are applied: what is given points into it.
@@ -85,8 +84,9 @@ void readGenerateOptions(const char* text, GenerateOptions& options) {
 
 void generate(const std::string& input, const std::string& output, const GenerateOptions& options, tspace_Bytes* json) {
     report::GenerateOutcome outcome{.input = input, .output = output, .is_dry_run = options.dry_run};
-    timeCall(outcome, [&] { return generateFile(input, output, options); });
-    giveReportOfOutput([&] { return report::generateJson({outcome}, ExitCode::done, outcome.seconds); }, json);
+    giveOutcome(
+        outcome, [&] { return generateFile(input, output, options); },
+        [&] { return report::generateJson({outcome}, ExitCode::done, outcome.seconds); }, json);
 }
 
 void readCheckOptions(const char* text, options::CheckRequest& request) {
@@ -360,9 +360,9 @@ tspace_ErrorCode tspace_bakeFile(const char* low, const char* high, const char* 
         BakeFileOptions chosen;
         readBakeOptions(options, chosen);
         report::Outcome<BakeFileReport> outcome{.input = from, .output = to};
-        timeCall(outcome, [&] { return bakeFile(from, seen, to, chosen); });
-        giveReportOfOutput([&] { return report::bakeJson(outcome, seen, report::exitCodeOf(*outcome.result)); },
-                           report);
+        giveOutcome(
+            outcome, [&] { return bakeFile(from, seen, to, chosen); },
+            [&] { return report::bakeJson(outcome, seen, report::exitCodeOf(*outcome.result)); }, report);
     });
 }
 
@@ -373,9 +373,9 @@ tspace_ErrorCode tspace_finishFile(const char* input, const char* output, const 
         FinishOptions chosen;
         readFinishOptions(options, chosen);
         report::Outcome<FinishReport> outcome{.input = from, .output = to};
-        timeCall(outcome, [&] { return finishFile(from, to, chosen); });
-        giveReportOfOutput([&] { return report::finishJson(outcome, chosen.low, report::exitCodeOf(*outcome.result)); },
-                           report);
+        giveOutcome(
+            outcome, [&] { return finishFile(from, to, chosen); },
+            [&] { return report::finishJson(outcome, chosen.low, report::exitCodeOf(*outcome.result)); }, report);
     });
 }
 
@@ -389,7 +389,7 @@ tspace_ErrorCode tspace_flipGreenBytes(const uint8_t* data, size_t size, const c
         FlippedImage flipped = valueOrThrow(flipGreen({data, size}, chosen));
         report::Outcome<FlipGreenReport> outcome{.is_dry_run = chosen.dry_run};
         outcome.result = std::move(flipped.report);
-        giveReportOfOutput([&] { return report::flipGreenJson(outcome, ExitCode::done); }, report);
+        if (report != nullptr) giveReport(report::flipGreenJson(outcome, ExitCode::done), report);
         if (!chosen.dry_run) GrowingBytes(flipped.bytes).giveTo(output);
     });
 }

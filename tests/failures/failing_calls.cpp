@@ -3,7 +3,8 @@
 //
 // TSPACE_FAIL_CALL=K       the Kth call of those below fails, as on a disk that breaks
 // TSPACE_FAIL_MALLOC=K     the Kth allocation of the C library fails, and all further ones with TSPACE_FAIL_MALLOC_AFTER=1
-// TSPACE_FAIL_MARK=FILE    is made at the end of a program that has reached that call
+// TSPACE_NO_RESERVE=1      the C++ library does not get the memory that it keeps for exceptions when there is no other
+// TSPACE_FAIL_MARK=FILE    is made at the end of a program that has reached that call, with the number of allocations in it
 // TSPACE_SIGNAL_AT_SYNC=N  signal N comes where the first file is sent to the disk
 // TSPACE_SIGNAL_AFTER_COMMIT=N  signal N comes once, where a folder is sent to the disk after its files were renamed
 // TSPACE_NO_THREADS=1      no thread can be started
@@ -39,12 +40,19 @@ bool fails(int why) {
 
 std::atomic<long> allocation_count = 0;
 long failing_allocation = 0;
-bool allocations_fail_after = false;
+bool allocations_fail_after = false, is_started = false;
 
 [[gnu::constructor]] void readFailingAllocation() {
     failing_allocation = numberOf("TSPACE_FAIL_MALLOC");
     allocations_fail_after = numberOf("TSPACE_FAIL_MALLOC_AFTER") != 0;
     allocation_count = 0;
+    is_started = true;
+}
+
+/// Libraries start before this one. That of C++ takes its reserve, 73 KB, in one piece.
+bool isReserve(size_t bytes) {
+    constexpr size_t kLarge = 32768;
+    return !is_started && bytes > kLarge && std::getenv("TSPACE_NO_RESERVE") != nullptr;
 }
 
 bool allocationFails() {
@@ -76,7 +84,7 @@ void* __libc_calloc(size_t count, size_t bytes);
 void* __libc_realloc(void* old, size_t bytes);
 void* __libc_memalign(size_t alignment, size_t bytes);
 
-void* malloc(size_t bytes) { return allocationFails() ? nullptr : __libc_malloc(bytes); }
+void* malloc(size_t bytes) { return isReserve(bytes) || allocationFails() ? nullptr : __libc_malloc(bytes); }
 void* calloc(size_t count, size_t bytes) { return allocationFails() ? nullptr : __libc_calloc(count, bytes); }
 void* realloc(void* old, size_t bytes) { return allocationFails() ? nullptr : __libc_realloc(old, bytes); }
 void* aligned_alloc(size_t alignment, size_t bytes) {
@@ -163,10 +171,13 @@ int pthread_create(pthread_t* thread, const pthread_attr_t* attributes, void* (*
     const char* path = std::getenv("TSPACE_FAIL_MARK");
     const bool was_reached =
         failing_allocation != 0 ? allocation_count >= failing_allocation : call_count >= numberOf("TSPACE_FAIL_CALL");
+    const long count = allocation_count;
     failing_allocation = 0;
     if (path == nullptr || !was_reached) return;
     const int file = real<int(const char*, int, mode_t)>("open")(path, O_WRONLY | O_CREAT, 0600);
-    if (file >= 0) close(file);
+    if (file < 0) return;
+    dprintf(file, "%ld", count);
+    close(file);
 }
 
 }  // extern "C"

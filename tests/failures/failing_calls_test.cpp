@@ -210,40 +210,64 @@ TEST(Signals, LeaveNoTemporaryFileInAnyCommand) {
     }
 }
 
-/// Runs the command with each allocation of the C library failing, alone or with all that follow. Memory alone may be
-/// blamed, and outputs are there exactly where the exit code says so.
-void failEachMalloc(const TempFolder& folder, const Writing& writing) {
-    if (!isThere(folder, writing)) return;
-    std::map<std::string, std::string> after;
-    for (const std::string& name : writing.outputs) {
-        after[name] = folder.read(name);
-        folder.write(name, "old");
+/// Runs a command with allocations of the C library failing. Memory alone may be blamed, and outputs are there exactly where
+/// the exit code says so.
+class FailingMallocs {
+  public:
+    FailingMallocs(const TempFolder& folder, const Writing& writing) : folder_(folder), writing_(writing) {
+        is_there_ = isThere(folder, writing);
+        for (const std::string& name : writing.outputs) folder.write(name, "old");
+        files_ = folder.files();
     }
-    const std::set<std::string> files = folder.files();
-    for (const char* const mode : {"0", "1"}) {
-        for (int k = 1;; k += 1 + k / TSPACE_EVERY_MALLOC_UP_TO) {
-            const std::string settings =
-                "TSPACE_FAIL_MARK=mark TSPACE_FAIL_MALLOC=" + std::to_string(k) + " TSPACE_FAIL_MALLOC_AFTER=" + mode;
-            const ToolRun run = runTool(folder, writing.command, "timeout -s KILL 20 env " + with(settings));
-            const bool was_reached = folder.has("mark");
-            std::filesystem::remove(folder.path("mark"));
-            const std::string where = writing.command + ", " + settings + ": " + run.err;
-            // std::filesystem::directory_iterator::increment of GCC's library ends the process where an allocation fails.
-            const bool is_ended_by_library = run.exit_code == 128 + SIGABRT;
-            const bool is_told_by_system =
-                run.exit_code == 4 && run.err.find("Cannot allocate memory") != std::string::npos;
-            const bool has_failed = run.exit_code == 5 || is_ended_by_library || is_told_by_system;
-            EXPECT_TRUE(has_failed || run.exit_code <= 1 || hasWritten(run)) << run.exit_code << where;
-            EXPECT_EQ(folder.files(), files) << where;
-            for (const auto& [name, bytes] : after) {
-                EXPECT_EQ(folder.read(name) == "old", has_failed) << name << ": " << where;
-                folder.write(name, "old");
+    ~FailingMallocs() {
+        for (const std::string& name : writing_.outputs) std::filesystem::remove(folder_.path(name));
+    }
+    FailingMallocs(const FailingMallocs&) = delete;
+    FailingMallocs& operator=(const FailingMallocs&) = delete;
+
+    /// Each allocation, or every so many.
+    void failEach() {
+        for (const char* const mode : {"0", "1"}) {
+            for (int k = 1; is_there_ && fail(k, mode); k += 1 + k / TSPACE_EVERY_MALLOC_UP_TO) {
             }
-            if (::testing::Test::HasFailure() || !was_reached) break;
         }
     }
-    for (const std::string& name : writing.outputs) std::filesystem::remove(folder.path(name));
-}
+    /// The last ones, where reports are prepared and outputs put in place.
+    void failLast() {
+        if (!is_there_) return;
+        fail(kNone, "0");
+        for (int from_end = 0; from_end < count_ && !::testing::Test::HasFailure(); from_end += 1 + 2 * from_end)
+            fail(count_ - from_end, "1");
+    }
+
+  private:
+    /// False where there are fewer allocations, or the test has failed.
+    bool fail(int k, const char* mode) {
+        const std::string settings =
+            "TSPACE_FAIL_MARK=mark TSPACE_FAIL_MALLOC=" + std::to_string(k) + " TSPACE_FAIL_MALLOC_AFTER=" + mode;
+        const ToolRun run = runTool(folder_, writing_.command, "timeout -s KILL 20 env " + with(settings));
+        const bool was_reached = folder_.has("mark");
+        if (k == kNone) count_ = std::atoi(folder_.read("mark").c_str());
+        std::filesystem::remove(folder_.path("mark"));
+        const std::string where = writing_.command + ", " + settings + ": " + run.err;
+        const bool has_failed = run.exit_code == 5;
+        EXPECT_TRUE(has_failed || run.exit_code <= 1 || hasWritten(run)) << run.exit_code << where;
+        EXPECT_EQ(folder_.files(), files_) << where;
+        for (const std::string& name : writing_.outputs) {
+            EXPECT_EQ(folder_.read(name) == "old", has_failed) << name << ": " << where;
+            folder_.write(name, "old");
+        }
+        return was_reached && !::testing::Test::HasFailure();
+    }
+
+    static constexpr int kNone = -1;  ///< no allocation fails, and they are counted
+
+    const TempFolder& folder_;
+    const Writing& writing_;
+    std::set<std::string> files_ = {};
+    int count_ = 0;
+    bool is_there_ = false;
+};
 
 TEST(FailingAllocations, OfTheCLibraryAreCalledSoAndLeaveNoOutput) {
     const TempFolder folder;
@@ -258,7 +282,41 @@ TEST(FailingAllocations, OfTheCLibraryAreCalledSoAndLeaveNoOutput) {
              {"compress-map bump.png -o new.ktx2", {"new.ktx2"}},
              {"render plain.glb --size 16 -o new.png", {"new.png"}},
          })
-        failEachMalloc(folder, writing);
+        FailingMallocs(folder, writing).failEach();
+}
+
+TEST(FailingAllocations, OfAnExceptionItselfAreNoEndBySignal) {
+    const TempFolder folder;
+    writeModel(folder);
+    const std::set<std::string> files = folder.files();
+    for (const char* const command : {"height-to-normal bump.png -o new.png", "check plain.glb"}) {
+        for (const int k : {1, 30, 100, 200, 300}) {
+            const std::string settings = "TSPACE_NO_RESERVE=1 TSPACE_FAIL_MALLOC_AFTER=1 TSPACE_FAIL_MALLOC=";
+            const ToolRun run = runTool(folder, command, "env " + with(settings + std::to_string(k)));
+            EXPECT_TRUE(run.exit_code <= 1 || run.exit_code == 5) << command << ", " << k << ": " << run.err;
+            EXPECT_TRUE(run.exit_code != 5 || run.err == "tspace: out of memory\n") << run.err;
+            std::filesystem::remove(folder.path("new.png"));
+            EXPECT_EQ(folder.files(), files) << command << ", " << k;
+        }
+    }
+}
+
+TEST(FailingAllocations, AtTheEndOfAnyCommandLeaveNoOutput) {
+    const TempFolder folder;
+    writeModel(folder);
+    folder.write("pairs.txt", "plain.glb = made.glb\n");
+    std::vector<Writing> all = writings();
+    for (Writing& writing : all) {
+        if (writing.command.find("--json") == std::string::npos) writing.command += " --json";
+    }
+    all.push_back({"generate made.glb --overwrite --json -o new.glb", {"new.glb"}});
+    all.push_back({"check plain.glb --html new.html", {"new.html"}});
+    all.push_back({"bake --pairs pairs.txt --size 16 --json -o new/", {"new/plain.png"}});
+    all.push_back({"map-error bump.png plain.glb --high made.glb --heat new.png", {"new.png"}});
+    for (const Writing& writing : all) {
+        if (!writing.outputs.empty()) FailingMallocs(folder, writing).failLast();
+        if (::testing::Test::HasFailure()) return;
+    }
 }
 
 TEST(NoThreads, LeavesTheWorkToTheOneThatIsThere) {

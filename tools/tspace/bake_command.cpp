@@ -53,30 +53,33 @@ ExitCode runBake(const BakeArguments& arguments) {
     if (!fit) return printUsageError(fit.error().message);
     InputFiles read;
     const auto start = std::chrono::steady_clock::now();
-    const Result<BakeFileReport> result = bake(arguments, read);
+    HeldOutputs held;
+    report::Outcome<BakeFileReport> outcome{
+        .input = arguments.low, .output = arguments.output, .result = bake(arguments, read)};
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
-    ExitCode exit_code =
-        result ? report::exitCodeOf(*result)
-               : printErrorOfFiles({arguments.low, arguments.high, options.cage, "", options.skew}, result.error());
-    return reportOutputs(result.ok(), [&] {
+    outcome.seconds = took.count();
+    return commitAndPrint(held, [&](const Error* failure) {
+        if (failure != nullptr) outcome.result = *failure;
+        const Result<BakeFileReport>& result = outcome.result;
+        ExitCode exit_code =
+            result ? report::exitCodeOf(*result)
+                   : printErrorOfFiles({arguments.low, arguments.high, options.cage, "", options.skew}, result.error());
         // Who reads no report shall see why there is no map.
         if (result && result->output_files.empty()) {
             for (const std::string& finding : result->findings) printRemark(finding);
         }
-        const report::Outcome<BakeFileReport> outcome{
-            .input = arguments.low, .output = arguments.output, .result = result, .seconds = took.count()};
         if (!arguments.report.empty()) {
             const Result<Done> written =
                 writeTextFile(arguments.report, report::bakeJson(outcome, arguments.high, exit_code), &read);
             if (!written) exit_code = worse(exit_code, printError(arguments.report, written.error()));
         }
-        std::string text;
+        PreparedReport report{.exit_code = exit_code};
         if (arguments.json) {
-            text = report::bakeJson(outcome, arguments.high, exit_code);
+            report.text = report::bakeJson(outcome, arguments.high, exit_code);
         } else if (!arguments.quiet && result) {
-            text = report::bakeText(outcome, options.out_mesh);
+            report.text = report::bakeText(outcome, options.out_mesh);
         }
-        return printResult(text) ? exit_code : ExitCode::cannotReadOrWrite;
+        return report;
     });
 }
 

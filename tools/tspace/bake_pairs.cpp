@@ -22,6 +22,7 @@
 #include "model/io/file_io.h"
 #include "model/io/folder_rule.h"
 #include "output_files.h"
+#include "report_outputs.h"
 
 namespace tspace::tool {
 namespace {
@@ -140,6 +141,7 @@ class PairsRun {
         : arguments_(arguments),
           pairs_(std::move(pairs)),
           done_(pairs_.size()),
+          texts_(pairs_.size()),
           workers_(workerCount(arguments.batch, pairs_.size())),
           progress_(pairs_.size(), !arguments.quiet) {}
 
@@ -157,18 +159,28 @@ class PairsRun {
         progress_.clear();
         if (wasInterrupted()) endByInterrupt();
         if (output_is_closed_) return ExitCode::cannotReadOrWrite;
-        const std::chrono::duration<double> took = Clock::now() - start_;
-        if (!arguments_.report.empty()) {
-            const Result<Done> written =
-                writeTextFile(arguments_.report, report::bakedPairsJson(done_, exit_code_, took.count()));
-            if (!written) exit_code_ = worse(exit_code_, printError(arguments_.report, written.error()));
-        }
-        if (!arguments_.json) return exit_code_;
-        return printResult(report::bakedPairsJson(done_, exit_code_, took.count())) ? exit_code_
-                                                                                    : ExitCode::cannotReadOrWrite;
+        const auto is_written = [](const report::BakedPair& pair) { return pair.outcome.result.ok(); };
+        const bool has_outputs = std::any_of(done_.begin(), done_.end(), is_written);
+        return has_outputs ? afterOutputs(kNoMemoryForReport, [this] { return finish(); }) : finish();
     }
 
   private:
+    ExitCode finish() {
+        const std::chrono::duration<double> took = Clock::now() - start_;
+        const auto json = [&] { return report::bakedPairsJson(done_, exit_code_, took.count()); };
+        HeldOutputs outputs;
+        return commitAndPrint(outputs, [&](const Error* failure) {
+            Result<Done> written = Done{};
+            if (failure != nullptr) {
+                written = *failure;
+            } else if (!arguments_.report.empty()) {
+                written = writeTextFile(arguments_.report, json());
+            }
+            if (!written) exit_code_ = worse(exit_code_, printError(arguments_.report, written.error()));
+            return PreparedReport{.exit_code = exit_code_, .text = arguments_.json ? json() : std::string()};
+        });
+    }
+
     Result<BakeFileReport> bake(const Pair& pair, std::vector<std::string>& read) {
         BakeFileOptions options = optionsOf(arguments_, pair);
         options.execution.thread_count = threadsPerFile(options.execution.thread_count, workers_);
@@ -194,14 +206,18 @@ class PairsRun {
         // What is baked from another high poly, or written elsewhere, is another result.
         const std::string options =
             arguments_.option_text + " high=" + pair.high + (pair.model.empty() ? "" : " model=" + pair.model);
-        if (record_.isDone(pair.job, options)) {
-            done.outcome.was_done_before = true;
-            done.outcome.result = BakeFileReport{};
-        } else {
-            done.outcome.result = bake(pair, read);
-        }
-        const std::chrono::duration<double> took = Clock::now() - start;
-        done.outcome.seconds = took.count();
+        const auto make = [&]() -> Result<BakeFileReport> {
+            done.outcome.was_done_before = record_.isDone(pair.job, options);
+            return done.outcome.was_done_before ? BakeFileReport{} : bake(pair, read);
+        };
+        makeAndCommit(done.outcome, make, [&] {
+            const std::chrono::duration<double> took = Clock::now() - start;
+            done.outcome.seconds = took.count();
+            if (done.outcome.result && !arguments_.json && !arguments_.quiet)
+                texts_[number] = arguments_.batch.verbose && !done.outcome.was_done_before
+                                     ? report::bakeText(done.outcome, pair.model)
+                                     : report::bakeLine(done.outcome);
+        });
         if (record_.isKept() && !done.outcome.was_done_before) record(pair, options, read, done);
         progress_.fileDone(done.outcome.result.ok());
         done_[number] = std::move(done);
@@ -209,6 +225,11 @@ class PairsRun {
 
     void record(const Pair& pair, const std::string& options, const std::vector<std::string>& read,
                 const report::BakedPair& done) {
+        take(afterOutputs(kNoMemoryForManifest, [&] { return record_.append(entryOf(pair, options, read, done)); }));
+    }
+
+    static ManifestEntry entryOf(const Pair& pair, const std::string& options, const std::vector<std::string>& read,
+                                 const report::BakedPair& done) {
         ManifestEntry entry{.version = TSPACE_VERSION,
                             .options = options,
                             .job = pair.job,
@@ -220,7 +241,7 @@ class PairsRun {
         } else {
             entry.job.error = done.outcome.result.error();
         }
-        take(record_.append(entry));
+        return entry;
     }
 
     void take(ExitCode code) {
@@ -241,9 +262,7 @@ class PairsRun {
                 for (const std::string& finding : findings) printRemark(finding);
             }
             if (!arguments_.json && !arguments_.quiet && !output_is_closed_) {
-                output_is_closed_ = !printResult(arguments_.batch.verbose && !done.outcome.was_done_before
-                                                     ? report::bakeText(done.outcome, pairs_[number].model)
-                                                     : report::bakeLine(done.outcome));
+                output_is_closed_ = !printResult(texts_[number]);
             }
         }
         take(done.exit_code);
@@ -253,6 +272,7 @@ class PairsRun {
     const Clock::time_point start_ = Clock::now();
     std::vector<Pair> pairs_;
     std::vector<report::BakedPair> done_;
+    std::vector<std::string> texts_;  ///< what is printed about each
     unsigned workers_;
     ProgressLine progress_;
     BatchRecord record_ = {};

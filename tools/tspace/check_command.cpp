@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // tspace check: what is wrong in models, as text, JSON, SARIF and a page.
+#include <algorithm>
 #include <memory>
 
 #include "command_table.h"
@@ -11,6 +12,7 @@
 #include "output_files.h"
 #include "page_origin.h"
 #include "read_files.h"
+#include "report_outputs.h"
 #include "standard_input.h"
 
 namespace tspace::tool {
@@ -82,25 +84,36 @@ ExitCode runCheck(const CheckArguments& arguments) {
         if (outcome.result && options::failsBy(arguments.request, *outcome.result))
             exit_code = worse(exit_code, ExitCode::findings);
     }
-    if (!arguments.html.empty()) {
-        const Result<Done> written =
-            writeTextFile(arguments.html, checkPage(files.outcomes, options.file, *origin), &read);
-        if (!written) exit_code = worse(exit_code, printError(arguments.html, written.error()));
-    }
-    if (!arguments.sarif.empty() && !sarif_to_stdout) {
-        const Result<Done> written =
-            writeTextFile(arguments.sarif, report::checkSarif(files.outcomes, exit_code, TSPACE_DOCS_URL), &read);
-        if (!written) exit_code = worse(exit_code, printError(arguments.sarif, written.error()));
-    }
-    std::string last;
-    if (sarif_to_stdout) {
-        last = report::checkSarif(files.outcomes, exit_code, TSPACE_DOCS_URL);
-    } else if (arguments.json) {
-        last = report::checkJson(files.outcomes, exit_code, arguments.request.fail_on);
-    } else if (wants_text && files.outcomes.size() > 1) {
-        last = report::checkSummary(files.outcomes, in_color);
-    }
-    return printResult(last) ? exit_code : ExitCode::cannotReadOrWrite;
+    // Reports name files that cannot be read, but one file that did not fit into memory is worth no report.
+    const auto is_reported = [](const report::CheckOutcome& outcome) {
+        return outcome.result || outcome.result.error().code != ErrorCode::outOfMemory;
+    };
+    const bool is_written =
+        files.outcomes.size() > 1 || std::all_of(files.outcomes.begin(), files.outcomes.end(), is_reported);
+    const auto write = [&](const std::string& path, const std::string& text) {
+        const Result<Done> written = writeTextFile(path, text, &read);
+        if (!written) exit_code = worse(exit_code, printError(path, written.error()));
+    };
+    HeldOutputs outputs;
+    return commitAndPrint(outputs, [&](const Error* failure) {
+        if (failure != nullptr) {
+            exit_code =
+                worse(exit_code, printError(arguments.html.empty() ? arguments.sarif : arguments.html, *failure));
+        } else if (is_written) {
+            if (!arguments.html.empty()) write(arguments.html, checkPage(files.outcomes, options.file, *origin));
+            if (!arguments.sarif.empty() && !sarif_to_stdout)
+                write(arguments.sarif, report::checkSarif(files.outcomes, exit_code, TSPACE_DOCS_URL));
+        }
+        PreparedReport report{.exit_code = exit_code};
+        if (sarif_to_stdout) {
+            report.text = report::checkSarif(files.outcomes, exit_code, TSPACE_DOCS_URL);
+        } else if (arguments.json) {
+            report.text = report::checkJson(files.outcomes, exit_code, arguments.request.fail_on);
+        } else if (wants_text && files.outcomes.size() > 1) {
+            report.text = report::checkSummary(files.outcomes, in_color);
+        }
+        return report;
+    });
 }
 
 }  // namespace

@@ -32,12 +32,13 @@ ExitCode runCompressMap(const CompressMapArguments& arguments) {
                        {arguments.input, wanted.roughness}, wanted.dry_run);
     if (!fit) return printUsageError(fit.error().message + "; name another file");
     if (goesToTerminal(arguments)) return printUsageError(kNoTextForATerminal);
-    const Result<CompressMapFileReport> result =
-        callOnImage(arguments.input, arguments.output, arguments.options.file.memory_limit_bytes, arguments.options,
-                    [&](const CompressMapFileOptions& options) {
-                        return compressMapFile(arguments.input, arguments.output, options);
-                    });
-    return printOutcome(arguments, result, report::compressMapJson, report::compressMapText);
+    const auto make = [&] {
+        return callOnImage(arguments.input, arguments.output, arguments.options.file.memory_limit_bytes,
+                           arguments.options, [&](const CompressMapFileOptions& options) {
+                               return compressMapFile(arguments.input, arguments.output, options);
+                           });
+    };
+    return makeAndPrint(arguments, make, report::compressMapJson, report::compressMapText);
 }
 
 }  // namespace

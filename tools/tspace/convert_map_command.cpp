@@ -27,12 +27,13 @@ ExitCode runConvertMap(const ConvertMapArguments& arguments) {
                        arguments.options.dry_run);
     if (!fit) return printUsageError(fit.error().message + "; name another file");
     if (goesToTerminal(arguments)) return printUsageError(kNoTextForATerminal);
-    const Result<ConvertMapFileReport> result =
-        callOnImage(arguments.input, arguments.output, arguments.options.file.memory_limit_bytes, arguments.options,
-                    [&](const ConvertMapFileOptions& options) {
-                        return convertMapFile(arguments.input, arguments.output, options);
-                    });
-    return printOutcome(arguments, result, report::convertMapJson,
+    const auto make = [&] {
+        return callOnImage(arguments.input, arguments.output, arguments.options.file.memory_limit_bytes,
+                           arguments.options, [&](const ConvertMapFileOptions& options) {
+                               return convertMapFile(arguments.input, arguments.output, options);
+                           });
+    };
+    return makeAndPrint(arguments, make, report::convertMapJson,
                         [&](const auto& outcome) { return report::convertMapText(outcome, arguments.options); });
 }
 

@@ -11,6 +11,7 @@
 #include "jobs.h"
 #include "output_files.h"
 #include "page_origin.h"
+#include "report_outputs.h"
 
 namespace tspace::tool {
 namespace {
@@ -36,22 +37,26 @@ ExitCode runDiff(const DiffArguments& arguments) {
     ExitCode exit_code = ExitCode::done;
     if (!diff) {
         exit_code = printError(diff.error().element == 1 ? arguments.b : arguments.a, diff.error());
-        if (!arguments.json) return exit_code;
     } else if (!diff->isWithin(arguments.request.tolerance_deg)) {
         exit_code = ExitCode::findings;
     }
-    if (diff && !arguments.html.empty()) {
-        const Result<Done> written =
-            writeTextFile(arguments.html, diffPage(arguments.a, arguments.b, *diff, options, *origin), &read);
-        if (!written) exit_code = worse(exit_code, printError(arguments.html, written.error()));
-    }
-    std::string text;
-    if (arguments.json) {
-        text = report::diffJson(arguments.a, arguments.b, arguments.request.tolerance_deg, diff, exit_code);
-    } else if (!arguments.quiet) {
-        text = report::diffText(arguments.a, arguments.b, *diff);
-    }
-    return printResult(text) ? exit_code : ExitCode::cannotReadOrWrite;
+    HeldOutputs outputs;
+    return commitAndPrint(outputs, [&](const Error* failure) {
+        if (failure != nullptr) {
+            exit_code = worse(exit_code, printError(arguments.html, *failure));
+        } else if (diff && !arguments.html.empty()) {
+            const Result<Done> written =
+                writeTextFile(arguments.html, diffPage(arguments.a, arguments.b, *diff, options, *origin), &read);
+            if (!written) exit_code = worse(exit_code, printError(arguments.html, written.error()));
+        }
+        PreparedReport report{.exit_code = exit_code};
+        if (arguments.json) {
+            report.text = report::diffJson(arguments.a, arguments.b, arguments.request.tolerance_deg, diff, exit_code);
+        } else if (!arguments.quiet && diff) {
+            report.text = report::diffText(arguments.a, arguments.b, *diff);
+        }
+        return report;
+    });
 }
 
 }  // namespace

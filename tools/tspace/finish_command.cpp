@@ -53,29 +53,33 @@ ExitCode runFinish(const FinishArguments& arguments) {
     if (!options.page.empty() && !origin) return printUsageError(origin.error().message);
     InputFiles read;
     const auto start = std::chrono::steady_clock::now();
-    const Result<FinishReport> result = finish(arguments, read, origin ? *origin : PageOrigin{});
+    HeldOutputs held;
+    report::Outcome<FinishReport> outcome{.input = arguments.input,
+                                          .output = arguments.output,
+                                          .result = finish(arguments, read, origin ? *origin : PageOrigin{})};
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
-    ExitCode exit_code =
-        result ? report::exitCodeOf(*result) : printErrorOfFiles({about_low, arguments.input}, result.error());
-    return reportOutputs(result.ok(), [&] {
+    outcome.seconds = took.count();
+    return commitAndPrint(held, [&](const Error* failure) {
+        if (failure != nullptr) outcome.result = *failure;
+        const Result<FinishReport>& result = outcome.result;
+        ExitCode exit_code =
+            result ? report::exitCodeOf(*result) : printErrorOfFiles({about_low, arguments.input}, result.error());
         // Who reads no report shall see why there is no model.
         if (result && result->output_files.empty()) {
             for (const std::string& finding : result->bake->findings) printRemark(finding);
         }
-        const report::Outcome<FinishReport> outcome{
-            .input = arguments.input, .output = arguments.output, .result = result, .seconds = took.count()};
         if (!arguments.report.empty()) {
             const Result<Done> written =
                 writeTextFile(arguments.report, report::finishJson(outcome, options.low, exit_code), &read);
             if (!written) exit_code = worse(exit_code, printError(arguments.report, written.error()));
         }
-        std::string text;
+        PreparedReport report{.exit_code = exit_code};
         if (arguments.json) {
-            text = report::finishJson(outcome, options.low, exit_code);
+            report.text = report::finishJson(outcome, options.low, exit_code);
         } else if (!arguments.quiet && result) {
-            text = report::finishText(outcome);
+            report.text = report::finishText(outcome);
         }
-        return printResult(text) ? exit_code : ExitCode::cannotReadOrWrite;
+        return report;
     });
 }
 

@@ -36,10 +36,12 @@ ExitCode runFlipGreen(const FlipGreenArguments& arguments) {
     const Result<Done> fit = prepareOutputs({arguments.output}, {}, arguments.options.dry_run);
     if (!fit) return printUsageError(fit.error().message);
     if (goesToTerminal(arguments)) return printUsageError(kNoTextForATerminal);
-    const Result<FlipGreenReport> result = callOnImage(
-        arguments.input, arguments.output, arguments.options.memory_limit_bytes, arguments.options,
-        [&](const FlipGreenOptions& options) { return flipGreenFile(arguments.input, arguments.output, options); });
-    return printOutcome(arguments, result, report::flipGreenJson, report::flipGreenText);
+    const auto make = [&] {
+        return callOnImage(
+            arguments.input, arguments.output, arguments.options.memory_limit_bytes, arguments.options,
+            [&](const FlipGreenOptions& options) { return flipGreenFile(arguments.input, arguments.output, options); });
+    };
+    return makeAndPrint(arguments, make, report::flipGreenJson, report::flipGreenText);
 }
 
 }  // namespace

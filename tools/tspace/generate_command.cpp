@@ -6,7 +6,6 @@
 #include <cstdio>
 #include <memory>
 #include <mutex>
-#include <optional>
 
 #include "batch.h"
 #include "command_table.h"
@@ -96,6 +95,7 @@ class GenerateRun {
         : arguments_(arguments),
           jobs_(std::move(jobs)),
           outcomes_(jobs_.size()),
+          texts_(jobs_.size()),
           workers_(workerCount(arguments.batch, jobs_.size())),
           report_to_(arguments.jobs.output == "-" ? stderr : stdout),
           wants_text_(!arguments.json && !arguments.quiet),
@@ -111,17 +111,20 @@ class GenerateRun {
         progress_.clear();
         if (wasInterrupted()) endByInterrupt();
         if (output_is_closed_) return ExitCode::cannotReadOrWrite;
-        const auto outcome_of = [](std::optional<report::GenerateOutcome>& outcome) { return *outcome; };
-        return reportOutputs(exit_code_ == ExitCode::done, [&] {
+        const auto report = [&] {
             std::string last;
-            if (arguments_.json || (wants_text_ && outcomes_.size() > 1)) {
-                std::vector<report::GenerateOutcome> outcomes(outcomes_.size());
-                std::transform(outcomes_.begin(), outcomes_.end(), outcomes.begin(), outcome_of);
-                last = arguments_.json ? report::generateJson(outcomes, exit_code_, secondsSince(start_))
-                                       : report::generateSummary(outcomes, secondsSince(start_));
+            if (arguments_.json) {
+                const bool is_prepared = outcomes_.size() == 1 && exit_code_ == ExitCode::done;
+                last = is_prepared ? std::move(texts_[0])
+                                   : report::generateJson(outcomes_, exit_code_, secondsSince(start_));
+            } else if (wants_text_ && outcomes_.size() > 1) {
+                last = report::generateSummary(outcomes_, secondsSince(start_));
             }
             return printResult(last, report_to_) ? exit_code_ : ExitCode::cannotReadOrWrite;
-        });
+        };
+        const auto is_written = [](const report::GenerateOutcome& outcome) { return outcome.result.ok(); };
+        const bool has_outputs = std::any_of(outcomes_.begin(), outcomes_.end(), is_written);
+        return has_outputs ? afterOutputs(kNoMemoryForReport, report) : report();
     }
 
   private:
@@ -148,49 +151,53 @@ class GenerateRun {
         const Job& job = jobs_[number];
         report::GenerateOutcome outcome{
             .input = job.input, .output = job.output, .is_dry_run = arguments_.options.dry_run};
-        if (job.error.code == ErrorCode::ok && record_.isDone(job, arguments_.option_text)) {
-            outcome.was_done_before = true;
-            outcome.result = GenerateReport{};
-        } else {
-            outcome.result = generate(job);
-        }
-        outcome.seconds = secondsSince(start);
+        const auto make = [&]() -> Result<GenerateReport> {
+            outcome.was_done_before = job.error.code == ErrorCode::ok && record_.isDone(job, arguments_.option_text);
+            return outcome.was_done_before ? GenerateReport{} : generate(job);
+        };
+        makeAndCommit(outcome, make, [&] {
+            outcome.seconds = secondsSince(start);
+            if (outcome.result) texts_[number] = textOf(outcome);
+        });
         if (record_.isKept() && !outcome.was_done_before) record(job, outcome);
         progress_.fileDone(outcome.result.ok());
         outcomes_[number] = std::move(outcome);
     }
 
+    /// What is printed about a file that was written: its line or its details, or as JSON the document of a run over this file
+    /// alone.
+    std::string textOf(const report::GenerateOutcome& outcome) const {
+        const bool is_alone = jobs_.size() == 1;
+        if (arguments_.json && is_alone) return report::generateJson({outcome}, ExitCode::done, secondsSince(start_));
+        if (!wants_text_) return {};
+        return is_alone || arguments_.batch.verbose ? report::generateText(outcome) : report::generateLine(outcome);
+    }
+
     void record(const Job& job, const report::GenerateOutcome& outcome) {
-        const ManifestEntry entry = manifestEntry(job, outcome, arguments_.option_text);
-        const ExitCode code = record_.append(entry);
+        const ExitCode code = afterOutputs(
+            kNoMemoryForManifest, [&] { return record_.append(manifestEntry(job, outcome, arguments_.option_text)); });
         const std::lock_guard lock(mutex_);
         exit_code_ = worse(exit_code_, code);
     }
 
     /// Reports a file. Called in the order of the files, one at a time.
     void finish(std::size_t number) {
-        const report::GenerateOutcome& outcome = *outcomes_[number];
+        const report::GenerateOutcome& outcome = outcomes_[number];
         progress_.clear();
         if (!outcome.result) {
             const ExitCode code = printError(outcome.input, outcome.result.error());
             const std::lock_guard lock(mutex_);
             exit_code_ = worse(exit_code_, code);
         } else if (wants_text_ && !output_is_closed_) {
-            const bool wants_details = jobs_.size() == 1 || arguments_.batch.verbose;
-            const ExitCode printed = reportOutputs(true, [&] {
-                output_is_closed_ = !printResult(
-                    wants_details ? report::generateText(outcome) : report::generateLine(outcome), report_to_);
-                return ExitCode::done;
-            });
-            const std::lock_guard lock(mutex_);
-            exit_code_ = worse(exit_code_, printed);
+            output_is_closed_ = !printResult(texts_[number], report_to_);
         }
     }
 
     const GenerateArguments& arguments_;
     const Clock::time_point start_ = Clock::now();
     std::vector<Job> jobs_;
-    std::vector<std::optional<report::GenerateOutcome>> outcomes_;
+    std::vector<report::GenerateOutcome> outcomes_;
+    std::vector<std::string> texts_;  ///< textOf() each
     unsigned workers_;
     std::FILE* report_to_;
     bool wants_text_;

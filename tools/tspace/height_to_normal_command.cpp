@@ -26,12 +26,13 @@ ExitCode runHeightToNormal(const HeightToNormalArguments& arguments) {
         prepareOutputs({arguments.output}, {arguments.input, arguments.options.mesh}, arguments.options.dry_run);
     if (!fit) return printUsageError(fit.error().message + "; name another file");
     if (goesToTerminal(arguments)) return printUsageError(kNoTextForATerminal);
-    const Result<HeightToNormalFileReport> result =
-        callOnImage(arguments.input, arguments.output, arguments.options.file.memory_limit_bytes, arguments.options,
-                    [&](const HeightToNormalFileOptions& options) {
-                        return heightToNormalFile(arguments.input, arguments.output, options);
-                    });
-    return printOutcome(arguments, result, report::heightToNormalJson,
+    const auto make = [&] {
+        return callOnImage(arguments.input, arguments.output, arguments.options.file.memory_limit_bytes,
+                           arguments.options, [&](const HeightToNormalFileOptions& options) {
+                               return heightToNormalFile(arguments.input, arguments.output, options);
+                           });
+    };
+    return makeAndPrint(arguments, make, report::heightToNormalJson,
                         [&](const auto& outcome) { return report::heightToNormalText(outcome, arguments.options); });
 }
 

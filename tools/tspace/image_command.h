@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -52,23 +53,26 @@ auto callOnImage(const std::string& input, const std::string& output, std::uint6
     return callWithOutput(output, std::move(options), call);
 }
 
-/// Prints the error, or the result as text, textOf(outcome), or JSON, jsonOf(outcome, exit code): on stderr where the image is
-/// on stdout.
-template <class Arguments, class Report, class JsonOf, class TextOf>
-ExitCode printOutcome(const Arguments& arguments, const Result<Report>& result, JsonOf jsonOf, TextOf textOf) {
-    const ExitCode exit_code = result ? ExitCode::done : printError(arguments.input, result.error());
-    return reportOutputs(result.ok(), [&] {
-        const report::Outcome<Report> outcome{.input = arguments.input,
-                                              .output = arguments.output,
-                                              .result = result,
-                                              .is_dry_run = arguments.options.dry_run};
-        std::string text;
+/// Writes the image by make(), which returns a Result. Prints the error, or the result as text, textOf(outcome), or as JSON,
+/// jsonOf(outcome, exit_code): on stderr where the image goes to stdout.
+template <class Arguments, class Make, class JsonOf, class TextOf>
+ExitCode makeAndPrint(const Arguments& arguments, const Make& make, JsonOf jsonOf, TextOf textOf) {
+    HeldOutputs outputs;
+    using Value = std::remove_cvref_t<decltype(*make())>;
+    report::Outcome<Value> outcome{.input = arguments.input,
+                                   .output = arguments.output,
+                                   .result = make(),
+                                   .is_dry_run = arguments.options.dry_run};
+    return commitAndPrint(outputs, [&](const Error* failure) {
+        if (failure != nullptr) outcome.result = *failure;
+        PreparedReport report{.to = arguments.output == "-" ? stderr : stdout};
+        if (!outcome.result) report.exit_code = printError(arguments.input, outcome.result.error());
         if (arguments.json) {
-            text = jsonOf(outcome, exit_code);
-        } else if (!arguments.quiet && result) {
-            text = textOf(outcome);
+            report.text = jsonOf(outcome, report.exit_code);
+        } else if (!arguments.quiet && outcome.result) {
+            report.text = textOf(outcome);
         }
-        return printResult(text, arguments.output == "-" ? stderr : stdout) ? exit_code : ExitCode::cannotReadOrWrite;
+        return report;
     });
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Starts the command that the command line asks for.
+#include <cstdlib>
 #include <exception>
 #include <new>
 #include <optional>
@@ -15,8 +16,10 @@
 #include "command_table.h"
 #include "commands/shared/option_table.h"
 #include "console.h"
+#include "core/base/border.h"
 #include "help.h"
 #include "interrupt.h"
+#include "model/io/atomic_output.h"
 #include "model/io/path.h"
 #include "page_origin.h"
 #include "read_command_line.h"
@@ -43,6 +46,8 @@ void giveMemoryBack() {
     mallopt(M_MMAP_THRESHOLD, 256 << 10);
 #endif
 }
+
+constexpr const char* kOutOfMemory = "tspace: out of memory\n";
 
 ExitCode print(const std::string& page) { return printResult(page) ? ExitCode::done : ExitCode::cannotReadOrWrite; }
 
@@ -122,18 +127,31 @@ ExitCode run(int argc, char** argv) {
     return command->run();
 }
 
+/// Called where an exception cannot be thrown because there is no memory for it, or would leave a function that may not throw.
+/// As after a signal, no temporary file is left.
+[[noreturn]] void endWithoutUnwinding() {
+    const bool is_out_of_memory =
+        std::current_exception() == nullptr || tspace::caughtError().code == tspace::ErrorCode::outOfMemory;
+    tspace::removeTemporaryFiles(true);
+    printPlain(is_out_of_memory ? kOutOfMemory : "tspace: internal error\n");
+    std::_Exit(static_cast<int>(ExitCode::internal));
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
     openStandardStreams();
     endCleanlyBySignals();
+    std::set_terminate(endWithoutUnwinding);
     try {
         std::vector<char*> words = commandLine(argc, argv);
         rememberCommandLine(words);
         return static_cast<int>(run(static_cast<int>(words.size()), words.data()));
     } catch (const std::bad_alloc&) {
         // Formatting a message would allocate.
-        printPlain("tspace: out of memory\n");
+        printPlain(kOutOfMemory);
+    } catch (const tspace::OutOfMemory&) {
+        printPlain(kOutOfMemory);
     } catch (const std::exception& defect) {
         printPlain("tspace: internal error: ");
         printPlain(defect.what());

@@ -10,6 +10,7 @@
 #include "console.h"
 #include "jobs.h"
 #include "output_files.h"
+#include "report_outputs.h"
 
 namespace tspace::tool {
 namespace {
@@ -47,20 +48,23 @@ ExitCode runMapError(const MapErrorArguments& arguments) {
     options.progress = [&](const char* what, std::uint64_t done, std::uint64_t total) {
         progress.update(arguments.map, what, done, total);
     };
-    const Result<MapErrorFileReport> result = mapErrorFile(arguments.map, arguments.low, arguments.high, options);
+    HeldOutputs outputs;
+    report::Outcome<MapErrorFileReport> outcome{
+        .input = arguments.map, .result = mapErrorFile(arguments.map, arguments.low, arguments.high, options)};
     progress.clear();
-    const ExitCode exit_code = result ? ExitCode::done
-                                      : printErrorOfFiles({arguments.low, arguments.high, arguments.options.cage,
-                                                           arguments.map, arguments.options.skew},
-                                                          result.error());
-    const report::Outcome<MapErrorFileReport> outcome{.input = arguments.map, .result = result};
-    std::string text;
-    if (arguments.json) {
-        text = report::mapErrorJson(outcome, arguments.low, arguments.high, exit_code);
-    } else if (!arguments.quiet && result) {
-        text = report::mapErrorText(outcome);
-    }
-    return printResult(text) ? exit_code : ExitCode::cannotReadOrWrite;
+    return commitAndPrint(outputs, [&](const Error* failure) {
+        if (failure != nullptr) outcome.result = *failure;
+        PreparedReport report;
+        if (!outcome.result)
+            report.exit_code = printErrorOfFiles(
+                {arguments.low, arguments.high, options.cage, arguments.map, options.skew}, outcome.result.error());
+        if (arguments.json) {
+            report.text = report::mapErrorJson(outcome, arguments.low, arguments.high, report.exit_code);
+        } else if (!arguments.quiet && outcome.result) {
+            report.text = report::mapErrorText(outcome);
+        }
+        return report;
+    });
 }
 
 /// What a comparison with a source does not look at, which stands among the options of a comparison with a high poly.

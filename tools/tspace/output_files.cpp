@@ -3,6 +3,8 @@
 #include "output_files.h"
 
 #include <map>
+#include <new>
+#include <optional>
 #include <set>
 
 #include "model/io/abandoned_files.h"
@@ -34,12 +36,17 @@ Result<Done> prepareOutputs(const std::vector<std::string>& outputs, const std::
 }
 
 Result<Done> writeTextFile(const std::string& path, const std::string& text, const InputFiles* inputs) {
-    return atFileBorder([&]() -> Result<Done> {
+    Result<Done> written = atFileBorder([&]() -> Result<Done> {
+        // A report that cannot be written costs nothing else. Only writing to a stream shows whether it can.
+        std::optional<HeldOutputs> at_once;
+        if (kindOf(path) == PathKind::stream) at_once.emplace();
         AtomicOutput output({.inputs = inputs});
         output.add(path, std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()));
         output.commit();
-        return Done{};
+        return at_once ? at_once->commit() : Done{};
     });
+    if (!written && written.error().code == ErrorCode::outOfMemory) throw std::bad_alloc();
+    return written;
 }
 
 }  // namespace tspace::tool

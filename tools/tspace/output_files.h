@@ -17,7 +17,7 @@ Result<Done> prepareOutputs(const std::vector<std::string>& outputs, const std::
                             bool is_dry_run = false);
 
 /// The file appears whole or not at all, with its folder where that is missing; it may be none of `inputs`, which are what was
-/// read.
+/// read. Throws std::bad_alloc, so that the outputs that are held beside it do not appear either.
 Result<Done> writeTextFile(const std::string& path, const std::string& text, const InputFiles* inputs = nullptr);
 
 }  // namespace tspace::tool

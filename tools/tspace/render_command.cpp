@@ -39,9 +39,9 @@ ExitCode runRender(const RenderArguments& arguments) {
         return printUsageError("the output '" + arguments.output + "' must end in .png");
     const Result<Done> fit = prepareOutputs({arguments.output}, {arguments.input}, arguments.options.dry_run);
     if (!fit) return printUsageError(fit.error().message);
-    const Result<RenderReport> result = render(arguments);
-    return printOutcome(arguments, result, report::renderJson,
-                        [&](const auto& outcome) { return report::renderText(outcome, arguments.options.method); });
+    return makeAndPrint(
+        arguments, [&] { return render(arguments); }, report::renderJson,
+        [&](const auto& outcome) { return report::renderText(outcome, arguments.options.method); });
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "model/io/system_files.h"
 #include "output_files.h"
 #include "page_origin.h"
+#include "report_outputs.h"
 
 namespace tspace::tool {
 namespace {
@@ -49,16 +50,20 @@ ExitCode runView(const ViewArguments& arguments) {
         return printUsageError(fit.error().message);
     const Result<PageOrigin> origin = pageOrigin();
     if (!origin) return printUsageError(origin.error().message);
-    const report::Outcome<ViewReport> outcome{
+    HeldOutputs outputs;
+    report::Outcome<ViewReport> outcome{
         .input = arguments.input, .output = arguments.output, .result = view(arguments, *origin)};
-    const ExitCode exit_code = outcome.result ? ExitCode::done : printError(arguments.input, outcome.result.error());
-    std::string text;
-    if (arguments.json) {
-        text = report::viewJson(outcome, exit_code);
-    } else if (!arguments.quiet && outcome.result) {
-        text = report::viewText(outcome);
-    }
-    return printResult(text) ? exit_code : ExitCode::cannotReadOrWrite;
+    return commitAndPrint(outputs, [&](const Error* failure) {
+        if (failure != nullptr) outcome.result = *failure;
+        PreparedReport report;
+        if (!outcome.result) report.exit_code = printError(arguments.input, outcome.result.error());
+        if (arguments.json) {
+            report.text = report::viewJson(outcome, report.exit_code);
+        } else if (!arguments.quiet && outcome.result) {
+            report.text = report::viewText(outcome);
+        }
+        return report;
+    });
 }
 
 }  // namespace
