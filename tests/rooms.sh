@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
 # The wings, the folders of src/, stand in an order: each includes only itself and those below it. Within a wing its rooms stand
-# in an order too: tsort finds it, or a loop.
+# in an order too, and so do all units (a header with its source) and public headers: tsort finds it, or a loop.
 # usage: rooms.sh SOURCE_FOLDER
 set -euo pipefail
 cd "${1:?usage: rooms.sh SOURCE_FOLDER}/src"
@@ -27,3 +27,11 @@ awk '{ for (i = 1; i <= 2; ++i) {
            $i = part[1]
            for (k = 2; k <= depth && k <= count; ++k) $i = $i "/" part[k]
        } } $1 != $2' <<<"$includes" | sort -u | tsort
+
+# Units: "UNIT UNIT" for each include. Public headers keep their ending, since tspace.h and tspace.hpp are two.
+cd ..
+units=$(grep -rE '^#include "[a-z_]+/' --include='*.h' --include='*.hpp' --include='*.cpp' src include |
+    sed -E 's|^(src\|include)/([^:]*):#include "([^"]*)".*|\2 \3|' |
+    awk '{ for (i = 1; i <= 2; ++i) if ($i !~ /^tspace\//) sub(/\.(h|cpp)$/, "", $i) } $1 != $2' | sort -u)
+[ "$(wc -l <<<"$units")" -gt 1000 ] || { echo "only these includes were found: $units"; exit 1; }
+tsort <<<"$units" >/dev/null
