@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """What scripts/c_comments cannot know by itself: where the two APIs differ, and why they may."""
 
-C_HEADERS = ("tspace.h", "tspace_normals.h", "tspace_indexed_frames.h", "tspace_frame.h", "tspace_pack.h", "tspace_winding.h",
+C_HEADERS = ("tspace_tangents.h", "tspace_normals.h", "tspace_indexed_frames.h", "tspace_frame.h", "tspace_pack.h", "tspace_winding.h",
              "tspace_files.h")
 FILE_HEADERS = ("asset.h", "bake_file.h", "check.h", "diff.h", "finish_file.h", "identify.h", "images.h",
                 "map_files.h")

@@ -4,8 +4,8 @@
 #ifndef TSPACE_TSPACE_INDEXED_FRAMES_H
 #define TSPACE_TSPACE_INDEXED_FRAMES_H
 
-#include "tspace/tspace.h"
 #include "tspace/tspace_normals.h"
+#include "tspace/tspace_tangents.h"
 
 #if defined(__GNUC__) && !defined(_WIN32)
 #pragma GCC visibility push(default)

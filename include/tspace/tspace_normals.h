@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Normals of faces, averaged at vertices: one result per corner, so that hard edges can be split afterwards.
  * In C: part of tspace/tspace.h, which includes it. */
-#include "tspace/tspace.h" /* first: it includes all parts, of which tspace_indexed_frames.h needs this one */
+#include "tspace/tspace_tangents.h"
 
 #ifndef TSPACE_TSPACE_NORMALS_H
 #define TSPACE_TSPACE_NORMALS_H

@@ -6,7 +6,7 @@
 #ifndef TSPACE_TSPACE_PACK_H
 #define TSPACE_TSPACE_PACK_H
 
-#include "tspace/tspace.h"
+#include "tspace/tspace_tangents.h"
 
 #if defined(__GNUC__) && !defined(_WIN32)
 #pragma GCC visibility push(default)

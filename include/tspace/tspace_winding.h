@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Mends the winding of faces: those that are wound against their neighbours, and whole parts that are inside out.
  * In C: part of tspace/tspace.h, which includes it. */
-#include "tspace/tspace.h" /* first: it includes all parts */
+#include "tspace/tspace_tangents.h"
 
 #ifndef TSPACE_TSPACE_WINDING_H
 #define TSPACE_TSPACE_WINDING_H

@@ -16,7 +16,7 @@ from tspace import _abi, _files, _files_abi
 
 ROOT = Path(__file__).resolve().parents[3]
 INCLUDE, OPTIONS = ROOT / "include", ROOT / "src/commands"
-HEADERS = ("tspace.h", "tspace_frame.h", "tspace_indexed_frames.h", "tspace_normals.h", "tspace_pack.h", "tspace_winding.h", "tspace_files.h")
+HEADERS = ("tspace_tangents.h", "tspace_frame.h", "tspace_indexed_frames.h", "tspace_normals.h", "tspace_pack.h", "tspace_winding.h", "tspace_files.h")
 ENUMERATIONS = {
     "METHOD": _abi.METHODS,
     "PAIRING": _abi.PAIRINGS,
