@@ -48,7 +48,7 @@ const inlined = (threshold) => ["-mllvm", `-inline-threshold=${threshold}`];
 const copiesLess = ["-mllvm", "-enable-pre=false", "-mllvm", "-jump-threading-threshold=0"];
 const smallFlags = ["-fno-slp-vectorize", ...copiesLess, ...inlined(-15)];
 const fastFlags = ["-O2", "-DTSPACE_FAST_KERNELS", ...inlined(600)];
-const loops = /mikktspace\/(grid_order|weld)\.cpp|core\/base\/(weld|range_lists)\.cpp|frames\/(split|sanitize)\.cpp/;
+const loops = /mikktspace\/(grid_order|weld|welded_mesh)\.cpp|core\/base\/(weld|range_lists)\.cpp|frames\/(split|sanitize)\.cpp/;
 const hot = /mikktspace\/(corner_terms_kernel|one_pass\.cpp|node_sums\.cpp)|core\/pack\/\w+_kernel/;
 
 const modules = {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Which corner of a node the reference keeps, against a plain replay of its search.
+#include "core/tangents/mikktspace/grid_order.h"
 #include "core/tangents/mikktspace/last_bucket.h"
 
 #include <gtest/gtest.h>
@@ -9,6 +10,7 @@
 #include <numeric>
 #include <random>
 
+#include "core/tangents/mikktspace/weld.h"
 #include "core/tangents/mikktspace/words.h"
 #include "core/tangents/shapes.h"
 

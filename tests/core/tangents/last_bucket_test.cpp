@@ -12,6 +12,8 @@
 #include <random>
 
 #include "core/tangents/golden_mesh.h"
+#include "core/tangents/mikktspace/grid_order.h"
+#include "core/tangents/mikktspace/weld.h"
 #include "core/tangents/mikktspace/words.h"
 #include "core/tangents/shapes.h"
 

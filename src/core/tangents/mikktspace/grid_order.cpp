@@ -6,7 +6,7 @@
 //
 // Every partition halves one axis of a float box, so the number of levels is bounded by the range of floats
 // whatever the input; the stack of ranges stays short because the smaller side is always divided first.
-#include "core/tangents/mikktspace/last_bucket.h"
+#include "core/tangents/mikktspace/grid_order.h"
 
 #include <algorithm>
 #include <array>
@@ -14,7 +14,7 @@
 #include <utility>
 
 #include "core/base/vec_math.h"
-#include "core/tangents/mikktspace/weld.h"
+#include "core/tangents/mikktspace/welded_mesh.h"
 #include "core/tangents/mikktspace/words.h"
 
 namespace tspace::mikk {

@@ -38,7 +38,8 @@
 
 #include "core/base/sort.h"
 #include "core/base/vec_math.h"
-#include "core/tangents/mikktspace/weld.h"
+#include "core/tangents/mikktspace/grid_order.h"
+#include "core/tangents/mikktspace/welded_mesh.h"
 #include "core/tangents/mikktspace/words.h"
 
 namespace tspace::mikk {

@@ -14,7 +14,7 @@
 #include "core/base/vec_math.h"
 #include "core/base/weld.h"
 #include "core/frames/triangulate.h"
-#include "core/tangents/mikktspace/last_bucket.h"
+#include "core/tangents/mikktspace/grid_order.h"
 #include "core/tangents/mikktspace/words.h"
 
 namespace tspace::mikk {
@@ -91,15 +91,6 @@ TriangleList cutFaces(const MeshView& mesh, Ngons ngons, const Allocator* alloca
         }
     });
     return list;
-}
-
-const std::uint32_t* readCutTriangles(const MeshView& mesh, const TriangleList& triangles, std::size_t first,
-                                      std::size_t count, std::uint32_t* buffer) {
-    const std::uint32_t* corners = triangles.corners.data() + 3 * first;
-    withIndices(mesh.indices, [&](auto vertexOf) {
-        for (std::size_t i = 0; i < 3 * count; ++i) buffer[i] = vertexOf(corners[i]);
-    });
-    return buffer;
 }
 
 // The reference sorts corners into cells of a grid and compares those of a small cell with each other. Here the vertices of
