@@ -322,7 +322,13 @@ def load(name):
     """The shared library of this name: the one in the package, or else the system's."""
     name = file_name(name)
     bundled = Path(__file__).parent / "_lib" / name
-    return ctypes.CDLL(str(bundled) if bundled.exists() else name)
+    try:
+        return ctypes.CDLL(str(bundled) if bundled.exists() else name)
+    except OSError as error:
+        # The loader's words for a library that is there, and for which there is no memory.
+        if any(words in str(error) for words in ("failed to map segment", "annot allocate", "cannot map")):
+            raise MemoryError(str(error)) from error
+        raise
 
 
 def declare(library, signatures):
