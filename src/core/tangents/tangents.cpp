@@ -58,15 +58,18 @@ TangentReport planAndEvaluate(const MeshView& mesh, const Call<TangentOptions>& 
 
 TangentReport generateWith(const MeshView& mesh, const Call<TangentOptions>& options, const TangentOutput& out,
                            Parallel& parallel) {
-    if (isMikktspace(options.method) && thresholdCosine(options.angular_threshold_deg) != -1.0f)
-        return planAndEvaluate(mesh, options, out, parallel);
+    const bool may_separate = isMikktspace(options.method) && thresholdCosine(options.angular_threshold_deg) != -1.0f;
+    if (may_separate && mesh.cornerCount() > kTermCorners) return planAndEvaluate(mesh, options, out, parallel);
     const Allocator* allocator = options.execution.allocator;
     const TriangleList triangles = cutFaces(mesh, options.ngons, allocator);
     ScratchBlock transient(allocator, unwritten(out));
     Nodes nodes = weld(mesh, triangles, allocator, parallel, transient.allocator());
     const LastBucket bucket = lastBucketOf({mesh, triangles, nodes}, options, transient.allocator(), parallel);
     listVertices(nodes, allocator);
-    return evaluateInOnePass({{mesh, triangles, nodes}, options, bucket}, out, transient, parallel);
+    const NodeSetting setting{{mesh, triangles, nodes}, options, bucket};
+    if (isSmall(setting)) return evaluateSmall(setting, out);
+    if (may_separate) return planAndEvaluate(mesh, options, out, parallel);
+    return evaluateInOnePass(setting, out, transient, parallel);
 }
 
 }  // namespace

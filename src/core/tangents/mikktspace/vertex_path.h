@@ -109,4 +109,9 @@ EvaluationPlan planChosen(const VertexPath& path);
 TangentReport evaluateInOnePass(const NodeSetting& setting, const TangentOutput& out, ScratchBlock& transient,
                                 Parallel& parallel, unsigned range_shift = 0);
 
+/// Whether evaluateSmall applies: at most 64 triangles, which are the faces, with few vertices, and finite; mikktspace.
+bool isSmall(const NodeSetting& setting);
+/// The results of evaluateInOnePass, and of plans for any angular threshold, for a small mesh (small_mesh.cpp).
+TangentReport evaluateSmall(const NodeSetting& setting, const TangentOutput& out);
+
 }  // namespace tspace::mikk

@@ -1,0 +1,301 @@
+// SPDX-License-Identifier: MIT
+// Tangents of a mesh of at most 64 triangles, by the steps of plain.cpp, on the stack: what all corners add is computed at once
+// (corner_terms.h), and a set of triangles is a word of 64 bits. The results are those of the vertex path, which this replaces
+// there: plans and lists cost more than the tangents of so few triangles.
+#include <algorithm>
+#include <bit>
+
+#include "core/tangents/mikktspace/groups.h"
+
+namespace tspace::mikk {
+
+namespace {
+
+static_assert(kTermTriangles == 64);
+
+/// Half-edge k of triangle t is 4 * t + k here.
+using PackedEdge = std::uint8_t;
+constexpr PackedEdge kNoNeighbor = 255;
+constexpr unsigned kNext[] = {1, 2, 0}, kPrevious[] = {2, 0, 1};
+
+constexpr std::uint64_t bitOf(unsigned triangle) { return std::uint64_t{1} << triangle; }
+
+/// body(triangle) for each triangle of a set, ascending.
+template <class Body>
+void forTriangles(std::uint64_t triangles, const Body& body) {
+    for (; triangles != 0; triangles &= triangles - 1) body(static_cast<unsigned>(std::countr_zero(triangles)));
+}
+
+class SmallMesh {
+  public:
+    SmallMesh(const NodeSetting& setting, const TangentOutput& out)
+        : in_(setting),
+          tangents_(out.tangents),
+          sink_(out, setting.options.convention),
+          defaults_(out),
+          count_(static_cast<unsigned>(setting.triangles.count)),
+          wants_rest_(!wantsTangentsOnly(out)),
+          cosine_(thresholdCosine(setting.options.angular_threshold_deg)),
+          rest_(setting.options.execution.allocator, wants_rest_ ? 3 * setting.triangles.count + 1 : 0) {}
+
+    TangentReport run() {
+        readTriangles();
+        pairEdges();
+        for (unsigned t = 0; t < count_; ++t) {
+            for (unsigned k = 0; k < 3; ++k) openGroup(t, k);
+        }
+        finishMeans();
+        if (good_ != (~std::uint64_t{0} >> (64 - count_))) copyToDegenerate();
+        writeCorners();
+        return report_;
+    }
+
+  private:
+    // Steps 1 to 3.
+
+    void readTriangles() {
+        const unsigned count = count_;
+        const std::uint32_t* const vertices = mikk::readTriangles(in_.mesh, in_.triangles, 0, count, vertices_);
+        if (vertices != vertices_) std::copy_n(vertices, 3 * count, vertices_);
+        const std::uint32_t* const nodes = in_.nodes.ofVertices(vertices_, 3 * count, nodes_);
+        if (nodes != nodes_) std::copy_n(nodes, 3 * count, nodes_);
+        for (unsigned i = 0; in_.nodes.mixed && i < 3 * count; ++i) vertices_[i] = in_.nodes.vertex(nodes_[i]);
+        const std::size_t padded = (count + kTermGroup - 1) / kTermGroup * kTermGroup;
+        std::fill(vertices_ + 3 * count, vertices_ + 3 * padded, vertices_[0]);
+        computeTerms(Weighting::projected_angle, !wants_rest_, terms_);
+        for (unsigned t = 0; t < count; ++t) {
+            const std::uint32_t marks = terms_.marks[0][t];
+            if ((marks & kDegenerateMark) != 0) continue;
+            good_ |= bitOf(t);
+            if ((marks & kNoUvArea) == 0) adding_ |= bitOf(t);
+            if ((marks & kMirroredMark) == 0) up_ |= bitOf(t);
+        }
+        const auto sizeOf = [](std::uint64_t set) { return static_cast<unsigned>(std::popcount(set)); };
+        report_.triangle_count = count;
+        report_.degenerate_triangle_count = count - sizeOf(good_);
+        report_.degenerate_uv_count = sizeOf(good_ & ~adding_);
+        report_.mirrored_count = sizeOf(adding_ & ~up_);
+    }
+
+    void computeTerms(Weighting weighting, bool tangents_only, CornerTerms& terms) const {
+        const Pose pose{in_.mesh.positions, in_.mesh.normals};
+        const CornerSource source{vertexArrays(pose, in_.mesh.uvs), weighting, tangents_only, true};
+        cornerTermsFor(in_.options.execution.simd)(source, vertices_, in_.triangles.count, terms);
+    }
+
+    // Step 4.
+
+    /// Each half-edge takes the oldest waiting one between the same nodes that runs the other way, or waits (groups.h).
+    void pairEdges() {
+        std::fill_n(around_, in_.nodes.count, std::uint64_t{0});
+        std::fill_n(neighbors_, 4 * in_.triangles.count, kNoNeighbor);
+        forTriangles(good_, [&](unsigned t) {
+            const std::uint32_t* const n = nodes_ + 3 * t;
+            for (unsigned k = 0; k < 3; ++k) {
+                std::uint64_t others = around_[n[k]] & around_[n[kNext[k]]];
+                for (; others != 0; others &= others - 1) {
+                    const auto other = static_cast<unsigned>(std::countr_zero(others));
+                    const std::uint32_t* const m = nodes_ + 3 * other;
+                    const unsigned j = m[0] == n[kNext[k]] ? 0 : m[1] == n[kNext[k]] ? 1 : 2;
+                    if (m[kNext[j]] != n[k] || neighbors_[4 * other + j] != kNoNeighbor) continue;
+                    neighbors_[4 * other + j] = static_cast<PackedEdge>(4 * t + k);
+                    neighbors_[4 * t + k] = static_cast<PackedEdge>(4 * other + j);
+                    break;
+                }
+            }
+            for (unsigned k = 0; k < 3; ++k) around_[n[k]] |= bitOf(t);
+        });
+        const auto inBits = [](std::uint32_t h) {
+            return static_cast<PackedEdge>(h == kNone ? kNone : h / 3 * 4 + h % 3);
+        };
+        for (const LastBucket::Link& link : in_.bucket.links) neighbors_[inBits(link.half_edge)] = inBits(link.partner);
+    }
+
+    // Steps 5 and 6. Means are numbered from 1; number 0 is the default, of corners that no group reaches.
+
+    void openGroup(unsigned t, unsigned k) {
+        if ((adding_ & bitOf(t)) == 0 || mean_of_[3 * t + k] != 0) return;
+        const bool up = (up_ & bitOf(t)) != 0;
+        std::uint64_t members = bitOf(t);
+        corner_of_[t] = static_cast<std::uint8_t>(k);
+        mean_of_[3 * t + k] = static_cast<std::uint8_t>(means_);
+        walk(t, k, true, up, members);
+        walk(t, k, false, up, members);
+        ++report_.group_count;
+        const std::uint64_t adding = members & adding_;
+        std::uint32_t marks = kAllMarks;
+        forTriangles(adding, [&](unsigned member) { marks &= marksOf(member); });
+        const bool is_alone = (members & (members - 1)) == 0;
+        is_alone || areNear(marks) ? addMean(adding, up) : separate(up, members);
+    }
+
+    /// Adds the triangles that follow around the node, until one is missing, taken, or has the other orientation.
+    void walk(unsigned t, unsigned k, bool forward, bool up, std::uint64_t& members) {
+        for (;;) {
+            const PackedEdge across = neighbors_[4 * t + (forward ? k : kPrevious[k])];
+            if (across == kNoNeighbor) return;
+            t = across / 4;
+            k = forward ? kNext[across % 4] : across % 4;
+            const std::uint64_t bit = bitOf(t);
+            std::uint8_t* const means = mean_of_ + 3 * t;
+            if (means[k] != 0) return;
+            const bool may_turn = (adding_ & bit) == 0 && (means[0] | means[1] | means[2]) == 0;
+            if (may_turn) up_ = up ? up_ | bit : up_ & ~bit;
+            if (((up_ & bit) != 0) != up) return;
+            means[k] = static_cast<std::uint8_t>(means_);
+            members |= bit;
+            corner_of_[t] = static_cast<std::uint8_t>(k);
+        }
+    }
+
+    [[nodiscard]] unsigned rowOf(unsigned t) const { return 3 * t + corner_of_[t]; }
+    [[nodiscard]] std::uint32_t marksOf(unsigned t) const { return terms_.marks[corner_of_[t]][t]; }
+
+    /// Whether marks that some corners have in common show that these are averaged (corner_terms.h).
+    [[nodiscard]] bool areNear(std::uint32_t marks) const {
+        return cosine_ == -1.0f && (marks & kTangentSides) != 0 && (marks & kBitangentSides) != 0;
+    }
+
+    /// Each member gets the mean of those whose directions differ from its own by less than the threshold.
+    [[gnu::noinline]] void separate(bool up, std::uint64_t members) {
+        const std::uint64_t adding = members & adding_;
+        std::uint64_t last = 0;
+        forTriangles(members, [&](unsigned a) {
+            std::uint64_t set = adding;
+            forTriangles((adding & bitOf(a)) != 0 ? adding & ~bitOf(a) : 0, [&](unsigned b) {
+                if (!areAveraged(a, b)) set &= ~bitOf(b);
+            });
+            if (set != last) addMean(set, up);
+            last = set;
+            mean_of_[rowOf(a)] = static_cast<std::uint8_t>(means_ - 1);
+        });
+    }
+
+    /// By marks where these are sure, else by directions.
+    [[nodiscard]] bool areAveraged(unsigned a, unsigned b) {
+        if (areNear(marksOf(a) & marksOf(b))) return true;
+        if (!has_directions_) computeTerms(Weighting::one, false, directions_);
+        has_directions_ = true;
+        const auto areWithin = [&](const float(*rows)[4]) {
+            return dot(vectorOf(rows[rowOf(a)]), vectorOf(rows[rowOf(b)])) > cosine_;
+        };
+        return areWithin(directions_.s) && areWithin(directions_.t);
+    }
+
+    /// The sum of some triangles becomes the next mean.
+    void addMean(std::uint64_t set, bool up) {
+        Float4 sum{};
+        forTriangles(set, [&](unsigned t) { sum += loadFloat4(terms_.s[rowOf(t)]); });
+        storeFloat4(sums_[means_], sum);
+        signs_[means_] = sink_.sign(up);
+        if (wants_rest_) {
+            rest_[means_] = {};
+            forTriangles(set, [&](unsigned t) { addRest(rest_[means_], terms_, t, corner_of_[t]); });
+        }
+        ++means_;
+    }
+
+    /// Turns sums into means, in place. Four at a time: divisions and roots wait for each other otherwise.
+    void finishMeans() {
+        const Tangents none{};
+        for (unsigned i = means_; i < means_ + 3; ++i) std::fill_n(sums_[i], 4, 1.0f);
+        std::fill_n(signs_ + means_, 3, 1.0f);
+        for (unsigned i = 1; wants_rest_ && i < means_; ++i)
+            rest_[i] = restOf(mikk::meanOf({}, rest_[i], sums_[i][3], false));
+        for (unsigned i = 1; i < means_; i += 4) {
+            Float4 x = loadFloat4(sums_[i]), y = loadFloat4(sums_[i + 1]), z = loadFloat4(sums_[i + 2]),
+                   w = loadFloat4(sums_[i + 3]);
+            transpose4(x, y, z, w);
+            const Float4 square = dot(Vec3x4{x, y, z}, Vec3x4{x, y, z});
+            if (laneBits((square > splat(0)) & (square < splat(__builtin_huge_valf()))) != 15u) {
+                for (unsigned j = i; j < i + 4; ++j) finishUnusual(j);
+                continue;
+            }
+            const Float4 inverse = splat(1) / sqrt4(square);
+            x = inverse * x;
+            y = inverse * y;
+            z = inverse * z;
+            w = loadFloat4(signs_ + i);
+            transpose4(x, y, z, w);
+            storeFloat4(sums_[i], x);
+            storeFloat4(sums_[i + 1], y);
+            storeFloat4(sums_[i + 2], z);
+            storeFloat4(sums_[i + 3], w);
+        }
+        const float first[4] = {none.s.x, none.s.y, none.s.z, sink_.sign(none.positive)};
+        std::copy_n(first, 4, sums_[0]);
+        if (wants_rest_) rest_[0] = restOf(none);
+    }
+
+    /// A sum that vanishes, or is not finite.
+    [[gnu::cold]] void finishUnusual(unsigned i) {
+        const Vec3 mean = unit(vectorOf(sums_[i]));
+        const float row[4] = {mean.x, mean.y, mean.z, signs_[i]};
+        std::copy_n(row, 4, sums_[i]);
+        finite_ &= isFinite(mean);
+    }
+
+    // Steps 7 and 8.
+
+    /// A degenerate triangle copies, for each corner, the first other corner at its node.
+    void copyToDegenerate() {
+        for (unsigned t = 0; t < count_; ++t) {
+            for (unsigned k = 0; (good_ & bitOf(t)) == 0 && k < 3; ++k) {
+                const std::uint32_t node = nodes_[3 * t + k];
+                if (around_[node] == 0) continue;
+                const auto first = static_cast<unsigned>(std::countr_zero(around_[node]));
+                const std::uint32_t* const n = nodes_ + 3 * first;
+                mean_of_[3 * t + k] = mean_of_[3 * first + (n[0] == node ? 0 : n[1] == node ? 1 : 2)];
+            }
+        }
+    }
+
+    void writeCorners() {
+        for (unsigned corner = 0; corner < 3 * count_; ++corner) {
+            const unsigned mean = mean_of_[corner];
+            storeFloat4(&tangents_[corner].x, loadFloat4(sums_[mean]));
+            if (wants_rest_) sink_.writeRest(corner, rest_[mean]);
+            if (mean == 0) defaults_.add(corner);
+            if (!finite_) report_.not_finite_count += !sink_.isFinite(corner);
+        }
+        report_.default_corner_count = defaults_.count();
+    }
+
+    const NodeSetting& in_;
+    StridedSpan<Vec4> tangents_;
+    Sink sink_;
+    DefaultCorners defaults_;
+    unsigned count_;
+    bool wants_rest_, finite_ = true, has_directions_ = false;
+    float cosine_;
+    TangentReport report_;
+    std::uint64_t good_ = 0;              // triangles that are not degenerate
+    std::uint64_t adding_ = 0;            // those with UV area
+    std::uint64_t up_ = 0;                // those that face up
+    std::uint64_t around_[kTermCorners];  // one per node: its triangles
+    std::uint32_t vertices_[kTermCorners], nodes_[kTermCorners];
+    PackedEdge neighbors_[4 * kTermTriangles];
+    std::uint8_t corner_of_[kTermTriangles];   // of members of the group that is being made: their corner at its node
+    std::uint8_t mean_of_[kTermCorners] = {};  // one per corner
+    // One per mean.
+    unsigned means_ = 1;
+    float sums_[kTermCorners + 4][4];
+    float signs_[kTermCorners + 4];
+    Buffer<GroupRest> rest_;          // empty where only tangents are wanted
+    CornerTerms terms_, directions_;  // directions_: with weights of 1, once has_directions_
+};
+
+}  // namespace
+
+bool isSmall(const NodeSetting& setting) {
+    return isMikktspace(setting.options.method) && setting.triangles.count <= kTermTriangles &&
+           setting.triangles.corners.empty() && setting.triangles.count != 0 && setting.nodes.count <= kTermCorners &&
+           setting.nodes.all_finite;
+}
+
+TangentReport evaluateSmall(const NodeSetting& setting, const TangentOutput& out) {
+    SmallMesh mesh(setting, out);
+    return mesh.run();
+}
+
+}  // namespace tspace::mikk
