@@ -19,15 +19,6 @@ std::string& rememberedCommand() {
     return command;
 }
 
-/// A word as a shell of POSIX takes it.
-std::string quotedWord(const std::string& word) {
-    constexpr const char* kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./:=,+@%-";
-    if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
-    std::string quoted = "'";
-    for (const char c : word) quoted += c == '\'' ? "'\\''" : std::string(1, c);
-    return quoted + "'";
-}
-
 std::string dateText(std::time_t time) {
     const std::tm utc = utcTime(time);
     std::array<char, 64> text{};
@@ -39,7 +30,7 @@ std::string dateText(std::time_t time) {
 void rememberCommandLine(std::span<char* const> words) {
     std::string& command = rememberedCommand();
     command = "tspace";
-    for (std::size_t i = 1; i < words.size(); ++i) command += " " + quotedWord(words[i]);
+    for (std::size_t i = 1; i < words.size(); ++i) command += " " + shellWord(words[i]);
 }
 
 Result<PageOrigin> pageOrigin() {

@@ -113,6 +113,8 @@ export interface Finding {
   message: string;
   /** How to mend it, for a person. */
   remedy: string;
+  /** The view of tspace render --show that shows it; empty: none does. */
+  show: string;
 }
 
 export interface InspectReport {

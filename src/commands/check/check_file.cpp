@@ -79,16 +79,21 @@ CheckReport check(const std::string& input, const CheckOptions& options) {
         countFindings(report);
         return report;
     }
-    if (options.progress) options.progress("reading", 0, 1);
+    const auto tell = [&](const char* what, std::uint64_t done) {
+        if (options.progress) options.progress(what, done, 1);
+    };
+    tell("reading", 0);
     const Scene scene = readScene(input, options.file, options.images);
-    if (options.progress) options.progress("reading", 1, 1);
+    tell("reading", 1);
     CheckReport report;
     report.format = scene.format;
     report.generator = scene.generator;
     report.primitive_count = scene.primitives.size();
     std::vector<PrimitiveJudgement> judgements = judgePrimitives(scene, options);
     ImageFindings images;
+    tell("checking normal maps", 0);
     if (options.images) images = checkImages(scene, options);
+    tell("comparing primitives", 0);
     report.image_count = images.looked_at;
     report.green_count = images.green_told;
     weighImages(scene, options, images, judgements);
@@ -147,6 +152,7 @@ Json findingJson(const Finding& finding) {
         {"vertices", finding.vertices},
         {"message", finding.message},
         {"remedy", finding.remedy},
+        {"show", findingLook(finding.code)},
     });
 }
 

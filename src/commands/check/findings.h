@@ -62,6 +62,9 @@ inline constexpr const char* kNothingToDo = "Nothing needs to be done; a reader 
 inline constexpr const char* kSignsFirst =
     "Correct the green channel and the inverted signs together: tspace generate --overwrite --flip-green.";
 
+/// The view of tspace render that shows what a finding is about ("sign"), or an empty text.
+const char* findingLook(FindingCode code);
+
 /// A finding with the tally's numbers, without a place.
 Finding makeFinding(FindingCode code, Severity severity, const Tally& tally, const char* unit, std::string message);
 

@@ -121,6 +121,8 @@ class Finding:
     message: str
     #: How to mend it, for a person.
     remedy: str
+    #: The view of tspace render --show that shows it; empty: none does.
+    show: str
 
 
 class InspectReport(Report):

@@ -9,7 +9,9 @@
 #include <utility>
 
 #include "commands/check/check_image.h"
+#include "commands/check/findings.h"
 #include "commands/generate/generate_model.h"
+#include "commands/shared/page/picture_pair.h"
 #include "commands/shared/page/place_pictures.h"
 #include "commands/shared/report.h"
 #include "commands/shared/request.h"
@@ -19,6 +21,7 @@ namespace tspace {
 namespace {
 
 constexpr std::string_view kCommand = "tspace generate";
+constexpr const char* kNothingToSee = "It changes nothing that this picture shows.";
 
 /// The word that begins at `at`, without what ends a sentence.
 std::string_view wordAt(std::string_view text, std::size_t at) {
@@ -114,32 +117,38 @@ FindingPicture FindingPictures::draw(const Finding& finding) {
     const RenderFrames frames = lacks ? RenderFrames::stored : RenderFrames::automatic;
     const std::vector<std::size_t> triangles =
         trianglesAt(model_->before.scene().primitives[primitive], finding.vertices);
-    result.before = drawPlace(model_->before.lit(frames), RenderShow::lit, primitive, triangles);
     const std::optional<RemedyCommand> command = commandIn(finding.remedy);
-    if (result.before.empty() || !command) return result;
-    result.command = command->text;
-    if (!command->options) {
-        result.why_no_after = "It leaves a choice open.";
-        return result;
+    if (command) {
+        result.command = command->text;
+        result.why_no_after = drawAfter(*command, primitive, triangles, frames, result);
+        if (!result.after.empty() || result.why_no_after == kNothingToSee) return result;
     }
-    const Model::Mending& mending = model_->mendedBy(*command);
-    if (!mending.model) {
-        result.why_no_after = mending.why_not;
-        return result;
-    }
+    result.before = drawPlace(model_->before.lit(frames), RenderShow::lit, primitive, triangles);
+    return result;
+}
+
+std::string FindingPictures::drawAfter(const RemedyCommand& command, std::size_t primitive,
+                                       std::span<const std::size_t> triangles, RenderFrames frames,
+                                       FindingPicture& result) {
+    if (!command.options) return "It leaves a choice open.";
+    const Model::Mending& mending = model_->mendedBy(command);
+    if (!mending.model) return mending.why_not;
     const auto pair = std::find_if(mending.model->pairs.begin(), mending.model->pairs.end(),
                                    [&](const PrimitivePair& candidate) { return candidate.a == primitive; });
-    if (pair != mending.model->pairs.end() && pair->b != kNoPrimitive) {
-        const std::vector<std::size_t> partners = partnersOf(*pair, triangles);
-        if (partners.size() == triangles.size())
-            result.after = drawPlace(mending.model->model.lit(frames), RenderShow::lit, pair->b, partners);
-    }
-    if (result.after.empty()) result.why_no_after = "It cuts this place into other triangles.";
-    if (result.after == result.before) {
-        result.after.clear();
-        result.why_no_after = "It changes nothing that this picture shows.";
-    }
-    return result;
+    if (pair == mending.model->pairs.end() || pair->b == kNoPrimitive)
+        return "It cuts this place into other triangles.";
+    PicturePair drawn =
+        drawPair({model_->before.lit(frames), primitive}, triangles, {mending.model->model.lit(frames), pair->b});
+    if (drawn.before.empty()) return kNothingToSee;
+    result.before = std::move(drawn.before);
+    result.after = std::move(drawn.after);
+    result.difference = std::move(drawn.difference);
+    result.is_clay = drawn.is_clay;
+    const auto tenths = static_cast<std::uint64_t>(1000 * drawn.differing_share);
+    result.caption = "difference" +
+                     (drawn.gain == 1 ? std::string() : ", " + std::to_string(drawn.gain) + " times as bright") + ": " +
+                     std::to_string(tenths / 10) + "." + std::to_string(tenths % 10) + " % of the pixels";
+    return {};
 }
 
 namespace {
@@ -165,10 +174,16 @@ std::string whereHtml(const Finding& finding) {
 }
 
 std::string figuresOf(const FindingPicture& picture) {
-    if (picture.before.empty()) return {};
+    if (picture.before.empty())
+        return picture.why_no_after.empty()
+                   ? ""
+                   : noFigureHtml("No pictures: " + picture.command + " changes nothing that a picture shows.");
     const std::string command = "after " + picture.command;
-    std::string figures = figureHtml(picture.before, kPlaceWidth, kPlaceHeight, "as the file is");
-    if (!picture.after.empty()) return figures + figureHtml(picture.after, kPlaceWidth, kPlaceHeight, command);
+    std::string figures = figureHtml(picture.before, kPlaceWidth, kPlaceHeight,
+                                     picture.is_clay ? "as the file is, without base color" : "as the file is");
+    if (!picture.after.empty())
+        return figures + figureHtml(picture.after, kPlaceWidth, kPlaceHeight, command) +
+               figureHtml(picture.difference, kPlaceWidth, kPlaceHeight, picture.caption);
     const std::string why = picture.command.empty() ? "No picture of the remedy: no command of tspace gives it."
                                                     : "No picture " + command + ": " + picture.why_no_after;
     return figures + noFigureHtml(why);
@@ -178,12 +193,15 @@ std::string figuresOf(const FindingPicture& picture) {
 /// asked for.
 class PictureSource {
   public:
-    PictureSource(std::string input, const FileOptions& file, std::size_t room)
-        : input_(std::move(input)), file_(file), room_(room) {}
+    PictureSource(std::string input, const FileOptions& file, std::size_t room, const Progress& progress)
+        : input_(std::move(input)), file_(file), progress_(progress), room_(room) {}
+
+    [[nodiscard]] const std::string& input() const { return input_; }
 
     std::string html(const Finding& finding) {
         if (finding.place.empty() || is_over_ || input_ == "-") return {};
         std::string figures;
+        if (progress_) progress_("drawing pictures", count_, kMostPicturedFindings);
         try {
             if (!pictures_) pictures_ = std::make_unique<FindingPictures>(input_, file_);
             figures = figuresOf(pictures_->draw(finding));
@@ -201,6 +219,7 @@ class PictureSource {
   private:
     std::string input_;
     FileOptions file_;
+    const Progress& progress_;
     std::unique_ptr<FindingPictures> pictures_ = {};
     std::size_t room_, count_ = 0;
     bool is_over_ = false;
@@ -212,7 +231,13 @@ std::string findingHtml(const Finding& finding, PictureSource* pictures) {
                        severityName(finding.severity) + "</b> " + findingName(finding.code) + "</h3>\n";
     html += "<p>" + htmlText(finding.message) + "</p>\n" + whereHtml(finding);
     html += "<p>Mend: " + htmlText(finding.remedy) + "</p>\n";
-    if (pictures != nullptr) html += pictures->html(finding);
+    if (pictures == nullptr) return html + "</article>\n";
+    html += pictures->html(finding);
+    if (const char* look = findingLook(finding.code);
+        *look != '\0' && pictures->input() != "-" && !finding.place.empty())
+        html += "<p>A larger picture: <code>" +
+                htmlText("tspace render " + shellWord(pictures->input()) + " -o picture.png --show " + look) +
+                "</code></p>\n";
     return html + "</article>\n";
 }
 
@@ -261,25 +286,27 @@ std::string overviewHtml(const std::vector<report::CheckOutcome>& outcomes) {
 }  // namespace
 
 std::string checkedFileHtml(const report::CheckOutcome& outcome, std::size_t number, const FileOptions& file,
-                            std::size_t room) {
-    PictureSource pictures(outcome.input, file, room);
+                            std::size_t room, const Progress& progress) {
+    PictureSource pictures(outcome.input, file, room, progress);
     return fileHtml(outcome, number, &pictures);
 }
 
 std::string findingsHtml(const report::CheckOutcome& outcome) { return fileHtml(outcome, 0, nullptr); }
 
 std::string checkPage(const std::vector<report::CheckOutcome>& outcomes, const FileOptions& file,
-                      const PageOrigin& origin) {
+                      const PageOrigin& origin, const Progress& progress) {
     std::string html = pageHead("tspace check");
     html += "<h1>Frames of " + counted(outcomes.size(), "file") + "</h1>\n";
-    html += originHtml(origin) +
-            "<p class=\"dim\">An error surely renders wrong; a warning renders wrong in some "
-            "renderers, in a small part, or only perhaps; a note is worth knowing. Triangles of a finding are "
-            "outlined.</p>\n";
+    html +=
+        originHtml(origin) +
+        "<p class=\"dim\">An error surely renders wrong; a warning renders wrong in some "
+        "renderers, in a small part, or only perhaps; a note is worth knowing. A frame marks "
+        "the place of a finding. Pictures before and after have the camera and the light that show their difference "
+        "best.</p>\n";
     if (outcomes.size() > 1) html += overviewHtml(outcomes);
     for (std::size_t i = 0; i < outcomes.size(); ++i) {
         const std::size_t left = html.size() < kMostPageBytes ? kMostPageBytes - html.size() : 0;
-        html += checkedFileHtml(outcomes[i], i, file, std::min(left, kMostModelBytes));
+        html += checkedFileHtml(outcomes[i], i, file, std::min(left, kMostModelBytes), progress);
     }
     return html + pageEnd();
 }

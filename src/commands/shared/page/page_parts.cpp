@@ -72,6 +72,14 @@ std::string figuresHtml(const std::string& figures) {
     return figures.empty() ? figures : "<div class=\"pictures\">\n" + figures + "</div>\n";
 }
 
+std::string shellWord(const std::string& word) {
+    constexpr const char* kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./:=,+@%-";
+    if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
+    std::string quoted = "'";
+    for (const char c : word) quoted += c == '\'' ? "'\\''" : std::string(1, c);
+    return quoted + "'";
+}
+
 std::string htmlText(std::string_view text) {
     std::string result;
     for (const char c : text) {

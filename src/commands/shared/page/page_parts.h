@@ -38,6 +38,9 @@ std::string figuresHtml(const std::string& figures);
 /// Opens a table that scrolls where a window is narrow, by keys too; closed by </table></div>.
 inline constexpr std::string_view kWideTable = "<div class=\"scroll\" tabindex=\"0\"><table>";
 
+/// A word as a shell of POSIX takes it.
+std::string shellWord(const std::string& word);
+
 /// Text from a file or of a user, fit to stand in HTML or in quotation marks as a value. Bytes that are no UTF-8 are for
 /// the browser to replace.
 std::string htmlText(std::string_view text);

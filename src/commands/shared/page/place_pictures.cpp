@@ -16,8 +16,8 @@
 namespace tspace {
 namespace {
 
-constexpr std::uint32_t kPlaceSamples = 2;
-constexpr Vec3 kOutline{0.90f, 0.05f, 0.45f};
+constexpr PictureSize kPlaceSize{kPlaceWidth, kPlaceHeight, 2};
+constexpr Vec3 kFrame{0.90f, 0.05f, 0.45f};
 
 DVec3 placeOfCorner(const DrawnMesh& mesh, std::size_t corner) {
     return mesh.to_world.point(toDouble(mesh.positions[mesh.corners[corner]]));
@@ -33,88 +33,95 @@ ViewAngles anglesOf(DVec3 direction) {
     return {kDegrees * (direction.x < 0 ? -yaw : yaw), kDegrees * (direction.y < 0 ? -pitch : pitch)};
 }
 
-/// Corners of triangles in the world, and the sum of their normals.
-struct PlacePoints {
-    PlacePoints(const DrawnMesh& mesh, std::span<const std::size_t> triangles) {
-        for (const std::size_t triangle : triangles) {
-            const DVec3 a = placeOfCorner(mesh, 3 * triangle), b = placeOfCorner(mesh, 3 * triangle + 1),
-                        c = placeOfCorner(mesh, 3 * triangle + 2);
-            normal = normal + cross(b - a, c - a);
-            points.insert(points.end(), {a, b, c});
-        }
-        if (mesh.to_world.determinant() < 0) normal = -1.0 * normal;
+}  // namespace
+
+PlacePoints::PlacePoints(const DrawnMesh& mesh, std::span<const std::size_t> triangles) {
+    for (const std::size_t triangle : triangles) {
+        const DVec3 a = placeOfCorner(mesh, 3 * triangle), b = placeOfCorner(mesh, 3 * triangle + 1),
+                    c = placeOfCorner(mesh, 3 * triangle + 2);
+        normal = normal + cross(b - a, c - a);
+        points.insert(points.end(), {a, b, c});
     }
-
-    std::vector<DVec3> points = {};
-    DVec3 normal = {};
-};
-
-/// A camera that holds the points, scaled by `around` about their centre.
-Camera cameraOver(const PlacePoints& place, const ViewAngles& angles, double around, std::uint32_t width,
-                  std::uint32_t height) {
-    DVec3 centre;
-    for (const DVec3& point : place.points) centre = centre + (1 / static_cast<double>(place.points.size())) * point;
-    return Camera::around(
-        [&](const std::function<void(const DVec3&)>& visit) {
-            for (const DVec3& point : place.points) visit(centre + around * (point - centre));
-        },
-        angles, 30, width, height);
+    if (mesh.to_world.determinant() < 0) normal = -1.0 * normal;
 }
 
-/// The view of a place.
-struct PlaceView {
-    ViewAngles angles = {35, 20};
-    double around = 1;
-    bool is_alone = false;  ///< without other meshes, which hide it from every side
-};
+Camera PlaceView::camera(const PictureSize& size) const {
+    DVec3 centre;
+    for (const DVec3& point : points.points) centre = centre + (1 / static_cast<double>(points.points.size())) * point;
+    return Camera::around(
+        [&](const std::function<void(const DVec3&)>& visit) {
+            for (const DVec3& point : points.points) visit(centre + around * (point - centre));
+        },
+        angles, 30, size.width * size.samples, size.height * size.samples);
+}
 
-/// A camera over the triangles, a little aside, so that relief is seen; farther aside where other triangles hide them.
-PlaceView viewOver(std::span<const DrawnMesh> meshes, std::size_t mesh, std::span<const std::size_t> triangles,
-                   const PlacePoints& place) {
+PlaceView viewOver(std::span<const DrawnMesh> meshes, std::size_t mesh, std::span<const std::size_t> triangles) {
     constexpr ViewAngles kTurns[] = {{12, 8}, {-30, 8}, {40, 8}, {12, 40}, {12, -40}, {-65, 8}, {70, 8}};
-    constexpr std::uint32_t kWidth = 80, kHeight = 60, kEnoughSamples = 60;
+    constexpr PictureSize kGlance{80, 60, 1};
+    constexpr std::size_t kEnoughSamples = 60;
     constexpr std::size_t kMostTriangles = 2000000;  // of more, no small pictures are drawn first
-    const ViewAngles over = anglesOf(place.normal);
-    PlaceView best{.around = 2.5, .is_alone = true};
+    PlaceView best{.points = PlacePoints(meshes[mesh], triangles), .around = 2.5, .is_alone = true, .is_place = true};
+    const ViewAngles over = anglesOf(best.points.normal);
+    PlaceView view = best;
+    view.is_alone = false;
     std::size_t most = 0, triangle_count = 0;
     for (const DrawnMesh& drawn : meshes) triangle_count += drawn.corners.size() / 3;
     for (const ViewAngles& turn : kTurns) {
-        const ViewAngles angles{over.yaw_deg + turn.yaw_deg, std::clamp(over.pitch_deg + turn.pitch_deg, -90.0, 90.0)};
-        if (&turn == kTurns) best.angles = angles;
-        if (triangle_count > kMostTriangles) return {angles, best.around, false};
+        view.angles = {over.yaw_deg + turn.yaw_deg, std::clamp(over.pitch_deg + turn.pitch_deg, -90.0, 90.0)};
+        if (&turn == kTurns) best.angles = view.angles;
+        if (triangle_count > kMostTriangles) return view;
         Effort effort(std::uint64_t{1} << 28);
-        const VisibleTriangles visible(meshes, cameraOver(place, angles, best.around, kWidth, kHeight), kWidth, kHeight,
-                                       effort);
+        const VisibleTriangles visible(meshes, view.camera(kGlance), kGlance.width, kGlance.height, effort);
         std::size_t count = 0;
-        for (std::uint32_t y = 0; y < kHeight; ++y) {
+        for (std::uint32_t y = 0; y < kGlance.height; ++y) {
             for (const std::uint32_t number : visible.row(y)) {
                 if (number == VisibleTriangles::kNone) continue;
                 const VisibleTriangles::Place seen = visible.placeOf(number);
                 count += seen.mesh == mesh && std::binary_search(triangles.begin(), triangles.end(), seen.triangle);
             }
         }
-        if (count > most) best = {angles, best.around, false};
+        if (count > most) best = view;
         most = std::max(most, count);
         if (most >= kEnoughSamples) break;
     }
     return best;
 }
 
-void drawOutline(RgbImage& image, const Camera& camera, const DVec3& from, const DVec3& to) {
-    const SeenPoint a = camera.see(from), b = camera.see(to);
-    if (!(a.w > camera.leastW()) || !(b.w > camera.leastW())) return;
-    const double ax = a.x / a.w / kPlaceSamples, ay = a.y / a.w / kPlaceSamples, bx = b.x / b.w / kPlaceSamples,
-                 by = b.y / b.w / kPlaceSamples;
-    const double steps = std::max(std::fabs(bx - ax), std::fabs(by - ay));
-    if (!(steps < 4 * kPlaceWidth)) return;
-    for (int i = 0; i <= static_cast<int>(steps); ++i) {
-        const double t = steps < 1 ? 0 : i / steps;
-        fillRect(image, static_cast<std::int64_t>(std::floor(ax + t * (bx - ax))),
-                 static_cast<std::int64_t>(std::floor(ay + t * (by - ay))), 1, 1, kOutline);
-    }
+std::optional<std::size_t> meshOf(const ModelPicture& model, std::size_t primitive) {
+    const std::span<const ShownSurface* const> surfaces = model.surfaces();
+    const auto surface = std::find(surfaces.begin(), surfaces.end(), &model.surfaceOf(primitive).shown);
+    if (surface == surfaces.end()) return {};
+    return static_cast<std::size_t>(surface - surfaces.begin());
 }
 
-}  // namespace
+void drawFrame(RgbImage& image, const Camera& camera, const PlacePoints& place) {
+    constexpr double kBeside = 4, kLeastSide = 14, kMostPart = 0.9;
+    double left = HUGE_VAL, right = -HUGE_VAL, top = HUGE_VAL, bottom = -HUGE_VAL;
+    for (const DVec3& point : place.points) {
+        const SeenPoint seen = camera.see(point);
+        if (!(seen.w > camera.leastW())) return;
+        const double x = seen.x / seen.w / kPlaceSize.samples, y = seen.y / seen.w / kPlaceSize.samples;
+        left = std::min(left, x);
+        right = std::max(right, x);
+        top = std::min(top, y);
+        bottom = std::max(bottom, y);
+    }
+    const double wide = std::max(0.0, kLeastSide - (right - left)) / 2 + kBeside,
+                 high = std::max(0.0, kLeastSide - (bottom - top)) / 2 + kBeside;
+    left = std::floor(std::clamp(left - wide, 0.0, image.width - 1.0));
+    right = std::floor(std::clamp(right + wide, 0.0, image.width - 1.0));
+    top = std::floor(std::clamp(top - high, 0.0, image.height - 1.0));
+    bottom = std::floor(std::clamp(bottom + high, 0.0, image.height - 1.0));
+    // A frame around everything marks nothing.
+    if (!(right - left < kMostPart * image.width) && !(bottom - top < kMostPart * image.height)) return;
+    const auto x = static_cast<std::int64_t>(left), y = static_cast<std::int64_t>(top),
+               width = static_cast<std::int64_t>(right - left) + 1,
+               height = static_cast<std::int64_t>(bottom - top) + 1;
+    fillRect(image, x, y, width, 1, kFrame);
+    fillRect(image, x, y + height - 1, width, 1, kFrame);
+    fillRect(image, x, y, 1, height, kFrame);
+    fillRect(image, x + width - 1, y, 1, height, kFrame);
+}
 
 PicturedModel::PicturedModel(const std::string& input, const FileOptions& options)
     : PicturedModel(readDrawnScene(input, options, true)) {}
@@ -160,35 +167,27 @@ std::vector<std::size_t> partnersOf(const PrimitivePair& pair, std::span<const s
 
 std::vector<std::uint8_t> drawPlace(const ModelPicture& model, RenderShow show, std::size_t primitive,
                                     std::span<const std::size_t> triangles) {
-    const std::span<const ShownSurface* const> surfaces = model.surfaces();
-    const auto surface = std::find(surfaces.begin(), surfaces.end(), &model.surfaceOf(primitive).shown);
-    if (surface == surfaces.end()) return {};
-    const auto number = static_cast<std::size_t>(surface - surfaces.begin());
-    const DrawnMesh& mesh = model.meshes()[number];
+    const std::optional<std::size_t> number = meshOf(model, primitive);
+    if (!number) return {};
+    const DrawnMesh& mesh = model.meshes()[*number];
     std::vector<std::size_t> held(triangles.begin(), triangles.end());
     std::sort(held.begin(), held.end());
     if (triangles.empty()) {
         held.resize(mesh.corners.size() / 3);
         std::iota(held.begin(), held.end(), std::size_t{0});
     }
-    const PlacePoints place(mesh, held);
-    const PlaceView view = triangles.empty() ? PlaceView{} : viewOver(model.meshes(), number, held, place);
-    const Camera camera =
-        cameraOver(place, view.angles, view.around, kPlaceWidth * kPlaceSamples, kPlaceHeight * kPlaceSamples);
-    const std::size_t first = view.is_alone ? number : 0, count = view.is_alone ? 1 : surfaces.size();
+    const PlaceView view =
+        triangles.empty() ? PlaceView{.points = PlacePoints(mesh, held)} : viewOver(model.meshes(), *number, held);
+    const Camera camera = view.camera(kPlaceSize);
+    const std::span<const ShownSurface* const> surfaces = model.surfaces();
+    const std::size_t first = view.is_alone ? *number : 0, count = view.is_alone ? 1 : surfaces.size();
     Effort effort(std::uint64_t{1} << 30);
     Parallel parallel({});
     DVec3 to_light = -0.45 * camera.right() + 0.65 * camera.up() + 0.8 * camera.back();
     normalize(to_light);
-    SurfacePicture picture =
-        drawSurfaces(show, model.meshes().subspan(first, count), surfaces.subspan(first, count), camera, to_light,
-                     {kPlaceWidth, kPlaceHeight, kPlaceSamples}, effort, parallel);
-    for (const std::size_t triangle : triangles) {
-        for (std::size_t k = 0; k < 3; ++k) {
-            drawOutline(picture.image, camera, placeOfCorner(mesh, 3 * triangle + k),
-                        placeOfCorner(mesh, 3 * triangle + (k + 1) % 3));
-        }
-    }
+    SurfacePicture picture = drawSurfaces(show, model.meshes().subspan(first, count), surfaces.subspan(first, count),
+                                          camera, to_light, kPlaceSize, effort, parallel);
+    if (view.is_place) drawFrame(picture.image, camera, view.points);
     return encodePicture(picture.image);
 }
 

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -42,7 +43,37 @@ std::vector<std::size_t> trianglesAt(const ScenePrimitive& primitive, std::span<
 /// Partners of triangles of A; those without one are left out.
 std::vector<std::size_t> partnersOf(const PrimitivePair& pair, std::span<const std::size_t> triangles);
 
-/// A PNG of kPlaceWidth by kPlaceHeight pixels that shows what `model` was made for, in which the triangles are outlined. The camera stands over them,
+/// Corners of triangles in the world, and the sum of their normals.
+struct PlacePoints {
+    PlacePoints() = default;
+    PlacePoints(const DrawnMesh& mesh, std::span<const std::size_t> triangles);
+
+    std::vector<DVec3> points = {};
+    DVec3 normal = {};
+};
+
+/// The view of a place.
+struct PlaceView {
+    PlacePoints points = {};
+    ViewAngles angles = {35, 20};
+    double around = 1;  ///< scales the points about their center, so that some of what surrounds them is in the picture
+    bool is_alone = false;  ///< without other meshes, which hide it from every side
+    bool is_place = false;  ///< not all of a primitive
+
+    [[nodiscard]] Camera camera(const PictureSize& size) const;
+};
+
+/// A camera over triangles of a mesh, sorted, a little aside, so that relief is seen; farther aside where other triangles hide them.
+PlaceView viewOver(std::span<const DrawnMesh> meshes, std::size_t mesh, std::span<const std::size_t> triangles);
+
+/// Number of the first mesh that draws a primitive; nothing where the scene does not draw it.
+std::optional<std::size_t> meshOf(const ModelPicture& model, std::size_t primitive);
+
+/// Draws a rectangle around a place into a picture of kPlaceWidth by kPlaceHeight pixels, beside it, so that it hides nothing of it.
+/// Nothing where the place fills the picture. `camera`: of two samples per pixel.
+void drawFrame(RgbImage& image, const Camera& camera, const PlacePoints& place);
+
+/// A PNG of kPlaceWidth by kPlaceHeight pixels that shows what `model` was made for, with a frame around the triangles. The camera stands over them,
 /// where they are seen best; other meshes are left out where they hide them from every side. Without triangles it sees all
 /// of the primitive. Empty where the scene does not draw it. Throws FileError.
 std::vector<std::uint8_t> drawPlace(const ModelPicture& model, RenderShow show, std::size_t primitive,
