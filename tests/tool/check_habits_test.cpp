@@ -3,6 +3,9 @@
 #include <gtest/gtest-spi.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <iterator>
+
 #include <nlohmann/json.hpp>
 
 #include "tool/folder_files.h"
@@ -139,6 +142,19 @@ TEST(Sarif, HoldsEveryFindingWhereItIs) {
     EXPECT_EQ(log["runs"][0]["tool"]["driver"]["rules"].size(), kFindingCodeCount);
     EXPECT_EQ(folder.files().count("out.sarif"), 1U);
     EXPECT_EQ(folder.files().size(), 5U) << "no temporary file stays";
+}
+
+TEST(Sarif, LinksToARowPerCodeOrNowhere) {
+    TempFolder folder;
+    writeFoldedObj(folder, "folded.obj");
+    const Json log = Json::parse(runTool(folder, "check folded.obj --sarif -").out);
+    std::ifstream file(TSPACE_DOCS_DIR "/check.md");
+    const std::string page((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+    for (const Json& rule : log["runs"][0]["tool"]["driver"]["rules"]) {
+        const auto id = rule["id"].get<std::string>();
+        EXPECT_FALSE(rule.contains("helpUri")) << "this build knows no stable address of its documentation";
+        EXPECT_NE(page.find("<a id=\"" + id + "\"></a>"), std::string::npos) << id;
+    }
 }
 
 TEST(Sarif, GoesToStdoutAlone) {

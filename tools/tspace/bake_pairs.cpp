@@ -21,6 +21,7 @@
 #include "model/io/file_error.h"
 #include "model/io/file_io.h"
 #include "model/io/folder_rule.h"
+#include "model/io/recorded_files.h"
 #include "output_files.h"
 #include "report_outputs.h"
 
@@ -47,6 +48,7 @@ struct Pair {
 /// Throws FileError.
 std::vector<Pair> readTable(const BakePairsArguments& arguments) {
     const Bytes bytes = readFile(arguments.table);
+    recordInput(arguments.table);
     const Path folder = folderOf(arguments.table);
     std::vector<Pair> pairs;
     std::string_view rest(reinterpret_cast<const char*>(bytes.data()), bytes.size());
@@ -142,8 +144,9 @@ class PairsRun {
           pairs_(std::move(pairs)),
           done_(pairs_.size()),
           texts_(pairs_.size()),
-          workers_(workerCount(arguments.batch, pairs_.size())),
-          progress_(pairs_.size(), !arguments.quiet) {}
+          workers_(workerCount(arguments.batch, pairs_.size())) {
+        progressLine().setFileCount(pairs_.size());
+    }
 
     /// An error ends the run before anything was done.
     Result<Done> openManifest() {
@@ -156,7 +159,6 @@ class PairsRun {
         runBatch(
             pairs_.size(), workers_, [this](std::size_t pair) { work(pair); }, [this](std::size_t pair) { tell(pair); },
             [this] { return wasInterrupted() || output_is_closed_; });
-        progress_.clear();
         if (wasInterrupted()) endByInterrupt();
         if (output_is_closed_) return ExitCode::cannotReadOrWrite;
         const auto is_written = [](const report::BakedPair& pair) { return pair.outcome.result.ok(); };
@@ -190,9 +192,7 @@ class PairsRun {
             if (std::find(read.begin(), read.end(), path) == read.end()) read.push_back(path);
         };
         options.file.named = [](const std::string&) {};
-        options.progress = [&](const char* what, std::uint64_t done, std::uint64_t total) {
-            progress_.update(pair.job.input, what, done, total);
-        };
+        options.progress = progressOf(pair.job.input);
         return bakeFile(pair.job.input, pair.high, pair.job.output, options);
     }
 
@@ -219,7 +219,7 @@ class PairsRun {
                                      : report::bakeLine(done.outcome);
         });
         if (record_.isKept() && !done.outcome.was_done_before) record(pair, options, read, done);
-        progress_.fileDone(done.outcome.result.ok());
+        progressLine().fileDone(done.outcome.result.ok());
         done_[number] = std::move(done);
     }
 
@@ -252,7 +252,6 @@ class PairsRun {
     /// Called in the order of the table, one at a time.
     void tell(std::size_t number) {
         report::BakedPair& done = done_[number];
-        progress_.clear();
         if (!done.outcome.result) {
             done.exit_code = printErrorOfFiles({done.outcome.input, done.high}, done.outcome.result.error());
         } else {
@@ -274,7 +273,6 @@ class PairsRun {
     std::vector<report::BakedPair> done_;
     std::vector<std::string> texts_;  ///< what is printed about each
     unsigned workers_;
-    ProgressLine progress_;
     BatchRecord record_ = {};
     std::mutex mutex_;  ///< for the next one
     ExitCode exit_code_ = ExitCode::done;

@@ -6,14 +6,27 @@
 
 #include "common_options.h"
 #include "console.h"
+#include "depfile.h"
 #include "help.h"
 
 namespace tspace::tool {
 namespace {
 
+#ifdef TSPACE_TOOL_IMAGES
+constexpr bool kHasImages = true;
+#else
+constexpr bool kHasImages = false;
+#endif
+#ifdef TSPACE_TOOL_BAKING
+constexpr bool kHasBaking = true;
+#else
+constexpr bool kHasBaking = false;
+#endif
+
 struct Entry {
     const char* name;
     Command (*make)();
+    bool is_there = true;  ///< false: this build cannot do it, and lists it nowhere; started, it says why
 };
 Command helpCommand();
 constexpr Entry kCommands[] = {
@@ -23,20 +36,21 @@ constexpr Entry kCommands[] = {
     {"inspect", inspectCommand},
     {"check", checkCommand},
     {"flip-green", flipGreenCommand},
-    {"render", renderCommand},
+    {"render", renderCommand, kHasImages},
     {"convert-map", convertMapCommand},
-    {"height-to-normal", heightToNormalCommand},
+    {"height-to-normal", heightToNormalCommand, kHasImages},
     {"compress-map", compressMapCommand},
     {"view", viewCommand},
-    {"bake", bakeCommand},
+    {"bake", bakeCommand, kHasBaking},
     {"finish", finishCommand},
-    {"map-error", mapErrorCommand},
+    {"map-error", mapErrorCommand, kHasBaking},
     {"help", helpCommand},
 };
 
 Command commandOf(const Entry& entry) {
     Command command = entry.make();
     command.name = entry.name;
+    addDepfile(command);
     return command;
 }
 
@@ -53,8 +67,7 @@ Command helpCommand() {
     command.add("Input and output", about);
     command.add("Reporting", helpOption());
     command.run = [topic] {
-        const std::string page = topic->empty() ? helpPage(toolTable()) : helpPage(*findCommand(*topic));
-        return printResult(page) ? ExitCode::done : ExitCode::cannotReadOrWrite;
+        return printPage(topic->empty() ? helpPage(toolTable()) : helpPage(*findCommand(*topic)));
     };
     return command;
 }
@@ -63,7 +76,9 @@ Command helpCommand() {
 
 ToolTable toolTable() {
     ToolTable tool;
-    for (const Entry& entry : kCommands) tool.commands.push_back(commandOf(entry));
+    for (const Entry& entry : kCommands) {
+        if (entry.is_there) tool.commands.push_back(commandOf(entry));
+    }
     Option help = helpOption();
     help.group = "Options";
     Option version = option("-V, --version", "", help.take, "Print the version.");

@@ -31,6 +31,8 @@ struct Command {
     OptionList options = {};
     /// Called when all options are taken. Returns what makes no sense together, or nothing.
     std::function<std::string(const Given& given)> finish = {};
+    /// Reads what the command line names, before `run`; done, or the code of what it printed.
+    std::function<report::ExitCode()> prepare = {};
     /// Does what the options ask for, prints, and says how it went.
     std::function<report::ExitCode()> run = {};
     Reads reads = Reads::anything;
@@ -43,6 +45,9 @@ struct Command {
 
 /// The description in `tspace --help`.
 inline constexpr const char* kToolSummary = "exact tangent frames for the normal maps of 3D models";
+
+/// Whether the page that tspace view needs is installed with the tool.
+bool hasViewPage();
 
 /// The whole tool.
 struct ToolTable {
@@ -66,7 +71,7 @@ Command bakeCommand();
 Command finishCommand();
 Command mapErrorCommand();
 
-/// All commands, in the order in which help lists them.
+/// All commands that this build has, in the order in which help lists them.
 ToolTable toolTable();
 
 /// One of these, without the others: their options take a fifth of the time in which the tool starts. Nothing: there is none of

@@ -2,7 +2,16 @@
 // Options that several commands have.
 #include "common_options.h"
 
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+#include <optional>
 #include <set>
+
+#include "console.h"
+#include "model/io/file_error.h"
+#include "model/io/file_io.h"
+#include "model/io/recorded_files.h"
 
 namespace tspace::tool {
 namespace {
@@ -38,12 +47,56 @@ Option operand(const char* value_name, std::vector<std::string>& target, HelpTex
     return made;
 }
 
+namespace {
+
+/// Appends the paths that a list names: one per line, or separated by NUL bytes where it has any.
+ExitCode readFileList(const std::string& list, std::vector<std::string>& inputs) {
+    std::string text;
+    if (list == "-") {
+        char part[4096];
+        for (std::size_t count = 0; (count = std::fread(part, 1, sizeof part, stdin)) != 0;) text.append(part, count);
+        if (std::ferror(stdin) != 0) return printError("standard input", {ErrorCode::cannotRead, "it cannot be read"});
+    } else {
+        const std::optional<Error> failure = tryFile([&] {
+            const Bytes bytes = readFile(list);
+            text.assign(bytes.begin(), bytes.end());
+        });
+        if (failure) return printError(list, *failure);
+        recordInput(list);
+    }
+    const char end = text.find('\0') == std::string::npos ? '\n' : '\0';
+    for (std::size_t begin = 0; begin < text.size();) {
+        const std::size_t stop = std::min(text.find(end, begin), text.size());
+        std::string path = text.substr(begin, stop - begin);
+        if (end == '\n' && path.ends_with('\r')) path.pop_back();
+        if (!path.empty()) inputs.push_back(std::move(path));
+        begin = stop + 1;
+    }
+    return ExitCode::done;
+}
+
+}  // namespace
+
 void addInputs(Command& command, std::vector<std::string>& inputs) {
-    command.add(kInputAndOutput,
-                operand("IN...", inputs,
-                        "Model files (.glb, .vrm, .gltf, .obj; also .fbx, .ply, .stl, .dae, .3ds and more where "
-                        "tspace-import is installed), folders, and patterns in quotes ('models/**/*.glb'). Of a folder "
-                        "all model files in it and below are taken. '-': a GLB on stdin."));
+    Option& files = command.add(
+        kInputAndOutput,
+        operand("IN...", inputs,
+                "Model files (.glb, .vrm, .gltf, .obj; also .fbx, .ply, .stl, .dae, .3ds and more where "
+                "tspace-import is installed), folders, and patterns in quotes ('models/**/*.glb'). Of a folder "
+                "all model files in it and below are taken. '-': a GLB on stdin."));
+    files.is_required = false;
+    const auto list = std::make_shared<std::string>();
+    Option& from = command.add(kManyFiles, text("--files-from", "FILE", *list,
+                                                "Also read the names of inputs from this file, one per line, or "
+                                                "separated by NUL bytes; '-': from stdin. A list may be empty."));
+    from.is_file = true;
+    command.finish = [&inputs, list, finish = std::move(command.finish)](const Given& given) {
+        if (inputs.empty() && list->empty()) return std::string("IN... is missing");
+        if (*list == "-" && std::find(inputs.begin(), inputs.end(), "-") != inputs.end())
+            return std::string("--files-from - and the input - both want stdin");
+        return finish ? finish(given) : std::string();
+    };
+    command.prepare = [&inputs, list] { return list->empty() ? ExitCode::done : readFileList(*list, inputs); };
 }
 
 void addBatch(Command& command, BatchArguments& batch, bool with_manifest) {

@@ -14,6 +14,7 @@ namespace tspace::tool {
 /// A heading in help. Options under it decide how a command runs, not what it finds or writes.
 inline constexpr const char* kManyFiles = "Many files";
 
+/// The operand IN... and --files-from, whose files follow those of the operand when the command is prepared.
 void addInputs(Command& command, std::vector<std::string>& inputs);
 void addBatch(Command& command, BatchArguments& batch, bool with_manifest);
 /// Also --help.

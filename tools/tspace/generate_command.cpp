@@ -60,6 +60,7 @@ std::string finish(const Given& given, GenerateArguments& arguments) {
     arguments.option_text = resultOptions(given);
     const std::string wrong = options::finish(given, arguments.options);
     arguments.jobs.is_dry_run = arguments.options.dry_run;
+    arguments.jobs.has_list = given.has("--files-from");
     arguments.jobs.has_manifest = !arguments.batch.manifest.empty();
     return wrong;
 }
@@ -98,8 +99,9 @@ class GenerateRun {
           texts_(jobs_.size()),
           workers_(workerCount(arguments.batch, jobs_.size())),
           report_to_(arguments.jobs.output == "-" ? stderr : stdout),
-          wants_text_(!arguments.json && !arguments.quiet),
-          progress_(jobs_.size(), !arguments.quiet) {}
+          wants_text_(!arguments.json && !arguments.quiet) {
+        progressLine().setFileCount(jobs_.size());
+    }
 
     /// An error ends the run before anything was done.
     Result<Done> openManifest() { return record_.open(arguments_.batch, jobs_, arguments_.options.dry_run); }
@@ -108,7 +110,6 @@ class GenerateRun {
         runBatch(
             jobs_.size(), workers_, [this](std::size_t job) { work(job); }, [this](std::size_t job) { finish(job); },
             [this] { return wasInterrupted() || output_is_closed_; });
-        progress_.clear();
         if (wasInterrupted()) endByInterrupt();
         if (output_is_closed_) return ExitCode::cannotReadOrWrite;
         const auto report = [&] {
@@ -132,9 +133,7 @@ class GenerateRun {
         if (job.error.code != ErrorCode::ok) return job.error;
         GenerateOptions options = arguments_.options;
         options.execution.thread_count = threadsPerFile(options.execution.thread_count, workers_);
-        options.progress = [&](const char* what, std::uint64_t done, std::uint64_t total) {
-            progress_.update(job.input, what, done, total);
-        };
+        options.progress = progressOf(job.input);
         StandardInput standard_input;
         if (const Result<Done> opened = standard_input.open(job.input, options.file); !opened) return opened.error();
         if (job.output != "-") return generateFile(job.input, job.output, options);
@@ -160,7 +159,7 @@ class GenerateRun {
             if (outcome.result) texts_[number] = textOf(outcome);
         });
         if (record_.isKept() && !outcome.was_done_before) record(job, outcome);
-        progress_.fileDone(outcome.result.ok());
+        progressLine().fileDone(outcome.result.ok());
         outcomes_[number] = std::move(outcome);
     }
 
@@ -183,7 +182,6 @@ class GenerateRun {
     /// Reports a file. Called in the order of the files, one at a time.
     void finish(std::size_t number) {
         const report::GenerateOutcome& outcome = outcomes_[number];
-        progress_.clear();
         if (!outcome.result) {
             const ExitCode code = printError(outcome.input, outcome.result.error());
             const std::lock_guard lock(mutex_);
@@ -201,7 +199,6 @@ class GenerateRun {
     unsigned workers_;
     std::FILE* report_to_;
     bool wants_text_;
-    ProgressLine progress_;
     BatchRecord record_ = {};
     std::mutex mutex_;  ///< for the next one
     ExitCode exit_code_ = ExitCode::done;

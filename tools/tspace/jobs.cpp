@@ -242,8 +242,8 @@ Result<std::vector<Job>> generateJobs(const JobRequest& request) {
     if (request.in_place) return jobsInPlace(request);
     if (output.empty()) return usage("say where to write: -o OUT, or --in-place to change the inputs themselves");
 
-    const std::string& first = request.inputs.front();
-    const bool several = request.inputs.size() > 1 || isFolder(first) || isPatternInput(first);
+    const bool several = request.has_list || request.inputs.size() > 1 || isFolder(request.inputs.front()) ||
+                         isPatternInput(request.inputs.front());
     if (output == "-") return jobToStandardOutput(request, several);
     const bool is_file = isThere(output) && !isFolder(output);
     if (several && (is_file || (isGltfName(output) && !isFolder(output)))) {

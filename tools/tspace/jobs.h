@@ -20,6 +20,7 @@ struct JobRequest {
     Container container = Container::sameAsInput;
     bool is_dry_run = false;
     bool has_manifest = false;
+    bool has_list = false;  ///< inputs come from --files-from: the output is a folder, however many they are
 };
 
 /// One model file to work on.

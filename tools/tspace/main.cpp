@@ -49,8 +49,6 @@ void giveMemoryBack() {
 
 constexpr const char* kOutOfMemory = "tspace: out of memory\n";
 
-ExitCode print(const std::string& page) { return printResult(page) ? ExitCode::done : ExitCode::cannotReadOrWrite; }
-
 /// Words that people try, and the command line that does it.
 struct Synonym {
     std::string_view word;
@@ -95,8 +93,10 @@ std::string wrongKindOfInput(const Command& command, const Given& given) {
 /// Handles a first word that is no command.
 ExitCode runWithoutCommand(const std::string& word) {
     const ToolTable tool = toolTable();
-    if (word == "-h" || word == "--help") return print(helpPage(tool));
-    if (word == "-V" || word == "--version") return print("tspace " TSPACE_VERSION "\n" + leftOut());
+    if (word == "-h" || word == "--help") return printPage(helpPage(tool));
+    if (word == "-V" || word == "--version") {
+        return printResult("tspace " TSPACE_VERSION "\n" + leftOut()) ? ExitCode::done : ExitCode::cannotReadOrWrite;
+    }
     const char* see = " (see tspace --help)";
     std::vector<std::string> names;
     if (!word.starts_with('-')) {
@@ -113,18 +113,23 @@ ExitCode runWithoutCommand(const std::string& word) {
 }
 
 ExitCode run(int argc, char** argv) {
-    if (argc < 2) return print(helpPage(toolTable())) == ExitCode::done ? ExitCode::usage : ExitCode::cannotReadOrWrite;
+    if (argc < 2)
+        return printPage(helpPage(toolTable())) == ExitCode::done ? ExitCode::usage : ExitCode::cannotReadOrWrite;
     const std::optional<Command> command = findCommand(argv[1]);
     if (!command) return runWithoutCommand(argv[1]);
     Given given;
     const std::span<const char* const> arguments(argv + 2, static_cast<std::size_t>(argc - 2));
     const std::string wrong = readCommandLine(*command, arguments, given);
     if (!wrong.empty()) return printUsageError(wrong + " (see tspace " + command->name + " --help)");
-    if (given.has("--help")) return print(helpPage(*command));
+    if (given.has("--help")) return printPage(helpPage(*command));
     const std::string wrong_kind = wrongKindOfInput(*command, given);
     if (!wrong_kind.empty()) return printUsageError(wrong_kind);
     command->keeps_freed_memory ? keepFreedMemory() : giveMemoryBack();
-    return command->run();
+    if (!given.has("--quiet")) progressLine().start();
+    ExitCode exit_code = command->prepare ? command->prepare() : ExitCode::done;
+    if (exit_code == ExitCode::done) exit_code = command->run();
+    progressLine().stop();
+    return exit_code;
 }
 
 /// Called where an exception cannot be thrown because there is no memory for it, or would leave a function that may not throw.

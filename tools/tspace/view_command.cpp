@@ -38,10 +38,17 @@ std::string pagePath() {
     return {};
 }
 
+}  // namespace
+
+bool hasViewPage() { return !pagePath().empty(); }
+
+namespace {
+
 Result<ViewReport> view(const ViewArguments& arguments, const PageOrigin& origin) {
     const std::string page = pagePath();
     if (page.empty())
         return Error{ErrorCode::cannotRead, "the page was not built with this tool: scripts/web builds it"};
+    progressLine().update(arguments.input, "checking", 0, 0);
     return writeViewPage(arguments.input, arguments.output, page, arguments.file, origin);
 }
 

@@ -8,6 +8,7 @@
 #include "model/io/file_error.h"
 #include "model/imported/import_document.h"
 #include "model/io/named_files.h"
+#include "model/io/recorded_files.h"
 #include "model/io/uri.h"
 #include "commands/generate/generate_steps.h"
 #include "commands/generate/flip_maps.h"
@@ -24,6 +25,8 @@ bool isSameFile(const Path&, const Path&) { return false; }
 Path resolveUri(const Path&, std::string_view uri, bool, const std::string& place) {
     refuseUri(uri, "cannot be resolved without a disk", place);
 }
+
+void recordInput(const std::string&) {}
 
 bool isGlbOutput(const Path& path) { return isGlbName(path); }
 std::uint64_t fileSize(const Path&) { return 0; }

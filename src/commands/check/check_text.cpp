@@ -34,8 +34,8 @@ std::string summaryLine(const CheckOutcome& outcome) {
     const std::string what = report.findings.empty()
                                  ? "nothing found"
                                  : countsText(report.error_count, report.warning_count, report.note_count);
-    if (report.image) return fmt::format("{}: {}; {}\n", printable(outcome.input), imageText(report), what);
-    std::string text = fmt::format("{}: {} in {}, {} of them with tangents", printable(outcome.input), what,
+    if (report.image) return fmt::format("{}: {}; {}\n", unbroken(outcome.input), imageText(report), what);
+    std::string text = fmt::format("{}: {} in {}, {} of them with tangents", unbroken(outcome.input), what,
                                    counted(report.primitive_count, "primitive"), report.tangents_count);
     return text + lookedText(report) + "\n";
 }
@@ -102,8 +102,11 @@ std::string groupText(std::span<const Finding* const> group, bool in_color) {
     text += "\n";
     for (std::size_t i = 0; i < group.size() && i < kMostPlaces; ++i) {
         if (!group[i]->place.empty())
-            text += fmt::format("      {} (at {})\n", whereText(*group[i]), printable(group[i]->place));
-        text += fmt::format("        {}\n", printable(group[i]->message));
+            text += fmt::format("      {} (at {})\n", whereText(*group[i]), unbroken(group[i]->place));
+        // A sentence that the next places share is printed once, below the last of them.
+        const bool is_shared = i + 1 < std::min(group.size(), kMostPlaces) &&
+                               group[i + 1]->message == group[i]->message && !group[i]->place.empty();
+        if (!is_shared) text += fmt::format("        {}\n", printable(group[i]->message));
         if (group.size() == 1) text += verticesText(first);
     }
     if (group.size() > kMostPlaces) text += fmt::format("      and {} more\n", group.size() - kMostPlaces);
@@ -206,12 +209,11 @@ Json rulesJson(const std::string& docs_url) {
     Json rules = Json::array();
     for (std::uint32_t number = 0; number < kFindingCodeCount; ++number) {
         const auto code = static_cast<FindingCode>(number);
-        rules.push_back({
-            {"id", findingName(code)},
-            {"shortDescription", {{"text", findingSummary(code)}}},
-            {"help", {{"text", findingRemedy(code)}}},
-            {"helpUri", docs_url + "/check.md#all-codes"},
-        });
+        Json rule = {{"id", findingName(code)},
+                     {"shortDescription", {{"text", findingSummary(code)}}},
+                     {"help", {{"text", findingRemedy(code)}}}};
+        if (!docs_url.empty()) rule["helpUri"] = docs_url + "/check.md#" + findingName(code);
+        rules.push_back(std::move(rule));
     }
     return rules;
 }
@@ -227,7 +229,9 @@ Json resultJson(const std::string& input, const Finding& finding) {
         {"ruleId", findingName(finding.code)},
         {"ruleIndex", static_cast<std::uint32_t>(finding.code)},
         {"level", severityName(finding.severity)},
-        {"message", {{"text", finding.message + ". " + finding.remedy}}},
+        {"message",
+         {{"text",
+           (finding.place.empty() ? "" : whereText(finding) + ": ") + finding.message + ". " + finding.remedy}}},
         {"locations", Json::array({std::move(location)})},
         {"properties",
          {{"mesh", finding.mesh},

@@ -10,6 +10,7 @@
 #include "model/io/file_error.h"
 #include "model/io/memory_budget.h"
 #include "model/io/output_name.h"
+#include "model/io/recorded_files.h"
 #include "tspace/images.h"
 
 namespace tspace {
@@ -65,6 +66,7 @@ Result<FlipGreenReport> flipGreenFile(const std::string& input, const std::strin
     return atFileBorder([&]() -> Result<FlipGreenReport> {
         FlipGreenOptions chosen = options;
         if (chosen.format == ImageFileFormat::sameAsInput && !options.sink) chosen.format = namedFormat(output);
+        if (options.content.data() == nullptr) recordInput(input);
         FlippedImage flipped =
             options.content.data() != nullptr ? flip(options.content, chosen) : flip(readFile(input), chosen);
         AtomicOutput files({.sink = options.sink, .is_dry_run = options.dry_run, .sync = options.sync});

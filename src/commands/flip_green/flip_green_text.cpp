@@ -16,7 +16,7 @@ std::string flipGreenText(const Outcome<FlipGreenReport>& outcome) {
                            : done.format == ImageFileFormat::jpeg ? "inverted, and compressed once more"
                                                                   : "inverted, and rounded"});
     for (const std::string& warning : done.warnings) table.addRow({"warning", printable(warning)});
-    return fmt::format("{} -> {}{}\n{}", printable(outcome.input), printable(outcome.output),
+    return fmt::format("{} -> {}{}\n{}", unbroken(outcome.input), unbroken(outcome.output),
                        outcome.is_dry_run ? " (not written)" : "", table.text("  "));
 }
 

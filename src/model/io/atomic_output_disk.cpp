@@ -20,6 +20,7 @@
 #include "model/io/atomic_output.h"
 #include "model/io/file_error.h"
 #include "model/io/file_io.h"
+#include "model/io/recorded_files.h"
 #include "model/io/system_files.h"
 #include "tspace/asset.h"
 
@@ -319,6 +320,7 @@ InputFiles::InputFiles() {
 }
 
 void InputFiles::addTo(std::set<std::string>& identities, const Path& path) {
+    if (&identities == &identities_) recordInput(path.string());
     inRun(path, [&](RunFile& file) {
         if (file.is_written && file.owner != call_)
             failFile(ErrorCode::cannotRead,
@@ -558,6 +560,9 @@ void AtomicOutput::renameFiles() {
         }
     }
     lock.unlock();
+    for (const File& file : files_) {
+        if (!file.is_stream) recordOutput(file.target.string());
+    }
     for (const Path& folder : folders) syncFolder(folder);
 }
 

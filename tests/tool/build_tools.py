@@ -1,0 +1,126 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""build_tools.py TOOL: depfiles as make and ninja read them, and lists of inputs."""
+import json
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+
+tool = os.path.abspath(sys.argv[1])
+folder = tempfile.TemporaryDirectory()
+os.chdir(folder.name)
+faults = []
+
+
+def expect(condition, text):
+    if not condition:
+        faults.append(text)
+
+
+def run(*arguments, stdin=b""):
+    return subprocess.run([tool, *arguments], input=stdin, capture_output=True)
+
+
+def write_model(name, library):
+    with open(name, "w", encoding="ascii") as file:
+        file.write(f"mtllib {library}\nusemtl skin\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
+                   "vn 0 0 1\nf 1/1/1 2/2/1 3/3/1 4/4/1\n")
+
+
+def write_library(name, image):
+    with open(name, "w", encoding="ascii") as file:
+        file.write("newmtl skin\n" + (f"norm {image}\n" if image else ""))
+
+
+# A name with what has a meaning for make and ninja.
+odd = "my $model #1 a:b.obj"
+write_model(odd, "skin.mtl")
+write_library("skin.mtl", "")
+written = run("generate", "-q", "--all", odd, "-o", "odd $out.glb", "--depfile", "odd.d")
+expect(written.returncode == 0, written.stderr.decode())
+text = open("odd.d", encoding="utf-8").read()
+expect(text.startswith("odd\\ $$out.glb:"), f"the output is not the target: {text}")
+expect("my\\ $$model\\ \\#1\\ a\\:b.obj" in text and "skin.mtl" in text, f"an input is missing: {text}")
+
+
+def rebuilt(build, outputs):
+    """Whether a build makes the outputs anew."""
+    before = [os.stat(one).st_mtime_ns for one in outputs]
+    time.sleep(0.02)
+    done = subprocess.run(build, capture_output=True, text=True)
+    expect(done.returncode == 0, f"{build}: {done.stdout}{done.stderr}")
+    return [os.stat(one).st_mtime_ns for one in outputs] != before
+
+
+def try_build(name, build, output):
+    """First everything is made; then nothing; then again for each file that was read."""
+    for source in (odd, "skin.mtl"):
+        os.utime(source, (time.time() - 10, time.time() - 10))
+    done = subprocess.run(build, capture_output=True, text=True)
+    expect(done.returncode == 0 and os.path.exists(output), f"{name}: {done.stdout}{done.stderr}")
+    if done.returncode != 0:
+        return
+    expect(not rebuilt(build, [output]), f"{name}: builds again for nothing")
+    for source in (odd, "skin.mtl"):
+        later = time.time() + 2  # after the output, whatever the clock of the file system rounds to
+        os.utime(source, (later, later))
+        expect(rebuilt(build, [output]), f"{name}: does not build again when '{source}' has changed")
+        os.utime(source, (time.time() - 10, time.time() - 10))
+    os.remove(output)
+
+
+if shutil.which("make"):
+    with open("Makefile", "w", encoding="ascii") as file:
+        file.write("out.glb: ; '" + tool + "' generate -q --all 'my $$model #1 a:b.obj' -o out.glb --depfile make.d\n-include make.d\n")
+    try_build("make", ["make", "out.glb"], "out.glb")
+    os.rename("skin.mtl", "other.mtl")  # an input that is gone does not stop make
+    write_model(odd, "other.mtl")
+    done = subprocess.run(["make", "out.glb"], capture_output=True, text=True)
+    expect(done.returncode == 0, f"make stops for a removed input: {done.stderr}")
+    os.rename("other.mtl", "skin.mtl")
+    write_model(odd, "skin.mtl")
+if shutil.which("ninja"):
+    for deps in ("", "  deps = gcc\n"):
+        with open("build.ninja", "w", encoding="ascii") as file:
+            file.write("rule tangents\n  command = '" + tool + "' generate -q --all 'my $$model #1 a:b.obj' -o $out --depfile ninja.d\n"
+                       f"  depfile = ninja.d\n{deps}build ninja.glb: tangents\n")
+        try_build(f"ninja{deps}", ["ninja"], "ninja.glb")
+
+# Other commands, and several outputs.
+expect(run("generate", "-q", "--all", odd, "-o", "two.gltf", "--depfile", "two.d").returncode == 0, "generate .gltf")
+expect(open("two.d", encoding="utf-8").read().split(":")[0].split() == ["two.bin", "two.gltf"] or
+       set(open("two.d", encoding="utf-8").read().split(":")[0].split()) == {"two.bin", "two.gltf"}, open("two.d", encoding="utf-8").read())
+expect(run("check", "-q", "two.gltf", "--html", "page.html", "--depfile", "page.d").returncode in (0, 1), "check --html")
+text = open("page.d", encoding="utf-8").read()
+expect(text.startswith("page.html:") and "two.gltf" in text and "two.bin" in text, f"check: {text}")
+picture = run("render", "-q", "two.gltf", "-o", "picture.png", "--depfile", "picture.d")
+if picture.returncode == 0:
+    text = open("picture.d", encoding="utf-8").read()
+    expect(text.startswith("picture.png:") and "two.bin" in text, f"render: {text}")
+    expect(run("flip-green", "-q", "picture.png", "-o", "flipped.png", "--depfile", "f.d").returncode == 0, "flip-green")
+    expect(open("f.d", encoding="utf-8").read().startswith("flipped.png: \\\n  picture.png"), open("f.d", encoding="utf-8").read())
+for wrong in (["generate", "two.gltf", "--in-place", "--depfile", "x.d"], ["check", "two.gltf", "--depfile", "x.d"],
+              ["generate", "two.gltf", "-o", "-", "--depfile", "x.d"], ["generate", "two.gltf", "-o", "x.glb", "--dry-run", "--depfile", "x.d"]):
+    expect(run(*wrong).returncode == 2 and not os.path.exists("x.d"), f"{wrong} is not refused")
+expect(run("generate", "-q", "missing.glb", "-o", "m.glb", "--depfile", "m.d").returncode == 4 and not os.path.exists("m.d"), "a failed run leaves a depfile")
+expect(run("generate", "-q", "two.gltf", "-o", "same.glb", "--depfile", "same.glb").returncode != 0, "the depfile is the output")
+
+# Lists of inputs.
+for command, more in (("check", []), ("inspect", []), ("identify", []), ("generate", ["--all", "-o", "made/"])):
+    for separator in (b"\n", b"\r\n", b"\0"):
+        listed = run(command, "--json", *more, "--files-from", "-", stdin=separator.join([b"two.gltf", odd.encode(), b""]))
+        files = json.loads(listed.stdout)["files"] if listed.stdout else []
+        expect([one["input"] for one in files] == ["two.gltf", odd], f"{command}: {listed.stdout[:200]} {listed.stderr}")
+    with open("list.txt", "w", encoding="ascii") as file:
+        file.write("two.gltf\n")
+    expect(b"two.gltf" in run(command, *more, "--files-from", "list.txt").stdout, f"{command} --files-from FILE")
+    expect(run(command, *more, "--files-from", "-").returncode == 0, f"{command}: an empty list is an error")
+    expect(run(command, *more, "--files-from", "nothing.txt").returncode == 4, f"{command}: a list that is not there")
+    expect(run(command, *more).returncode == 2, f"{command}: without inputs")
+    expect(run(command, *more, "-", "--files-from", "-").returncode == 2, f"{command}: two want stdin")
+expect(os.path.exists("made/two.glb") or os.path.exists("made/two.gltf"), "generate with a list writes into a folder")
+print("\n".join(faults) or "all as it should be")
+sys.exit(bool(faults))

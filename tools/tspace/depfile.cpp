@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+#include "depfile.h"
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+#include "commands/shared/file_options.h"
+#include "console.h"
+#include "model/io/atomic_output.h"
+#include "model/io/recorded_files.h"
+#include "output_files.h"
+
+namespace tspace::tool {
+namespace {
+
+/// Appends a name. Backslashes count twice where a space or # follows, as in the depfiles of GCC. A colon would end the targets of a
+/// rule; that of a drive, C:/, does not.
+void appendName(std::string& rule, const std::string& name) {
+    const bool has_drive = name.size() > 2 && name[1] == ':' && (name[2] == '/' || name[2] == '\\');
+    std::size_t backslashes = 0;
+    for (std::size_t i = 0; i < name.size(); ++i) {
+        const char c = name[i];
+        if (c == ' ' || c == '#') rule.append(backslashes + 1, '\\');
+        if (c == ':' && !(has_drive && i == 1)) rule += '\\';
+        if (c == '$') rule += '$';
+        backslashes = c == '\\' ? backslashes + 1 : 0;
+        rule += c;
+    }
+}
+
+/// Options that name files which a command writes.
+constexpr const char* kOutputOptions[] = {"--output", "--html", "--sarif", "--report"};
+
+ExitCode runRecorded(const std::string& path, const std::function<ExitCode()>& run) {
+    std::vector<std::string> inputs, outputs;
+    ExitCode exit_code = ExitCode::done;
+    {
+        const RecordedFiles recorded;
+        const KeptFiles kept({path});
+        exit_code = run();
+        inputs = recorded.inputs();
+        outputs = recorded.outputs();
+    }
+    if (outputs.empty()) return exit_code;  // it has said why
+    const std::string identity = identityOf(path);
+    if (std::any_of(inputs.begin(), inputs.end(),
+                    [&](const std::string& input) { return identityOf(input) == identity; }))
+        return worse(exit_code, printUsageError("the output " + path + " is an input"));
+    const Result<std::string> text = depfileText(outputs, inputs);
+    const Result<Done> written = text ? writeTextFile(path, *text) : Result<Done>(text.error());
+    return written ? exit_code : worse(exit_code, printError(path, written.error()));
+}
+
+}  // namespace
+
+Result<std::string> depfileText(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs) {
+    for (const std::vector<std::string>* names : {&outputs, &inputs}) {
+        for (const std::string& name : *names) {
+            if (std::any_of(name.begin(), name.end(), [](unsigned char c) { return c < 0x20 || c == 0x7F; }))
+                return Error{ErrorCode::invalidOption,
+                             "a depfile cannot hold a name with a control character: " + printable(name)};
+        }
+    }
+    std::string rule;
+    for (const std::string& output : outputs) {
+        if (!rule.empty()) rule += ' ';
+        appendName(rule, output);
+    }
+    rule += ':';
+    for (const std::string& input : inputs) {
+        rule += " \\\n  ";
+        appendName(rule, input);
+    }
+    rule += '\n';
+    for (const std::string& input : inputs) {
+        rule += '\n';
+        appendName(rule, input);
+        rule += ":\n";
+    }
+    return rule;
+}
+
+void addDepfile(Command& command) {
+    const auto isNamed = [](const Option& option, const char* name) { return option.name() == name; };
+    const bool writes = std::any_of(command.options.begin(), command.options.end(), [&](const Option& option) {
+        return std::any_of(std::begin(kOutputOptions), std::end(kOutputOptions),
+                           [&](const char* name) { return isNamed(option, name); });
+    });
+    if (!writes) return;
+    const auto path = std::make_shared<std::string>();
+    Option& depfile =
+        command.add(kReporting, text("--depfile", "FILE", *path,
+                                     "Write a rule for make and ninja to this file: the outputs, and every "
+                                     "file that was read for them, such as buffers, images and "
+                                     "material libraries."));
+    depfile.is_file = true;
+    depfile.excludes = {"--in-place", "--dry-run"};
+    command.finish = [path, finish = std::move(command.finish)](const Given& given) {
+        std::string wrong = finish ? finish(given) : std::string();
+        if (!wrong.empty() || path->empty()) return wrong;
+        const bool has_output = std::any_of(given.items.begin(), given.items.end(), [&](const Given::Item& item) {
+            return item.value != "-" && std::any_of(std::begin(kOutputOptions), std::end(kOutputOptions),
+                                                    [&](const char* name) { return item.option->name() == name; });
+        });
+        return std::string(has_output ? "" : "--depfile needs an output that is a file");
+    };
+    const auto run = [prepare = std::move(command.prepare), run = std::move(command.run)] {
+        const ExitCode code = prepare ? prepare() : ExitCode::done;
+        return code == ExitCode::done ? run() : code;
+    };
+    command.prepare = {};
+    command.run = [path, run] { return path->empty() ? run() : runRecorded(*path, run); };
+}
+
+}  // namespace tspace::tool
