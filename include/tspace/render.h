@@ -70,6 +70,8 @@ struct RenderOptions {
     Execution execution = {};  ///< changes no bit of the picture; an allocator is not used
     Sink sink = {};            ///< takes the PNG in place of a file
     bool dry_run = false;      ///< everything but writing
+    /// Called between stages, and for each picture of `turntable`, on the calling thread; may throw Cancelled.
+    Progress progress = {};
 };
 
 struct RenderReport {

@@ -57,12 +57,17 @@ class Solving {
         const std::vector<Strip> strips = stripsOf(options_.height, strip_rows);
         for (const Strip& strip : strips) steps_.total += bandsOf(strip.window).size();
         first_row_ = rowsFrom(0, 1);
-        for (const Strip& strip : strips) solve(strip);
+        for (std::size_t i = 0; i < strips.size(); ++i) {
+            const TellStep tell = [&](std::uint64_t done, std::uint64_t total) {
+                if (work_.progress) work_.progress("solving", i * total + done, strips.size() * total);
+            };
+            solve(strips[i], tell);
+        }
         traced_.wanted = std::move(texels_);
     }
 
   private:
-    void solve(const Strip& strip) {
+    void solve(const Strip& strip, const TellStep& tell) {
         const TexelWindow& window = strip.window;
         const std::size_t width = plan_.width, size = width * window.count;
         Buffer<TexelRole> roles(work_.allocator, size);
@@ -84,9 +89,9 @@ class Solving {
             addSmooth(strip, found, system);
             IntegerChoice choice = integerChoice(options_.lengths);
             choice.is_two_channel = options_.reading.two_channels;
-            chooseIntegers(system, choice, found, kIntegerRounds, work_.parallel, work_.allocator);
+            chooseIntegers(system, choice, found, kIntegerRounds, work_.parallel, work_.allocator, tell);
         } else {
-            solveTexels(system, found, work_.parallel, work_.allocator);
+            solveTexels(system, found, work_.parallel, work_.allocator, tell);
         }
         rows_above_ = rowsFrom(strip.end - kRowsStay, kRowsStay);
         std::copy_n(texels.begin() + window.local(strip.first) * width, (strip.end - strip.first) * width,

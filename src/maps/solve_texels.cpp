@@ -127,7 +127,7 @@ class Gradients {
           first_(allocator, tasks_),
           second_(allocator, tasks_) {}
 
-    void run() {
+    void run(const TellStep& tell) {
         // Each step takes the error down by a factor of about 2; what is left at the end is below what 16 bits show.
         constexpr int kMostSteps = 24;
         constexpr double kSmall = 1e-4;
@@ -135,6 +135,7 @@ class Gradients {
         double product = first_.total();
         const double enough = kSmall * product;
         for (int step = 0; step < kMostSteps && product > enough; ++step) {
+            if (tell) tell(static_cast<std::uint64_t>(step), kMostSteps);
             multiply();
             const double curvature = first_.total();
             if (!(curvature > 0)) return;
@@ -221,12 +222,13 @@ class Gradients {
 }  // namespace
 
 void solveLeastSquares(const TexelSystem& system, std::span<Vec3> texels, Parallel& parallel,
-                       const Allocator* allocator) {
-    Gradients(system, texels, parallel, allocator).run();
+                       const Allocator* allocator, const TellStep& tell) {
+    Gradients(system, texels, parallel, allocator).run(tell);
 }
 
-void solveTexels(const TexelSystem& system, std::span<Vec3> texels, Parallel& parallel, const Allocator* allocator) {
-    solveLeastSquares(system, texels, parallel, allocator);
+void solveTexels(const TexelSystem& system, std::span<Vec3> texels, Parallel& parallel, const Allocator* allocator,
+                 const TellStep& tell) {
+    solveLeastSquares(system, texels, parallel, allocator, tell);
     parallel.forRanges(texels.size(), Parallel::kGrain, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             const float size = length(texels[i]);
@@ -425,7 +427,7 @@ void chooseApart(const TexelSystem& system, const IntegerChoice& choice, std::sp
 }  // namespace
 
 void chooseIntegers(const TexelSystem& system, const IntegerChoice& choice, std::span<Vec3> texels, unsigned rounds,
-                    Parallel& parallel, const Allocator* allocator) {
+                    Parallel& parallel, const Allocator* allocator, const TellStep& tell) {
     const std::uint32_t width = system.width(), height = system.height();
     chooseApart(system, choice, texels, parallel);
     Buffer<Vec3> wanted(allocator, texels.size());
@@ -449,7 +451,10 @@ void chooseIntegers(const TexelSystem& system, const IntegerChoice& choice, std:
             texels[at] = chosenFor(choice, row.blocks[0], around - row.side, wanted[at]);
         }
     };
-    for (unsigned round = 0; round < rounds; ++round) forRowsApart(parallel, height, chooseRow);
+    for (unsigned round = 0; round < rounds; ++round) {
+        if (tell) tell(round, rounds);
+        forRowsApart(parallel, height, chooseRow);
+    }
 }
 
 namespace {

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 
 #include "core/base/memory.h"
@@ -121,13 +122,17 @@ void forRowsApart(Parallel& parallel, std::uint32_t height, const Row& row) {
     });
 }
 
+/// Called before step `done` of at most `total` steps; may throw, which ends the call.
+using TellStep = std::function<void(std::uint64_t done, std::uint64_t total)>;
+
 /// Moves the unknown ones of `texels` (width * height) to the least squares, by conjugate gradients. The same bits for any
 /// number of threads.
 void solveLeastSquares(const TexelSystem& system, std::span<Vec3> texels, Parallel& parallel,
-                       const Allocator* allocator);
+                       const Allocator* allocator, const TellStep& tell = {});
 
 /// The same for vectors of unit length at most.
-void solveTexels(const TexelSystem& system, std::span<Vec3> texels, Parallel& parallel, const Allocator* allocator);
+void solveTexels(const TexelSystem& system, std::span<Vec3> texels, Parallel& parallel, const Allocator* allocator,
+                 const TellStep& tell = {});
 
 /// The vectors that integers stand for: n from 0 to `most` is 2 n / most - 1.
 struct IntegerChoice {
@@ -140,7 +145,7 @@ struct IntegerChoice {
 /// Makes of `texels` vectors that integers stand for, one after the other, such that what the samples ask is met as well as
 /// it can be with those around; `rounds` times. Fixed ones stay. The same bits for any number of threads.
 void chooseIntegers(const TexelSystem& system, const IntegerChoice& choice, std::span<Vec3> texels, unsigned rounds,
-                    Parallel& parallel, const Allocator* allocator);
+                    Parallel& parallel, const Allocator* allocator, const TellStep& tell = {});
 
 struct TexelRounding {
     unsigned most = 65535;

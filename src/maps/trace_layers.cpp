@@ -229,7 +229,10 @@ class LayerTracing {
         std::vector<Vec3> texels(met_.size());
         for (std::size_t i = 0; i < texels.size(); ++i)
             texels[i] = {values[3 * i], values[3 * i + 1], values[3 * i + 2]};
-        solveLeastSquares(system, texels, work_.parallel, work_.allocator);
+        solveLeastSquares(system, texels, work_.parallel, work_.allocator,
+                          [this](std::uint64_t done, std::uint64_t total) {
+                              if (work_.progress) work_.progress("solving colors", done, total);
+                          });
         for (std::size_t i = 0; i < texels.size(); ++i) set(layer, i, texels[i]);
     }
 

@@ -35,10 +35,7 @@ struct BakeArguments {
 Result<BakeFileReport> bake(const BakeArguments& arguments, InputFiles& read) {
     BakeFileOptions options = arguments.options;
     read.watch(options.file);
-    ProgressLine progress(1, !arguments.quiet);
-    options.progress = [&](const char* what, std::uint64_t done, std::uint64_t total) {
-        progress.update(arguments.low, what, done, total);
-    };
+    options.progress = progressOf(arguments.low);
     const KeptFiles kept({arguments.report});
     return bakeFile(arguments.low, arguments.high, arguments.output, options);
 }
@@ -77,7 +74,7 @@ ExitCode runBake(const BakeArguments& arguments) {
         if (arguments.json) {
             report.text = report::bakeJson(outcome, arguments.high, exit_code);
         } else if (!arguments.quiet && result) {
-            report.text = report::bakeText(outcome, options.out_mesh);
+            report.text = fitted(report::bakeText(outcome, options.out_mesh));
         }
         return report;
     });

@@ -214,9 +214,9 @@ class PairsRun {
             const std::chrono::duration<double> took = Clock::now() - start;
             done.outcome.seconds = took.count();
             if (done.outcome.result && !arguments_.json && !arguments_.quiet)
-                texts_[number] = arguments_.batch.verbose && !done.outcome.was_done_before
-                                     ? report::bakeText(done.outcome, pair.model)
-                                     : report::bakeLine(done.outcome);
+                texts_[number] = fitted(arguments_.batch.verbose && !done.outcome.was_done_before
+                                            ? report::bakeText(done.outcome, pair.model)
+                                            : report::bakeLine(done.outcome));
         });
         if (record_.isKept() && !done.outcome.was_done_before) record(pair, options, read, done);
         progressLine().fileDone(done.outcome.result.ok());

@@ -52,6 +52,7 @@ void addCheckReporting(Command& command, CheckArguments& arguments) {
 Result<CheckReport> check(const std::string& input, CheckOptions options, const CheckArguments& arguments) {
     StandardInput standard_input;
     if (const Result<Done> opened = standard_input.open(input, options.file, true); !opened) return opened.error();
+    options.progress = progressOf(input);
     Result<CheckReport> report = checkFile(input, options);
     if (report) options::leaveOut(arguments.request, *report);
     return report;
@@ -75,8 +76,7 @@ ExitCode runCheck(const CheckArguments& arguments) {
     if (!arguments.sarif.empty() || !arguments.html.empty()) read.watch(options.file);
     options.execution.thread_count = threadsPerFile(options.execution.thread_count, workers);
     const auto files = readFiles<CheckReport>(
-        jobs, arguments.batch, {.progress = !arguments.quiet, .text = wants_text},
-        [&](const std::string& input) { return check(input, options, arguments); },
+        jobs, arguments.batch, wants_text, [&](const std::string& input) { return check(input, options, arguments); },
         [&](const report::CheckOutcome& outcome) { return report::checkText(outcome, in_color); });
     if (files.output_is_closed) return ExitCode::cannotReadOrWrite;
     ExitCode exit_code = files.exit_code;
@@ -100,7 +100,8 @@ ExitCode runCheck(const CheckArguments& arguments) {
             exit_code =
                 worse(exit_code, printError(arguments.html.empty() ? arguments.sarif : arguments.html, *failure));
         } else if (is_written) {
-            if (!arguments.html.empty()) write(arguments.html, checkPage(files.outcomes, options.file, *origin));
+            if (!arguments.html.empty())
+                write(arguments.html, checkPage(files.outcomes, options.file, *origin, progressOf(arguments.html)));
             if (!arguments.sarif.empty() && !sarif_to_stdout)
                 write(arguments.sarif, report::checkSarif(files.outcomes, exit_code, TSPACE_DOCS_URL));
         }
@@ -110,7 +111,7 @@ ExitCode runCheck(const CheckArguments& arguments) {
         } else if (arguments.json) {
             report.text = report::checkJson(files.outcomes, exit_code, arguments.request.fail_on);
         } else if (wants_text && files.outcomes.size() > 1) {
-            report.text = report::checkSummary(files.outcomes, in_color);
+            report.text = fitted(report::checkSummary(files.outcomes, in_color));
         }
         return report;
     });

@@ -4,9 +4,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <new>
+#include <system_error>
 
+#include "commands/shared/option_table.h"
 #include "system.h"
 
 namespace tspace::tool {
@@ -18,7 +22,7 @@ void printLine(const std::string& line) { printPlain(line + "\n"); }
 }  // namespace
 
 void printPlain(std::string_view text) noexcept {
-    std::fwrite(text.data(), 1, text.size(), stderr);
+    progressLine().write(text, stderr);
     std::fflush(stderr);
 }
 
@@ -47,9 +51,20 @@ bool printResult(std::string_view text, std::FILE* to) {
         printPlain(text);
         return true;
     }
-    const bool written = std::fwrite(text.data(), 1, text.size(), to) == text.size() && std::fflush(to) == 0;
+    const bool written = progressLine().write(text, to) == text.size() && std::fflush(to) == 0;
     if (!written) printPlain("tspace: standard output: cannot write\n");
     return written;
+}
+
+std::string fitted(std::string_view text, std::FILE* to) { return report::fitText(text, terminalWidth(to)); }
+
+bool printText(std::string_view text, std::FILE* to) { return printResult(fitted(text, to), to); }
+
+ExitCode printPage(std::string_view page) {
+    // Long lines of text would be hard to read.
+    constexpr std::size_t kWidest = 100;
+    const std::size_t width = std::min(terminalWidth(stdout), kWidest);
+    return printResult(report::fitText(page, width, 0)) ? ExitCode::done : ExitCode::cannotReadOrWrite;
 }
 
 bool wantsColor(Color color) {
@@ -58,26 +73,99 @@ bool wantsColor(Color color) {
     return isTerminal(stdout) && terminalHasColors() && (refused == nullptr || *refused == '\0');
 }
 
-ProgressLine::ProgressLine(std::size_t file_count, bool wanted)
-    : file_count_(file_count), wanted_(wanted && isTerminal(stderr)) {}
+std::size_t terminalWidth(std::FILE* file) {
+    constexpr std::size_t kUsual = 80, kLeast = 20;
+    std::uint64_t columns = 0;
+    const char* wanted = std::getenv("COLUMNS");
+    if (wanted == nullptr || !options::parseNumber(wanted, columns) || columns == 0) columns = terminalColumns(file);
+    return columns == 0 ? kUsual : std::max<std::size_t>(columns, kLeast);
+}
 
-void ProgressLine::update(const std::string& file, const char* what, std::uint64_t done, std::uint64_t total) {
-    if (!wanted_) return;
-    const std::lock_guard lock(mutex_);
-    constexpr auto kPatience = std::chrono::milliseconds(500);
-    constexpr auto kRefresh = std::chrono::milliseconds(100);
-    const auto now = Clock::now();
-    if (now - start_ < kPatience || now - last_ < kRefresh) return;
-    last_ = now;
-    shown_ = true;
+ProgressLine& progressLine() {
+    static ProgressLine line;
+    return line;
+}
+
+Progress progressOf(const std::string& file) {
+    return [file](const char* what, std::uint64_t done, std::uint64_t total) {
+        progressLine().update(file, what, done, total);
+    };
+}
+
+void ProgressLine::start() {
+    if (!isTerminal(stderr)) return;
+    start_ = Clock::now();
+    is_running_ = true;
+    try {
+        thread_ = std::thread([this] { drawUntilStopped(); });
+    } catch (const std::system_error&) {
+        is_running_ = false;
+    }
+}
+
+void ProgressLine::stop() {
+    if (!thread_.joinable()) return;
+    {
+        const std::lock_guard lock(mutex_);
+        is_running_ = false;
+    }
+    stopped_.notify_all();
+    thread_.join();
+}
+
+void ProgressLine::drawUntilStopped() {
+    constexpr auto kPatience = std::chrono::milliseconds(500), kRefresh = std::chrono::milliseconds(200);
+    std::unique_lock lock(mutex_);
+    const auto isStopped = [this] { return !is_running_; };
+    for (auto wait = kPatience; !stopped_.wait_for(lock, wait, isStopped); wait = kRefresh) {
+        try {
+            draw();
+        } catch (const std::bad_alloc&) {
+        }
+    }
+    erase();
+}
+
+void ProgressLine::draw() {
+    std::string end = what_;
+    if (total_ != 0) end += fmt::format(" {:.0f} %", 100.0 * static_cast<double>(done_) / static_cast<double>(total_));
+    if (!end.empty()) end += ", ";
+    end += fmt::format("{:.0f} s", std::chrono::duration<double>(Clock::now() - start_).count());
     std::string line;
     if (file_count_ > 1) {
         line = fmt::format("{} of {} files{}; ", done_count_, file_count_,
                            failed_count_ == 0 ? "" : fmt::format(", {} failed", failed_count_));
     }
-    line += fmt::format("{}: {}", printable(file), what);
-    if (total != 0) line += fmt::format(" {:.0f} %", 100.0 * static_cast<double>(done) / static_cast<double>(total));
-    printPlain("\r\033[K" + line);
+    // A line that is wider than the terminal could not be erased.
+    const std::size_t width = terminalWidth(stderr) - 1, taken = line.size() + end.size() + 2;
+    const std::string file = taken < width ? report::lastColumns(printable(file_), width - taken) : "";
+    line += (file.empty() ? "" : file + ": ") + end;
+    erase();
+    line = report::lastColumns(line, width);
+    std::fwrite(line.data(), 1, line.size(), stderr);
+    std::fflush(stderr);
+    is_shown_ = true;
+}
+
+void ProgressLine::erase() noexcept {
+    if (!is_shown_) return;
+    is_shown_ = false;
+    std::fputs("\r\033[K", stderr);
+    std::fflush(stderr);
+}
+
+void ProgressLine::setFileCount(std::size_t count) {
+    const std::lock_guard lock(mutex_);
+    file_count_ = count;
+}
+
+void ProgressLine::update(const std::string& file, const char* what, std::uint64_t done, std::uint64_t total) {
+    const std::lock_guard lock(mutex_);
+    if (!is_running_) return;
+    if (file != file_) file_ = file;
+    if (what != what_) what_ = what;
+    done_ = std::min(done, total);
+    total_ = total;
 }
 
 void ProgressLine::fileDone(bool succeeded) {
@@ -86,11 +174,10 @@ void ProgressLine::fileDone(bool succeeded) {
     failed_count_ += !succeeded;
 }
 
-void ProgressLine::clear() {
+std::size_t ProgressLine::write(std::string_view text, std::FILE* to) noexcept {
     const std::lock_guard lock(mutex_);
-    if (!shown_) return;
-    shown_ = false;
-    printPlain("\r\033[K");
+    erase();
+    return std::fwrite(text.data(), 1, text.size(), to);
 }
 
 }  // namespace tspace::tool

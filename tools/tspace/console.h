@@ -3,15 +3,18 @@
 #pragma once
 
 #include <chrono>
+#include <condition_variable>
 #include <cstdint>
 #include <cstdio>
 #include <mutex>
 #include <string>
 #include <string_view>
+#include <thread>
 #include <vector>
 
 #include "commands/shared/exit_code.h"
 #include "commands/shared/text.h"
+#include "tspace/callbacks.h"
 #include "tspace/result.h"
 
 namespace tspace::tool {
@@ -43,32 +46,57 @@ void printRemark(const std::string& message);
 /// disk), which is said on stderr.
 bool printResult(std::string_view text, std::FILE* to = stdout);
 
+/// A text for people, fitted to the width of the terminal (80 columns where there is none, unless COLUMNS says otherwise).
+std::string fitted(std::string_view text, std::FILE* to = stdout);
+bool printText(std::string_view text, std::FILE* to = stdout);
+/// As printText(), for a page of help.
+ExitCode printPage(std::string_view page);
+
 /// Whether stdout gets colours. automatic: it is a terminal that shows them, and the user did not say no by NO_COLOR.
 bool wantsColor(Color color);
 
-/// A status line on stderr for the whole run: how many files are done, and what happens to one of those in work. Stays
-/// silent when stderr is no terminal, when not wanted, and during the first half second. Any thread may call.
+/// Columns of the terminal on `file`: COLUMNS where it is set, else what the terminal says, else 80.
+std::size_t terminalWidth(std::FILE* file);
+
+/// The status line of the run on stderr: how many files are done, the stage of a file in progress, and the time since the start.
+/// A thread draws it, so it also appears in stages that report nothing. It stays silent when stderr is not a terminal, and during
+/// the first half second. Whatever the functions above print replaces the line. Any thread may call.
 class ProgressLine {
   public:
-    ProgressLine(std::size_t file_count, bool wanted);
-    ~ProgressLine() { clear(); }
+    ProgressLine() = default;
+    ~ProgressLine() { stop(); }
     ProgressLine(const ProgressLine&) = delete;
     ProgressLine& operator=(const ProgressLine&) = delete;
 
+    /// Does nothing where stderr is not a terminal, or the system has no thread to draw the line.
+    void start();
+    void stop();
+    void setFileCount(std::size_t count);
+    /// total 0: the part that is done is unknown.
     void update(const std::string& file, const char* what, std::uint64_t done, std::uint64_t total);
     void fileDone(bool succeeded);
-    void clear();
+    /// Writes text in place of the line. Throws nothing.
+    std::size_t write(std::string_view text, std::FILE* to) noexcept;
 
   private:
     using Clock = std::chrono::steady_clock;
-    std::size_t file_count_ = 0;
-    std::size_t done_count_ = 0;
-    std::size_t failed_count_ = 0;
-    bool wanted_ = false;
-    bool shown_ = false;
-    Clock::time_point start_ = Clock::now();
-    Clock::time_point last_ = {};
-    std::mutex mutex_ = {};
+    void drawUntilStopped();
+    void draw();
+    void erase() noexcept;
+
+    std::mutex mutex_ = {};  ///< for everything but `thread_`
+    std::condition_variable stopped_ = {};
+    std::thread thread_ = {};
+    bool is_running_ = false, is_shown_ = false;
+    std::size_t file_count_ = 0, done_count_ = 0, failed_count_ = 0;
+    std::string file_ = {}, what_ = {};
+    std::uint64_t done_ = 0, total_ = 0;
+    Clock::time_point start_ = {};
 };
+
+/// The one line of the program.
+ProgressLine& progressLine();
+/// A callback for the library that shows the stages of a file.
+Progress progressOf(const std::string& file);
 
 }  // namespace tspace::tool

@@ -29,7 +29,8 @@ ExitCode runConvertMap(const ConvertMapArguments& arguments) {
     if (goesToTerminal(arguments)) return printUsageError(kNoTextForATerminal);
     const auto make = [&] {
         return callOnImage(arguments.input, arguments.output, arguments.options.file.memory_limit_bytes,
-                           arguments.options, [&](const ConvertMapFileOptions& options) {
+                           arguments.options, [&](ConvertMapFileOptions options) {
+                               options.progress = progressOf(arguments.input);
                                return convertMapFile(arguments.input, arguments.output, options);
                            });
     };

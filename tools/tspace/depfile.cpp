@@ -42,7 +42,8 @@ ExitCode runRecorded(const std::string& path, const std::function<ExitCode()>& r
         inputs = recorded.inputs();
         outputs = recorded.outputs();
     }
-    if (outputs.empty()) return exit_code;  // it has said why
+    // A run that failed has said why.
+    if (outputs.empty() || (exit_code != ExitCode::done && exit_code != ExitCode::findings)) return exit_code;
     const std::string identity = identityOf(path);
     if (std::any_of(inputs.begin(), inputs.end(),
                     [&](const std::string& input) { return identityOf(input) == identity; }))

@@ -33,6 +33,7 @@ ExitCode runDiff(const DiffArguments& arguments) {
     DiffOptions options = arguments.request.options;
     InputFiles read;
     read.watch(options.file);
+    progressLine().update(arguments.a, "comparing", 0, 0);
     const Result<FrameDiff> diff = diffFiles(arguments.a, arguments.b, options);
     ExitCode exit_code = ExitCode::done;
     if (!diff) {
@@ -45,6 +46,7 @@ ExitCode runDiff(const DiffArguments& arguments) {
         if (failure != nullptr) {
             exit_code = worse(exit_code, printError(arguments.html, *failure));
         } else if (diff && !arguments.html.empty()) {
+            progressLine().update(arguments.html, "drawing", 0, 0);
             const Result<Done> written =
                 writeTextFile(arguments.html, diffPage(arguments.a, arguments.b, *diff, options, *origin), &read);
             if (!written) exit_code = worse(exit_code, printError(arguments.html, written.error()));
@@ -53,7 +55,7 @@ ExitCode runDiff(const DiffArguments& arguments) {
         if (arguments.json) {
             report.text = report::diffJson(arguments.a, arguments.b, arguments.request.tolerance_deg, diff, exit_code);
         } else if (!arguments.quiet && diff) {
-            report.text = report::diffText(arguments.a, arguments.b, *diff);
+            report.text = fitted(report::diffText(arguments.a, arguments.b, *diff));
         }
         return report;
     });

@@ -32,10 +32,7 @@ Result<FinishReport> finish(const FinishArguments& arguments, InputFiles& read, 
     options.page_date = origin.date;
     options.page_command = origin.command;
     read.watch(options.file);
-    ProgressLine progress(1, !arguments.quiet);
-    options.progress = [&](const char* what, std::uint64_t done, std::uint64_t total) {
-        progress.update(arguments.input, what, done, total);
-    };
+    options.progress = progressOf(arguments.input);
     const KeptFiles kept({arguments.report});
     return finishFile(arguments.input, arguments.output, options);
 }
@@ -77,7 +74,7 @@ ExitCode runFinish(const FinishArguments& arguments) {
         if (arguments.json) {
             report.text = report::finishJson(outcome, options.low, exit_code);
         } else if (!arguments.quiet && result) {
-            report.text = report::finishText(outcome);
+            report.text = fitted(report::finishText(outcome));
         }
         return report;
     });

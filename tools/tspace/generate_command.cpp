@@ -119,7 +119,7 @@ class GenerateRun {
                 last = is_prepared ? std::move(texts_[0])
                                    : report::generateJson(outcomes_, exit_code_, secondsSince(start_));
             } else if (wants_text_ && outcomes_.size() > 1) {
-                last = report::generateSummary(outcomes_, secondsSince(start_));
+                last = fitted(report::generateSummary(outcomes_, secondsSince(start_)), report_to_);
             }
             return printResult(last, report_to_) ? exit_code_ : ExitCode::cannotReadOrWrite;
         };
@@ -169,7 +169,8 @@ class GenerateRun {
         const bool is_alone = jobs_.size() == 1;
         if (arguments_.json && is_alone) return report::generateJson({outcome}, ExitCode::done, secondsSince(start_));
         if (!wants_text_) return {};
-        return is_alone || arguments_.batch.verbose ? report::generateText(outcome) : report::generateLine(outcome);
+        const bool wants_details = is_alone || arguments_.batch.verbose;
+        return fitted(wants_details ? report::generateText(outcome) : report::generateLine(outcome), report_to_);
     }
 
     void record(const Job& job, const report::GenerateOutcome& outcome) {

@@ -3,41 +3,11 @@
 #include "help.h"
 
 #include <algorithm>
-#include <sstream>
+
+#include "commands/shared/text.h"
 
 namespace tspace::tool {
 namespace {
-
-constexpr std::size_t kPageWidth = 80;
-
-/// Lines that are empty or start with a space are kept as they are.
-void appendWrapped(std::string& out, const std::string& line, std::size_t indent) {
-    const std::string margin(indent, ' ');
-    if (line.empty() || line.front() == ' ') {
-        out += line.empty() ? "\n" : margin + line + "\n";
-        return;
-    }
-    std::istringstream words(line);
-    std::string word;
-    std::string current;
-    while (words >> word) {
-        if (!current.empty() && indent + current.size() + 1 + word.size() > kPageWidth) {
-            out += margin + current + "\n";
-            current.clear();
-        }
-        current += (current.empty() ? "" : " ") + word;
-    }
-    out += margin + current + "\n";
-}
-
-/// Breaks text into lines of the page, each indented by `indent` spaces.
-std::string wrapText(const std::string& text, std::size_t indent) {
-    std::string out;
-    std::istringstream lines(text);
-    std::string line;
-    while (std::getline(lines, line)) appendWrapped(out, line, indent);
-    return out;
-}
 
 std::string optionsText(const std::vector<Option>& options) {
     std::string page;
@@ -45,7 +15,7 @@ std::string optionsText(const std::vector<Option>& options) {
         page += "\n" + heading + ":\n";
         for (const Option* option : members) {
             const std::string value = option->default_text.empty() ? "" : " Default: " + option->default_text + ".";
-            page += "  " + optionHead(*option) + "\n" + wrapText(option->help + value, 8);
+            page += "  " + optionHead(*option) + "\n        " + option->help + value + "\n";
         }
     }
     return page;
@@ -91,21 +61,23 @@ std::vector<std::pair<std::string, std::vector<const Option*>>> optionsByGroup(c
 }
 
 std::string helpPage(const ToolTable& tool) {
-    std::string page = wrapText(std::string("tspace - ") + kToolSummary, 0) + "\nUsage: tspace COMMAND [OPTION...]\n";
-    page += "\nCommands:\n";
-    for (const Command& command : tool.commands) page += "  " + command.name + "\n" + wrapText(command.summary, 8);
-    page += optionsText(tool.options) + "\ntspace help COMMAND says more about a command.\n\n";
-    page += wrapText(kExitCodes, 0);
-    if (const std::string parts = leftOut(); !parts.empty()) page += "\n" + wrapText(parts, 0);
+    std::string page = std::string("tspace - ") + kToolSummary + "\n\nUsage: tspace COMMAND [OPTION...]\n\nCommands:\n";
+    for (const Command& command : tool.commands) {
+        // Its page may be installed later, so man pages have it.
+        if (command.name == "view" && !hasViewPage()) continue;
+        page += "  " + command.name + "\n        " + command.summary + "\n";
+    }
+    page += optionsText(tool.options) + "\ntspace help COMMAND says more about a command.\n\n" + kExitCodes;
+    if (const std::string parts = leftOut(); !parts.empty()) page += "\n" + parts;
     return page;
 }
 
 std::string helpPage(const Command& command) {
-    std::string page = wrapText("tspace " + command.name + " - " + command.summary, 0);
-    page += "\nUsage: " + usageLine(command) + "\n\n" + wrapText(command.description, 0);
+    std::string page = "tspace " + command.name + " - " + command.summary + "\n\nUsage: " + usageLine(command) +
+                       "\n\n" + command.description + "\n";
     page += optionsText(command.options) + "\nExamples:\n";
-    for (const std::string& example : command.examples) page += "  " + example + "\n";
-    return page + "\n" + wrapText(kExitCodes, 0);
+    for (const std::string& example : command.examples) page += "  " + report::unbroken(example) + "\n";
+    return page + "\n" + kExitCodes;
 }
 
 }  // namespace tspace::tool

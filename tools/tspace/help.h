@@ -16,7 +16,7 @@ extern const char* const kExitCodes;
 /// "Built without: PNG and JPEG, WebP.", as a line; empty where nothing is left out.
 std::string leftOut();
 
-/// The page of the whole tool.
+/// The page of the whole tool, with lines of any length.
 std::string helpPage(const ToolTable& tool);
 /// The page of a command: usage, description, options by group with their defaults, examples.
 std::string helpPage(const Command& command);

@@ -28,7 +28,7 @@ ExitCode runIdentify(const IdentifyArguments& arguments) {
     IdentifyOptions options = arguments.options;
     options.execution.thread_count = threadsPerFile(options.execution.thread_count, workers);
     const auto files = readFiles<Identification>(
-        jobs, arguments.batch, {.progress = !arguments.quiet, .text = !arguments.json && !arguments.quiet},
+        jobs, arguments.batch, !arguments.json && !arguments.quiet,
         [&](const std::string& input) -> Result<Identification> {
             StandardInput standard_input;
             IdentifyOptions own = options;

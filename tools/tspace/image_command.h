@@ -41,6 +41,7 @@ auto callWithOutput(const std::string& output, Options options, const Call& call
 template <class Options, class Call>
 auto callOnImage(const std::string& input, const std::string& output, std::uint64_t memory_limit_bytes, Options options,
                  const Call& call) -> decltype(call(options)) {
+    progressLine().update(input, "converting", 0, 0);
     std::vector<std::uint8_t> bytes;
     if (input == "-") {
         // Any bytes are taken here; the library tells the format.
@@ -70,7 +71,7 @@ ExitCode makeAndPrint(const Arguments& arguments, const Make& make, JsonOf jsonO
         if (arguments.json) {
             report.text = jsonOf(outcome, report.exit_code);
         } else if (!arguments.quiet && outcome.result) {
-            report.text = textOf(outcome);
+            report.text = fitted(textOf(outcome), report.to);
         }
         return report;
     });

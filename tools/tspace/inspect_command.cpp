@@ -25,7 +25,7 @@ ExitCode runInspect(const InspectArguments& arguments) {
     std::vector<Job> jobs = inputJobs(arguments.inputs);
     takeShard(jobs, arguments.batch.shard);
     const auto files = readFiles<Inspection>(
-        jobs, arguments.batch, {.progress = !arguments.quiet, .text = !arguments.json && !arguments.quiet},
+        jobs, arguments.batch, !arguments.json && !arguments.quiet,
         [&](const std::string& input) -> Result<Inspection> {
             StandardInput standard_input;
             FileOptions own = arguments.file;

@@ -23,6 +23,7 @@ struct MapErrorArguments {
 };
 
 ExitCode runBesideSource(const MapErrorArguments& arguments) {
+    progressLine().update(arguments.map, "comparing", 0, 0);
     const Result<TextureErrorReport> result = textureErrorFile(arguments.map, arguments.source,
                                                                {.file = arguments.options.file,
                                                                 .two_channels = arguments.options.two_channels,
@@ -35,7 +36,7 @@ ExitCode runBesideSource(const MapErrorArguments& arguments) {
     } else if (!arguments.quiet && result) {
         text = report::textureErrorText(outcome);
     }
-    return printResult(text) ? exit_code : ExitCode::cannotReadOrWrite;
+    return (arguments.json ? printResult(text) : printText(text)) ? exit_code : ExitCode::cannotReadOrWrite;
 }
 
 ExitCode runMapError(const MapErrorArguments& arguments) {
@@ -44,14 +45,10 @@ ExitCode runMapError(const MapErrorArguments& arguments) {
                                                                        arguments.options.cage, arguments.options.skew});
     if (!fit) return printUsageError(fit.error().message);
     MapErrorFileOptions options = arguments.options;
-    ProgressLine progress(1, !arguments.quiet);
-    options.progress = [&](const char* what, std::uint64_t done, std::uint64_t total) {
-        progress.update(arguments.map, what, done, total);
-    };
+    options.progress = progressOf(arguments.map);
     HeldOutputs outputs;
     report::Outcome<MapErrorFileReport> outcome{
         .input = arguments.map, .result = mapErrorFile(arguments.map, arguments.low, arguments.high, options)};
-    progress.clear();
     return commitAndPrint(outputs, [&](const Error* failure) {
         if (failure != nullptr) outcome.result = *failure;
         PreparedReport report;
@@ -61,7 +58,7 @@ ExitCode runMapError(const MapErrorArguments& arguments) {
         if (arguments.json) {
             report.text = report::mapErrorJson(outcome, arguments.low, arguments.high, report.exit_code);
         } else if (!arguments.quiet && outcome.result) {
-            report.text = report::mapErrorText(outcome);
+            report.text = fitted(report::mapErrorText(outcome));
         }
         return report;
     });

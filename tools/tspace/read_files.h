@@ -20,39 +20,32 @@ struct ReadFiles {
     bool output_is_closed = false;        ///< stdout was closed; files may have been left out
 };
 
-/// The output while files are read.
-struct Telling {
-    bool progress = false;  ///< on a terminal, when it takes long
-    bool text = false;      ///< about each file
-};
-
-/// Calls read(path) for each job, which gives a Result<Value>. Errors are printed, and textOf(outcome) of what was read:
+/// Calls read(path) for each job, which gives a Result<Value>. Errors are printed, and, where `wants_text`, textOf(outcome) of what was read:
 /// of several files the first line, where the user did not ask for all.
 template <class Value, class Read, class TextOf>
-ReadFiles<Value> readFiles(const std::vector<Job>& jobs, const BatchArguments& batch, Telling telling, Read read,
+ReadFiles<Value> readFiles(const std::vector<Job>& jobs, const BatchArguments& batch, bool wants_text, Read read,
                            TextOf textOf) {
     const bool wants_details = jobs.size() == 1 || batch.verbose;
     ReadFiles<Value> files;
     files.outcomes.resize(jobs.size());
     std::atomic<bool> output_is_closed = false;
-    ProgressLine progress(jobs.size(), telling.progress);
+    progressLine().setFileCount(jobs.size());
     const auto work = [&](std::size_t number) {
         const Job& job = jobs[number];
-        progress.update(job.input, "reading", 0, 0);
+        progressLine().update(job.input, "reading", 0, 0);
         files.outcomes[number] = {
             .input = job.input, .result = job.error.code == ErrorCode::ok ? read(job.input) : Result<Value>(job.error)};
-        progress.fileDone(files.outcomes[number].result.ok());
+        progressLine().fileDone(files.outcomes[number].result.ok());
     };
     const auto finished = [&](std::size_t number) {
         const report::Outcome<Value>& outcome = files.outcomes[number];
-        progress.clear();
         if (!outcome.result) {
             files.exit_code = worse(files.exit_code, printError(outcome.input, outcome.result.error()));
-        } else if (telling.text && !output_is_closed) {
+        } else if (wants_text && !output_is_closed) {
             std::string text = wants_details && number > 0 ? "\n" : "";
             text.append(textOf(outcome));
             if (!wants_details) text.erase(text.find('\n') + 1);
-            output_is_closed = !printResult(text);
+            output_is_closed = !printText(text);
         }
     };
     runBatch(jobs.size(), workerCount(batch, jobs.size()), work, finished, [&] { return output_is_closed.load(); });

@@ -24,6 +24,7 @@ struct RenderArguments {
 
 Result<RenderReport> render(const RenderArguments& arguments) {
     RenderOptions options = arguments.options;
+    options.progress = progressOf(arguments.input);
     StandardInput standard_input;
     if (const Result<Done> opened = standard_input.open(arguments.input, options.file); !opened) return opened.error();
     return callWithOutput(arguments.output, options, [&](const RenderOptions& with_output) {

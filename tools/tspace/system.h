@@ -18,6 +18,8 @@ void openStandardStreams();
 std::vector<char*> commandLine(int argc, char** argv);
 
 bool isTerminal(std::FILE* file);
+/// Columns of the terminal; 0 where it is not a terminal, or does not tell.
+std::size_t terminalColumns(std::FILE* file);
 /// Whether a terminal on stdout shows colours.
 bool terminalHasColors();
 

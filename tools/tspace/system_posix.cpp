@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <fcntl.h>
 #include <fnmatch.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -22,6 +23,11 @@ void openStandardStreams() {
 std::vector<char*> commandLine(int argc, char** argv) { return {argv, argv + argc}; }
 
 bool isTerminal(std::FILE* file) { return isatty(fileno(file)) != 0; }
+
+std::size_t terminalColumns(std::FILE* file) {
+    winsize size = {};
+    return ioctl(fileno(file), TIOCGWINSZ, &size) == 0 ? size.ws_col : 0;
+}
 
 bool terminalHasColors() {
     const char* terminal = std::getenv("TERM");

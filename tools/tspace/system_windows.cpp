@@ -77,6 +77,13 @@ bool isTerminal(std::FILE* file) {
     return GetConsoleMode(reinterpret_cast<HANDLE>(_get_osfhandle(_fileno(file))), &mode) != 0;
 }
 
+std::size_t terminalColumns(std::FILE* file) {
+    CONSOLE_SCREEN_BUFFER_INFO info = {};
+    const auto handle = reinterpret_cast<HANDLE>(_get_osfhandle(_fileno(file)));
+    if (GetConsoleScreenBufferInfo(handle, &info) == 0) return 0;
+    return static_cast<std::size_t>(info.srWindow.Right - info.srWindow.Left + 1);
+}
+
 bool terminalHasColors() {
     DWORD mode = 0;
     return GetConsoleMode(GetStdHandle(STD_OUTPUT_HANDLE), &mode) != 0 &&

@@ -67,7 +67,7 @@ ExitCode runView(const ViewArguments& arguments) {
         if (arguments.json) {
             report.text = report::viewJson(outcome, report.exit_code);
         } else if (!arguments.quiet && outcome.result) {
-            report.text = report::viewText(outcome);
+            report.text = fitted(report::viewText(outcome));
         }
         return report;
     });

@@ -44,9 +44,9 @@ void addFile(const BakedFile& file, Table& table) {
     const BakedMap& map = file.map;
     if (!file.path.empty())
         table.addRow(
-            {"map", fmt::format("{}, {} x {}, {} bits", printable(file.path), map.width, map.height, map.bits)});
+            {"map", fmt::format("{}, {} x {}, {} bits", unbroken(file.path), map.width, map.height, map.bits)});
     for (const BakedLayerFile& layer : file.layers)
-        table.addRow({layerName(layer.layer), fmt::format("{}, {} x {}, {} bits{}", printable(layer.path), map.width,
+        table.addRow({layerName(layer.layer), fmt::format("{}, {} x {}, {} bits{}", unbroken(layer.path), map.width,
                                                           map.height, layer.bits, rangeText(layer))});
     table.addRow({"texels", fmt::format("{} baked, {} around them", map.hit_count, map.padding_count)});
     if (!file.path.empty())
@@ -83,7 +83,7 @@ void addFile(const BakedFile& file, Table& table) {
 }  // namespace
 
 std::string highMapText(const BakedHighMap& map) {
-    return fmt::format("{}, scale {:.4g}, green {} ({})", printable(map.image), map.scale,
+    return fmt::format("{}, scale {:.4g}, green {} ({})", unbroken(map.image), map.scale,
                        map.green == Green::down ? "down" : "up", greenSourceWord(map.green_is));
 }
 
@@ -94,7 +94,7 @@ void addBakedRows(const BakeFileReport& done, const std::string& out_mesh, Table
     for (const BakedHighMap& map : done.high_maps) table.addRow({"high map", highMapText(map)});
     for (const std::string& finding : done.findings) table.addRow({"finding", printable(finding)});
     if (!out_mesh.empty() && !done.output_files.empty())
-        table.addRow({"model", fmt::format("{}, with its frames and maps", printable(out_mesh))});
+        table.addRow({"model", fmt::format("{}, with its frames and maps", unbroken(out_mesh))});
     if (done.frames_made) table.addRow({"note", "the low poly lacks frames; they were made as generate makes them"});
     if (done.matched_by_name) table.addRow({"note", "meshes were matched by their names"});
     for (const std::string& warning : done.warnings) table.addRow({"warning", printable(warning)});
@@ -103,11 +103,11 @@ void addBakedRows(const BakeFileReport& done, const std::string& out_mesh, Table
 std::string bakeText(const Outcome<BakeFileReport>& outcome, const std::string& out_mesh) {
     Table table;
     addBakedRows(*outcome.result, out_mesh, table);
-    return fmt::format("{} -> {}\n{}", printable(outcome.input), printable(outcome.output), table.text("  "));
+    return fmt::format("{} -> {}\n{}", unbroken(outcome.input), unbroken(outcome.output), table.text("  "));
 }
 
 std::string bakeLine(const Outcome<BakeFileReport>& outcome) {
-    std::string line = fmt::format("{} -> {}: ", printable(outcome.input), printable(outcome.output));
+    std::string line = fmt::format("{} -> {}: ", unbroken(outcome.input), unbroken(outcome.output));
     if (outcome.was_done_before) return line + "done before, and nothing has changed\n";
     const BakeFileReport& done = *outcome.result;
     if (done.output_files.empty()) return line + "nothing is written\n";

@@ -22,7 +22,7 @@ std::string compressMapText(const Outcome<CompressMapFileReport>& outcome) {
             {"roughness", fmt::format("{} bytes; {:.3f} in the mean, and {:.3f} at the last level",
                                       done.roughness_bytes, done.mean_roughness, done.mean_widened_roughness)});
     for (const std::string& warning : done.warnings) table.addRow({"warning", printable(warning)});
-    return fmt::format("{} -> {}{}\n{}", printable(outcome.input), printable(outcome.output),
+    return fmt::format("{} -> {}{}\n{}", unbroken(outcome.input), unbroken(outcome.output),
                        outcome.is_dry_run ? " (not written)" : "", table.text("  "));
 }
 

@@ -32,7 +32,7 @@ std::string convertMapText(const Outcome<ConvertMapFileReport>& outcome, const C
     table.addRow({"change", fmt::format("{:.3g} degrees in the mean, {:.3g} at most", texels.mean_change_deg,
                                         texels.max_change_deg)});
     for (const std::string& warning : done.warnings) table.addRow({"warning", printable(warning)});
-    return fmt::format("{} -> {}{}\n{}", printable(outcome.input), printable(outcome.output),
+    return fmt::format("{} -> {}{}\n{}", unbroken(outcome.input), unbroken(outcome.output),
                        outcome.is_dry_run ? " (not written)" : "", table.text("  "));
 }
 

@@ -18,7 +18,7 @@ std::string tableText(const TextTable& rows) {
 }
 
 std::string bar(std::uint64_t count, std::uint64_t most) {
-    constexpr std::uint64_t kColumns = 40;
+    constexpr std::uint64_t kColumns = 32;
     if (count == 0) return "";
     return std::string(std::max<std::uint64_t>(1, count * kColumns / most), '#');
 }

@@ -49,7 +49,7 @@ std::string finishText(const Outcome<FinishReport>& outcome) {
                                         : "")});
     }
     table.addRow({"time", fmt::format("{:.2f} s", outcome.seconds)});
-    return fmt::format("{} -> {}\n{}", printable(outcome.input), printable(outcome.output), table.text("  "));
+    return fmt::format("{} -> {}\n{}", unbroken(outcome.input), unbroken(outcome.output), table.text("  "));
 }
 
 }  // namespace tspace::report

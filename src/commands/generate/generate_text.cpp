@@ -176,7 +176,7 @@ std::string summaryRows(const GenerateOutcome& outcome, const Totals& totals) {
                                    ? fmt::format(" and {}", counted(report.output_files.size() - 1, "other file"))
                                    : "";
     table.addRow({outcome.is_dry_run ? "would be" : "written",
-                  fmt::format("{}{} ({}){}", printable(first), others, byteText(report.output_bytes),
+                  fmt::format("{}{} ({}){}", unbroken(first), others, byteText(report.output_bytes),
                               report.changed ? "" : ", a copy of the input")});
     return table.text("  ");
 }
@@ -240,16 +240,16 @@ std::string primitiveRows(const GenerateReport& report) {
 
 std::string generateText(const GenerateOutcome& outcome) {
     if (outcome.was_done_before) {
-        return fmt::format("{} -> {}\n  done before, and nothing has changed\n\n", printable(outcome.input),
-                           printable(outcome.output));
+        return fmt::format("{} -> {}\n  done before, and nothing has changed\n\n", unbroken(outcome.input),
+                           unbroken(outcome.output));
     }
     const Totals totals = totalsOf(*outcome.result);
-    return fmt::format("{} -> {}\n{}\n{}\n", printable(outcome.input), printable(outcome.output),
+    return fmt::format("{} -> {}\n{}\n{}\n", unbroken(outcome.input), unbroken(outcome.output),
                        summaryRows(outcome, totals), primitiveRows(*outcome.result));
 }
 
 std::string generateLine(const GenerateOutcome& outcome) {
-    std::string line = fmt::format("{} -> {}: ", printable(outcome.input), printable(outcome.output));
+    std::string line = fmt::format("{} -> {}: ", unbroken(outcome.input), unbroken(outcome.output));
     if (outcome.was_done_before) return line + "done before, and nothing has changed\n";
     const Totals totals = totalsOf(*outcome.result);
     line += actionsText(totals);

@@ -31,7 +31,7 @@ std::string heightToNormalText(const Outcome<HeightToNormalFileReport>& outcome,
     table.addRow({"slopes", fmt::format("{:.3g} degrees in the mean, {:.3g} at most", done.texels.mean_lean_deg,
                                         done.texels.max_lean_deg)});
     for (const std::string& warning : done.warnings) table.addRow({"warning", printable(warning)});
-    return fmt::format("{} -> {}{}\n{}", printable(outcome.input), printable(outcome.output),
+    return fmt::format("{} -> {}{}\n{}", unbroken(outcome.input), unbroken(outcome.output),
                        outcome.is_dry_run ? " (not written)" : "", table.text("  "));
 }
 

@@ -75,7 +75,7 @@ std::string primitiveTable(const Identification& result) {
 
 std::string identifyText(const IdentifyOutcome& outcome) {
     const Identification& result = *outcome.result;
-    std::string text = fmt::format("{}: {}\n", printable(outcome.input), result.verdict);
+    std::string text = fmt::format("{}: {}\n", unbroken(outcome.input), result.verdict);
     for (const std::string& warning : result.warnings) text += "  warning: " + printable(warning) + "\n";
     if (!result.explanations.empty()) text.append("\n").append(methodTable(result));
     if (!result.primitives.empty()) text.append("\n").append(primitiveTable(result));

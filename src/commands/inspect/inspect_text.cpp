@@ -76,7 +76,7 @@ std::string summaryLine(const InspectOutcome& outcome) {
         tangents = fmt::format("{} {} tangents, {}", counted(needed, "primitive"), needed == 1 ? "needs" : "need",
                                missing == 0 ? "none lacks them" : fmt::format("{} without", missing));
     }
-    return fmt::format("{}: {}, {}, {}, {}; {}\n", printable(outcome.input),
+    return fmt::format("{}: {}, {}, {}, {}; {}\n", unbroken(outcome.input),
                        counted(file.primitives.size(), "primitive"), counted(triangles, "triangle"),
                        counted(vertices, "vertex"), byteText(file.file_bytes), tangents);
 }

@@ -55,7 +55,7 @@ std::string mapErrorText(const Outcome<MapErrorFileReport>& outcome) {
                                  error.missed_count, error.missed_count + error.point_count, error.reach, kMissedDeg)});
     for (const BakedHighMap& map : done.high_maps) table.addRow({"high map", highMapText(map)});
     for (const std::string& warning : done.warnings) table.addRow({"warning", printable(warning)});
-    return fmt::format("{}: {}\n{}", printable(outcome.input), done.verdict, table.text("  "));
+    return fmt::format("{}: {}\n{}", unbroken(outcome.input), done.verdict, table.text("  "));
 }
 
 std::string textureErrorText(const Outcome<TextureErrorReport>& outcome) {
@@ -68,7 +68,7 @@ std::string textureErrorText(const Outcome<TextureErrorReport>& outcome) {
                                        done.mean_error_deg, done.p99_error_deg, done.max_error_deg, done.max_error_x,
                                        done.max_error_y)});
     for (const std::string& warning : done.warnings) table.addRow({"warning", printable(warning)});
-    return fmt::format("{}\n{}", printable(outcome.input), table.text("  "));
+    return fmt::format("{}\n{}", unbroken(outcome.input), table.text("  "));
 }
 
 }  // namespace tspace::report

@@ -101,11 +101,16 @@ std::string numbered(const std::string& output, std::uint32_t number) {
 
 RenderReport renderModel(const std::string& input, const std::string& output, const RenderOptions& options) {
     checkRenderOptions(options);
+    const auto tell = [&](const char* what, std::uint32_t done, std::uint32_t total) {
+        if (options.progress) options.progress(what, done, total);
+    };
+    tell("reading", 0, 1);
     InputFiles inputs;
     FileOptions file_options = options.file;
     inputs.watch(file_options);
     PosedScene posed = readPosedScene(input, file_options, options.textures);
     DrawnScene& drawn = posed.drawn;
+    tell("computing frames", 0, 1);
     std::vector<std::string> height_warnings;
     if (options.textures && options.show != RenderShow::uv)
         height_warnings = showHeights(options.method, options.execution, drawn);
@@ -128,6 +133,7 @@ RenderReport renderModel(const std::string& input, const std::string& output, co
     ErrorStatistics errors;
     std::deque<std::vector<std::uint8_t>> pngs;
     for (std::uint32_t i = 0; i < options.turntable; ++i) {
+        tell("drawing", i, options.turntable);
         const SurfacePicture picture = pictures.draw(options.yaw_deg + 360.0 * i / options.turntable);
         errors.add(picture.errors);
         pngs.push_back(encodePicture(picture.image));

@@ -24,7 +24,7 @@ std::string renderText(const Outcome<RenderReport>& outcome, Method method) {
                                            done.max_error_deg, methodName(method))});
     }
     for (const std::string& warning : done.warnings) table.addRow({"warning", printable(warning)});
-    return fmt::format("{} -> {}{}\n{}", printable(outcome.input), printable(outcome.output),
+    return fmt::format("{} -> {}{}\n{}", unbroken(outcome.input), unbroken(outcome.output),
                        outcome.is_dry_run ? " (not written)" : "", table.text("  "));
 }
 

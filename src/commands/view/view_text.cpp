@@ -8,7 +8,7 @@
 namespace tspace::report {
 
 std::string viewText(const Outcome<ViewReport>& outcome) {
-    return fmt::format("{} -> {}: {}, {}\n", printable(outcome.input), printable(outcome.output),
+    return fmt::format("{} -> {}: {}, {}\n", unbroken(outcome.input), unbroken(outcome.output),
                        counted(outcome.result->files.size(), "file"), byteText(outcome.result->output_bytes));
 }
 

@@ -492,6 +492,9 @@ void AtomicOutput::renameFiles() {
     }
     std::unique_lock lock(renaming());
     leaveSharedFiles();
+    for (const File& file : files_) {
+        if (!file.is_stream) recordOutput(file.target.string());
+    }
     // Old files are set aside first, so that a failure half-way can be undone. No memory is allocated from here on.
     struct Aside {
         Path name = {};
@@ -560,9 +563,6 @@ void AtomicOutput::renameFiles() {
         }
     }
     lock.unlock();
-    for (const File& file : files_) {
-        if (!file.is_stream) recordOutput(file.target.string());
-    }
     for (const Path& folder : folders) syncFolder(folder);
 }
 
