@@ -88,17 +88,18 @@ std::optional<std::vector<std::uint8_t>> encodeSamples(spng_ihdr header, const s
         void operator()(void* memory) const { std::free(memory); }
     };
     const PngContext context = makeContext(SPNG_CTX_ENCODER);
-    if (spng_set_option(context.get(), SPNG_ENCODE_TO_BUFFER, 1) != 0 ||
-        spng_set_option(context.get(), SPNG_FILTER_CHOICE, SPNG_FILTER_CHOICE_PAETH) != 0 ||
-        spng_set_option(context.get(), SPNG_IMG_COMPRESSION_LEVEL, level) != 0 ||
-        spng_set_ihdr(context.get(), &header) != 0 ||
-        spng_encode_image(context.get(), samples.data(), samples.size(), SPNG_FMT_PNG, SPNG_ENCODE_FINALIZE) != 0) {
+    if (!succeeds(spng_set_option(context.get(), SPNG_ENCODE_TO_BUFFER, 1)) ||
+        !succeeds(spng_set_option(context.get(), SPNG_FILTER_CHOICE, SPNG_FILTER_CHOICE_PAETH)) ||
+        !succeeds(spng_set_option(context.get(), SPNG_IMG_COMPRESSION_LEVEL, level)) ||
+        !succeeds(spng_set_ihdr(context.get(), &header)) ||
+        !succeeds(
+            spng_encode_image(context.get(), samples.data(), samples.size(), SPNG_FMT_PNG, SPNG_ENCODE_FINALIZE))) {
         return {};
     }
     std::size_t size = 0;
     int result = 0;
     const std::unique_ptr<void, Free> file(spng_get_png_buffer(context.get(), &size, &result));
-    if (!file || result != 0) return {};
+    if (!succeeds(result) || !file) return {};
     const auto* first = static_cast<const std::uint8_t*>(file.get());
     return std::vector<std::uint8_t>(first, first + size);
 }

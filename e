@@ -1,0 +1,1 @@
+env: ‘/work/mem/build/release/bin/tspace.new’: No such file or directory
