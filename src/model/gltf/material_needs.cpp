@@ -136,6 +136,18 @@ bool isKnownExtension(const std::string& name) {
 /// for readers that do not know them.
 constexpr std::array kOverridesUnlit{"VRMC_materials_mtoon"};
 
+/// The normal map of a material in VRM 0.x, which describes materials at the root of the file and has KHR_materials_unlit in
+/// them as the fallback; null where it names none.
+const Json* vrmNormalMap(const Document& document, std::size_t material) {
+    const Json* vrm = findExtension(document.json, "VRM");
+    const Json* all = vrm == nullptr ? nullptr : findMember(*vrm, "materialProperties");
+    if (all == nullptr || !all->is_array() || material >= all->size()) return nullptr;
+    const Json* shader = findMember((*all)[material], "shader");
+    const Json* textures = findMember((*all)[material], "textureProperties");
+    const bool is_as_in_gltf = shader != nullptr && *shader == "VRM_USE_GLTFSHADER";
+    return textures == nullptr || is_as_in_gltf ? nullptr : findMember(*textures, "_BumpMap");
+}
+
 /// Whether an object, at any depth, has a texture reference whose name says that it is a normal or bump map.
 bool namesNormalMap(const Json& object) {
     if (object.is_array()) return std::any_of(object.begin(), object.end(), namesNormalMap);
@@ -202,7 +214,10 @@ class MaterialUses {
     void collect() {
         const Json& material = rootArray(document_, "materials")[material_];
         const std::string place = join("/materials", material_);
-        addTexture(material, place, "normalTexture", "normalTexture");
+        const bool has_map = addTexture(material, place, "normalTexture", "normalTexture");
+        // Its image stays unknown: commands that change maps change references in materials alone.
+        if (!has_map && vrmNormalMap(document_, material_) != nullptr)
+            add("normalTexture", join("/extensions/VRM/materialProperties", material_) + "/textureProperties/_BumpMap");
         if (isUnlit(document_, material_)) {
             // Malformed textures are refused here too.
             uses_.resize(first_);
@@ -332,7 +347,8 @@ std::string otherTangentReader(const Document& document, const Primitive& primit
 
 bool isUnlit(const Document& document, std::size_t material) {
     const Json& object = rootArray(document, "materials")[material];
-    if (findExtension(object, "KHR_materials_unlit") == nullptr) return false;
+    if (findExtension(object, "KHR_materials_unlit") == nullptr || vrmNormalMap(document, material) != nullptr)
+        return false;
     const std::vector<std::string> names = extensionsOf(object);
     return std::none_of(names.begin(), names.end(), [&](const std::string& name) {
         if (std::find(kOverridesUnlit.begin(), kOverridesUnlit.end(), name) != kOverridesUnlit.end()) return true;

@@ -33,7 +33,7 @@ std::string otherTangentReader(const Document& document, const Primitive& primit
 std::vector<std::size_t> variantMaterials(const Document& document, const Primitive& primitive);
 
 /// Whether a material ignores normals and normal maps: it has KHR_materials_unlit, no extension that takes precedence over
-/// it (VRMC_materials_mtoon), and no extension unknown to tspace that names a normal or bump map.
+/// it (VRMC_materials_mtoon; VRM 0.x with a `_BumpMap`), and no extension unknown to tspace that names a normal or bump map.
 bool isUnlit(const Document& document, std::size_t material);
 
 /// Properties that all materials of a primitive, its own and those of variants, share. Without any: the default

@@ -475,6 +475,25 @@ TEST(CheckFile, GivesOneVerdictWithAndWithoutAnUnlitFallback) {
               CodeCounts{"note tangentsUnused"});
 }
 
+/// VRM 0.x describes materials at the root of the file, and KHR_materials_unlit is the fallback of its MToon.
+TEST(CheckFile, KnowsTheNormalMapsOfVrm0) {
+    const auto verdict = [](const char* shader, const char* textures, bool has_gltf_map) {
+        TestModel model(false, true);
+        Json& root = model.builder.json();
+        root["materials"][0]["extensions"]["KHR_materials_unlit"] = Json::object();
+        if (!has_gltf_map) root["materials"][0].erase("normalTexture");
+        root["extensions"]["VRM"]["materialProperties"] =
+            Json::array({Json{{"shader", shader}, {"textureProperties", Json::parse(textures)}}});
+        return codes(model.check());
+    };
+    const char* const with_map = R"({"_MainTex":0,"_BumpMap":0})";
+    for (const bool has_gltf_map : {false, true}) {
+        EXPECT_EQ(verdict("VRM/MToon", with_map, has_gltf_map), CodeCounts{"error signsInverted"}) << has_gltf_map;
+        EXPECT_EQ(verdict("VRM/MToon", R"({"_MainTex":0})", has_gltf_map), CodeCounts{"note tangentsUnused"});
+        EXPECT_EQ(verdict("VRM_USE_GLTFSHADER", with_map, has_gltf_map), CodeCounts{"note tangentsUnused"});
+    }
+}
+
 TEST(CheckFile, SaysThatAnImageWasNotLookedAt) {
     TestModel model;
     model.folder.write("normal.png", "RIFF0000WEBP");
