@@ -27,16 +27,16 @@ inline bool isUtf8(std::string_view text) {
     return true;
 }
 
-/// Whether the byte at `at` is the second of a character of Shift-JIS, where it may be that of a backslash: an odd number
-/// of bytes before it begin a character. `text` is not UTF-8.
+/// Whether the byte at `at` is the second of a character of two bytes, where it may be that of a backslash: an odd number of
+/// bytes before it begin one, in Shift-JIS, or in GBK, Big5 and their like. `text` is not UTF-8.
 inline bool isSecondByte(std::string_view text, std::size_t at) {
-    std::size_t leads = 0;
-    while (leads < at) {
-        const auto byte = static_cast<unsigned char>(text[at - leads - 1]);
-        if (!((byte >= 0x81 && byte <= 0x9f) || (byte >= 0xe0 && byte <= 0xfc))) break;
-        ++leads;
-    }
-    return leads % 2 != 0;
+    const auto isBehindOdd = [&](auto&& begins) {
+        std::size_t leads = 0;
+        while (leads < at && begins(static_cast<unsigned char>(text[at - leads - 1]))) ++leads;
+        return leads % 2 != 0;
+    };
+    return isBehindOdd([](int byte) { return (byte >= 0x81 && byte <= 0x9f) || (byte >= 0xe0 && byte <= 0xfc); }) ||
+           isBehindOdd([](int byte) { return byte >= 0x81 && byte <= 0xfe; });
 }
 
 }  // namespace tspace::obj

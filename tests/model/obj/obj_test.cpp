@@ -368,7 +368,7 @@ TEST(Obj, TexturesThatAreMissingForbiddenOrNoImagesAreLeftOutWithAWarning) {
     EXPECT_TRUE(made.document.json.contains("images"));
 }
 
-/// In Shift-JIS the second byte of a character may be that of a backslash, which continues no line.
+/// In Shift-JIS, GBK and Big5 the second byte of a character may be that of a backslash, which continues no line.
 TEST(Obj, TextThatIsNotUtf8KeepsItsBytesAndGivesAWarning) {
     const TempFolder folder;
     folder.write("in/m.mtl", "newmtl \x94\xa7\nnorm \x94\xa7.png\n");
@@ -379,6 +379,11 @@ TEST(Obj, TextThatIsNotUtf8KeepsItsBytesAndGivesAWarning) {
     EXPECT_TRUE(made.document.json.contains("images"));
     EXPECT_TRUE(mentions(made.report.warnings, "not UTF-8"));
     EXPECT_TRUE(mentions(made.report.warnings, "m.mtl"));
+    for (const char* name : {"\xb3\x5c", "\xa5\x5c\xaf\xe0\xb3\x5c", "\xb1\x83\x5c", "\x8d\x5c"}) {
+        const std::string text =
+            "o " + std::string(name) + "\nv 9 9 9\n" + kQuad + "usemtl " + name + "\nf 2/1 3/2 4/3\n";
+        EXPECT_EQ(make(folder, text).primitives.at(0).corner_count, 3u) << name;
+    }
     const ObjModel utf8 = make(folder, "o \xe4\xbd\x93\\\n 2\nmtllib m.mtl\n" + faces, {});
     EXPECT_TRUE(mentions(utf8.report.warnings, "not UTF-8")) << "its usemtl is not";
     const ObjModel plain = make(folder, "o \xe4\xbd\x93\n" + std::string(kQuad) + "f 1/1 2/2 3/3\n", {});
