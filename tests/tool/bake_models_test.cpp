@@ -248,6 +248,25 @@ TEST_F(BakeModels, InstancesOfAMirroredHalfGetTheRayDistanceOfWhatTheyShow) {
     EXPECT_LT(distanceOf(both, both), 1.5 * alone);
 }
 
+/// COLOR_0 names the UVs, which have too few components.
+TEST_F(BakeModels, AnAttributeThatCannotBeReadCostsNoTexel) {
+    ASSERT_EQ(runTool(folder, "generate --all low.obj -o low.glb").exit_code, 0);
+    std::string bytes = folder.read("low.glb");
+    const std::string uvs = "\"TEXCOORD_0\":", tangents = "\"TANGENT\":";
+    const std::size_t from = bytes.find(uvs), to = bytes.find(tangents);
+    ASSERT_TRUE(from != std::string::npos && to != std::string::npos);
+    bytes.replace(to, tangents.size() + 1, "\"COLOR_0\":" + bytes.substr(from + uvs.size(), 1));
+    folder.write("faulty.glb", bytes);
+    EXPECT_EQ(runTool(folder, "check faulty.glb").exit_code, 1) << "the attribute is an error";
+    static_cast<void>(bake("faulty.glb --high high.obj --size 32", "faulty.png"));
+    static_cast<void>(bake("low.obj --high high.obj --size 32", "sound.png"));
+    EXPECT_EQ(folder.read("faulty.png"), folder.read("sound.png"));
+    const json written = bake("faulty.glb --high high.obj --size 32 --out-mesh out.glb", "written.png");
+    EXPECT_TRUE(warns(written, "COLOR_0 was removed"));
+    EXPECT_EQ(folder.read("written.png"), folder.read("sound.png"));
+    EXPECT_EQ(runTool(folder, "check out.glb").exit_code, 0);
+}
+
 TEST_F(BakeModels, ASizeMayBeWiderThanHigh) {
     const json report = bake("low.obj --high high.obj --size 64x32");
     EXPECT_EQ(report["files"][0]["width"], 64);

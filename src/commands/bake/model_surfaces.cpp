@@ -78,12 +78,17 @@ GenerateOptions allFrames(const BakeFileOptions& options, ExistingTangents exist
     return generate;
 }
 
+/// A map needs frames on all triangles, also where an attribute cannot be read.
+GenerateStep withAttributesRepaired() { return {.repairs_attributes = true}; }
+
 /// The low poly as it is written with its maps later, for which the model stays. What is written is what is baked for.
 DrawnScene readToWrite(const std::string& low, const BakeFileOptions& options, BakeModels& models) {
-    gltf::GeneratedModel made = generateModel(low, allFrames(options, ExistingTangents::keep, Faces::triangles), true);
+    gltf::GeneratedModel made = generateModel(low, allFrames(options, ExistingTangents::keep, Faces::triangles), true,
+                                              withAttributesRepaired());
     models.low.frames_made =
         std::any_of(made.report.primitives.begin(), made.report.primitives.end(),
                     [](const PrimitiveReport& primitive) { return primitive.action == PrimitiveAction::generated; });
+    models.low.warnings = std::move(made.report.warnings);
     models.low_model = std::move(made.model);
     return models.low_model->drawnScene(false);
 }
@@ -107,7 +112,7 @@ DrawnScene readWithFrames(const std::string& low, const BakeFileOptions& options
     gltf::Model model(std::move(document));
     models.low.frames_made = lacksFrames(model);
     if (!models.low.frames_made) return model.drawnScene(false);
-    return gltf::generateModel(std::move(model), generate, false).model.drawnScene(false);
+    return gltf::generateModel(std::move(model), generate, false, withAttributesRepaired()).model.drawnScene(false);
 }
 
 /// Where a primitive stands first.
@@ -408,7 +413,7 @@ LowModel readLowImages(const std::string& low, const BakeFileOptions& options) {
 std::optional<LowModel> readLowAnew(const std::string& low, const BakeFileOptions& options, Faces faces,
                                     const LowModel& known) {
     const GenerateOptions generate = allFrames(options, ExistingTangents::replace, faces);
-    DrawnScene scene = generateModel(low, generate, false).model.drawnScene(false);
+    DrawnScene scene = generateModel(low, generate, false, withAttributesRepaired()).model.drawnScene(false);
     moveBy(known.origin, scene);
     LowModel model = lowModel(scene, nullptr, nullptr);
     bool fits = model.images.size() == known.images.size();
@@ -451,6 +456,7 @@ BakeModels readBakeModels(const std::string& low_path, const std::string& high_p
         return readWithFrames(low.name, of_low, models);
     });
     const bool frames_made = models.low.frames_made;
+    const std::vector<std::string> warnings = std::move(models.low.warnings);
     DrawnScene cage_scene;
     if (!options.cage.empty()) {
         cage_scene = aboutInput(BakeInput::cage, [&] {
@@ -474,6 +480,7 @@ BakeModels readBakeModels(const std::string& low_path, const std::string& high_p
     models.low = aboutInput(BakeInput::low,
                             [&] { return lowModel(low_scene, options.cage.empty() ? nullptr : &cage_scene, used); });
     models.low.frames_made = frames_made;
+    models.low.warnings.insert(models.low.warnings.begin(), warnings.begin(), warnings.end());
     models.low.origin = origin;
     tell();
     models.high = aboutInput(BakeInput::high, [&] { return highModel(high_scene, used, high.name, options); });

@@ -61,11 +61,12 @@ Result<GenerateReport> generateStep(const std::string& input, const std::string&
     return generateAny(input, output, options, &step);
 }
 
-gltf::GeneratedModel generateModel(const std::string& input, const GenerateOptions& options, bool with_images) {
+gltf::GeneratedModel generateModel(const std::string& input, const GenerateOptions& options, bool with_images,
+                                   const GenerateStep& step) {
     checkOptions(input, options);
     if (isObj(input)) return generateObjModel(input, options);
     gltf::Model model(gltf::loadDocument(input, options.file, options.execution, options.progress));
-    return gltf::generateModel(std::move(model), options, with_images);
+    return gltf::generateModel(std::move(model), options, with_images, step);
 }
 
 }  // namespace tspace

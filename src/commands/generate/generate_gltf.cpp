@@ -211,9 +211,10 @@ bool turnWrong(Input& input, const Storage& storage, std::span<const std::uint32
 
 /// Repairs attributes where that is asked for. Returns whether any were, and the container then is that of the output.
 /// Primitives that lost their normals get new ones.
-bool repairFaults(Input& input, const Storage& storage, NormalWishes& wishes, std::vector<std::string>& warnings) {
+bool repairFaults(Input& input, const Storage& storage, bool is_asked_for, NormalWishes& wishes,
+                  std::vector<std::string>& warnings) {
     const GenerateOptions& options = input.options;
-    if (!options.overwrite_normals && options.existing != ExistingTangents::repair) return false;
+    if (!is_asked_for && !options.overwrite_normals && options.existing != ExistingTangents::repair) return false;
     const std::span<const Primitive> primitives = input.model.primitives();
     if (std::all_of(primitives.begin(), primitives.end(),
                     [](const Primitive& primitive) { return primitive.attribute_faults.empty(); }))
@@ -262,7 +263,7 @@ WorkedOn generate(Input& input, bool with_images, const GenerateStep& step, Gene
     std::copy_n(document.coordinate_offset.begin(), 3, report.coordinate_offset);
     const Storage storage = prepareStorage(input, report.warnings);
     NormalWishes wishes = step.normals;
-    const bool was_repaired = repairFaults(input, storage, wishes, report.warnings);
+    const bool was_repaired = repairFaults(input, storage, step.repairs_attributes, wishes, report.warnings);
     const bool were_mended = mendNormalLengths(input, storage, report.warnings);
     tell(input.options, "reading", 1, 1);
     WindingPlan winding;
@@ -338,10 +339,11 @@ void writeGenerated(const std::string& input, Document& document, const OutputTa
     files.commit();
 }
 
-GeneratedModel generateModel(Model&& model, const GenerateOptions& options, bool with_images) {
+GeneratedModel generateModel(Model&& model, const GenerateOptions& options, bool with_images,
+                             const GenerateStep& step) {
     Input input = toInput(std::move(model), "model.glb", true, options);
     GenerateReport report;
-    generate(input, with_images, {}, report);
+    generate(input, with_images, step, report);
     input.model.readAnew();
     return {std::move(input.model), std::move(report)};
 }

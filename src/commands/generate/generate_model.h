@@ -17,6 +17,8 @@ struct GenerateStep {
     gltf::NormalWishes normals = {};  ///< not for OBJ
     std::vector<std::uint32_t> wound_meshes =
         {};  ///< meshes that GenerateOptions::mend_winding leaves alone; not for OBJ
+    /// Attributes of a wrong type or number are repaired, which generate does for some options alone.
+    bool repairs_attributes = false;
 };
 
 }  // namespace tspace
@@ -31,7 +33,8 @@ struct GeneratedModel {
 
 /// Generates what a GLB would hold, and gives the model as a reader of that GLB would get it. `with_images`: it takes them in
 /// as a GLB does. GenerateOptions::sink and dry_run mean nothing. Throws FileError.
-GeneratedModel generateModel(Model&& input, const GenerateOptions& options, bool with_images);
+GeneratedModel generateModel(Model&& input, const GenerateOptions& options, bool with_images,
+                             const GenerateStep& step = {});
 
 /// generateFile for glTF inputs, and for what the importer makes of other formats. `step`: null for a command of its own.
 Result<GenerateReport> generateGltf(const std::string& input, const std::string& output, const GenerateOptions& options,
@@ -42,7 +45,8 @@ Result<GenerateReport> generateGltf(const std::string& input, const std::string&
 namespace tspace {
 
 /// The same for a model file of any format.
-gltf::GeneratedModel generateModel(const std::string& input, const GenerateOptions& options, bool with_images);
+gltf::GeneratedModel generateModel(const std::string& input, const GenerateOptions& options, bool with_images,
+                                   const GenerateStep& step = {});
 
 /// generateFile as a step.
 Result<GenerateReport> generateStep(const std::string& input, const std::string& output, const GenerateOptions& options,
