@@ -25,11 +25,11 @@ struct ToolRun {
     [[nodiscard]] long errorLines() const { return std::count(err.begin(), err.end(), '\n'); }
 };
 
-/// Runs in `folder`, with lines of any width. `arguments` is shell text; `runner` is a command that starts the tool. A report that is not as docs/schema
+/// Runs in `folder`. `arguments` is shell text; `runner` is a command that starts the tool. A report that is not as docs/schema
 /// says fails the test.
 inline ToolRun runTool(const TempFolder& folder, const std::string& arguments, const std::string& runner = "") {
     const TempFolder output;
-    const std::string command = "cd '" + folder.path().string() + "' && " + "export COLUMNS=9999 && " + runner +
+    const std::string command = "cd '" + folder.path().string() + "' && " + runner +
                                 " '" TSPACE_TOOL "' " + arguments + " > '" + (output.path() / "out").string() +
                                 "' 2> '" + (output.path() / "err").string() + "'";
     const int status = std::system(command.c_str());

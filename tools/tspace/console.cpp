@@ -56,14 +56,24 @@ bool printResult(std::string_view text, std::FILE* to) {
     return written;
 }
 
-std::string fitted(std::string_view text, std::FILE* to) { return report::fitText(text, terminalWidth(to)); }
+namespace {
+
+/// Columns where the width of a terminal is not known.
+constexpr std::size_t kUsualWidth = 80;
+
+}  // namespace
+
+std::string fitted(std::string_view text, std::FILE* to) {
+    const std::optional<std::size_t> width = terminalWidth(to);
+    return width ? report::fitText(text, *width) : std::string(text);
+}
 
 bool printText(std::string_view text, std::FILE* to) { return printResult(fitted(text, to), to); }
 
 ExitCode printPage(std::string_view page) {
     // Long lines of text would be hard to read.
     constexpr std::size_t kWidest = 100;
-    const std::size_t width = std::min(terminalWidth(stdout), kWidest);
+    const std::size_t width = std::min(terminalWidth(stdout).value_or(kUsualWidth), kWidest);
     return printResult(report::fitText(page, width, 0)) ? ExitCode::done : ExitCode::cannotReadOrWrite;
 }
 
@@ -73,12 +83,13 @@ bool wantsColor(Color color) {
     return isTerminal(stdout) && terminalHasColors() && (refused == nullptr || *refused == '\0');
 }
 
-std::size_t terminalWidth(std::FILE* file) {
-    constexpr std::size_t kUsual = 80, kLeast = 20;
+std::optional<std::size_t> terminalWidth(std::FILE* file) {
+    constexpr std::size_t kLeast = 20;
     std::uint64_t columns = 0;
     const char* wanted = std::getenv("COLUMNS");
     if (wanted == nullptr || !options::parseNumber(wanted, columns) || columns == 0) columns = terminalColumns(file);
-    return columns == 0 ? kUsual : std::max<std::size_t>(columns, kLeast);
+    if (columns == 0) return {};
+    return std::max<std::size_t>(columns, kLeast);
 }
 
 ProgressLine& progressLine() {
@@ -137,7 +148,7 @@ void ProgressLine::draw() {
                            failed_count_ == 0 ? "" : fmt::format(", {} failed", failed_count_));
     }
     // A line that is wider than the terminal could not be erased.
-    const std::size_t width = terminalWidth(stderr) - 1, taken = line.size() + end.size() + 2;
+    const std::size_t width = terminalWidth(stderr).value_or(kUsualWidth) - 1, taken = line.size() + end.size() + 2;
     const std::string file = taken < width ? report::lastColumns(printable(file_), width - taken) : "";
     line += (file.empty() ? "" : file + ": ") + end;
     erase();

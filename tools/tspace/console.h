@@ -6,6 +6,7 @@
 #include <condition_variable>
 #include <cstdint>
 #include <cstdio>
+#include <optional>
 #include <mutex>
 #include <string>
 #include <string_view>
@@ -46,7 +47,7 @@ void printRemark(const std::string& message);
 /// disk), which is said on stderr.
 bool printResult(std::string_view text, std::FILE* to = stdout);
 
-/// A text for people, fitted to the width of the terminal (80 columns where there is none, unless COLUMNS says otherwise).
+/// A text for people, fitted to terminalWidth(); as it is where that is not known, for programs that search it.
 std::string fitted(std::string_view text, std::FILE* to = stdout);
 bool printText(std::string_view text, std::FILE* to = stdout);
 /// As printText(), for a page of help.
@@ -55,8 +56,8 @@ ExitCode printPage(std::string_view page);
 /// Whether stdout gets colours. automatic: it is a terminal that shows them, and the user did not say no by NO_COLOR.
 bool wantsColor(Color color);
 
-/// Columns of the terminal on `file`: COLUMNS where it is set, else what the terminal says, else 80.
-std::size_t terminalWidth(std::FILE* file);
+/// Columns of the terminal on `file`: COLUMNS where it is set, else what the terminal says; nothing where there is none.
+std::optional<std::size_t> terminalWidth(std::FILE* file);
 
 /// The status line of the run on stderr: how many files are done, the stage of a file in progress, and the time since the start.
 /// A thread draws it, so it also appears in stages that report nothing. It stays silent when stderr is not a terminal, and during
