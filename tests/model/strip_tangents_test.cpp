@@ -131,6 +131,24 @@ TEST(StripTangents, CanEmptyABufferThatHeldNothingElse) {
     EXPECT_LT(outcome.after.json["buffers"][0]["byteLength"], 48);
 }
 
+TEST(StripTangents, NeedsNoBuffer) {
+    for (const char* output : {"out.gltf", "out.glb"}) {
+        GltfBuilder builder;
+        builder.json().erase("buffers");
+        builder.json().erase("bufferViews");
+        builder.json()["accessors"] = Json::parse(R"([{"componentType":5126,"count":3,"type":"VEC3"},
+                                                      {"componentType":5126,"count":3,"type":"VEC4"}])");
+        builder.addPrimitive({{"POSITION", 0}, {"TANGENT", 1}});
+        const TempFolder folder;
+        const std::string input = folder.write("in.gltf", builder.gltfText());
+        const auto report = generateFile(input, folder.path(output).string(), {.strip = true});
+        ASSERT_TRUE(report) << report.error().message << " at " << report.error().place;
+        EXPECT_EQ(report->primitives.at(0).action, PrimitiveAction::removed);
+        const gltf::Document written = gltf::loadDocument(folder.path(output).string(), {});
+        EXPECT_FALSE(written.json.contains("buffers") && written.json["buffers"].is_null());
+    }
+}
+
 TEST(StripTangents, ContradictsAll) {
     const TempFolder folder;
     const std::string input = folder.write("in.glb", unneeded().glb());

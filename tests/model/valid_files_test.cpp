@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Every file in which the glTF validator finds no error loads.
+// Every file in which the glTF validator finds no error loads, and every file that loads is processed.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -8,7 +8,9 @@
 #include "model/json/json.h"
 #include "model_files.h"
 #include "support/shared_data.h"
+#include "support/temp_folder.h"
 #include "tspace/asset.h"
+#include "tspace/check.h"
 
 namespace tspace {
 namespace {
@@ -44,6 +46,30 @@ TEST(ValidFiles, Load) {
         }
     }
     EXPECT_GT(count, 50);
+}
+
+/// A file that check can read is no file that generate refuses, whatever is asked for.
+TEST(ReadableFiles, AreProcessed) {
+    const std::string folder = "bad/gltf-validator";
+    TSPACE_NEEDS_SHARED("bad/gltf-validator");
+    GenerateOptions all, strip, repair;
+    all.all = all.overwrite_normals = true;
+    strip.strip = true;
+    repair.existing = ExistingTangents::repair;
+    int count = 0;
+    for (const std::string& name : test::modelFiles(folder)) {
+        const std::string path = (shared(folder) / name).string();
+        if (!checkFile(path)) continue;
+        ++count;
+        for (const GenerateOptions& options : {GenerateOptions{}, all, strip, repair}) {
+            for (const char* written : {"out.gltf", "out.glb"}) {
+                const test::TempFolder output;
+                const auto report = generateFile(path, output.path(written).string(), options);
+                EXPECT_TRUE(report) << name << ": " << report.error().message << " at " << report.error().place;
+            }
+        }
+    }
+    EXPECT_GT(count, 150);
 }
 
 }  // namespace

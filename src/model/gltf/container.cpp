@@ -136,10 +136,16 @@ constexpr const char* kNewBufferEnding = ".tspace.bin";
 
 /// The bytes and media type that an image's URI names, or nothing (with a warning) when they cannot be read.
 std::optional<DataUri> loadImage(Document& document, const std::string& uri, const std::string& declared,
-                                 const std::string& place, std::vector<std::string>& warnings) {
+                                 std::size_t number, std::vector<std::string>& warnings) {
+    const std::string place = join("/images", number);
     DataUri image;
     if (uriKind(uri) == UriKind::data) {
-        image = decodeDataUri(uri, join(place, "uri"));
+        const auto failure = tryFile([&] { image = decodeDataUri(uri, join(place, "uri")); });
+        if (failure && failure->code != ErrorCode::invalidFile) throw FileError{*failure};
+        if (failure) {
+            warnings.push_back("the image " + std::to_string(number) + " keeps its data URI: " + failure->message);
+            return {};
+        }
         if (!declared.empty()) image.mime_type = declared;
     } else if (uriKind(uri) == UriKind::otherScheme || document.files.areNone()) {
         warnings.push_back("the image " + inQuotes(uri) + " is not a file and stays outside of the GLB");
@@ -243,7 +249,7 @@ void embedImages(Document& document, std::vector<std::string>& warnings) {
         const Json& old = rootArray(document, "images")[i];
         const std::string uri = readString(old, "uri", place);
         if (uri.empty()) continue;
-        const auto image = loadImage(document, uri, readString(old, "mimeType", place), place, warnings);
+        const auto image = loadImage(document, uri, readString(old, "mimeType", place), i, warnings);
         if (!image) continue;
         // First, because a new member of the root invalidates references to the others.
         Buffer& bin = binBuffer(document);

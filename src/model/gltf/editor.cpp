@@ -338,9 +338,9 @@ void Editor::finish() {
     for (const std::size_t view : spare_views_) shrinkView(view);
     spare_views_.clear();
     if (!vacated_.empty()) cutVacated(document_, vacated_);
-    Json& buffers = document_.json["buffers"];
+    // Looked up only for a buffer: a document without buffers has no array of them.
     for (std::size_t i = 0; i < document_.buffers.size(); ++i) {
-        if (document_.buffers[i].edited) buffers[i]["byteLength"] = document_.buffers[i].bytes.size();
+        if (document_.buffers[i].edited) document_.json["buffers"][i]["byteLength"] = document_.buffers[i].bytes.size();
     }
     removeEmptiedBuffers(document_);
 }
