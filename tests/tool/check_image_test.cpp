@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "images/float_image.h"
@@ -192,6 +194,47 @@ TEST_F(CheckImage, GoesWithModelsPipesAndPages) {
     const ToolRun large = runTool(folder_, "check large.ktx2");
     EXPECT_EQ(large.exit_code, 3);
     EXPECT_NE(large.err.find("--memory-limit allows more"), std::string::npos) << large.err;
+}
+
+TEST_F(CheckImage, FindsImagesInFoldersWithoutModels) {
+    const RgbImage down = normalMapOf(kMapSide, bumps, true);
+    RgbImage picture = map_, gray = map_;
+    for (std::size_t i = 0; i < map_.rgb.size(); ++i) {
+        const std::size_t texel = i / 3;
+        picture.rgb[i] = static_cast<std::uint8_t>(i % 3 == 0 ? 40 + texel % 90 : i % 3 == 1 ? 20 + texel / 900 : 9);
+        gray.rgb[i] = map_.rgb[3 * texel];
+    }
+    folder_.write("textures/wall.png", pngFile(down));
+    folder_.write("textures/deep/floor.png", pngFile(map_));
+    folder_.write("textures/wood_color.png", pngFile(picture));
+    folder_.write("textures/roughness.png", pngFile(gray));
+    folder_.write("textures/wood_N.png", pngFile(picture));
+    folder_.write("textures/readme.txt", "");
+    for (const std::string input : {"textures", "'textures/**'", "'textures/**/*.png'"}) {
+        const ToolRun run = runTool(folder_, "check --json " + input);
+        EXPECT_EQ(run.err, "");
+        std::map<std::string, Codes> found;
+        const Json report = Json::parse(run.out);
+        for (const Json& file : report["files"])
+            found[std::filesystem::path(file["input"].get<std::string>()).filename().string()] = codes(file);
+        const std::map<std::string, Codes> wanted{{"floor.png", {}},
+                                                  {"roughness.png", {}},
+                                                  {"wall.png", {"warning greenFlipped"}},
+                                                  {"wood_N.png", {"error normalMapIsPicture"}},
+                                                  {"wood_color.png", {}}};
+        EXPECT_EQ(found, wanted) << input << report;
+    }
+    // Named alone, an image is judged in any case.
+    EXPECT_EQ(codes(check("textures/wood_color.png")).size(), 1U);
+    EXPECT_NE(runTool(folder_, "check textures").out.find("no normal map"), std::string::npos);
+    folder_.write("empty/readme.txt", "");
+    const ToolRun empty = runTool(folder_, "check empty");
+    EXPECT_EQ(empty.exit_code, 3);
+    EXPECT_NE(empty.err.find("no model files and no images in this folder"), std::string::npos) << empty.err;
+    // Other commands want models, and so does a folder that has one.
+    EXPECT_EQ(runTool(folder_, "inspect textures").exit_code, 3);
+    writeFoldedObj(folder_, "textures/folded.obj");
+    EXPECT_EQ(Json::parse(runTool(folder_, "check --json textures").out)["files"].size(), 1U);
 }
 
 }  // namespace

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 // tspace check: what is wrong in models, as text, JSON, SARIF and a page.
 #include <algorithm>
+#include <array>
+#include <cctype>
+#include <filesystem>
 #include <memory>
 
 #include "command_table.h"
@@ -9,6 +12,8 @@
 #include "commands/shared/request.h"
 #include "common_options.h"
 #include "console.h"
+#include "core/base/ascii.h"
+#include "model/io/path.h"
 #include "output_files.h"
 #include "page_origin.h"
 #include "read_files.h"
@@ -49,12 +54,39 @@ void addCheckReporting(Command& command, CheckArguments& arguments) {
                                    "variable NO_COLOR is set."));
 }
 
-Result<CheckReport> check(const std::string& input, CheckOptions options, const CheckArguments& arguments) {
+/// Whether a file is named as normal maps are: rock_normal.png, Rock-NRM.tga, rock_n.dds.
+bool isNormalMapName(const std::string& file) {
+    static constexpr std::array kWords = {"n", "nor", "norm", "normals", "nrm", "nrml", "nml", "ddn"};
+    const std::string stem = lowerAscii(Path(std::filesystem::path(Path(file)).stem()).string());
+    if (stem.find("normal") != std::string::npos) return true;
+    std::string word;
+    for (const char c : stem + '.') {
+        if (std::isalnum(static_cast<unsigned char>(c)) != 0) {
+            word += c;
+            continue;
+        }
+        if (std::find(kWords.begin(), kWords.end(), word) != kWords.end()) return true;
+        word.clear();
+    }
+    return false;
+}
+
+/// Whether a folder was searched and found an image that neither its name nor its texels make a normal map: a base color, a
+/// roughness. Somebody who names such an image asks whether it is one.
+bool isOtherImage(const Job& job, const CheckReport& report) {
+    if (!job.is_found_image || !report.image || isNormalMapName(job.input)) return false;
+    const std::string& content = report.image->content;
+    return content == "picture" || content == "height" || content == "constant";
+}
+
+Result<CheckReport> check(const Job& job, CheckOptions options, const CheckArguments& arguments) {
     StandardInput standard_input;
-    if (const Result<Done> opened = standard_input.open(input, options.file, true); !opened) return opened.error();
-    options.progress = progressOf(input);
-    Result<CheckReport> report = checkFile(input, options);
-    if (report) options::leaveOut(arguments.request, *report);
+    if (const Result<Done> opened = standard_input.open(job.input, options.file, true); !opened) return opened.error();
+    options.progress = progressOf(job.input);
+    Result<CheckReport> report = checkFile(job.input, options);
+    if (!report) return report;
+    if (isOtherImage(job, *report)) report->findings.clear();
+    options::leaveOut(arguments.request, *report);
     return report;
 }
 
@@ -62,7 +94,7 @@ ExitCode runCheck(const CheckArguments& arguments) {
     const bool sarif_to_stdout = arguments.sarif == "-";
     const bool wants_text = !arguments.json && !arguments.quiet && !sarif_to_stdout;
     const bool in_color = wantsColor(arguments.color);
-    std::vector<Job> jobs = inputJobs(arguments.inputs);
+    std::vector<Job> jobs = inputJobs(arguments.inputs, SearchedFiles::modelsOrImages);
     std::vector<std::string> inputs;
     for (const Job& job : jobs) inputs.push_back(job.input);
     if (const Result<Done> fit = prepareOutputs({arguments.sarif, arguments.html}, inputs); !fit)
@@ -76,7 +108,7 @@ ExitCode runCheck(const CheckArguments& arguments) {
     if (!arguments.sarif.empty() || !arguments.html.empty()) read.watch(options.file);
     options.execution.thread_count = threadsPerFile(options.execution.thread_count, workers);
     const auto files = readFiles<CheckReport>(
-        jobs, arguments.batch, wants_text, [&](const std::string& input) { return check(input, options, arguments); },
+        jobs, arguments.batch, wants_text, [&](const Job& job) { return check(job, options, arguments); },
         [&](const report::CheckOutcome& outcome) { return report::checkText(outcome, in_color); });
     if (files.output_is_closed) return ExitCode::cannotReadOrWrite;
     ExitCode exit_code = files.exit_code;
@@ -132,8 +164,9 @@ Command checkCommand() {
             "maps whose green points down. Every finding says how to mend it. An error surely renders wrong; a warning "
             "renders wrong in some renderers, in a small part, or only perhaps; a note is worth knowing. Changes "
             "nothing. An input that is an image (PNG, JPEG, WebP, EXR, KTX2, DDS, TGA) is judged as a normal map, "
-            "without a model: direction of green, channels, encoding, lengths.",
-        .examples = {"tspace check helmet.glb", "tspace check normal.png",
+            "without a model: direction of green, channels, encoding, lengths. A folder or pattern without models is "
+            "searched for images; of those, what neither looks like a normal map nor is named as one gets no finding.",
+        .examples = {"tspace check helmet.glb", "tspace check normal.png", "tspace check textures/",
                      "tspace check --fail-on warning --jobs 0 models/", "tspace check --json models/ > findings.json",
                      "tspace check --quiet --sarif findings.sarif models/",
                      "tspace check --html report.html helmet.glb"},

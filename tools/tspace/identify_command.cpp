@@ -29,11 +29,11 @@ ExitCode runIdentify(const IdentifyArguments& arguments) {
     options.execution.thread_count = threadsPerFile(options.execution.thread_count, workers);
     const auto files = readFiles<Identification>(
         jobs, arguments.batch, !arguments.json && !arguments.quiet,
-        [&](const std::string& input) -> Result<Identification> {
+        [&](const Job& job) -> Result<Identification> {
             StandardInput standard_input;
             IdentifyOptions own = options;
-            if (const Result<Done> opened = standard_input.open(input, own.file); !opened) return opened.error();
-            return identifyFile(input, own);
+            if (const Result<Done> opened = standard_input.open(job.input, own.file); !opened) return opened.error();
+            return identifyFile(job.input, own);
         },
         report::identifyText);
     if (files.output_is_closed) return ExitCode::cannotReadOrWrite;

@@ -26,11 +26,11 @@ ExitCode runInspect(const InspectArguments& arguments) {
     takeShard(jobs, arguments.batch.shard);
     const auto files = readFiles<Inspection>(
         jobs, arguments.batch, !arguments.json && !arguments.quiet,
-        [&](const std::string& input) -> Result<Inspection> {
+        [&](const Job& job) -> Result<Inspection> {
             StandardInput standard_input;
             FileOptions own = arguments.file;
-            if (const Result<Done> opened = standard_input.open(input, own); !opened) return opened.error();
-            return inspectFile(input, own);
+            if (const Result<Done> opened = standard_input.open(job.input, own); !opened) return opened.error();
+            return inspectFile(job.input, own);
         },
         report::inspectText);
     if (files.output_is_closed) return ExitCode::cannotReadOrWrite;

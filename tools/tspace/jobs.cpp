@@ -32,10 +32,10 @@ struct Found {
     fs::path relative;  // where it lies below its folder; for files that were named: the file name
 };
 
-/// Lists model files in `folder` and below, but for those in `skipped_folder` (where outputs go). Only the files of a folder
-/// that cannot be read are missing.
-void listModels(const fs::path& folder, const std::string& skipped_folder, std::vector<fs::path>& models,
-                std::vector<Found>& failures) {
+/// Lists files that `is_wanted` accepts in `folder` and below, but for those in `skipped_folder` (where outputs go). Only the
+/// files of a folder that cannot be read are missing.
+void listFiles(const fs::path& folder, bool (*is_wanted)(const std::string&), const std::string& skipped_folder,
+               std::vector<fs::path>& files, std::vector<Found>& failures) {
     std::vector<fs::path> folders;
     std::vector<FolderEntry> entries;
     const int failed = listFolder(folder, entries);
@@ -44,8 +44,8 @@ void listModels(const fs::path& folder, const std::string& skipped_folder, std::
         if (entry.kind == PathKind::folder) {
             // No links to folders: they may lead in a circle.
             if (!entry.is_link) folders.push_back(path);
-        } else if (entry.kind == PathKind::file && isModelFile(Path(path).string())) {
-            models.push_back(path);
+        } else if (entry.kind == PathKind::file && is_wanted(Path(path).string())) {
+            files.push_back(path);
         }
     }
     if (failed != 0) {
@@ -56,50 +56,65 @@ void listModels(const fs::path& folder, const std::string& skipped_folder, std::
     }
     for (const fs::path& below : folders) {
         if (skipped_folder.empty() || canonicalName(below) != skipped_folder)
-            listModels(below, skipped_folder, models, failures);
+            listFiles(below, is_wanted, skipped_folder, files, failures);
     }
 }
 
-void findModels(const fs::path& folder, const std::string& skipped_folder, std::vector<Found>& found) {
-    std::vector<fs::path> models;
+bool isImageFile(const std::string& path) { return isImageName(path); }
+
+Found foundBelow(const fs::path& root, const fs::path& file, bool is_image) {
+    const fs::path relative = file.lexically_relative(root);
+    return {{.input = Path(file).string(), .name = Path(relative).string(), .is_found_image = is_image}, relative};
+}
+
+void findFiles(const fs::path& folder, const std::string& skipped_folder, SearchedFiles searched,
+               std::vector<Found>& found) {
+    std::vector<fs::path> files;
     std::vector<Found> failures;
-    listModels(folder, skipped_folder, models, failures);
-    std::sort(models.begin(), models.end());
-    for (const fs::path& model : models) {
-        const fs::path relative = model.lexically_relative(folder);
-        found.push_back({{.input = Path(model).string(), .name = Path(relative).string()}, relative});
-    }
-    if (models.empty() && failures.empty()) {
-        found.push_back(
-            {{.input = Path(folder).string(), .error = {ErrorCode::invalidFile, "no model files in this folder"}}, {}});
+    listFiles(folder, isModelFile, skipped_folder, files, failures);
+    const bool are_images = searched == SearchedFiles::modelsOrImages && files.empty() && failures.empty();
+    if (are_images) listFiles(folder, isImageFile, skipped_folder, files, failures);
+    std::sort(files.begin(), files.end());
+    for (const fs::path& file : files) found.push_back(foundBelow(folder, file, are_images));
+    if (files.empty() && failures.empty()) {
+        const char* message =
+            are_images ? "no model files and no images in this folder" : "no model files in this folder";
+        found.push_back({{.input = Path(folder).string(), .error = {ErrorCode::invalidFile, message}}, {}});
     }
     std::move(failures.begin(), failures.end(), std::back_inserter(found));
 }
 
-/// Model files that match. The output folder is no reason to leave one out: the pattern says what is meant.
-void findMatches(const std::string& pattern, std::vector<Found>& found) {
+/// Model files that match, or else images. The output folder is no reason to leave one out: the pattern says what is meant.
+void findMatches(const std::string& pattern, SearchedFiles searched, std::vector<Found>& found) {
     const fs::path root = patternRoot(pattern);
-    const std::size_t before = found.size();
+    std::vector<Found> models, images;
     for (const fs::path& match : matchPattern(pattern)) {
-        if (!isModelFile(Path(match).string())) continue;
-        const fs::path relative = match.lexically_relative(root);
-        found.push_back({{.input = Path(match).string(), .name = Path(relative).string()}, relative});
+        if (isModelFile(Path(match).string())) {
+            models.push_back(foundBelow(root, match, false));
+        } else if (isImageFile(Path(match).string())) {
+            images.push_back(foundBelow(root, match, true));
+        }
     }
-    if (found.size() == before) {
-        found.push_back(
-            {{.input = pattern, .error = {ErrorCode::cannotRead, "no model file matches this pattern"}}, {}});
+    const bool with_images = searched == SearchedFiles::modelsOrImages;
+    std::vector<Found>& matches = models.empty() && with_images ? images : models;
+    if (matches.empty()) {
+        const char* message =
+            with_images ? "no model file and no image matches this pattern" : "no model file matches this pattern";
+        found.push_back({{.input = pattern, .error = {ErrorCode::cannotRead, message}}, {}});
     }
+    std::move(matches.begin(), matches.end(), std::back_inserter(found));
 }
 
 bool isPatternInput(const std::string& input) { return isPattern(input) && !isThere(input); }
 
-std::vector<Found> findInputs(const std::vector<std::string>& inputs, const std::string& skipped_folder) {
+std::vector<Found> findInputs(const std::vector<std::string>& inputs, const std::string& skipped_folder,
+                              SearchedFiles searched = SearchedFiles::models) {
     std::vector<Found> found;
     for (const std::string& input : inputs) {
         if (isFolder(input)) {
-            findModels(Path(input), skipped_folder, found);
+            findFiles(Path(input), skipped_folder, searched, found);
         } else if (isPatternInput(input)) {
-            findMatches(input, found);
+            findMatches(input, searched, found);
         } else {
             found.push_back({{.input = input, .name = input}, fs::path(Path(input)).filename()});
         }
@@ -230,9 +245,9 @@ std::vector<std::string> outputFolders(const std::vector<Job>& jobs) {
     return folders;
 }
 
-std::vector<Job> inputJobs(const std::vector<std::string>& inputs) {
+std::vector<Job> inputJobs(const std::vector<std::string>& inputs, SearchedFiles searched) {
     std::vector<Job> jobs;
-    for (Found& item : findInputs(inputs, "")) jobs.push_back(std::move(item.job));
+    for (Found& item : findInputs(inputs, "", searched)) jobs.push_back(std::move(item.job));
     return jobs;
 }
 

@@ -29,6 +29,7 @@ struct Job {
     std::string output = {};                ///< empty for commands that write nothing
     std::string name = {};                  ///< path below the input folder; for files that were named: as named
     std::string remark = {};                ///< a remark on the output that the user may not expect; may be empty
+    bool is_found_image = false;            ///< an image that no input names: a search found it
     Error error = {.code = ErrorCode::ok};  ///< why it cannot even be tried
 };
 
@@ -39,9 +40,15 @@ std::string importerPath();
 /// is there. (Files that are named may be of any format that it reads.)
 bool isModelFile(const std::string& path);
 
+/// What folders and patterns are searched for.
+enum class SearchedFiles {
+    models,
+    modelsOrImages  ///< for images where a folder or a pattern has no model
+};
+
 /// Every input file, the model files of every input folder and below in the order of their names, and the model files
 /// that match a pattern (glob.h) that is not itself a file.
-std::vector<Job> inputJobs(const std::vector<std::string>& inputs);
+std::vector<Job> inputJobs(const std::vector<std::string>& inputs, SearchedFiles searched = SearchedFiles::models);
 
 /// As inputJobs(), with outputs. Makes no folder: that happens when there is something to write. An Error of code
 /// invalidOption says what is wrong with the command line.

@@ -20,7 +20,7 @@ struct ReadFiles {
     bool output_is_closed = false;        ///< stdout was closed; files may have been left out
 };
 
-/// Calls read(path) for each job, which gives a Result<Value>. Errors are printed, and, where `wants_text`, textOf(outcome) of what was read:
+/// Calls read(job) for each job, which gives a Result<Value>. Errors are printed, and, where `wants_text`, textOf(outcome) of what was read:
 /// of several files the first line, where the user did not ask for all.
 template <class Value, class Read, class TextOf>
 ReadFiles<Value> readFiles(const std::vector<Job>& jobs, const BatchArguments& batch, bool wants_text, Read read,
@@ -33,8 +33,8 @@ ReadFiles<Value> readFiles(const std::vector<Job>& jobs, const BatchArguments& b
     const auto work = [&](std::size_t number) {
         const Job& job = jobs[number];
         progressLine().update(job.input, "reading", 0, 0);
-        files.outcomes[number] = {
-            .input = job.input, .result = job.error.code == ErrorCode::ok ? read(job.input) : Result<Value>(job.error)};
+        files.outcomes[number] = {.input = job.input,
+                                  .result = job.error.code == ErrorCode::ok ? read(job) : Result<Value>(job.error)};
         progressLine().fileDone(files.outcomes[number].result.ok());
     };
     const auto finished = [&](std::size_t number) {
