@@ -79,7 +79,7 @@ enum class FindingCode : std::uint32_t {
     normalMapLengths = 50,        ///< an image alone: vectors that are far from unit length
     normalMapConstant = 51,       ///< an image alone: all texels are one color
     normalMapZero = 52,           ///< an image alone: flat parts are stored as 127, not 128
-    attributeUnreadable = 53,  ///< NORMAL, TEXCOORD_n or COLOR_n has a type or a number of elements that it cannot have
+    attributeUnreadable = 53,     ///< an attribute but TANGENT has a type or a number of elements that it cannot have
 };
 inline constexpr std::uint32_t kFindingCodeCount = 54;
 

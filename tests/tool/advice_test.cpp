@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "model/model_files.h"
+#include "tool/faulty_models.h"
 #include "tool/model_images.h"
 #include "tool/run_tool.h"
 
@@ -75,11 +76,17 @@ Places placesOf(const Json& findings, bool with_place) {
     return places;
 }
 
+/// How names of models begin that are made here.
+constexpr const char* kMade = "made/";
+
 class Advice : public testing::TestWithParam<std::string> {
   public:
     void SetUp() override {
         if (GetParam().empty()) GTEST_SKIP() << "test data is not there";
         input_ = std::filesystem::absolute(shared(GetParam())).string();
+        for (const FaultyModel& model : faultyModels()) {
+            if (GetParam() == kMade + std::string(model.name)) input_ = writeFaulty(folder_, model);
+        }
         const std::string extension = lowerExtension(input_);
         is_gltf_ = extension == ".glb" || extension == ".gltf" || extension == ".vrm";
         output_ = "out/o" + (is_gltf_ ? extension : ".glb");
@@ -197,7 +204,7 @@ std::vector<std::string> models() {
          }) {
         if (std::filesystem::exists(shared(name))) names.push_back(name);
     }
-    if (names.empty()) names.emplace_back();
+    for (const FaultyModel& model : faultyModels()) names.push_back(kMade + std::string(model.name));
     return names;
 }
 #endif

@@ -234,26 +234,43 @@ void checkNoise(PrimitiveFacts& facts) {
                   " of the length of an edge beside a smooth surface, in the mean square");
 }
 
-/// NORMAL, TEXCOORD_n and COLOR_n of a wrong type or number. A command stands in a remedy only where it leaves no finding.
-void checkAttributes(PrimitiveFacts& facts) {
-    const auto needs = [&](const std::string& name) {
-        return std::any_of(facts.primitive.uses.begin(), facts.primitive.uses.end(),
-                           [&](const TangentUse& use) { return use.has_texture && name == setName(use.uv_set); });
-    };
+namespace {
+
+/// A command stands in a remedy only where it removes the finding and leaves no new one.
+const char* attributeRemedy(const ScenePrimitive& primitive, const SceneAttributeFault& fault) {
+    const auto isNeeded = [&](const TangentUse& use) { return use.has_texture && fault.name == setName(use.uv_set); };
+    const auto isFatal = [](const SceneAttributeFault& other) { return other.repair == AttributeRepair::none; };
+    const std::vector<SceneAttributeFault>& faults = primitive.attribute_faults;
+    if (fault.repair == AttributeRepair::none)
+        return "Export the mesh again: no command can repair it, and commands leave this primitive as it is.";
+    if (std::any_of(faults.begin(), faults.end(), isFatal))
+        return "Export the mesh again: another attribute cannot be repaired, so commands leave this primitive as it "
+               "is.";
+    if (fault.repair == AttributeRepair::resize) {
+        const bool is_influence = fault.name.starts_with("JOINTS_") || fault.name.starts_with("WEIGHTS_");
+        return is_influence ? "Fill the missing influences with zeros: tspace generate --repair."
+                            : "Keep the components that it may have: tspace generate --repair.";
+    }
+    if (fault.target >= 0 && fault.name == "NORMAL" && !primitive.normals.empty())
+        return "Export the morph target again; or make new offsets of normals: tspace generate --repair "
+               "--morph-normals missing.";
+    if (fault.target < 0 && fault.name == "NORMAL")
+        return "Export the normals again; or make new ones: tspace generate --overwrite-normals.";
+    if (fault.target < 0 && std::any_of(primitive.uses.begin(), primitive.uses.end(), isNeeded))
+        return "Export the UVs again: tangents follow them.";
+    return "Export the attribute again; or remove it: tspace generate --repair.";
+}
+
+}  // namespace
+
+void reportAttributeFaults(PrimitiveFacts& facts) {
     for (const SceneAttributeFault& fault : facts.primitive.attribute_faults) {
-        const Tally all{.count = facts.mesh.positions.size(), .total = facts.mesh.positions.size()};
+        const Tally all{.count = fault.vertex_count, .total = fault.vertex_count};
+        const std::string name =
+            fault.target < 0 ? fault.name : fault.name + " of morph target " + std::to_string(fault.target);
         facts.add(FindingCode::attributeUnreadable, Severity::error, all, "vertices",
-                  "the elements of " + fault.name + " cannot be read: " + fault.why);
-        Finding& finding = facts.findings.back();
-        if (fault.is_repairable) {
-            finding.remedy = "Keep the components that it may have: tspace generate --repair.";
-        } else if (fault.name == "NORMAL") {
-            finding.remedy = "Export the normals again; or make new ones: tspace generate --overwrite-normals.";
-        } else if (needs(fault.name)) {
-            finding.remedy = "Export the UVs again: tangents follow them.";
-        } else {
-            finding.remedy = "Export the attribute again; or remove it: tspace generate --repair.";
-        }
+                  "the elements of " + name + " cannot be read: " + fault.why);
+        facts.findings.back().remedy = attributeRemedy(facts.primitive, fault);
     }
 }
 
@@ -453,9 +470,11 @@ Result<PrimitiveVerdict> judgePrimitive(const ScenePrimitive& primitive, const C
                                         std::span<const ScenePrimitive> scene) {
     PrimitiveFacts facts{.primitive = primitive, .options = options, .is_gltf = is_gltf};
     facts.all = scene;
+    reportAttributeFaults(facts);
     if (primitive.corners.empty()) {
         // glTF lights points and lines by their tangents where the material has a normal map.
-        if (!primitive.tangents.empty() && primitive.uses.empty()) {
+        const bool has_positions = primitive.findFault("POSITION") == nullptr;
+        if (has_positions && !primitive.tangents.empty() && primitive.uses.empty()) {
             Tally all{.count = 1, .total = 1};
             facts.add(FindingCode::tangentsUnused, Severity::note, all, "primitives",
                       "it has tangents, but draws " + primitive.mode);
@@ -471,7 +490,6 @@ Result<PrimitiveVerdict> judgePrimitive(const ScenePrimitive& primitive, const C
                   .position_step = primitive.position_step};
     facts.surface = describeSurface(facts.mesh);
     facts.used = usedVertices(facts.mesh);
-    checkAttributes(facts);
     checkPositions(facts);
     checkRounding(facts);
     checkNormals(facts);

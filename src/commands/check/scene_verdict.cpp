@@ -41,6 +41,7 @@ class PrimitiveKey {
             words_.push_back(fault.why);
         }
         for (const SceneAttributeFault& fault : primitive.attribute_faults) {
+            add({static_cast<std::uint64_t>(fault.target)});
             words_.push_back(fault.name);
             words_.push_back(fault.why);
         }

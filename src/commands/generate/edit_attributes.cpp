@@ -140,20 +140,54 @@ void removeUnreadable(Editor& editor, const Primitive& primitive, const Unreadab
 
 namespace {
 
-/// The elements of an accessor without their last components.
-ElementData firstComponents(const Document& document, std::size_t index, std::size_t kept_count) {
-    const Accessor accessor = readAccessor(document, index);
+/// The elements of an accessor with as many components as they must have: without the last ones, or with zeros behind them.
+ElementData resizedElements(const Document& document, const AttributeFault& fault) {
+    const Accessor accessor = readAccessor(document, fault.accessor);
     const Bytes elements = copyElements(document, accessor);
     ElementData data{.component = accessor.component,
-                     .type = "VEC" + std::to_string(kept_count),
+                     .type = "VEC" + std::to_string(fault.new_count),
                      .normalized = accessor.normalized,
                      .count = accessor.count,
-                     .element_bytes = kept_count * bytesOf(accessor.component)};
-    data.bytes.resize(data.count * data.element_bytes);
+                     .element_bytes = fault.new_count * bytesOf(accessor.component)};
+    data.bytes = Bytes(data.count * data.element_bytes, 0);
     for (std::size_t i = 0; i < data.count; ++i)
-        std::copy_n(elements.data() + i * accessor.element_bytes, data.element_bytes,
+        std::copy_n(elements.data() + i * accessor.element_bytes, std::min(data.element_bytes, accessor.element_bytes),
                     data.bytes.data() + i * data.element_bytes);
+    const Json& object = rootArray(document, "accessors")[fault.accessor];
+    const auto firstOf = [&](const char* name) {
+        const Json* bounds = findMember(object, name);
+        if (bounds == nullptr || !bounds->is_array() || bounds->size() < fault.new_count) return Json();
+        Json first = Json::array();
+        for (std::size_t i = 0; i < fault.new_count; ++i) first.push_back((*bounds)[i]);
+        return first;
+    };
+    data.min = firstOf("min");
+    data.max = firstOf("max");
     return data;
+}
+
+/// Returns the warning about the repair. `stored`: resized elements by accessor and number of components.
+std::string repairAttribute(Editor& editor, const Document& document, const Primitive& primitive,
+                            const AttributeFault& fault,
+                            std::map<std::pair<std::size_t, std::size_t>, std::size_t>& stored) {
+    const std::string start = primitive.place() + ": " + fault.fullName();
+    if (fault.repair == AttributeRepair::remove) {
+        if (fault.target < 0) {
+            eraseAttribute(editor, primitive, fault.name.c_str());
+        } else {
+            attributesOf(editor, primitive, fault.target).erase(fault.name);
+        }
+        if (hasKnownType(editor.accessor(fault.accessor))) editor.release(fault.accessor);
+        return start + " was removed: " + fault.why;
+    }
+    const auto [entry, is_new] = stored.try_emplace({fault.accessor, fault.new_count}, 0);
+    const std::size_t old_count = readAccessor(document, fault.accessor).component_count;
+    if (is_new) entry->second = editor.store(resizedElements(document, fault), {});
+    attributesOf(editor, primitive, fault.target)[fault.name] = entry->second;
+    editor.moveUse(fault.accessor, entry->second);
+    if (old_count < fault.new_count)
+        return start + " has fewer components than it must have: zeros follow the " + std::to_string(old_count);
+    return start + " has more components than it may have: the first " + std::to_string(fault.new_count) + " are kept";
 }
 
 }  // namespace
@@ -165,21 +199,11 @@ std::vector<bool> repairAttributes(Document& document, const std::string& new_fi
     std::map<std::pair<std::size_t, std::size_t>, std::size_t> stored;  // by accessor and number of components
     for (std::size_t i = 0; i < primitives.size(); ++i) {
         const Primitive& primitive = primitives[i];
+        if (!primitive.canRepairFaults()) continue;
         for (const AttributeFault& fault : primitive.attribute_faults) {
-            const std::string start = primitive.place() + ": " + fault.name;
-            if (fault.kept_count == 0) {
-                eraseAttribute(editor, primitive, fault.name.c_str());
-                if (hasKnownType(editor.accessor(fault.accessor))) editor.release(fault.accessor);
-                lost_normals[i] = lost_normals[i] || fault.name == "NORMAL";
-                warnings.push_back(start + " was removed: " + fault.why);
-                continue;
-            }
-            const auto [entry, is_new] = stored.try_emplace({fault.accessor, fault.kept_count}, 0);
-            if (is_new) entry->second = editor.store(firstComponents(document, fault.accessor, fault.kept_count), {});
-            editor.primitive(primitive.mesh, primitive.index)["attributes"][fault.name] = entry->second;
-            editor.moveUse(fault.accessor, entry->second);
-            warnings.push_back(start + " has more components than it may have: the first " +
-                               std::to_string(fault.kept_count) + " are kept");
+            warnings.push_back(repairAttribute(editor, document, primitive, fault, stored));
+            const bool is_removed = fault.repair == AttributeRepair::remove;
+            if (is_removed && fault.target < 0 && fault.name == "NORMAL") lost_normals[i] = true;
         }
     }
     editor.finish();

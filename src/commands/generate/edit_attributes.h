@@ -50,8 +50,8 @@ void stripTangents(Editor& editor, std::span<const Primitive> primitives, std::s
 /// Removes tangents of the primitive, or of one of its morph targets, that cannot be read.
 void removeUnreadable(Editor& editor, const Primitive& primitive, const UnreadableTangents& tangents);
 
-/// Keeps the components that Primitive::attribute_faults may have, where there are more, and removes the other attributes;
-/// says so in `warnings`. The model was edited then. Returns the primitives that lost their normals, one entry per primitive.
+/// Repairs Primitive::attribute_faults as AttributeRepair says, but in primitives that no command can repair; reports each
+/// repair in `warnings`. The model was edited then. Returns the primitives that lost their normals, one entry per primitive.
 std::vector<bool> repairAttributes(Document& document, const std::string& new_file,
                                    std::span<const Primitive> primitives, std::vector<std::string>& warnings);
 

@@ -216,8 +216,9 @@ bool repairFaults(Input& input, const Storage& storage, bool is_asked_for, Norma
     const GenerateOptions& options = input.options;
     if (!is_asked_for && !options.overwrite_normals && options.existing != ExistingTangents::repair) return false;
     const std::span<const Primitive> primitives = input.model.primitives();
-    if (std::all_of(primitives.begin(), primitives.end(),
-                    [](const Primitive& primitive) { return primitive.attribute_faults.empty(); }))
+    if (std::none_of(primitives.begin(), primitives.end(), [](const Primitive& primitive) {
+            return !primitive.attribute_faults.empty() && primitive.canRepairFaults();
+        }))
         return false;
     Document& document = input.model.document();
     if (options.compression == Compression::keep) convertContainer(document, input.target, true, warnings);

@@ -137,8 +137,10 @@ bool decide(PrimitiveReport& report, const Document& document, const Primitive& 
     if (keeps && !lacksDeltas(primitive) && normals.morphs.empty()) return leave(PrimitiveAction::kept, kKeptReason);
     if (!primitive.attribute_faults.empty()) {
         const AttributeFault& fault = primitive.attribute_faults.front();
-        return leave(PrimitiveAction::impossible, "the elements of its " + fault.name + " cannot be read: " +
-                                                      fault.why + " (--repair or --overwrite-normals mends that)");
+        const char* remedy = primitive.canRepairFaults() ? " (--repair or --overwrite-normals mends that)"
+                                                         : " (no command can repair that; export the mesh again)";
+        return leave(PrimitiveAction::impossible,
+                     "the elements of its " + fault.fullName() + " cannot be read: " + fault.why + remedy);
     }
     const auto cannot = [&](const std::string& reason) {
         if (!keeps) return leave(PrimitiveAction::impossible, reason);

@@ -103,6 +103,7 @@ void describeAttributes(const Document& document, const Primitive& primitive, Pr
         info.attributes.push_back("TANGENT " + formatName(found) + " of " + std::to_string(found.count) + " elements");
     }
     for (const AttributeFault& fault : primitive.attribute_faults) {
+        if (fault.target >= 0) continue;
         const Accessor found = readAccessor(document, fault.accessor);
         info.attributes.push_back(fault.name + " " + formatName(found) + " of " + std::to_string(found.count) +
                                   " elements");
@@ -113,7 +114,9 @@ void describeAttributes(const Document& document, const Primitive& primitive, Pr
     info.has_normals = primitive.find("NORMAL").has_value();
     info.has_tangents = primitive.find("TANGENT").has_value();
     info.tangents_not_read = !info.has_tangents && document.may_hide_tangents;
-    info.skinned = primitive.find("JOINTS_0").has_value();
+    info.skinned = primitive.find("JOINTS_0").has_value() ||
+                   std::any_of(primitive.attribute_faults.begin(), primitive.attribute_faults.end(),
+                               [](const AttributeFault& fault) { return fault.name == "JOINTS_0"; });
     while (primitive.find("TEXCOORD_" + std::to_string(info.uv_set_count))) ++info.uv_set_count;
 }
 

@@ -29,20 +29,6 @@ AttributeList readAttributes(const Json& object, const std::string& place, std::
     return list;
 }
 
-/// Every attribute of a primitive and of its morph targets has one element per vertex.
-void checkCounts(const Document& document, const AttributeList& list, std::size_t vertex_count,
-                 const std::string& place) {
-    for (const auto& [name, index] : list) {
-        const std::size_t count = readAccessor(document, index).count;
-        if (count != vertex_count) {
-            failFile(ErrorCode::invalidFile,
-                     "the attribute has " + std::to_string(count) + " elements, but the primitive has " +
-                         std::to_string(vertex_count) + " vertices",
-                     join(place, name));
-        }
-    }
-}
-
 /// Packed frames of another length are no reason to refuse a file: they can be made anew.
 void setMiscountedApart(const Document& document, Primitive& primitive) {
     const auto is_good = [&](const auto& entry) {
@@ -82,46 +68,83 @@ void setUnreadableApart(const Document& document, Primitive& primitive) {
         setApart(primitive.targets[i], static_cast<std::ptrdiff_t>(i));
 }
 
-/// The most components that an attribute may have; 0: any.
-std::size_t mostComponents(const std::string& name) {
-    if (name == "NORMAL") return 3;
-    if (name.starts_with("TEXCOORD_")) return 2;
-    return name.starts_with("COLOR_") ? 4 : 0;
+/// Least and greatest number of components of an attribute; 0, 0: any.
+std::pair<std::size_t, std::size_t> componentRange(const std::string& name) {
+    if (name == "POSITION" || name == "NORMAL") return {3, 3};
+    if (name.starts_with("TEXCOORD_")) return {2, 2};
+    if (name.starts_with("COLOR_")) return {3, 4};
+    if (name.starts_with("JOINTS_") || name.starts_with("WEIGHTS_")) return {4, 4};
+    return {};
 }
 
-/// Nothing: the attribute can be what its name promises.
-std::optional<AttributeFault> attributeFault(const std::string& name, std::size_t index, const Accessor& accessor,
-                                             std::size_t vertex_count) {
-    const std::size_t most = mostComponents(name);
-    if (most == 0) return {};
-    AttributeFault fault{.name = name, .accessor = index};
-    const bool is_color = most == 4, is_vector = accessor.type.starts_with("VEC");
-    const std::size_t least = is_color ? 3 : most;
-    if (accessor.count != vertex_count) {
-        fault.why = "there are " + std::to_string(accessor.count) + " of them for " + std::to_string(vertex_count) +
-                    " vertices";
-    } else if (!is_vector || accessor.component_count < least || accessor.component_count > most) {
-        fault.why = "they do not have " + std::string(is_color ? "3 or 4" : std::to_string(most)) + " components";
-        if (is_vector && accessor.component_count > most) fault.kept_count = most;
+/// Number of components of a vector; 0: the accessor has no vectors.
+std::size_t vectorSize(const Accessor& accessor) {
+    return accessor.type.starts_with("VEC") ? accessor.component_count : 0;
+}
+
+/// Whether joints and weights both lack the same components, so that these stand for influences that no vertex has.
+/// Weights alone may lack one that readers compute from the others.
+bool lackSameInfluences(const Document& document, const Primitive& primitive, const std::string& name) {
+    const std::string set = name.substr(name.find('_'));
+    const auto joints = primitive.find("JOINTS" + set), weights = primitive.find("WEIGHTS" + set);
+    if (!joints || !weights) return false;
+    const Accessor a = readAccessor(document, *joints), b = readAccessor(document, *weights);
+    const std::size_t size = vectorSize(a);
+    return size != 0 && size == vectorSize(b) && a.count == primitive.vertex_count && b.count == primitive.vertex_count;
+}
+
+AttributeRepair repairOf(const std::string& name, const AttributeList& list, bool is_target) {
+    // Programs refuse an empty morph target, and without one of them targets and weights get other numbers.
+    if (is_target && list.size() == 1) return AttributeRepair::none;
+    const bool is_needed = name == "POSITION" || name.starts_with("JOINTS_") || name.starts_with("WEIGHTS_");
+    return is_needed ? AttributeRepair::none : AttributeRepair::remove;
+}
+
+/// Nothing: the attribute has elements that its name allows, one per vertex.
+std::optional<AttributeFault> attributeFault(const Document& document, const Primitive& primitive,
+                                             const AttributeList& list, std::ptrdiff_t target,
+                                             const AttributeList::value_type& attribute) {
+    const auto& [name, index] = attribute;
+    const Accessor accessor = readAccessor(document, index);
+    const auto [least, most] = componentRange(name);
+    AttributeFault fault{.name = name, .target = target, .accessor = index};
+    fault.repair = repairOf(name, list, target >= 0);
+    const std::size_t size = vectorSize(accessor);
+    if (accessor.count != primitive.vertex_count) {
+        fault.why = "there are " + std::to_string(accessor.count) + " of them for " +
+                    std::to_string(primitive.vertex_count) + " vertices";
+    } else if (most != 0 && (size < least || size > most)) {
+        fault.why = "they do not have " + std::string(least != most ? "3 or 4" : std::to_string(most)) + " components";
+        const bool is_influence = name.starts_with("JOINTS_") || name.starts_with("WEIGHTS_");
+        if (size > most || (is_influence && lackSameInfluences(document, primitive, name))) {
+            fault.repair = AttributeRepair::resize;
+            fault.new_count = most;
+        }
     } else {
         return {};
     }
     return fault;
 }
 
-/// Attributes that can be repaired or made again are no reason to refuse a file.
+/// Attributes that cannot be read are no reason to refuse a file: findings say what to do, and the rest of the model is
+/// processed.
 void setFaultyApart(const Document& document, Primitive& primitive) {
-    AttributeList good;
-    for (const auto& [name, index] : primitive.attributes) {
-        std::optional<AttributeFault> fault =
-            attributeFault(name, index, readAccessor(document, index), primitive.vertex_count);
-        if (fault) {
-            primitive.attribute_faults.push_back(*std::move(fault));
-        } else {
-            good.emplace_back(name, index);
+    const auto goodOf = [&](const AttributeList& list, std::ptrdiff_t target) {
+        AttributeList good;
+        for (const auto& attribute : list) {
+            std::optional<AttributeFault> fault = attributeFault(document, primitive, list, target, attribute);
+            if (fault) {
+                primitive.attribute_faults.push_back(*std::move(fault));
+            } else {
+                good.push_back(attribute);
+            }
         }
-    }
-    primitive.attributes = std::move(good);
+        return good;
+    };
+    AttributeList attributes = goodOf(primitive.attributes, -1);
+    for (std::size_t i = 0; i < primitive.targets.size(); ++i)
+        primitive.targets[i] = goodOf(primitive.targets[i], static_cast<std::ptrdiff_t>(i));
+    primitive.attributes = std::move(attributes);
 }
 
 std::size_t trianglesOf(Mode mode, std::size_t corners) {
@@ -156,10 +179,6 @@ Primitive readPrimitive(const Document& document, const Json& object, std::uint3
     setMiscountedApart(document, primitive);
     setUnreadableApart(document, primitive);
     setFaultyApart(document, primitive);
-    checkCounts(document, primitive.attributes, primitive.vertex_count, join(place, "attributes"));
-    for (std::size_t i = 0; i < primitive.targets.size(); ++i) {
-        checkCounts(document, primitive.targets[i], primitive.vertex_count, join(join(place, "targets"), i));
-    }
     primitive.corner_count =
         primitive.indices ? readAccessor(document, *primitive.indices).count : primitive.vertex_count;
     return primitive;
@@ -288,6 +307,15 @@ std::string vertexKey(const Primitive& primitive) {
 }
 
 std::size_t Primitive::triangleCount() const { return trianglesOf(mode, corner_count); }
+
+bool Primitive::canRepairFaults() const {
+    return std::none_of(attribute_faults.begin(), attribute_faults.end(),
+                        [](const AttributeFault& fault) { return fault.repair == AttributeRepair::none; });
+}
+
+std::string AttributeFault::fullName() const {
+    return target < 0 ? name : name + " of morph target " + std::to_string(target);
+}
 
 std::vector<Primitive> readPrimitives(const Document& document) {
     std::vector<Primitive> primitives;

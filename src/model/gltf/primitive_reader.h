@@ -50,13 +50,17 @@ struct UnreadableTangents {
     std::string why = {};  ///< "they do not have 4 components"
 };
 
-/// A NORMAL, TEXCOORD_n or COLOR_n of a type or a number of elements that it cannot have.
+/// An attribute, other than TANGENT, of a type or a number of elements that it cannot have.
 struct AttributeFault {
     std::string name = {};
+    std::ptrdiff_t target = -1;  ///< morph target that has the attribute; -1: the primitive itself
     std::size_t accessor = 0;
     std::string why = {};  ///< "they do not have 3 components"
-    std::size_t kept_count =
-        0;  ///< components that a repair keeps, the first ones; 0: the attribute cannot be repaired
+    AttributeRepair repair = AttributeRepair::remove;
+    std::size_t new_count = 0;  ///< components after AttributeRepair::resize
+
+    /// "COLOR_0", or "NORMAL of morph target 2".
+    [[nodiscard]] std::string fullName() const;
 };
 
 struct Primitive {
@@ -74,7 +78,7 @@ struct Primitive {
     std::vector<UnreadableTangents> unreadable_tangents = {};
     /// Null: none has to be scaled. Primitives with one NORMAL share them.
     std::shared_ptr<const NormalScales> normal_scales = {};
-    /// Not among `attributes`: they count as missing.
+    /// Neither among `attributes` nor in `targets`: they count as missing.
     std::vector<AttributeFault> attribute_faults = {};
     std::size_t vertex_count = 0;
     std::size_t corner_count = 0;  ///< entries of the index list, or vertices
@@ -88,6 +92,8 @@ struct Primitive {
         return findAttribute(attributes, name);
     }
     [[nodiscard]] std::size_t triangleCount() const;
+    /// Whether a command can repair all of `attribute_faults`. Otherwise it repairs none of them.
+    [[nodiscard]] bool canRepairFaults() const;
 };
 
 /// The accessors of the attributes and morph targets, in one order: primitives with one key share all vertices.
@@ -105,8 +111,8 @@ class VertexLists {
     std::uint32_t count_ = 0;  ///< primitives that were given
 };
 
-/// All primitives in file order. Checks that attributes exist and agree in length, but for `miscounted`, tangents and
-/// `attribute_faults`. Looks at the lengths of all normals.
+/// All primitives in file order. Attributes that have not one readable element per vertex are set apart, in
+/// `miscounted`, `unreadable_tangents` and `attribute_faults`. Looks at the lengths of all normals.
 std::vector<Primitive> readPrimitives(const Document& document);
 
 /// Three vertices per triangle in file order; strips and fans as the specification cuts them. Incomplete

@@ -425,7 +425,8 @@ class PrimitiveLoader {
         for (const UnreadableTangents& tangents : primitive.unreadable_tangents)
             result.tangent_faults.push_back({tangents.target, tangents.why});
         for (const AttributeFault& fault : primitive.attribute_faults)
-            result.attribute_faults.push_back({fault.name, fault.why, fault.kept_count != 0});
+            result.attribute_faults.push_back(
+                {fault.name, fault.target, fault.why, fault.repair, primitive.vertex_count});
         result.tangents_not_read = result.tangents.empty() && document_.may_hide_tangents;
         for (std::size_t i = 0; i < primitive.targets.size(); ++i) {
             const AttributeList& list = primitive.targets[i];

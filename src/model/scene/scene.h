@@ -110,11 +110,20 @@ struct SceneTangentFault {
     std::string why = {};        ///< "they do not have 4 components"
 };
 
-/// A NORMAL, TEXCOORD_n or COLOR_n that cannot be read, and so counts as absent.
+/// How a repair handles an attribute that cannot be read.
+enum class AttributeRepair : std::uint8_t {
+    resize,  ///< keeps the first components that it may have, and fills missing ones with zeros
+    remove,
+    none  ///< the primitive depends on the attribute, so no command can repair it
+};
+
+/// An attribute, other than TANGENT, that cannot be read, and so counts as absent.
 struct SceneAttributeFault {
     std::string name = {};
+    std::ptrdiff_t target = -1;  ///< morph target that has the attribute; -1: the primitive itself
     std::string why = {};        ///< "they do not have 3 components"
-    bool is_repairable = false;  ///< it has more components than it may have, and the first ones can be kept
+    AttributeRepair repair = AttributeRepair::remove;
+    std::size_t vertex_count = 0;  ///< of the primitive
 };
 
 /// Packed frames in one format.
@@ -177,8 +186,9 @@ struct ScenePrimitive {
     }
 
     [[nodiscard]] const SceneAttributeFault* findFault(const std::string& name) const {
-        const auto found = std::find_if(attribute_faults.begin(), attribute_faults.end(),
-                                        [&](const SceneAttributeFault& fault) { return fault.name == name; });
+        const auto found =
+            std::find_if(attribute_faults.begin(), attribute_faults.end(),
+                         [&](const SceneAttributeFault& fault) { return fault.target < 0 && fault.name == name; });
         return found == attribute_faults.end() ? nullptr : &*found;
     }
 
