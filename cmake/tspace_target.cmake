@@ -42,10 +42,10 @@ function(tspace_optional name help missing)
     endif()
 endfunction()
 
-# Compiles twenty files as one, where TSPACE_BATCHES asks for it.
+# Compiles forty files as one, where TSPACE_BATCHES asks for it.
 function(tspace_batch_sources target)
     if(TSPACE_BATCHES)
-        set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 20)
+        set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 40)
         # Those are of names that only meet because their files are one here; the last is a guess, and wrong under sanitizers.
         target_compile_options(${target} PRIVATE -Wno-shadow
                                $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage;-Wno-maybe-uninitialized>)
@@ -109,10 +109,10 @@ function(tspace_configure_library target name)
                           POSITION_INDEPENDENT_CODE ON CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
 endfunction()
 
-# tspace_wing(NAME LINKS target... [SMALL] [FOLDERS folder...] [EXCEPT name...]): the library tspace::NAME of the current
-# folder, or of FOLDERS in it. It sees the public headers and the wings that it links. SMALL: optimised for size.
+# tspace_wing(NAME LINKS target... [LEVEL -O...] [FOLDERS folder...] [EXCEPT name...]): the library tspace::NAME of the current
+# folder, or of FOLDERS in it. It sees the public headers and the wings that it links. LEVEL: optimization of release builds.
 function(tspace_wing name)
-    cmake_parse_arguments(arg "SMALL" "" "LINKS;FOLDERS;EXCEPT" ${ARGN})
+    cmake_parse_arguments(arg "" "LEVEL" "LINKS;FOLDERS;EXCEPT" ${ARGN})
     if(NOT arg_FOLDERS)
         set(arg_FOLDERS .)
     endif()
@@ -123,8 +123,8 @@ function(tspace_wing name)
     tspace_batch_sources(tspace_${name})
     tspace_sources(tspace_${name} ${arg_FOLDERS} EXCEPT ${arg_EXCEPT})
     target_link_libraries(tspace_${name} PUBLIC ${arg_LINKS})
-    if(arg_SMALL)
-        target_compile_options(tspace_${name} PRIVATE $<$<CONFIG:Release>:-Os>)
+    if(arg_LEVEL)
+        target_compile_options(tspace_${name} PRIVATE $<$<CONFIG:Release>:${arg_LEVEL}>)
     endif()
 endfunction()
 

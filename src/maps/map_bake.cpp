@@ -24,8 +24,6 @@ constexpr std::uint32_t kMostSide = 16384;
 constexpr std::uint32_t kMostPadding = 256;
 /// Texels around a triangle that the bilinear filter reads inside of it.
 constexpr std::uint32_t kFilterTexels = 2;
-/// Smaller images have texels that are their own neighbours.
-constexpr std::uint32_t kLeastSolved = 4;
 
 class Baking {
   public:

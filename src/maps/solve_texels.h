@@ -14,6 +14,9 @@
 
 namespace tspace {
 
+/// Least width and height of an image whose texels are solved for: texels of smaller images are their own neighbors.
+inline constexpr std::uint32_t kLeastSolved = 4;
+
 // The texels of a map as unknowns, and what samples ask of them under the bilinear filter: least squares, one symmetric 3 x 3
 // block for each pair of texels that a sample mixes. The image repeats: samples of others mix no texels over its edge. Only texels that samples mix take memory.
 

@@ -17,8 +17,6 @@ namespace tspace {
 namespace {
 
 constexpr std::size_t kNoLayer = ~std::size_t{0};
-/// Smaller images have texels that are their own neighbours.
-constexpr std::uint32_t kLeastSolved = 4;
 
 bool isMaterial(MapLayer layer) {
     return layer == MapLayer::color || layer == MapLayer::orm || layer == MapLayer::emission;

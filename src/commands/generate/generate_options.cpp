@@ -33,7 +33,7 @@ constexpr Named<Compression> kCompressions[] = {
     {"meshopt", Compression::meshopt},
     {"draco", Compression::draco},
 };
-constexpr Named<VectorFormat> kFormats[] = {
+constexpr Named<VectorFormat> kVectorFormats[] = {
     {"float", VectorFormat::float32},
     {"snorm16", VectorFormat::snorm16},
     {"snorm8", VectorFormat::snorm8},
@@ -140,7 +140,7 @@ void addTangentOptions(OptionList& list, GenerateOptions& options) {
                "Whose sign is stored: gltf, opengl, directx, unreal, unity, blender or godot. Positions, UVs "
                "and normals stay as they are. Any other than gltf is only for readers that expect it."));
     add(list, group,
-        choice("--format", "NUMBERS", kFormats, options.format,
+        choice("--format", "NUMBERS", kVectorFormats, options.format,
                "Numbers of the tangents and normals that are written: float, snorm16 (half the size) or "
                "snorm8 (a quarter). The sign stays exact. The last two declare "
                "KHR_mesh_quantization."));

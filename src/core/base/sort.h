@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <cstring>
 #include <functional>
-#include <iterator>
 #include <type_traits>
 #include <vector>
 
@@ -53,7 +52,7 @@ inline void sortRows(void* rows, std::size_t count, std::size_t row_bytes, RowIs
 /// standard library takes for each.
 template <class Iterator, class Less>
 void sortInLittleCode(Iterator begin, Iterator end, const Less& less) {
-    using Element = typename std::iterator_traits<Iterator>::value_type;
+    using Element = std::remove_cvref_t<decltype(*begin)>;
     const auto count = static_cast<std::size_t>(end - begin);
     if (count < 2) return;
     if constexpr (std::is_trivially_copy_constructible_v<Element> && std::is_trivially_destructible_v<Element>) {

@@ -10,7 +10,6 @@
 #include <cstdint>
 #include <exception>
 #include <initializer_list>
-#include <iterator>
 #include <limits>
 #include <optional>
 #include <string>
