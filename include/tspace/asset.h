@@ -275,6 +275,7 @@ struct PrimitiveReport {
     /// from OBJ faces, numbered through the file.
     std::vector<FaceRange> winding_mended = {};
     TangentReport tangents = {};
+    std::uint64_t negative_uv_count = 0;  ///< triangles with negative UV area, by the numbers in the file
     SanitizeReport sanitize = {};
     PackReport packing = {};         ///< frames that were mended before they were packed
     Faces faces = Faces::triangles;  ///< what its tangents were computed on: triangles or quads

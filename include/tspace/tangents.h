@@ -106,7 +106,7 @@ struct TangentReport {
     std::uint64_t triangle_count = 0;             ///< triangles computed with, after cutting quads and n-gons
     std::uint64_t degenerate_triangle_count = 0;  ///< two corners at the same position
     std::uint64_t degenerate_uv_count = 0;        ///< triangles without UV area: they take their neighbours' frame
-    std::uint64_t mirrored_count = 0;             ///< triangles with negative UV area
+    std::uint64_t mirrored_count = 0;             ///< triangles that show the image mirrored, in the convention
     std::uint64_t skipped_face_count = 0;         ///< faces for which nothing was computed
     std::uint64_t group_count = 0;                ///< groups: sets of corners that share one tangent
     std::uint64_t default_corner_count = 0;       ///< outputs that no face gives a tangent: the method's default

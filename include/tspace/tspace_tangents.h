@@ -415,7 +415,7 @@ typedef struct tspace_TangentReport {
     uint64_t triangle_count;            /* triangles computed with, after cutting quads and n-gons */
     uint64_t degenerate_triangle_count; /* two corners at the same position */
     uint64_t degenerate_uv_count;       /* triangles without UV area: they take their neighbours' frame */
-    uint64_t mirrored_count;            /* triangles with negative UV area */
+    uint64_t mirrored_count;            /* triangles that show the image mirrored, in the convention */
     uint64_t skipped_face_count;        /* faces for which nothing was computed */
     uint64_t group_count;               /* groups: sets of corners that share one tangent */
     uint64_t default_corner_count;      /* outputs that no face gives a tangent: the method's default */

@@ -155,7 +155,7 @@ pub struct TangentReport {
     pub degenerate_triangle_count: u64,
     /// Of those, without UV area: they take their neighbours' frame.
     pub degenerate_uv_count: u64,
-    /// Of those, with negative UV area.
+    /// Of those, that show the image mirrored, in the convention.
     pub mirrored_count: u64,
     /// Faces for which nothing was computed.
     pub skipped_face_count: u64,

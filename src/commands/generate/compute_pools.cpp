@@ -121,6 +121,7 @@ void copyReport(const PrimitiveReport& computed, bool keeps_tangents, PrimitiveR
     if (keeps_tangents) return;
     report.normals = computed.normals;
     report.tangents = computed.tangents;
+    report.negative_uv_count = computed.negative_uv_count;
     report.sanitize = computed.sanitize;
     report.mended_vertex_count = computed.mended_vertex_count;
     report.faces = computed.faces;

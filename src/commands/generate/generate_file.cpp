@@ -168,7 +168,7 @@ Json generatedPrimitiveJson(const PrimitiveReport& primitive) {
         {"tangents", Json::object({{"triangles", tangents.triangle_count},
                                    {"degenerateTriangles", tangents.degenerate_triangle_count},
                                    {"degenerateUvTriangles", tangents.degenerate_uv_count},
-                                   {"negativeUvTriangles", tangents.mirrored_count},
+                                   {"negativeUvTriangles", primitive.negative_uv_count},
                                    {"skippedFaces", tangents.skipped_face_count},
                                    {"groups", tangents.group_count},
                                    {"defaultCorners", tangents.default_corner_count},

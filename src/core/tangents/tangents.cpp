@@ -22,6 +22,7 @@
 #include "core/tangents/mikktspace/last_bucket.h"
 #include "core/tangents/mikktspace/vertex_path.h"
 #include "core/tangents/mikktspace/weld.h"
+#include "core/tangents/mirrored_count.h"
 #include "tspace/tangents.h"
 
 namespace tspace::mikk {
@@ -157,6 +158,16 @@ struct NeededBitangents {
 
 }  // namespace
 
+namespace {
+
+/// The methods count triangles with negative UV area as mirrored.
+TangentReport inConvention(TangentReport report, Method method, bool positive_is_mirrored) {
+    if (positive_is_mirrored) report.mirrored_count = notMirroredCount(report, method);
+    return report;
+}
+
+}  // namespace
+
 struct TangentPlan::State {
     std::variant<IndexedPlan, mikk::EvaluationPlan> plan;
     Method method = Method::mikktspace;
@@ -165,6 +176,7 @@ struct TangentPlan::State {
     std::size_t output_count = 0;
     bool is_symmetric = false;
     bool normalizes_normals = false;
+    bool positive_is_mirrored = false;
     Buffer<std::uint32_t> corner_vertices;  ///< for a symmetric frame, one per corner; empty: outputs are per vertex
     std::size_t normal_count = 0;           ///< of a pose
     /// For a mesh with several index lists: the pose's position and normal of each vertex that the plan works on.
@@ -172,10 +184,14 @@ struct TangentPlan::State {
 
     [[nodiscard]] TangentReport evaluate(const Pose& pose, const TangentOutput& out, const Execution& execution,
                                          Parallel& parallel) const {
+        const auto counted = [&](const TangentReport& report) {
+            return inConvention(report, method, positive_is_mirrored);
+        };
         if (const auto* indexed = std::get_if<IndexedPlan>(&plan))
-            return evaluateIndexed(*indexed, pose, out, execution, parallel);
+            return counted(evaluateIndexed(*indexed, pose, out, execution, parallel));
         const auto& grouped = *std::get_if<mikk::EvaluationPlan>(&plan);
-        return mikk::evaluateGroups(grouped, pose, {grouped.uvs.data(), grouped.uvs.size()}, out, execution, parallel);
+        return counted(
+            mikk::evaluateGroups(grouped, pose, {grouped.uvs.data(), grouped.uvs.size()}, out, execution, parallel));
     }
 
     /// evaluate(), with the frame that the options chose.
@@ -261,9 +277,12 @@ void startHasTangent(const TangentOutput& out, Parallel& parallel) {
 
 TangentReport generateFrames(const MeshView& mesh, const Call<TangentOptions>& options, const TangentOutput& out,
                              Parallel& parallel) {
-    if (isGrouped(options.method)) return mikk::generateGrouped(mesh, options, out, parallel);
-    const IndexedPlan plan = planIndexed(mesh, options, parallel, PlanUse::once);
-    return evaluateIndexed(plan, {mesh.positions, mesh.normals}, out, options.execution, parallel);
+    const auto generated = [&] {
+        if (isGrouped(options.method)) return mikk::generateGrouped(mesh, options, out, parallel);
+        const IndexedPlan plan = planIndexed(mesh, options, parallel, PlanUse::once);
+        return evaluateIndexed(plan, {mesh.positions, mesh.normals}, out, options.execution, parallel);
+    };
+    return inConvention(generated(), options.method, positiveUvsAreMirrored(options.convention));
 }
 
 MeshView withNormals(MeshView mesh, const UnitNormals& normals) {
@@ -303,6 +322,7 @@ Result<std::unique_ptr<TangentPlan::State>> makePlan(const MeshView& given, cons
     auto state = std::make_unique<TangentPlan::State>();
     state->method = options.method;
     state->normalizes_normals = options.normalize_normals;
+    state->positive_is_mirrored = positiveUvsAreMirrored(options.convention);
     state->vertex_count = state->normal_count = mesh.vertexCount();
     state->corner_count = mesh.cornerCount();
     state->output_count = outputCount(mesh, options);

@@ -53,5 +53,33 @@ TEST(Conventions, GiveEveryMethodTheSignThatRebuildsTheWantedBitangent) {
     }
 }
 
+TEST(Conventions, DecideWhichTrianglesAreCountedAsMirrored) {
+    // The left square has negative UV area. With v up it is mirrored, and with v down the other one is; as seen from outside,
+    // clockwise winding reverses that. One triangle more has two corners at one vertex, and one more repeats a left one.
+    const std::vector<std::uint32_t> left{0, 1, 4};
+    for (const char* preset : {"gltf", "opengl", "directx", "unreal", "unity", "blender", "godot"}) {
+        const Convention convention = *findConvention(preset);
+        MirroredStrip strip(convention);
+        for (const std::uint32_t corner : {1u, 4u, 4u}) strip.indices.push_back(corner);
+        for (const std::uint32_t corner : left) strip.indices.push_back(corner);
+        const bool left_is_mirrored =
+            (convention.v_axis == VAxis::up) == (convention.winding == Winding::counterClockwise);
+        for (const Method method : {Method::mikktspace, Method::lengyel, Method::uniform, Method::angle, Method::area,
+                                    Method::flat, Method::fast, Method::best}) {
+            std::vector<Vec4> tangents(strip.indices.size());
+            const TangentOptions options{.method = method, .convention = convention};
+            const Result<TangentReport> report = generateTangents(strip.view(), options, {.tangents = tangents});
+            ASSERT_TRUE(report) << preset;
+            EXPECT_EQ(report->mirrored_count, left_is_mirrored ? 3u : 2u) << preset << ' ' << methodName(method);
+            const Result<TangentPlan> plan = planTangents(strip.view(), options);
+            ASSERT_TRUE(plan) << preset;
+            const Result<TangentReport> posed =
+                evaluateTangents(*plan, {strip.positions, strip.normals}, {.tangents = tangents});
+            ASSERT_TRUE(posed) << preset;
+            EXPECT_EQ(posed->mirrored_count, report->mirrored_count) << preset << ' ' << methodName(method);
+        }
+    }
+}
+
 }  // namespace
 }  // namespace tspace

@@ -13,7 +13,7 @@ class TangentReport(NamedTuple):
     triangle_count: int  #: triangles computed with, after cutting quads and n-gons
     degenerate_triangle_count: int  #: two corners at the same position
     degenerate_uv_count: int  #: triangles without UV area: they take their neighbours' frame
-    mirrored_count: int  #: triangles with negative UV area
+    mirrored_count: int  #: triangles that show the image mirrored, in the convention
     skipped_face_count: int  #: faces for which nothing was computed
     group_count: int  #: sets of corners that share one tangent
     default_corner_count: int  #: outputs that no face gives a tangent: they hold the method's default

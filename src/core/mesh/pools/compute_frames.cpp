@@ -14,6 +14,7 @@
 #include "core/mesh/pools/primitive.h"
 #include "core/mesh/pools/unit_lattice.h"
 #include "core/mesh/quads/quads.h"
+#include "core/tangents/mirrored_count.h"
 #include "tspace/asset.h"
 #include "tspace/frame.h"
 #include "tspace/triangulate.h"
@@ -199,6 +200,9 @@ class FrameComputer {
         Result<TangentReport> made = generateTangents(mesh.view(), options_.tangents, out, options_.execution);
         if (!made) return std::move(made).error();
         report.tangents = *made;
+        report.negative_uv_count = positiveUvsAreMirrored(options_.tangents.convention)
+                                       ? notMirroredCount(*made, options_.tangents.method)
+                                       : made->mirrored_count;
         if (!options_.sanitize) return Done{};
         std::vector<Vec4> computed;
         if (generates_bitangents_) computed.assign(tangents.begin(), tangents.end());
