@@ -72,16 +72,17 @@ static_assert(sizeof(tspace_Convention) == 5 * sizeof(std::uint32_t));
 
 Error checkStructSize(std::uint32_t size, std::span<const std::size_t> known, const char* name) {
     if (std::find(known.begin(), known.end(), size) != known.end()) return {ErrorCode::ok};
-    return makeError(ErrorCode::invalidOption, kNoElement,
-                     "%s.struct_size is %u, this version knows %zu: prepare the struct with TSPACE_INIT", name, size,
-                     known.back());
+    return makeError(
+        ErrorCode::invalidOption, kNoElement,
+        "%s.struct_size is %u, but the size of this version is %zu: the struct was not initialized, or the "
+        "caller was built for another version of the library",
+        name, size, known.back());
 }
 
 Error checkPrepared(bool has_defaults, const char* name, const char* fields) {
     if (has_defaults) return {ErrorCode::ok};
     return makeError(ErrorCode::invalidOption, kNoElement,
-                     "%s are all 0, as in a struct that nobody prepared: do so with TSPACE_INIT or tspace_init%s",
-                     fields, name);
+                     "%s of %s are all 0: the struct was not initialized with its default values", fields, name);
 }
 
 Error checkChoice(std::uint32_t value, std::uint32_t largest, const char* name) {
