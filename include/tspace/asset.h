@@ -172,6 +172,9 @@ struct GenerateOptions {
     /// material whose primitives need different ones is copied. glTF only, in its own convention, and neither with
     /// ExistingTangents::repair, TextureTransform::ignore nor flip_green (invalidOption).
     bool convert_maps = false;
+    /// Read the pixels of normal maps where ExistingTangents::repair needs them. false: inverted signs stay, since green of the
+    /// maps may point down too. Not together with flip_green, mend_maps and convert_maps (invalidOption).
+    bool images = true;
     Compression compression = Compression::keep;
     VectorFormat format = VectorFormat::float32;
     /// Also write the whole frame of each vertex in this format, as attributes of its own: _FRAME32 and others, of which

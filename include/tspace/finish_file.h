@@ -35,6 +35,7 @@ struct FinishOptions {
     /// As GenerateOptions. A mesh stays as it is wound where check then finds more normals against their triangles than before:
     /// its normals fit its triangles as they are, and it renders right.
     bool mend_winding = true;
+    bool images = true;  ///< as CheckOptions and GenerateOptions; maps are baked in any case
     /// A model with UVs in the place of the input, of which it is the high poly: the output is this one, with all maps. Empty:
     /// the output is the input.
     std::string low = {};

@@ -364,6 +364,27 @@ double pictureDifference(const FloatImage& a, const FloatImage& b) {
     return sum / static_cast<double>(a.texels.size());
 }
 
+TEST(MendMaps, WithoutImagesRepairKeepsInvertedSignsAndOverwriteReadsNone) {
+    const TempFolder folder;
+    writeImage(folder, "map.png", floatsOf(soundMap(false)));
+    writeSquare(folder, "map");
+    ASSERT_EQ(runTool(folder, "generate -q --overwrite --convention opengl map.gltf -o inverted.glb").exit_code, 0);
+    const auto actionOf = [&](const std::string& options) {
+        const ToolRun done = runTool(folder, "generate --json inverted.glb -o out.glb " + options);
+        EXPECT_EQ(done.exit_code, 0) << done.err;
+        return Json::parse(done.out)["files"][0]["primitives"][0]["action"].get<std::string>();
+    };
+    EXPECT_EQ(actionOf("--repair"), "replaced");
+    EXPECT_EQ(actionOf("--repair --no-images"), "kept");
+    EXPECT_EQ(runTool(folder, "generate inverted.glb -o out.glb --no-images --mend-maps").exit_code, 2);
+    // Overwriting does not open the map: it warns without it.
+    const ToolRun done = runTool(folder, "generate --json inverted.glb -o out.glb --overwrite");
+    EXPECT_NE(done.out.find("Their normal maps were not examined"), std::string::npos) << done.out;
+    EXPECT_NE(runTool(folder, "generate inverted.glb -o out.glb --overwrite --no-images")
+                  .out.find("--no-images has no effect"),
+              std::string::npos);
+}
+
 TEST(MendMaps, OverwriteWarnsWhereSignsAndGreenCancel) {
     const TempFolder folder;
     writeImage(folder, "map.png", floatsOf(soundMap(true)));
@@ -387,7 +408,7 @@ TEST(MendMaps, OverwriteWarnsWhereSignsAndGreenCancel) {
     };
     const Json warnings = run("-o alone.glb --overwrite");
     ASSERT_EQ(warnings.size(), 1U) << warnings.dump();
-    for (const char* text : {"cancelled out", "--flip-green", "without --overwrite"})
+    for (const char* text : {"inverted signs", "cancelled out", "--flip-green", "without --overwrite"})
         EXPECT_NE(warnings[0].get<std::string>().find(text), std::string::npos) << warnings[0];
     EXPECT_NE(runTool(folder, "generate before.glb -o alone.glb --overwrite").out.find("cancelled out"),
               std::string::npos);

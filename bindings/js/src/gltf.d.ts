@@ -148,6 +148,8 @@ export interface GenerateOptions extends ModelOptions, ImageOptions, WatchOption
   flipGreenAll?: boolean;
   /** Writes normal maps anew whose channels hold something else than glTF reads. Needs decodeImage and encodeImage. */
   mendMaps?: boolean;
+  /** Leaves inverted signs as they are with `repair`, instead of reading the pixels of normal maps. */
+  noImages?: boolean;
   /** Images come out as they went in, but for normal maps that another option writes anew. */
   compressMaps?: "keep";
   /** The image as a file of this type, without loss but for a JPEG. */

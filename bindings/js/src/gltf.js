@@ -38,7 +38,7 @@ const known = {
   generate: [
     "name", ...ofAll, ...watched, "all", "onlyMissing", "overwrite", "repair", "strip", "method", "pairing", "threshold", "frame", "refine",
     "textureTransform", "bitangents", "format", "pack", "packDrop", "normals", "crease", "denoise", "weldDistance", "normalsPerPrimitive",
-    "overwriteNormals", "morphNormals", "compress", "flipGreen", "flipGreenAll", "mendMaps", "compressMaps", "mendWinding",
+    "overwriteNormals", "morphNormals", "compress", "flipGreen", "flipGreenAll", "mendMaps", "noImages", "compressMaps", "mendWinding",
     "encodeImage", "noSanitize", "orthogonalize", "keepCoordinates", "dryRun",
   ],
   check: ["name", ...ofAll, ...watched, "failOn", "severity", "ignore", "angle", "weldDistance", "noImages"],

@@ -54,6 +54,7 @@ CheckReport checked(const std::string& name, ByteSpan content, const FinishOptio
     CheckOptions check;
     check.file = options.file;
     check.file.content = content;
+    check.images = options.images;
     check.weld_distance = options.weld_distance;
     check.execution = options.execution;
     check.progress = options.progress;
@@ -114,6 +115,7 @@ class ModelInWork {
         generate.existing = ExistingTangents::repair;
         generate.faces = Faces::automatic;
         generate.mend_winding = options_.mend_winding;
+        generate.images = options_.images;
         generate.normals.weld_distance = options_.weld_distance;
         if (options_.normals != FinishNormals::none) {
             generate.normals.weighting = NormalWeighting::best;

@@ -70,6 +70,11 @@ OptionList finishOptions(FinishOptions& options) {
         setting(
             "--keep-winding", options.mend_winding, false,
             "Leave triangles that are wound against their neighbours, and parts that are inside out, as they are."));
+    add(list, "Repair",
+        setting("--no-images", options.images, false,
+                "Do not read the pixels of normal maps. Inverted signs of tangents then stay, since the maps may be "
+                "inverted "
+                "too."));
     for (Option& option : bakeOptions(options.bake)) {
         if (std::find(std::begin(kBakes), std::end(kBakes), option.name()) == std::end(kBakes)) continue;
         option.needs = "--low";

@@ -139,8 +139,11 @@ std::vector<Verdict> judge(Model& model, const GenerateOptions& options) {
     readAsAsked(options, scene);
     std::vector<PrimitiveJudgement> judgements = judgePrimitives(scene, check, true);
     if (waitForImages(judgements)) {
-        readImages(document, scene);
-        ImageFindings images = checkImages(scene, check);
+        ImageFindings images;
+        if (options.images) {
+            readImages(document, scene);
+            images = checkImages(scene, check);
+        }
         weighImages(scene, check, images, judgements);
     }
     std::vector<Verdict> verdicts;
@@ -284,71 +287,36 @@ bool showsFlipped(const ScenePrimitive& primitive, const MapFlips& flips) {
     });
 }
 
-/// Primitives that rendered right with inverted signs, and those that may have.
-struct Cancelled {
-    std::uint64_t sure = 0, open = 0;
-};
-
-Cancelled countCancelled(Model& model, std::span<const std::size_t> primitives, const MapFlips& flips,
-                         const GenerateOptions& options) {
-    Cancelled cancelled;
-    Scene scene = model.sceneOf(primitives);
-    if (std::none_of(scene.primitives.begin(), scene.primitives.end(), [&](const ScenePrimitive& primitive) {
-            return looksInverted(primitive, options.tangents.convention);
-        })) {
-        return cancelled;
-    }
-    CheckOptions check;
-    check.convention = options.tangents.convention;
-    check.execution = options.execution;
-    check.execution.allocator = nullptr;
-    readImages(model.document(), scene);
-    std::vector<PrimitiveJudgement> judgements = judgePrimitives(scene, check);
-    ImageFindings images = checkImages(scene, check);
-    weighImages(scene, check, images, judgements);
-    for (std::size_t i = 0; i < judgements.size(); ++i) {
-        if (!judgements[i].signs_stay || showsFlipped(scene.primitives[i], flips)) continue;
-        (judgements[i].signs == SignVerdict::cancelled ? cancelled.sure : cancelled.open) += 1;
-    }
-    return cancelled;
-}
-
 std::string primitivesText(std::uint64_t count) {
     return std::to_string(count) + (count == 1 ? " primitive" : " primitives");
 }
 
 }  // namespace
 
-std::string warnOfCancelledSigns(Model& model, const GeneratePlan& plan, const MapFlips& flips,
-                                 const GenerateOptions& options) {
+std::string warnOfInvertedSigns(Model& model, const GeneratePlan& plan, const MapFlips& flips,
+                                const GenerateOptions& options) {
     if (options.existing != ExistingTangents::replace || options.convert_maps) return {};
     const std::vector<std::size_t> replaced = replacedPrimitives(model, plan);
     if (replaced.empty()) return {};
     MemoryBudget& memory = *model.document().memory;
     const std::int64_t left = memory.left();
-    Cancelled cancelled;
-    const std::optional<Error> failure = tryFile([&] { cancelled = countCancelled(model, replaced, flips, options); });
+    std::uint64_t inverted = 0;
+    const std::optional<Error> failure = tryFile([&] {
+        for (const ScenePrimitive& primitive : model.sceneOf(replaced).primitives)
+            inverted +=
+                looksInverted(primitive, options.tangents.convention) && !showsFlipped(primitive, flips) ? 1 : 0;
+    });
     memory.giveBack(left);
     if (failure && failure->code != ErrorCode::tooLarge) throw FileError{*failure};
-    if (failure) {
-        return "whether the signs that are replaced and green of the normal maps cancelled out was not looked at: that "
-               "takes more memory than the limit";
-    }
-    const std::string ways =
-        "invert green too (--overwrite together with --flip-green), or keep the tangents (without --overwrite)";
-    if (cancelled.sure > 0) {
-        return "the tangents of " + primitivesText(cancelled.sure) +
-               " had inverted signs, and green of their normal maps points down: the two cancelled out. With the new "
-               "tangents alone bumps are dents along v: " +
-               ways;
-    }
-    if (cancelled.open > 0) {
-        return "the tangents of " + primitivesText(cancelled.open) +
-               " had inverted signs, and whether green of their normal maps points down, which would have made up for "
-               "it, could not be seen. If they rendered right before, " +
-               ways;
-    }
-    return {};
+    if (failure)
+        return "whether the replaced tangents had inverted signs was not examined: the memory limit is too low";
+    if (inverted == 0) return {};
+    return "the tangents of " + primitivesText(inverted) +
+           " had inverted signs. Their normal maps were not examined: where green points down in these, the two "
+           "cancelled out, "
+           "and with the new tangents alone bumps become dents along v. `tspace check` on the input says so; then "
+           "invert "
+           "green too (--overwrite together with --flip-green), or keep the tangents (without --overwrite)";
 }
 
 namespace {

@@ -34,6 +34,8 @@ void checkOptions(const std::string& input, const GenerateOptions& options) {
     if (options.pack && frameBytes(*options.pack) == 0) refuse("the format of packed frames is none of FrameFormat");
     if (!options.pack && options.pack_drop != PackDrop::nothing)
         refuse("normals and tangents go only where frames are packed");
+    if (!options.images && (options.flip_green != FlipGreen::none || options.mend_maps || options.convert_maps))
+        refuse("normal maps are changed by their pixels, which are not to be read");
     if (const std::string why = whyMapsStay(input, options); !why.empty()) refuse(why);
 }
 

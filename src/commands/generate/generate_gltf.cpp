@@ -123,7 +123,7 @@ Decisions decide(Model& model, const GenerateOptions& options, const NormalWishe
     planSurroundings(model, options, plan);
     if (options.flip_green != FlipGreen::none || options.mend_maps)
         decisions.flips = planFlips(model, plan.reports, options);
-    if (std::string warning = warnOfCancelledSigns(model, plan, decisions.flips, options); !warning.empty())
+    if (std::string warning = warnOfInvertedSigns(model, plan, decisions.flips, options); !warning.empty())
         warnings.push_back(std::move(warning));
     if (options.convert_maps) decisions.maps.emplace(model, options);
     if (options.existing != ExistingTangents::keep) decisions.broken = findBrokenValues(model, plan);

@@ -200,6 +200,12 @@ void addMapOptions(OptionList& list, GenerateOptions& options) {
              "materials that several primitives share are copied where they need different ones. Images beside a .gltf "
              "stay as they are, and the output gets new ones."))
         .excludes = {"--flip-green", "--flip-green-all", "--mend-maps", "--repair"};
+    add(list, group,
+        setting("--no-images", options.images, false,
+                "Do not read the pixels of normal maps, which --repair does where most signs are inverted. Such signs "
+                "then stay, "
+                "since the maps may be inverted too."))
+        .excludes = {"--flip-green", "--flip-green-all", "--mend-maps", "--convert-maps"};
     add(list, group, compressMapsOption());
 }
 

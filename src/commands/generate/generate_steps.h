@@ -54,13 +54,13 @@ namespace tspace::gltf {
 /// reports. Fails as reading the primitives' attributes does.
 void planRepair(Model& model, const GenerateOptions& options, GeneratePlan& plan);
 
-// ExistingTangents::replace gives right signs to what rendered right with inverted ones, because green of the normal map
-// points down.
+// ExistingTangents::replace gives correct signs to tangents that may have rendered correctly with inverted signs, because green of
+// the normal map points down.
 
-/// A warning where tangents are to be replaced whose signs a normal map makes up for, or may, and that map stays as it is;
-/// else empty. Judges as `check` does, but only where signs look inverted. Fails as reading the attributes does.
-std::string warnOfCancelledSigns(Model& model, const GeneratePlan& plan, const MapFlips& flips,
-                                 const GenerateOptions& options);
+/// Returns a warning where tangents with inverted signs are replaced and their normal maps stay as they are; else an empty string.
+/// Does not read images, since that takes many times as long as the tangents. Fails as reading the attributes does.
+std::string warnOfInvertedSigns(Model& model, const GeneratePlan& plan, const MapFlips& flips,
+                                const GenerateOptions& options);
 
 // Tangents that stay: what the format forbids in them is mended, and nothing else.
 

@@ -186,6 +186,8 @@ void addWarnings(const GenerateOptions& options, const WorkedOn& worked_on, bool
         warn({options.flip_green == FlipGreen::all ? "--flip-green-all" : "--flip-green"}, "there is no normal map",
              report);
     if (options.mend_maps && report.normal_maps.empty()) warn({"--mend-maps"}, "there is no normal map", report);
+    if (!options.images && options.existing != ExistingTangents::repair)
+        warn({"--no-images"}, "only --repair reads the pixels of normal maps", report);
     const bool any_turned = any(report, [](const auto& primitive) { return primitive.winding_mended_count != 0; });
     if (options.mend_winding && !any_turned)
         warn({"--mend-winding"}, "no triangle is wound the wrong way, as far as that can be known", report);

@@ -42,7 +42,7 @@ _BAKED = (
 _OPTIONS = {
     "generate": "all only_missing overwrite repair strip method faces pairing threshold frame refine texture_transform"
     " bitangents convention format pack pack_drop normals crease denoise weld_distance normals_per_primitive overwrite_normals morph_normals compress flip_green mend_maps"
-    f" flip_green_all convert_maps compress_maps mend_winding no_sanitize orthogonalize keep_coordinates dry_run threads no_sync {_LIMITS}",
+    f" flip_green_all convert_maps no_images compress_maps mend_winding no_sanitize orthogonalize keep_coordinates dry_run threads no_sync {_LIMITS}",
     "check": f"fail_on severity ignore angle convention faces weld_distance no_images threads {_LIMITS}",
     "inspect": _LIMITS,
     "identify": f"tolerance threads {_LIMITS}",
@@ -54,7 +54,7 @@ _OPTIONS = {
     "compressMap": "format quality signed alpha dds_header mips no_levels zstd bits roughness roughness_output roughness_factor"
     " dry_run threads no_sync memory_limit import_seconds",
     "bake": f"{_BAKED} out_mesh misses heat space axes convention unit fit lengths udim skew cage method denoise weld_distance threads no_sync {_LIMITS}",
-    "finish": f"low html normals crease denoise weld_distance keep_winding keep_coordinates {_BAKED} threads no_sync {_LIMITS}",
+    "finish": f"low html normals crease denoise weld_distance keep_winding no_images keep_coordinates {_BAKED} threads no_sync {_LIMITS}",
 }
 
 
