@@ -29,9 +29,9 @@ struct ToolRun {
 /// says fails the test.
 inline ToolRun runTool(const TempFolder& folder, const std::string& arguments, const std::string& runner = "") {
     const TempFolder output;
-    const std::string command = "cd '" + folder.path().string() + "' && " + runner +
-                                " '" TSPACE_TOOL "' " + arguments + " > '" + (output.path() / "out").string() +
-                                "' 2> '" + (output.path() / "err").string() + "'";
+    const std::string command = "cd '" + folder.path().string() + "' && " + runner + " '" TSPACE_TOOL "' " + arguments +
+                                " > '" + (output.path() / "out").string() + "' 2> '" +
+                                (output.path() / "err").string() + "'";
     const int status = std::system(command.c_str());
     ToolRun run = {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), output.read("out"),
                    output.read("err")};

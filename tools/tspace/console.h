@@ -6,8 +6,8 @@
 #include <condition_variable>
 #include <cstdint>
 #include <cstdio>
-#include <optional>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <thread>

@@ -2,53 +2,17 @@
 // Makes findings: what was counted becomes sentences.
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <vector>
 
-#include "core/base/sort.h"
+#include "commands/check/tally.h"
 #include "tspace/check.h"
 
 namespace tspace {
 
+struct FrameHealth;
 struct ScenePrimitive;
-
-// How often something was met, on how much of the surface, and where first.
-
-struct Tally {
-    static constexpr std::size_t kMostVertices = 8;
-
-    std::uint64_t count = 0;
-    std::uint64_t total = 0;  ///< of how many
-    double area = 0;
-    double surface_share = 0;  ///< of the mesh's area, once finish() was called
-    double worst_deg = 0;
-    std::vector<std::uint32_t> vertices = {};  ///< the first, each once
-
-    void add(std::uint32_t vertex, double its_area, double deg = 0) {
-        ++count;
-        area += its_area;
-        worst_deg = std::max(worst_deg, deg);
-        if (vertices.size() < kMostVertices && std::find(vertices.begin(), vertices.end(), vertex) == vertices.end())
-            vertices.push_back(vertex);
-    }
-    /// Adds a tally of the same total.
-    void include(const Tally& other) {
-        count += other.count;
-        area += other.area;
-        surface_share = std::min(1.0, surface_share + other.surface_share);
-        worst_deg = std::max(worst_deg, other.worst_deg);
-        vertices.insert(vertices.end(), other.vertices.begin(), other.vertices.end());
-        sortList(vertices.begin(), vertices.end());
-        vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-        if (vertices.size() > kMostVertices) vertices.resize(kMostVertices);
-    }
-    [[nodiscard]] double share() const {
-        return total == 0 ? 0 : static_cast<double>(count) / static_cast<double>(total);
-    }
-    void finish(double whole_area) { surface_share = whole_area > 0 ? std::min(1.0, area / whole_area) : 0; }
-};
 
 /// The remedy of inverted signs and green that points down, which cancel out.
 inline constexpr const char* kBothOrNeither =
@@ -82,5 +46,12 @@ std::string shareText(double share);
 std::string stepText(double value);
 /// "12.3".
 std::string decimalText(double value);
+
+/// The findings of an examination, without a place.
+std::vector<Finding> tangentFindings(const FrameHealth& health, const CheckOptions& options);
+
+/// Why these tangents surely render wrong, where a material reads them: the message of the first finding that is an error.
+/// Empty: they are good enough to be kept.
+std::string whyTangentsAreWrong(const FrameHealth& health, const CheckOptions& options);
 
 }  // namespace tspace

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "commands/check/direction_cones.h"
-#include "commands/check/findings.h"
+#include "commands/check/tally.h"
 #include "core/mesh/surface/surface.h"
 #include "tspace/check.h"
 
@@ -78,12 +78,5 @@ Result<FrameHealth> examineTangents(const TangentView& mesh, const CheckOptions&
 
 /// As above, with the surface of the mesh that the caller has measured already.
 Result<FrameHealth> examineTangents(const TangentView& mesh, const Surface& surface, const CheckOptions& options);
-
-/// The findings of an examination, without a place.
-std::vector<Finding> tangentFindings(const FrameHealth& health, const CheckOptions& options);
-
-/// Why these tangents surely render wrong, where a material reads them: the message of the first finding that is an error.
-/// Empty: they are good enough to be kept.
-std::string whyTangentsAreWrong(const FrameHealth& health, const CheckOptions& options);
 
 }  // namespace tspace

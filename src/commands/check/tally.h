@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// How often something was met, on how much of the surface, and where first.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/base/sort.h"
+
+namespace tspace {
+
+struct Tally {
+    static constexpr std::size_t kMostVertices = 8;
+
+    std::uint64_t count = 0;
+    std::uint64_t total = 0;  ///< of how many
+    double area = 0;
+    double surface_share = 0;  ///< of the mesh's area, once finish() was called
+    double worst_deg = 0;
+    std::vector<std::uint32_t> vertices = {};  ///< the first, each once
+
+    void add(std::uint32_t vertex, double its_area, double deg = 0) {
+        ++count;
+        area += its_area;
+        worst_deg = std::max(worst_deg, deg);
+        if (vertices.size() < kMostVertices && std::find(vertices.begin(), vertices.end(), vertex) == vertices.end())
+            vertices.push_back(vertex);
+    }
+    /// Adds a tally of the same total.
+    void include(const Tally& other) {
+        count += other.count;
+        area += other.area;
+        surface_share = std::min(1.0, surface_share + other.surface_share);
+        worst_deg = std::max(worst_deg, other.worst_deg);
+        vertices.insert(vertices.end(), other.vertices.begin(), other.vertices.end());
+        sortList(vertices.begin(), vertices.end());
+        vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+        if (vertices.size() > kMostVertices) vertices.resize(kMostVertices);
+    }
+    [[nodiscard]] double share() const {
+        return total == 0 ? 0 : static_cast<double>(count) / static_cast<double>(total);
+    }
+    void finish(double whole_area) { surface_share = whole_area > 0 ? std::min(1.0, area / whole_area) : 0; }
+};
+
+}  // namespace tspace
