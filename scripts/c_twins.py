@@ -47,7 +47,7 @@ CPP_ALONE = {
     r"vec[234]Span|cornerAttribute|xyz": "shorthand for C++ types",
     r"Result|Done|Error::place": "C returns a code, and the place is part of the message",
     r"State|TangentPlan::state": "private",
-    r"(action|faces|frameFormat|severity|signReading)Name|finding\w+": "reports of files have these names and texts in their JSON",
+    r"(action|faces|frameFormat|severity|signReading)Name|finding\w+|commandLine": "reports of files have these names and texts in their JSON",
     r"NormalOptions::(crease|denoise|weld)_auto": "-1 in C",
     r"removeAbandonedFiles": "a matter of the tool",
     r"[tT]extureError\w+": "a part of `tspace map-error`, which is for C++ and the tool",

@@ -92,6 +92,24 @@ const char* findingSummary(FindingCode code);
 /// How it is usually mended: one or two sentences.
 const char* findingRemedy(FindingCode code);
 
+struct RemedyOption {
+    std::string name = {};  ///< as on the command line, without dashes: "overwrite-normals"; "o": where the result goes
+    std::string value = {};  ///< empty: a flag
+};
+
+/// A command of tspace that a remedy names. Programs spell it as their users write it, or run it.
+struct RemedyCommand {
+    std::string verb = {};                   ///< "generate", "convert-map", ...
+    std::vector<std::string> inputs = {};    ///< files; empty: the model that was checked
+    std::vector<RemedyOption> options = {};  ///< in the order of the command line
+    std::vector<std::string> placeholders =
+        {};  ///< words among inputs and values that the user replaces: "OUT.png", "HIGH"
+};
+
+/// The command as it is typed, without the model and without an output where the command has none:
+/// "tspace generate --overwrite-normals --crease 60".
+std::string commandLine(const RemedyCommand& command);
+
 struct Finding {
     FindingCode code = FindingCode::positionsNotFinite;
     Severity severity = Severity::note;
@@ -109,6 +127,7 @@ struct Finding {
     std::vector<std::uint32_t> vertices = {};  ///< the first of them, at most 8
     std::string message = {};                  ///< one plain sentence
     std::string remedy = {};                   ///< how to mend it here; usually findingRemedy(code)
+    std::vector<RemedyCommand> commands = {};  ///< those that `remedy` spells as command lines, in its order
 };
 
 /// What is right. Angles are in degrees; no number may be negative or not finite.

@@ -2,12 +2,13 @@
 // Each command that check prints as a remedy is run, as a user would: its finding is gone then, and there is no new one.
 #include <gtest/gtest.h>
 
-#include <cstring>
+#include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
 #include <utility>
+#include <vector>
 
 #include "model/model_files.h"
 #include "tool/faulty_models.h"
@@ -33,29 +34,31 @@ Json findingsOf(const TempFolder& folder, const std::string& file) {
     return report["files"][0]["findings"];
 }
 
-/// The commands that a remedy names, without "tspace". A command ends at the end of a sentence or of a part of it, or before
-/// a parenthesis.
-std::set<std::string> commandsIn(const std::string& text) {
-    std::set<std::string> commands;
-    for (std::size_t at = text.find("tspace "); at != std::string::npos; at = text.find("tspace ", at + 1)) {
-        std::istringstream words(text.substr(at + std::strlen("tspace ")));
-        std::string command;
-        for (std::string word; words >> word && word[0] != '(';) {
-            const std::size_t length = word.find_last_not_of(".,;:)") + 1;
-            command += (command.empty() ? "" : " ") + word.substr(0, length);
-            if (length != word.size()) break;
-        }
-        commands.insert(command);
-    }
-    return commands;
-}
+/// A command of a remedy, without "tspace".
+struct NamedCommand {
+    std::string line;
+    bool needs_more = false;  ///< it has a word for something that the file does not tell, such as the high poly
 
-/// Whether a command has a word for something that the file does not tell, such as the high poly.
-bool needsMore(const std::string& command) {
-    for (const char* word : {" HIGH", " FORMAT", " LETTERS"}) {
-        if ((command + " ").find(word + std::string(" ")) != std::string::npos) return true;
+    bool operator<(const NamedCommand& other) const { return line < other.line; }
+};
+
+/// The commands of a finding; every command line in its remedy must be one of them.
+std::vector<NamedCommand> commandsOf(const Json& finding) {
+    const std::string start = "tspace ", remedy = finding["remedy"];
+    std::vector<NamedCommand> commands;
+    std::size_t at = 0;
+    for (const Json& command : finding["commands"]) {
+        const std::string line = command["line"];
+        EXPECT_EQ(remedy.find(start, at), remedy.find(line, at)) << remedy;
+        at = remedy.find(line, at) + line.size();
+        static const std::set<std::string> kKnown = {"MAP", "OUT.png", "MODEL", "S"};
+        const Json& words = command["placeholders"];
+        const bool needs_more =
+            std::any_of(words.begin(), words.end(), [](const Json& word) { return !kKnown.contains(word); });
+        commands.push_back({line.substr(start.size()), needs_more});
     }
-    return false;
+    EXPECT_EQ(remedy.find(start, at), std::string::npos) << remedy;
+    return commands;
 }
 
 /// Without notes on what may be meant, which worse findings at the same place hide: normals that point to the back of their
@@ -133,12 +136,13 @@ class Advice : public testing::TestWithParam<std::string> {
 
 TEST_P(Advice, MendsTheFindingThatItStandsBelowAndMakesNoNewOne) {
     const Json before = findingsOf(folder_, input_);
-    std::map<std::string, Json> commands;  // and their findings
+    std::map<NamedCommand, Json> commands;  // and their findings
     for (const Json& finding : before) {
-        for (const std::string& command : commandsIn(finding["remedy"])) commands[command].push_back(finding);
+        for (const NamedCommand& command : commandsOf(finding)) commands[command].push_back(finding);
     }
-    for (const auto& [command, findings] : commands) {
-        if (needsMore(command)) continue;
+    for (const auto& [named, findings] : commands) {
+        if (named.needs_more) continue;
+        const std::string& command = named.line;
         std::filesystem::create_directories(folder_.path("out"));
         const bool is_of_model = command.rfind("generate", 0) == 0;
         // Materials of other formats name images in their own ways.
@@ -211,20 +215,6 @@ std::vector<std::string> models() {
 
 INSTANTIATE_TEST_SUITE_P(Models, Advice, testing::ValuesIn(models()),
                          [](const auto& model) { return testName(model.param); });
-
-TEST(AdviceTest, FindsCommandsInText) {
-    using Commands = std::set<std::string>;
-    EXPECT_EQ(commandsIn("Store +1 or -1 in w: tspace generate --repair."), Commands{"generate --repair"});
-    EXPECT_EQ(commandsIn("Run tspace generate. Without it"), Commands{"generate"});
-    EXPECT_EQ(commandsIn("Negate: tspace generate --repair --convention opengl."),
-              Commands{"generate --repair --convention opengl"});
-    EXPECT_EQ(
-        commandsIn("tspace convert-map MAP -o OUT.png --mesh MODEL (or so); or tspace convert-map n.png -o OUT.png"),
-        (Commands{"convert-map MAP -o OUT.png --mesh MODEL", "convert-map n.png -o OUT.png"}));
-    EXPECT_EQ(commandsIn("Unwrap the mesh."), Commands{});
-    EXPECT_TRUE(needsMore("bake MODEL --high HIGH -o MAP.png"));
-    EXPECT_FALSE(needsMore("convert-map HIGHWAY.png -o OUT.png"));
-}
 
 }  // namespace
 }  // namespace tspace::test

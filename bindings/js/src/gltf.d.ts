@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-import type { CheckReport, DiffReport, GenerateReport, IdentifyReport, InspectReport } from "./reports.js";
+import type { CheckReport, DiffReport, Finding, GenerateReport, IdentifyReport, InspectReport } from "./reports.js";
 import type { NewUint8Array } from "./types.js";
 
 export { TspaceError } from "./types.js";
@@ -202,6 +202,9 @@ export function generate(model: Bytes, options?: GenerateOptions): { bytes: NewU
 
 /** Says what is wrong with the frames of a model: inverted signs, averaged seams, the wrong UV set, and more. */
 export function check(model: Bytes, options?: CheckOptions): CheckReport;
+
+/** The remedy of a finding with calls of this module in place of command lines: `generate(model, { repair: true })`. */
+export function remedyText(finding: Finding): string;
 
 /** Says what is in a model: meshes, attributes, materials that need tangents. */
 export function inspect(model: Bytes, options?: ModelOptions): InspectReport;

@@ -7,6 +7,7 @@ import { TspaceError } from "./error.js";
 import { textAt, Wasm } from "./wasm.js";
 
 export { TspaceError };
+export { remedyText } from "./remedies.js";
 
 /** The call that runs: where each of its models gets the files that it names, and its codecs. */
 let current;

@@ -115,6 +115,28 @@ export interface Finding {
   remedy: string;
   /** The view of tspace render --show that shows it; empty: none does. */
   show: string;
+  /** Commands that "remedy" names, in its order. */
+  commands: RemedyCommand[];
+}
+
+export interface RemedyCommand {
+  /** Name of the command: "generate", "convert-map", ... */
+  verb: string;
+  /** Files; empty: the model that was checked. */
+  inputs: string[];
+  /** In the order of the command line. */
+  options: RemedyOption[];
+  /** Words among inputs and values that the user replaces, such as "OUT.png". */
+  placeholders: string[];
+  /** The command line, as it stands in "remedy". */
+  line: string;
+}
+
+export interface RemedyOption {
+  /** Without dashes; "o": where the result goes. */
+  name: string;
+  /** Empty: the option is a flag. */
+  value: string;
 }
 
 export interface InspectReport {

@@ -301,6 +301,13 @@ class Look(Files):
         self.assertEqual((finding.mesh, finding.primitive, finding.unit), (0, 0, "vertices"))
         self.assertTrue(0 < finding.count < finding.total == len(made.tangents))
         self.assertTrue(finding.message and finding.remedy and isinstance(finding.vertices, tuple))
+        (command,) = finding.commands
+        self.assertEqual((command.verb, command.inputs, command.placeholders), ("generate", (), ()))
+        self.assertEqual([(option.name, option.value) for option in command.options], [("repair", "")])
+        self.assertIn(command.line, finding.remedy)
+        self.assertIn("tspace.generate_file(model, output, repair=True)", tspace.remedy_text(finding))
+        self.assertNotIn("--", tspace.remedy_text(finding))
+        self.assertEqual(hash(finding), hash(report.findings[0]), "it can be in a set")
         self.assertEqual(report.counts.error, len([f for f in report.findings if f.severity == "error"]))
         self.assertEqual(report.exit_code, 1)
         quiet = tspace.check(broken, ignore=["signsWrong"])

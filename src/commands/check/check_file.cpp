@@ -134,6 +134,19 @@ namespace tspace::report {
 
 namespace {
 
+Json commandJson(const RemedyCommand& command) {
+    return Json::object({
+        {"verb", command.verb},
+        {"inputs", command.inputs},
+        {"options", listJson(command.options,
+                             [](const RemedyOption& option) {
+                                 return Json::object({{"name", option.name}, {"value", option.value}});
+                             })},
+        {"placeholders", command.placeholders},
+        {"line", commandLine(command)},
+    });
+}
+
 Json findingJson(const Finding& finding) {
     return Json::object({
         {"code", findingName(finding.code)},
@@ -153,6 +166,7 @@ Json findingJson(const Finding& finding) {
         {"message", finding.message},
         {"remedy", finding.remedy},
         {"show", findingLook(finding.code)},
+        {"commands", listJson(finding.commands, commandJson)},
     });
 }
 

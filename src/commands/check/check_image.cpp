@@ -133,23 +133,6 @@ std::optional<Finding> zeroFinding(const std::string& name, const RgbImage& imag
             "a reader that subtracts 128 / 255 sees twice that");
 }
 
-/// Without a model there is nothing that generate could do.
-void keepImageCommand(const std::string& file, const LoneMap& map, Finding& finding) {
-    const std::string mark = "The image alone: ";
-    if (const std::size_t at = finding.remedy.find(mark); at != std::string::npos)
-        finding.remedy = "Convert it: " + finding.remedy.substr(at + mark.size());
-    if (finding.code == FindingCode::greenFlipped)
-        finding.remedy = "If it was made for DirectX and is read by glTF or OpenGL, invert green: tspace flip-green " +
-                         file + " -o OUT.png. If bumps are dents then, it was red: tspace convert-map " + file +
-                         " -o OUT.png --flip-red. The map alone does not tell the two apart.";
-    if (finding.code != FindingCode::normalMapInObjectSpace || map.look.follows_mesh) return;
-    const std::string of_mesh = ", though not along the normals of this mesh";
-    if (const std::size_t at = finding.message.find(of_mesh); at != std::string::npos)
-        finding.message.erase(at, of_mesh.size());
-    finding.remedy = "Convert it with the model that it was made for: tspace convert-map " + file +
-                     " -o OUT.png --from object --mesh MODEL (or --from world, where the nodes of the scene counted).";
-}
-
 }  // namespace
 
 bool isImageInput(const std::string& input, ByteSpan content) {
@@ -219,7 +202,6 @@ CheckReport checkImageFile(const std::string& input, const CheckOptions& options
         return report;
     }
     for (Finding& finding : report.findings) {
-        keepImageCommand(map.command_name, map, finding);
         const bool is_layout =
             finding.code == FindingCode::normalMapTwoChannels || finding.code == FindingCode::normalMapChannels;
         // Engines read what the format says, so only glTF's viewers are wrong.

@@ -311,6 +311,14 @@ Finding flipped(const std::string& name, const GreenTest& test) {
                            countText(blocks, "blocks") + " of 16 x 16 pixels with relief");
 }
 
+/// Without a model there is nothing that generate could do.
+Remedy loneGreenRemedy(const NamedImage& image) {
+    return {
+        "If it was made for DirectX and is read by glTF or OpenGL, invert green: {}. If bumps are dents then, it was "
+        "red: {}. The map alone does not tell the two apart.",
+        {imageCommand("flip-green", image), withOption(convertCommand(image), "flip-red")}};
+}
+
 Finding mixed(const std::string& name, const GreenTest& test) {
     const Tally blocks{.count = test.down_block_count, .total = test.block_count};
     return makeFinding(FindingCode::greenMixed, Severity::warning, blocks, "blocks",
@@ -320,11 +328,10 @@ Finding mixed(const std::string& name, const GreenTest& test) {
                            " of 16 x 16 pixels with relief, " + shareText(blocks.share()));
 }
 
-/// The image as a command line names it.
-std::string commandName(const Scene& scene, std::size_t image) {
-    const std::string& uri = scene.images[image].uri;
+NamedImage namedImage(const Scene& scene, const NormalMap& map) {
+    const std::string& uri = scene.images[map.image].uri;
     const bool is_word = uri.find_first_of(" '\"%\\$`&;|<>()*?[]{}~#!") == std::string::npos;
-    return uri.empty() || !is_word ? "MAP" : uri;
+    return {imageName(scene, map.image), uri.empty() || !is_word ? kUnnamed : uri, map.parts.empty()};
 }
 
 bool isDown(const NormalMap& map) { return map.test && map.test->verdict == GreenVerdict::down; }
@@ -369,13 +376,15 @@ void describeStorage(const Scene& scene, const NormalMap& map, const std::string
     if (!facts) return;
     const bool is_map = content != MapContent::picture && content != MapContent::height;
     if (facts->is_srgb && is_map && content != MapContent::encoded) {
-        add(FindingCode::normalMapIsSrgb, Severity::warning,
-            " (" + facts->name +
-                ") says that its numbers have the sRGB curve, and they have not: renderers that take the "
-                "file's word, as three.js does, turn all its normals")
-            .remedy =
-            "Pack it anew, as linear; or, as a PNG: tspace generate --mend-maps. The image alone: tspace convert-map " +
-            commandName(scene, map.image) + " -o OUT.png";
+        Finding& finding =
+            add(FindingCode::normalMapIsSrgb, Severity::warning,
+                " (" + facts->name +
+                    ") says that its numbers have the sRGB curve, and they have not: renderers that take the "
+                    "file's word, as three.js does, turn all its normals");
+        const NamedImage named = namedImage(scene, map);
+        setRemedy(finding, named.is_alone ? Remedy{"Convert it: {}", {convertCommand(named)}}
+                                          : Remedy{"Pack it anew, as linear; or, as a PNG: {}. The image alone: {}",
+                                                   {toCommand("generate --mend-maps"), convertCommand(named)}});
     }
     if (facts->has_blocks && facts->level_count == 1 && claimedSize(image.bytes).pixels() > 1 && readsLevels(map))
         add(FindingCode::normalMapLevels, Severity::note,
@@ -392,23 +401,28 @@ std::vector<Finding> describe(const Scene& scene, const NormalMap& map) {
         findings.push_back(unreadable(name, map.why_not));
         if (scene.images[map.image].is_unavailable) {
             findings.back().severity = Severity::warning;
-            findings.back().remedy = "Put the image where the model names it, or correct its name in the model.";
+            setRemedy(findings.back(), "Put the image where the model names it, or correct its name in the model.");
         }
     } else {
         const bool has_own_green = hasOwnGreen(map.look.layout);
         const std::optional<TextureFacts> facts = textureFacts(scene.images[map.image].bytes);
-        std::optional<Finding> content = contentFinding(name, commandName(scene, map.image), map.look,
-                                                        isDown(map) && !(has_own_green && isDeclared(map)));
+        std::optional<Finding> content =
+            contentFinding(namedImage(scene, map), map.look, isDown(map) && !(has_own_green && isDeclared(map)));
         if (content && facts) content->message += " (it is " + facts->name + ")";
         if (content && map.look.content == MapContent::height && mayBeHeights(map)) {
             content->severity = Severity::note;
             content->message = name + " is a height map (map_bump), and no normal map";
-            content->remedy =
-                "Nothing needs to be done: generate makes a normal map of it, with -bm as its height in units of "
-                "the model. For the image alone: tspace height-to-normal MAP -o OUT.png --strength S.";
+            setRemedy(
+                *content,
+                {"Nothing needs to be done: generate makes a normal map of it, with -bm as its height in units of "
+                 "the model. For the image alone: {}.",
+                 {toCommand("height-to-normal MAP -o OUT.png --strength S")}});
         }
         if (content) findings.push_back(*std::move(content));
-        if (has_own_green && isDown(map) && !isDeclared(map)) findings.push_back(flipped(name, *map.test));
+        if (has_own_green && isDown(map) && !isDeclared(map)) {
+            findings.push_back(flipped(name, *map.test));
+            if (map.parts.empty()) setRemedy(findings.back(), loneGreenRemedy(namedImage(scene, map)));
+        }
         if (map.test->verdict == GreenVerdict::mixed) findings.push_back(mixed(name, *map.test));
         describeStorage(scene, map, name, findings);
         for (Finding& finding : findings) {
@@ -475,10 +489,7 @@ LoneMap checkLoneMap(const Scene& scene, const CheckOptions& options) {
     NormalMap map;
     lookAt(scene, options, map);
     if (!map.test) failFile(ErrorCode::invalidFile, map.why_not);
-    LoneMap lone{.look = map.look,
-                 .test = *map.test,
-                 .command_name = commandName(scene, map.image),
-                 .findings = describe(scene, map)};
+    LoneMap lone{.look = map.look, .test = *map.test, .findings = describe(scene, map)};
     lone.pixels = *decodeImage(scene.images[0].bytes, options.most_pixels, map.why_not);
     return lone;
 }

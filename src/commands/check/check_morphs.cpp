@@ -11,6 +11,7 @@
 #include "commands/check/findings.h"
 #include "commands/check/moved_faces.h"
 #include "commands/check/primitive_checks.h"
+#include "commands/check/remedy.h"
 #include "core/base/vec_math.h"
 #include "core/mesh/surface/surface.h"
 
@@ -99,8 +100,8 @@ class MorphValues {
         Finding& finding = facts_.findings.back();
         finding.place = facts_.primitive.place + "/targets/" + std::to_string(faulty.first);
         if (code == FindingCode::positionsNotFinite) return;
-        finding.remedy = faulty.all_move ? findingRemedy(FindingCode::morphNormalsWrong)
-                                         : "Export the normals of the targets again.";
+        setRemedy(finding, faulty.all_move ? usualRemedy(FindingCode::morphNormalsWrong)
+                                           : Remedy{"Export the normals of the targets again."});
     }
 
   private:

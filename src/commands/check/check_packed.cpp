@@ -10,6 +10,7 @@
 #include <tuple>
 
 #include "commands/check/findings.h"
+#include "commands/check/remedy.h"
 #include "commands/check/scene_verdict.h"
 #include "core/base/vec_math.h"
 #include "model/io/file_error.h"
@@ -94,8 +95,8 @@ std::string differenceText(const ScenePacked& packed, const PackedErrors& errors
     return text;
 }
 
-std::string packAgain(FrameFormat format) {
-    return std::string("Pack them anew: tspace generate --pack ") + frameFormatName(format) + ".";
+Remedy packAgain(FrameFormat format) {
+    return {"Pack them anew: {}.", {withOption(toCommand("generate"), "pack", frameFormatName(format))}};
 }
 
 /// Whether generate has frames to pack, or makes some.
@@ -108,9 +109,10 @@ Finding unreadablePacking(const ScenePrimitive& primitive, const ScenePacked& pa
     const Tally one{.count = 1, .total = 1};
     Finding finding = makeFinding(FindingCode::packedFramesUnreadable, Severity::warning, one, "attributes",
                                   packed.attribute + " " + packed.fault);
-    finding.remedy = canPack(primitive)
-                         ? packAgain(packed.format)
-                         : "Pack them anew from a model that has normals and tangents, or take the attribute away.";
+    setRemedy(finding, canPack(primitive)
+                           ? packAgain(packed.format)
+                           : Remedy{"Pack them anew from a model that has normals and tangents, or take the attribute "
+                                    "away."});
     return finding;
 }
 
@@ -118,7 +120,7 @@ Finding differingPacking(const ScenePacked& packed, const PackedErrors& errors) 
     const bool can_be_seen = errors.sign_count != 0 || errors.beyond.worst_deg > kVisible_deg;
     Finding finding = makeFinding(FindingCode::packedFramesDiffer, can_be_seen ? Severity::warning : Severity::note,
                                   errors.beyond, "vertices", differenceText(packed, errors));
-    finding.remedy = packAgain(packed.format);
+    setRemedy(finding, packAgain(packed.format));
     return finding;
 }
 

@@ -1,139 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Names, remedies and texts of findings; the findings about tangents.
+// Findings out of tallies, their texts; the findings about tangents.
 #include "commands/check/findings.h"
 
-#include <array>
 #include <cmath>
 
 #include "commands/check/frame_health.h"
+#include "commands/check/remedy.h"
 #include "commands/check/scene_checks.h"
 
 namespace tspace {
-namespace {
-
-struct CodeText {
-    const char* name;
-    const char* remedy;
-};
-
-constexpr const char* kRepair = "Compute those tangents anew: tspace generate --repair.";
-
-/// In the order of FindingCode.
-constexpr std::array<CodeText, kFindingCodeCount> kCodes{{
-    {"positionsNotFinite", "Find the tool that wrote NaN or infinity as a position, and export again."},
-    {"uvsMissing", "Unwrap the mesh, or give the texture the number of a UV set that is there."},
-    {"uvsNotFinite", "Find the tool that wrote NaN or infinity as a UV, and export again."},
-    {"uvsDegenerate",
-     "Unwrap those triangles so that they cover some of the texture. If they show one plain colour on purpose, leave "
-     "them: any tangent in the plane of the surface will do there."},
-    {"normalsMissing", "Nothing needs to be done if flat shading is meant; else export normals."},
-    {"normalsNotFinite", "Export the normals again."},
-    {"normalsNotUnit", "Make them unit: tspace generate --repair. Tangents that do not fit them are mended too."},
-    {"normalsAgainstWinding",
-     "Turn the normals round, or the triangles (recalculate outside), whichever is wrong; then compute the tangents "
-     "anew."},
-    {"tangentsMissing",
-     "Run tspace generate. Without it each renderer makes its own tangents, and they may differ from those of the "
-     "bake."},
-    {"tangentsUnused",
-     "Remove them, they make the file larger: tspace generate --strip. Or give the material the normal map that was "
-     "meant."},
-    {"tangentsIgnored", "Run tspace generate, which makes normals too; or export normals as well."},
-    {"tangentsNotFinite", kRepair},
-    {"tangentsNotUnit", "Make them unit, and compute those anew that have no length: tspace generate --repair."},
-    {"tangentsNotOrthogonal",
-     "Make those tangents perpendicular to the normals of the file: tspace generate --repair."},
-    {"signsNotOne", "Store +1 or -1 in w: tspace generate --repair."},
-    {"signsMixed", "Split the vertices where mirrored and other triangles meet: tspace generate --repair."},
-    {"signsInverted",
-     "Negate every w: tspace generate --repair. The tool that wrote them fed MikkTSpace with v as glTF stores it and "
-     "forgot to negate the sign."},
-    {"signsWrong", "Negate those w: tspace generate --repair."},
-    {"mirroredSeamAveraged",
-     "Split the vertices along the seam, so that each side has its own tangent: tspace generate --repair."},
-    {"uvSeamAveraged", "Average only over vertices whose UVs are equal too: tspace generate --repair."},
-    {"directionsWrong", kRepair},
-    {"uvSetWrong", "Compute the tangents anew, along the UV set of the texture: tspace generate --repair."},
-    {"textureTransformIgnored",
-     "Apply the transform to the UVs and remove it from the texture, so that no reader can get it wrong; or compute "
-     "the tangents anew: tspace generate --overwrite."},
-    {"splitFramesDiffer", "Weld equal vertices before tangents are computed: tspace generate --overwrite."},
-    {"morphTangentsMissing", "Write tangents for morph targets too: tspace generate --overwrite."},
-    {"morphTangentsWrong", "Compute the tangents of the base and of all targets together: tspace generate --repair."},
-    {"texturesDisagree",
-     "Give both textures the same UV set and the same rotation and mirroring; a mesh can hold only one tangent per "
-     "vertex."},
-    {"greenFlipped",
-     "If it was made for DirectX, invert its green channel: tspace generate --flip-green. If bumps look like dents "
-     "then, it is red that is inverted: tspace convert-map MAP -o OUT.png --flip-red. The map alone does not tell the "
-     "two apart; a comparison with the high poly does: tspace map-error MAP MODEL --high HIGH."},
-    {"normalMapUnreadable", "Convert the image to PNG, JPEG or WebP to have it looked at."},
-    {"fileRemark", "Mend the file where that matters. The rest of this report is about what could be read."},
-    {"greenMixed",
-     "Bake the map anew, all of it one way (tspace bake MODEL --high HIGH -o MAP.png); or invert green with an image "
-     "editor where it points down, and nowhere else. To invert the whole map would spoil the other part."},
-    {"packedFramesUnreadable",
-     "Pack them again, in the format that the attribute names: tspace generate --pack FORMAT."},
-    {"packedFramesDiffer",
-     "Pack them again from NORMAL and TANGENT, in the format that the attribute names: tspace generate --pack FORMAT."},
-    {"tangentsUnreadable",
-     "Run tspace generate: it computes tangents where a material needs them, and takes the attribute away elsewhere."},
-    {"positionsRounded",
-     "Store the positions relative to a point near the mesh, and put that point into the node. Tangents that are there "
-     "are better than what can be computed from these positions: keep them."},
-    {"normalSeam",
-     "Make the normals of the primitives together: tspace generate --overwrite-normals; or leave them if an edge is "
-     "meant."},
-    {"normalsFarFromFaces",
-     "Nothing needs to be done if that is meant. Else make normals with hard edges: tspace generate "
-     "--overwrite-normals "
-     "--crease 60."},
-    {"morphNormalsMissing", "Give the targets normals too: tspace generate --morph-normals missing."},
-    {"morphNormalsWrong", "Compute what the targets add to normals anew: tspace generate --morph-normals all."},
-    {"normalMapTwoChannels",
-     "In the model: tspace generate --mend-maps. The image alone: tspace convert-map MAP -o OUT.png --channels "
-     "rg"},
-    {"normalMapUnsigned",
-     "In the model: tspace generate --mend-maps. The image alone: tspace convert-map MAP -o OUT.png --channels "
-     "rg"},
-    {"normalMapChannels",
-     "In the model: tspace generate --mend-maps. The image alone: tspace convert-map MAP -o OUT.png --channels "
-     "LETTERS, with the channels that x, y and z are in."},
-    {"normalMapIsSrgb",
-     "In the model: tspace generate --mend-maps. The image alone: tspace convert-map MAP -o OUT.png --srgb; "
-     "or, where the curve was taken off: tspace convert-map MAP -o OUT.png --linearised"},
-    {"normalMapInObjectSpace",
-     "In the model: tspace generate --mend-maps. The image alone: tspace convert-map MAP -o OUT.png --from "
-     "object --mesh MODEL"},
-    {"normalMapIsHeight", "Make a normal map of it: tspace height-to-normal MAP -o OUT.png --strength S"},
-    {"normalMapScale", "Give the texture a scale above 0, or take the normal map away, if that is what is meant."},
-    {"normalMapIsPicture", "Put the normal map there that is meant, or take this one away: it may be the base color."},
-    {"positionsNoisy",
-     "Nothing needs to be done if it is shaded smoothly. Else make normals without the noise, which leaves vertices "
-     "where "
-     "they are: tspace generate --overwrite-normals --normals best --denoise auto."},
-    {"normalMapLossy",
-     "Pack it again from the source: as PNG or lossless WebP, or as UASTC where it must stay small. For engines, "
-     "compress-map packs the source as BC5 beside the glTF."},
-    {"normalMapLevels",
-     "Write all mip levels with the program that packed it. For engines, compress-map packs the source as BC5 with all "
-     "levels beside the glTF."},
-    {"normalMapLengths",
-     "Make the vectors unit, unless their lengths are meant: renderers make each unit after the filter, so lengths "
-     "count only "
-     "between texels and in smaller levels."},
-    {"normalMapConstant",
-     "Remove the map where it is flat: it costs memory and changes nothing. Else find the map that is meant."},
-    {"normalMapZero",
-     "Nothing needs to be done for most uses. Else write the map from its source with 128 for flat parts, or with 16 "
-     "bits."},
-    {"attributeUnreadable",
-     "Export the attribute again; or make new normals: tspace generate --overwrite-normals. Other attributes are "
-     "removed: tspace generate --repair."},
-}};
-
-}  // namespace
-
 const char* severityName(Severity severity) {
     switch (severity) {
         case Severity::note:
@@ -144,79 +19,6 @@ const char* severityName(Severity severity) {
             return "error";
     }
     return "";
-}
-
-const char* findingName(FindingCode code) {
-    const auto number = static_cast<std::size_t>(code);
-    return number < kCodes.size() ? kCodes[number].name : "";
-}
-
-const char* findingSummary(FindingCode code) {
-    // In the order of FindingCode.
-    static constexpr std::array kSummaries{
-        "Positions are not finite.",
-        "A texture is read with a UV set that is not there.",
-        "UVs are not finite.",
-        "Triangles have no UV area.",
-        "There are no normals.",
-        "Normals are not finite.",
-        "Normals are not unit.",
-        "Normals point to the back of their triangles.",
-        "A material needs tangents, and there are none.",
-        "No material asks for the tangents.",
-        "There are tangents without normals.",
-        "Tangents are not finite.",
-        "Tangents are not unit.",
-        "Tangents lean out of the surface.",
-        "Signs are neither +1 nor -1.",
-        "Signs differ between the corners of a triangle.",
-        "Every sign is inverted.",
-        "Some signs are inverted.",
-        "One tangent serves both sides of a mirrored seam.",
-        "One tangent serves both sides of a seam in the UV map.",
-        "Tangents do not point where u grows.",
-        "Tangents follow another UV set than the texture.",
-        "Tangents follow the UVs before the texture transform.",
-        "Equal vertices have different tangents.",
-        "Morph targets lack tangent deltas.",
-        "Tangent deltas of morph targets are wrong.",
-        "Two textures need different tangents.",
-        "Green points down in a normal map.",
-        "A normal map could not be looked at.",
-        "Reading the file left something out.",
-        "Green points down in one part of a normal map and up in another.",
-        "Packed frames cannot be read.",
-        "Packed frames are not those of the normals and tangents.",
-        "Tangents are stored in a form that tangents cannot have.",
-        "Positions are rounded too coarsely for directions.",
-        "Two primitives of one smooth surface have different normals at their border.",
-        "Normals are far from all triangles around them.",
-        "Morph targets turn the surface and leave the normals behind.",
-        "What morph targets add to normals is wrong.",
-        "Blue of a normal map says nothing of z.",
-        "Blue of a normal map is z itself.",
-        "Channels of a normal map are exchanged or inverted.",
-        "A normal map was stored as a picture, by the sRGB curve.",
-        "A normal map is not in tangent space.",
-        "A grey image is used as a normal map.",
-        "The scale of a normal map is 0 or below.",
-        "A picture in colors is used as a normal map.",
-        "Positions are noisy.",
-        "A normal map is packed as pictures are.",
-        "A texture of a normal map has no smaller levels.",
-        "Vectors of a normal map are not unit.",
-        "A normal map is one color.",
-        "Flat parts of a normal map are stored as 127.",
-        "Normals, UVs or colors are stored in a form that they cannot have.",
-    };
-    static_assert(kSummaries.size() == kFindingCodeCount);
-    const auto number = static_cast<std::size_t>(code);
-    return number < kSummaries.size() ? kSummaries[number] : "";
-}
-
-const char* findingRemedy(FindingCode code) {
-    const auto number = static_cast<std::size_t>(code);
-    return number < kCodes.size() ? kCodes[number].remedy : "";
 }
 
 const char* findingLook(FindingCode code) {
@@ -279,7 +81,7 @@ Finding makeFinding(FindingCode code, Severity severity, const Tally& tally, con
     finding.worst_deg = tally.worst_deg;
     finding.vertices = tally.vertices;
     finding.message = std::move(message);
-    finding.remedy = findingRemedy(code);
+    setRemedy(finding, usualRemedy(code));
     return finding;
 }
 

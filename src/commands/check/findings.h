@@ -14,18 +14,6 @@ namespace tspace {
 struct FrameHealth;
 struct ScenePrimitive;
 
-/// The remedy of inverted signs and green that points down, which cancel out.
-inline constexpr const char* kBothOrNeither =
-    "Nothing needs to be done: the two cancel out, so correct both or neither. For both: tspace generate --overwrite "
-    "--flip-green.";
-
-/// The remedy of green that points down where the convention that is asked for has it so.
-inline constexpr const char* kNothingToDo = "Nothing needs to be done; a reader of plain glTF wants green to point up.";
-
-/// The remedy of green that points down where the signs of some meshes, but not of all, are made for that.
-inline constexpr const char* kSignsFirst =
-    "Correct the green channel and the inverted signs together: tspace generate --overwrite --flip-green.";
-
 /// The view of tspace render that shows what a finding is about ("sign"), or an empty text.
 const char* findingLook(FindingCode code);
 

@@ -2,9 +2,11 @@
 // The finding on what a normal map holds, in words, with the commands that make a normal map of it.
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "commands/check/findings.h"
 #include "commands/check/map_slopes.h"
+#include "commands/check/remedy.h"
 #include "commands/check/scene_checks.h"
 
 namespace tspace {
@@ -52,7 +54,8 @@ FindingCode codeOf(MapContent content) {
     return FindingCode::normalMapIsHeight;
 }
 
-std::string messageOf(const std::string& name, const MapLook& look) {
+std::string messageOf(const NamedImage& image, const MapLook& look) {
+    const std::string& name = image.name;
     const MapLayout& layout = look.layout;
     const bool is_srgb = layout.curve == MapCurve::srgb;
     switch (look.content) {
@@ -88,8 +91,8 @@ std::string messageOf(const std::string& name, const MapLook& look) {
         case MapContent::objectSpace:
             if (!look.follows_mesh) {
                 return "the normal map " + name +
-                       " is not in tangent space: its vectors point all around, as in object or world space, though "
-                       "not along the normals of this mesh";
+                       " is not in tangent space: its vectors point all around, as in object or world space" +
+                       (image.is_alone ? "" : ", though not along the normals of this mesh");
             }
             return "the normal map " + name +
                    (look.is_in_world ? " is in world space: its vectors point along the normals that nodes turn"
@@ -118,80 +121,112 @@ std::string messageOf(const std::string& name, const MapLook& look) {
     return name + " is grey, and no normal map: it is a height map, perhaps";
 }
 
-/// Commands for the image alone, by both readings that slopes cannot tell apart. No full stop stands behind the last command,
-/// since it would be copied along.
-std::string bothReliefs(const std::string& convert, const MapLayout& layout, const std::string& in_model) {
-    return in_model + convert + layoutOptions(layout) +
-           ". Slopes do not tell bumps from dents; if the relief is turned inside out then, convert the original image "
-           "by " +
-           convert + layoutOptions(invertedRelief(layout));
+RemedyCommand withLayout(RemedyCommand command, const MapLayout& layout) {
+    const MapLayout plain{.curve = layout.curve};
+    if (!(layout == plain)) {
+        std::string letters{letterOf(layout.x), letterOf(layout.y)};
+        if (layout.z.channel != MapChannel::none) letters += letterOf(layout.z);
+        command = withOption(std::move(command), "channels", std::move(letters));
+    }
+    if (layout.curve == MapCurve::srgb) command = withOption(std::move(command), "srgb");
+    if (layout.curve == MapCurve::linearised) command = withOption(std::move(command), "linearised");
+    return command;
 }
 
-std::string remedyOf(const std::string& file, const MapLook& look, bool green_is_down) {
-    const std::string flip = green_is_down ? " --flip-green" : "";
-    const std::string in_model = "In the model: tspace generate --mend-maps" + flip + ". The image alone: ";
-    const std::string convert = "tspace convert-map " + file + " -o OUT.png";
-    if (look.is_x_lost) return "Export the map from its source again, with its alpha channel: x cannot be restored.";
-    if (look.content == MapContent::picture) return findingRemedy(FindingCode::normalMapIsPicture);
+/// `behind` follows the command for the image, to which it may add one. No full stop stands behind the last command, since it
+/// would be copied along.
+Remedy inModelOrAlone(const NamedImage& image, bool flips_green, RemedyCommand convert, const std::string& behind = {},
+                      std::optional<RemedyCommand> more = {}) {
+    Remedy remedy{"Convert it: {}" + behind, {}};
+    if (!image.is_alone) {
+        remedy.text = "In the model: {}. The image alone: {}" + behind;
+        RemedyCommand in_model = toCommand("generate --mend-maps");
+        remedy.commands.push_back(flips_green ? withOption(std::move(in_model), "flip-green") : std::move(in_model));
+    }
+    remedy.commands.push_back(std::move(convert));
+    if (more) remedy.commands.push_back(*std::move(more));
+    return remedy;
+}
+
+Remedy objectSpaceRemedy(const NamedImage& image, const MapLook& look, bool green_is_down) {
+    const auto from = [&](const char* space) {
+        return withOption(withOption(convertCommand(image), "from", space), "mesh", "MODEL");
+    };
+    const auto withModel = [](RemedyCommand command) {
+        command.placeholders.emplace_back("MODEL");
+        return command;
+    };
+    const RemedyCommand object = withModel(from("object")), world = withModel(from("world"));
+    if (look.follows_mesh && look.is_in_world)
+        return {"Take it out of world space: {}", {withLayout(world, look.layout)}};
+    if (look.follows_mesh) return inModelOrAlone(image, green_is_down, withLayout(object, look.layout));
+    const std::string text = ": {} (or --from world, where the nodes of the scene counted).";
+    if (image.is_alone) return {"Convert it with the model that it was made for" + text, {object}};
+    return {"Find out which model it was made for" + text + " Or bake it anew.", {object}};
+}
+
+Remedy remedyOf(const NamedImage& image, const MapLook& look, bool green_is_down) {
+    const RemedyCommand convert = convertCommand(image);
+    if (look.is_x_lost) return {"Export the map from its source again, with its alpha channel: x cannot be restored."};
+    if (look.content == MapContent::picture) return usualRemedy(FindingCode::normalMapIsPicture);
     if (look.content == MapContent::hemiOctahedral) {
-        return "Decode it with the program that encoded it, and export x, y and z. No command here does that, and "
-               "reading the two channels as x and y gives another surface.";
+        return {
+            "Decode it with the program that encoded it, and export x, y and z. No command here does that, and "
+            "reading the two channels as x and y gives another surface."};
     }
     if (look.content == MapContent::height) {
-        return "Make a normal map of it: tspace height-to-normal " + file +
-               " -o OUT.png --strength S, where S is how high white stands above black.";
+        RemedyCommand command = withOption(imageCommand("height-to-normal", image), "strength", "S");
+        command.placeholders.emplace_back("S");
+        return {"Make a normal map of it: {}, where S is how high white stands above black.", {std::move(command)}};
     }
-    if (look.content == MapContent::objectSpace && !look.follows_mesh) {
-        return "Find out which model it was made for: " + convert +
-               " --from object --mesh MODEL (or --from world, where the nodes of the scene counted). Or bake it anew.";
-    }
-    if (look.content == MapContent::objectSpace && look.is_in_world)
-        return "Take it out of world space: " + convert + " --from world --mesh MODEL" + layoutOptions(look.layout);
-    if (look.content == MapContent::objectSpace)
-        return in_model + convert + " --from object --mesh MODEL" + layoutOptions(look.layout);
+    if (look.content == MapContent::objectSpace) return objectSpaceRemedy(image, look, green_is_down);
     if (look.is_doubtful) {
-        return "If these channels do hold x and y: " + convert + layoutOptions(look.layout) +
-               ". Otherwise decode the map with the program that encoded it.";
+        return {"If these channels do hold x and y: {}. Otherwise decode the map with the program that encoded it.",
+                {withLayout(convert, look.layout)}};
     }
     MapLayout layout = look.layout;
     const bool has_own_green = layout.y == MapLayout{}.y && layout.curve == MapCurve::none;
     if (green_is_down && !has_own_green) layout.y.is_inverted = !layout.y.is_inverted;
     if (isTurned(look, green_is_down)) {
         const MapLayout left = layout.x.is_inverted ? layout : invertedRelief(layout);
-        return "Where the image was turned by 90 degrees counterclockwise: " + convert + layoutOptions(left) +
-               ". Where it was turned clockwise: " + convert + layoutOptions(invertedRelief(left)) +
-               ". Slopes do not tell the two apart: with the wrong one, bumps are dents.";
+        return {
+            "Where the image was turned by 90 degrees counterclockwise: {}. Where it was turned clockwise: {}. Slopes "
+            "do not tell the two apart: with the wrong one, bumps are dents.",
+            {withLayout(convert, left), withLayout(convert, invertedRelief(left))}};
     }
-    if ((look.content == MapContent::exchanged && !look.is_declared) || (green_is_down && !has_own_green))
-        return bothReliefs(convert, layout, in_model);
-    return in_model + convert + layoutOptions(look.layout) + flip;
+    if ((look.content == MapContent::exchanged && !look.is_declared) || (green_is_down && !has_own_green)) {
+        // Slopes cannot tell these readings apart.
+        return inModelOrAlone(image, green_is_down, withLayout(convert, layout),
+                              ". Slopes do not tell bumps from dents; if the relief is turned inside out then, convert "
+                              "the original image by {}",
+                              withLayout(convert, invertedRelief(layout)));
+    }
+    RemedyCommand command = withLayout(convert, look.layout);
+    if (green_is_down) command = withOption(std::move(command), "flip-green");
+    return inModelOrAlone(image, green_is_down, std::move(command));
 }
 
 }  // namespace
 
-std::string layoutOptions(const MapLayout& layout) {
-    std::string text;
-    const MapLayout plain{.curve = layout.curve};
-    if (!(layout == plain)) {
-        text = std::string(" --channels ") + letterOf(layout.x) + letterOf(layout.y);
-        if (layout.z.channel != MapChannel::none) text += letterOf(layout.z);
-    }
-    if (layout.curve == MapCurve::srgb) text += " --srgb";
-    if (layout.curve == MapCurve::linearised) text += " --linearised";
-    return text;
+RemedyCommand imageCommand(const char* verb, const NamedImage& image) {
+    RemedyCommand command{.verb = verb, .inputs = {image.file}, .options = {{"o", "OUT.png"}}};
+    if (image.file == kUnnamed) command.placeholders.push_back(image.file);
+    command.placeholders.emplace_back("OUT.png");
+    return command;
 }
 
-std::optional<Finding> contentFinding(const std::string& name, const std::string& file, const MapLook& look,
-                                      bool green_is_down) {
+RemedyCommand convertCommand(const NamedImage& image) { return imageCommand("convert-map", image); }
+
+std::optional<Finding> contentFinding(const NamedImage& image, const MapLook& look, bool green_is_down) {
     if (look.content == MapContent::normals) return {};
     const Tally texels{.count = look.count, .total = look.total};
-    std::string message = messageOf(name, look);
+    std::string message = messageOf(image, look);
     if (isTurned(look, green_is_down))
         message += ", and one of them is inverted, as in an image that was turned without its vectors";
     else if (green_is_down)
         message += "; and y is inverted besides";
     Finding finding = makeFinding(codeOf(look.content), Severity::warning, texels, "texels", std::move(message));
-    finding.remedy = remedyOf(file, look, green_is_down);
+    setRemedy(finding, remedyOf(image, look, green_is_down));
     finding.confidence = texels.share();
     return finding;
 }

@@ -9,6 +9,7 @@
 
 #include "commands/check/findings.h"
 #include "commands/check/frame_health.h"
+#include "commands/check/remedy.h"
 #include "commands/shared/noted_noise.h"
 #include "core/base/unique_index.h"
 #include "core/base/vec_math.h"
@@ -78,8 +79,9 @@ void checkNormalValues(PrimitiveFacts& facts) {
                   "the normals of " + countText(not_unit, "vertices") + " do not have length 1" + lengths +
                       (zero_count != 0 ? ", " + std::to_string(zero_count) + " of them length 0" : ""));
         if (zero_count != 0) {
-            facts.findings.back().remedy =
-                "Export the normals again, those of length 0 cannot be normalised; then compute the tangents anew.";
+            setRemedy(
+                facts.findings.back(),
+                "Export the normals again, those of length 0 cannot be normalised; then compute the tangents anew.");
         }
     }
 }
@@ -175,8 +177,8 @@ void checkWinding(PrimitiveFacts& facts, const Directions& directions) {
               "the normals of " + countText(against, "triangles") + " point to the back (" +
                   shareText(against.surface_share) + " of the surface)");
     if (areTrianglesToBlame(facts, directions, faces_against))
-        facts.findings.back().remedy =
-            "Turn those triangles round: tspace generate --mend-winding. Tangents that are there stay.";
+        setRemedy(facts.findings.back(), {"Turn those triangles round: {}. Tangents that are there stay.",
+                                          {toCommand("generate --mend-winding")}});
 }
 
 /// Normals smoothed over hard edges, those of a whole tree on its leaves, or those of another shape. Some are meant, so the
@@ -237,28 +239,31 @@ void checkNoise(PrimitiveFacts& facts) {
 namespace {
 
 /// A command stands in a remedy only where it removes the finding and leaves no new one.
-const char* attributeRemedy(const ScenePrimitive& primitive, const SceneAttributeFault& fault) {
+Remedy attributeRemedy(const ScenePrimitive& primitive, const SceneAttributeFault& fault) {
     const auto isNeeded = [&](const TangentUse& use) { return use.has_texture && fault.name == setName(use.uv_set); };
     const auto isFatal = [](const SceneAttributeFault& other) { return other.repair == AttributeRepair::none; };
     const std::vector<SceneAttributeFault>& faults = primitive.attribute_faults;
     if (fault.repair == AttributeRepair::none)
-        return "Export the mesh again: no command can repair it, and commands leave this primitive as it is.";
+        return {"Export the mesh again: no command can repair it, and commands leave this primitive as it is."};
     if (std::any_of(faults.begin(), faults.end(), isFatal))
-        return "Export the mesh again: another attribute cannot be repaired, so commands leave this primitive as it "
-               "is.";
+        return {
+            "Export the mesh again: another attribute cannot be repaired, so commands leave this primitive as it "
+            "is."};
+    const RemedyCommand repair = toCommand("generate --repair");
     if (fault.repair == AttributeRepair::resize) {
         const bool is_influence = fault.name.starts_with("JOINTS_") || fault.name.starts_with("WEIGHTS_");
-        return is_influence ? "Fill the missing influences with zeros: tspace generate --repair."
-                            : "Keep the components that it may have: tspace generate --repair.";
+        return {
+            is_influence ? "Fill the missing influences with zeros: {}." : "Keep the components that it may have: {}.",
+            {repair}};
     }
     if (fault.target >= 0 && fault.name == "NORMAL" && !primitive.normals.empty())
-        return "Export the morph target again; or make new offsets of normals: tspace generate --repair "
-               "--morph-normals missing.";
+        return {"Export the morph target again; or make new offsets of normals: {}.",
+                {withOption(repair, "morph-normals", "missing")}};
     if (fault.target < 0 && fault.name == "NORMAL")
-        return "Export the normals again; or make new ones: tspace generate --overwrite-normals.";
+        return {"Export the normals again; or make new ones: {}.", {toCommand("generate --overwrite-normals")}};
     if (fault.target < 0 && std::any_of(primitive.uses.begin(), primitive.uses.end(), isNeeded))
-        return "Export the UVs again: tangents follow them.";
-    return "Export the attribute again; or remove it: tspace generate --repair.";
+        return {"Export the UVs again: tangents follow them."};
+    return {"Export the attribute again; or remove it: {}.", {repair}};
 }
 
 }  // namespace
@@ -270,7 +275,7 @@ void reportAttributeFaults(PrimitiveFacts& facts) {
             fault.target < 0 ? fault.name : fault.name + " of morph target " + std::to_string(fault.target);
         facts.add(FindingCode::attributeUnreadable, Severity::error, all, "vertices",
                   "the elements of " + name + " cannot be read: " + fault.why);
-        facts.findings.back().remedy = attributeRemedy(facts.primitive, fault);
+        setRemedy(facts.findings.back(), attributeRemedy(facts.primitive, fault));
     }
 }
 
@@ -457,10 +462,9 @@ void checkRounding(PrimitiveFacts& facts) {
                   decimalText(turned.worst_deg) + " (" + shareText(turned.share) +
                   " of the surface); tangents are not blamed for it");
     if (rounding.was_before) {
-        facts.findings.back().remedy =
-            "Take the model as it was before its positions were rounded, or round them finer, and keep the tangents "
-            "and "
-            "normals that were made then.";
+        setRemedy(facts.findings.back(),
+                  "Take the model as it was before its positions were rounded, or round them finer, and keep the "
+                  "tangents and normals that were made then.");
     }
 }
 
@@ -495,11 +499,14 @@ Result<PrimitiveVerdict> judgePrimitive(const ScenePrimitive& primitive, const C
     checkNormals(facts);
     checkNoise(facts);
     checkMorphValues(facts);
-    checkMorphNormals(facts);
+    // What a target lacks because it cannot be read is that other finding.
+    const bool are_targets_read = std::none_of(primitive.attribute_faults.begin(), primitive.attribute_faults.end(),
+                                               [](const SceneAttributeFault& fault) { return fault.target >= 0; });
+    if (are_targets_read) checkMorphNormals(facts);
     checkUvs(facts);
     checkTextures(facts);
     if (const Result<Done> done = checkTangents(facts); !done) return done.error();
-    checkMorphTargets(facts);
+    if (are_targets_read) checkMorphTargets(facts);
     const double compared = facts.looked_at_values ? comparedShare(facts) : 0;
     return PrimitiveVerdict{std::move(facts.findings), std::move(facts.faults), facts.wrong_sign_share, compared};
 }

@@ -8,6 +8,7 @@
 
 #include "commands/check/map_content.h"
 #include "commands/check/normal_map.h"
+#include "commands/check/remedy.h"
 #include "model/scene/scene.h"
 #include "tspace/check.h"
 
@@ -47,8 +48,7 @@ ImageFindings checkImages(const Scene& scene, const CheckOptions& options);
 struct LoneMap {
     MapLook look = {};
     GreenTest test = {};
-    RgbImage pixels = {};           ///< as stored, of 8 bits
-    std::string command_name = {};  ///< the image as commands in remedies name it
+    RgbImage pixels = {};  ///< as stored, of 8 bits
     std::vector<Finding> findings = {};
 };
 LoneMap checkLoneMap(const Scene& scene, const CheckOptions& options);
@@ -56,13 +56,22 @@ LoneMap checkLoneMap(const Scene& scene, const CheckOptions& options);
 /// A note for each normal map whose scale is 0 or below.
 std::vector<Finding> checkMapScales(const Scene& scene);
 
-/// `--channels`, `--encoding` and all else that makes convert-map read a layout; empty for the default.
-std::string layoutOptions(const MapLayout& layout);
+/// The file of an image that has no name of its own, or none that can be a word of a command line.
+inline constexpr const char* kUnnamed = "MAP";
 
-/// `name`: of the image, with quotes. `file`: its name in a command line. `green_is_down`: the channel that holds y is also
-/// inverted. Nothing for normals.
-std::optional<Finding> contentFinding(const std::string& name, const std::string& file, const MapLook& look,
-                                      bool green_is_down);
+/// An image as findings name it.
+struct NamedImage {
+    std::string name = {};  ///< with quotes
+    std::string file = {};  ///< in a command line; or kUnnamed
+    bool is_alone = false;  ///< no model shows it, so there is nothing that generate could do
+};
+
+/// `verb` on the image, with OUT.png as output.
+RemedyCommand imageCommand(const char* verb, const NamedImage& image);
+RemedyCommand convertCommand(const NamedImage& image);
+
+/// `green_is_down`: the channel that holds y is also inverted. Nothing for normals.
+std::optional<Finding> contentFinding(const NamedImage& image, const MapLook& look, bool green_is_down);
 
 // The packed frames of a scene.
 

@@ -9,12 +9,12 @@
 #include <memory>
 #include <set>
 #include <string>
-#include <string_view>
 #include <tuple>
 #include <utility>
 
 #include "commands/check/findings.h"
 #include "commands/check/primitive_checks.h"
+#include "commands/check/remedy.h"
 #include "model/io/file_error.h"
 #include "model/io/memory_budget.h"
 
@@ -159,17 +159,46 @@ std::string nameOf(const Convention& convention) {
     return "opengl";  // it has the same signs
 }
 
-void replaceAll(std::string& text, std::string_view old, const std::string& with) {
-    for (std::size_t at = text.find(old); at != std::string::npos; at = text.find(old, at + with.size())) {
-        text.replace(at, old.size(), with);
-    }
+/// Whether a command makes tangents of all or of those that are wrong: the first of its options says so.
+bool makesTangents(const RemedyCommand& command) {
+    if (command.verb != "generate" || command.options.empty()) return false;
+    const std::string& name = command.options.front().name;
+    return name == "repair" || name == "overwrite";
 }
 
 /// Adds the convention to the commands of a remedy: who checks by another convention than the format's has to compute by it.
 void addConvention(const CheckOptions& options, Finding& finding) {
     if (signFactor(options.convention) == signFactor(conventions::gltf)) return;
-    for (const std::string command : {"tspace generate --repair", "tspace generate --overwrite"})
-        replaceAll(finding.remedy, command, command + " --convention " + nameOf(options.convention));
+    changeCommands(finding, [&](RemedyCommand& command) {
+        if (makesTangents(command))
+            command.options.insert(command.options.begin() + 1, RemedyOption{"convention", nameOf(options.convention)});
+    });
+}
+
+/// Has commands that make tangents make them as `name` says: "repair" or "overwrite".
+void setHow(Finding& finding, const char* name, bool flips_green = false) {
+    changeCommands(finding, [&](RemedyCommand& command) {
+        if (!makesTangents(command)) return;
+        command.options.front().name = name;
+        if (flips_green) command.options.insert(command.options.begin() + 1, RemedyOption{"flip-green", {}});
+    });
+}
+
+// Remedies of green that points down together with inverted signs.
+
+/// They cancel out.
+Remedy bothOrNeither() {
+    return {"Nothing needs to be done: the two cancel out, so correct both or neither. For both: {}.",
+            {toCommand("generate --overwrite --flip-green")}};
+}
+
+/// The convention that is asked for has green so.
+constexpr const char* kNothingToDo = "Nothing needs to be done; a reader of plain glTF wants green to point up.";
+
+/// The signs of some meshes, but not of all, are made for that.
+Remedy signsFirst() {
+    return {"Correct the green channel and the inverted signs together: {}.",
+            {toCommand("generate --overwrite --flip-green")}};
 }
 
 /// Whether the normal maps of a primitive cancel inverted signs.
@@ -295,14 +324,14 @@ void weighImages(const Scene& scene, const CheckOptions& options, ImageFindings&
         if (options.convention.green == Green::down) {
             finding.severity = Severity::note;
             finding.message += "; that is what the convention wants which was asked for";
-            finding.remedy = kNothingToDo;
+            setRemedy(finding, kNothingToDo);
             continue;
         }
-        if (is_cancelled[images.images[i]]) finding.remedy = kSignsFirst;
+        if (is_cancelled[images.images[i]]) setRemedy(finding, signsFirst());
         if (!is_needed[images.images[i]]) {
             finding.severity = Severity::note;
             finding.message += "; but the signs of its meshes are inverted too, and the two cancel out";
-            finding.remedy = kBothOrNeither;
+            setRemedy(finding, bothOrNeither());
         }
         addConvention(options, finding);
     }
@@ -324,22 +353,19 @@ constexpr const char* kBothByHand =
     "channel of the normal map.";
 constexpr const char* kLookAtTheMap =
     "Look at the normal map. If its green points up, negate every w. If it points down, do both or neither: negate "
-    "every w and invert the green channel, or leave both as they are. Where the high poly is at hand, tspace map-error "
-    "MAP MODEL --high HIGH says which, in degrees.";
+    "every w and invert the green channel, or leave both as they are. Where the high poly is at hand, {} says which, "
+    "in "
+    "degrees.";
 
 constexpr const char* kOnlyForItsReaders =
     "Nothing needs to be done for programs that read the packed frames. For others take the model that they were "
     "packed from.";
 constexpr const char* kAlsoForOthers =
-    "Nothing needs to be done for programs that read the packed frames. For others compute tangents too: tspace "
-    "generate --overwrite.";
+    "Nothing needs to be done for programs that read the packed frames. For others compute tangents too: {}.";
 
 constexpr const char* kDrawnTangents =
     "Mend it with the tool that made the tangents. No texture is read with them, so nothing here says where they must "
     "point.";
-
-constexpr std::string_view kRepairOption = "--repair", kOverwriteOption = "--overwrite";
-constexpr const char* kOverwriteBoth = "--overwrite --flip-green";
 
 /// Findings that computing the tangents anew mends.
 bool isOfTangents(FindingCode code) {
@@ -364,11 +390,13 @@ class Advice {
     void give(const ScenePrimitive& primitive, const PrimitiveJudgement& judgement, Finding& finding) const {
         const bool can_compute = canCompute(primitive);
         if (finding.code == FindingCode::tangentsMissing && primitive.packedAlone() != nullptr) {
-            finding.remedy = primitive.normals.empty() || !can_compute ? kOnlyForItsReaders : kAlsoForOthers;
+            setRemedy(finding, primitive.normals.empty() || !can_compute
+                                   ? Remedy{kOnlyForItsReaders}
+                                   : Remedy{kAlsoForOthers, {toCommand("generate --overwrite")}});
             return addConvention(options_, finding);
         }
         if (finding.code == FindingCode::tangentsMissing || finding.code == FindingCode::tangentsIgnored) {
-            if (!can_compute) finding.remedy = primitive.uvsDecide() ? kUnwrapFirst : kNoUvsToFollow;
+            if (!can_compute) setRemedy(finding, primitive.uvsDecide() ? kUnwrapFirst : kNoUvsToFollow);
             return addConvention(options_, finding);
         }
         if (!isOfTangents(finding.code)) return;
@@ -377,20 +405,20 @@ class Advice {
         if (isOfValues(finding.code) || (finding.code == FindingCode::tangentsNotOrthogonal && is_error)) {
             // As the remedy says.
         } else if (primitive.hasFreeTangents()) {
-            finding.remedy = kDrawnTangents;
+            setRemedy(finding, kDrawnTangents);
         } else if (!can_compute) {
-            finding.remedy = kUnwrapFirst;
+            setRemedy(finding, kUnwrapFirst);
         } else if (is_of_signs && judgement.signs != SignVerdict::plain) {
-            finding.remedy = judgement.signs == SignVerdict::open ? kLookAtTheMap
-                             : inverts_green_                     ? kBothOrNeither
-                                                                  : kBothByHand;
+            setRemedy(finding, judgement.signs == SignVerdict::open
+                                   ? Remedy{kLookAtTheMap, {toCommand("map-error MAP MODEL --high HIGH")}}
+                               : inverts_green_ ? bothOrNeither()
+                                                : Remedy{kBothByHand});
         } else if (is_error) {
-            replaceAll(finding.remedy, kOverwriteOption, std::string(kRepairOption));
+            setHow(finding, "repair");
         } else if (any_open_ || (any_cancelled_ && !inverts_green_)) {
-            finding.remedy = kOtherTool;
+            setRemedy(finding, kOtherTool);
         } else {
-            replaceAll(finding.remedy, kRepairOption, std::string(kOverwriteOption));
-            if (any_cancelled_) replaceAll(finding.remedy, kOverwriteOption, kOverwriteBoth);
+            setHow(finding, "overwrite", any_cancelled_);
         }
         addConvention(options_, finding);
     }

@@ -2,6 +2,7 @@
 // Pictures of pages: the angles between two models, and places of findings after what their remedies name.
 #include <cmath>
 
+#include "commands/check/remedy.h"
 #include "commands/render/drawn.h"
 #include "commands/shared/page/check_page.h"
 #include "commands/shared/page/diff_page.h"
@@ -97,28 +98,24 @@ TEST(DiffPictures, APlaceIsThePictureOfItsModel) {
     EXPECT_TRUE(pictures.place({.mesh_a = 7}).a.empty());
 }
 
-TEST(Remedy, IsTheCommandThatTheSentenceNames) {
-    const auto repair = commandIn("Negate every w: tspace generate --repair. The tool that wrote them");
-    ASSERT_TRUE(repair && repair->options);
-    EXPECT_EQ(repair->text, "tspace generate --repair");
-    EXPECT_EQ(repair->options->existing, ExistingTangents::repair);
-    EXPECT_EQ(repair->options->faces, Faces::automatic) << "as on the command line";
-    const auto plain = commandIn("Run tspace generate, which makes normals too; or export normals as well.");
-    ASSERT_TRUE(plain && plain->options);
-    EXPECT_EQ(plain->options->existing, ExistingTangents::keep);
-    const auto other = commandIn("Anew: tspace generate --overwrite --convention opengl.");
-    ASSERT_TRUE(other && other->options);
-    EXPECT_EQ(other->text, "tspace generate --overwrite --convention opengl");
-    EXPECT_EQ(other->options->tangents.convention.green, conventions::opengl.green);
-    const auto open = commandIn("in the format that the attribute names: tspace generate --pack.");
-    ASSERT_TRUE(open);
-    EXPECT_FALSE(open->options) << "which format is left open";
-    EXPECT_FALSE(commandIn("Unwrap the mesh."));
+TEST(Remedy, CommandsAreOptionsOfGenerate) {
+    const auto repair = optionsOf(usualRemedy(FindingCode::signsInverted).commands.at(0));
+    ASSERT_TRUE(repair);
+    EXPECT_EQ(repair->existing, ExistingTangents::repair);
+    EXPECT_EQ(repair->faces, Faces::automatic) << "as on the command line";
+    const auto plain = optionsOf(usualRemedy(FindingCode::tangentsIgnored).commands.at(0));
+    ASSERT_TRUE(plain);
+    EXPECT_EQ(plain->existing, ExistingTangents::keep);
+    const auto other = optionsOf(toCommand("generate --overwrite --convention opengl"));
+    ASSERT_TRUE(other);
+    EXPECT_EQ(other->tangents.convention.green, conventions::opengl.green);
+    EXPECT_FALSE(optionsOf(toCommand("generate --pack"))) << "which format is left open";
+    EXPECT_FALSE(optionsOf(toCommand("generate --pack FORMAT"))) << "which format is left open";
 }
 
 Finding findingAt(FindingCode code, const std::vector<std::uint32_t>& vertices) {
     Finding finding{.code = code, .place = "/meshes/0/primitives/0", .vertices = vertices};
-    finding.remedy = findingRemedy(code);
+    setRemedy(finding, usualRemedy(code));
     return finding;
 }
 
@@ -200,7 +197,7 @@ TEST(FindingPictures, PlacesAreSeenWhereSomethingStandsInFront) {
 
 TEST(FindingPictures, ShowAMapWithItsGreenTurned) {
     Finding finding = findingAt(FindingCode::greenFlipped, {});
-    finding.remedy = "Invert it: tspace generate --flip-green-all.";
+    setRemedy(finding, {"Invert it: {}.", {toCommand("generate --flip-green-all")}});
     const FindingPicture picture = pictureOf(mapped(SquareModel()), finding);
     EXPECT_GT(differingPixels(decoded(picture.before), decoded(picture.after)), 5000U);
 }

@@ -19,14 +19,14 @@ export interface Extras {
 }
 export const noExtras: Extras = { flipGreen: false, mendMaps: false, overwriteNormals: false, denoise: false, mendWinding: false, strip: false, morphNormals: null };
 
-/** What a remedy's command does, or null where this page cannot do it. */
-export function remedyOptions({ code, remedy }: Finding): (Partial<Extras> & { tangents?: Tangents }) | null {
+/** What the first command of a remedy that works on the model does, or null where this page cannot do it. */
+export function remedyOptions({ code, commands }: Finding): (Partial<Extras> & { tangents?: Tangents }) | null {
   // Of these the remedy says that both or neither is to be mended, which is more than one command.
   if (code === "greenFlipped") return { flipGreen: true };
-  const words = /tspace generate((?: --[a-z-]+(?: (?:missing|all|best|auto))?)+)/.exec(remedy)?.[1].trim();
-  if (words === undefined) return null;
+  const command = commands.find(({ verb }) => verb === "generate");
+  if (!command?.options.length) return null;
   const options: Partial<Extras> & { tangents?: Tangents } = {};
-  for (const [, name, value] of words.matchAll(/--([a-z-]+)(?: (missing|all|best|auto))?/g)) {
+  for (const { name, value } of command.options) {
     if (name === "repair" || name === "overwrite") options.tangents = name;
     else if (name === "flip-green") options.flipGreen = true;
     else if (name === "mend-maps") options.mendMaps = true;

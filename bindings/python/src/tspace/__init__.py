@@ -47,6 +47,7 @@ Functions
 Model files (glTF, GLB, OBJ), on disk or in memory
     generate_file, generate_bytes   adds normals and tangents where materials need them
     check           what is wrong with a model's frames, as findings
+    remedy_text     how to mend one of them, with calls of this module
     identify        which method made its tangents
     diff            the angles between the frames of two models
     inspect         what is in a file
@@ -101,6 +102,7 @@ from ._normals import NormalResult, normals, position_noise
 from ._options import Convention
 from ._pack import PackResult, pack_frames, unpack_frames
 from ._reports import NormalReport, PackReport, PositionNoise, SanitizeReport, TangentReport, WindingReport
+from ._remedies import remedy_text
 from ._sanitize import SanitizeResult, sanitize
 from ._split import Split, Triangles, split, triangulate
 from ._tangents import Plan, TangentResult, tangents
@@ -202,6 +204,7 @@ __all__ = [
     "normals",
     "pack_frames",
     "position_noise",
+    "remedy_text",
     "sanitize",
     "split",
     "tangents",

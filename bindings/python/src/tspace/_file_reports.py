@@ -123,6 +123,30 @@ class Finding:
     remedy: str
     #: The view of tspace render --show that shows it; empty: none does.
     show: str
+    #: Commands that "remedy" names, in its order.
+    commands: Tuple[RemedyCommand, ...]
+
+
+@dataclass(frozen=True)
+class RemedyCommand:
+    #: Name of the command: "generate", "convert-map", ...
+    verb: str
+    #: Files; empty: the model that was checked.
+    inputs: Tuple[str, ...]
+    #: In the order of the command line.
+    options: Tuple[RemedyOption, ...]
+    #: Words among inputs and values that the user replaces, such as "OUT.png".
+    placeholders: Tuple[str, ...]
+    #: The command line, as it stands in "remedy".
+    line: str
+
+
+@dataclass(frozen=True)
+class RemedyOption:
+    #: Without dashes; "o": where the result goes.
+    name: str
+    #: Empty: the option is a flag.
+    value: str
 
 
 class InspectReport(Report):

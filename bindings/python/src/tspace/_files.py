@@ -264,7 +264,7 @@ def check(
     options:   those of `tspace check` (docs/check.md), with underscores: fail_on="error", ignore=["tangentsUnused"]
 
     >>> for finding in tspace.check("chair.glb"):
-    ...     print(finding.severity, finding.code, finding.place, finding.message, finding.remedy)
+    ...     print(finding.severity, finding.code, finding.place, finding.message, tspace.remedy_text(finding))
     """
     return CheckReport(_ask("check", model, name, find_file, options))
 

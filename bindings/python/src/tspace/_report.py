@@ -66,7 +66,7 @@ def _snake_case(member: str) -> str:
 
 
 @lru_cache(maxsize=None)
-def _kinds(report: Type[Report]) -> Dict[str, Type[Any]]:
+def _kinds(report: Type[Any]) -> Dict[str, Type[Any]]:
     """Of each attribute the class of the objects that it holds, be it in a list or None."""
     kinds = {}
     for name, hint in get_type_hints(report).items():
@@ -85,5 +85,12 @@ def _wrapped(value: Any, kind: Type[Any]) -> Any:
     if not is_dataclass(kind):
         return kind(value)
     # A newer library may say more.
-    members = {_snake_case(name): tuple(entry) if isinstance(entry, list) else entry for name, entry in value.items()}
-    return kind(**{name: entry for name, entry in members.items() if name in kind.__dataclass_fields__})
+    members = {_snake_case(name): entry for name, entry in value.items()}
+    return kind(**{name: _frozen(entry, kind, name) for name, entry in members.items() if name in kind.__dataclass_fields__})
+
+
+def _frozen(value: Any, kind: Type[Any], name: str) -> Any:
+    """A member of a dataclass, with a tuple in place of a list."""
+    if not isinstance(value, list):
+        return value
+    return tuple(_wrapped(value, _kinds(kind).get(name, Report)))

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <map>
 #include <memory>
-#include <string_view>
 #include <utility>
 
 #include "commands/check/check_image.h"
@@ -20,43 +19,29 @@
 namespace tspace {
 namespace {
 
-constexpr std::string_view kCommand = "tspace generate";
 constexpr const char* kNothingToSee = "It changes nothing that this picture shows.";
 
-/// The word that begins at `at`, without what ends a sentence.
-std::string_view wordAt(std::string_view text, std::size_t at) {
-    const std::size_t end = text.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789-_", at);
-    return text.substr(at, std::min(end, text.size()) - at);
+/// The first command of a finding that works on the model; nothing where there is none.
+const RemedyCommand* modelCommand(const Finding& finding) {
+    const auto found = std::find_if(finding.commands.begin(), finding.commands.end(),
+                                    [](const RemedyCommand& command) { return command.verb == "generate"; });
+    return found == finding.commands.end() ? nullptr : &*found;
 }
 
 }  // namespace
 
-std::optional<RemedyCommand> commandIn(const std::string& remedy) {
-    const std::string_view text = remedy;
-    const std::size_t begin = text.find(kCommand);
-    if (begin == std::string_view::npos) return {};
-    RemedyCommand command;
+std::optional<GenerateOptions> optionsOf(const RemedyCommand& command) {
+    if (!command.placeholders.empty()) return {};
     GenerateOptions result;
     const options::OptionList list = options::generateOptions(result);
     options::Given given;
-    bool is_whole = true;
-    std::size_t end = begin + kCommand.size();
-    const auto nextWord = [&] { return end < text.size() && text[end] == ' ' ? wordAt(text, end + 1) : ""; };
-    for (std::string_view word = nextWord(); word.starts_with("--"); word = nextWord()) {
-        end += 1 + word.size();
-        const options::Option* option = options::findOption(list, std::string(word));
-        std::string value;
-        if (option != nullptr && !option->value.empty()) {
-            value = nextWord();
-            end += value.empty() ? 0 : 1 + value.size();
-            is_whole = is_whole && !value.empty();
-        }
-        is_whole = is_whole && option != nullptr && options::giveValue(*option, value, given).empty();
+    for (const RemedyOption& part : command.options) {
+        const options::Option* option = options::findOption(list, "--" + part.name);
+        const bool is_known = option != nullptr && option->value.empty() == part.value.empty();
+        if (!is_known || !options::giveValue(*option, part.value, given).empty()) return {};
     }
-    command.text = text.substr(begin, end - begin);
-    is_whole = is_whole && options::checkTogether(list, given).empty() && options::finish(given, result).empty();
-    if (is_whole) command.options = result;
-    return command;
+    if (!options::checkTogether(list, given).empty() || !options::finish(given, result).empty()) return {};
+    return result;
 }
 
 DrawnScene mendedScene(const std::string& input, const FileOptions& file, GenerateOptions options) {
@@ -83,9 +68,10 @@ struct FindingPictures::Model {
 
     Model(std::string path, const FileOptions& options) : input(std::move(path)), file(options), before(input, file) {}
 
-    Mending& mendedBy(const RemedyCommand& command) {
-        const auto [mending, is_new] = mended.try_emplace(command.text);
-        if (is_new) run(*command.options, mending->second);
+    /// `line`: the command with these options.
+    Mending& mendedBy(const std::string& line, const GenerateOptions& command) {
+        const auto [mending, is_new] = mended.try_emplace(line);
+        if (is_new) run(command, mending->second);
         return mending->second;
     }
 
@@ -117,9 +103,8 @@ FindingPicture FindingPictures::draw(const Finding& finding) {
     const RenderFrames frames = lacks ? RenderFrames::stored : RenderFrames::automatic;
     const std::vector<std::size_t> triangles =
         trianglesAt(model_->before.scene().primitives[primitive], finding.vertices);
-    const std::optional<RemedyCommand> command = commandIn(finding.remedy);
-    if (command) {
-        result.command = command->text;
+    if (const RemedyCommand* const command = modelCommand(finding)) {
+        result.command = commandLine(*command);
         result.why_no_after = drawAfter(*command, primitive, triangles, frames, result);
         if (!result.after.empty() || result.why_no_after == kNothingToSee) return result;
     }
@@ -130,8 +115,9 @@ FindingPicture FindingPictures::draw(const Finding& finding) {
 std::string FindingPictures::drawAfter(const RemedyCommand& command, std::size_t primitive,
                                        std::span<const std::size_t> triangles, RenderFrames frames,
                                        FindingPicture& result) {
-    if (!command.options) return "It leaves a choice open.";
-    const Model::Mending& mending = model_->mendedBy(command);
+    const std::optional<GenerateOptions> options = optionsOf(command);
+    if (!options) return "It leaves a choice open.";
+    const Model::Mending& mending = model_->mendedBy(commandLine(command), *options);
     if (!mending.model) return mending.why_not;
     const auto pair = std::find_if(mending.model->pairs.begin(), mending.model->pairs.end(),
                                    [&](const PrimitivePair& candidate) { return candidate.a == primitive; });

@@ -18,15 +18,10 @@
 
 namespace tspace {
 
-// What a remedy gives: the command that it names, run in memory.
+// What a remedy gives: its command, run in memory.
 
-/// The first command that a remedy names.
-struct RemedyCommand {
-    std::string text = {};                        ///< "tspace generate --repair"
-    std::optional<GenerateOptions> options = {};  ///< what it asks for; nothing where it leaves something open
-};
-/// Nothing where it names none.
-std::optional<RemedyCommand> commandIn(const std::string& remedy);
+/// What a command of the verb generate asks for; nothing where it leaves something open.
+std::optional<GenerateOptions> optionsOf(const RemedyCommand& command);
 
 /// What a command makes of a model, with its images, as a picture shows it. `file`: how `input` is opened. Throws FileError.
 DrawnScene mendedScene(const std::string& input, const FileOptions& file, GenerateOptions options);

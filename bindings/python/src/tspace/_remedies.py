@@ -1,0 +1,55 @@
+# SPDX-License-Identifier: MIT
+"""Remedies of findings as calls of this module."""
+
+from ._file_reports import Finding, RemedyCommand
+
+_FUNCTIONS = {
+    "generate": "generate_file",
+    "flip-green": "flip_green_file",
+    "convert-map": "convert_map_file",
+    "height-to-normal": "height_to_normal_file",
+    "bake": "bake_file",
+}
+
+
+def remedy_text(finding: Finding) -> str:
+    """The remedy of a finding with calls of this module in place of command lines.
+
+    A command without a function here, such as `tspace map-error`, stays a command line. Words in capitals, such as "HIGH",
+    are those that you replace.
+
+    >>> for finding in tspace.check("chair.glb"):
+    ...     print(finding.message, tspace.remedy_text(finding))
+    """
+    text, end = finding.remedy, 0
+    for command in finding.commands:
+        begin = text.find(command.line, end)
+        if begin < 0:
+            break
+        call = _call(command)
+        text, end = text[:begin] + call + text[begin + len(command.line) :], begin + len(call)
+    return text
+
+
+def _call(command: RemedyCommand) -> str:
+    function = _FUNCTIONS.get(command.verb)
+    if function is None:
+        return command.line
+    options = {option.name: option.value for option in command.options}
+    paths = [repr(path) for path in command.inputs] or ["model"]
+    # What the command line has as options are paths here.
+    if command.verb == "bake":
+        paths.append(repr(options.pop("high")))
+    paths.append(repr(options.pop("o")) if "o" in options else "output")
+    given = [f"{_keyword(name)}={_value(value)}" for name, value in options.items()]
+    return f"tspace.{function}({', '.join(paths + given)})"
+
+
+def _keyword(option: str) -> str:
+    return "from_" if option == "from" else option.replace("-", "_")
+
+
+def _value(value: str) -> str:
+    if not value:
+        return "True"
+    return value if value.isdigit() else repr(value)
