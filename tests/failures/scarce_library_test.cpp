@@ -19,7 +19,7 @@
 #include "tspace/bake_file.h"
 #include "tspace/check.h"
 #include "tspace/indexed_frames.h"
-#include "tspace/map_bake.h"
+#include "tspace/maps.h"
 #include "tspace/normals.h"
 #include "tspace/tangents.h"
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "commands/check/findings.h"
 #include "commands/check/patch.h"
 #include "tspace/sanitize.h"
 
