@@ -26,7 +26,7 @@ limit 0 18 fmt
 limit 0 0 regex random future
 limit 0 1 iostream
 limit 0 6 sstream fstream
-limit 2 21 filesystem
+limit 2 22 filesystem
 limit 4 18 chrono thread condition_variable mutex
 limit 18 100 functional
 limit 15 100 map unordered_map

@@ -220,7 +220,7 @@ TEST_F(CheckImage, FindsImagesInFoldersWithoutModels) {
         const std::map<std::string, Codes> wanted{{"floor.png", {}},
                                                   {"roughness.png", {}},
                                                   {"wall.png", {"warning greenFlipped"}},
-                                                  {"wood_N.png", {"error normalMapIsPicture"}},
+                                                  {"wood_N.png", {"warning normalMapIsPicture"}},
                                                   {"wood_color.png", {}}};
         EXPECT_EQ(found, wanted) << input << report;
     }

@@ -247,7 +247,7 @@ TEST(Usage, TheHelpCommandPrintsWhatTheHelpOptionPrints) {
 
 TEST(Usage, TheDocumentationNamesEveryOption) {
     std::string pages;
-    for (const char* page : {"tool.md", "batch.md", "check.md", "diff.md", "identify.md"}) {
+    for (const char* page : {"tool.md", "batch.md", "check.md", "ci.md", "diff.md", "identify.md"}) {
         std::ifstream file(std::filesystem::path(TSPACE_DOCS_DIR) / page);
         ASSERT_TRUE(file) << page;
         pages.append(std::istreambuf_iterator<char>(file), {});

@@ -64,8 +64,8 @@ constexpr std::size_t kUsualWidth = 80;
 }  // namespace
 
 std::string fitted(std::string_view text, std::FILE* to) {
-    const std::optional<std::size_t> width = terminalWidth(to);
-    return width ? report::fitText(text, *width) : std::string(text);
+    constexpr std::size_t kWhole = std::size_t{1} << 20;
+    return report::fitText(text, terminalWidth(to).value_or(kWhole));
 }
 
 bool printText(std::string_view text, std::FILE* to) { return printResult(fitted(text, to), to); }

@@ -47,7 +47,7 @@ void printRemark(const std::string& message);
 /// disk), which is said on stderr.
 bool printResult(std::string_view text, std::FILE* to = stdout);
 
-/// A text for people, fitted to terminalWidth(); as it is where that is not known, for programs that search it.
+/// A text for people, fitted to terminalWidth(). Lines stay whole where that is not known, for programs that search them.
 std::string fitted(std::string_view text, std::FILE* to = stdout);
 bool printText(std::string_view text, std::FILE* to = stdout);
 /// As printText(), for a page of help.

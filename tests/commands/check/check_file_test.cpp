@@ -588,8 +588,14 @@ TEST(CheckFile, TellsHowFarItIs) {
         const CheckReport report = model.check(options);
         EXPECT_EQ(report.primitive_count, 3u);
         using Told = std::vector<std::pair<std::string, std::uint64_t>>;
-        const Told all = {{"reading", 0},  {"reading", 1},  {"checking", 0},
-                          {"checking", 1}, {"checking", 2}, {"checking", 3}};
+        const Told all = {{"reading", 0},
+                          {"reading", 1},
+                          {"checking", 0},
+                          {"checking", 1},
+                          {"checking", 2},
+                          {"checking", 3},
+                          {"checking normal maps", 0},
+                          {"comparing primitives", 0}};
         if (threads == 1) {
             EXPECT_EQ(told, all);
         }
