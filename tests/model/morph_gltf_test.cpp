@@ -283,7 +283,7 @@ TEST(MorphGltf, KeepsOffsetsThatAreNoVectors) {
     const std::string input = folder.write("in.glb", builder.glb()), output = folder.path("out.glb").string();
     const auto report = generateFile(input, output, {});
     ASSERT_TRUE(report) << report.error().message;
-    const Document written = parseDocument(readFile(output), output, {});
+    const gltf::Document written = gltf::parseDocument(readFile(output), output, {});
     EXPECT_EQ(written.json["meshes"][0]["primitives"][0]["targets"][0]["POSITION"], 2u);
 }
 

@@ -25,8 +25,8 @@ class FaultyAttributes : public testing::TestWithParam<FaultyModel> {
 TEST_P(FaultyAttributes, EndNoCommand) {
     for (const char* command :
          {"inspect faulty.gltf", "identify faulty.gltf", "diff faulty.gltf faulty.gltf",
-          "render faulty.gltf -o a.png --size 32", "view faulty.gltf -o a.html", "finish faulty.gltf -o finished.glb",
-          "flip-green faulty.gltf -o flipped.gltf", "bake faulty.gltf --high faulty.gltf -o baked.png --size 16",
+          "render faulty.gltf -o a.png --size 32", "finish faulty.gltf -o finished.glb",
+          "bake faulty.gltf --high faulty.gltf -o baked.png --size 16",
           "generate faulty.gltf -o b.glb --overwrite-normals", "generate faulty.gltf -o c.glb --repair",
           "generate faulty.gltf -o d.glb --mend-winding --morph-normals all --pack frame32"}) {
         const ToolRun run = runTool(folder_, command);

@@ -22,7 +22,7 @@ try:
     mesh = numpy.load(sys.argv[1])
     tspace.tangents(mesh["positions"], mesh["normals"], mesh["uvs"], mesh["indices"], convention="gltf")
     tspace.inspect(sys.argv[2])
-except MemoryError:
+except (MemoryError, SystemError):  # the latter from CPython's own compiler of regular expressions
     sys.exit(5)
 """
 

@@ -15,6 +15,8 @@ _FUNCTIONS = {
 def remedy_text(finding: Finding) -> str:
     """The remedy of a finding with calls of this module in place of command lines.
 
+    finding: one of those of `tspace.check`
+
     A command without a function here, such as `tspace map-error`, stays a command line. Words in capitals, such as "HIGH",
     are those that you replace.
 

@@ -93,4 +93,5 @@ def _frozen(value: Any, kind: Type[Any], name: str) -> Any:
     """A member of a dataclass, with a tuple in place of a list."""
     if not isinstance(value, list):
         return value
-    return tuple(_wrapped(value, _kinds(kind).get(name, Report)))
+    owner: Any = kind
+    return tuple(_wrapped(value, _kinds(owner).get(name, Report)))
