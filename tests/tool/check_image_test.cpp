@@ -210,7 +210,7 @@ TEST_F(CheckImage, FindsImagesInFoldersWithoutModels) {
     folder_.write("textures/roughness.png", pngFile(gray));
     folder_.write("textures/wood_N.png", pngFile(picture));
     folder_.write("textures/readme.txt", "");
-    for (const std::string input : {"textures", "'textures/**'", "'textures/**/*.png'"}) {
+    for (const std::string input : {"textures", "'textures/**/*.png'"}) {
         const ToolRun run = runTool(folder_, "check --json " + input);
         EXPECT_EQ(run.err, "");
         std::map<std::string, Codes> found;

@@ -20,7 +20,7 @@ void writeSquare(const TempFolder& folder, const std::string& name, float sign) 
     for (std::size_t i = 3; i < model.tangents.size(); i += 4) model.tangents[i] = sign;
     GltfBuilder builder = model.build();
     builder.json()["meshes"][0]["name"] = "<script>alert('&')</script>";
-    builder.json()["materials"][0]["normalTexture"] = {{"index", addTexture(builder, plainImage(200, 128, 220))}};
+    builder.json()["materials"][0]["normalTexture"] = {{"index", addTexture(builder, plainImage(128, 200, 220))}};
     folder.write(name, std::span<const std::uint8_t>(builder.glb()));
 }
 void writeInvertedSquare(const TempFolder& folder, const std::string& name) { writeSquare(folder, name, -1); }

@@ -68,7 +68,7 @@ describe("refused", () => {
   it("options that nobody knows, with those that are", () => {
     const unknown = (words, body) => refuses("invalidOption", [/ is unknown: known are /, ...words], body);
     const typo = { ...options, treshold: 90 };
-    const words = [/^options\.treshold/, /method, threshold, pairing, ngons, convention, frame, refine/];
+    const words = [/^options\.treshold/, /method, threshold, pairing, ngons, convention, normalizeNormals, frame, refine/];
     unknown([...words, /report$/], () => generateTangents(mesh, typo));
     unknown(words, () => new Plan(mesh, typo));
     unknown([...words, /makeNormals, sanitize, orthogonalizeAll, normals/], () => makeIndexedFrames(mesh, typo));

@@ -308,7 +308,12 @@ PoolComputer::PoolComputer(const Document& document, DecodedArrays& arrays, std:
 
 PoolComputer::~PoolComputer() = default;
 
-PoolElements PoolComputer::computeOne(const PoolPlan& pool, const Execution& execution,
+void PoolComputer::tell(const PoolProgress* progress) const {
+    if (progress != nullptr && options_.progress)
+        options_.progress("computing tangents", progress->done, progress->total);
+}
+
+PoolElements PoolComputer::computeOne(const PoolPlan& pool, const Execution& execution, const PoolProgress* progress,
                                       std::span<PrimitiveReport> reports) {
     GenerateOptions options = options_;
     options.execution = execution;
@@ -339,11 +344,13 @@ PoolElements PoolComputer::computeOne(const PoolPlan& pool, const Execution& exe
     std::vector<PrimitiveReport> computed;
     for (const GeometryPlan& geometry : pool.geometries) computed.push_back(reports[geometry.primitives[0]]);
     const bool computes = pool.makes_tangents || !pool.has_normals;
+    tell(progress);
     PoolFrames frames =
         computes ? valueOrThrow(computeFrames(vertices, geometries, options, computed)) : asTheyAre(vertices);
     if (pool.makes_tangents && frames.tangents.size() != frames.source_vertices.size()) {
         failFile(ErrorCode::internal, "no tangents were computed", first.place());
     }
+    tell(progress);
     for (std::size_t i = 0; i < pool.geometries.size(); ++i) {
         for (const std::size_t number : pool.geometries[i].primitives) {
             copyReport(computed[i], pool.keeps_tangents, reports[number]);
@@ -370,20 +377,21 @@ PoolElements PoolComputer::computeOne(const PoolPlan& pool, const Execution& exe
     return elements;
 }
 
-std::vector<PoolElements> PoolComputer::compute(std::span<const PoolPlan> pools, std::span<PrimitiveReport> reports) {
+std::vector<PoolElements> PoolComputer::compute(std::span<const PoolPlan> pools, const PoolProgress& progress,
+                                                std::span<PrimitiveReport> reports) {
     std::vector<PoolElements> elements(pools.size());
     std::vector<std::exception_ptr> failures(pools.size());
     const Execution& execution = options_.execution;
-    const auto compute = [&](std::size_t i, const Execution& given) noexcept {
+    const auto compute = [&](std::size_t i, const Execution& given, const PoolProgress* told) noexcept {
         try {
             if (given.allocator != nullptr) {
-                elements[i] = computeOne(pools[i], given, reports);
+                elements[i] = computeOne(pools[i], given, told, reports);
                 return;
             }
             std::unique_ptr<Arena> arena = arenas_->take();
             Execution with_memory = given;
             with_memory.allocator = arena->allocator();
-            elements[i] = computeOne(pools[i], with_memory, reports);
+            elements[i] = computeOne(pools[i], with_memory, told, reports);
             arenas_->giveBack(std::move(arena));
         } catch (...) {
             failures[i] = std::current_exception();
@@ -398,7 +406,7 @@ std::vector<PoolElements> PoolComputer::compute(std::span<const PoolPlan> pools,
     std::vector<std::size_t> others;
     for (std::size_t i = 0; i < pools.size(); ++i) {
         if (one_by_one || pools[i].corner_count > total / parallel.width()) {
-            compute(i, execution);
+            compute(i, execution, &progress);
         } else {
             others.push_back(i);
         }
@@ -406,7 +414,8 @@ std::vector<PoolElements> PoolComputer::compute(std::span<const PoolPlan> pools,
     // The largest first, so that no thread is left alone with one at the end.
     sortStably(others.begin(), others.end(),
                [&](std::size_t a, std::size_t b) { return pools[a].corner_count > pools[b].corner_count; });
-    parallel.forTasks(others.size(), [&](std::size_t task) { compute(others[task], Execution{.thread_count = 1}); });
+    parallel.forTasks(others.size(),
+                      [&](std::size_t task) { compute(others[task], Execution{.thread_count = 1}, nullptr); });
     for (const std::exception_ptr& failure : failures) {
         if (failure) std::rethrow_exception(failure);
     }

@@ -28,6 +28,11 @@ struct WeldedVertices {
 /// vertices, keep all. Linear.
 WeldedVertices weldVertices(const Document& document, const Primitive& primitive);
 
+/// Corners whose frames are done, of all: what GenerateOptions::progress is told.
+struct PoolProgress {
+    std::uint64_t done = 0, total = 0;
+};
+
 /// Computes pools of one document, several at the same time. Scratch memory serves one after the other.
 class PoolComputer {
   public:
@@ -37,12 +42,17 @@ class PoolComputer {
     ~PoolComputer();
 
     /// Frames of each pool, in their order. Fills normals, tangents and sanitize of the reports of their primitives.
-    /// Throws what the first pool with an error throws. Which threads work on what changes no bit.
-    std::vector<PoolElements> compute(std::span<const PoolPlan> pools, std::span<PrimitiveReport> reports);
+    /// Throws what the first pool with an error throws. Which threads work on what changes no bit. Tells `progress` between
+    /// the steps of pools that all threads compute together, so that a caller can end them.
+    std::vector<PoolElements> compute(std::span<const PoolPlan> pools, const PoolProgress& progress,
+                                      std::span<PrimitiveReport> reports);
 
   private:
     class Arenas;
-    PoolElements computeOne(const PoolPlan& pool, const Execution& execution, std::span<PrimitiveReport> reports);
+    /// `progress`: null off the thread of the call.
+    PoolElements computeOne(const PoolPlan& pool, const Execution& execution, const PoolProgress* progress,
+                            std::span<PrimitiveReport> reports);
+    void tell(const PoolProgress* progress) const;
 
     const Document& document_;
     DecodedArrays& arrays_;

@@ -148,7 +148,7 @@ void computeAndApply(Input& input, Decisions& decisions, Editor& editor, std::ve
         const std::span<const PoolPlan> pools =
             rest.first(countTogether(rest, document, primitives, input.options.execution));
         rest = rest.subspan(pools.size());
-        std::vector<PoolElements> elements = computer.compute(pools, plan.reports);
+        std::vector<PoolElements> elements = computer.compute(pools, {done, total}, plan.reports);
         for (std::size_t i = 0; i < pools.size(); ++i) {
             if (!elements[i].warning.empty())
                 warnings.push_back(primitives[pools[i].primitives[0]].place() + ": " + elements[i].warning);
