@@ -37,7 +37,7 @@ function meanings(): Plugin {
   const rows = () => {
     const found: Record<string, { what: string; why: string }> = {};
     for (const line of readFileSync(resolve(import.meta.dirname, "check.md"), "utf8").split("\n")) {
-      const [, codes, severity, what, why] = line.split("|").map((cell) => cell.trim());
+      const [, codes, severity, what, why] = line.split("|").map((cell) => cell.replace(/<a id="\w+"><\/a>/g, "").trim());
       if (!/^`\w+`(, `\w+`)*$/.test(codes ?? "") || !/error|warning|note/.test(severity)) continue;
       for (const code of codes.replaceAll("`", "").split(", ")) found[code] = { what: plain(what), why: plain(why) };
     }
