@@ -317,6 +317,9 @@ PoolElements PoolComputer::computeOne(const PoolPlan& pool, const Execution& exe
                                       std::span<PrimitiveReport> reports) {
     GenerateOptions options = options_;
     options.execution = execution;
+    options.progress = {};
+    if (progress != nullptr && options_.progress)
+        options.progress = [this, progress](const char*, std::uint64_t, std::uint64_t) { tell(progress); };
     const Primitive& first = primitives_[pool.primitives[0]];
     DecodedVertices decoded;
     PoolView vertices = lendVertices(document_, arrays_, first, pool, decoded);
@@ -402,10 +405,10 @@ std::vector<PoolElements> PoolComputer::compute(std::span<const PoolPlan> pools,
     std::uint64_t total = 0;
     for (const PoolPlan& pool : pools) total += pool.corner_count;
     // A caller's allocator is called from one thread only.
-    const bool one_by_one = execution.allocator != nullptr || total < kCornersForThreads;
+    const bool one_by_one = execution.allocator != nullptr || total < kCornersForThreads || parallel.width() == 1;
     std::vector<std::size_t> others;
     for (std::size_t i = 0; i < pools.size(); ++i) {
-        if (one_by_one || pools[i].corner_count > total / parallel.width()) {
+        if (one_by_one || pools[i].corner_count >= total / parallel.width()) {
             compute(i, execution, &progress);
         } else {
             others.push_back(i);

@@ -41,6 +41,11 @@ std::size_t cornersOfTriangles(const PrimitiveGeometry& primitive) {
     return 3 * triangle_count;
 }
 
+/// So that the caller can end a long call between its steps.
+void callProgress(const GenerateOptions& options) {
+    if (options.progress) options.progress("computing tangents", 0, 0);
+}
+
 class FrameComputer {
   public:
     FrameComputer(const PoolView& pool, std::span<const PrimitiveGeometry> primitives, const GenerateOptions& options,
@@ -90,6 +95,7 @@ class FrameComputer {
         std::vector<Vec3> normals;
         if (generates_normals_) {
             if (Result<Done> done = computeNormals(primitive, mesh, normals, report); !done) return done;
+            callProgress(options_);
         }
         if (!mesh.face_sizes.empty()) {
             Result<Triangulation> triangles = triangulate(mesh.view());
@@ -104,6 +110,7 @@ class FrameComputer {
         if (generates_tangents_) {
             if (Result<Done> done = chooseQuads(std::move(faces), mesh, report); !done) return done;
             if (Result<Done> done = computeTangents(mesh, report); !done) return done;
+            callProgress(options_);
         }
         const bool is_cut = !primitive.face_sizes.empty();
         const std::vector<std::uint32_t>& vertices = is_cut ? cut_vertices : primitive.indices;
@@ -474,6 +481,7 @@ Result<PoolFrames> computeFrames(const PoolView& pool, std::span<const Primitive
         Result<PoolFrames> frames = pool.normals.empty() && pool.targets.count != 0
                                         ? computeWithMorphedNormals(pool, primitives, options, reports)
                                         : FrameComputer(pool, primitives, options, reports).compute();
+        callProgress(options);
         if (frames) countFaults(pool, *frames, options.normals.weld_distance, reports);
         return frames;
     });
