@@ -247,6 +247,21 @@ TEST_F(BakeCommand, WhatReachesBeyondAClampedImageIsCounted) {
     EXPECT_NE(run.out.find("16 triangles reach beyond the edge"), std::string::npos) << run.out;
 }
 
+TEST_F(BakeCommand, AMapTakesThePlaceOfAnImageWhoseViewDoesNotExist) {
+    ASSERT_EQ(runTool(folder, "bake low.obj --high high.obj -o n.png --size 8 --out-mesh game.gltf").exit_code, 0);
+    auto model = nlohmann::json::parse(folder.read("game.gltf"));
+    for (const std::uint64_t view : {std::uint64_t{9}, std::uint64_t{1} << 40}) {
+        model["images"][0] = {{"bufferView", view}, {"mimeType", "image/png"}};
+        folder.write("odd.gltf", model.dump());
+        const TempFolder out;
+        const std::string file = (out.path() / "new").string();
+        const ToolRun run =
+            runTool(folder, "bake odd.gltf --high high.obj -o " + file + ".png --size 8 --out-mesh " + file + ".gltf");
+        EXPECT_EQ(run.exit_code, 0) << run.err;
+        EXPECT_EQ(nlohmann::json::parse(out.read("new.gltf"))["images"][0]["uri"], "new.png");
+    }
+}
+
 TEST_F(BakeCommand, ModelsInDifferentUnitsAreNamed) {
     std::istringstream lines(sheet(40, 0.02, false));
     std::string scaled;

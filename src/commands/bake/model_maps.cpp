@@ -211,7 +211,7 @@ class MapPlacing {
         std::size_t at = document_.json["images"].size();
         if (old) {
             at = document_.json["textures"][*old]["source"].get<std::size_t>();
-            old_view = indexIn(document_.json["images"][at], "bufferView", SIZE_MAX);
+            old_view = indexIn(document_.json["images"][at], "bufferView", rootArray(document_, "bufferViews").size());
             document_.json["images"][at] = Json::object();
         } else {
             append("images", Json::object());
