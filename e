@@ -1,1 +1,0 @@
-env: ‘/work/mem/build/release/bin/tspace.new’: No such file or directory
