@@ -2,7 +2,9 @@
 #include "depfile.h"
 
 #include <algorithm>
+#include <iterator>
 #include <memory>
+#include <string_view>
 #include <utility>
 
 #include "commands/shared/file_options.h"
@@ -29,8 +31,11 @@ void appendName(std::string& rule, const std::string& name) {
     }
 }
 
-/// Options that name files which a command writes.
-constexpr const char* kOutputOptions[] = {"--output", "--html", "--sarif", "--report"};
+/// Whether an option names a file which a command writes.
+bool namesOutput(const Option& option) {
+    constexpr std::string_view kOutputOptions[] = {"--output", "--html", "--sarif", "--report"};
+    return std::find(std::begin(kOutputOptions), std::end(kOutputOptions), option.name()) != std::end(kOutputOptions);
+}
 
 ExitCode runRecorded(const std::string& path, const std::function<ExitCode()>& run) {
     std::vector<std::string> inputs, outputs;
@@ -83,11 +88,7 @@ Result<std::string> depfileText(const std::vector<std::string>& outputs, const s
 }
 
 void addDepfile(Command& command) {
-    const auto isNamed = [](const Option& option, const char* name) { return option.name() == name; };
-    const bool writes = std::any_of(command.options.begin(), command.options.end(), [&](const Option& option) {
-        return std::any_of(std::begin(kOutputOptions), std::end(kOutputOptions),
-                           [&](const char* name) { return isNamed(option, name); });
-    });
+    const bool writes = std::any_of(command.options.begin(), command.options.end(), namesOutput);
     if (!writes) return;
     const auto path = std::make_shared<std::string>();
     Option& depfile =
@@ -101,8 +102,7 @@ void addDepfile(Command& command) {
         std::string wrong = finish ? finish(given) : std::string();
         if (!wrong.empty() || path->empty()) return wrong;
         const bool has_output = std::any_of(given.items.begin(), given.items.end(), [&](const Given::Item& item) {
-            return item.value != "-" && std::any_of(std::begin(kOutputOptions), std::end(kOutputOptions),
-                                                    [&](const char* name) { return item.option->name() == name; });
+            return item.value != "-" && namesOutput(*item.option);
         });
         return std::string(has_output ? "" : "--depfile needs an output that is a file");
     };

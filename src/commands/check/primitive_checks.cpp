@@ -271,8 +271,7 @@ Remedy attributeRemedy(const ScenePrimitive& primitive, const SceneAttributeFaul
 void reportAttributeFaults(PrimitiveFacts& facts) {
     for (const SceneAttributeFault& fault : facts.primitive.attribute_faults) {
         const Tally all{.count = fault.vertex_count, .total = fault.vertex_count};
-        const std::string name =
-            fault.target < 0 ? fault.name : fault.name + " of morph target " + std::to_string(fault.target);
+        const std::string name = attributeText(fault.name, fault.target);
         facts.add(FindingCode::attributeUnreadable, Severity::error, all, "vertices",
                   "the elements of " + name + " cannot be read: " + fault.why);
         setRemedy(facts.findings.back(), attributeRemedy(facts.primitive, fault));

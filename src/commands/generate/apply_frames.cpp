@@ -19,7 +19,7 @@ void removeUnreadableTangents(Editor& editor, std::span<const Primitive> primiti
     for (std::size_t i = 0; i < primitives.size(); ++i) {
         const Primitive& primitive = primitives[i];
         for (const UnreadableTangents& tangents : primitive.unreadable_tangents) {
-            removeUnreadable(editor, primitive, tangents);
+            removeUnreadable(editor, primitive, tangents.target, "TANGENT", tangents.accessor);
             if (tangents.target >= 0 || is_computed[i]) continue;
             PrimitiveReport& report = plan.reports[i];
             report.action = PrimitiveAction::removed;

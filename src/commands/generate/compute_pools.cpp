@@ -405,11 +405,13 @@ std::vector<PoolElements> PoolComputer::compute(std::span<const PoolPlan> pools,
     std::uint64_t total = 0;
     for (const PoolPlan& pool : pools) total += pool.corner_count;
     // A caller's allocator is called from one thread only.
-    const bool one_by_one = execution.allocator != nullptr || total < kCornersForThreads || parallel.width() == 1;
+    const bool one_by_one =
+        execution.allocator != nullptr || total < kCornersForThreads || parallel.width() == 1 || pools.size() == 1;
     std::vector<std::size_t> others;
     for (std::size_t i = 0; i < pools.size(); ++i) {
-        if (one_by_one || pools[i].corner_count >= total / parallel.width()) {
+        if (one_by_one || pools[i].corner_count > total / parallel.width()) {
             compute(i, execution, &progress);
+            if (one_by_one && failures[i]) break;
         } else {
             others.push_back(i);
         }

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/mesh/pools/unit_lattice.h"
+#include "model/gltf/compression_extensions.h"
 #include "model/gltf/gather_elements.h"
 #include "model/gltf/packed_layout.h"
 
@@ -105,8 +106,8 @@ bool canStripTangents(const Primitive& primitive) {
 void eraseAttribute(Editor& editor, const Primitive& primitive, const char* name) {
     Json& object = editor.primitive(primitive.mesh, primitive.index);
     object["attributes"].erase(name);
-    if (findExtension(object, "KHR_draco_mesh_compression") == nullptr) return;
-    Json& draco = object["extensions"]["KHR_draco_mesh_compression"];
+    if (findExtension(object, kDraco) == nullptr) return;
+    Json& draco = object["extensions"][kDraco];
     if (findMember(draco, "attributes") != nullptr && draco["attributes"].is_object()) draco["attributes"].erase(name);
 }
 
@@ -127,15 +128,15 @@ void stripTangents(Editor& editor, std::span<const Primitive> primitives, std::s
     }
 }
 
-void removeUnreadable(Editor& editor, const Primitive& primitive, const UnreadableTangents& tangents) {
-    if (tangents.target < 0) {
-        eraseAttribute(editor, primitive, "TANGENT");
+void removeUnreadable(Editor& editor, const Primitive& primitive, std::ptrdiff_t target, const std::string& name,
+                      std::size_t accessor) {
+    if (target == kBase) {
+        eraseAttribute(editor, primitive, name.c_str());
     } else {
-        Json& targets = editor.primitive(primitive.mesh, primitive.index)["targets"];
-        targets[static_cast<std::size_t>(tangents.target)].erase("TANGENT");
+        attributesOf(editor, primitive, target).erase(name);
     }
     // The size of an unknown type is unknown, so its data cannot be freed.
-    if (hasKnownType(editor.accessor(tangents.accessor))) editor.release(tangents.accessor);
+    if (hasKnownType(editor.accessor(accessor))) editor.release(accessor);
 }
 
 namespace {
@@ -170,14 +171,9 @@ ElementData resizedElements(const Document& document, const AttributeFault& faul
 std::string repairAttribute(Editor& editor, const Document& document, const Primitive& primitive,
                             const AttributeFault& fault,
                             std::map<std::pair<std::size_t, std::size_t>, std::size_t>& stored) {
-    const std::string start = primitive.place() + ": " + fault.fullName();
+    const std::string start = primitive.place() + ": " + attributeText(fault.name, fault.target);
     if (fault.repair == AttributeRepair::remove) {
-        if (fault.target < 0) {
-            eraseAttribute(editor, primitive, fault.name.c_str());
-        } else {
-            attributesOf(editor, primitive, fault.target).erase(fault.name);
-        }
-        if (hasKnownType(editor.accessor(fault.accessor))) editor.release(fault.accessor);
+        removeUnreadable(editor, primitive, fault.target, fault.name, fault.accessor);
         return start + " was removed: " + fault.why;
     }
     const auto [entry, is_new] = stored.try_emplace({fault.accessor, fault.new_count}, 0);

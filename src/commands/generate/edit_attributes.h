@@ -47,8 +47,9 @@ bool canStripTangents(const Primitive& primitive);
 /// uses is freed.
 void stripTangents(Editor& editor, std::span<const Primitive> primitives, std::span<const PrimitiveReport> reports);
 
-/// Removes tangents of the primitive, or of one of its morph targets, that cannot be read.
-void removeUnreadable(Editor& editor, const Primitive& primitive, const UnreadableTangents& tangents);
+/// Removes an attribute that cannot be read from the primitive or, unless `target` is kBase, from a morph target.
+void removeUnreadable(Editor& editor, const Primitive& primitive, std::ptrdiff_t target, const std::string& name,
+                      std::size_t accessor);
 
 /// Repairs Primitive::attribute_faults as AttributeRepair says, but in primitives that no command can repair; reports each
 /// repair in `warnings`. The model was edited then. Returns the primitives that lost their normals, one entry per primitive.

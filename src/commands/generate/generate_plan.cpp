@@ -139,8 +139,8 @@ bool decide(PrimitiveReport& report, const Document& document, const Primitive& 
         const AttributeFault& fault = primitive.attribute_faults.front();
         const char* remedy = primitive.canRepairFaults() ? " (--repair or --overwrite-normals mends that)"
                                                          : " (no command can repair that; export the mesh again)";
-        return leave(PrimitiveAction::impossible,
-                     "the elements of its " + fault.fullName() + " cannot be read: " + fault.why + remedy);
+        return leave(PrimitiveAction::impossible, "the elements of its " + attributeText(fault.name, fault.target) +
+                                                      " cannot be read: " + fault.why + remedy);
     }
     const auto cannot = [&](const std::string& reason) {
         if (!keeps) return leave(PrimitiveAction::impossible, reason);

@@ -313,10 +313,6 @@ bool Primitive::canRepairFaults() const {
                         [](const AttributeFault& fault) { return fault.repair == AttributeRepair::none; });
 }
 
-std::string AttributeFault::fullName() const {
-    return target < 0 ? name : name + " of morph target " + std::to_string(target);
-}
-
 std::vector<Primitive> readPrimitives(const Document& document) {
     std::vector<Primitive> primitives;
     const Json& meshes = rootArray(document, "meshes");

@@ -58,9 +58,6 @@ struct AttributeFault {
     std::string why = {};  ///< "they do not have 3 components"
     AttributeRepair repair = AttributeRepair::remove;
     std::size_t new_count = 0;  ///< components after AttributeRepair::resize
-
-    /// "COLOR_0", or "NORMAL of morph target 2".
-    [[nodiscard]] std::string fullName() const;
 };
 
 struct Primitive {

@@ -126,6 +126,11 @@ struct SceneAttributeFault {
     std::size_t vertex_count = 0;  ///< of the primitive
 };
 
+/// "COLOR_0", or "NORMAL of morph target 2"; `target` -1: the primitive itself.
+inline std::string attributeText(const std::string& name, std::ptrdiff_t target) {
+    return target < 0 ? name : name + " of morph target " + std::to_string(target);
+}
+
 /// Packed frames in one format.
 struct ScenePacked {
     FrameFormat format = FrameFormat::frame32;

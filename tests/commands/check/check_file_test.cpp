@@ -8,7 +8,6 @@
 
 #include "commands/check/patch.h"
 #include "images/float_image.h"
-#include "images/image.h"
 #include "images/images.h"
 #include "images/known_blocks.h"
 #include "images/textures.h"
@@ -563,14 +562,6 @@ TEST(CheckFile, PassesOnWhatReadingHadToSay) {
               std::string::npos)
         << report->findings[0].message;
     EXPECT_EQ(report->findings[0].place, "") << "it is about the whole file";
-}
-
-TEST(CheckFile, RefusesOptionsWithoutMeaning) {
-    for (const CheckOptions& options : {CheckOptions{.direction_deg = -1}, CheckOptions{.error_share = NAN}}) {
-        const Result<CheckReport> report = checkFile("unread.glb", options);
-        ASSERT_FALSE(report);
-        EXPECT_EQ(report.error().code, ErrorCode::invalidOption);
-    }
 }
 
 TEST(CheckFile, TellsHowFarItIs) {

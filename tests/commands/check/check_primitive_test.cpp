@@ -518,5 +518,13 @@ TEST(ExamineTangents, SurvivesGarbage) {
     }));
 }
 
+TEST(CheckFile, RefusesOptionsWithoutMeaning) {
+    for (const CheckOptions& options : {CheckOptions{.direction_deg = -1}, CheckOptions{.error_share = NAN}}) {
+        const Result<CheckReport> report = checkFile("unread.glb", options);
+        ASSERT_FALSE(report);
+        EXPECT_EQ(report.error().code, ErrorCode::invalidOption);
+    }
+}
+
 }  // namespace
 }  // namespace tspace::test

@@ -26,13 +26,7 @@ struct Side {
 
     [[nodiscard]] RgbImage draw(RenderShow show, const PlaceView& view, const PictureSize& size, const DVec3& to_light,
                                 std::span<const ShownSurface* const> surfaces) const {
-        const std::size_t first = view.is_alone ? number : 0, count = view.is_alone ? 1 : surfaces.size();
-        Effort effort(std::uint64_t{1} << 30);
-        Parallel parallel({});
-        const Camera camera = view.camera(size);
-        return drawSurfaces(show, model.meshes().subspan(first, count), surfaces.subspan(first, count), camera,
-                            to_light, size, effort, parallel)
-            .image;
+        return drawView(show, model.meshes(), surfaces, number, view, size, to_light);
     }
 };
 

@@ -94,6 +94,16 @@ std::optional<std::size_t> meshOf(const ModelPicture& model, std::size_t primiti
     return static_cast<std::size_t>(surface - surfaces.begin());
 }
 
+RgbImage drawView(RenderShow show, std::span<const DrawnMesh> meshes, std::span<const ShownSurface* const> surfaces,
+                  std::size_t mesh, const PlaceView& view, const PictureSize& size, const DVec3& to_light) {
+    const std::size_t first = view.is_alone ? mesh : 0, count = view.is_alone ? 1 : surfaces.size();
+    Effort effort(std::uint64_t{1} << 30);
+    Parallel parallel({});
+    return drawSurfaces(show, meshes.subspan(first, count), surfaces.subspan(first, count), view.camera(size), to_light,
+                        size, effort, parallel)
+        .image;
+}
+
 void drawFrame(RgbImage& image, const Camera& camera, const PlacePoints& place) {
     constexpr double kBeside = 4, kLeastSide = 14, kMostPart = 0.9;
     double left = HUGE_VAL, right = -HUGE_VAL, top = HUGE_VAL, bottom = -HUGE_VAL;
@@ -179,16 +189,11 @@ std::vector<std::uint8_t> drawPlace(const ModelPicture& model, RenderShow show, 
     const PlaceView view =
         triangles.empty() ? PlaceView{.points = PlacePoints(mesh, held)} : viewOver(model.meshes(), *number, held);
     const Camera camera = view.camera(kPlaceSize);
-    const std::span<const ShownSurface* const> surfaces = model.surfaces();
-    const std::size_t first = view.is_alone ? *number : 0, count = view.is_alone ? 1 : surfaces.size();
-    Effort effort(std::uint64_t{1} << 30);
-    Parallel parallel({});
     DVec3 to_light = -0.45 * camera.right() + 0.65 * camera.up() + 0.8 * camera.back();
     normalize(to_light);
-    SurfacePicture picture = drawSurfaces(show, model.meshes().subspan(first, count), surfaces.subspan(first, count),
-                                          camera, to_light, kPlaceSize, effort, parallel);
-    if (view.is_place) drawFrame(picture.image, camera, view.points);
-    return encodePicture(picture.image);
+    RgbImage image = drawView(show, model.meshes(), model.surfaces(), *number, view, kPlaceSize, to_light);
+    if (view.is_place) drawFrame(image, camera, view.points);
+    return encodePicture(image);
 }
 
 }  // namespace tspace

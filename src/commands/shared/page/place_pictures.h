@@ -69,6 +69,10 @@ PlaceView viewOver(std::span<const DrawnMesh> meshes, std::size_t mesh, std::spa
 /// Number of the first mesh that draws a primitive; nothing where the scene does not draw it.
 std::optional<std::size_t> meshOf(const ModelPicture& model, std::size_t primitive);
 
+/// Draws all meshes or, where the view is alone, the one with this number.
+RgbImage drawView(RenderShow show, std::span<const DrawnMesh> meshes, std::span<const ShownSurface* const> surfaces,
+                  std::size_t mesh, const PlaceView& view, const PictureSize& size, const DVec3& to_light);
+
 /// Draws a rectangle around a place into a picture of kPlaceWidth by kPlaceHeight pixels, beside it, so that it hides nothing of it.
 /// Nothing where the place fills the picture. `camera`: of two samples per pixel.
 void drawFrame(RgbImage& image, const Camera& camera, const PlacePoints& place);
