@@ -2,7 +2,7 @@
 // Tangent frames in GLSL: decoding packed ones, normal maps, skinning, morphing, and frames where a mesh has none.
 // For OpenGL from 3.3, OpenGL ES from 3.0 (WebGL 2) and Vulkan. Paste or include it after #version; fragment shaders
 // define TSPACE_FRAGMENT first, to have the function that takes derivatives. tspace.hlsl, tspace.metal and tspace.wgsl
-// hold the same functions. docs/pack.md of tspace says what the words mean and how exact they are; docs/shaders.md has
+// hold the same functions. docs/concepts/pack.md of tspace says what the words mean and how exact they are; docs/reference/shaders.md has
 // the rules for everything else.
 //
 // Costs are scalar operations as GLSL's compiler counts them: each + - * < ? & | ^ << >> and each conversion is one for

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Tangent frames in HLSL: decoding packed ones, normal maps, skinning, morphing, and frames where a mesh has none. For
 // shader model 4 and later, for Direct3D and Vulkan. Pixel shaders define TSPACE_FRAGMENT first, to have the function
-// that takes derivatives. tspace.glsl, tspace.metal and tspace.wgsl hold the same functions. docs/pack.md of tspace
-// says what the words mean and how exact they are; docs/shaders.md has the rules for everything else.
+// that takes derivatives. tspace.glsl, tspace.metal and tspace.wgsl hold the same functions. docs/concepts/pack.md of tspace
+// says what the words mean and how exact they are; docs/reference/shaders.md has the rules for everything else.
 //
 // Costs are scalar operations as GLSL's compiler counts them: each + - * < ? & | ^ << >> and each conversion is one for
 // each component, a division of whole numbers by a constant two (high product and shift). Roots are inverse square

@@ -2,7 +2,7 @@
 // Tangent frames in the Metal shading language: decoding packed ones, normal maps, skinning, morphing, and frames where
 // a mesh has none. For Metal 1 and later. Include it; files with fragment functions define TSPACE_FRAGMENT first, to
 // have the function that takes derivatives. tspace.glsl, tspace.hlsl and tspace.wgsl hold the same functions.
-// docs/pack.md of tspace says what the words mean and how exact they are; docs/shaders.md has the rules for everything
+// docs/concepts/pack.md of tspace says what the words mean and how exact they are; docs/reference/shaders.md has the rules for everything
 // else.
 //
 // Costs are scalar operations as GLSL's compiler counts them: each + - * < ? & | ^ << >> and each conversion is one for

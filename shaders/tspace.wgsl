@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Tangent frames in WGSL, for WebGPU: decoding packed ones, normal maps, skinning, morphing, and frames where a mesh
 // has none. Put it before or after your own code: it declares names with tspace_ only, and no entry points.
-// tspace.glsl, tspace.hlsl and tspace.metal hold the same functions. docs/pack.md of tspace says what the words mean
-// and how exact they are; docs/shaders.md has the rules for everything else.
+// tspace.glsl, tspace.hlsl and tspace.metal hold the same functions. docs/concepts/pack.md of tspace says what the words mean
+// and how exact they are; docs/reference/shaders.md has the rules for everything else.
 //
 // Costs are scalar operations as GLSL's compiler counts them: each + - * < ? & | ^ << >> and each conversion is one for
 // each component, a division of whole numbers by a constant two (high product and shift). Roots are inverse square

@@ -18,8 +18,9 @@ fail() {
 }
 fresh() {
     rm -rf "${folder:?}"/*
-    mkdir -p "$folder"/{docs,scripts,bindings/js/src,bindings/python/src/tspace}
-    cp -r docs/schema docs/json.md "$folder/docs"
+    mkdir -p "$folder"/{docs/reference,scripts,bindings/js/src,bindings/python/src/tspace}
+    cp -r docs/schema "$folder/docs"
+    cp docs/reference/json.md "$folder/docs/reference"
     cp scripts/schema "$folder/scripts"
     cp bindings/js/src/{generate_report,reports}.d.ts "$folder/bindings/js/src"
     cp bindings/python/src/tspace/_{generate_report,file_reports}.py "$folder/bindings/python/src/tspace"
@@ -39,7 +40,7 @@ PY
     grep -qF -- "$4" "$folder/printed" || { cat "$folder/printed" && fail "\"$3\" in $1: nothing about \"$4\""; }
 }
 check=docs/schema/tspace.check.1.json
-must_find docs/json.md 'one sentence for a person' 'a sentence' '+| `files[].findings[].message` | string | one sentence for a person |'
+must_find docs/reference/json.md 'one sentence for a person' 'a sentence' '+| `files[].findings[].message` | string | one sentence for a person |'
 must_find bindings/js/src/reports.d.ts 'worstDegrees: number' 'worstDegrees: string' '+  worstDegrees: number;'
 must_find bindings/python/src/tspace/_file_reports.py 'worst_degrees: float' 'worst_degrees: int' '+    worst_degrees: float'
 must_find $check '"remedy": {"type": "string"' '"remedy": {"type": "integer"' '+  remedy: number;'

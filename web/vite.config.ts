@@ -31,7 +31,7 @@ function packedWasm(): Plugin {
   };
 }
 
-/** What `check` finds, in the words of docs/check.md, which scripts/web lays beside this file: what each code means, and why it matters. */
+/** What `check` finds, in the words of docs/reference/check.md, which scripts/web lays beside this file: what each code means, and why it matters. */
 function meanings(): Plugin {
   const plain = (text: string) => text.replace(/\[([^\]]*)\]\([^)]*\)/g, "$1").replaceAll("`", "");
   const rows = () => {
@@ -41,7 +41,7 @@ function meanings(): Plugin {
       if (!/^`\w+`(, `\w+`)*$/.test(codes ?? "") || !/error|warning|note/.test(severity)) continue;
       for (const code of codes.replaceAll("`", "").split(", ")) found[code] = { what: plain(what), why: plain(why) };
     }
-    if (Object.keys(found).length < 40) throw new Error("docs/check.md has no table of codes any more");
+    if (Object.keys(found).length < 40) throw new Error("docs/reference/check.md has no table of codes any more");
     return found;
   };
   return {

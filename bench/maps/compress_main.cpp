@@ -25,7 +25,7 @@
 namespace tspace::bench {
 namespace {
 
-constexpr std::uint32_t kSeed = 11;  ///< of the tables in docs/compress-map.md
+constexpr std::uint32_t kSeed = 11;  ///< of the tables in docs/guides/compress-map.md
 constexpr double kDegrees = 57.29577951308232;
 
 /// x and y of a map in a format.

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Joins pictures side by side, for docs/compress-map.md. Needs numpy.
+"""Joins pictures side by side, for docs/guides/compress-map.md. Needs numpy.
 
 python3 join_pictures.py OUT.png SIZE PICTURE...: each is made SIZE wide and high: smaller by means of light, larger by repeating texels
 """

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The picture of docs/bake-theory.md: one row of texels, exact at their centres or solved, and the error in between. SVG."""
+"""The picture of docs/evidence/bake-theory.md: one row of texels, exact at their centres or solved, and the error in between. SVG."""
 import math
 
 TEXELS, FIRST, LAST = 24, 6, 18  # the row repeats; these are shown

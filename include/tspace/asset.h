@@ -76,14 +76,14 @@ enum class ExistingTangents : std::uint32_t {
 };
 
 /// Whether tangents follow the UVs before or after KHR_texture_transform. It matters for a rotation, and for a scale of
-/// negative sign; docs/gltf.md says what viewers do.
+/// negative sign; docs/reference/gltf.md says what viewers do.
 enum class TextureTransform : std::uint32_t {
     apply = 0,   ///< after it: T points where u grows in the image, as viewers want that use tangents as they are
     ignore = 1,  ///< before it: for viewers that turn tangents by the transform themselves
 };
 
 /// The faces that tangents are computed on. glTF has only triangles, but Blender and many bakers compute MikkTSpace on
-/// the quads that these were cut from, along another diagonal in part; docs/quads.md has the whole story.
+/// the quads that these were cut from, along another diagonal in part; docs/concepts/quads.md has the whole story.
 enum class Faces : std::uint32_t {
     triangles = 0,  ///< the triangles of the file
     quads = 1,      ///< two triangles that follow each other and share an edge are a quad, as far as they look like it
@@ -178,7 +178,7 @@ struct GenerateOptions {
     Compression compression = Compression::keep;
     VectorFormat format = VectorFormat::float32;
     /// Also write the whole frame of each vertex in this format, as attributes of its own: _FRAME32 and others, of which
-    /// docs/pack.md has the accessors. Of every primitive that has NORMAL and TANGENT in the end, computed or not, as they
+    /// docs/concepts/pack.md has the accessors. Of every primitive that has NORMAL and TANGENT in the end, computed or not, as they
     /// are stored. Morph targets get nothing: packed frames are those of the base.
     std::optional<FrameFormat> pack = {};
     /// Attributes that morph targets add to stay. Without `pack` it must be `nothing` (invalidOption).

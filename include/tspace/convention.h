@@ -57,7 +57,7 @@ inline constexpr float normalFactor(const Convention& c) {
     return (c.handedness == Handedness::left) != (c.winding == Winding::clockwise) ? -1.0f : 1.0f;
 }
 
-/// Named presets. `docs/conventions.md` says where each one comes from.
+/// Named presets. `docs/concepts/conventions.md` says where each one comes from.
 namespace conventions {
 inline constexpr Convention opengl{.v_axis = VAxis::up};
 /// glTF 2.0: v down, green up; so w is the negative of the raw UV orientation.

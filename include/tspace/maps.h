@@ -68,7 +68,7 @@ struct MapReading {
 /// Finds the reading of a program by its name in lower case: the names of findConvention, and "three". `gltf`, `blender`
 /// and `opengl` are the default; `directx` has green down; `unreal` green down and two channels; `unity` (URP and HDRP) two
 /// channels; `godot` and `three` a bitangent per vertex and unit vectors, and `godot` two channels. From the shader
-/// sources of these programs as they stood in 2026 (docs/shaders.md). Null for any other name. Thread-safe.
+/// sources of these programs as they stood in 2026 (docs/reference/shaders.md). Null for any other name. Thread-safe.
 const MapReading* findMapReading(const char* name);
 
 /// Which front face of the high poly a point of the low poly stands for, of those that its ray meets.

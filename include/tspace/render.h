@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A picture of a model: as its frames shade it, or of the frames themselves. CMake target tspace::asset. This is the
-// shading reference made visible, no renderer: no shadows, no objects in reflections. docs/render.md shows every view.
+// shading reference made visible, no renderer: no shadows, no objects in reflections. docs/guides/render.md shows every view.
 #pragma once
 
 #include <cstdint>

@@ -10,7 +10,7 @@
 
 namespace tspace {
 
-/// How tangents are computed. `docs/methods/` has a page for each.
+/// How tangents are computed. `docs/concepts/methods/` has a page for each.
 enum class Method : std::uint32_t {
     /// Bit for bit the result of the MikkTSpace reference implementation (Mikkelsen 2008), for triangles and quads.
     mikktspace = 0,
@@ -188,7 +188,7 @@ class TangentPlan {
 /// Scratch memory on a mesh of triangles: `lengyel` 16 bytes per vertex, or 8 with OutputDomain::vertex (24 where the
 /// tangents' stride is not 16). `mikktspace`, `uniform`, `angle` and `area` about 36 bytes per vertex without equal
 /// vertices, 46 with some, 80 when more than tangents is asked for, and 32 per triangle for unindexed corners (where the
-/// tangents' stride is not 16 some more: see docs/memory.md); up to about 130 bytes per triangle for meshes that need the
+/// tangents' stride is not 16 some more: see docs/reference/memory.md); up to about 130 bytes per triangle for meshes that need the
 /// long way (thresholds, values that are not finite), and about 150 beside the first for each triangle around a vertex
 /// that needs a second look (several groups, doubtful splits, degenerate triangles). `fast` and `best` take about as much,
 /// and up to 2 MB per thread; `best` 32 bytes per group more for each of its steps. FrameShape::symmetric adds 12 bytes

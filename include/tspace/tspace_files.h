@@ -5,11 +5,11 @@
  * Options are a JSON object in UTF-8. Its members are the tool's options, by their long names without dashes:
  *     {"method": "best", "crease": 60, "overwrite": true, "threads": 2, "ignore": ["tangentsUnused"]}
  * A flag is true or false; everything else is a number or a string with what stands on a command line. Null and ""
- * mean no options: those of the tool, but for threads, which are 1 unless said. `tspace help generate` and docs/tool.md
+ * mean no options: those of the tool, but for threads, which are 1 unless said. `tspace help generate` and docs/reference/tool.md
  * list the options; those about command lines (names and numbers of files, text, SARIF) are none here.
  * Errors of all functions: INVALID_OPTION (an option that is not there or has a wrong value: the tool's sentence).
  *
- * Reports are the JSON that the tool prints by --json (docs/json.md), here always of one file. A report has `exitCode`
+ * Reports are the JSON that the tool prints by --json (docs/reference/json.md), here always of one file. A report has `exitCode`
  * and `ok` as the tool would: a check that finds errors succeeds, and its report has exit code 1. `report` may be null.
  * Free it by tspace_destroyBytes; it is empty after an error. Output files are put in place when the report is complete,
  * so an error always means that none was written.

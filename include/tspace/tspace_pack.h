@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* Whole frames (N, T and the sign) in 4 to 16 bytes, with a bound on the error that is never exceeded.
  * All functions are pure, allocate nothing, use one thread, and may be called from any thread at the same time.
- * Their bits are the same on every machine: arithmetic and square roots alone, in a fixed order. See docs/pack.md.
+ * Their bits are the same on every machine: arithmetic and square roots alone, in a fixed order. See
+ * docs/concepts/pack.md.
  * In C: part of tspace/tspace.h, which includes it. */
 #ifndef TSPACE_TSPACE_PACK_H
 #define TSPACE_TSPACE_PACK_H

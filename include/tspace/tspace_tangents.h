@@ -299,7 +299,7 @@ float tspace_signFactor(tspace_Convention convention) TSPACE_NOEXCEPT;
 /* +1 or -1: what cross(P1-P0, P2-P0) is multiplied with to point outside. */
 float tspace_normalFactor(tspace_Convention convention) TSPACE_NOEXCEPT;
 
-/* How tangents are computed. `docs/methods/` has a page for each. */
+/* How tangents are computed. `docs/concepts/methods/` has a page for each. */
 typedef uint32_t tspace_Method;
 enum {
     /* Bit for bit the result of the MikkTSpace reference implementation (Mikkelsen 2008), for triangles and quads. */
@@ -465,12 +465,12 @@ typedef struct tspace_TangentOutput {
  * (24 where the tangents' stride is not 16). TSPACE_METHOD_MIKKTSPACE, TSPACE_METHOD_UNIFORM, TSPACE_METHOD_ANGLE
  * and TSPACE_METHOD_AREA about 36 bytes per vertex without equal vertices, 46 with some, 80 when more than tangents
  * is asked for, and 32 per triangle for unindexed corners (where the tangents' stride is not 16 some more: see
- * docs/memory.md); up to about 130 bytes per triangle for meshes that need the long way (thresholds, values that are
- * not finite), and about 150 beside the first for each triangle around a vertex that needs a second look (several
- * groups, doubtful splits, degenerate triangles). TSPACE_METHOD_FAST and TSPACE_METHOD_BEST take about as much, and
- * up to 2 MB per thread; TSPACE_METHOD_BEST 32 bytes per group more for each of its steps. TSPACE_FRAME_SYMMETRIC
- * adds 12 bytes per output unless bitangents are asked for, and a mesh with several index lists about 40 bytes per
- * corner of operator new. */
+ * docs/reference/memory.md); up to about 130 bytes per triangle for meshes that need the long way (thresholds,
+ * values that are not finite), and about 150 beside the first for each triangle around a vertex that needs a second
+ * look (several groups, doubtful splits, degenerate triangles). TSPACE_METHOD_FAST and TSPACE_METHOD_BEST take about
+ * as much, and up to 2 MB per thread; TSPACE_METHOD_BEST 32 bytes per group more for each of its steps.
+ * TSPACE_FRAME_SYMMETRIC adds 12 bytes per output unless bitangents are asked for, and a mesh with several index
+ * lists about 40 bytes per corner of operator new. */
 tspace_ErrorCode tspace_generateTangents(const tspace_Mesh* mesh, const tspace_TangentOptions* options,
                                          const tspace_TangentOutput* out, const tspace_Execution* execution,
                                          tspace_TangentReport* report, tspace_Error* error) TSPACE_NOEXCEPT;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// TGA: 8 bits a channel, not packed. Written alone; see docs/image-files.md.
+// TGA: 8 bits a channel, not packed. Written alone; see docs/reference/image-files.md.
 #pragma once
 
 #include <cstdint>

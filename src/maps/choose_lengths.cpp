@@ -143,7 +143,7 @@ class Band {
 }  // namespace
 
 IntegerChoice integerChoice(TexelLengths lengths) {
-    // Narrower ranges than `even` do no more for smaller levels, and cost the first one more: docs/bake-theory.md has the figures.
+    // Narrower ranges than `even` do no more for smaller levels, and cost the first one more: docs/evidence/bake-theory.md has the figures.
     if (lengths == TexelLengths::free) return {.least_length = 0.7F, .most_length = 1.1F};
     return {.least_length = 0.9F, .most_length = 1.0F};
 }

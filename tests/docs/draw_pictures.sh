@@ -17,7 +17,7 @@ for sign in lost right; do
     "$programs/tspace" render -q "$work/$sign.glb" -o "$images/sign-$sign.png" --size 350 --samples 3 --no-legend --view 14,14 --fov 20 --light=-0.3,0.9,0.65
 done
 
-# docs/flip-green.md: one map, read with green up and with green down.
+# docs/guides/flip-green.md: one map, read with green up and with green down.
 for reading in gltf=right directx=turned; do
     "$programs/tspace" render -q "$work/crate.glb" -o "$images/green-${reading#*=}.png" --size 220 --samples 3 --no-legend --view 8,8 --fov 20 \
         --light=0,1,0.6 --reading "${reading%=*}"
@@ -39,7 +39,7 @@ pipe() { "$programs/tspace" render -q "$work/pipe.glb" -o "$images/render-$1.png
 pipe posed
 pipe unposed --no-pose
 
-# docs/normals.md: kinds of meshes, each with usual normals and with those that suit it.
+# docs/concepts/normals.md: kinds of meshes, each with usual normals and with those that suit it.
 python3 "$(dirname "$0")/normal_kinds.py" "$work"
 normals() {
     "$programs/tspace" generate -q --all --method basis "$work/$1.obj" -o "$work/kind.glb" "${@:3}"

@@ -8,8 +8,8 @@ import re
 import sys
 
 docs = pathlib.Path(sys.argv[1])
-PAGES = ["README.md", "docs/from-mikktspace.md", "docs/from-meshoptimizer.md"]
-SOURCE = "docs/performance.md"
+PAGES = ["README.md", "docs/guides/from-mikktspace.md", "docs/guides/from-meshoptimizer.md"]
+SOURCE = "docs/evidence/performance.md"
 
 # The columns of the table "Beside others".
 LOOP, REFERENCE, MESHOPT, ONE, TWO, CORRECTED = range(1, 7)
@@ -24,29 +24,29 @@ CLAIMS = [
      [("Market, 496,000", 1), ("Market, 496,000", 2), ("Market, 496,000", 3)]),
     ("README.md", r"0 of ([\d,]+) random meshes differ", [r"on ([\d,]+) small random ones, tspace differs from the reference at no"]),
     ("README.md", r"at (0\.1) to (3) % of the corners", [r"meshoptimizer does at 97 to (99\.9) %", r"meshoptimizer does at (97) to"]),
-    ("docs/from-mikktspace.md", r"adds (\d+) KB to a program, (\d+) KB with `-Wl,--gc-sections`",
+    ("docs/guides/from-mikktspace.md", r"adds (\d+) KB to a program, (\d+) KB with `-Wl,--gc-sections`",
      [r"`generateTangents` with all methods adds (\d+) KB", r"stripped, and (\d+) KB where the"]),
-    ("docs/from-mikktspace.md", r"`mikktspace.c` adds (\d+) KB", [r"mikktspace\.c (\d+) KB"]),
-    ("docs/from-mikktspace.md", r"the reference takes (\d+) ns, and `generateTangents` on arrays (\d+) ns", [(MILLION, REFERENCE), (MILLION, ONE)]),
-    ("docs/from-mikktspace.md", r"side on ([\d,]+) small random meshes", [r"on ([\d,]+) small random ones, tspace differs from the reference at no"]),
-    ("docs/from-meshoptimizer.md", r"(0\.1) to (3) % of the corners with the same bits, (0\.06) degrees at most",
+    ("docs/guides/from-mikktspace.md", r"`mikktspace.c` adds (\d+) KB", [r"mikktspace\.c (\d+) KB"]),
+    ("docs/guides/from-mikktspace.md", r"the reference takes (\d+) ns, and `generateTangents` on arrays (\d+) ns", [(MILLION, REFERENCE), (MILLION, ONE)]),
+    ("docs/guides/from-mikktspace.md", r"side on ([\d,]+) small random meshes", [r"on ([\d,]+) small random ones, tspace differs from the reference at no"]),
+    ("docs/guides/from-meshoptimizer.md", r"(0\.1) to (3) % of the corners with the same bits, (0\.06) degrees at most",
      [r"meshoptimizer does at 97 to (99\.9) %", r"meshoptimizer does at (97) to", r"by (0\.06) degrees at most on clean meshes"]),
-    ("docs/from-meshoptimizer.md", r"torus of 1 million triangles \| (\d+) ns a triangle \| \*\*(\d+) ns\*\*, two threads (\d+)",
+    ("docs/guides/from-meshoptimizer.md", r"torus of 1 million triangles \| (\d+) ns a triangle \| \*\*(\d+) ns\*\*, two threads (\d+)",
      [(MILLION, MESHOPT), (MILLION, ONE), (MILLION, TWO)]),
-    ("docs/from-meshoptimizer.md", r"models of up to 50 triangles \| \*\*(\d+) ns\*\* \| (\d+) ns",
+    ("docs/guides/from-meshoptimizer.md", r"models of up to 50 triangles \| \*\*(\d+) ns\*\* \| (\d+) ns",
      [("98 primitives of up to 50 triangles", MESHOPT), ("98 primitives of up to 50 triangles", ONE)]),
-    ("docs/from-meshoptimizer.md", r"models of 51 to 500 triangles \| (\d+) ns \| \*\*(\d+) ns\*\*", [("45 of 51 to 500", MESHOPT), ("45 of 51 to 500", ONE)]),
-    ("docs/from-meshoptimizer.md", r"outputs not counted \| (\d+) bytes a triangle \| \*\*(\d+)\*\*",
+    ("docs/guides/from-meshoptimizer.md", r"models of 51 to 500 triangles \| (\d+) ns \| \*\*(\d+) ns\*\*", [("45 of 51 to 500", MESHOPT), ("45 of 51 to 500", ONE)]),
+    ("docs/guides/from-meshoptimizer.md", r"outputs not counted \| (\d+) bytes a triangle \| \*\*(\d+)\*\*",
      [r"meshoptimizer (\d+), tspace \d+ \(", r"meshoptimizer \d+, tspace (\d+) \("]),
-    ("docs/from-meshoptimizer.md", r"\*\*(\d+) KB; less than (\d+) s\*\* \| (\d+) KB; (\d+) s of processor",
+    ("docs/guides/from-meshoptimizer.md", r"\*\*(\d+) KB; less than (\d+) s\*\* \| (\d+) KB; (\d+) s of processor",
      [r"meshoptimizer's file (\d+) KB", r"the others less than (\d+) s", r"`generateTangents` with all methods adds (\d+) KB", r"two-files\.md\) (\d+) s of"]),
 ]
 # Differing corners of SOURCE that pages state as equal ones: 97 % differ, 3 % are equal.
 COMPLEMENTS = {("0.1", "99.9"), ("3", "97")}
 # Figures that are properties of a format or measured where they stand, with the command beside them.
 OWN = {
-    "docs/from-mikktspace.md": {"8 MB"},  # the size of a thread's stack
-    "docs/from-meshoptimizer.md": {"100 %"},  # `identify` on three models
+    "docs/guides/from-mikktspace.md": {"8 MB"},  # the size of a thread's stack
+    "docs/guides/from-meshoptimizer.md": {"100 %"},  # `identify` on three models
 }
 UNIT = r"(?<![\w.,])(\d[\d,.]*\d|\d)\s?(ns|ms|s|KB|MB|GB|%|times|degrees)\b|(?<![\w.,])(\d[\d,.]*\d|\d)\s?%"
 

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """usage: normal_kinds.py FOLDER
 
-Writes the meshes of the pictures in docs/normals.md into FOLDER, as OBJ without normals: grid (surface nets of a field with
+Writes the meshes of the pictures in docs/concepts/normals.md into FOLDER, as OBJ without normals: grid (surface nets of a field with
 noise), scan (points of a part with sharp edges, with noise), bevel (a box with narrow bevels), cad (a disc with a fillet whose flat sides
 are fans from one vertex), decimated (of a smooth grid an eighth of the triangles) and turned (a torus of which some triangles are
 wound the wrong way).

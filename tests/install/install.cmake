@@ -29,7 +29,7 @@ foreach(program IN LISTS PROGRAMS)
     endif()
 endforeach()
 if("tspace_tool" IN_LIST COMPONENTS)
-    set(files share/doc/tspace/check.md share/tspace/schema/tspace.check.1.json share/tspace/schema/tspace.common.1.json share/doc/tspace/images/pipeline.svg)
+    set(files share/doc/tspace/reference/check.md share/tspace/schema/tspace.check.1.json share/tspace/schema/tspace.common.1.json share/doc/tspace/images/pipeline.svg)
     if(PAGES)
         list(APPEND files share/man/man1/tspace.1 share/man/man1/tspace-generate.1 share/bash-completion/completions/tspace
              share/zsh/site-functions/_tspace share/fish/vendor_completions.d/tspace.fish)

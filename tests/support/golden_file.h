@@ -15,7 +15,7 @@
 
 namespace tspace::test {
 
-/// Whether a value is one that `mikktspace` promises the reference's bits for: docs/methods/mikktspace.md leaves out
+/// Whether a value is one that `mikktspace` promises the reference's bits for: docs/concepts/methods/mikktspace.md leaves out
 /// meshes with values that are not finite or of 1.6e38 and more. The one place where tests say that rule.
 inline bool hasPromisedBits(float value) { return std::fabs(value) < 1.6e38f; }
 

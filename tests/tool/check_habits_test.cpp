@@ -149,7 +149,7 @@ TEST(Sarif, LinksToARowPerCodeOrNowhere) {
     TempFolder folder;
     writeFoldedObj(folder, "folded.obj");
     const Json log = Json::parse(runTool(folder, "check folded.obj --sarif -").out);
-    std::ifstream file(TSPACE_DOCS_DIR "/check.md");
+    std::ifstream file(TSPACE_DOCS_DIR "/reference/check.md");
     const std::string page((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
     for (const Json& rule : log["runs"][0]["tool"]["driver"]["rules"]) {
         const auto id = rule["id"].get<std::string>();

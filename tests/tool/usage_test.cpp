@@ -247,7 +247,8 @@ TEST(Usage, TheHelpCommandPrintsWhatTheHelpOptionPrints) {
 
 TEST(Usage, TheDocumentationNamesEveryOption) {
     std::string pages;
-    for (const char* page : {"tool.md", "batch.md", "check.md", "ci.md", "diff.md", "identify.md"}) {
+    for (const char* page : {"reference/tool.md", "guides/batch.md", "reference/check.md", "guides/ci.md",
+                             "reference/diff.md", "reference/identify.md"}) {
         std::ifstream file(std::filesystem::path(TSPACE_DOCS_DIR) / page);
         ASSERT_TRUE(file) << page;
         pages.append(std::istreambuf_iterator<char>(file), {});

@@ -116,7 +116,7 @@ void addBatch(Command& command, BatchArguments& batch, bool with_manifest) {
     Option& manifest =
         command.add(group, text("--manifest", "FILE", batch.manifest,
                                 "Append a line of JSON to this file for every file done: hashes of what was read and "
-                                "written, options, result, time (schema: docs/json.md)."));
+                                "written, options, result, time (schema: docs/reference/json.md)."));
     manifest.is_file = true;
     manifest.excludes = {"--dry-run"};
     command
@@ -143,7 +143,7 @@ std::string resultOptions(const Given& given) {
 
 void addReporting(Command& command, bool& json, bool& quiet) {
     const char* group = kReporting;
-    command.add(group, flag("--json", json, "Print the result as JSON on stdout (schema: docs/json.md)."));
+    command.add(group, flag("--json", json, "Print the result as JSON on stdout (schema: docs/reference/json.md)."));
     command.add(group, flag("-q, --quiet", quiet, "Print nothing but errors, and the JSON if asked for."));
     command.add(group, helpOption());
 }

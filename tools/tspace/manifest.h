@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The record of a batch: one line of JSON per file that was worked on, so that a later run knows what is done.
-// docs/json.md describes the lines.
+// docs/reference/json.md describes the lines.
 #pragma once
 
 #include <map>

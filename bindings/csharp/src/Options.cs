@@ -26,7 +26,7 @@ namespace Tspace
         }
     }
 
-    /// <summary>How tangents are computed; docs/methods/ explains each.</summary>
+    /// <summary>How tangents are computed; docs/concepts/methods/ explains each.</summary>
     public enum Method : uint
     {
         /// <summary>Bit for bit the MikkTSpace reference: what bakers, glTF and Unity's "Calculate Mikktspace" mean.</summary>

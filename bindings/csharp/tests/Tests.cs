@@ -34,7 +34,7 @@ internal sealed class Golden
         };
     }
 
-    // docs/methods/mikktspace.md promises no bits for others.
+    // docs/concepts/methods/mikktspace.md promises no bits for others.
     internal bool IsPromised => Inputs.All(value => Math.Abs(value) < 1.6e38f);
 
     internal Mesh Mesh()

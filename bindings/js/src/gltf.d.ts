@@ -3,7 +3,7 @@ import type { CheckReport, DiffReport, Finding, GenerateReport, IdentifyReport, 
 import type { NewUint8Array } from "./types.js";
 
 export { TspaceError } from "./types.js";
-/** Reports are the entries of the tool's JSON (docs/json.md) for one file, with the exit code; that of diff is all of it. */
+/** Reports are the entries of the tool's JSON (docs/reference/json.md) for one file, with the exit code; that of diff is all of it. */
 export * from "./reports.js";
 export type Report = GenerateReport | CheckReport | InspectReport | IdentifyReport;
 
@@ -72,7 +72,7 @@ export interface StopSignal {
 
 export type ImageType = "image/png" | "image/jpeg" | "image/webp";
 
-/** Options are those of the tool (docs/tool.md), in camelCase: --memory-limit is memoryLimit. */
+/** Options are those of the tool (docs/reference/tool.md), in camelCase: --memory-limit is memoryLimit. */
 export interface ModelOptions {
   /** What reports call the model. OBJ is told by its ending. */
   name?: string;
@@ -83,7 +83,7 @@ export interface ModelOptions {
   draco?: Draco;
   /**
    * Ends the call: it throws `signal.reason`, or a TspaceError with the code "stopped". Events are not heard while a call runs, so a
-   * signal of another thread has to go through shared memory (docs/javascript.md).
+   * signal of another thread has to go through shared memory (docs/reference/javascript.md).
    */
   signal?: StopSignal;
   /** Memory that working on the model may take, such as "2G"; 0: by its size. */

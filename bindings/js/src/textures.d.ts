@@ -58,7 +58,7 @@ export interface Texture {
 }
 
 /**
- * A level of a KTX2 or DDS as pixels: BC1 to BC5, BC7, EAC, UASTC, ETC1S and what is not packed, as docs/image-files.md lists; not ASTC.
+ * A level of a KTX2 or DDS as pixels: BC1 to BC5, BC7, EAC, UASTC, ETC1S and what is not packed, as docs/reference/image-files.md lists; not ASTC.
  * Throws a TspaceError: "unsupportedFile" for other files, "invalidFile" for what is broken or has a format that is not read.
  */
 export function readTexture(file: Uint8Array | ArrayBuffer, options?: ReadTextureOptions): Texture;
@@ -94,7 +94,7 @@ export interface CompressMapOptions extends Unpackers {
   decodeImage?: ((file: Uint8Array, mimeType: string) => MapPixels | null | undefined) | null;
 }
 
-/** As the tool's JSON has it (docs/json.md). */
+/** As the tool's JSON has it (docs/reference/json.md). */
 export interface CompressMapReport {
   width: number;
   height: number;

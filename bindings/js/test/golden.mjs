@@ -17,7 +17,7 @@ export function readGolden(buffer) {
     wanted.set(numbers.subarray(result, result + 3), 4 * c);
     wanted[4 * c + 3] = numbers[result + 9];
   }
-  // docs/methods/mikktspace.md says why.
+  // docs/concepts/methods/mikktspace.md says why.
   const isPromised = [positions, normals, uvs].every((array) => array.every((x) => Math.abs(x) < 1.6e38));
   return { mesh: { positions, normals, uvs, faceSizes }, threshold: numbers[3], wanted, isPromised };
 }

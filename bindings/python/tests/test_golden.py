@@ -7,7 +7,7 @@ import numpy
 import tspace
 from support import needs_shared, same_bits
 
-# docs/methods/mikktspace.md promises no bits for values that are not finite or of 1.6e38 and more.
+# docs/concepts/methods/mikktspace.md promises no bits for values that are not finite or of 1.6e38 and more.
 LIMIT = numpy.float32(1.6e38)
 
 

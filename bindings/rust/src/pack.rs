@@ -5,7 +5,7 @@ use crate::sys;
 use crate::tangents::span;
 use std::ptr::null_mut;
 
-/// A code for N, T and the sign; `docs/pack.md` has what each costs in degrees.
+/// A code for N, T and the sign; `docs/concepts/pack.md` has what each costs in degrees.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum FrameFormat {
     /// 4 bytes, 0.135 degrees.

@@ -37,7 +37,7 @@ impl Golden {
         }
     }
 
-    /// docs/methods/mikktspace.md promises no bits for others.
+    /// docs/concepts/methods/mikktspace.md promises no bits for others.
     fn is_promised(&self) -> bool {
         self.inputs.iter().all(|value| value.abs() < 1.6e38)
     }

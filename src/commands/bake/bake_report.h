@@ -33,7 +33,7 @@ std::string bakedPairsJson(const std::vector<BakedPair>& pairs, ExitCode exit_co
 /// The rows of a bake that was done. `out_mesh`: as BakeFileOptions::out_mesh.
 void addBakedRows(const BakeFileReport& done, const std::string& out_mesh, Table& table);
 
-/// As docs/json.md has them.
+/// As docs/reference/json.md has them.
 /// A normal map of the high poly, and how it is known which way its green points.
 Json highMapJson(const BakedHighMap& map);
 const char* greenSourceWord(GreenSource source);

@@ -169,7 +169,7 @@ std::string checkSummary(const std::vector<CheckOutcome>& outcomes, bool in_colo
     return text;
 }
 
-// Findings of tspace check in SARIF 2.1.0 (Static Analysis Results Interchange Format, OASIS 2020). docs/check.md says
+// Findings of tspace check in SARIF 2.1.0 (Static Analysis Results Interchange Format, OASIS 2020). docs/reference/check.md says
 // what stands where.
 
 namespace {
@@ -212,7 +212,7 @@ Json rulesJson(const std::string& docs_url) {
         Json rule = {{"id", findingName(code)},
                      {"shortDescription", {{"text", findingSummary(code)}}},
                      {"help", {{"text", findingRemedy(code)}}}};
-        if (!docs_url.empty()) rule["helpUri"] = docs_url + "/check.md#" + findingName(code);
+        if (!docs_url.empty()) rule["helpUri"] = docs_url + "/reference/check.md#" + findingName(code);
         rules.push_back(std::move(rule));
     }
     return rules;

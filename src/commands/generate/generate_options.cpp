@@ -112,7 +112,7 @@ void addTangentOptions(OptionList& list, GenerateOptions& options) {
                "triangulated models; quads: pairs of triangles that follow each other, as Blender does "
                "before it writes triangles; auto: quads where the file's tangents show it, or where it "
                "has none, comes from Blender and its triangles are cut quads. --repair takes auto where "
-               "nothing else is given. See docs/quads.md."));
+               "nothing else is given. See docs/concepts/quads.md."));
     add(list, group,
         choice("--pairing", "NAME", kPairings, tangents.pairing,
                "For mikktspace. reference: neighbours as the reference implementation finds them, with "
@@ -152,7 +152,7 @@ void addPackOptions(OptionList& list, GenerateOptions& options) {
         choice("--pack", "FORMAT", kPackFormats, options.pack,
                "Also write the whole frame of each vertex, N, T and the sign, as an attribute of its own: "
                "_FRAME32 and so on, for engines that read it. Of every primitive that has normals and "
-               "tangents in the end, old ones too. See docs/pack.md."));
+               "tangents in the end, old ones too. See docs/concepts/pack.md."));
     add(list, group,
         choice("--pack-drop", "WHAT", kPackDrops, options.pack_drop,
                "What to take away where frames were packed. tangents: TANGENT; all: NORMAL too, for engines "

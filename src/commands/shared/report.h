@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What the reports of all commands have in common. A command's own are in NAME/NAME_report.h: as JSON for programs, as
-// docs/json.md describes it, which the tool prints with --json and the C API gives back; and as text for people, which the
+// docs/reference/json.md describes it, which the tool prints with --json and the C API gives back; and as text for people, which the
 // tool alone prints, and which needs a library of its own (tspace_texts).
 #pragma once
 
@@ -25,7 +25,7 @@ struct Outcome {
     bool was_done_before = false;  ///< the manifest says so, and no file has changed since; the value is empty
 };
 
-/// null, or the error as docs/json.md describes it.
+/// null, or the error as docs/reference/json.md describes it.
 Json errorJson(const Error* error);
 /// null where there is no mesh.
 Json mapMeshJson(const MapMeshReport& mesh);

@@ -24,7 +24,7 @@ using namespace simd::TSPACE_LANES;
 namespace {
 
 // The value of each doubt at which the blend is half and half, found by trying values on analytic surfaces with and
-// without noise and on bevels (docs/accuracy.md).
+// without noise and on bevels (docs/evidence/accuracy.md).
 constexpr double kNoise = 0.45;  // of the bend of the edges, what no normal explains
 constexpr double kKink = 1.5;    // misfit of the sharp normals, in that of the robust ones: of the large faces
 constexpr double kFillet = 1.3;  // the same of the short edges. A flat cap that is a fan from one vertex of its rim has

@@ -89,7 +89,7 @@ struct BestQuaternions {
 };
 
 /// The code around q with the least error, not the one with the nearest components. Sixteen do; but w must not be 0, and
-/// where only 1 is left for it, further x, y and z make up for that: docs/pack.md has the bounds.
+/// where only 1 is left for it, further x, y and z make up for that: docs/concepts/pack.md has the bounds.
 inline Quaternions bestCode(const Quaternions& q) {
     const Floats most = broadcast(32767.0f), one = broadcast(1.0f);
     const auto beside = [&](Floats below, unsigned up) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Packed tangent frames as attributes of glTF: the words, and which accessors hold those of each format. docs/pack.md has
+// Packed tangent frames as attributes of glTF: the words, and which accessors hold those of each format. docs/concepts/pack.md has
 // the table.
 #pragma once
 

@@ -117,8 +117,9 @@ bool isImportedFormat(const Path& path) {
 
 gltf::Document importDocument(const Path& path, const FileOptions& options, const Progress& progress) {
     if (options.importer.empty()) {
-        failFile(ErrorCode::unsupportedFile, "reading " + lowerExtension(path) +
-                                                 " files needs tspace-import, which is not there (see docs/import.md)");
+        failFile(ErrorCode::unsupportedFile,
+                 "reading " + lowerExtension(path) +
+                     " files needs tspace-import, which is not there (see docs/reference/import.md)");
     }
     std::error_code error;
     const std::uintmax_t size = fs::file_size(fs::path(path), error);

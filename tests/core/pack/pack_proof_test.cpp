@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Why the bounds of pack.h hold, computed: no random frames here, but upper bounds for all frames. docs/pack.md says
+// Why the bounds of pack.h hold, computed: no random frames here, but upper bounds for all frames. docs/concepts/pack.md says
 // the reasons in words.
 #include <gtest/gtest.h>
 

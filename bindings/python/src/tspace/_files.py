@@ -219,10 +219,10 @@ def generate_file(input: PathLike, output: PathLike, **options: Any) -> Generate
 
     input:   path of a GLB, glTF or OBJ
     output:  path of the result; may be the input. It appears at once or not at all
-    options: those of `tspace generate` (docs/tool.md), with underscores: method="best", crease=60, all=True, overwrite=True,
+    options: those of `tspace generate` (docs/reference/tool.md), with underscores: method="best", crease=60, all=True, overwrite=True,
              only_missing=True, repair=True, no_sanitize=True, dry_run=True, pack="frame32", threads=4 (1 unless said)
 
-    Everything else in the file stays as it was. Returns what was done, primitive by primitive (docs/json.md).
+    Everything else in the file stays as it was. Returns what was done, primitive by primitive (docs/reference/json.md).
     Raises FileError for a broken model; ReadWriteError, which is an OSError too, where a file cannot be read or written;
     InputError for options.
     """
@@ -261,7 +261,7 @@ def check(
 
     model:     a path, or bytes of a GLB, glTF or OBJ
     name, find_file: for bytes, as for `generate_bytes`
-    options:   those of `tspace check` (docs/check.md), with underscores: fail_on="error", ignore=["tangentsUnused"]
+    options:   those of `tspace check` (docs/reference/check.md), with underscores: fail_on="error", ignore=["tangentsUnused"]
 
     >>> for finding in tspace.check("chair.glb"):
     ...     print(finding.severity, finding.code, finding.place, finding.message, tspace.remedy_text(finding))
@@ -280,7 +280,7 @@ def identify(
 
     model:     a path, or bytes of a GLB, glTF or OBJ
     name, find_file: for bytes, as for `generate_bytes`
-    options:   those of `tspace identify` (docs/identify.md), with underscores
+    options:   those of `tspace identify` (docs/reference/identify.md), with underscores
 
     `verdict` is a sentence or two; `method` the method that fits best, `explanations` all of them.
     """
@@ -314,7 +314,7 @@ def diff(
 
     a, b:      two paths, or bytes of two models (GLB or glTF)
     find_file: for bytes, as for `generate_bytes`
-    options:   those of `tspace diff` (docs/diff.md), with underscores: tolerance=0.1
+    options:   those of `tspace diff` (docs/reference/diff.md), with underscores: tolerance=0.1
 
     `tangents.max_deg` is the largest angle, `sign_changes` counts signs, `is_within_tolerance` says the rest.
     """
@@ -333,7 +333,7 @@ def flip_green_file(input: PathLike, output: PathLike, **options: Any) -> FlipGr
     """Inverts the green channel of a normal map: PNG, JPEG or WebP.
 
     input, output: paths, which may be the same; the ending of `output` says its format
-    options: those of `tspace flip-green` (docs/flip-green.md), with underscores
+    options: those of `tspace flip-green` (docs/guides/flip-green.md), with underscores
     """
     call = _Call()
     paths = call.path("input", input), call.path("output", output)
@@ -345,7 +345,7 @@ def convert_map_file(input: PathLike, output: PathLike, **options: Any) -> Conve
 
     input:   path of the map: PNG, JPEG, WebP, EXR, KTX2, DDS or TGA
     output:  path of the new one, .png or .exr
-    options: those of `tspace convert-map` (docs/convert-map.md), with underscores:
+    options: those of `tspace convert-map` (docs/guides/convert-map.md), with underscores:
              mesh="chair.glb", to_mesh="mended.glb", from_="object", to_convention="directx"
     """
     call = _Call()
@@ -358,7 +358,7 @@ def height_to_normal_file(input: PathLike, output: PathLike, **options: Any) -> 
 
     input:   path of the height map: PNG, JPEG, WebP or EXR; white is high
     output:  path of the normal map, .png
-    options: those of `tspace height-to-normal` (docs/height-to-normal.md), with underscores:
+    options: those of `tspace height-to-normal` (docs/guides/height-to-normal.md), with underscores:
              strength=0.02, mesh="wall.glb", convention="directx"
     """
     call = _Call()
@@ -383,7 +383,7 @@ def compress_map_file(input: PathLike, output: PathLike, **options: Any) -> Comp
 
     input:   path of a normal map in tangent space: PNG, JPEG, WebP, EXR, KTX2, DDS or TGA; 16 bits give more than 8
     output:  path of the texture, .ktx2 or .dds; or a folder for PNGs, which ends in /
-    options: those of `tspace compress-map` (docs/compress-map.md), with underscores:
+    options: those of `tspace compress-map` (docs/guides/compress-map.md), with underscores:
              format="eac-rg11", quality="best", roughness="orm.png", roughness_output="orm.ktx2"
 
     `mean_error_deg` and `p99_error_deg` of the report say how far the texture is off, as it is filtered.
@@ -411,7 +411,7 @@ def bake_file(low: PathLike, high: PathLike, output: PathLike, **options: Any) -
     low:     path of the model that the map is for; it needs UVs
     high:    path of the model with the detail, in the same place
     output:  path of the normal map, .png; other maps stand beside it
-    options: those of `tspace bake` (docs/bake.md), with underscores:
+    options: those of `tspace bake` (docs/guides/bake.md), with underscores:
              size=2048, maps=["normal", "ao"], samples=256, convention="unreal", out_mesh="low_with_maps.glb"
 
     `files` of the report says of each map how far it is off, in degrees. A bake whose rays meet nothing writes nothing and is
@@ -427,7 +427,7 @@ def finish_file(input: PathLike, output: PathLike, **options: Any) -> FinishRepo
 
     input:   path of a GLB, glTF or OBJ
     output:  path of the result, .glb, which may not be the input
-    options: those of `tspace finish` (docs/finish.md), with underscores:
+    options: those of `tspace finish` (docs/guides/finish.md), with underscores:
              low="retopo.glb", size=2048, normals="all", html="page.html"
 
     `check` of the report is what `tspace.check` finds in the output, `models[0].before` what it finds in the input, and

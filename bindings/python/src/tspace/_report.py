@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 
 class Report:
-    """A JSON object of the tool (docs/json.md says what is in it): its members are attributes, in snake_case.
+    """A JSON object of the tool (docs/reference/json.md says what is in it): its members are attributes, in snake_case.
 
     json: the object as a dict, with the names of the JSON
     """

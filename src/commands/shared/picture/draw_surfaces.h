@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A picture of surfaces, and the colour of each of their points, by the views of docs/render.md.
+// A picture of surfaces, and the colour of each of their points, by the views of docs/guides/render.md.
 #pragma once
 
 #include <array>

@@ -24,7 +24,7 @@
 //
 // Based on: Zhang and Naga, "A New Finite Element Gradient Recovery Method: Superconvergence Property", 2005
 // (polynomial preserving recovery), here on a surface, with sums over triangles in the place of lists of
-// neighbours. The ridge, the two tests and the mixing are tspace's own; docs/methods/best.md has the
+// neighbours. The ridge, the two tests and the mixing are tspace's own; docs/concepts/methods/best.md has the
 // measurements.
 //
 // The steps that may follow stand at the end. Included once per CPU, after lanes_*.h and with TSPACE_LANES set to its
@@ -39,7 +39,7 @@ namespace {
 
 constexpr float kLongestArc = 2.0f;  // an edge that climbs more than 60 degrees from the tangent plane is no arc in it
 constexpr float kSmallestDeterminant = 1e-6f;
-constexpr float kLeftWeight = 2.0f;  // the 2 before left: found by trying values (docs/accuracy.md)
+constexpr float kLeftWeight = 2.0f;  // the 2 before left: found by trying values (docs/evidence/accuracy.md)
 
 /// How much longer than the edge `e` the arc is between ends with these normals; the same from either end.
 inline Floats arcLengthOf(Vectors a, Vectors b, Vectors e, Floats square) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // MikkTSpace (Morten S. Mikkelsen, "Simulation of Wrinkled Surfaces Revisited", 2008), step by step, with the bits of the
-// reference implementation at commit 3e895b4. docs/methods/mikktspace.md explains each step under the same number.
+// reference implementation at commit 3e895b4. docs/concepts/methods/mikktspace.md explains each step under the same number.
 //
 // All arithmetic is single precision in the written order; where the order of operations or of list entries looks arbitrary,
 // it is the order of the reference, and the last bits depend on it. A comparison that is written as !(a > b) is true for NaN.

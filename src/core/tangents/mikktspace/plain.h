@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The method `mikktspace` in its plainest form: scalar code that follows docs/methods/mikktspace.md step by step. It is written to
+// The method `mikktspace` in its plainest form: scalar code that follows docs/concepts/methods/mikktspace.md step by step. It is written to
 // be read, and tests compare the engine with it bit for bit. The library itself does not contain it.
 #pragma once
 
