@@ -40,7 +40,7 @@ PY
     grep -qF -- "$4" "$folder/printed" || { cat "$folder/printed" && fail "\"$3\" in $1: nothing about \"$4\""; }
 }
 check=docs/schema/tspace.check.1.json
-must_find docs/reference/json.md 'one sentence for a person' 'a sentence' '+| `files[].findings[].message` | string | one sentence for a person |'
+must_find docs/reference/json.md 'human-readable summary in one sentence' 'a sentence' '+| `files[].findings[].message` | string | human-readable summary in one sentence |'
 must_find bindings/js/src/reports.d.ts 'worstDegrees: number' 'worstDegrees: string' '+  worstDegrees: number;'
 must_find bindings/python/src/tspace/_file_reports.py 'worst_degrees: float' 'worst_degrees: int' '+    worst_degrees: float'
 must_find $check '"remedy": {"type": "string"' '"remedy": {"type": "integer"' '+  remedy: number;'

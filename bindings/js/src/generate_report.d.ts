@@ -4,7 +4,7 @@
 export interface GenerateReport {
   /** Path of the input. */
   input: string;
-  /** Path of the output; empty when the input led to none. */
+  /** Path of the output; empty if there is none for this input. */
   output: string;
   /** The output was written. */
   ok: true;
@@ -16,22 +16,22 @@ export interface GenerateReport {
   skipped: boolean;
   /** False when the output is byte for byte the input. */
   changed: boolean;
-  /** The model file and what it loads. */
+  /** The model file and the files that it loads. */
   inputBytes: number;
-  /** Everything that was written. */
+  /** All written files. */
   outputBytes: number;
-  /** Paths of everything that was written, the model first. */
+  /** Paths of all written files, the model first. */
   outputFiles: string[];
-  /** Sentences for a person. */
+  /** Human-readable warnings. */
   warnings: string[];
-  /** What was taken out of the coordinates of an OBJ, PLY or STL file, and is the translation of the nodes; zeros: nothing
-   * was. */
+  /** Offset that was subtracted from the coordinates of an OBJ, PLY or STL file and is the translation of the nodes; zeros:
+   * none. */
   coordinateOffset: [number, number, number];
   /** Sums over the primitives. */
   totals: GenerateTotals;
-  /** With "--mend-winding", one entry per mesh with triangles; from OBJ one for the file. */
+  /** With "--fix-winding", one entry per mesh with triangles; from OBJ one for the file. */
   windings: MendedWinding[];
-  /** With "--flip-green", "--flip-green-all" or "--mend-maps", one entry per image that is a normal map; from OBJ one for each
+  /** With "--flip-green", "--flip-green-all" or "--fix-maps", one entry per image that is a normal map; from OBJ one for each
    * material whose height map became a normal map. */
   normalMaps: JudgedMap[];
   /** With "--convert-maps", one entry for each normal map and the primitives that share it. */
@@ -45,15 +45,15 @@ export interface GenerateReport {
 export interface GenerateTotals {
   /** Primitives in the file. */
   primitives: number;
-  /** Primitives by what was done with them. */
+  /** Primitive counts by action. */
   actions: ActionCounts;
   /** Triangles of the primitives that were computed. */
   triangles: number;
   /** Their vertices in the input; vertices that several of them share count once. */
   verticesBefore: number;
-  /** The same after vertices were split. */
+  /** Vertices after splitting. */
   verticesAfter: number;
-  /** Corners whose tangents were mended. */
+  /** Corners whose tangents were repaired. */
   mended: number;
   /** Morph targets whose tangent deltas were computed. */
   morphDeltas: number;
@@ -66,31 +66,31 @@ export interface MendedWinding {
   mesh: number;
   /** May be empty. */
   meshName: string;
-  /** Faces with at least 3 corners; what several primitives draw counts once. */
+  /** Faces with at least 3 corners; faces that several primitives draw count once. */
   faces: number;
   /** Faces that were turned. */
   turned: number;
-  /** Pairs of neighbours that run through their edge in the same direction. */
+  /** Neighboring faces that traverse their common edge in the same direction. */
   conflictsBefore: number;
-  /** The same afterwards. */
+  /** Conflicting edges afterwards. */
   conflictsAfter: number;
-  /** Parts that hang together over edges. */
+  /** Components connected by edges. */
   components: number;
-  /** Those of which more than half of the faces were turned. */
+  /** Components with more than half of their faces turned. */
   turnedComponents: number;
-  /** Components whose outside the normals of the file decided. */
+  /** Components oriented by the normals of the file. */
   byNormals: number;
-  /** Closed ones: their volume did. */
+  /** Closed components, oriented by their volume. */
   byVolume: number;
-  /** Closed ones that lie in another: as they mostly were, or, where that said nothing, a cavity. */
+  /** Closed components inside another one: oriented like most of their area or, if that is undecided, as a cavity. */
   byNesting: number;
-  /** Open ones with an inside. */
+  /** Open components with an inside. */
   byWindingNumber: number;
-  /** Open ones without: as most of the area was wound. */
+  /** Open components without an inside, oriented like most of their area. */
   byMajority: number;
-  /** Components of fewer than 4 faces, which stay. */
+  /** Components of fewer than 4 faces, which are unchanged. */
   small: number;
-  /** Components with one side only, as a Moebius band, which stay. */
+  /** Non-orientable components, such as a Moebius strip, which are unchanged. */
   oneSided: number;
 }
 
@@ -101,9 +101,9 @@ export interface JudgedMap {
   name: string;
   /** Its green channel was inverted. */
   flipped: boolean;
-  /** It was written anew: it held something else than glTF reads, or heights. */
+  /** It was rewritten: its encoding was not that of glTF, or it was a height map. */
   mended: boolean;
-  /** Why nothing was done, or what it held, for a person; empty where green alone was inverted. */
+  /** Human-readable reason why the map is unchanged, or its former encoding; empty if only green was inverted. */
   reason: string;
 }
 
@@ -112,25 +112,25 @@ export interface ConvertedMap {
   image: number;
   /** Name or URI of the image; may be empty. */
   name: string;
-  /** These primitives show a new map. */
+  /** The primitives show a new map. */
   converted: boolean;
-  /** Why not, for a person; empty where they do. */
+  /** Human-readable reason; empty where they do. */
   reason: string;
   /** Index of the new image in the output; null where there is none. */
   newImage: number | null;
-  /** Indices of the input's materials that show it. */
+  /** Indices of the input's materials that use it. */
   materials: number[];
-  /** How many primitives show it. */
+  /** Number of primitives that use it. */
   primitives: number;
-  /** Of a channel of the new map; 0 where there is none. */
+  /** Bits per channel of the new map; 0 if there is none. */
   bits: number;
   /** Texels that changed. */
   changed: number;
-  /** What is left of the change: between what the primitives show after and before, in the mean over their texels. */
+  /** Remaining error: mean angle between the shaded normals before and after, over the texels of the primitives. */
   meanErrorDeg: number;
-  /** The same with the old map. */
+  /** That error with the old map. */
   meanErrorUnconvertedDeg: number;
-  /** Sentences for a person. */
+  /** Human-readable warnings. */
   notes: string[];
 }
 
@@ -145,75 +145,75 @@ export interface GeneratedPrimitive {
   materialName: string;
   /** What was done with its tangents, as in "totals.actions". */
   action: "generated" | "replaced" | "unchanged" | "kept" | "notNeeded" | "notTriangles" | "impossible" | "removed";
-  /** Why, for a person. */
+  /** Human-readable reason. */
   reason: string;
-  /** Further sentences: textures that want other tangents, texture transforms, repairs. */
+  /** Further remarks: textures that need different tangents, texture transforms, repairs. */
   notes: string[];
   /** The n of the "TEXCOORD_n" that the tangents follow, or -1. */
   uvSet: number;
-  /** What its tangents were computed on: "triangles" or "quads". */
+  /** Faces that its tangents were computed on: "triangles" or "quads". */
   faces: "triangles" | "quads";
-  /** How many of those faces are quads, or polygons with more corners (OBJ). */
+  /** Number of those faces that are quads, or polygons with more corners (OBJ). */
   quads: number;
   triangles: number;
   verticesBefore: number;
-  /** More than before where vertices were split. */
+  /** Vertices in the output; more than in the input if vertices were split. */
   verticesAfter: number;
-  /** "--repair": those of "verticesBefore" whose tangents were wrong; all others keep theirs. */
+  /** "--repair": vertices of "verticesBefore" whose tangents were wrong; all others keep theirs. */
   mendedVertices: number;
-  /** Normals were made: the input had none, or they were to be made anew. */
+  /** Normals were computed: the input had none, or they were to be recomputed. */
   normalsGenerated: boolean;
-  /** It had normals, and they were made anew. */
+  /** It had normals, and they were recomputed. */
   normalsReplaced: boolean;
-  /** Positions at which its normals were made with triangles of other primitives too. */
+  /** Positions whose normals were also computed from triangles of other primitives. */
   normalsJoined: number;
   /** Corners whose new normal points behind their own triangle. */
   normalsBehind: number;
-  /** Triangles that are wound against most of those that they are connected with. Counted where normals were made, and where
-   * vertices were split for one in twenty or more; else 0, as "twoSidedTriangles". */
+  /** Triangles whose winding is opposite to most of the connected triangles. Counted if normals were computed, or if vertices
+   * were split for at least one triangle in twenty; else 0, like "twoSidedTriangles". */
   turnedTriangles: number;
-  /** Triangles of sheets with two sides: others with the same positions are wound the other way. */
+  /** Triangles of two-sided sheets: other triangles have the same positions and the opposite winding. */
   twoSidedTriangles: number;
-  /** Faces that were turned ("--mend-winding"). */
+  /** Faces that were turned ("--fix-winding"). */
   windingMended: number;
   /** Which these are, in ascending order: the first 256 ranges of triangles of the primitive; from OBJ of faces, numbered
    * through the file. */
   windingMendedRanges: FaceRange[];
   /** "_BITANGENT" was computed ("--bitangents"). */
   bitangentsGenerated: boolean;
-  /** "--pack": its frames are packed; where they are not, a note says why. */
+  /** "--pack": its frames are packed; if they are not, a note gives the reason. */
   packed: boolean;
-  /** Vertices whose frame was mended before it was packed. */
+  /** Vertices whose frame was repaired before it was packed. */
   packedMended: number;
-  /** NORMAL was taken away ("--pack-drop all"). */
+  /** NORMAL was removed ("--pack-drop all"). */
   normalsDropped: boolean;
-  /** TANGENT was taken away ("--pack-drop"). */
+  /** TANGENT was removed ("--pack-drop"). */
   tangentsDropped: boolean;
   /** Morph targets that the primitive has. */
   morphTargets: number;
-  /** Those whose tangent deltas were computed. */
+  /** Morph targets whose tangent deltas were computed. */
   morphDeltas: number;
-  /** Those whose normal deltas were computed ("--morph-normals"). */
+  /** Morph targets whose normal deltas were computed ("--morph-normals"). */
   morphNormals: number;
-  /** Corners, over all targets, whose frame in the moved shape has the other sign, which glTF cannot express. */
+  /** Corners, over all targets, whose frame changes its sign in the morphed shape, which glTF cannot express. */
   morphSignFlips: number;
   /** About generated normals; zeros when there are none. For OBJ the counts cover the whole file and stand with the first
    * primitive that got normals. */
   normals: GeneratedNormals;
   /** Zeros where nothing was computed. */
   tangents: GeneratedTangents;
-  /** Corners that were mended. */
+  /** Corners that were repaired. */
   sanitize: MendedTangents;
 }
 
 export interface ActionCounts {
   /** Tangents were added. */
   generated: number;
-  /** Tangents were there and were computed anew. */
+  /** Existing tangents were recomputed. */
   replaced: number;
   /** Computed anew with the same bits as those in the file. */
   unchanged: number;
-  /** Tangents were there and stay. */
+  /** Existing tangents were kept. */
   kept: number;
   /** The material needs no tangents. */
   notNeeded: number;
@@ -221,14 +221,14 @@ export interface ActionCounts {
   notTriangles: number;
   /** No UVs, no positions, or nothing to compute. */
   impossible: number;
-  /** No material needs the tangents, and they were taken away. */
+  /** No material needs the tangents, and they were removed. */
   removed: number;
 }
 
 export interface FaceRange {
   /** Number of the first face, from 0. */
   first: number;
-  /** How many follow one another. */
+  /** Number of consecutive triangles. */
   count: number;
 }
 
@@ -237,42 +237,42 @@ export interface GeneratedNormals {
   faces: number;
   /** Faces without a normal of their own. */
   degenerateFaces: number;
-  /** Corners whose mean vanished. */
+  /** Corners whose weighted mean is zero. */
   fallbackCorners: number;
-  /** Noise of positions that --denoise removed, as a standard deviation in mean edge lengths; 0: none. */
+  /** Position noise that --denoise removed: standard deviation in mean edge lengths; 0: none. */
   noise: number;
-  /** Edges sharper than this are hard; 180: none is by its angle. */
+  /** Edges sharper than this are hard, in degrees; 180: no hard edges. */
   creaseDeg: number;
 }
 
 export interface GeneratedTangents {
-  /** Triangles computed with. */
+  /** Triangles that tangents were computed on. */
   triangles: number;
   /** Two corners at the same position. */
   degenerateTriangles: number;
   /** No UV area. */
   degenerateUvTriangles: number;
-  /** Negative UV area in the numbers of the file. In glTF, where V runs down, that is the ordinary case; "tspace inspect" says
-   * what is mirrored to the eye. */
+  /** Negative UV area in the stored values. In glTF, where V runs down, that is the usual case; "tspace inspect" reports what
+   * looks mirrored. */
   negativeUvTriangles: number;
   /** Faces for which nothing was computed. */
   skippedFaces: number;
   /** Sets of corners that share one tangent. */
   groups: number;
-  /** Corners that no face gives a tangent. */
+  /** Corners without a tangent from any face. */
   defaultCorners: number;
-  /** Corners whose tangent was NaN or infinite before mending. */
+  /** Corners whose tangent was NaN or infinite before the repair. */
   notFiniteCorners: number;
-  /** The last step of the reference was left out, because it would have taken quadratic time: when. */
+  /** The last step of the reference was skipped, because it would have taken quadratic time: when. */
   referenceOrderAbandoned: boolean;
 }
 
 export interface MendedTangents {
-  /** All of them. */
+  /** Number of repaired corners. */
   mended: number;
-  /** By cause, the first that applies. */
+  /** Corners by cause; the first applicable cause counts. */
   causes: MendCauses;
-  /** By cure. */
+  /** Corners by kind of repair. */
   cures: MendCures;
   /** Corners whose normal is zero or not finite. */
   badNormals: number;
@@ -293,7 +293,7 @@ export interface MendCauses {
   badSign: number;
   /** Corners of one face disagreed about the sign. */
   mixedSign: number;
-  /** Sound, but changed by "--orthogonalize". */
+  /** Valid, but changed by "--orthogonalize". */
   orthogonalized: number;
 }
 
@@ -302,6 +302,6 @@ export interface MendCures {
   normalized: number;
   /** Direction of a sound corner nearby. */
   fromNeighbor: number;
-  /** Made from the normal alone. */
+  /** Tangents computed from the normal alone. */
   fromBasis: number;
 }

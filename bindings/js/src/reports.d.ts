@@ -17,13 +17,13 @@ export interface CheckReport {
   generator: string;
   /** Primitives in the file. */
   primitives: number;
-  /** Those of them whose tangents were examined. */
+  /** Primitives whose tangents were examined. */
   primitivesWithTangents: number;
-  /** Images that were looked at: what their channels hold. */
+  /** Images whose channel contents were examined. */
   normalMaps: number;
-  /** Those of them whose relief says which way green points. */
+  /** Images whose relief shows the direction of green. */
   normalMapsWithGreen: number;
-  /** What an image holds as a normal map that was checked without a model; null for a model. */
+  /** Content of an image that was checked as a normal map without a model; null for a model. */
   image: CheckedImage | null;
   /** One entry for each format of packed frames of each primitive, in file order. */
   packedFrames: CheckedPackedFrames[];
@@ -43,7 +43,7 @@ export interface CheckedImage {
   content: string;
   /** Direction of green, or of y where that is in another channel, if x is right: "up", "down", "mixed" or "unknown". */
   green: string;
-  /** How many blocks of texels agree beyond an even split, 0 to 1. */
+  /** Share of texel blocks that agree, beyond an even split, 0 to 1. */
   greenConfidence: number;
 }
 
@@ -52,7 +52,7 @@ export interface CheckedPackedFrames {
   place: string;
   /** Its name, such as "_FRAME32"; of two that hold one frame the first. */
   attribute: string;
-  /** Such as "frame32". */
+  /** Format name, such as "frame32". */
   format: string;
   /** Index of the mesh. */
   mesh: number;
@@ -61,16 +61,16 @@ export interface CheckedPackedFrames {
   vertices: number;
   /** False: a finding "packedFramesUnreadable" says why. */
   readable: boolean;
-  /** NORMAL and TANGENT are there; if not, angles and signs here are 0. */
+  /** NORMAL and TANGENT exist; if not, angles and signs here are 0. */
   compared: boolean;
   /** The largest angle between N as decoded and NORMAL. */
   worstNormalDegrees: number;
-  /** The same of T and TANGENT, made orthogonal to NORMAL where it is not. */
+  /** Largest angle between T as decoded and TANGENT, made orthogonal to NORMAL if necessary. */
   worstTangentDegrees: number;
-  /** What the format promises. */
+  /** Error bound that the format guarantees. */
   promisedNormalDegrees: number;
   promisedTangentDegrees: number;
-  /** Vertices with another sign than TANGENT. */
+  /** Vertices whose sign differs from TANGENT. */
   differingSigns: number;
 }
 
@@ -81,7 +81,7 @@ export interface FindingCounts {
 }
 
 export interface Finding {
-  /** Stable name of what was found. */
+  /** Stable code of the finding. */
   code: string;
   severity: "error" | "warning" | "note";
   /** JSON pointer of the primitive, morph target, attribute or texture; for OBJ "usemtl NAME"; empty: the whole file. */
@@ -94,26 +94,26 @@ export interface Finding {
   meshName: string;
   /** May be empty. */
   materialName: string;
-  /** What is counted: "vertices", "triangles", "targets" (of a morph), "blocks" or "texels" (of an image), "images",
-   * "textures", "attributes", "primitives", "meshes" or "files". */
+  /** Counted unit: "vertices", "triangles", "targets" (of a morph), "blocks" or "texels" (of an image), "images", "textures",
+   * "attributes", "primitives", "meshes" or "files". */
   unit: "vertices" | "triangles" | "targets" | "blocks" | "texels" | "images" | "textures" | "attributes" | "primitives" | "meshes" | "files";
-  /** How many have it. */
+  /** Number of elements that have the fault. */
   count: number;
-  /** Of how many that could have it. */
+  /** Number of candidates. */
   total: number;
-  /** Their part of the primitive's surface, 0 to 1; 0 where that says nothing. */
+  /** Their share of the primitive's surface, 0 to 1; 0 if not applicable. */
   surfaceShare: number;
   /** The largest angle, for findings about angles; else 0. */
   worstDegrees: number;
-  /** 0 to 1; below 1 for findings that rest on statistics. */
+  /** 0 to 1; below 1 for statistical findings. */
   confidence: number;
   /** The first of them. */
   vertices: number[];
-  /** One sentence for a person. */
+  /** Human-readable summary in one sentence. */
   message: string;
-  /** How to mend it, for a person. */
+  /** Human-readable fix. */
   remedy: string;
-  /** The view of tspace render --show that shows it; empty: none does. */
+  /** View of "tspace render --show" that makes it visible; empty: none. */
   show: string;
   /** Commands that "remedy" names, in its order. */
   commands: RemedyCommand[];
@@ -128,12 +128,12 @@ export interface RemedyCommand {
   options: RemedyOption[];
   /** Words among inputs and values that the user replaces, such as "OUT.png". */
   placeholders: string[];
-  /** The command line, as it stands in "remedy". */
+  /** Command line, as in "remedy". */
   line: string;
 }
 
 export interface RemedyOption {
-  /** Without dashes; "o": where the result goes. */
+  /** Name without dashes; "o" is the output. */
   name: string;
   /** Empty: the option is a flag. */
   value: string;
@@ -150,11 +150,11 @@ export interface InspectReport {
   format: string;
   /** The program that wrote the file; may be empty. */
   generator: string;
-  /** The model file and what it loads, without images. */
+  /** The model file and the files that it loads, without images. */
   fileBytes: number;
   /** For OBJ: objects and groups with faces. */
   meshes: number;
-  /** For OBJ: those that faces use and an MTL file has. */
+  /** For OBJ: materials that faces use and an MTL file defines. */
   materials: number;
   nodes: number;
   animations: number;
@@ -163,9 +163,10 @@ export interface InspectReport {
   extensionsRequired: string[];
   /** Names of KHR_materials_variants. */
   variants: string[];
-  /** Sentences for a person about the file as a whole: what was left out or mended as it was read. */
+  /** Human-readable warnings about the file as a whole: data that were ignored or repaired while reading. */
   warnings: string[];
-  /** What "generate" would take out of the coordinates of an OBJ, PLY or STL file far from the origin; zeros: nothing. */
+  /** Offset that "generate" would subtract from the coordinates of an OBJ, PLY or STL file far from the origin; zeros: none.
+   * */
   coordinateOffset: [number, number, number];
   /** One entry per primitive, in file order. */
   primitives: InspectedPrimitive[];
@@ -189,14 +190,14 @@ export interface InspectedPrimitive {
   vertices: number;
   indexType: "u8" | "u16" | "u32" | "none";
   compression: "none" | "meshopt" | "draco";
-  /** Such as "POSITION float3". */
+  /** Attribute and type, such as "POSITION float3". */
   attributes: string[];
   uvSets: number;
   morphTargets: number;
   skinned: boolean;
   hasNormals: boolean;
   hasTangents: boolean;
-  /** "hasTangents" is false, but the file may have some: the importer cannot give them. */
+  /** "hasTangents" is false, but the file may have tangents that the importer cannot read. */
   tangentsNotRead: boolean;
   /** Names of the formats of packed frames that it has, such as "frame32". */
   packedFrames: string[];
@@ -204,13 +205,13 @@ export interface InspectedPrimitive {
   needsTangents: boolean;
   /** What reads the tangents: "normalTexture", "clearcoatNormalTexture", "anisotropy", or empty. */
   neededBy: "normalTexture" | "clearcoatNormalTexture" | "anisotropy" | "";
-  /** Everything in its materials that needs tangents; they follow the first. */
+  /** The textures of its materials that need tangents; the tangents follow the first one. */
   tangentUses: TangentUse[];
-  /** Materials that KHR_materials_variants can put on it. */
+  /** Materials that KHR_materials_variants can assign to it. */
   variantMaterials: number;
   /** Nodes that draw its mesh. */
   nodes: number;
-  /** How often they draw it; EXT_mesh_gpu_instancing counts each. */
+  /** Number of times it is drawn; EXT_mesh_gpu_instancing counts each instance. */
   instances: number;
   /** The n of the "TEXCOORD_n" that tangents would follow, or -1. */
   uvSet: number;
@@ -218,14 +219,14 @@ export interface InspectedPrimitive {
   degenerateUvTriangles: number;
   /** Triangles with two corners at one position. */
   degenerateTriangles: number;
-  /** Random offsets of positions, as a standard deviation along the normal in mean edge lengths; 0: less than .03, or less
-   * than 1,000 triangles, or no memory to measure. */
+  /** Noise of the positions: standard deviation along the normal, in mean edge lengths; 0: less than 0.03, or fewer than 1,000
+   * triangles, or not enough memory to measure it. */
   positionNoise: number;
   /** Triangles that show the texture mirrored. */
   mirroredTriangles: number;
   /** Connected pieces of the UV map. */
   uvIslands: number;
-  /** Those of which most of the area is mirrored. */
+  /** UV islands whose area is mostly mirrored. */
   mirroredUvIslands: number;
 }
 
@@ -244,11 +245,11 @@ export interface TangentUse {
   uvSet: number;
   /** Of KHR_texture_transform. */
   uvOffset: [number, number];
-  /** Of the same, in radians. */
+  /** Rotation in radians. */
   uvRotation: number;
-  /** Of the same. */
+  /** Scale of the transform. */
   uvScale: [number, number];
-  /** Tangents made for the first entry fit this one too. */
+  /** Tangents made for the first texture fit this one too. */
   followsFirst: boolean;
 }
 
@@ -263,9 +264,9 @@ export interface IdentifyReport {
   format: string;
   /** The program that wrote the file; may be empty. */
   generator: string;
-  /** Sentences for a person about the file as a whole. */
+  /** Human-readable warnings about the file as a whole. */
   warnings: string[];
-  /** Two or three sentences for a person. */
+  /** Human-readable summary of two or three sentences. */
   verdict: string;
   /** Over all primitives, along the texture's UV set, the best method first. */
   explanations: Explanation[];
@@ -280,23 +281,23 @@ export interface Explanation {
   method: string;
   /** "quads" where pairs of triangles explain clearly more (mikktspace only), else "triangles". */
   faces: "triangles" | "quads";
-  /** The n of the "TEXCOORD_n" that was followed; -1 over several primitives. */
+  /** N of the "TEXCOORD_n" that was used; -1 over several primitives. */
   uvSet: number;
-  /** It is the set that the texture reads. */
+  /** It is the UV set that the texture uses. */
   isTexturesSet: boolean;
-  /** The UVs were taken as KHR_texture_transform turns or mirrors them. */
+  /** The UVs were used as rotated or mirrored by KHR_texture_transform. */
   isTransformed: boolean;
   /** Corners compared. */
   corners: number;
-  /** Corners of triangles whose UVs have no area: they vote in nothing. */
+  /** Corners of triangles without UV area, which are ignored. */
   undecidedCorners: number;
-  /** Of those, within the tolerance of the method's tangent. */
+  /** Corners of these within the tolerance of the method's tangent. */
   near: number;
   /** Within the tolerance at some corner of the same vertex. */
   nearAtVertex: number;
   /** Mean angle to the method's tangent. */
   meanDeg: number;
-  /** Corners whose sign is the one that glTF wants. */
+  /** Corners whose sign is that of glTF. */
   gltfSigns: number;
   /** Corners whose sign is the opposite. */
   invertedSigns: number;
@@ -308,19 +309,19 @@ export interface IdentifiedPrimitive {
   /** JSON pointer, or "usemtl NAME" for OBJ. */
   place: string;
   mesh: number;
-  /** Its index in the mesh. */
+  /** Index of the primitive in its mesh. */
   primitive: number;
   /** May be empty. */
   meshName: string;
   /** May be empty. */
   materialName: string;
-  /** Why it was not looked at; empty: it was. */
+  /** Reason why it was not examined; empty: it was examined. */
   skipped: string;
   /** Every method along every UV set that has an area, the best first. */
   explanations: Explanation[];
 }
 
-/** How the frames of two models differ: diff. */
+/** Differences between the frames of two models: diff. */
 export interface DiffReport {
   schema: "tspace.diff/1";
   /** Version of the tool. */
@@ -333,15 +334,15 @@ export interface DiffReport {
   b: string;
   /** Null when ok. */
   error: null;
-  /** The tolerance of the run. */
+  /** Tolerance of the run. */
   toleranceDeg: number;
-  /** No angle above the tolerance, no sign differs, every triangle has a partner. */
+  /** No angle exceeds the tolerance, no sign differs, every triangle has a match. */
   isWithinTolerance: boolean;
-  /** Pairs of corners that were looked at. */
+  /** Pairs of corners that were examined. */
   corners: number;
   /** Pairs whose signs differ. */
   signChanges: number;
-  /** Triangles of both files without a partner. */
+  /** Triangles of both files without a match. */
   unpairedTriangles: number;
   /** Primitives with tangents in one file only. */
   missingTangents: number;
@@ -353,11 +354,11 @@ export interface DiffReport {
   normals: AngleStatistics;
   /** Angles between "sign * cross(N, T)". */
   bitangents: AngleStatistics;
-  /** Sentences for a person about the files, each behind the name of its file. */
+  /** Human-readable warnings, each preceded by the name of its file. */
   warnings: string[];
   /** The worst places, the largest angle first. */
   worst: FrameDifference[];
-  /** Those of A in file order, then those of B without a partner. */
+  /** The primitives of A in file order, then those of B without a match. */
   primitives: DiffedPrimitive[];
   /** That of the tool: 0, or 1 where something was found. */
   exitCode: 0 | 1;
@@ -369,9 +370,9 @@ export interface AngleStatistics {
   /** Pairs of which one has no direction (zero or not finite). */
   unusable: number;
   meanDeg: number;
-  /** Half of the pairs differ by this or less. */
+  /** Median. */
   medianDeg: number;
-  /** 95 % of the pairs. */
+  /** 95th percentile. */
   p95Deg: number;
   maxDeg: number;
   /** Pairs per bin, see "histogramUpperDeg". */
@@ -385,7 +386,7 @@ export interface FrameDifference {
   meshB: number;
   primitiveB: number;
   vertexB: number;
-  /** Where, in A. */
+  /** Location in A. */
   position: [number, number, number];
   tangentDeg: number;
   normalDeg: number;
@@ -400,7 +401,7 @@ export interface DiffedPrimitive {
   b: DiffedSide | null;
   /** May be empty. */
   meshName: string;
-  /** How the two were found to belong together. */
+  /** How the two were matched. */
   pairedBy: "geometry" | "name" | "order" | "none";
   pairedTriangles: number;
   signChanges: number;
@@ -416,11 +417,11 @@ export interface DiffedSide {
   /** JSON pointer, or "usemtl NAME" for OBJ. */
   place: string;
   mesh: number;
-  /** Its index in the mesh. */
+  /** Index of the primitive in its mesh. */
   primitive: number;
   triangles: number;
   hasTangents: boolean;
-  /** "hasTangents" is false, but the file may have some: the importer cannot give them. */
+  /** "hasTangents" is false, but the file may have tangents that the importer cannot read. */
   tangentsNotRead: boolean;
   hasNormals: boolean;
 }

@@ -24,13 +24,13 @@ class CheckReport(Findings):
     generator: str
     #: Primitives in the file.
     primitives: int
-    #: Those of them whose tangents were examined.
+    #: Primitives whose tangents were examined.
     primitives_with_tangents: int
-    #: Images that were looked at: what their channels hold.
+    #: Images whose channel contents were examined.
     normal_maps: int
-    #: Those of them whose relief says which way green points.
+    #: Images whose relief shows the direction of green.
     normal_maps_with_green: int
-    #: What an image holds as a normal map that was checked without a model; null for a model.
+    #: Content of an image that was checked as a normal map without a model; null for a model.
     image: Optional[CheckedImage]
     #: One entry for each format of packed frames of each primitive, in file order.
     packed_frames: List[CheckedPackedFrames]
@@ -50,7 +50,7 @@ class CheckedImage(Report):
     content: str
     #: Direction of green, or of y where that is in another channel, if x is right: "up", "down", "mixed" or "unknown".
     green: str
-    #: How many blocks of texels agree beyond an even split, 0 to 1.
+    #: Share of texel blocks that agree, beyond an even split, 0 to 1.
     green_confidence: float
 
 
@@ -59,7 +59,7 @@ class CheckedPackedFrames(Report):
     place: str
     #: Its name, such as "_FRAME32"; of two that hold one frame the first.
     attribute: str
-    #: Such as "frame32".
+    #: Format name, such as "frame32".
     format: str
     #: Index of the mesh.
     mesh: int
@@ -68,16 +68,16 @@ class CheckedPackedFrames(Report):
     vertices: int
     #: False: a finding "packedFramesUnreadable" says why.
     readable: bool
-    #: NORMAL and TANGENT are there; if not, angles and signs here are 0.
+    #: NORMAL and TANGENT exist; if not, angles and signs here are 0.
     compared: bool
     #: The largest angle between N as decoded and NORMAL.
     worst_normal_degrees: float
-    #: The same of T and TANGENT, made orthogonal to NORMAL where it is not.
+    #: Largest angle between T as decoded and TANGENT, made orthogonal to NORMAL if necessary.
     worst_tangent_degrees: float
-    #: What the format promises.
+    #: Error bound that the format guarantees.
     promised_normal_degrees: float
     promised_tangent_degrees: float
-    #: Vertices with another sign than TANGENT.
+    #: Vertices whose sign differs from TANGENT.
     differing_signs: int
 
 
@@ -89,7 +89,7 @@ class FindingCounts(Report):
 
 @dataclass(frozen=True)
 class Finding:
-    #: Stable name of what was found.
+    #: Stable code of the finding.
     code: str
     severity: str
     #: JSON pointer of the primitive, morph target, attribute or texture; for OBJ "usemtl NAME"; empty: the whole file.
@@ -102,26 +102,26 @@ class Finding:
     mesh_name: str
     #: May be empty.
     material_name: str
-    #: What is counted: "vertices", "triangles", "targets" (of a morph), "blocks" or "texels" (of an image), "images",
+    #: Counted unit: "vertices", "triangles", "targets" (of a morph), "blocks" or "texels" (of an image), "images",
     #: "textures", "attributes", "primitives", "meshes" or "files".
     unit: str
-    #: How many have it.
+    #: Number of elements that have the fault.
     count: int
-    #: Of how many that could have it.
+    #: Number of candidates.
     total: int
-    #: Their part of the primitive's surface, 0 to 1; 0 where that says nothing.
+    #: Their share of the primitive's surface, 0 to 1; 0 if not applicable.
     surface_share: float
     #: The largest angle, for findings about angles; else 0.
     worst_degrees: float
-    #: 0 to 1; below 1 for findings that rest on statistics.
+    #: 0 to 1; below 1 for statistical findings.
     confidence: float
     #: The first of them.
     vertices: Tuple[int, ...]
-    #: One sentence for a person.
+    #: Human-readable summary in one sentence.
     message: str
-    #: How to mend it, for a person.
+    #: Human-readable fix.
     remedy: str
-    #: The view of tspace render --show that shows it; empty: none does.
+    #: View of "tspace render --show" that makes it visible; empty: none.
     show: str
     #: Commands that "remedy" names, in its order.
     commands: Tuple[RemedyCommand, ...]
@@ -137,13 +137,13 @@ class RemedyCommand:
     options: Tuple[RemedyOption, ...]
     #: Words among inputs and values that the user replaces, such as "OUT.png".
     placeholders: Tuple[str, ...]
-    #: The command line, as it stands in "remedy".
+    #: Command line, as in "remedy".
     line: str
 
 
 @dataclass(frozen=True)
 class RemedyOption:
-    #: Without dashes; "o": where the result goes.
+    #: Name without dashes; "o" is the output.
     name: str
     #: Empty: the option is a flag.
     value: str
@@ -160,11 +160,11 @@ class InspectReport(Report):
     format: str
     #: The program that wrote the file; may be empty.
     generator: str
-    #: The model file and what it loads, without images.
+    #: The model file and the files that it loads, without images.
     file_bytes: int
     #: For OBJ: objects and groups with faces.
     meshes: int
-    #: For OBJ: those that faces use and an MTL file has.
+    #: For OBJ: materials that faces use and an MTL file defines.
     materials: int
     nodes: int
     animations: int
@@ -173,10 +173,10 @@ class InspectReport(Report):
     extensions_required: List[str]
     #: Names of KHR_materials_variants.
     variants: List[str]
-    #: Sentences for a person about the file as a whole: what was left out or mended as it was read.
+    #: Human-readable warnings about the file as a whole: data that were ignored or repaired while reading.
     warnings: List[str]
-    #: What "generate" would take out of the coordinates of an OBJ, PLY or STL file far from the origin; zeros:
-    #: nothing.
+    #: Offset that "generate" would subtract from the coordinates of an OBJ, PLY or STL file far from the origin;
+    #: zeros: none.
     coordinate_offset: List[float]
     #: One entry per primitive, in file order.
     primitives: List[InspectedPrimitive]
@@ -200,14 +200,14 @@ class InspectedPrimitive(Report):
     vertices: int
     index_type: str
     compression: str
-    #: Such as "POSITION float3".
+    #: Attribute and type, such as "POSITION float3".
     attributes: List[str]
     uv_sets: int
     morph_targets: int
     skinned: bool
     has_normals: bool
     has_tangents: bool
-    #: "hasTangents" is false, but the file may have some: the importer cannot give them.
+    #: "hasTangents" is false, but the file may have tangents that the importer cannot read.
     tangents_not_read: bool
     #: Names of the formats of packed frames that it has, such as "frame32".
     packed_frames: List[str]
@@ -215,13 +215,13 @@ class InspectedPrimitive(Report):
     needs_tangents: bool
     #: What reads the tangents: "normalTexture", "clearcoatNormalTexture", "anisotropy", or empty.
     needed_by: str
-    #: Everything in its materials that needs tangents; they follow the first.
+    #: The textures of its materials that need tangents; the tangents follow the first one.
     tangent_uses: List[TangentUse]
-    #: Materials that KHR_materials_variants can put on it.
+    #: Materials that KHR_materials_variants can assign to it.
     variant_materials: int
     #: Nodes that draw its mesh.
     nodes: int
-    #: How often they draw it; EXT_mesh_gpu_instancing counts each.
+    #: Number of times it is drawn; EXT_mesh_gpu_instancing counts each instance.
     instances: int
     #: The n of the "TEXCOORD_n" that tangents would follow, or -1.
     uv_set: int
@@ -229,14 +229,14 @@ class InspectedPrimitive(Report):
     degenerate_uv_triangles: int
     #: Triangles with two corners at one position.
     degenerate_triangles: int
-    #: Random offsets of positions, as a standard deviation along the normal in mean edge lengths; 0: less than .03, or
-    #: less than 1,000 triangles, or no memory to measure.
+    #: Noise of the positions: standard deviation along the normal, in mean edge lengths; 0: less than 0.03, or fewer
+    #: than 1,000 triangles, or not enough memory to measure it.
     position_noise: float
     #: Triangles that show the texture mirrored.
     mirrored_triangles: int
     #: Connected pieces of the UV map.
     uv_islands: int
-    #: Those of which most of the area is mirrored.
+    #: UV islands whose area is mostly mirrored.
     mirrored_uv_islands: int
 
 
@@ -255,11 +255,11 @@ class TangentUse(Report):
     uv_set: int
     #: Of KHR_texture_transform.
     uv_offset: List[float]
-    #: Of the same, in radians.
+    #: Rotation in radians.
     uv_rotation: float
-    #: Of the same.
+    #: Scale of the transform.
     uv_scale: List[float]
-    #: Tangents made for the first entry fit this one too.
+    #: Tangents made for the first texture fit this one too.
     follows_first: bool
 
 
@@ -274,9 +274,9 @@ class IdentifyReport(Report):
     format: str
     #: The program that wrote the file; may be empty.
     generator: str
-    #: Sentences for a person about the file as a whole.
+    #: Human-readable warnings about the file as a whole.
     warnings: List[str]
-    #: Two or three sentences for a person.
+    #: Human-readable summary of two or three sentences.
     verdict: str
     #: Over all primitives, along the texture's UV set, the best method first.
     explanations: List[Explanation]
@@ -291,23 +291,23 @@ class Explanation(Report):
     method: str
     #: "quads" where pairs of triangles explain clearly more (mikktspace only), else "triangles".
     faces: str
-    #: The n of the "TEXCOORD_n" that was followed; -1 over several primitives.
+    #: N of the "TEXCOORD_n" that was used; -1 over several primitives.
     uv_set: int
-    #: It is the set that the texture reads.
+    #: It is the UV set that the texture uses.
     is_textures_set: bool
-    #: The UVs were taken as KHR_texture_transform turns or mirrors them.
+    #: The UVs were used as rotated or mirrored by KHR_texture_transform.
     is_transformed: bool
     #: Corners compared.
     corners: int
-    #: Corners of triangles whose UVs have no area: they vote in nothing.
+    #: Corners of triangles without UV area, which are ignored.
     undecided_corners: int
-    #: Of those, within the tolerance of the method's tangent.
+    #: Corners of these within the tolerance of the method's tangent.
     near: int
     #: Within the tolerance at some corner of the same vertex.
     near_at_vertex: int
     #: Mean angle to the method's tangent.
     mean_deg: float
-    #: Corners whose sign is the one that glTF wants.
+    #: Corners whose sign is that of glTF.
     gltf_signs: int
     #: Corners whose sign is the opposite.
     inverted_signs: int
@@ -319,20 +319,20 @@ class IdentifiedPrimitive(Report):
     #: JSON pointer, or "usemtl NAME" for OBJ.
     place: str
     mesh: int
-    #: Its index in the mesh.
+    #: Index of the primitive in its mesh.
     primitive: int
     #: May be empty.
     mesh_name: str
     #: May be empty.
     material_name: str
-    #: Why it was not looked at; empty: it was.
+    #: Reason why it was not examined; empty: it was examined.
     skipped: str
     #: Every method along every UV set that has an area, the best first.
     explanations: List[Explanation]
 
 
 class DiffReport(Report):
-    """How the frames of two models differ: diff."""
+    """Differences between the frames of two models: diff."""
 
     schema: str
     #: Version of the tool.
@@ -345,15 +345,15 @@ class DiffReport(Report):
     b: str
     #: Null when ok.
     error: None
-    #: The tolerance of the run.
+    #: Tolerance of the run.
     tolerance_deg: float
-    #: No angle above the tolerance, no sign differs, every triangle has a partner.
+    #: No angle exceeds the tolerance, no sign differs, every triangle has a match.
     is_within_tolerance: bool
-    #: Pairs of corners that were looked at.
+    #: Pairs of corners that were examined.
     corners: int
     #: Pairs whose signs differ.
     sign_changes: int
-    #: Triangles of both files without a partner.
+    #: Triangles of both files without a match.
     unpaired_triangles: int
     #: Primitives with tangents in one file only.
     missing_tangents: int
@@ -365,11 +365,11 @@ class DiffReport(Report):
     normals: AngleStatistics
     #: Angles between "sign * cross(N, T)".
     bitangents: AngleStatistics
-    #: Sentences for a person about the files, each behind the name of its file.
+    #: Human-readable warnings, each preceded by the name of its file.
     warnings: List[str]
     #: The worst places, the largest angle first.
     worst: List[FrameDifference]
-    #: Those of A in file order, then those of B without a partner.
+    #: The primitives of A in file order, then those of B without a match.
     primitives: List[DiffedPrimitive]
     #: That of the tool: 0, or 1 where something was found.
     exit_code: int
@@ -381,9 +381,9 @@ class AngleStatistics(Report):
     #: Pairs of which one has no direction (zero or not finite).
     unusable: int
     mean_deg: float
-    #: Half of the pairs differ by this or less.
+    #: Median.
     median_deg: float
-    #: 95 % of the pairs.
+    #: 95th percentile.
     p95_deg: float
     max_deg: float
     #: Pairs per bin, see "histogramUpperDeg".
@@ -397,7 +397,7 @@ class FrameDifference(Report):
     mesh_b: int
     primitive_b: int
     vertex_b: int
-    #: Where, in A.
+    #: Location in A.
     position: List[float]
     tangent_deg: float
     normal_deg: float
@@ -412,7 +412,7 @@ class DiffedPrimitive(Report):
     b: Optional[DiffedSide]
     #: May be empty.
     mesh_name: str
-    #: How the two were found to belong together.
+    #: How the two were matched.
     paired_by: str
     paired_triangles: int
     sign_changes: int
@@ -428,11 +428,11 @@ class DiffedSide(Report):
     #: JSON pointer, or "usemtl NAME" for OBJ.
     place: str
     mesh: int
-    #: Its index in the mesh.
+    #: Index of the primitive in its mesh.
     primitive: int
     triangles: int
     has_tangents: bool
-    #: "hasTangents" is false, but the file may have some: the importer cannot give them.
+    #: "hasTangents" is false, but the file may have tangents that the importer cannot read.
     tangents_not_read: bool
     has_normals: bool
 
@@ -443,7 +443,7 @@ class BakeReport(Report):
     schema: str
     #: Version of the tool.
     version: str
-    #: The bake was done; where no ray met anything nothing is written all the same.
+    #: The bake succeeded; if no ray hit anything, nothing is written all the same.
     ok: bool
     #: Path of the low poly.
     low: str
@@ -457,19 +457,19 @@ class BakeReport(Report):
     error: None
     low_triangles: int
     high_triangles: int
-    #: The low poly lacked normals or tangents, which were made.
+    #: The low poly lacked normals or tangents, which were computed.
     frames_made: bool
-    #: Objects of the low poly saw their own of the high poly alone.
+    #: Each object of the low poly was baked only from its matching object of the high poly.
     matched_by_name: bool
     #: Normal maps of the high poly that were baked through.
     high_maps: List[HighMap]
     #: One entry per map.
     files: List[BakedMap]
-    #: Paths of everything that was written.
+    #: Paths of all written files.
     output_files: List[str]
-    #: What makes maps useless, with the cause where it was found; the exit code is 1 where there is one.
+    #: Faults that make a map unusable, with the cause if it was determined; if there are any, the exit code is 1.
     findings: List[str]
-    #: Sentences for a person.
+    #: Human-readable warnings.
     warnings: List[str]
     #: That of the tool: 0, or 1 where something was found.
     exit_code: int
@@ -480,134 +480,135 @@ class HighMap(Report):
     image: str
     #: The first material that shows it; may be empty.
     material: str
-    #: Of x and y.
+    #: Factor of x and y (glTF's "normalTexture.scale").
     scale: float
-    #: Which way green points.
+    #: Direction of green.
     green: str
-    #: How that is known: as the format has it, by "--high-green", by the file, or by the slopes of the map.
+    #: Source of the direction: the format, "--high-green", the file, or the slopes of the map.
     green_is: str
     #: Triangles of the high poly that show it.
     triangles: int
 
 
 class BakedMap(Report):
-    #: Path of the normal map; empty where "--maps" does not ask for it.
+    #: Path of the normal map; empty if "--maps" does not include it.
     path: str
     #: Its material's name; may be empty.
     material: str
-    #: With "--udim" 1001 and on; else 0.
+    #: UDIM tile number (1001, ...) with "--udim"; else 0.
     tile: int
     width: int
     height: int
-    #: Of a channel of the normal map.
+    #: Bits per channel of the normal map.
     bits: int
     #: Of the low poly.
     triangles: int
-    #: Texels by what became of them.
+    #: Texel counts by state.
     texels: BakedTexels
-    #: How far apart the normals are that triangles want in conflicting texels, in the mean; 0 without.
+    #: Mean angle between the normals that triangles need in conflicting texels; 0 without conflicts.
     conflict_mean_deg: float
     #: The largest of these angles.
     conflict_max_deg: float
-    #: Triangles of the material with UVs outside of 0 to 1, which have no say.
+    #: Triangles of the material outside the 0-1 UV range, which were ignored.
     outside_triangles: int
     #: Triangles without UV area, or whose UVs are not finite.
     degenerate_uvs: int
-    #: Which front counted: "outermost" or "nearest"; "cage": the first from the cage of its own.
+    #: Front face that was baked: "outermost" or "nearest"; "cage": the first one from the cage mesh.
     rays: str
-    #: Where rays pointed: as "--directions", or by the image ("skew") or the cage ("cage").
+    #: Ray directions: a value of "--directions", or "skew" (skew map) or "cage" (cage mesh).
     directions: str
-    #: How far rays went from the low poly, in units of the models.
+    #: Ray distance from the low poly, in model units.
     reach: float
-    #: How far from the low poly's faces rays began; 0 with a cage of its own.
+    #: Cage distance from the low poly's faces, in model units; 0 with a cage mesh.
     cage_offset: float
-    #: The angles between what the map shows and the outermost front of the high poly; null without a normal map.
+    #: Angles between the shaded normals of the map and the outermost front face of the high poly; null without a
+    #: normal map.
     error: Optional[MapAngles]
-    #: With "--rays nearest" the angles to what its own rays met; else null.
+    #: With "--rays nearest", the angles to the hits of its own rays; else null.
     own_error: Optional[MapAngles]
-    #: With "--heat": what white stands for; else 0.
+    #: With "--heat", the value mapped to white; else 0.
     heat_top_deg: float
-    #: The other maps that "--maps" asks for, in its order.
+    #: The other maps of "--maps", in its order.
     maps: List[BakedLayer]
 
 
 class BakedTexels(Report):
-    #: Texels whose centre lies in a triangle and whose line met the high poly.
+    #: Texels whose center lies in a triangle and whose ray hit the high poly.
     baked: int
-    #: Those whose line met nothing; filled from around.
+    #: Texels whose ray hit nothing; they were filled from their neighbors.
     missed: int
-    #: Texels that continue the nearest triangle.
+    #: Padding texels.
     padding: int
-    #: Texels whose centre lies inside of several triangles.
+    #: Texels whose center lies inside several triangles.
     overlapping: int
-    #: Those of them whose triangles want normals over 2 degrees apart.
+    #: Texels of these whose triangles need normals that differ by more than 2 degrees.
     conflicting: int
 
 
 class MapAngles(Report):
-    #: Points that met the high poly.
+    #: Samples that hit the high poly.
     points: int
-    #: Points whose ray met no front of it; each counts as 90 degrees.
+    #: Samples whose ray hit no front face; each counts as 90 degrees.
     missed: int
-    #: Points whose ray met another front of the high poly further out than the one that counts.
+    #: Samples whose ray hit another front face of the high poly further out than the baked one.
     hidden: int
-    #: Points whose ray went through a back of the high poly before the front that counts, or met backs alone.
+    #: Samples whose ray passed a back face of the high poly before the baked front face, or hit only back faces.
     backs: int
-    #: Points that met a front whose normal points inwards.
+    #: Samples that hit a front face whose normal points inwards.
     inward: int
-    #: The mean of the angles between shaded normal and high poly, of all points.
+    #: Mean angle between the shaded normal and the high poly, over all samples.
     mean_deg: float
-    #: The mean of the points that met the high poly.
+    #: Mean over the samples that hit the high poly.
     met_mean_deg: float
-    #: What 99 % of them are below.
+    #: 99th percentile.
     p99_deg: float
-    #: The largest.
+    #: Maximum.
     max_deg: float
-    #: Points within a texel of a border of the UV map.
+    #: Samples within one texel of a UV border.
     seam_points: int
-    #: Their mean.
+    #: Mean over these samples.
     seam_mean_deg: float
-    #: That of the others.
+    #: Mean over the other samples.
     inside_mean_deg: float
 
 
 class BakedLayer(Report):
-    #: Which map: its name in "--maps".
+    #: Name of the map, as in "--maps".
     map: str
     #: Path of its file.
     path: str
-    #: Of a channel.
+    #: Bits per channel.
     bits: int
-    #: Its numbers have the sRGB curve.
+    #: Its values are sRGB-encoded.
     srgb: bool
-    #: What 0 of each of the three channels stands for: lengths in units of the models, of "curvature" 1 / length.
+    #: Value that 0 represents, for each of the three channels: lengths in model units; for "curvature", 1/length.
     black: List[float]
-    #: What the largest number of each channel stands for.
+    #: Value that the largest number of each channel represents.
     white: List[float]
-    #: Of "id": how many materials, objects or shells the high poly has; else 0.
+    #: For "id", the number of materials, objects or shells of the high poly; else 0.
     id_count: int
-    #: Of "id": the first 256 of them; else empty.
+    #: For "id", its first 256 entries; else empty.
     ids: List[BakedId]
 
 
 class BakedId(Report):
-    #: Of the material or object; empty for shells.
+    #: Name of the material or object; empty for shells.
     name: str
-    #: Its colour in the map: "#rrggbb".
+    #: Its color in the map: "#rrggbb".
     color: str
 
 
 class FinishReport(Report):
-    """A model that was made ready: "tspace finish" (finish)."""
+    """A finished model: "tspace finish" (finish)."""
 
     schema: str
     #: Version of the tool.
     version: str
-    #: Nothing failed; where no ray of a bake met anything nothing is written all the same.
+    #: Nothing failed; if no ray of a bake hit anything, nothing is written all the same.
     ok: bool
     #: Path of the input.
     input: str
-    #: Path of the low poly; empty without.
+    #: Path of the low poly; empty without one.
     low: str
     #: Path of the output, as it was given.
     output: str
@@ -617,28 +618,28 @@ class FinishReport(Report):
     error: None
     #: The input, and with "--low" the low poly.
     models: List[FinishedModel]
-    #: What "check" finds in the output; null where nothing was written.
+    #: Findings of "check" in the output; null if nothing was written.
     check: Optional[CheckReport]
     #: With "--low" the report of the bake, as tspace.bake/1; else null.
     bake: Optional[BakeReport]
-    #: Paths of everything that was written, the model first, but for the file of "--report".
+    #: Paths of all written files except that of "--report", the model first.
     output_files: List[str]
-    #: Of the model.
+    #: Size of the model file.
     output_bytes: int
-    #: What could not be done, and what does it: sentences for a person.
+    #: Human-readable sentences on what could not be done, and which tools do it.
     remarks: List[str]
     #: That of the tool: 0, or 1 where something was found.
     exit_code: int
 
 
 class FinishedModel(Report):
-    #: Winding, normals and tangents that were made; names no output.
+    #: The winding, normals and tangents that were computed; its output path is empty.
     made: GenerateReport
-    #: What "check" finds in the file as it was.
+    #: Findings of "check" in the input.
     before: CheckReport
-    #: The same in sentences for a person.
+    #: Human-readable sentences.
     done: List[str]
     #: Primitives with triangles and without UVs.
     without_uvs: int
-    #: Triangles that stay as they are wound, because the normals that are there fit them so.
+    #: Triangles whose winding was kept, because the existing normals fit it.
     left_winding: int

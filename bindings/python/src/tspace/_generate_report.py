@@ -11,7 +11,7 @@ from ._report import Report
 class GenerateReport(Report):
     #: Path of the input.
     input: str
-    #: Path of the output; empty when the input led to none.
+    #: Path of the output; empty if there is none for this input.
     output: str
     #: The output was written.
     ok: bool
@@ -23,22 +23,22 @@ class GenerateReport(Report):
     skipped: bool
     #: False when the output is byte for byte the input.
     changed: bool
-    #: The model file and what it loads.
+    #: The model file and the files that it loads.
     input_bytes: int
-    #: Everything that was written.
+    #: All written files.
     output_bytes: int
-    #: Paths of everything that was written, the model first.
+    #: Paths of all written files, the model first.
     output_files: List[str]
-    #: Sentences for a person.
+    #: Human-readable warnings.
     warnings: List[str]
-    #: What was taken out of the coordinates of an OBJ, PLY or STL file, and is the translation of the nodes; zeros:
-    #: nothing was.
+    #: Offset that was subtracted from the coordinates of an OBJ, PLY or STL file and is the translation of the nodes;
+    #: zeros: none.
     coordinate_offset: List[float]
     #: Sums over the primitives.
     totals: GenerateTotals
-    #: With "--mend-winding", one entry per mesh with triangles; from OBJ one for the file.
+    #: With "--fix-winding", one entry per mesh with triangles; from OBJ one for the file.
     windings: List[MendedWinding]
-    #: With "--flip-green", "--flip-green-all" or "--mend-maps", one entry per image that is a normal map; from OBJ one
+    #: With "--flip-green", "--flip-green-all" or "--fix-maps", one entry per image that is a normal map; from OBJ one
     #: for each material whose height map became a normal map.
     normal_maps: List[JudgedMap]
     #: With "--convert-maps", one entry for each normal map and the primitives that share it.
@@ -52,15 +52,15 @@ class GenerateReport(Report):
 class GenerateTotals(Report):
     #: Primitives in the file.
     primitives: int
-    #: Primitives by what was done with them.
+    #: Primitive counts by action.
     actions: ActionCounts
     #: Triangles of the primitives that were computed.
     triangles: int
     #: Their vertices in the input; vertices that several of them share count once.
     vertices_before: int
-    #: The same after vertices were split.
+    #: Vertices after splitting.
     vertices_after: int
-    #: Corners whose tangents were mended.
+    #: Corners whose tangents were repaired.
     mended: int
     #: Morph targets whose tangent deltas were computed.
     morph_deltas: int
@@ -73,31 +73,31 @@ class MendedWinding(Report):
     mesh: int
     #: May be empty.
     mesh_name: str
-    #: Faces with at least 3 corners; what several primitives draw counts once.
+    #: Faces with at least 3 corners; faces that several primitives draw count once.
     faces: int
     #: Faces that were turned.
     turned: int
-    #: Pairs of neighbours that run through their edge in the same direction.
+    #: Neighboring faces that traverse their common edge in the same direction.
     conflicts_before: int
-    #: The same afterwards.
+    #: Conflicting edges afterwards.
     conflicts_after: int
-    #: Parts that hang together over edges.
+    #: Components connected by edges.
     components: int
-    #: Those of which more than half of the faces were turned.
+    #: Components with more than half of their faces turned.
     turned_components: int
-    #: Components whose outside the normals of the file decided.
+    #: Components oriented by the normals of the file.
     by_normals: int
-    #: Closed ones: their volume did.
+    #: Closed components, oriented by their volume.
     by_volume: int
-    #: Closed ones that lie in another: as they mostly were, or, where that said nothing, a cavity.
+    #: Closed components inside another one: oriented like most of their area or, if that is undecided, as a cavity.
     by_nesting: int
-    #: Open ones with an inside.
+    #: Open components with an inside.
     by_winding_number: int
-    #: Open ones without: as most of the area was wound.
+    #: Open components without an inside, oriented like most of their area.
     by_majority: int
-    #: Components of fewer than 4 faces, which stay.
+    #: Components of fewer than 4 faces, which are unchanged.
     small: int
-    #: Components with one side only, as a Moebius band, which stay.
+    #: Non-orientable components, such as a Moebius strip, which are unchanged.
     one_sided: int
 
 
@@ -108,9 +108,9 @@ class JudgedMap(Report):
     name: str
     #: Its green channel was inverted.
     flipped: bool
-    #: It was written anew: it held something else than glTF reads, or heights.
+    #: It was rewritten: its encoding was not that of glTF, or it was a height map.
     mended: bool
-    #: Why nothing was done, or what it held, for a person; empty where green alone was inverted.
+    #: Human-readable reason why the map is unchanged, or its former encoding; empty if only green was inverted.
     reason: str
 
 
@@ -119,25 +119,25 @@ class ConvertedMap(Report):
     image: int
     #: Name or URI of the image; may be empty.
     name: str
-    #: These primitives show a new map.
+    #: The primitives show a new map.
     converted: bool
-    #: Why not, for a person; empty where they do.
+    #: Human-readable reason; empty where they do.
     reason: str
     #: Index of the new image in the output; null where there is none.
     new_image: Optional[int]
-    #: Indices of the input's materials that show it.
+    #: Indices of the input's materials that use it.
     materials: List[int]
-    #: How many primitives show it.
+    #: Number of primitives that use it.
     primitives: int
-    #: Of a channel of the new map; 0 where there is none.
+    #: Bits per channel of the new map; 0 if there is none.
     bits: int
     #: Texels that changed.
     changed: int
-    #: What is left of the change: between what the primitives show after and before, in the mean over their texels.
+    #: Remaining error: mean angle between the shaded normals before and after, over the texels of the primitives.
     mean_error_deg: float
-    #: The same with the old map.
+    #: That error with the old map.
     mean_error_unconverted_deg: float
-    #: Sentences for a person.
+    #: Human-readable warnings.
     notes: List[str]
 
 
@@ -152,75 +152,75 @@ class GeneratedPrimitive(Report):
     material_name: str
     #: What was done with its tangents, as in "totals.actions".
     action: str
-    #: Why, for a person.
+    #: Human-readable reason.
     reason: str
-    #: Further sentences: textures that want other tangents, texture transforms, repairs.
+    #: Further remarks: textures that need different tangents, texture transforms, repairs.
     notes: List[str]
     #: The n of the "TEXCOORD_n" that the tangents follow, or -1.
     uv_set: int
-    #: What its tangents were computed on: "triangles" or "quads".
+    #: Faces that its tangents were computed on: "triangles" or "quads".
     faces: str
-    #: How many of those faces are quads, or polygons with more corners (OBJ).
+    #: Number of those faces that are quads, or polygons with more corners (OBJ).
     quads: int
     triangles: int
     vertices_before: int
-    #: More than before where vertices were split.
+    #: Vertices in the output; more than in the input if vertices were split.
     vertices_after: int
-    #: "--repair": those of "verticesBefore" whose tangents were wrong; all others keep theirs.
+    #: "--repair": vertices of "verticesBefore" whose tangents were wrong; all others keep theirs.
     mended_vertices: int
-    #: Normals were made: the input had none, or they were to be made anew.
+    #: Normals were computed: the input had none, or they were to be recomputed.
     normals_generated: bool
-    #: It had normals, and they were made anew.
+    #: It had normals, and they were recomputed.
     normals_replaced: bool
-    #: Positions at which its normals were made with triangles of other primitives too.
+    #: Positions whose normals were also computed from triangles of other primitives.
     normals_joined: int
     #: Corners whose new normal points behind their own triangle.
     normals_behind: int
-    #: Triangles that are wound against most of those that they are connected with. Counted where normals were made,
-    #: and where vertices were split for one in twenty or more; else 0, as "twoSidedTriangles".
+    #: Triangles whose winding is opposite to most of the connected triangles. Counted if normals were computed, or if
+    #: vertices were split for at least one triangle in twenty; else 0, like "twoSidedTriangles".
     turned_triangles: int
-    #: Triangles of sheets with two sides: others with the same positions are wound the other way.
+    #: Triangles of two-sided sheets: other triangles have the same positions and the opposite winding.
     two_sided_triangles: int
-    #: Faces that were turned ("--mend-winding").
+    #: Faces that were turned ("--fix-winding").
     winding_mended: int
     #: Which these are, in ascending order: the first 256 ranges of triangles of the primitive; from OBJ of faces,
     #: numbered through the file.
     winding_mended_ranges: List[FaceRange]
     #: "_BITANGENT" was computed ("--bitangents").
     bitangents_generated: bool
-    #: "--pack": its frames are packed; where they are not, a note says why.
+    #: "--pack": its frames are packed; if they are not, a note gives the reason.
     packed: bool
-    #: Vertices whose frame was mended before it was packed.
+    #: Vertices whose frame was repaired before it was packed.
     packed_mended: int
-    #: NORMAL was taken away ("--pack-drop all").
+    #: NORMAL was removed ("--pack-drop all").
     normals_dropped: bool
-    #: TANGENT was taken away ("--pack-drop").
+    #: TANGENT was removed ("--pack-drop").
     tangents_dropped: bool
     #: Morph targets that the primitive has.
     morph_targets: int
-    #: Those whose tangent deltas were computed.
+    #: Morph targets whose tangent deltas were computed.
     morph_deltas: int
-    #: Those whose normal deltas were computed ("--morph-normals").
+    #: Morph targets whose normal deltas were computed ("--morph-normals").
     morph_normals: int
-    #: Corners, over all targets, whose frame in the moved shape has the other sign, which glTF cannot express.
+    #: Corners, over all targets, whose frame changes its sign in the morphed shape, which glTF cannot express.
     morph_sign_flips: int
     #: About generated normals; zeros when there are none. For OBJ the counts cover the whole file and stand with the
     #: first primitive that got normals.
     normals: GeneratedNormals
     #: Zeros where nothing was computed.
     tangents: GeneratedTangents
-    #: Corners that were mended.
+    #: Corners that were repaired.
     sanitize: MendedTangents
 
 
 class ActionCounts(Report):
     #: Tangents were added.
     generated: int
-    #: Tangents were there and were computed anew.
+    #: Existing tangents were recomputed.
     replaced: int
     #: Computed anew with the same bits as those in the file.
     unchanged: int
-    #: Tangents were there and stay.
+    #: Existing tangents were kept.
     kept: int
     #: The material needs no tangents.
     not_needed: int
@@ -228,14 +228,14 @@ class ActionCounts(Report):
     not_triangles: int
     #: No UVs, no positions, or nothing to compute.
     impossible: int
-    #: No material needs the tangents, and they were taken away.
+    #: No material needs the tangents, and they were removed.
     removed: int
 
 
 class FaceRange(Report):
     #: Number of the first face, from 0.
     first: int
-    #: How many follow one another.
+    #: Number of consecutive triangles.
     count: int
 
 
@@ -244,42 +244,42 @@ class GeneratedNormals(Report):
     faces: int
     #: Faces without a normal of their own.
     degenerate_faces: int
-    #: Corners whose mean vanished.
+    #: Corners whose weighted mean is zero.
     fallback_corners: int
-    #: Noise of positions that --denoise removed, as a standard deviation in mean edge lengths; 0: none.
+    #: Position noise that --denoise removed: standard deviation in mean edge lengths; 0: none.
     noise: float
-    #: Edges sharper than this are hard; 180: none is by its angle.
+    #: Edges sharper than this are hard, in degrees; 180: no hard edges.
     crease_deg: float
 
 
 class GeneratedTangents(Report):
-    #: Triangles computed with.
+    #: Triangles that tangents were computed on.
     triangles: int
     #: Two corners at the same position.
     degenerate_triangles: int
     #: No UV area.
     degenerate_uv_triangles: int
-    #: Negative UV area in the numbers of the file. In glTF, where V runs down, that is the ordinary case; "tspace
-    #: inspect" says what is mirrored to the eye.
+    #: Negative UV area in the stored values. In glTF, where V runs down, that is the usual case; "tspace inspect"
+    #: reports what looks mirrored.
     negative_uv_triangles: int
     #: Faces for which nothing was computed.
     skipped_faces: int
     #: Sets of corners that share one tangent.
     groups: int
-    #: Corners that no face gives a tangent.
+    #: Corners without a tangent from any face.
     default_corners: int
-    #: Corners whose tangent was NaN or infinite before mending.
+    #: Corners whose tangent was NaN or infinite before the repair.
     not_finite_corners: int
-    #: The last step of the reference was left out, because it would have taken quadratic time: when.
+    #: The last step of the reference was skipped, because it would have taken quadratic time: when.
     reference_order_abandoned: bool
 
 
 class MendedTangents(Report):
-    #: All of them.
+    #: Number of repaired corners.
     mended: int
-    #: By cause, the first that applies.
+    #: Corners by cause; the first applicable cause counts.
     causes: MendCauses
-    #: By cure.
+    #: Corners by kind of repair.
     cures: MendCures
     #: Corners whose normal is zero or not finite.
     bad_normals: int
@@ -300,7 +300,7 @@ class MendCauses(Report):
     bad_sign: int
     #: Corners of one face disagreed about the sign.
     mixed_sign: int
-    #: Sound, but changed by "--orthogonalize".
+    #: Valid, but changed by "--orthogonalize".
     orthogonalized: int
 
 
@@ -309,5 +309,5 @@ class MendCures(Report):
     normalized: int
     #: Direction of a sound corner nearby.
     from_neighbor: int
-    #: Made from the normal alone.
+    #: Tangents computed from the normal alone.
     from_basis: int

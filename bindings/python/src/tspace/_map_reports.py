@@ -9,7 +9,7 @@ from ._report import Report
 
 
 class FlipGreenReport(Report):
-    """An image whose green was inverted: flip-green."""
+    """An image with inverted green: flip-green."""
 
     schema: str
     #: Version of the tool.
@@ -24,22 +24,22 @@ class FlipGreenReport(Report):
     dry_run: bool
     #: Null when ok.
     error: None
-    #: Of the output.
+    #: Format of the output.
     format: str
     width: int
     height: int
-    #: Of a channel: 8 or 16, 32 of a texture of floats.
+    #: Bits per channel: 8 or 16, 32 for a float texture.
     bits: int
-    #: False where a JPEG was compressed once more, or a texture rounded to a PNG.
+    #: False if a JPEG was recompressed, or a texture was rounded to a PNG.
     exact: bool
-    #: Sentences for a person.
+    #: Human-readable warnings.
     warnings: List[str]
     #: That of the tool: 0, or 1 where something was found.
     exit_code: int
 
 
 class ConvertMapReport(Report):
-    """A normal map that was converted."""
+    """A converted normal map."""
 
     schema: str
     #: Version of the tool.
@@ -56,59 +56,59 @@ class ConvertMapReport(Report):
     error: None
     width: int
     height: int
-    #: Of a channel of the input, 8 or 16.
+    #: Bits per channel of the input, 8 or 16.
     bits_before: int
-    #: Of the output.
+    #: Bits per channel of the output.
     bits: int
-    #: What was taken of the model that the map was made for; null without one.
+    #: The part that was used of the model that the map was made for; null without a model.
     from_: Optional[MapMesh]
-    #: The same of the model that it is shown on; null where that is the same file.
+    #: The part that was used of the model that will show the map; null if it is the same file.
     to: Optional[MapMesh]
-    #: Texels that triangles or their padding show.
+    #: Texels inside triangles or their padding.
     converted: int
-    #: Those of them with another value than before.
+    #: Texels of these whose value changed.
     changed: int
-    #: Texels that no triangle shows; they stay.
+    #: Texels in no triangle; they are unchanged.
     background: int
-    #: Texels that stay since their frames or values are broken.
+    #: Texels that are unchanged because their frames or values are invalid.
     without_frame: int
-    #: Texels that two channels cannot say; they get z = 0.
+    #: Texels that two channels cannot represent; they get z = 0.
     below_horizon: int
-    #: Texels that several triangles show; the first decides.
+    #: Texels shared by several triangles; the first one is used.
     overlapping: int
-    #: Those of them whose triangles want directions in object space that are over 2 degrees apart.
+    #: Texels of these whose triangles need object-space directions that differ by more than 2 degrees.
     conflicting: int
-    #: Texels that stay since the other model has no triangle there.
+    #: Texels that are unchanged because the other model has no triangle there.
     unmatched: int
-    #: Texels that lie elsewhere in space on the other model.
+    #: Texels with a different position on the other model.
     apart: int
     #: Triangles without UV area.
     degenerate_uvs: int
     #: Triangles whose UVs are not finite, or show the image more than 64 times.
     bad_uvs: int
-    #: Between what texels show and what they would show unconverted.
+    #: Angles between the converted and the unconverted texels.
     mean_change_deg: float
     max_change_deg: float
-    #: Half a step of the output's integers, as an angle.
+    #: Half a quantization step of the output, as an angle.
     half_step_deg: float
-    #: The mean change is smaller, so rounding undoes it.
+    #: The mean change is smaller than that, so rounding cancels it.
     below_half_step: bool
-    #: Sentences for a person.
+    #: Human-readable warnings.
     warnings: List[str]
     #: That of the tool: 0, or 1 where something was found.
     exit_code: int
 
 
 class MapMesh(Report):
-    #: How many primitives show the map.
+    #: Number of primitives that use the map.
     primitives: int
     #: Their triangles.
     triangles: int
     #: Their names, each once.
     materials: List[str]
-    #: Some had no tangents, which were made.
+    #: Some primitives had no tangents, which were computed.
     tangents_made: bool
-    #: What its materials multiply x and y of the map by (glTF's "normalTexture.scale").
+    #: Factor that its materials apply to x and y of the map (glTF's "normalTexture.scale").
     scale: float
 
 
@@ -130,20 +130,20 @@ class HeightToNormalReport(Report):
     error: None
     width: int
     height: int
-    #: Of a channel of the input.
+    #: Bits per channel of the input.
     bits_before: int
-    #: Of the output, 8 or 16.
+    #: Bits per channel of the output, 8 or 16.
     bits: int
-    #: What was taken of the model; null without one.
+    #: The part of the model that was used; null without a model.
     mesh: Optional[MapMesh]
     #: Texels whose size was taken from the triangle that shows them.
     texels_on_mesh: int
-    #: The mean width of those, in units of the model; without a model the option texelSize, which is 1 by default.
+    #: Mean width of these texels, in model units; without a model the option texelSize, which is 1 by default.
     texel_size: float
-    #: Between the normals and the surface's, over all texels.
+    #: Angles between the normals and those of the surface, over all texels.
     mean_lean_deg: float
     max_lean_deg: float
-    #: Sentences for a person.
+    #: Human-readable warnings.
     warnings: List[str]
     #: That of the tool: 0, or 1 where something was found.
     exit_code: int
@@ -167,7 +167,7 @@ class CompressMapReport(Report):
     error: None
     width: int
     height: int
-    #: Of a channel of the input.
+    #: Bits per channel of the input.
     bits_before: int
     #: What was written: BC5, EAC RG11 signed, ASTC 4x4, PNG of 16 bits.
     format: str
@@ -175,26 +175,26 @@ class CompressMapReport(Report):
     levels: int
     #: Size of the output.
     output_bytes: int
-    #: Size of the roughness texture; 0: none was asked for.
+    #: Size of the roughness texture; 0: not requested.
     roughness_bytes: int
-    #: Of the first level, filtered: between the map with three channels and the texture.
+    #: Error of the first level, filtered: angle between the three-channel map and the texture.
     mean_error_deg: float
-    #: 99 % of the points are nearer.
+    #: 99th percentile.
     p99_error_deg: float
     max_error_deg: float
-    #: Where that is, in texels from the left.
+    #: X coordinate of that place, in texels from the left.
     max_error_x: float
-    #: And from the top.
+    #: Y coordinate of that place, in texels from the top.
     max_error_y: float
     #: Texels whose z is below 0.
     below_horizon: int
-    #: Texels that are a tenth or more longer or shorter than unit vectors.
+    #: Texels whose length deviates from 1 by 0.1 or more.
     not_unit: int
-    #: Of the roughness texture, with the factor; 0: none was asked for.
+    #: Mean roughness of the texture, with the factor; 0: not requested.
     mean_roughness: float
-    #: Of its last level as it was written.
+    #: Mean roughness of the last written mip level.
     mean_widened_roughness: float
-    #: Sentences for a person.
+    #: Human-readable warnings.
     warnings: List[str]
     #: That of the tool: 0, or 1 where something was found.
     exit_code: int
