@@ -45,7 +45,7 @@ must_find bindings/js/src/reports.d.ts 'worstDegrees: number' 'worstDegrees: str
 must_find bindings/python/src/tspace/_file_reports.py 'worst_degrees: float' 'worst_degrees: int' '+    worst_degrees: float'
 must_find $check '"remedy": {"type": "string"' '"remedy": {"type": "integer"' '+  remedy: number;'
 must_find $check '"message", "remedy", ' '"message", ' 'Finding: "required"'
-must_find $check '"description": "how to mend it' '"description": "only where it is known: how to mend it' 'Finding: "required"'
+must_find $check '"description": "human-readable fix' '"description": "only where it is known: human-readable fix' 'Finding: "required"'
 must_find $check '"else": {"maxProperties": 3}' '"else": {"maxProperties": 9}' 'CheckReport: "else"'
 must_find $check '"additionalProperties": false' '"additionalProperties": true' 'CheckDocument is no object without other members'
 must_find $check '"confidence": {"type": "number"' '"confidence": {"format": "date", "type": "number"' 'Finding.confidence: "format"'
