@@ -245,24 +245,6 @@ TEST(Usage, TheHelpCommandPrintsWhatTheHelpOptionPrints) {
     EXPECT_EQ(runTool(folder, "help nonsense").exit_code, 2);
 }
 
-TEST(Usage, TheDocumentationNamesEveryOption) {
-    std::string pages;
-    for (const char* page : {"reference/tool.md", "guides/batch.md", "reference/check.md", "guides/ci.md",
-                             "reference/diff.md", "reference/identify.md"}) {
-        std::ifstream file(std::filesystem::path(TSPACE_DOCS_DIR) / page);
-        ASSERT_TRUE(file) << page;
-        pages.append(std::istreambuf_iterator<char>(file), {});
-    }
-    std::size_t count = 0;
-    for (const std::string command : {"generate", "inspect", "check", "diff", "identify"}) {
-        for (const std::string& option : optionsInHelp(command)) {
-            ++count;
-            EXPECT_NE(pages.find("`" + option), std::string::npos) << command << " " << option;
-        }
-    }
-    EXPECT_GT(count, 50U);
-}
-
 TEST(Usage, HelpNamesCommandsAndExitCodes) {
     for (const std::string arguments : {"--help", "generate --help", "inspect --help", "generate -h"}) {
         const ToolRun run = runTool(TempFolder(), arguments);
