@@ -10,12 +10,29 @@ trap 'rm -rf "$work"' EXIT
 
 "$programs/tspace_demo_model" "$work/bare.glb"
 "$programs/tspace" generate -q "$work/bare.glb" -o "$work/crate.glb"
-# The README: signs are lost, and mended.
-python3 "$(dirname "$0")/lose_signs.py" "$work/crate.glb" "$work/lost.glb"
+# README and docs/problems: lost signs, averaged mirror seams, NaN, and the model after --repair.
+python3 "$(dirname "$0")/break_tangents.py" signs "$work/crate.glb" "$work/lost.glb"
+python3 "$(dirname "$0")/break_tangents.py" nan "$work/crate.glb" "$work/nan.glb"
+"$programs/tspace" generate -q "$work/bare.glb" -o "$work/averaged.glb" --method lengyel
 "$programs/tspace" generate -q --repair "$work/lost.glb" -o "$work/right.glb"
-for sign in lost right; do
-    "$programs/tspace" render -q "$work/$sign.glb" -o "$images/sign-$sign.png" --size 350 --samples 3 --no-legend --view 14,14 --fov 20 --light=-0.3,0.9,0.65
-done
+crate() {
+    "$programs/tspace" render -q "$work/$1.glb" -o "$images/$2.png" --size 350 --samples 3 --no-legend --view 14,14 --fov 20 --light=-0.3,0.9,0.65 "${@:3}"
+}
+crate lost sign-lost
+crate right sign-right
+crate averaged seam-averaged
+crate nan spots-nan
+crate right reading-unreal --reading unreal
+# docs/problems/baked-map-misses-bolts.md: rays that are too short for the bolts, and rays of the default length.
+python3 "$(dirname "$0")/bolt_models.py" "$work"
+bolts() {
+    "$programs/tspace" bake -q "$work/low.obj" --high "$work/high.obj" -o "$work/$1.png" --size 256 --out-mesh "$work/$1.glb" "${@:2}"
+    "$programs/tspace" render -q "$work/$1.glb" -o "$images/$1.png" --size 300x180 --samples 3 --no-legend --view 20,35 --fov 17
+}
+if "$programs/tspace" bake --help >/dev/null 2>&1; then
+    bolts bolts-missed --reach 0.05
+    bolts bolts-baked
+fi
 
 # docs/guides/flip-green.md: one map, read with green up and with green down.
 for reading in gltf=right directx=turned; do

@@ -93,7 +93,7 @@ TEST(Lengyel, GivesMirroredFacesTheSignMinusOne) {
 }
 
 TEST(Lengyel, GivesTheNumbersOfItsPage) {
-    // docs/concepts/methods/lengyel.md works this triangle through.
+    // docs/concepts/methods/simple.md works this triangle through.
     SimpleMesh mesh;
     mesh.positions = {{0, 0, 0}, {4, 1, 0}, {0, 2, 0}};
     mesh.normals = {{0.6f, 0, 0.8f}, {0, 0, 1}, {0, 0, 1}};
