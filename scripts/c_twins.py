@@ -17,6 +17,7 @@ TWINS = {
     "tspace_faceCount": "MeshView::faceCount",
     "tspace_arenaAllocator": "Arena::allocator",
     "tspace_arenaHeldBytes": "Arena::heldBytes",
+    "tspace_generateTangentsOfMeshes": "generateTangents(jobs)",  # an overload, by its first parameter
     "tspace_trimArena": "Arena::trim",
     "tspace_TangentPlanInfo": "TangentPlan",
     "tspace_arenaUsedBytes": "Arena::usedBytes",
@@ -31,6 +32,7 @@ C_ALONE = {
     r"tspace_(Byte)?Span": "a StridedSpan of what is not const",
     r"tspace_(Mesh\.face|NormalOptions\.smoothing_group|IndexedFramesOptions\.keep_apart)_count": "a span has its length",
     r"tspace_((SplitResult|IndexedFrames)\.corner|Triangulation\.triangle)_count": "a vector has its length",
+    r"tspace_MeshJob\.(report|error)": "the results that C++ returns in a list",
     r"tspace_createArena|tspace_destroy(?!Bytes)\w+": "constructors and destructors",
     r"tspace_describeTangentPlan|tspace_TangentPlanInfo": "TangentPlan has a function for each field",
     r"tspace_IndexedFrames\.\w+_report": "members of IndexedFramesReport; null stands for normals_made",

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
+#include <vector>
 
 #include "tspace/convention.h"
 #include "tspace/execution.h"
@@ -196,6 +198,30 @@ class TangentPlan {
 /// new.
 Result<TangentReport> generateTangents(const MeshView& mesh, const TangentOptions& options, const TangentOutput& out,
                                        const Execution& execution = {});
+
+/// One mesh of a generateTangents call for many meshes.
+struct MeshJob {
+    MeshView mesh = {};
+    TangentOptions options = {};  ///< the convention must be set, as in a call for one mesh
+    TangentOutput out = {};       ///< spans of the size that a call for this mesh alone needs
+};
+
+/// Tangents for many meshes in one call. It starts threads once, not once per mesh, and each thread reuses its scratch
+/// memory. Use it for models with hundreds or thousands of small primitives.
+///
+/// jobs       any number of meshes, which may share inputs; outputs must not overlap inputs or each other, across all jobs
+/// execution  each thread takes whole meshes, except that all threads together work on a mesh with more corners than a
+///            thread's share of all corners
+/// Returns one result per job, in the order of the jobs: the report or the error that generateTangents(mesh, options, out)
+/// returns for this job alone. A job that fails does not affect the others. The outputs have the bits of single calls.
+/// Errors of the call itself: outOfMemory (for the results and the scratch memory of the threads); the outputs of all jobs
+/// hold anything then.
+/// Linear in the number of all corners and jobs. Thread-safe. Same bits for any thread count and SIMD target.
+///
+/// Scratch memory: 128 KB per thread; where a job needs more, what a call for this mesh alone takes. An allocator of
+/// `execution` is called from all threads, but never by two of them at the same time.
+Result<std::vector<Result<TangentReport>>> generateTangents(std::span<const MeshJob> jobs,
+                                                            const Execution& execution = {});
 
 /// Makes the plan: welds equal vertices (position, normal and UV all equal), finds neighbours, groups and splits.
 /// Inputs, errors and complexity as generateTangents. An allocator of `execution` must outlive the plan.

@@ -475,6 +475,38 @@ tspace_ErrorCode tspace_generateTangents(const tspace_Mesh* mesh, const tspace_T
                                          const tspace_TangentOutput* out, const tspace_Execution* execution,
                                          tspace_TangentReport* report, tspace_Error* error) TSPACE_NOEXCEPT;
 
+/* One mesh of a tspace_generateTangents call for many meshes.
+ * In C: the layout of this struct never changes. */
+typedef struct tspace_MeshJob {
+    const tspace_Mesh* mesh;
+    const tspace_TangentOptions* options; /* the convention must be set, as in a call for one mesh */
+    const tspace_TangentOutput* out;      /* spans of the size that a call for this mesh alone needs */
+    tspace_TangentReport* report;         /* null, or a prepared report, which is written when the job succeeds */
+    tspace_Error* error;                  /* null, or written in either case: what this job alone would return */
+} tspace_MeshJob;
+
+/* Tangents for many meshes in one call. It starts threads once, not once per mesh, and each thread reuses its
+ * scratch memory. Use it for models with hundreds or thousands of small primitives.
+ *
+ * jobs       any number of meshes, which may share inputs; outputs must not overlap inputs or each other, across all
+ *            jobs
+ * execution  each thread takes whole meshes, except that all threads together work on a mesh with more corners than
+ *            a thread's share of all corners
+ * Returns one result per job, in the order of the jobs: the report or the error that tspace_generateTangents(mesh,
+ * options, out) returns for this job alone. A job that fails does not affect the others. The outputs have the bits
+ * of single calls. Errors of the call itself: OUT_OF_MEMORY (for the results and the scratch memory of the threads);
+ * the outputs of all jobs hold anything then.
+ * Linear in the number of all corners and jobs. Thread-safe. Same bits for any thread count and SIMD target.
+ *
+ * Scratch memory: 128 KB per thread; where a job needs more, what a call for this mesh alone takes. An allocator of
+ * `execution` is called from all threads, but never by two of them at the same time.
+ * In C: a job reports through its members `report` and `error`. The call returns TSPACE_OK when all jobs succeeded,
+ * and otherwise the code of the first job that failed; `error` then has its message, and as `element` the number of the
+ * job. Jobs that did not fail have their results in either case. `jobs` may be null when job_count is 0. */
+tspace_ErrorCode tspace_generateTangentsOfMeshes(const tspace_MeshJob* jobs, size_t job_count,
+                                                 const tspace_Execution* execution,
+                                                 tspace_Error* error) TSPACE_NOEXCEPT;
+
 /* Everything about a mesh that does not change while it deforms: welding, neighbours, groups, splits, UVs.
  * Owns its memory and keeps no pointer into the mesh it was made from. Immutable, so many threads may evaluate one
  * plan at the same time. If it was made with a tspace_Allocator, that must outlive it. A plan that was moved from is

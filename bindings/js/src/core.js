@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The whole core, for the entries that load its module.
 import { givenMesh, ignoredOptions, makeCalls, meshOf, mikktspaceOptions, sanitizeCounts, setMesh, tangentArguments, tangentCounts, withIgnored, writeTangents } from "./calls.js";
-import { boolean, fail, floats, isMissing, object, optionsOf } from "./check.js";
+import { boolean, fail, failType, floats, isMissing, object, optionsOf } from "./check.js";
+import { TspaceError } from "./error.js";
 import { ignoredNormalOptions, normalArguments, normalCounts, normalOptions, normalsOf } from "./normal_calls.js";
 import { Wasm } from "./wasm.js";
 
@@ -16,6 +17,19 @@ const steps = ["makeNormals", "sanitize", "orthogonalizeAll"];
 
 export const { generateTangents, sanitizeTangents, splitVertices } = makeCalls(wasm, choices);
 export const generateNormals = normalsOf(wasm, false);
+
+export function generateTangentsOfMeshes(jobs) {
+  if (!Array.isArray(jobs)) failType(jobs, "jobs", "an array of { mesh, options }");
+  return jobs.map((job) => {
+    const { mesh, options } = object(job, "job", ["mesh", "options"]);
+    try {
+      return generateTangents(mesh, options);
+    } catch (error) {
+      if (error instanceof TspaceError) return error;
+      throw error;
+    }
+  });
+}
 
 export function triangulate(mesh) {
   const { positions, uvs, indices, faceSizes, uvIndices } = givenMesh(mesh);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 import type {
   Convention, ConventionName, Indices, Mesh, MikktspaceOptions, NewFloat32Array, NewUint32Array, SanitizeReport, TangentOutputs, TangentReport,
+  TspaceError,
 } from "./types.js";
 
 export { conventions, ready, release, sanitizeTangents, splitVertices, TspaceError } from "./types.js";
@@ -20,6 +21,18 @@ export interface TangentOptions extends Omit<MikktspaceOptions, "method"> {
  * @returns four numbers per corner: the tangent and its sign, `B = sign * cross(N, T)`
  */
 export function generateTangents(mesh: Mesh, options: TangentOptions): NewFloat32Array;
+
+/** One mesh of a call for many meshes, with its own options. */
+export interface MeshJob {
+  mesh: Mesh;
+  options: TangentOptions;
+}
+
+/**
+ * Tangents of many meshes, one mesh after the other, in memory that the module reuses.
+ * @returns one entry per job: what generateTangents returns for it, or the error that it throws. A job that fails does not affect the others.
+ */
+export function generateTangentsOfMeshes(jobs: readonly MeshJob[]): (NewFloat32Array | TspaceError | TypeError)[];
 
 export interface NormalReport {
   faceCount: number;

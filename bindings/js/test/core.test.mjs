@@ -254,6 +254,23 @@ describe("calls", () => {
   });
 });
 
+describe("tangents of many meshes", () => {
+  const { generateTangentsOfMeshes, TspaceError } = whole;
+
+  it("are those of single calls, and errors stay with their jobs", () => {
+    const jobs = [3, 5, 8].map((side) => ({ mesh: grid(side), options: { convention: "gltf" } }));
+    const broken = { ...grid(3), indices: new Uint32Array([0, 1, 1000]) };
+    const given = [...jobs, { mesh: broken, options: { convention: "gltf" } }, { mesh: grid(3), options: { conventoin: "gltf" } }, jobs[1]];
+    const results = generateTangentsOfMeshes(given);
+    assert.equal(results.length, given.length);
+    for (const i of [0, 1, 2, 5]) assert.deepEqual(results[i], generateTangents(given[i].mesh, given[i].options));
+    assert.equal(results[3].code, "indexOutOfRange");
+    assert.ok(results[3] instanceof TspaceError && results[4] instanceof TypeError);
+    assert.deepEqual(generateTangentsOfMeshes([]), []);
+    assert.throws(() => generateTangentsOfMeshes(jobs[0]), TypeError);
+  });
+});
+
 describe("indexed frames in one call", () => {
   const { makeIndexedFrames } = whole;
   const mesh = grid(8);

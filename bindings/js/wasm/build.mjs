@@ -28,7 +28,7 @@ const fileRooms = [
 /// Threads, memory of an operating system, the disk, and readers of other formats; only_memory.cpp is in the place of some.
 const notHere = new Set([
   "core/tangents/mikktspace/plain.cpp", // written to be read, and for tests
-  "core/base/parallel.cpp", "core/base/arena.cpp", "model/io/atomic_output_disk.cpp", "model/io/bytes.cpp", "model/io/file_io.cpp", "model/io/recorded_files.cpp",
+  "core/base/parallel.cpp", "core/base/arena.cpp", "core/tangents/many_meshes.cpp", "model/io/atomic_output_disk.cpp", "model/io/bytes.cpp", "model/io/file_io.cpp", "model/io/recorded_files.cpp",
   "model/obj/tiny_obj_loader.cpp", "model/gltf/codecs/draco_library.cpp", "model/gltf/codecs/meshopt_library.cpp",
   ...["astc", "basis_lz", "bc7", "dds", "ktx2", "texel_format", "texture", "uastc", "unpack_level", "write_texture"].map((name) => `images/${name}.cpp`),
   "images/exr.cpp", "images/float_image.cpp", "images/float_range.cpp", "images/jpeg.cpp", "images/png.cpp", "images/read_tga.cpp", "images/webp.cpp", "maps/rays.cpp",

@@ -30,6 +30,30 @@ class Tangents(unittest.TestCase):
                     flipped = tspace.tangents(*shape, method=method, convention="gltf")
                     self.assertTrue((flipped[:, 3] == -tangents[:, 3]).all())
 
+    def test_of_many_meshes_are_those_of_single_calls(self):
+        shapes = [torus(4 + number % 5, 6) for number in range(200)]
+        for threads in (1, 2, "all"):
+            jobs = [tspace.MeshJob(*shape, convention="gltf", full=n % 2 == 1) for n, shape in enumerate(shapes)]
+            for n, result in enumerate(tspace.tangents_of_meshes(jobs, threads=threads)):
+                want = tspace.tangents(*shapes[n], convention="gltf", full=n % 2 == 1)
+                for got, wanted in zip(result, want) if n % 2 == 1 else ((result, want),):
+                    self.assertTrue(got == wanted if isinstance(got, tspace.TangentReport) else same_bits(got, wanted))
+        self.assertEqual(tspace.tangents_of_meshes([]), [])
+
+    def test_of_many_meshes_come_with_the_error_of_each(self):
+        good, bad = torus(4, 6), torus(4, 6)
+        bad.indices[5] = 1000
+        out = numpy.zeros((len(good.indices), 4), numpy.float32)
+        jobs = [tspace.MeshJob(*good, convention="gltf", out=out), tspace.MeshJob(*bad, convention="gltf")]
+        first, second = tspace.tangents_of_meshes(jobs)
+        self.assertIs(first, out)
+        self.assertTrue(same_bits(first, tspace.tangents(*good, convention="gltf")))
+        self.assertIsInstance(second, tspace.IndexRangeError)
+        with self.assertRaises(tspace.InputError):
+            tspace.MeshJob(*good, convention="gltf", out=out[1:])
+        with self.assertRaises(TypeError):
+            tspace.tangents_of_meshes([good])
+
     def test_point_along_u(self):
         shape = torus(64, 64)
         tangents = tspace.tangents(*shape, convention="opengl", method="best")

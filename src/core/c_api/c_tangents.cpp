@@ -143,6 +143,42 @@ tspace_ErrorCode tspace_generateTangents(const tspace_Mesh* mesh, const tspace_T
     });
 }
 
+tspace_ErrorCode tspace_generateTangentsOfMeshes(const tspace_MeshJob* jobs, size_t job_count,
+                                                 const tspace_Execution* execution, tspace_Error* error) noexcept {
+    return atCBorder(error, [&]() -> Result<Done> {
+        if (jobs == nullptr && job_count != 0) return Error{ErrorCode::nullData, "jobs is null"};
+        if (Error e = checkExecution(execution); e.code != ErrorCode::ok) return e;
+        // A job that is no job in C++ becomes an empty one, and keeps the error of its checks.
+        std::vector<MeshJob> converted(job_count);
+        std::vector<Error> errors(job_count, Error{ErrorCode::ok});
+        for (std::size_t i = 0; i < job_count; ++i) {
+            const tspace_MeshJob& job = jobs[i];
+            errors[i] = firstError([&] { return checkMesh(job.mesh); }, [&] { return checkOptions(job.options); },
+                                   [&] { return checkNeeded(job.out, "out"); },
+                                   [&] { return checkSized(job.report, "report"); });
+            if (errors[i].code == ErrorCode::ok)
+                converted[i] = {toMesh(*job.mesh), toOptions(orDefault(job.options)), toOutput(*job.out)};
+        }
+        const Hooks hooks(execution);
+        const auto results = generateTangents(converted, hooks.execution());
+        if (!results) return results.error();
+        Result<Done> first = Done{};
+        for (std::size_t i = job_count; i-- > 0;) {
+            const Result<TangentReport>& result = (*results)[i];
+            Error& failure = errors[i];
+            if (failure.code == ErrorCode::ok && !result) failure = result.error();
+            finish(failure, jobs[i].error);
+            if (failure.code == ErrorCode::ok) {
+                give(toReport(*result), jobs[i].report);
+            } else {
+                failure.element = i;
+                first = std::move(failure);
+            }
+        }
+        return first;
+    });
+}
+
 tspace_ErrorCode tspace_planTangents(const tspace_Mesh* mesh, const tspace_TangentOptions* options,
                                      const tspace_Execution* execution, tspace_TangentPlan** plan,
                                      tspace_Error* error) noexcept {

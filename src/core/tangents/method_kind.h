@@ -29,6 +29,11 @@ constexpr bool isGrouped(Method method) {
 
 #endif
 
+/// For Parallel: estimators take several times as long as sums.
+constexpr std::uint64_t tangentWork(Method method, std::uint64_t corners) {
+    return (isEstimated(method) ? 4 : 1) * corners;
+}
+
 /// Whether a plan outlives the mesh it was made from (and may see other poses), or is used up on it at once.
 enum class PlanUse { kept, once };
 

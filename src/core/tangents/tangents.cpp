@@ -236,9 +236,6 @@ Error checkOptions(const TangentOptions& options) {
     return {ErrorCode::ok, {}};
 }
 
-/// For Parallel: estimators take several times as long as sums.
-std::uint64_t work(Method method, std::uint64_t corners) { return (isEstimated(method) ? 4 : 1) * corners; }
-
 Error checkInput(const MeshView& mesh, const TangentOptions& options, Parallel& parallel) {
     if (Error e = checkOptions(options); e.code != ErrorCode::ok) return e;
     if (Error e = checkMesh(mesh, &parallel); e.code != ErrorCode::ok) return e;
@@ -315,7 +312,7 @@ Error checkDomain(const TangentOptions& options) {
 }
 
 Result<std::unique_ptr<TangentPlan::State>> makePlan(const MeshView& given, const Call<TangentOptions>& options) {
-    Parallel parallel(options.execution, work(options.method, given.cornerCount()));
+    Parallel parallel(options.execution, tangentWork(options.method, given.cornerCount()));
     if (Error e = checkInput(given, options, parallel); e.code != ErrorCode::ok) return e;
     const UnitNormals normals(given.normals, options.normalize_normals, options.execution.allocator, parallel);
     const MeshView mesh = withNormals(given, normals);
@@ -398,7 +395,7 @@ Result<TangentReport> generateTangents(const MeshView& given, const TangentOptio
             });
         }
         const Call<TangentOptions> call{options, execution};
-        Parallel parallel(execution, work(options.method, given.cornerCount()));
+        Parallel parallel(execution, tangentWork(options.method, given.cornerCount()));
         if (Error e = checkInput(given, options, parallel); e.code != ErrorCode::ok) return e;
         if (Error e = checkOutput(out, outputCount(given, options)); e.code != ErrorCode::ok) return e;
         startHasTangent(out, parallel);
@@ -434,7 +431,7 @@ Result<TangentReport> evaluateTangents(const TangentPlan& plan, const Pose& pose
             if (e.code == ErrorCode::countMismatch) e.code = ErrorCode::planMismatch;
             return e;
         }
-        Parallel parallel(execution, work(state.method, state.corner_count));
+        Parallel parallel(execution, tangentWork(state.method, state.corner_count));
         startHasTangent(out, parallel);
         const UnitNormals unit(pose.normals, state.normalizes_normals, execution.allocator, parallel);
         if (state.source_vertices.empty())

@@ -36,6 +36,7 @@ True
 Functions
     make_indexed_frames   normals where missing, tangents, mended and split: an indexed mesh
     tangents        one tangent per corner, by nine methods; "mikktspace" gives every bit of the reference
+    tangents_of_meshes   the same for many meshes (MeshJob) in one call
     normals         one normal per corner; crease angles, smoothing groups
     Plan            groups once, tangents for every pose
     mend_winding    turns faces that are wound the wrong way
@@ -105,7 +106,7 @@ from ._reports import NormalReport, PackReport, PositionNoise, SanitizeReport, T
 from ._remedies import remedy_text
 from ._sanitize import SanitizeResult, sanitize
 from ._split import Split, Triangles, split, triangulate
-from ._tangents import Plan, TangentResult, tangents
+from ._tangents import MeshJob, Plan, TangentResult, tangents, tangents_of_meshes
 from ._winding import WindingResult, mend_winding
 
 # Type checkers see each option of the functions of files; at run time an unknown one is an error that lists them.
@@ -168,6 +169,7 @@ __all__ = [
     "IndexedFramesReport",
     "InputError",
     "InspectReport",
+    "MeshJob",
     "NormalReport",
     "NormalResult",
     "PackReport",
@@ -208,6 +210,7 @@ __all__ = [
     "sanitize",
     "split",
     "tangents",
+    "tangents_of_meshes",
     "triangulate",
     "unpack_frames",
 ]

@@ -211,6 +211,16 @@ class TangentOutput(Structure):
     ]
 
 
+class MeshJob(Structure):
+    _fields_ = [
+        ("mesh", POINTER(Mesh)),
+        ("options", POINTER(TangentOptions)),
+        ("out", POINTER(TangentOutput)),
+        ("report", POINTER(TangentReport)),
+        ("error", POINTER(Error)),
+    ]
+
+
 class Pose(Structure):
     _fields_ = [("struct_size", c_uint32), ("reserved", c_uint32), ("positions", Span), ("normals", Span)]
 
@@ -383,6 +393,7 @@ declare(
             POINTER(TangentReport),
             POINTER(Error),
         ),
+        "tspace_generateTangentsOfMeshes": (c_uint32, POINTER(MeshJob), c_size_t, POINTER(Execution), POINTER(Error)),
         "tspace_planTangents": (
             c_uint32,
             POINTER(Mesh),
