@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "mesh.h"
+#include "tspace/indexed_frames.h"
 #include "tspace/normals.h"
-#include "tspace/split.h"
 #include "tspace/tangents.h"
 
 namespace tspace::bench {

@@ -5,9 +5,7 @@
 #include "counting_allocator.h"
 #include "job.h"
 #include "rows.h"
-#if __has_include("tspace/arena.h")
-#include "tspace/arena.h"
-#endif
+#include "tspace/execution.h"
 
 namespace tspace::bench {
 
@@ -32,8 +30,6 @@ Row peak(const std::string& title, const std::string& job_name, const std::strin
             }};
 }
 
-#if __has_include("tspace/arena.h")
-
 std::int64_t pageFaults() {
     rusage usage = {};
     getrusage(RUSAGE_SELF, &usage);
@@ -53,12 +49,6 @@ void measureSecondCall(RowResult& row, const Job& job) {
     row.one_thread.asked = 0;
     row.two_threads.value = measure(2);  // a thread that is started touches its own stack
 }
-
-#else
-
-void measureSecondCall(RowResult& row, const Job&) { row.note = "not there yet"; }
-
-#endif
 
 Row secondCallFaults(const std::string& title, const std::string& job_name) {
     return {title, [=](Lab& lab) {

@@ -8,7 +8,7 @@
 #include "race.h"
 #include "rows.h"
 #include "thread_count.h"
-#include "tspace/arena.h"
+#include "tspace/execution.h"
 
 namespace tspace::bench {
 

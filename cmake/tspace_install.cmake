@@ -6,7 +6,7 @@ include(CMakePackageConfigHelpers)
 tspace_install_built(tspace tspace_core EXPORT tspace_core ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/include/tspace" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" COMPONENT tspace_core
         FILES_MATCHING PATTERN "*.h" PATTERN "*.hpp"
-        PATTERN "asset.h" EXCLUDE PATTERN "bake_file.h" EXCLUDE PATTERN "check.h" EXCLUDE PATTERN "diff.h" EXCLUDE PATTERN "finish_file.h" EXCLUDE PATTERN "identify.h" EXCLUDE PATTERN "images.h" EXCLUDE PATTERN "map_files.h" EXCLUDE PATTERN "maps.h" EXCLUDE PATTERN "render.h" EXCLUDE PATTERN "tspace_files.h" EXCLUDE)
+        PATTERN "bake_file.h" EXCLUDE PATTERN "check.h" EXCLUDE PATTERN "file_options.h" EXCLUDE PATTERN "generate.h" EXCLUDE PATTERN "inspect.h" EXCLUDE PATTERN "map_files.h" EXCLUDE PATTERN "maps.h" EXCLUDE PATTERN "render.h" EXCLUDE PATTERN "tspace_files.h" EXCLUDE)
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/include/mikktspace" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" COMPONENT tspace_core)
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/shaders" DESTINATION "${CMAKE_INSTALL_DATADIR}/tspace" COMPONENT tspace_core)
 tspace_install_export(core tspace_core tspace)
@@ -19,8 +19,7 @@ if(TARGET tspace_asset)
     install(TARGETS tspace_asset EXPORT tspace_asset COMPONENT tspace_asset)
     tspace_install_built(tspace_files tspace_asset EXPORT tspace_files ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
     install(DIRECTORY "${PROJECT_SOURCE_DIR}/include/tspace" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}"
-            COMPONENT tspace_asset FILES_MATCHING PATTERN "asset.h" PATTERN "bake_file.h" PATTERN "check.h" PATTERN "diff.h" PATTERN "finish_file.h" PATTERN "identify.h" PATTERN "images.h"
-            PATTERN "map_files.h" PATTERN "maps.h" PATTERN "render.h" PATTERN "tspace_files.h")
+            COMPONENT tspace_asset FILES_MATCHING PATTERN "bake_file.h" PATTERN "check.h" PATTERN "file_options.h" PATTERN "generate.h" PATTERN "inspect.h" PATTERN "map_files.h" PATTERN "maps.h" PATTERN "render.h" PATTERN "tspace_files.h")
     tspace_install_export(asset tspace_asset tspace ${wings})
     tspace_install_export(files tspace_asset tspace ${wings} tspace_files)
 endif()

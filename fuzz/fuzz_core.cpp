@@ -9,11 +9,9 @@
 
 #include "byte_reader.h"
 #include "tspace/indexed_frames.h"
+#include "tspace/mesh.h"
 #include "tspace/normals.h"
-#include "tspace/sanitize.h"
-#include "tspace/split.h"
 #include "tspace/tangents.h"
-#include "tspace/triangulate.h"
 
 namespace {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "made_model.h"
-#include "tspace/diff.h"
+#include "tspace/inspect.h"
 
 namespace {
 

@@ -7,7 +7,7 @@
 
 #include "images/float_image.h"
 #include "images/image.h"
-#include "tspace/images.h"
+#include "tspace/map_files.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     constexpr std::uint64_t kMostPixels = 1 << 20;

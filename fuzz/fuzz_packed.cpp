@@ -7,8 +7,10 @@
 #include <vector>
 
 #include "made_model.h"
-#include "tspace/asset.h"
 #include "tspace/check.h"
+#include "tspace/generate.h"
+#include "tspace/pack.h"
+#include "tspace/result.h"
 
 namespace {
 

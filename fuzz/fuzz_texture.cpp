@@ -9,7 +9,7 @@
 #include "byte_reader.h"
 #include "images/float_image.h"
 #include "images/image.h"
-#include "tspace/images.h"
+#include "tspace/map_files.h"
 
 namespace {
 

@@ -9,9 +9,10 @@
 #include <string>
 
 #include "files.h"
-#include "tspace/asset.h"
 #include "tspace/check.h"
-#include "tspace/identify.h"
+#include "tspace/generate.h"
+#include "tspace/inspect.h"
+#include "tspace/result.h"
 
 namespace tspace::fuzz {
 

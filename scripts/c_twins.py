@@ -3,8 +3,7 @@
 
 C_HEADERS = ("tspace_tangents.h", "tspace_normals.h", "tspace_indexed_frames.h", "tspace_frame.h", "tspace_pack.h", "tspace_winding.h",
              "tspace_files.h")
-FILE_HEADERS = ("asset.h", "bake_file.h", "check.h", "diff.h", "finish_file.h", "identify.h", "images.h",
-                "map_files.h")
+FILE_HEADERS = ("bake_file.h", "check.h", "file_options.h", "generate.h", "inspect.h", "map_files.h")
 # Headers whose first comment is that of a C++ header.
 HEADS = {f"tspace_{name}": name for name in ("frame.h", "indexed_frames.h", "normals.h", "pack.h", "winding.h")}
 
@@ -49,6 +48,7 @@ CPP_ALONE = {
     r"vec[234]Span|cornerAttribute|xyz": "shorthand for C++ types",
     r"Result|Done|Error::place": "C returns a code, and the place is part of the message",
     r"State|TangentPlan::state": "private",
+    r"(Faces|VectorFormat)(::\w+)?": "options of files, which are in tspace_files.h",
     r"(action|faces|frameFormat|severity|signReading)Name|finding\w+|commandLine": "reports of files have these names and texts in their JSON",
     r"NormalOptions::(crease|denoise|weld)_auto": "-1 in C",
     r"removeAbandonedFiles": "a matter of the tool",

@@ -15,7 +15,6 @@
 #include "report.h"
 #include "scans.h"
 #include "tspace/normals.h"
-#include "tspace/position_noise.h"
 
 namespace tspace::accuracy {
 

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <span>
 
-#include "tspace/vec.h"
+#include "tspace/span.h"
 
 namespace tspace::bench {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What is wrong with the frames of a model file: signs, directions, seams, normals, UVs, morph targets, normal maps.
-// CMake target tspace::asset. Reads what asset.h reads, and changes nothing. docs/reference/check.md explains every code.
+// CMake target tspace::asset. Reads what generate.h reads, and changes nothing. docs/reference/check.md explains every code.
 #pragma once
 
 #include <cstdint>
@@ -8,9 +8,13 @@
 #include <string>
 #include <vector>
 
-#include "tspace/asset.h"
+#include "tspace/callbacks.h"
 #include "tspace/convention.h"
 #include "tspace/execution.h"
+#include "tspace/file_options.h"
+#include "tspace/mesh.h"
+#include "tspace/normals.h"
+#include "tspace/pack.h"
 #include "tspace/result.h"
 
 namespace tspace {

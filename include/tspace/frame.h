@@ -5,7 +5,7 @@
 #pragma once
 
 #include "tspace/convention.h"
-#include "tspace/vec.h"
+#include "tspace/span.h"
 
 namespace tspace {
 

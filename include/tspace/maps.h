@@ -14,7 +14,6 @@
 #include "tspace/normals.h"
 #include "tspace/result.h"
 #include "tspace/span.h"
-#include "tspace/vec.h"
 
 namespace tspace {
 

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <span>
 #include <type_traits>
+#include <vector>
 
 #include "tspace/result.h"
 #include "tspace/span.h"
@@ -103,5 +104,36 @@ inline constexpr std::size_t kMaxCorners = 0x7fffffff;
 /// Reads every index once; no allocation but for an error's message. Thread-safe.
 /// Errors: nullData, countMismatch, indexOutOfRange, strideTooSmall, misaligned, tooLarge, invalidOption.
 Result<Done> validate(const MeshView& mesh);
+
+// Cuts quads and n-gons into triangles by one stated rule, so that whoever bakes and whoever renders agree.
+
+/// Triangles of a polygon mesh, as corners of the original mesh (not vertices), so that results per corner carry over.
+struct Triangulation {
+    std::vector<std::uint32_t> corners = {};  ///< three per triangle, winding kept
+    std::vector<std::uint32_t> faces = {};    ///< one per triangle: the face it was cut from
+};
+
+/// Cuts every face with 4 or more corners.
+///
+/// Quads: the diagonal that MikkTSpace takes: the shorter one in UV space; if equal (or without UVs) 1-3 only when
+/// it is strictly shorter in space, else 0-2.
+/// n-gons: ears are clipped, the ear with the shortest diagonal first (squared length in space; ties by the diagonal
+/// in UV space, then by the coordinates of its end points), ears seen in the plane of Newell's normal. The cut
+/// depends on the polygon's geometry, not on the vertex it starts with. Where no ear is left (polygon not simple),
+/// the shortest diagonal is cut anyway. Above 1024 corners the test that an ear is empty is left out.
+/// Faces with fewer than 3 corners give nothing. Triangles come in face order.
+/// Errors: those of validate(); outOfMemory. O(corners) for triangles and quads, O(n^2) at most for an n-gon.
+Result<Triangulation> triangulate(const MeshView& mesh);
+
+/// The faces that tangents are computed on. glTF has only triangles, but Blender and many bakers compute MikkTSpace on
+/// the quads that these were cut from, along another diagonal in part; docs/concepts/quads.md has the whole story.
+enum class Faces : std::uint32_t {
+    triangles = 0,  ///< the triangles of the file
+    quads = 1,      ///< two triangles that follow each other and share an edge are a quad, as far as they look like it
+    /// Quads where the file's own tangents show it, or where it has none and Blender wrote it; else triangles.
+    automatic = 2,
+};
+/// "triangles", "quads" or "auto".
+const char* facesName(Faces faces);
 
 }  // namespace tspace

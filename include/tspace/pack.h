@@ -10,7 +10,6 @@
 
 #include "tspace/result.h"
 #include "tspace/span.h"
-#include "tspace/vec.h"
 
 namespace tspace {
 
@@ -95,5 +94,15 @@ Result<PackReport> packFrames(StridedSpan<const Vec3> normals, StridedSpan<const
 /// Errors: as packFrames. O(frames).
 Result<Done> unpackFrames(std::span<const std::byte> bytes, FrameFormat format, StridedSpan<Vec3> normals,
                           StridedSpan<Vec4> tangents);
+
+/// "frame32", "snorm8_pair": the name that options and reports have; "" when `format` is none of the enumerators.
+const char* frameFormatName(FrameFormat format);
+
+/// The numbers of written tangents and generated normals.
+enum class VectorFormat : std::uint32_t {
+    float32 = 0,  ///< the bits that the method gives
+    snorm16 = 1,  ///< half the size; KHR_mesh_quantization is declared
+    snorm8 = 2,   ///< a quarter; the same
+};
 
 }  // namespace tspace

@@ -7,12 +7,13 @@
 #include <string>
 #include <vector>
 
-#include "tspace/asset.h"
+#include "tspace/callbacks.h"
 #include "tspace/execution.h"
+#include "tspace/generate.h"
 #include "tspace/maps.h"
 #include "tspace/result.h"
+#include "tspace/span.h"
 #include "tspace/tangents.h"
-#include "tspace/vec.h"
 
 namespace tspace {
 

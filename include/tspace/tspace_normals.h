@@ -141,8 +141,9 @@ typedef struct tspace_PositionNoise {
  * mesh       positions and indices; UVs and normals are not looked at. Vertices at one position are one
  * execution  threads and memory; changes no bit
  * Errors: those of tspace_validate; OUT_OF_MEMORY.
- * O(corners): the time of TSPACE_NORMAL_WEIGHTING_BEST and half as much again. Scratch memory: that of `best`, then
- * 28 bytes per corner, 56 per vertex, and 4 per vertex and thread. Thread-safe; same bits for any thread count. */
+ * O(corners): the time of TSPACE_NORMAL_WEIGHTING_BEST and half as much again. Scratch memory: that of
+ * TSPACE_NORMAL_WEIGHTING_BEST, then 28 bytes per corner, 56 per vertex, and 4 per vertex and thread. Thread-safe;
+ * same bits for any thread count. */
 tspace_ErrorCode tspace_measurePositionNoise(const tspace_Mesh* mesh, const tspace_Execution* execution,
                                              tspace_PositionNoise* noise, tspace_Error* error) TSPACE_NOEXCEPT;
 

@@ -10,7 +10,9 @@
 
 #include "commands/shared/option_table.h"
 #include "model/io/file_error.h"
-#include "tspace/asset.h"
+#include "tspace/callbacks.h"
+#include "tspace/file_options.h"
+#include "tspace/result.h"
 #include "tspace/tspace_files.h"
 
 namespace tspace::c_files {

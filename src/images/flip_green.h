@@ -3,7 +3,7 @@
 #pragma once
 
 #include "images/pixels.h"
-#include "tspace/images.h"
+#include "tspace/map_files.h"
 
 namespace tspace {
 

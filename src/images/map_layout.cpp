@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tspace/images.h"
+#include "tspace/map_files.h"
 
 #include <algorithm>
 #include <cmath>

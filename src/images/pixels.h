@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "tspace/images.h"
-#include "tspace/vec.h"
+#include "tspace/map_files.h"
+#include "tspace/span.h"
 
 namespace tspace {
 

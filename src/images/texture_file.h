@@ -12,7 +12,7 @@
 
 #include "images/image.h"
 #include "images/texel_format.h"
-#include "tspace/images.h"
+#include "tspace/map_files.h"
 
 namespace tspace {
 

@@ -10,7 +10,7 @@
 #include <span>
 
 #include "tspace/maps.h"
-#include "tspace/vec.h"
+#include "tspace/span.h"
 
 namespace tspace {
 

@@ -6,7 +6,7 @@
 
 #include "core/base/memory.h"
 #include "tspace/maps.h"
-#include "tspace/vec.h"
+#include "tspace/span.h"
 
 namespace tspace {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "tspace/maps.h"
-#include "tspace/vec.h"
+#include "tspace/span.h"
 
 namespace tspace {
 

@@ -8,9 +8,11 @@
 
 #include "support/grid_obj.h"
 #include "support/temp_folder.h"
-#include "tspace/asset.h"
 #include "tspace/bake_file.h"
-#include "tspace/finish_file.h"
+#include "tspace/callbacks.h"
+#include "tspace/generate.h"
+#include "tspace/normals.h"
+#include "tspace/result.h"
 
 namespace tspace::test {
 namespace {

@@ -49,7 +49,7 @@ find . -name '*.md' -not -path './build/*' -not -path './.git/*' -not -path '*/n
 
 # Calls that give a Result are looked at.
 {
-    echo '#include <tspace/asset.h>'
+    echo '#include <tspace/generate.h>'
     echo '#include <tspace/tspace.hpp>'
     echo 'namespace tspace {'
     echo 'void failed(const char* call, const Error& error);'

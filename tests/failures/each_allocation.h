@@ -14,7 +14,9 @@
 
 #include "failures/failing_memory.h"
 #include "support/temp_folder.h"
-#include "tspace/asset.h"
+#include "tspace/generate.h"
+#include "tspace/result.h"
+#include "tspace/tangents.h"
 
 namespace tspace::test {
 

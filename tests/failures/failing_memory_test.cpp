@@ -8,10 +8,7 @@
 #include "support/grid_obj.h"
 #include "tspace/bake_file.h"
 #include "tspace/check.h"
-#include "tspace/diff.h"
-#include "tspace/finish_file.h"
-#include "tspace/identify.h"
-#include "tspace/images.h"
+#include "tspace/inspect.h"
 #include "tspace/map_files.h"
 #include "tspace/render.h"
 

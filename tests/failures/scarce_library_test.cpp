@@ -14,13 +14,14 @@
 
 #include "support/grid_obj.h"
 #include "support/temp_folder.h"
-#include "tspace/arena.h"
-#include "tspace/asset.h"
 #include "tspace/bake_file.h"
 #include "tspace/check.h"
+#include "tspace/execution.h"
+#include "tspace/generate.h"
 #include "tspace/indexed_frames.h"
 #include "tspace/maps.h"
 #include "tspace/normals.h"
+#include "tspace/result.h"
 #include "tspace/tangents.h"
 
 namespace tspace::test {

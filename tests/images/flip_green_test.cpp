@@ -13,7 +13,7 @@
 #include "images/images.h"
 #include "images/textures.h"
 #include "support/temp_folder.h"
-#include "tspace/images.h"
+#include "tspace/map_files.h"
 
 namespace tspace::test {
 namespace {

@@ -8,7 +8,7 @@
 #include "images/float_image.h"
 #include "images/image.h"
 #include "images/tga.h"
-#include "tspace/images.h"
+#include "tspace/map_files.h"
 
 namespace tspace::test {
 namespace {

@@ -8,7 +8,8 @@
 
 #include "gltf_builder.h"
 #include "support/temp_folder.h"
-#include "tspace/asset.h"
+#include "tspace/execution.h"
+#include "tspace/generate.h"
 
 namespace tspace {
 namespace {

@@ -16,7 +16,10 @@
 #include "model/read/read_scene.h"
 #include "support/shared_data.h"
 #include "support/temp_folder.h"
-#include "tspace/asset.h"
+#include "tspace/generate.h"
+#include "tspace/normals.h"
+#include "tspace/result.h"
+#include "tspace/tangents.h"
 
 namespace tspace::test {
 namespace {

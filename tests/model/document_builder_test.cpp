@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "tspace/vec.h"
+#include "tspace/span.h"
 
 namespace tspace {
 namespace {

@@ -11,8 +11,9 @@
 #include "model/gltf_builder.h"
 #include "model/read/read_scene.h"
 #include "support/temp_folder.h"
-#include "tspace/asset.h"
 #include "tspace/check.h"
+#include "tspace/generate.h"
+#include "tspace/result.h"
 
 namespace tspace::test {
 namespace {

@@ -10,6 +10,7 @@
 #include "model/gltf/container.h"
 #include "model/gltf/primitive_reader.h"
 #include "model/read/read_scene.h"
+#include "tspace/inspect.h"
 
 namespace tspace {
 namespace {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "generate_run.h"
+#include "tspace/inspect.h"
 
 namespace tspace {
 namespace {

@@ -11,9 +11,11 @@
 #include "model/gltf/draco_primitives.h"
 #include "support/comma_locale.h"
 #include "support/scene_file.h"
-#include "tspace/asset.h"
 #include "tspace/bake_file.h"
 #include "tspace/check.h"
+#include "tspace/generate.h"
+#include "tspace/inspect.h"
+#include "tspace/result.h"
 
 namespace tspace::test {
 namespace {

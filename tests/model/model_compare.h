@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "model/gltf/document.h"
-#include "tspace/asset.h"
+#include "tspace/generate.h"
 
 namespace tspace::test {
 

@@ -9,8 +9,9 @@
 #include "model_files.h"
 #include "support/shared_data.h"
 #include "support/temp_folder.h"
-#include "tspace/asset.h"
 #include "tspace/check.h"
+#include "tspace/generate.h"
+#include "tspace/inspect.h"
 
 namespace tspace {
 namespace {

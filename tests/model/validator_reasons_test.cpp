@@ -13,7 +13,7 @@
 
 #include "support/shared_data.h"
 #include "support/temp_folder.h"
-#include "tspace/asset.h"
+#include "tspace/generate.h"
 
 namespace tspace {
 namespace {

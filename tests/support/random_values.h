@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "tspace/vec.h"
+#include "tspace/span.h"
 
 namespace tspace::test {
 

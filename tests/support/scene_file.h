@@ -10,8 +10,8 @@
 
 #include "model/gltf_builder.h"
 #include "support/temp_folder.h"
+#include "tspace/span.h"
 #include "tspace/tangents.h"
-#include "tspace/vec.h"
 
 namespace tspace::test {
 

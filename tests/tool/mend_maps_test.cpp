@@ -12,7 +12,7 @@
 #include "maps/shading.h"
 #include "tool/folder_files.h"
 #include "tool/run_tool.h"
-#include "tspace/images.h"
+#include "tspace/map_files.h"
 
 namespace tspace::test {
 namespace {

@@ -7,7 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "tspace/asset.h"
+#include "tspace/file_options.h"
+#include "tspace/result.h"
 
 namespace tspace::tool {
 

@@ -11,7 +11,7 @@
 #include <unordered_map>
 
 #include "mend.h"
-#include "tspace/triangulate.h"
+#include "tspace/mesh.h"
 
 namespace tspace::import {
 

@@ -7,8 +7,7 @@
 #include <vector>
 
 #include "exports.h"
-#include "tspace/sanitize.h"
-#include "tspace/split.h"
+#include "tspace/indexed_frames.h"
 #include "tspace/tangents.h"
 
 namespace tspace::js {

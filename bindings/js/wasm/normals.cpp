@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The module of the entry "tspace/normals": normals of meshes with noise, hard edges by the mesh, and winding.
 #include "common.h"
-#include "tspace/position_noise.h"
+#include "tspace/normals.h"
 #include "tspace/winding.h"
 
 using namespace tspace;

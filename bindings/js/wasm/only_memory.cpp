@@ -12,7 +12,7 @@
 #include "model/io/uri.h"
 #include "commands/generate/generate_steps.h"
 #include "commands/generate/flip_maps.h"
-#include "tspace/arena.h"
+#include "tspace/execution.h"
 
 namespace tspace {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "model/scene/scene.h"
-#include "tspace/asset.h"
+#include "tspace/file_options.h"
 
 namespace tspace {
 

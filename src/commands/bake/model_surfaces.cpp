@@ -27,8 +27,10 @@
 #include "model/io/file_io.h"
 #include "model/read/read_scene.h"
 #include "model/scene/scene.h"
-#include "tspace/asset.h"
+#include "tspace/generate.h"
 #include "tspace/maps.h"
+#include "tspace/mesh.h"
+#include "tspace/normals.h"
 
 namespace tspace {
 

@@ -18,7 +18,6 @@
 #include "core/base/unique_index.h"
 #include "core/base/vec_math.h"
 #include "core/mesh/surface/surface.h"
-#include "tspace/sanitize.h"
 #include "tspace/tangents.h"
 
 namespace tspace {

@@ -9,8 +9,8 @@
 
 #include "images/image.h"
 #include "maps/uv_coverage.h"
-#include "tspace/images.h"
-#include "tspace/vec.h"
+#include "tspace/map_files.h"
+#include "tspace/span.h"
 
 namespace tspace {
 

@@ -9,7 +9,7 @@
 #include "commands/check/map_content.h"
 #include "images/image.h"
 #include "maps/uv_coverage.h"
-#include "tspace/images.h"
+#include "tspace/map_files.h"
 
 namespace tspace {
 

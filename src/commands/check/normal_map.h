@@ -7,7 +7,7 @@
 
 #include "images/image.h"
 #include "maps/uv_coverage.h"
-#include "tspace/images.h"
+#include "tspace/map_files.h"
 
 namespace tspace {
 

@@ -9,7 +9,7 @@
 
 #include "tspace/execution.h"
 #include "tspace/map_files.h"
-#include "tspace/vec.h"
+#include "tspace/span.h"
 
 namespace tspace {
 

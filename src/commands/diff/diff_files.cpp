@@ -13,7 +13,7 @@
 #include "core/base/vec_math.h"
 #include "model/io/file_error.h"
 #include "model/read/read_scene.h"
-#include "tspace/diff.h"
+#include "tspace/inspect.h"
 
 namespace tspace {
 namespace {

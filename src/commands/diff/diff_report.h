@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "commands/shared/report.h"
-#include "tspace/diff.h"
+#include "tspace/inspect.h"
 
 namespace tspace::report {
 

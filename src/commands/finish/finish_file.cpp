@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // finishFile: mends, checks, mends what check still finds, bakes, and checks what is written; its report as JSON.
-#include "tspace/finish_file.h"
+#include "tspace/bake_file.h"
 
 #include <algorithm>
 #include <map>

@@ -9,7 +9,7 @@
 
 #include "commands/shared/page/page_parts.h"
 #include "commands/shared/report.h"
-#include "tspace/finish_file.h"
+#include "tspace/bake_file.h"
 
 namespace tspace {
 

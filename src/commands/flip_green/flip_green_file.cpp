@@ -11,7 +11,7 @@
 #include "model/io/memory_budget.h"
 #include "model/io/output_name.h"
 #include "model/io/recorded_files.h"
-#include "tspace/images.h"
+#include "tspace/map_files.h"
 
 namespace tspace {
 namespace {

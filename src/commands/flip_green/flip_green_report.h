@@ -5,7 +5,7 @@
 #include <string>
 
 #include "commands/shared/report.h"
-#include "tspace/images.h"
+#include "tspace/map_files.h"
 
 namespace tspace::report {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "images/image.h"
-#include "tspace/images.h"
+#include "tspace/map_files.h"
 
 namespace tspace {
 

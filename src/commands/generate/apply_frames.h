@@ -10,7 +10,7 @@
 #include "model/gltf/editor.h"
 #include "model/gltf/primitive_reader.h"
 #include "model/gltf/vertex_numbers.h"
-#include "tspace/asset.h"
+#include "tspace/generate.h"
 
 namespace tspace::gltf {
 

@@ -14,6 +14,7 @@
 #include <string>
 #include <utility>
 
+#include "commands/generate/frames_call.h"
 #include "core/base/numbers.h"
 #include "core/base/parallel.h"
 #include "core/base/sort.h"
@@ -24,7 +25,7 @@
 #include "core/mesh/surface/surface.h"
 #include "model/gltf/packed_layout.h"
 #include "model/io/file_error.h"
-#include "tspace/arena.h"
+#include "tspace/execution.h"
 
 namespace tspace::gltf {
 
@@ -111,21 +112,6 @@ MorphTargets targetsOf(const Document& document, const Primitive& first, bool wi
                     return offsets;
                 });
             }};
-}
-
-void copyReport(const PrimitiveReport& computed, bool keeps_tangents, PrimitiveReport& report) {
-    report.morph_sign_flip_count = computed.morph_sign_flip_count;
-    report.normals_behind_count = computed.normals_behind_count;
-    report.turned_triangle_count = computed.turned_triangle_count;
-    report.two_sided_triangle_count = computed.two_sided_triangle_count;
-    if (keeps_tangents) return;
-    report.normals = computed.normals;
-    report.tangents = computed.tangents;
-    report.negative_uv_count = computed.negative_uv_count;
-    report.sanitize = computed.sanitize;
-    report.mended_vertex_count = computed.mended_vertex_count;
-    report.faces = computed.faces;
-    report.quad_count = computed.quad_count;
 }
 
 /// What of a pool does not lie in the file as plain floats.
@@ -315,9 +301,8 @@ void PoolComputer::tell(const PoolProgress* progress) const {
 
 PoolElements PoolComputer::computeOne(const PoolPlan& pool, const Execution& execution, const PoolProgress* progress,
                                       std::span<PrimitiveReport> reports) {
-    GenerateOptions options = options_;
+    FramesOptions options = framesOptions(options_);
     options.execution = execution;
-    options.progress = {};
     if (progress != nullptr && options_.progress)
         options.progress = [this, progress](const char*, std::uint64_t, std::uint64_t) { tell(progress); };
     const Primitive& first = primitives_[pool.primitives[0]];
@@ -327,7 +312,7 @@ PoolElements PoolComputer::computeOne(const PoolPlan& pool, const Execution& exe
     vertices.mends_tangents = pool.mendsTangents();
     if (pool.keeps_tangents || pool.mendsTangents()) decoded.kept_tangents = arrays_.borrowTangents(first);
     vertices.kept_tangents = decoded.kept_tangents.span();
-    const bool keeps_signs = pool.overwrites_normals && options.existing == ExistingTangents::keep;
+    const bool keeps_signs = pool.overwrites_normals && options_.existing == ExistingTangents::keep;
     if ((pool.tries_quads || keeps_signs) && pool.has_tangents && !pool.keeps_tangents) {
         if (readAccessor(document_, *first.find("TANGENT")).component_count == 4)
             decoded.old_tangents = arrays_.borrowTangents(first);
@@ -343,9 +328,9 @@ PoolElements PoolComputer::computeOne(const PoolPlan& pool, const Execution& exe
     if (was_welded) weld(welded, geometries, vertices, copies);
     std::optional<NewMorphNormals> morph_normals;
     if (!pool.morph_normals.empty())
-        morph_normals.emplace(pool.morph_normals, options.morph_normals == MorphNormals::missing, vertices, geometries);
-    std::vector<PrimitiveReport> computed;
-    for (const GeometryPlan& geometry : pool.geometries) computed.push_back(reports[geometry.primitives[0]]);
+        morph_normals.emplace(pool.morph_normals, options_.morph_normals == MorphNormals::missing, vertices,
+                              geometries);
+    std::vector<FramesReport> computed(pool.geometries.size());
     const bool computes = pool.makes_tangents || !pool.has_normals;
     tell(progress);
     PoolFrames frames =
@@ -356,7 +341,7 @@ PoolElements PoolComputer::computeOne(const PoolPlan& pool, const Execution& exe
     tell(progress);
     for (std::size_t i = 0; i < pool.geometries.size(); ++i) {
         for (const std::size_t number : pool.geometries[i].primitives) {
-            copyReport(computed[i], pool.keeps_tangents, reports[number]);
+            (pool.keeps_tangents ? copyReportOfKept : copyReport)(computed[i], reports[number]);
         }
     }
     const bool has_tangent_deltas = pool.makes_tangents && !frames.morphs.empty();

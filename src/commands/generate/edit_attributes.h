@@ -12,7 +12,8 @@
 #include "model/gltf/document.h"
 #include "model/gltf/editor.h"
 #include "model/gltf/primitive_reader.h"
-#include "tspace/asset.h"
+#include "tspace/generate.h"
+#include "tspace/pack.h"
 
 namespace tspace::gltf {
 

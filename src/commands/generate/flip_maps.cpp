@@ -16,7 +16,7 @@
 #include "model/gltf/read_scene.h"
 #include "model/io/file_error.h"
 #include "model/io/uri.h"
-#include "tspace/images.h"
+#include "tspace/map_files.h"
 
 namespace tspace {
 

@@ -6,7 +6,12 @@
 #include "model/io/file_error.h"
 #include "model/io/file_io.h"
 #include "model/read/read_scene.h"
-#include "tspace/asset.h"
+#include "tspace/generate.h"
+#include "tspace/mesh.h"
+#include "tspace/pack.h"
+#include "tspace/result.h"
+#include "tspace/tangents.h"
+#include "tspace/winding.h"
 
 namespace tspace {
 namespace {

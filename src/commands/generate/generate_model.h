@@ -8,7 +8,8 @@
 
 #include "commands/generate/generate_plan.h"
 #include "model/gltf/model.h"
-#include "tspace/asset.h"
+#include "tspace/generate.h"
+#include "tspace/result.h"
 
 namespace tspace {
 

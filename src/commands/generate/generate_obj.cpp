@@ -6,11 +6,10 @@
 #include <vector>
 
 #include "commands/generate/flip_maps.h"
+#include "commands/generate/frames_call.h"
 #include "commands/generate/generate_model.h"
 #include "commands/generate/generate_steps.h"
-#include "core/base/near_positions.h"
 #include "core/base/numbers.h"
-#include "core/base/parallel.h"
 #include "core/mesh/pools/local_mesh.h"
 #include "core/mesh/pools/primitive.h"
 #include "core/mesh/pools/unit_lattice.h"
@@ -21,7 +20,11 @@
 #include "model/obj/obj_primitives.h"
 #include "model/obj/obj_reader.h"
 #include "model/obj/obj_writer.h"
-#include "tspace/asset.h"
+#include "tspace/execution.h"
+#include "tspace/generate.h"
+#include "tspace/normals.h"
+#include "tspace/result.h"
+#include "tspace/tangents.h"
 
 namespace tspace::obj {
 namespace {
@@ -157,7 +160,16 @@ bool decide(const Material& material, const ObjPrimitive& primitive, const Gener
 void makeObjFrames(const GenerateOptions& options, FinishedPrimitive& finished, PrimitiveReport& report) {
     OwnedMesh& mesh = finished.mesh;
     const PrimitiveGeometry polygons{.indices = std::move(mesh.indices), .face_sizes = std::move(mesh.face_sizes)};
-    PoolFrames frames = valueOrThrow(computeFrames(mesh, {&polygons, 1}, options, {&report, 1}));
+    FramesOptions frames_options = framesOptions(options);
+    frames_options.execution = options.execution;
+    frames_options.progress = options.progress;
+    FramesReport computed;
+    PoolFrames frames = valueOrThrow(computeFrames(mesh, {&polygons, 1}, frames_options, {&computed, 1}));
+    copyReport(computed, report);
+    report.triangle_count = computed.triangle_count;
+    report.vertices_before = computed.vertices_before;
+    report.vertices_after = computed.vertices_after;
+    report.bitangents_generated = computed.bitangents_generated;
     mesh = {.positions = gather(std::span<const Vec3>(mesh.positions), frames.source_vertices),
             .normals = gather(std::span<const Vec3>(mesh.normals), frames.source_vertices),
             .tangents = std::move(frames.tangents),
@@ -220,10 +232,9 @@ FinishedPrimitive finish(const Model& model, const ObjPrimitive& primitive, bool
     report.normals_generated = primitive.normals_generated;
     report.normals_replaced = replaced;
     if (primitive.normals_generated) {
-        Parallel parallel(Execution{}, mesh.indices.size());
-        const NearMesh near({.positions = mesh.positions, .indices = mesh.indices}, options.normals.weld_distance,
-                            nullptr, parallel);
-        countFaults(near.view().positions, mesh.normals, mesh.indices, report);
+        FramesReport faults{.morph_sign_flip_count = report.morph_sign_flip_count};
+        countFaults(mesh.positions, mesh.normals, {&mesh.indices, 1}, options.normals.weld_distance, {&faults, 1});
+        copyReportOfKept(faults, report);
     }
     if (primitive.normals_generated) finished.normal_format = options.format;
     finished.tangent_format = options.format;

@@ -13,7 +13,7 @@
 #include "model/gltf/document.h"
 #include "model/gltf/model.h"
 #include "model/gltf/primitive_reader.h"
-#include "tspace/asset.h"
+#include "tspace/generate.h"
 
 namespace tspace {
 

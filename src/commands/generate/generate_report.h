@@ -9,7 +9,8 @@
 #include <vector>
 
 #include "commands/shared/report.h"
-#include "tspace/asset.h"
+#include "tspace/generate.h"
+#include "tspace/tangents.h"
 
 namespace tspace::report {
 

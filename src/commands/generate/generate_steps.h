@@ -16,7 +16,7 @@
 #include "model/io/atomic_output.h"
 #include "model/obj/obj_reader.h"
 #include "model/scene/scene.h"
-#include "tspace/asset.h"
+#include "tspace/generate.h"
 
 namespace tspace {
 

@@ -7,7 +7,7 @@
 #include "model/gltf/document.h"
 #include "model/gltf/editor.h"
 #include "model/gltf/primitive_reader.h"
-#include "tspace/asset.h"
+#include "tspace/generate.h"
 
 namespace tspace::gltf {
 

@@ -7,7 +7,7 @@
 #include "core/mesh/quads/quads.h"
 #include "model/io/file_error.h"
 #include "model/read/read_scene.h"
-#include "tspace/identify.h"
+#include "tspace/inspect.h"
 
 namespace tspace {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "model/scene/scene.h"
-#include "tspace/identify.h"
+#include "tspace/inspect.h"
 
 namespace tspace {
 

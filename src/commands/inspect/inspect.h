@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <span>
 
-#include "tspace/asset.h"
-#include "tspace/vec.h"
+#include "tspace/inspect.h"
+#include "tspace/span.h"
 
 namespace tspace {
 

@@ -20,7 +20,7 @@
 #include "images/float_image.h"
 #include "images/image.h"
 #include "model/io/file_error.h"
-#include "tspace/sanitize.h"
+#include "tspace/tangents.h"
 
 namespace tspace {
 namespace {

@@ -6,9 +6,12 @@
 #include <string>
 
 #include "commands/shared/option_table.h"
-#include "tspace/asset.h"
+#include "tspace/execution.h"
+#include "tspace/file_options.h"
 #include "tspace/map_files.h"
 #include "tspace/maps.h"
+#include "tspace/mesh.h"
+#include "tspace/tangents.h"
 
 namespace tspace::options {
 

@@ -8,7 +8,7 @@
 #include "images/float_image.h"
 #include "images/image.h"
 #include "model/io/memory_budget.h"
-#include "tspace/asset.h"
+#include "tspace/file_options.h"
 
 namespace tspace {
 

@@ -5,7 +5,7 @@
 #include "core/base/near_positions.h"
 #include "core/base/parallel.h"
 #include "core/normals/denoise.h"
-#include "tspace/arena.h"
+#include "tspace/execution.h"
 
 namespace tspace {
 

@@ -7,13 +7,10 @@
 #include <vector>
 
 #include "commands/shared/option_table.h"
-#include "tspace/asset.h"
 #include "tspace/bake_file.h"
 #include "tspace/check.h"
-#include "tspace/diff.h"
-#include "tspace/finish_file.h"
-#include "tspace/identify.h"
-#include "tspace/images.h"
+#include "tspace/generate.h"
+#include "tspace/inspect.h"
 #include "tspace/map_files.h"
 #include "tspace/render.h"
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "model/scene/scene.h"
-#include "tspace/vec.h"
+#include "tspace/span.h"
 
 namespace tspace {
 

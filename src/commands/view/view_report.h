@@ -10,7 +10,7 @@
 #include "commands/shared/page/page_parts.h"
 #include "commands/shared/report.h"
 #include "model/io/path.h"
-#include "tspace/asset.h"
+#include "tspace/file_options.h"
 #include "tspace/result.h"
 
 namespace tspace {

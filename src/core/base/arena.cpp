@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // An arena is one reserved piece of address space. Memory is put behind it from its begin, as it is needed, and cut into
 // blocks. What has no room there comes from operator new.
-#include "tspace/arena.h"
+#include "tspace/execution.h"
 
 #include <algorithm>
 #include <cassert>

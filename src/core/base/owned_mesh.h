@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "tspace/mesh.h"
-#include "tspace/vec.h"
+#include "tspace/span.h"
 
 namespace tspace {
 

@@ -9,7 +9,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "tspace/vec.h"
+#include "tspace/span.h"
 
 namespace tspace {
 

@@ -8,7 +8,6 @@
 #include "core/base/parallel.h"
 #include "core/base/vec_math.h"
 #include "tspace/span.h"
-#include "tspace/vec.h"
 
 namespace tspace {
 

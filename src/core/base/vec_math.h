@@ -17,7 +17,7 @@
 #include <wasm_simd128.h>
 #endif
 
-#include "tspace/vec.h"
+#include "tspace/span.h"
 
 namespace tspace {
 

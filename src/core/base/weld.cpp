@@ -13,7 +13,7 @@
 #include <cstring>
 
 #include "core/base/sort.h"
-#include "tspace/vec.h"
+#include "tspace/span.h"
 
 namespace tspace {
 

@@ -14,11 +14,10 @@
 #include "core/base/border.h"
 #include "tspace/convention.h"
 #include "tspace/execution.h"
+#include "tspace/indexed_frames.h"
 #include "tspace/mesh.h"
 #include "tspace/normals.h"
 #include "tspace/result.h"
-#include "tspace/sanitize.h"
-#include "tspace/split.h"
 #include "tspace/tangents.h"
 #include "tspace/tspace.h"
 

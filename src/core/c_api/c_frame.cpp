@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "core/c_api/c_convert.h"
-#include "tspace/arena.h"
+#include "tspace/execution.h"
 #include "tspace/frame.h"
 #include "tspace/pack.h"
 #include "tspace/tspace.h"

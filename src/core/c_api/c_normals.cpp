@@ -3,7 +3,7 @@
 #include "tspace/normals.h"
 
 #include "core/c_api/c_convert.h"
-#include "tspace/position_noise.h"
+#include "tspace/normals.h"
 #include "tspace/winding.h"
 
 using namespace tspace;         // NOLINT: this file only forwards

@@ -9,9 +9,8 @@
 
 #include "core/c_api/c_convert.h"
 #include "tspace/indexed_frames.h"
-#include "tspace/sanitize.h"
-#include "tspace/split.h"
-#include "tspace/triangulate.h"
+#include "tspace/mesh.h"
+#include "tspace/tangents.h"
 
 using namespace tspace;         // NOLINT: this file only forwards
 using namespace tspace::c_api;  // NOLINT

@@ -8,9 +8,9 @@
 
 #include "core/base/owned_mesh.h"
 #include "tspace/execution.h"
+#include "tspace/indexed_frames.h"
 #include "tspace/mesh.h"
 #include "tspace/result.h"
-#include "tspace/split.h"
 
 namespace tspace {
 

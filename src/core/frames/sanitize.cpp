@@ -2,7 +2,7 @@
 // Mends broken tangents: a quick scan finds the blocks of faces where something may be wrong; in these it finds
 // the broken corners, looks for sound ones at their positions, then writes face by face.
 // Based on: Gram-Schmidt; Duff et al. 2017 where only the normal is left.
-#include "tspace/sanitize.h"
+#include "tspace/tangents.h"
 
 #include <algorithm>
 #include <array>
@@ -82,7 +82,7 @@ bool isUsable(const Vec3& direction, const DVec3& n) {
     return size >= double{FLT_MIN} && length(cross(n, t)) >= (isZero(n) ? 0.0 : kOneDegree * size);
 }
 
-/// Whether the direction is a placeholder that some exporter wrote: see sanitize.h.
+/// Whether the direction is a placeholder that some exporter wrote: see tangents.h.
 bool isPlaceholder(const Vec4& tangent, const DVec3& n) {
     return xyz(tangent) == Vec3{1, 0, 0} && std::abs(n.x) > kOrthogonalTolerance;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Duplicates vertices whose corners disagree. Corner after corner, by one thread: that takes most of the time, and several
 // threads were slower.
-#include "tspace/split.h"
+#include "tspace/indexed_frames.h"
 
 #include <algorithm>
 #include <array>

@@ -15,7 +15,7 @@
 #include "core/base/mesh_loops.h"
 #include "core/base/vec_math.h"
 #include "core/frames/one_list.h"
-#include "tspace/triangulate.h"
+#include "tspace/mesh.h"
 
 namespace tspace {
 
@@ -298,6 +298,18 @@ Result<Triangulation> triangulate(const MeshView& mesh) {
         // Only the UVs of quads are read, and the normals never.
         return mesh.hasOwnLists() ? withOneList(mesh, {}, cutFaces) : cutFaces(mesh);
     });
+}
+
+const char* facesName(Faces faces) {
+    switch (faces) {
+        case Faces::triangles:
+            return "triangles";
+        case Faces::quads:
+            return "quads";
+        case Faces::automatic:
+            return "auto";
+    }
+    return "unknown";
 }
 
 }  // namespace tspace

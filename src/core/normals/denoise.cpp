@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // How much noise there is (measureNoise), and normals without it (denoisedNormals).
-#include "tspace/position_noise.h"
+#include "tspace/normals.h"
 
 #include <algorithm>
 #include <cmath>

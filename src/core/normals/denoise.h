@@ -11,7 +11,7 @@
 #include "core/base/memory.h"
 #include "core/base/vec_math.h"
 #include "core/normals/normals_call.h"
-#include "tspace/position_noise.h"
+#include "tspace/normals.h"
 
 namespace tspace {
 

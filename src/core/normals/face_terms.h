@@ -7,7 +7,7 @@
 #include <cstdint>
 
 #include "core/simd/dispatch.h"
-#include "tspace/vec.h"
+#include "tspace/span.h"
 
 namespace tspace::smooth {
 

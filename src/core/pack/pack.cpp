@@ -276,4 +276,11 @@ Result<Done> unpackFrames(std::span<const std::byte> bytes, FrameFormat format, 
     });
 }
 
+const char* frameFormatName(FrameFormat format) {
+    static constexpr std::array kNames{"frame32",     "frame48",      "frame64",     "oct32",       "qtangent64",
+                                       "snorm8_pair", "snorm16_pair", "gltf_snorm8", "gltf_snorm16"};
+    const auto number = static_cast<std::size_t>(format);
+    return number < kNames.size() ? kNames[number] : "";
+}
+
 }  // namespace tspace

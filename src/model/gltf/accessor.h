@@ -12,7 +12,7 @@
 
 #include "model/gltf/codecs/codecs.h"
 #include "model/gltf/document.h"
-#include "tspace/vec.h"
+#include "tspace/span.h"
 
 namespace tspace::gltf {
 

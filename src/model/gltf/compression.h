@@ -7,6 +7,7 @@
 
 #include "model/gltf/document.h"
 #include "model/gltf/editor.h"
+#include "tspace/generate.h"
 
 namespace tspace::gltf {
 

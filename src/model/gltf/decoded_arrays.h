@@ -17,7 +17,7 @@
 #include "model/gltf/packed_layout.h"
 #include "model/gltf/primitive_reader.h"
 #include "model/scene/scene.h"
-#include "tspace/vec.h"
+#include "tspace/span.h"
 
 namespace tspace::gltf {
 

@@ -23,7 +23,7 @@
 #include "model/io/path.h"
 #include "model/io/uri.h"
 #include "model/json/json.h"
-#include "tspace/asset.h"
+#include "tspace/file_options.h"
 
 namespace tspace::gltf {
 

@@ -10,7 +10,7 @@
 #include "model/gltf/document.h"
 #include "model/gltf/primitive_reader.h"
 #include "model/scene/scene.h"
-#include "tspace/asset.h"
+#include "tspace/generate.h"
 
 namespace tspace::gltf {
 

@@ -9,7 +9,9 @@
 
 #include "core/base/parallel.h"
 #include "model/io/file_error.h"
-#include "tspace/asset.h"
+#include "tspace/execution.h"
+#include "tspace/pack.h"
+#include "tspace/result.h"
 
 namespace tspace::gltf {
 
@@ -112,14 +114,3 @@ Bytes packWords(FrameFormat format, std::span<const Vec3> normals, std::span<con
 }
 
 }  // namespace tspace::gltf
-
-namespace tspace {
-
-const char* frameFormatName(FrameFormat format) {
-    static constexpr std::array kNames{"frame32",     "frame48",      "frame64",     "oct32",       "qtangent64",
-                                       "snorm8_pair", "snorm16_pair", "gltf_snorm8", "gltf_snorm16"};
-    const auto number = static_cast<std::size_t>(format);
-    return number < kNames.size() ? kNames[number] : "";
-}
-
-}  // namespace tspace

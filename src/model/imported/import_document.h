@@ -10,7 +10,8 @@
 #include "model/gltf/document.h"
 #include "model/io/file_io.h"
 #include "model/io/path.h"
-#include "tspace/asset.h"
+#include "tspace/callbacks.h"
+#include "tspace/file_options.h"
 
 namespace tspace {
 

@@ -19,7 +19,10 @@
 #include "model/io/file_io.h"
 #include "model/io/path.h"
 #include "model/io/system_files.h"
-#include "tspace/asset.h"
+#include "tspace/callbacks.h"
+#include "tspace/execution.h"
+#include "tspace/file_options.h"
+#include "tspace/result.h"
 
 namespace tspace {
 

@@ -22,7 +22,9 @@
 #include "model/io/file_io.h"
 #include "model/io/recorded_files.h"
 #include "model/io/system_files.h"
-#include "tspace/asset.h"
+#include "tspace/callbacks.h"
+#include "tspace/file_options.h"
+#include "tspace/result.h"
 
 namespace tspace {
 

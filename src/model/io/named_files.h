@@ -9,7 +9,7 @@
 
 #include "model/io/bytes.h"
 #include "model/io/path.h"
-#include "tspace/asset.h"
+#include "tspace/file_options.h"
 #include "tspace/result.h"
 
 namespace tspace {

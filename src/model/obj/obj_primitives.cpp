@@ -14,7 +14,7 @@
 #include "model/io/named_files.h"
 #include "model/io/uri.h"
 #include "model/obj/obj_reader.h"
-#include "tspace/triangulate.h"
+#include "tspace/mesh.h"
 
 namespace tspace::obj {
 

@@ -9,7 +9,10 @@
 #include "core/base/owned_mesh.h"
 #include "model/obj/obj_reader.h"
 #include "model/scene/scene.h"
-#include "tspace/asset.h"
+#include "tspace/generate.h"
+#include "tspace/mesh.h"
+#include "tspace/normals.h"
+#include "tspace/result.h"
 
 namespace tspace::obj {
 

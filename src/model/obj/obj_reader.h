@@ -14,7 +14,7 @@
 #include "model/io/named_files.h"
 #include "model/io/path.h"
 #include "model/io/uri.h"
-#include "tspace/asset.h"
+#include "tspace/file_options.h"
 
 namespace tspace::obj {
 

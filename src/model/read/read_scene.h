@@ -7,7 +7,10 @@
 #include "model/gltf/document.h"
 #include "model/io/path.h"
 #include "model/scene/scene.h"
-#include "tspace/asset.h"
+#include "tspace/callbacks.h"
+#include "tspace/execution.h"
+#include "tspace/generate.h"
+#include "tspace/mesh.h"
 
 namespace tspace::gltf {
 

@@ -17,10 +17,10 @@
 #include "core/mesh/surface/affine.h"
 #include "model/io/file_error.h"
 #include "model/io/memory_budget.h"
-#include "tspace/asset.h"
 #include "tspace/maps.h"
 #include "tspace/mesh.h"
-#include "tspace/vec.h"
+#include "tspace/pack.h"
+#include "tspace/span.h"
 
 namespace tspace {
 

@@ -13,7 +13,8 @@
 #include "images/textures.h"
 #include "model/gltf_builder.h"
 #include "support/temp_folder.h"
-#include "tspace/asset.h"
+#include "tspace/generate.h"
+#include "tspace/result.h"
 
 namespace tspace::test {
 namespace {

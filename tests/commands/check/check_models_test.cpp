@@ -7,6 +7,7 @@
 #include "model/model_files.h"
 #include "support/temp_folder.h"
 #include "tspace/check.h"
+#include "tspace/generate.h"
 
 namespace tspace::test {
 namespace {

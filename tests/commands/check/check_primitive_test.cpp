@@ -7,7 +7,7 @@
 
 #include "commands/check/findings.h"
 #include "commands/check/patch.h"
-#include "tspace/sanitize.h"
+#include "tspace/tangents.h"
 
 namespace tspace::test {
 namespace {

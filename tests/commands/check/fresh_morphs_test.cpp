@@ -6,8 +6,8 @@
 
 #include "model/gltf_builder.h"
 #include "support/temp_folder.h"
-#include "tspace/asset.h"
 #include "tspace/check.h"
+#include "tspace/generate.h"
 
 namespace tspace::test {
 namespace {

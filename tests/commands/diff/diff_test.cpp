@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Two models are compared where they show the same surface, however they are stored.
-#include "tspace/diff.h"
+#include "tspace/inspect.h"
 
 #include <gtest/gtest.h>
 

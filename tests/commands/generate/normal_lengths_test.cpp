@@ -10,10 +10,9 @@
 #include "model/generate_run.h"
 #include "support/scene_file.h"
 #include "support/shared_data.h"
+#include "tspace/bake_file.h"
 #include "tspace/check.h"
-#include "tspace/diff.h"
-#include "tspace/finish_file.h"
-#include "tspace/identify.h"
+#include "tspace/inspect.h"
 
 namespace tspace::test {
 namespace {

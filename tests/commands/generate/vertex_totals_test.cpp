@@ -8,7 +8,8 @@
 #include "model/generate_run.h"
 #include "support/scene_file.h"
 #include "support/shared_data.h"
-#include "tspace/asset.h"
+#include "tspace/generate.h"
+#include "tspace/inspect.h"
 
 namespace tspace::test {
 namespace {

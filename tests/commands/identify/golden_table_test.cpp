@@ -10,8 +10,8 @@
 
 #include "model/model_files.h"
 #include "support/temp_folder.h"
-#include "tspace/diff.h"
-#include "tspace/identify.h"
+#include "tspace/generate.h"
+#include "tspace/inspect.h"
 
 namespace tspace::test {
 namespace {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The method and the convention that made tangents are found again.
-#include "tspace/identify.h"
+#include "tspace/generate.h"
+#include "tspace/inspect.h"
 
 #include <gtest/gtest.h>
 

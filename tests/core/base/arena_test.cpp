@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tspace/arena.h"
+#include "tspace/execution.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -22,7 +22,6 @@
 #endif
 
 #include "tspace/normals.h"
-#include "tspace/sanitize.h"
 #include "tspace/tangents.h"
 
 namespace tspace {

@@ -11,9 +11,8 @@
 #include <thread>
 #include <vector>
 
+#include "tspace/indexed_frames.h"
 #include "tspace/normals.h"
-#include "tspace/sanitize.h"
-#include "tspace/split.h"
 #include "tspace/tangents.h"
 
 namespace tspace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tspace/sanitize.h"
+#include "tspace/tangents.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -13,7 +13,7 @@
 
 #include "support/same_bits.h"
 #include "support/thread_team.h"
-#include "tspace/split.h"
+#include "tspace/indexed_frames.h"
 
 namespace tspace {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "tspace/split.h"
 #include "support/thread_team.h"
+#include "tspace/indexed_frames.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

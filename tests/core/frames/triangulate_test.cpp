@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tspace/triangulate.h"
+#include "tspace/mesh.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

@@ -18,7 +18,6 @@
 #include "support/thread_team.h"
 #include "test_mesh.h"
 #include "tspace/normals.h"
-#include "tspace/position_noise.h"
 
 namespace tspace {
 namespace {

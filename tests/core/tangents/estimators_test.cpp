@@ -11,7 +11,7 @@
 #include "core/tangents/shapes.h"
 #include "core/tangents/smooth_patch.h"
 #include "support/shared_data.h"
-#include "tspace/sanitize.h"
+#include "tspace/tangents.h"
 
 namespace tspace::test {
 namespace {

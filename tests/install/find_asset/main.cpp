@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Uses one function of the installed asset layer: enough to link it.
-#include <tspace/asset.h>
+#include <tspace/generate.h>
 
 int main() {
     const auto result = tspace::inspectFile("there-is-no-such-file.glb");

@@ -10,7 +10,8 @@
 
 #include "support/scene_file.h"
 #include "support/shared_data.h"
-#include "tspace/asset.h"
+#include "tspace/inspect.h"
+#include "tspace/result.h"
 
 namespace tspace::test {
 namespace {

@@ -11,7 +11,9 @@
 #include "model/imported/with_importer.h"
 #include "model/read/read_scene.h"
 #include "support/temp_folder.h"
-#include "tspace/asset.h"
+#include "tspace/generate.h"
+#include "tspace/normals.h"
+#include "tspace/result.h"
 
 namespace tspace::test {
 namespace {

@@ -16,7 +16,7 @@
 #include "model/read/read_scene.h"
 #include "support/scene_file.h"
 #include "support/shared_data.h"
-#include "tspace/diff.h"
+#include "tspace/inspect.h"
 
 namespace tspace::test {
 namespace {

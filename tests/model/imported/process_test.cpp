@@ -12,7 +12,8 @@
 
 #include "support/temp_folder.h"
 #include "tool/started_tool.h"
-#include "tspace/asset.h"
+#include "tspace/inspect.h"
+#include "tspace/result.h"
 
 namespace tspace::test {
 namespace {

@@ -11,10 +11,10 @@
 #include "model/read/read_scene.h"
 #include "support/temp_folder.h"
 #include "tool/run_tool.h"
-#include "tspace/asset.h"
 #include "tspace/check.h"
-#include "tspace/diff.h"
-#include "tspace/identify.h"
+#include "tspace/generate.h"
+#include "tspace/inspect.h"
+#include "tspace/result.h"
 
 namespace tspace::test {
 namespace {

@@ -2,7 +2,7 @@
 // Options with the importer that is tested.
 #pragma once
 
-#include "tspace/asset.h"
+#include "tspace/file_options.h"
 
 namespace tspace::test {
 

@@ -10,9 +10,11 @@
 #include "model/read/read_scene.h"
 #include "support/shared_data.h"
 #include "support/temp_folder.h"
-#include "tspace/asset.h"
 #include "tspace/check.h"
-#include "tspace/diff.h"
+#include "tspace/generate.h"
+#include "tspace/inspect.h"
+#include "tspace/normals.h"
+#include "tspace/result.h"
 
 namespace tspace::test {
 namespace {

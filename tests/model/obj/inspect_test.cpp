@@ -7,6 +7,7 @@
 #include "commands/inspect/inspect.h"
 #include "support/shared_data.h"
 #include "support/temp_folder.h"
+#include "tspace/inspect.h"
 
 namespace tspace::test {
 namespace {

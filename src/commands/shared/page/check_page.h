@@ -12,8 +12,9 @@
 #include "commands/check/check_report.h"
 #include "commands/shared/page/page_parts.h"
 #include "model/scene/scene.h"
-#include "tspace/asset.h"
+#include "tspace/callbacks.h"
 #include "tspace/check.h"
+#include "tspace/generate.h"
 #include "tspace/render.h"
 
 namespace tspace {

@@ -8,7 +8,7 @@
 
 #include "commands/shared/page/page_parts.h"
 #include "commands/shared/page/place_pictures.h"
-#include "tspace/diff.h"
+#include "tspace/inspect.h"
 
 namespace tspace {
 

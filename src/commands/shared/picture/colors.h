@@ -8,7 +8,7 @@
 
 #include "commands/shared/picture/visible_triangles.h"
 #include "images/image.h"
-#include "tspace/vec.h"
+#include "tspace/span.h"
 
 namespace tspace {
 

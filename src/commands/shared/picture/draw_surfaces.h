@@ -14,7 +14,7 @@
 #include "maps/shading.h"
 #include "maps/texture_sample.h"
 #include "tspace/render.h"
-#include "tspace/vec.h"
+#include "tspace/span.h"
 
 namespace tspace {
 

@@ -9,8 +9,8 @@
 
 #include "images/image.h"
 #include "tspace/render.h"
+#include "tspace/span.h"
 #include "tspace/tangents.h"
-#include "tspace/vec.h"
 
 namespace tspace {
 

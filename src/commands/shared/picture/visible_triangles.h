@@ -10,7 +10,7 @@
 
 #include "core/base/vec_math.h"
 #include "core/mesh/surface/affine.h"
-#include "tspace/vec.h"
+#include "tspace/span.h"
 
 namespace tspace {
 

@@ -7,17 +7,18 @@
 
 #include "core/base/border.h"
 #include "core/base/memory.h"
-#include "core/base/near_positions.h"
-#include "core/base/parallel.h"
 #include "core/mesh/pools/local_mesh.h"
 #include "core/mesh/pools/morph_frames.h"
 #include "core/mesh/pools/primitive.h"
 #include "core/mesh/pools/unit_lattice.h"
 #include "core/mesh/quads/quads.h"
 #include "core/tangents/mirrored_count.h"
-#include "tspace/asset.h"
+#include "tspace/execution.h"
 #include "tspace/frame.h"
-#include "tspace/triangulate.h"
+#include "tspace/mesh.h"
+#include "tspace/normals.h"
+#include "tspace/result.h"
+#include "tspace/tangents.h"
 
 namespace tspace {
 
@@ -25,7 +26,7 @@ namespace {
 
 /// A convention may be chosen by an engine's name, but the geometry stays the file's: right-handed, faces
 /// counter-clockwise, in every format that is read.
-GenerateOptions inFileCoordinates(GenerateOptions options) {
+FramesOptions inFileCoordinates(FramesOptions options) {
     for (Convention* convention : {&options.tangents.convention, &options.normals.convention}) {
         convention->handedness = Handedness::right;
         convention->winding = Winding::counterClockwise;
@@ -42,14 +43,14 @@ std::size_t cornersOfTriangles(const PrimitiveGeometry& primitive) {
 }
 
 /// So that the caller can end a long call between its steps.
-void callProgress(const GenerateOptions& options) {
+void callProgress(const FramesOptions& options) {
     if (options.progress) options.progress("computing tangents", 0, 0);
 }
 
 class FrameComputer {
   public:
-    FrameComputer(const PoolView& pool, std::span<const PrimitiveGeometry> primitives, const GenerateOptions& options,
-                  std::span<PrimitiveReport> reports)
+    FrameComputer(const PoolView& pool, std::span<const PrimitiveGeometry> primitives, const FramesOptions& options,
+                  std::span<FramesReport> reports)
         : pool_(pool),
           primitives_(primitives),
           options_(options),
@@ -84,7 +85,7 @@ class FrameComputer {
   private:
     /// Frames of one primitive, appended to what the split works on. Polygons are cut after the normals, which want
     /// whole faces, and before the tangents: whoever reads the result sees triangles, and would compute with these.
-    Result<Done> computePrimitive(const PrimitiveGeometry& primitive, PrimitiveReport& report) {
+    Result<Done> computePrimitive(const PrimitiveGeometry& primitive, FramesReport& report) {
         if (primitive.indices.empty()) {
             corner_counts_.push_back(0);
             return Done{};
@@ -126,7 +127,7 @@ class FrameComputer {
     /// Normals per corner, and in the mesh one per vertex: vertices with several normals are split first, so
     /// that a method that works per vertex sees the mesh that will be written.
     Result<Done> computeNormals(const PrimitiveGeometry& primitive, LocalMesh& mesh, std::vector<Vec3>& normals,
-                                PrimitiveReport& report) const {
+                                FramesReport& report) const {
         NormalOptions options = options_.normals;
         options.smoothing_groups = primitive.smoothing_groups;
         normals.resize(mesh.indices.size());
@@ -154,7 +155,7 @@ class FrameComputer {
 
     /// Turns triangles into quads where the options choose that and there are any; `polygons` are the file's own. What
     /// morph targets add to tangents that stay is computed on the faces that these tangents were made on.
-    Result<Done> chooseQuads(QuadFaces&& polygons, LocalMesh& mesh, PrimitiveReport& report) const {
+    Result<Done> chooseQuads(QuadFaces&& polygons, LocalMesh& mesh, FramesReport& report) const {
         if (!takesQuads()) return Done{};
         QuadFaces faces = std::move(polygons);
         if (faces.quad_count == 0) {
@@ -182,7 +183,7 @@ class FrameComputer {
     }
 
     /// Computes the tangents of the next corners, into tangents() and bitangents().
-    Result<Done> computeTangents(const LocalMesh& mesh, PrimitiveReport& report) {
+    Result<Done> computeTangents(const LocalMesh& mesh, FramesReport& report) {
         const std::size_t first = corners_.size(), count = mesh.triangleCornerCount();
         const std::span<Vec4> tangents = this->tangents().subspan(first, count);
         const std::span<Vec3> bitangents =
@@ -198,7 +199,7 @@ class FrameComputer {
 
     /// `bitangents` may be empty.
     Result<Done> computeTangents(const LocalMesh& mesh, std::span<Vec4> tangents, std::span<Vec3> bitangents,
-                                 PrimitiveReport& report) const {
+                                 FramesReport& report) const {
         TangentOutput out{.tangents = tangents};
         if (generates_bitangents_) {
             out.bitangents = bitangents;
@@ -306,7 +307,7 @@ class FrameComputer {
         if (generates_normals_) frames.normals = gatherNormals(normals_, split.source_corners);
         if (generates_tangents_) writeTangents(split, frames);
         if (pool_.mends_tangents) countMended(split, frames.tangents);
-        for (PrimitiveReport& report : reports_) {
+        for (FramesReport& report : reports_) {
             report.vertices_before = pool_.positions.count;
             report.vertices_after = split.vertexCount();
         }
@@ -381,8 +382,8 @@ class FrameComputer {
 
     const PoolView pool_;
     std::span<const PrimitiveGeometry> primitives_;
-    const GenerateOptions& options_;
-    std::span<PrimitiveReport> reports_;
+    const FramesOptions& options_;
+    std::span<FramesReport> reports_;
     bool generates_normals_;
     bool generates_tangents_;
     bool generates_bitangents_;
@@ -403,7 +404,7 @@ class FrameComputer {
 };
 
 Error checkPool(const PoolView& pool, std::span<const PrimitiveGeometry> primitives,
-                std::span<const PrimitiveReport> reports) {
+                std::span<const FramesReport> reports) {
     const std::size_t count = pool.positions.count;
     if (count > kMaxCorners) return {ErrorCode::tooLarge, "more than 2^31-1 vertices"};
     if (reports.size() != primitives.size()) {
@@ -424,7 +425,7 @@ Error checkPool(const PoolView& pool, std::span<const PrimitiveGeometry> primiti
 
 /// Normals first, as a pool of its own, so that tangents of every target see the vertices that will be written.
 Result<PoolFrames> computeWithMorphedNormals(const PoolView& pool, std::span<const PrimitiveGeometry> primitives,
-                                             const GenerateOptions& options, std::span<PrimitiveReport> reports) {
+                                             const FramesOptions& options, std::span<FramesReport> reports) {
     PoolWithNormals made;
     if (Result<Done> done = generatePoolNormals(pool, primitives, options, reports, made); !done) {
         return std::move(done).error();
@@ -440,37 +441,28 @@ Result<PoolFrames> computeWithMorphedNormals(const PoolView& pool, std::span<con
         frames->morphs[i].normals = spread(made.offsets[i], frames->source_vertices, made.source_vertices.size());
     }
     for (std::uint32_t& source : frames->source_vertices) source = made.source_vertices[source];
-    for (PrimitiveReport& report : reports) report.vertices_before = pool.positions.count;
+    for (FramesReport& report : reports) report.vertices_before = pool.positions.count;
     return frames;
 }
 
 /// Vertices that a split adds, from which on it is worth to look for what made it: one in so many.
 constexpr std::size_t kManySplit = 20;
 
-void countFaults(const PoolView& pool, const PoolFrames& frames, float weld_distance,
-                 std::span<PrimitiveReport> reports) {
+void countFaults(const PoolView& pool, const PoolFrames& frames, float weld_distance, std::span<FramesReport> reports) {
     const std::size_t before = pool.positions.count, after = frames.source_vertices.size();
     const bool counts_winding =
         (after - before) * kManySplit > before || (frames.normals_generated && !frames.normals.empty());
     if (!counts_winding) return;
-    const std::vector<Vec3> positions = gather(pool.positions, frames.source_vertices);
-    // Once for all primitives: each may use a small part of the vertices.
-    std::vector<std::uint32_t> corners;
-    for (std::size_t p = 0; p < reports.size(); ++p)
-        corners.insert(corners.end(), frames.indices[p].begin(), frames.indices[p].end());
-    Parallel parallel(Execution{}, corners.size());
-    const NearMesh near({.positions = positions, .indices = corners}, weld_distance, nullptr, parallel);
-    for (std::size_t p = 0; p < reports.size(); ++p)
-        countFaults(near.view().positions, frames.normals, frames.indices[p], reports[p]);
+    countFaults(gather(pool.positions, frames.source_vertices), frames.normals, frames.indices, weld_distance, reports);
 }
 
 }  // namespace
 
 Result<PoolFrames> computeFrames(const PoolView& pool, std::span<const PrimitiveGeometry> primitives,
-                                 const GenerateOptions& given, std::span<PrimitiveReport> reports) {
+                                 const FramesOptions& given, std::span<FramesReport> reports) {
     return atBorder([&]() -> Result<PoolFrames> {
         if (Error e = checkPool(pool, primitives, reports); e.code != ErrorCode::ok) return e;
-        const GenerateOptions options = inFileCoordinates(given);
+        const FramesOptions options = inFileCoordinates(given);
         if (!pool.uv_matrix.isIdentity()) {
             const std::vector<Vec2> uvs = transformUvs(pool.uvs, pool.uv_matrix);
             PoolView turned = pool;
@@ -485,42 +477,6 @@ Result<PoolFrames> computeFrames(const PoolView& pool, std::span<const Primitive
         if (frames) countFaults(pool, *frames, options.normals.weld_distance, reports);
         return frames;
     });
-}
-
-// Names of what can be done to a primitive, and of the faces that it can be done on.
-
-const char* actionName(PrimitiveAction action) {
-    switch (action) {
-        case PrimitiveAction::generated:
-            return "generated";
-        case PrimitiveAction::replaced:
-            return "replaced";
-        case PrimitiveAction::unchanged:
-            return "unchanged";
-        case PrimitiveAction::kept:
-            return "kept";
-        case PrimitiveAction::notNeeded:
-            return "notNeeded";
-        case PrimitiveAction::notTriangles:
-            return "notTriangles";
-        case PrimitiveAction::impossible:
-            return "impossible";
-        case PrimitiveAction::removed:
-            return "removed";
-    }
-    return "unknown";
-}
-
-const char* facesName(Faces faces) {
-    switch (faces) {
-        case Faces::triangles:
-            return "triangles";
-        case Faces::quads:
-            return "quads";
-        case Faces::automatic:
-            return "auto";
-    }
-    return "unknown";
 }
 
 }  // namespace tspace

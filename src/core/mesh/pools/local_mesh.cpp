@@ -14,7 +14,7 @@
 #include "core/base/vec_math.h"
 #include "core/mesh/surface/surface.h"
 #include "core/normals/pose_normals.h"
-#include "tspace/split.h"
+#include "tspace/indexed_frames.h"
 
 namespace tspace {
 

@@ -8,7 +8,7 @@
 #include "core/base/vec_math.h"
 #include "core/mesh/surface/surface.h"
 #include "tspace/frame.h"
-#include "tspace/sanitize.h"
+#include "tspace/tangents.h"
 
 namespace tspace {
 

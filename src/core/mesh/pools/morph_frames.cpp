@@ -18,7 +18,7 @@
 #include "core/base/unique_index.h"
 #include "core/base/vec_math.h"
 #include "tspace/frame.h"
-#include "tspace/sanitize.h"
+#include "tspace/tangents.h"
 
 namespace tspace {
 
@@ -141,7 +141,7 @@ Vec3 offsetBetween(const Vec3& from, const Vec3& to) {
     return isFinite(offset) ? offset : Vec3{};
 }
 
-Result<Done> MorphTangents::add(LocalMesh&& mesh, PrimitiveReport& report) {
+Result<Done> MorphTangents::add(LocalMesh&& mesh, FramesReport& report) {
     Result<TangentPlan> plan = planTangents(mesh.view(), options_.tangents, options_.execution);
     if (!plan) return std::move(plan).error();
     const MeshView view = mesh.view();

@@ -10,7 +10,7 @@
 #include "core/mesh/pools/local_mesh.h"
 #include "core/mesh/pools/primitive.h"
 #include "core/mesh/surface/surface.h"
-#include "tspace/split.h"
+#include "tspace/indexed_frames.h"
 #include "tspace/tangents.h"
 
 namespace tspace {
@@ -98,10 +98,10 @@ struct KeptOffsets {
 
 class MorphTangents {
   public:
-    MorphTangents(const PoolView& pool, const GenerateOptions& options) : pool_(pool), options_(options) {}
+    MorphTangents(const PoolView& pool, const FramesOptions& options) : pool_(pool), options_(options) {}
 
     /// The next primitive as it was computed: triangles or quads, with normals. `report` gets its counts later.
-    Result<Done> add(LocalMesh&& mesh, PrimitiveReport& report);
+    Result<Done> add(LocalMesh&& mesh, FramesReport& report);
 
     /// One target after the other. `tangents`: of the base, one per corner of all primitives. Goes on with the split.
     /// `kept`: null, or where offsets of the file stay.
@@ -113,7 +113,7 @@ class MorphTangents {
         TangentPlan plan;
         WeldClasses classes;
         std::vector<Vec4> unmended;  ///< of the base, one per corner
-        PrimitiveReport* report = nullptr;
+        FramesReport* report = nullptr;
     };
     Result<Done> evaluateFaces(const Piece& piece, std::span<const Vec4> base, std::span<Vec3> offsets);
     Result<Done> evaluate(const Piece& piece, std::span<const Vec4> base, std::span<Vec3> offsets);
@@ -122,7 +122,7 @@ class MorphTangents {
     void carryOver(const Piece& piece, std::span<const Vec4> base);
 
     const PoolView& pool_;
-    const GenerateOptions& options_;
+    const FramesOptions& options_;
     std::vector<Piece> pieces_ = {};
     MorphPose pose_ = {};
     std::vector<Vec4> tangents_ = {}, regrouped_ = {};
@@ -151,7 +151,7 @@ struct PoolWithNormals {
 /// Normals by options.normals. Which edges are hard is the base's matter; what a target adds makes the normals of the
 /// moved shape. Fills the normals of the reports. The result must stay where it is: its targets point into it.
 Result<Done> generatePoolNormals(const PoolView& pool, std::span<const PrimitiveGeometry> primitives,
-                                 const GenerateOptions& options, std::span<PrimitiveReport> reports,
+                                 const FramesOptions& options, std::span<FramesReport> reports,
                                  PoolWithNormals& result);
 
 // Offsets that morph targets should add to normals that stay.

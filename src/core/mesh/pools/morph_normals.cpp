@@ -18,8 +18,8 @@ constexpr float kTolerance = 1e-5f;
 
 class PoolNormals {
   public:
-    PoolNormals(const PoolView& pool, std::span<const PrimitiveGeometry> primitives, const GenerateOptions& options,
-                std::span<PrimitiveReport> reports)
+    PoolNormals(const PoolView& pool, std::span<const PrimitiveGeometry> primitives, const FramesOptions& options,
+                std::span<FramesReport> reports)
         : pool_(pool), primitives_(primitives), options_(options), reports_(reports) {}
 
     Result<Done> compute(PoolWithNormals& result) {
@@ -119,8 +119,8 @@ class PoolNormals {
 
     const PoolView& pool_;
     std::span<const PrimitiveGeometry> primitives_;
-    const GenerateOptions& options_;
-    std::span<PrimitiveReport> reports_;
+    const FramesOptions& options_;
+    std::span<FramesReport> reports_;
     std::vector<LocalMesh> meshes_ = {};
     std::vector<NormalOptions> options_of_ = {};
     std::vector<BorderedNormals> makers_ = {};
@@ -133,7 +133,7 @@ class PoolNormals {
 }  // namespace
 
 Result<Done> generatePoolNormals(const PoolView& pool, std::span<const PrimitiveGeometry> primitives,
-                                 const GenerateOptions& options, std::span<PrimitiveReport> reports,
+                                 const FramesOptions& options, std::span<FramesReport> reports,
                                  PoolWithNormals& result) {
     return PoolNormals(pool, primitives, options, reports).compute(result);
 }

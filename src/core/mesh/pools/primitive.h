@@ -12,11 +12,14 @@
 #include "core/base/owned_mesh.h"
 #include "core/mesh/surface/surface.h"
 #include "core/mesh/surface/uvs.h"
-#include "tspace/asset.h"
+#include "tspace/callbacks.h"
+#include "tspace/execution.h"
+#include "tspace/mesh.h"
+#include "tspace/normals.h"
+#include "tspace/pack.h"
 #include "tspace/result.h"
 #include "tspace/span.h"
-#include "tspace/split.h"
-#include "tspace/vec.h"
+#include "tspace/tangents.h"
 
 namespace tspace {
 
@@ -80,7 +83,43 @@ struct MorphFrames {
 };
 
 // The middle of the pipeline: geometry in, frames for an indexed mesh out. Knows no file format. The readers fill
-// PrimitiveGeometry, the writers apply PrimitiveFrames.
+// PrimitiveGeometry, the writers apply PoolFrames.
+
+/// How frames are computed.
+struct FramesOptions {
+    TangentOptions tangents{.convention = conventions::gltf};
+    /// For pools without normals. Its weld_distance also says which positions count as one for winding.
+    NormalOptions normals{.weighting = NormalWeighting::flat, .weld_distance = NormalOptions::weld_auto};
+    bool sanitize = true;                         ///< mend tangents that no viewer can use
+    SanitizeOptions sanitize_options = {};        ///< how, with `sanitize`
+    bool bitangents = false;                      ///< compute PoolFrames::bitangents too
+    VectorFormat format = VectorFormat::float32;  ///< generated normals are rounded to it before tangents are computed
+    Faces faces = Faces::triangles;               ///< the faces that `mikktspace` is computed on
+    Execution execution = {};
+    Progress progress = {};
+};
+
+/// What was done to one primitive of a pool.
+struct FramesReport {
+    std::uint64_t triangle_count = 0;
+    std::uint64_t vertices_before = 0, vertices_after = 0;  ///< of the pool
+    std::uint64_t mended_vertex_count = 0;                  ///< vertices whose wrong tangents were mended
+    /// Corners, over all targets, at which the frame of the moved shape has the other sign, which no offset can give.
+    std::uint64_t morph_sign_flip_count = 0;
+    bool normals_generated = false;
+    bool bitangents_generated = false;
+    NormalReport normals = {};
+    std::uint64_t normals_behind_count = 0;  ///< corners whose generated normal points behind their own triangle
+    /// Triangles that are wound against most of those they are connected with. Counted where normals are generated, and
+    /// where many vertices were split; else 0. So is two_sided_triangle_count.
+    std::uint64_t turned_triangle_count = 0;
+    std::uint64_t two_sided_triangle_count = 0;  ///< triangles with a twin of the opposite winding
+    TangentReport tangents = {};
+    std::uint64_t negative_uv_count = 0;  ///< triangles with negative UV area
+    SanitizeReport sanitize = {};
+    Faces faces = Faces::triangles;  ///< the faces that tangents were computed on
+    std::uint64_t quad_count = 0;    ///< of those, the ones with four corners or more
+};
 
 struct Surroundings;
 
@@ -120,12 +159,12 @@ struct PoolView {
 
 /// Frames for all primitives of one pool after splitting it.
 struct PoolFrames {
-    bool normals_generated = false;  ///< rounded to GenerateOptions::format; tangents belong to the rounded ones
+    bool normals_generated = false;  ///< rounded to FramesOptions::format; tangents belong to the rounded ones
     /// New vertex -> old vertex, identity first (SplitResult::source_vertices).
     std::vector<std::uint32_t> source_vertices = {};
     std::vector<Vec3> normals = {};     ///< one per new vertex when normals_generated, else empty
     std::vector<Vec4> tangents = {};    ///< one per new vertex; empty when tangents are not wanted or not possible
-    std::vector<Vec3> bitangents = {};  ///< one per new vertex where GenerateOptions::bitangents is set, else empty
+    std::vector<Vec3> bitangents = {};  ///< one per new vertex where FramesOptions::bitangents is set, else empty
     /// Per primitive: triangles after cutting n-gons, three new vertices each, in face order.
     std::vector<std::vector<std::uint32_t>> indices = {};
     /// One per morph target. With kept tangents it is empty where these are not the tangents that would be
@@ -150,17 +189,18 @@ struct PoolFrames {
 /// nothing. Exception: `lengyel` where sanitize made corners of one vertex differ, because that method sums over vertex
 /// indices.
 Result<PoolFrames> computeFrames(const PoolView& pool, std::span<const PrimitiveGeometry> primitives,
-                                 const GenerateOptions& options, std::span<PrimitiveReport> reports);
+                                 const FramesOptions& options, std::span<FramesReport> reports);
 
 // Faults of the triangles that frames were made on, counted for a report.
 
-/// Fills normals_behind_count, turned_triangle_count and two_sided_triangle_count.
+/// Fills normals_behind_count, turned_triangle_count and two_sided_triangle_count of primitives that share their vertices.
 ///
-/// positions  those of NearMesh: neighbors are found by equal positions
-/// normals    those that were generated, one per vertex, or empty
-/// corners    three per triangle
-void countFaults(const StridedSpan<const Vec3>& positions, std::span<const Vec3> normals,
-                 std::span<const std::uint32_t> corners, PrimitiveReport& report);
+/// normals        those that were generated, one per vertex, or empty
+/// corner_lists   one list per report, three corners per triangle
+/// weld_distance  positions this near count as one (NormalOptions::weld_distance)
+void countFaults(std::span<const Vec3> positions, std::span<const Vec3> normals,
+                 std::span<const std::vector<std::uint32_t>> corner_lists, float weld_distance,
+                 std::span<FramesReport> reports);
 
 // Repair of tangents and bitangents: values that are wrong are mended, and all others keep their bits.
 

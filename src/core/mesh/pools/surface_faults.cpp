@@ -12,11 +12,13 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/near_positions.h"
+#include "core/base/parallel.h"
 #include "core/base/sort.h"
 #include "core/base/unique_index.h"
 #include "core/base/vec_math.h"
 #include "core/mesh/surface/surface.h"
-#include "tspace/vec.h"
+#include "tspace/span.h"
 
 namespace tspace {
 
@@ -197,8 +199,11 @@ WindingCounts countWinding(const StridedSpan<const Vec3>& positions, std::span<c
 
 }  // namespace
 
-void countFaults(const StridedSpan<const Vec3>& positions, std::span<const Vec3> normals,
-                 std::span<const std::uint32_t> corners, PrimitiveReport& report) {
+namespace {
+
+/// `positions`: those of NearMesh, since neighbors are found by equal positions.
+void countFaultsOf(const StridedSpan<const Vec3>& positions, std::span<const Vec3> normals,
+                   std::span<const std::uint32_t> corners, FramesReport& report) {
     for (std::size_t c = 0; !normals.empty() && c + 2 < corners.size(); c += 3) {
         const DVec3 first = toDouble(positions[corners[c]]);
         const DVec3 face =
@@ -209,6 +214,20 @@ void countFaults(const StridedSpan<const Vec3>& positions, std::span<const Vec3>
     const WindingCounts winding = countWinding(positions, corners);
     report.turned_triangle_count = winding.turned_count;
     report.two_sided_triangle_count = winding.two_sided_count;
+}
+
+}  // namespace
+
+void countFaults(std::span<const Vec3> positions, std::span<const Vec3> normals,
+                 std::span<const std::vector<std::uint32_t>> corner_lists, float weld_distance,
+                 std::span<FramesReport> reports) {
+    // Near positions are found once for all primitives, since each may use a small part of the vertices.
+    std::vector<std::uint32_t> corners;
+    for (const std::vector<std::uint32_t>& list : corner_lists) corners.insert(corners.end(), list.begin(), list.end());
+    Parallel parallel(Execution{}, corners.size());
+    const NearMesh near({.positions = positions, .indices = corners}, weld_distance, nullptr, parallel);
+    for (std::size_t p = 0; p < reports.size(); ++p)
+        countFaultsOf(near.view().positions, normals, corner_lists[p], reports[p]);
 }
 
 }  // namespace tspace

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "tspace/asset.h"
-#include "tspace/vec.h"
+#include "tspace/pack.h"
+#include "tspace/span.h"
 
 namespace tspace {
 

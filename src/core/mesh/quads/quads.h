@@ -6,11 +6,9 @@
 #include <span>
 #include <vector>
 
-#include "tspace/asset.h"
 #include "tspace/execution.h"
 #include "tspace/mesh.h"
 #include "tspace/result.h"
-#include "tspace/triangulate.h"
 
 namespace tspace {
 

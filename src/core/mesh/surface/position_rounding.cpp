@@ -14,7 +14,6 @@
 #include "core/base/mesh_loops.h"
 #include "core/base/vec_math.h"
 #include "tspace/span.h"
-#include "tspace/vec.h"
 
 namespace tspace {
 

@@ -17,7 +17,6 @@
 #include "tspace/execution.h"
 #include "tspace/mesh.h"
 #include "tspace/span.h"
-#include "tspace/vec.h"
 
 namespace tspace {
 

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "tspace/span.h"
-#include "tspace/vec.h"
 
 namespace tspace {
 

@@ -15,7 +15,7 @@ using namespace test;
 RC_GTEST_PROP(ComputeFrames, ReproducesItselfOnItsOwnOutput, ()) {
     const OwnedMesh pool = anyPool();
     const std::vector<PrimitiveGeometry> primitives = anyFaces(pool);
-    const GenerateOptions options = anyOptions();
+    const FramesOptions options = anyOptions();
     const PoolOutcome first = compute(pool, primitives, options);
     const OwnedMesh written = rebuilt(pool, first.frames);
     const PoolOutcome second = compute(written, rebuilt(first.frames), options);
@@ -27,7 +27,7 @@ RC_GTEST_PROP(ComputeFrames, ReproducesItselfOnItsOwnOutput, ()) {
 
 RC_GTEST_PROP(ComputeFrames, WritesOnlyUnitBitangentsOnTheSideOfTheSign, ()) {
     const OwnedMesh pool = anyPool();
-    GenerateOptions options = anyOptions();
+    FramesOptions options = anyOptions();
     options.sanitize = options.bitangents = true;
     const PoolFrames frames = compute(pool, anyTriangles(pool), options).frames;
     RC_ASSERT(frames.bitangents.size() == frames.tangents.size());
@@ -42,7 +42,7 @@ RC_GTEST_PROP(ComputeFrames, WritesOnlyUnitBitangentsOnTheSideOfTheSign, ()) {
 
 RC_GTEST_PROP(ComputeFrames, WritesOnlyUnitTangentsWithOneSignPerFace, ()) {
     const OwnedMesh pool = anyPool();
-    GenerateOptions options = anyOptions();
+    FramesOptions options = anyOptions();
     options.tangents.method = *rc::gen::element(options.tangents.method, Method::lengyel);
     options.sanitize = true;
     const PoolOutcome result = compute(pool, anyTriangles(pool), options);
@@ -76,7 +76,7 @@ RC_GTEST_PROP(ComputeFrames, KeepsEveryCornerAtItsVertexAndCopiesBehind, ()) {
 RC_GTEST_PROP(ComputeFrames, ComputesEachPrimitiveAsAMeshOfItsOwn, ()) {
     const OwnedMesh pool = anyPool();
     const std::vector<PrimitiveGeometry> primitives = anyTriangles(pool);
-    const GenerateOptions options = anyOptions();
+    const FramesOptions options = anyOptions();
     const PoolOutcome together = compute(pool, primitives, options);
     for (std::size_t p = 0; p < primitives.size(); ++p) {
         const PoolOutcome alone = compute(pool, {primitives[p]}, options);
@@ -164,7 +164,7 @@ TEST(ComputeFrames, TakesSmoothingGroupsFromThePrimitive) {
     OwnedMesh pool = square();
     pool.normals.clear();
     pool.positions[3].z = 1;
-    GenerateOptions options;
+    FramesOptions options;
     options.normals.weighting = NormalWeighting::angle;
     PrimitiveGeometry primitive{.indices = {0, 1, 2, 2, 1, 3}, .smoothing_groups = {1, 1}};
     const auto distinctNormals = [&] {
@@ -208,7 +208,7 @@ TEST(ComputeFrames, AcceptsPoolsAndPrimitivesWithNothingInThem) {
 
 TEST(ComputeFrames, RefusesIndicesAndCountsThatDoNotFit) {
     const auto code = [](const OwnedMesh& pool, const PrimitiveGeometry& primitive) {
-        std::vector<PrimitiveReport> reports(1);
+        std::vector<FramesReport> reports(1);
         return computeFrames(pool, {&primitive, 1}, {}, reports).error().code;
     };
     EXPECT_EQ(code(square(), {.indices = {0, 1, 4}}), ErrorCode::indexOutOfRange);
@@ -230,7 +230,7 @@ TEST(ComputeFramesTime, StaysLinearWhenManyPrimitivesShareALargePool) {
             pool.uvs.push_back(uv);
         }
     }
-    GenerateOptions options;
+    FramesOptions options;
     EXPECT_FALSE(compute(pool, primitives, options).frames.wasSplit(pool.positions.size()));
 }
 

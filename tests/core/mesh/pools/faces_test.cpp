@@ -15,8 +15,8 @@ OwnedMesh poolOf(const ModelData& data) {
     return {.positions = data.positions, .normals = data.normals, .uvs = data.uvs};
 }
 
-GenerateOptions onFaces(Faces faces) {
-    GenerateOptions options;
+FramesOptions onFaces(Faces faces) {
+    FramesOptions options;
     options.faces = faces;
     return options;
 }
@@ -30,7 +30,7 @@ std::vector<Vec4> atCorners(const PoolFrames& frames) {
 
 /// Share of the corners that get the tangents of the polygons, which the pool has.
 double shareLikePolygons(const PolygonMesh& mesh, const Cut& cut, Faces faces) {
-    const GenerateOptions options = onFaces(faces);
+    const FramesOptions options = onFaces(faces);
     std::vector<Vec4> on_polygons(mesh.corners.size()), old_tangents;
     EXPECT_TRUE(generateTangents(mesh.view(), options.tangents, {.tangents = std::span(on_polygons)}));
     for (const std::uint32_t corner : cutQuads(mesh, cut)) old_tangents.push_back(on_polygons[corner]);
@@ -39,7 +39,7 @@ double shareLikePolygons(const PolygonMesh& mesh, const Cut& cut, Faces faces) {
     PoolView view(pool);
     view.old_tangents = old_tangents;
     const PrimitiveGeometry geometry{.indices = data.indices};
-    PrimitiveReport report;
+    FramesReport report;
     const Result<PoolFrames> frames = computeFrames(view, {&geometry, 1}, options, {&report, 1});
     EXPECT_TRUE(frames.ok());
     EXPECT_EQ(report.faces, Faces::quads);
@@ -61,7 +61,7 @@ TEST(Faces, QuadsGiveTheTangentsOfThePolygons) {
 TEST(Faces, OfTheirOwnAccordAreTriangles) {
     const ModelData data = trianglesOf(hills(9), kFan);
     const PrimitiveGeometry geometry{.indices = data.indices};
-    const PoolOutcome plain = compute(poolOf(data), {geometry}, GenerateOptions{});
+    const PoolOutcome plain = compute(poolOf(data), {geometry}, FramesOptions{});
     const PoolOutcome automatic = compute(poolOf(data), {geometry}, onFaces(Faces::automatic));
     EXPECT_EQ(plain.reports[0].faces, Faces::triangles);
     EXPECT_EQ(plain.reports[0].quad_count, 0U);
@@ -72,7 +72,7 @@ TEST(Faces, OfTheirOwnAccordAreTriangles) {
     EXPECT_EQ(quads.reports[0].quad_count, 81U);
     EXPECT_EQ(quads.reports[0].triangle_count, 162U);
     EXPECT_FALSE(sameBits(plain.frames.tangents, quads.frames.tangents));
-    GenerateOptions other = onFaces(Faces::quads);
+    FramesOptions other = onFaces(Faces::quads);
     other.tangents.method = Method::area;
     EXPECT_EQ(compute(poolOf(data), {geometry}, other).reports[0].faces, Faces::triangles);
 }
@@ -84,7 +84,7 @@ TEST(Faces, PolygonsOfAFileAreQuadsAsTheyAre) {
     const auto count = static_cast<std::uint64_t>(std::count(mesh.sizes.begin(), mesh.sizes.end(), 4U));
     EXPECT_EQ(quads.reports[0].quad_count, count);
     // Cut by MikkTSpace's own rule, so triangles give the same here, but for the last bits of sums.
-    const std::vector<Vec4> a = atCorners(compute(poolOf(mesh.data), {geometry}, GenerateOptions{}).frames),
+    const std::vector<Vec4> a = atCorners(compute(poolOf(mesh.data), {geometry}, FramesOptions{}).frames),
                             b = atCorners(quads.frames);
     ASSERT_EQ(a.size(), b.size());
     for (std::size_t c = 0; c < a.size(); ++c) EXPECT_GT(dot(xyz(a[c]), xyz(b[c])), 0.999999F);
@@ -127,7 +127,7 @@ TEST(Faces, MorphTargetsTakeTheQuadsOfTheirBase) {
 TEST(Faces, ChangeNothingWithTheNumberOfThreads) {
     const ModelData data = trianglesOf(hills(60), kFan);
     const PrimitiveGeometry geometry{.indices = data.indices};
-    GenerateOptions options = onFaces(Faces::quads);
+    FramesOptions options = onFaces(Faces::quads);
     options.execution.thread_count = 1;
     const PoolOutcome one = compute(poolOf(data), {geometry}, options);
     options.execution.thread_count = 4;

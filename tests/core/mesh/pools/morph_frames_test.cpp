@@ -7,7 +7,6 @@
 
 #include "core/mesh/pools/pools.h"
 #include "tspace/frame.h"
-#include "tspace/sanitize.h"
 #include "tspace/tangents.h"
 
 namespace tspace {
@@ -144,7 +143,7 @@ constexpr float kAnyDirection = 1e9f;
 /// takes equal vertices apart with those of the moved shape. Where this gives a corner no tangent, or one
 /// that leans out of the plane in which that of the base lies, the result is kAnyDirection.
 std::vector<Vec4> evaluated(OwnedMesh pool, const PrimitiveGeometry& primitive, const MorphOffsets& target,
-                            const std::vector<Vec4>& base, const GenerateOptions& options) {
+                            const std::vector<Vec4>& base, const FramesOptions& options) {
     MeshView mesh;
     mesh.positions = pool.positions;
     mesh.normals = pool.normals;
@@ -215,7 +214,7 @@ std::vector<Vec4> evaluated(OwnedMesh pool, const PrimitiveGeometry& primitive, 
 RC_GTEST_PROP(MorphFrames, AreThoseOfTheMovedShapeWithTheGroupsOfTheBase, ()) {
     const OwnedMesh pool = anyPoolWithTwins();
     RC_PRE(isOrdinary(pool));  // 1e20 beside 1 leaves rounding to decide about directions
-    const GenerateOptions options = anyOptions();
+    const FramesOptions options = anyOptions();
     // A broken corner may take the tangent of any other of its face, and the file has triangles only.
     const std::vector<PrimitiveGeometry> primitives = options.sanitize ? anyTriangles(pool) : anyFaces(pool);
     const Targets targets = anyTargets(pool);
@@ -246,7 +245,7 @@ RC_GTEST_PROP(MorphFrames, ReproduceThemselvesOnTheirOwnOutput, ()) {
     const OwnedMesh pool = anyPoolWithTwins();
     RC_PRE(isOrdinary(pool));  // what is not equals nothing, itself neither, so its copies join no neighbours
     const std::vector<PrimitiveGeometry> primitives = anyFaces(pool);
-    const GenerateOptions options = anyOptions();
+    const FramesOptions options = anyOptions();
     const Targets targets = anyTargets(pool);
     const PoolOutcome first = compute(withTargets(pool, targets), primitives, options);
     const OwnedMesh written = rebuilt(pool, first.frames);
@@ -264,7 +263,7 @@ RC_GTEST_PROP(MorphFrames, ReproduceThemselvesOnTheirOwnOutput, ()) {
 RC_GTEST_PROP(MorphFrames, LeaveTheBaseAsItIsWithoutTargetsButForSplits, ()) {
     const OwnedMesh pool = anyPoolWithTwins();
     const std::vector<PrimitiveGeometry> primitives = anyFaces(pool);
-    const GenerateOptions options = anyOptions();
+    const FramesOptions options = anyOptions();
     const PoolOutcome plain = compute(pool, primitives, options);
     const Targets targets = anyTargets(pool);
     const PoolOutcome morphed = compute(withTargets(pool, targets), primitives, options);
@@ -384,7 +383,7 @@ TEST(MorphFrames, SplitWhatLiesInOnePlaneAndIsBentByATarget) {
     for (const std::uint32_t v : {0u, 1u, 2u}) EXPECT_EQ(offsets[v], Vec3{});
     for (const std::uint32_t v : {3u, 4u, 5u}) EXPECT_LT(distance(sum({0, 0, 1}, offsets[v]), bent), 1e-6);
 
-    GenerateOptions smooth;
+    FramesOptions smooth;
     smooth.normals.weighting = NormalWeighting::angle;
     smooth.normals.crease_angle_deg = 30;
     const PoolOutcome whole = compute(pool, {{.indices = {0, 1, 2, 2, 1, 3}}}, smooth);
@@ -479,7 +478,7 @@ TEST(MorphFrames, PassOnWhyATargetCannotBeRead) {
     for (const bool has_normals : {true, false}) {
         OwnedMesh mesh = square();
         if (!has_normals) mesh.normals.clear();
-        std::vector<PrimitiveReport> reports(1);
+        std::vector<FramesReport> reports(1);
         const std::vector<PrimitiveGeometry> primitives{{.indices = {0, 1, 2}}};
         PoolView pool(mesh);
         pool.targets = {1, [](std::size_t) -> Result<MorphOffsets> { return Error{ErrorCode::invalidFile, "no"}; }};

@@ -18,12 +18,12 @@ using Indices = std::vector<std::uint32_t>;
 
 struct PoolOutcome {
     PoolFrames frames;
-    std::vector<PrimitiveReport> reports;
+    std::vector<FramesReport> reports;
 };
 
 inline PoolOutcome compute(const PoolView& pool, const std::vector<PrimitiveGeometry>& primitives,
-                           const GenerateOptions& options) {
-    std::vector<PrimitiveReport> reports(primitives.size());
+                           const FramesOptions& options) {
+    std::vector<FramesReport> reports(primitives.size());
     Result<PoolFrames> frames = computeFrames(pool, primitives, options, reports);
     EXPECT_TRUE(frames.ok()) << (frames.ok() ? "" : frames.error().message);
     return {frames.ok() ? *std::move(frames) : PoolFrames{}, std::move(reports)};
@@ -47,8 +47,8 @@ inline std::vector<PrimitiveGeometry> rebuilt(const PoolFrames& frames) {
     return result;
 }
 
-inline GenerateOptions withMethod(Method method) {
-    GenerateOptions options;
+inline FramesOptions withMethod(Method method) {
+    FramesOptions options;
     options.tangents.method = method;
     return options;
 }
@@ -114,8 +114,8 @@ inline std::vector<PrimitiveGeometry> anyFaces(const OwnedMesh& pool) {
     return primitives;
 }
 
-inline GenerateOptions anyOptions() {
-    GenerateOptions options =
+inline FramesOptions anyOptions() {
+    FramesOptions options =
         withMethod(*rc::gen::element(Method::mikktspace, Method::uniform, Method::angle, Method::area, Method::flat,
                                      Method::basis, Method::fast, Method::best));
     options.normals.weighting =

@@ -55,10 +55,10 @@ RC_GTEST_PROP(UvMatrix, GivesTheFrameThatTheTransformedUvsHaveByTheChainRule, ()
         .positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, .normals = {3, Vec3{0, 0, 1}}, .uvs = {{0, 0}, {1, 0}, {0, 1}}};
     PoolView pool(mesh);
     pool.uv_matrix = uvMatrix(angle, scale_u, scale_v);
-    GenerateOptions options;
+    FramesOptions options;
     options.tangents.convention = conventions::opengl;  // v as it is, sign as it is
     const PrimitiveGeometry triangle = {.indices = {0, 1, 2}};
-    PrimitiveReport report;
+    FramesReport report;
     const Result<PoolFrames> frames = computeFrames(pool, {&triangle, 1}, options, {&report, 1});
     RC_ASSERT(frames.ok());
     // u' = c su u + s sv v and v' = -s su u + c sv v, so du/du' = c / su and dv/du' = s / sv; here P = (u, v, 0).
@@ -93,7 +93,7 @@ RC_GTEST_PROP(UvMatrix, MakesNoDifferenceToAPoolThatIsUsedInParts, ()) {
     const PrimitiveGeometry part = {.indices = {whole.indices.begin(), whole.indices.begin() + 3}};
     for (const std::vector<PrimitiveGeometry>& geometries :
          {std::vector{whole}, std::vector{part}, std::vector{whole, part}}) {
-        std::vector<PrimitiveReport> reports(geometries.size());
+        std::vector<FramesReport> reports(geometries.size());
         const auto a = computeFrames(pool, geometries, {}, reports), b = computeFrames(turned, geometries, {}, reports);
         RC_ASSERT(a.ok() && b.ok());
         RC_ASSERT(a->tangents == b->tangents);

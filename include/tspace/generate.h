@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Model files: read one, put normals and tangents where its materials need them, write it with everything else in
-// it untouched. CMake target tspace::asset. Reads glTF 2.0 (.glb, .gltf) and Wavefront OBJ, and through the importer
-// FBX, PLY, STL, DAE, 3DS and more; writes glTF.
+// Puts normals and tangents into a model file where its materials need them, and leaves everything else in it untouched.
+// CMake target tspace::asset. Reads glTF 2.0 (.glb, .gltf) and Wavefront OBJ, and through the importer FBX, PLY, STL, DAE, 3DS and
+// more; writes glTF.
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -13,60 +12,15 @@
 
 #include "tspace/callbacks.h"
 #include "tspace/execution.h"
+#include "tspace/file_options.h"
+#include "tspace/mesh.h"
 #include "tspace/normals.h"
 #include "tspace/pack.h"
 #include "tspace/result.h"
-#include "tspace/sanitize.h"
 #include "tspace/tangents.h"
 #include "tspace/winding.h"
 
 namespace tspace {
-
-inline constexpr std::uint64_t kNoMemoryLimit = ~std::uint64_t{0};
-
-/// Gives the bytes of a file that a model in memory names. `path` is relative to the model: escapes of the URI decoded, with
-/// slashes. The bytes must stay as they are until the call that asks is over. cannotRead: there is no such file; any other
-/// error ends the call. Called from the thread of the call, and perhaps more than once for a file.
-using FindFile = std::function<Result<std::span<const std::uint8_t>>(const std::string& path)>;
-
-/// How files are opened.
-struct FileOptions {
-    /// URIs in a model may lead only to files in its own folder (and below). true: anywhere.
-    bool allow_external = false;
-    /// Path of tspace-import, the program that reads .fbx, .ply, .stl, .dae, .3ds and others; empty: such files are
-    /// refused. It runs as a process of its own, so that a crash or a runaway there is an error here (invalidFile).
-    std::string importer = {};
-    /// Files of more bytes are not given to the importer. The default is 2 GiB.
-    std::uint64_t import_max_file_bytes = std::uint64_t{2} << 30;
-    /// Address space of the importer, in bytes; a file gets 192 MiB and 256 times its size at most.
-    std::uint64_t import_max_memory_bytes = std::uint64_t{16} << 30;
-    /// What the importer may take of processor time, and on the clock. 0: by the size of the file, 2 s and one more for
-    /// each MiB of it, and twice that on the clock.
-    std::uint32_t import_max_seconds = 0;
-    /// What working on one file may take of memory, about; what it would take is estimated first, and more is
-    /// refused (tooLarge). 0: 64 MB, and 16 times the bytes of the file, of those it names, and of what its
-    /// compressed geometry unpacks to. Other values stand for that, and for import_max_memory_bytes;
-    /// kNoMemoryLimit: as much as there is.
-    std::uint64_t memory_limit_bytes = 0;
-    /// The model itself, where it is not in a file: GLB, glTF, or OBJ where the path, which is only what it is called,
-    /// ends in .obj. Read during the call only. It has no folder: files that it names come from `find_file`.
-    std::span<const std::uint8_t> content = {};
-    /// Gives the files that `content` names; only those in the model's own folder (and below), unless `allow_external`.
-    /// Without it they are an error (invalidFile) where they are needed.
-    FindFile find_file = {};
-    /// Told the path of each file that is read, at once, and of each image on the disk that a glTF names, read or not. Perhaps
-    /// called by several threads at one time.
-    std::function<void(const std::string& path)> opened = {};
-    /// Told of the images that a glTF names, in the place of `opened`, where it is there: they need not be read.
-    std::function<void(const std::string& path)> named = {};
-    /// A written file is on the disk, and not in its cache alone, before it takes its name: after a power cut the old file is
-    /// there or the new one, and never half of one. false: for many small files, where that takes most of the time.
-    bool sync = true;
-    /// OBJ, PLY and STL: coordinates so far from the origin (metres of a map) that 32-bit floats would not hold the shape are
-    /// read in double, and an offset is taken out of them before they become floats. In glTF it is the translation of the
-    /// nodes. true: no offset; the shape then loses what floats lose, and a warning says so.
-    bool keep_coordinates = false;
-};
 
 /// What becomes of tangents that are there and needed.
 enum class ExistingTangents : std::uint32_t {
@@ -82,17 +36,6 @@ enum class TextureTransform : std::uint32_t {
     ignore = 1,  ///< before it: for viewers that turn tangents by the transform themselves
 };
 
-/// The faces that tangents are computed on. glTF has only triangles, but Blender and many bakers compute MikkTSpace on
-/// the quads that these were cut from, along another diagonal in part; docs/concepts/quads.md has the whole story.
-enum class Faces : std::uint32_t {
-    triangles = 0,  ///< the triangles of the file
-    quads = 1,      ///< two triangles that follow each other and share an edge are a quad, as far as they look like it
-    /// Quads where the file's own tangents show it, or where it has none and Blender wrote it; else triangles.
-    automatic = 2,
-};
-/// "triangles", "quads" or "auto".
-const char* facesName(Faces faces);
-
 /// How the geometry of a written glTF file is packed.
 enum class Compression : std::uint32_t {
     keep = 0,     ///< what came in compressed goes out compressed the same way, new data in it; the rest stays plain
@@ -100,16 +43,6 @@ enum class Compression : std::uint32_t {
     meshopt = 2,  ///< EXT_meshopt_compression for vertices and indices; changes no value
     draco = 3,    ///< KHR_draco_mesh_compression for triangles; rounds positions, normals and UVs new to it
 };
-
-/// The numbers of written tangents and generated normals.
-enum class VectorFormat : std::uint32_t {
-    float32 = 0,  ///< the bits that the method gives
-    snorm16 = 1,  ///< half the size; KHR_mesh_quantization is declared
-    snorm8 = 2,   ///< a quarter; the same
-};
-
-/// "frame32", "snorm8_pair": the name that options and reports have; "" when `format` is none of the enumerators.
-const char* frameFormatName(FrameFormat format);
 
 /// What of NORMAL and TANGENT goes where a primitive has its frames packed.
 enum class PackDrop : std::uint32_t {
@@ -342,81 +275,5 @@ struct GenerateReport {
 /// changed.
 Result<GenerateReport> generateFile(const std::string& input, const std::string& output,
                                     const GenerateOptions& options = {});
-
-/// One texture or parameter of a material that is shaded in tangent space.
-struct TangentUseInfo {
-    std::string needed_by = {};  ///< "normalTexture", "clearcoatNormalTexture" or "anisotropy"
-    std::string place = {};      ///< JSON pointer of the texture reference or extension; empty for OBJ
-    std::uint32_t material = 0;
-    std::string material_name = {};  ///< may be empty
-    bool only_in_variant = false;    ///< not the primitive's own material, but one of KHR_materials_variants
-    std::int32_t uv_set = 0;         ///< n of TEXCOORD_n
-    double uv_offset[2] = {0, 0};    ///< KHR_texture_transform
-    double uv_rotation_rad = 0;
-    double uv_scale[2] = {1, 1};
-    bool follows_first = true;  ///< tangents made for the first use of the primitive fit this one too
-};
-
-/// What is in one primitive, as a person would want to know it before generating.
-struct PrimitiveInfo {
-    std::uint32_t mesh = 0;
-    std::uint32_t primitive = 0;
-    std::string mesh_name = {};
-    std::string material_name = {};
-    std::string mode = {};  ///< "triangles", "triangle strip", "points", ...
-    std::uint64_t triangle_count = 0;
-    std::uint64_t vertex_count = 0;
-    std::uint32_t vertex_list = 0;             ///< the same number for primitives that share their vertices
-    std::string index_type = {};               ///< "u8", "u16", "u32" or "none"
-    std::string compression = {};              ///< "meshopt", "draco" or "none"
-    std::vector<std::string> attributes = {};  ///< "POSITION float3", "NORMAL snorm16x3", ...
-    std::uint32_t uv_set_count = 0;
-    std::uint32_t morph_target_count = 0;
-    bool skinned = false;
-    bool has_normals = false;
-    bool has_tangents = false;
-    std::vector<FrameFormat> packed_frames = {};  ///< formats of packed frames that it has and that can be read
-    bool tangents_not_read = false;  ///< has_tangents is false, but the importer cannot tell that there are none
-    bool needs_tangents = false;
-    std::string needed_by = {};                     ///< "normalTexture", "anisotropy", ... or empty
-    std::vector<TangentUseInfo> tangent_uses = {};  ///< everything that needs tangents; they follow the first
-    std::uint32_t variant_material_count = 0;       ///< materials that KHR_materials_variants can put on it
-    std::uint32_t node_count = 0;                   ///< nodes that draw its mesh
-    std::uint64_t instance_count = 0;               ///< how often they draw it: EXT_mesh_gpu_instancing counts each
-    std::int32_t uv_set = -1;                       ///< the UV set that tangents would follow, or -1
-    std::uint64_t degenerate_uv_count = 0;          ///< triangles without UV area in that set
-    std::uint64_t degenerate_triangle_count = 0;    ///< triangles with two corners at one position
-    double position_noise = 0;  ///< PositionNoise::noise of its triangles: 0 where positions are not noisy
-    /// Triangles that show the texture mirrored (V direction and KHR_texture_transform considered).
-    std::uint64_t mirrored_triangle_count = 0;
-    std::uint32_t uv_island_count = 0;        ///< connected pieces of the UV map
-    std::uint32_t mirrored_island_count = 0;  ///< those of which most of the area is mirrored
-};
-
-struct Inspection {
-    std::string format = {};  ///< "glb", "gltf", "obj", or the extension of an imported file ("fbx")
-    std::string generator = {};
-    std::uint64_t file_bytes = 0;
-    std::uint32_t mesh_count = 0;
-    std::uint32_t material_count = 0;
-    std::uint32_t node_count = 0;
-    std::uint32_t animation_count = 0;
-    std::uint32_t image_count = 0;
-    std::vector<std::string> extensions_used = {};
-    std::vector<std::string> extensions_required = {};
-    std::vector<std::string> variants = {};      ///< names of KHR_materials_variants
-    std::vector<PrimitiveInfo> primitives = {};  ///< in file order
-    std::vector<std::string> warnings = {};      ///< about the file as a whole: one sentence each
-    double coordinate_offset[3] = {0, 0, 0};     ///< as in GenerateReport: what generate would take out
-};
-
-/// Removes the temporary files that killed runs of any call that writes left in a folder, and below it where that is asked
-/// for. Their names tell which process on which machine made them; only those of processes of this machine that are gone are
-/// removed. A file that such a run had set aside comes back where its place is empty. Returns how many files it was. What
-/// cannot be read or removed is passed over. Linear in the number of files there; thread-safe.
-std::uint64_t removeAbandonedFiles(const std::string& folder, bool with_folders_below = true);
-
-/// Reads a model and says what is in it. Changes nothing. Errors as generateFile.
-Result<Inspection> inspectFile(const std::string& input, const FileOptions& options = {});
 
 }  // namespace tspace

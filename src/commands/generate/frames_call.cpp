@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+// The parts of GenerateOptions and PrimitiveReport that belong to computeFrames.
+#include "commands/generate/frames_call.h"
+
+namespace tspace {
+
+FramesOptions framesOptions(const GenerateOptions& options) {
+    return {.tangents = options.tangents,
+            .normals = options.normals,
+            .sanitize = options.sanitize,
+            .sanitize_options = options.sanitize_options,
+            .bitangents = options.bitangents,
+            .format = options.format,
+            .faces = options.faces};
+}
+
+void copyReportOfKept(const FramesReport& computed, PrimitiveReport& report) {
+    report.morph_sign_flip_count = computed.morph_sign_flip_count;
+    report.normals_behind_count = computed.normals_behind_count;
+    report.turned_triangle_count = computed.turned_triangle_count;
+    report.two_sided_triangle_count = computed.two_sided_triangle_count;
+}
+
+void copyReport(const FramesReport& computed, PrimitiveReport& report) {
+    copyReportOfKept(computed, report);
+    report.normals = computed.normals;
+    report.tangents = computed.tangents;
+    report.negative_uv_count = computed.negative_uv_count;
+    report.sanitize = computed.sanitize;
+    report.mended_vertex_count = computed.mended_vertex_count;
+    report.faces = computed.faces;
+    report.quad_count = computed.quad_count;
+}
+
+const char* actionName(PrimitiveAction action) {
+    switch (action) {
+        case PrimitiveAction::generated:
+            return "generated";
+        case PrimitiveAction::replaced:
+            return "replaced";
+        case PrimitiveAction::unchanged:
+            return "unchanged";
+        case PrimitiveAction::kept:
+            return "kept";
+        case PrimitiveAction::notNeeded:
+            return "notNeeded";
+        case PrimitiveAction::notTriangles:
+            return "notTriangles";
+        case PrimitiveAction::impossible:
+            return "impossible";
+        case PrimitiveAction::removed:
+            return "removed";
+    }
+    return "unknown";
+}
+
+}  // namespace tspace
