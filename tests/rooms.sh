@@ -21,6 +21,9 @@ up=$(awk 'function height(folder) {
           { a = height($1); b = height($2); if (a == 2) a = 8; if (b == 2) b = 8; if (b > a) print $1, "includes", $2 }' <<<"$includes")
 [ -z "$up" ] || { echo "these look up:"; echo "$up"; exit 1; }
 
+up=$(awk '$1 ~ /^commands\/shared/ && $2 ~ /^commands\// && $2 !~ /^commands\/shared/ { print $1, "includes", $2 }' <<<"$includes")
+[ -z "$up" ] || { echo "what commands share includes one of them:"; echo "$up"; exit 1; }
+
 awk '{ for (i = 1; i <= 2; ++i) {
            depth = $i ~ /^core\/mesh|^commands\/shared/ ? 3 : 2
            count = split($i, part, "/")

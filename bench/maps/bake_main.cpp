@@ -15,7 +15,7 @@
 #include "bake_cases.h"
 #include "core/base/vec_math.h"
 #include "level_errors.h"
-#include "maps/quantize.h"
+#include "maps/texels/quantize.h"
 
 namespace {
 

@@ -19,8 +19,8 @@
 #include "images/float_image.h"
 #include "images/texel_format.h"
 #include "images/write_texture.h"
-#include "maps/filtered_error.h"
-#include "maps/fit_blocks.h"
+#include "maps/blocks/filtered_error.h"
+#include "maps/blocks/fit_blocks.h"
 
 namespace tspace::bench {
 namespace {

@@ -8,8 +8,8 @@
 #include <string>
 
 #include "bake_cases.h"
-#include "maps/shading.h"
-#include "maps/texture_sample.h"
+#include "maps/texels/shading.h"
+#include "maps/texels/texture_sample.h"
 #include "tspace/maps.h"
 
 namespace {

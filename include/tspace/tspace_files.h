@@ -14,7 +14,7 @@
  * Free it by tspace_destroyBytes; it is empty after an error. Output files are put in place when the report is complete,
  * so an error always means that none was written.
  *
- * Functions on files take paths, and read all formats that asset.h names; those on bytes do the same in memory.
+ * Functions on files take paths, and read all formats that generate.h names; those on bytes do the same in memory.
  */
 #ifndef TSPACE_TSPACE_FILES_H
 #define TSPACE_TSPACE_FILES_H

@@ -10,9 +10,9 @@
 #include <numbers>
 #include <random>
 
-#include "maps/quantize.h"
-#include "maps/shading.h"
-#include "maps/texel_triangles.h"
+#include "maps/layout/texel_triangles.h"
+#include "maps/texels/quantize.h"
+#include "maps/texels/shading.h"
 
 namespace tspace::test {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "maps/fit_blocks.h"
+#include "maps/blocks/fit_blocks.h"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <cmath>
 
 #include "images/texel_format.h"
-#include "maps/block_formats.h"
-#include "maps/filtered_error.h"
+#include "maps/blocks/block_formats.h"
+#include "maps/blocks/filtered_error.h"
 
 namespace tspace {
 namespace {

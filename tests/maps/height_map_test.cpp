@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/base/vec_math.h"
-#include "maps/shading.h"
+#include "maps/texels/shading.h"
 #include "tspace/maps.h"
 
 namespace tspace::test {

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "maps/shading.h"
+#include "maps/texels/shading.h"
 #include "support/filled_memory.h"
 #include "tspace/maps.h"
 

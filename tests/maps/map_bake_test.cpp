@@ -12,7 +12,7 @@
 
 #include "bake_cases.h"
 #include "core/base/vec_math.h"
-#include "maps/map_surfaces.h"
+#include "maps/rays/map_surfaces.h"
 #include "support/thread_team.h"
 
 #ifdef TSPACE_HAS_TBB

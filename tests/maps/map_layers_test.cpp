@@ -8,9 +8,9 @@
 #include <set>
 
 #include "core/base/vec_math.h"
-#include "maps/hemisphere.h"
-#include "maps/surface_curvature.h"
-#include "maps/texture_sample.h"
+#include "maps/bake/hemisphere.h"
+#include "maps/bake/surface_curvature.h"
+#include "maps/texels/texture_sample.h"
 #include "support/thread_team.h"
 
 namespace tspace::test {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Why rays meet nothing: each cause is made, and found.
-#include "maps/missed_cause.h"
+#include "maps/rays/missed_cause.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <regex>
 
 #include "bake_cases.h"
-#include "maps/rays.h"
+#include "maps/rays/rays.h"
 
 namespace tspace::test {
 namespace {

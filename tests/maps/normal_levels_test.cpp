@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "maps/normal_levels.h"
+#include "maps/blocks/normal_levels.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "maps/shading.h"
+#include "maps/texels/shading.h"
 
 namespace tspace {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Rays against all triangles one by one.
-#include "maps/rays.h"
+#include "maps/rays/rays.h"
 
 #include <gtest/gtest.h>
 

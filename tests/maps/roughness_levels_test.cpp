@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "maps/roughness_levels.h"
+#include "maps/blocks/roughness_levels.h"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // The shading reference, and sampling.
-#include "maps/shading.h"
+#include "maps/texels/shading.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
-#include "maps/texture_sample.h"
+#include "maps/texels/texture_sample.h"
 #include "tspace/frame.h"
 
 namespace tspace::test {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Maps that are solved some rows at a time.
-#include "maps/solve_strips.h"
+#include "maps/bake/solve_strips.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Texels under the bilinear filter.
-#include "maps/solve_texels.h"
+#include "maps/solve/solve_texels.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Where the map between texels follows from their centres.
-#include "maps/texel_plan.h"
+#include "maps/bake/texel_plan.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "core/base/vec_math.h"
-#include "maps/solve_texels.h"
+#include "maps/solve/solve_texels.h"
 
 namespace tspace::test {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Which triangle says what stands in a texel.
-#include "maps/texel_triangles.h"
+#include "maps/layout/texel_triangles.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Which texels triangles show.
-#include "maps/uv_coverage.h"
+#include "maps/layout/uv_coverage.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>

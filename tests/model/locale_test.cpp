@@ -7,7 +7,7 @@
 #include "commands/check/check_report.h"
 #include "commands/inspect/inspect_report.h"
 #include "commands/shared/request.h"
-#include "maps/map_surfaces.h"
+#include "maps/rays/map_surfaces.h"
 #include "model/gltf/draco_primitives.h"
 #include "support/comma_locale.h"
 #include "support/scene_file.h"

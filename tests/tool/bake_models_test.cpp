@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "core/base/vec_math.h"
-#include "maps/shading.h"
+#include "maps/texels/shading.h"
 #include "support/shared_data.h"
 
 namespace tspace::test {

@@ -9,7 +9,7 @@
 #include "core/base/vec_math.h"
 #include "images/float_image.h"
 #include "images/images.h"
-#include "maps/shading.h"
+#include "maps/texels/shading.h"
 #include "run_tool.h"
 
 namespace tspace::test {

@@ -8,7 +8,7 @@
 #include "images/float_image.h"
 #include "images/image.h"
 #include "images/images.h"
-#include "maps/shading.h"
+#include "maps/texels/shading.h"
 #include "tool/folder_files.h"
 #include "tool/run_tool.h"
 

@@ -8,7 +8,7 @@
 
 #include "images/float_image.h"
 #include "images/images.h"
-#include "maps/shading.h"
+#include "maps/texels/shading.h"
 #include "run_tool.h"
 
 namespace tspace::test {

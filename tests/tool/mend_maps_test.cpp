@@ -9,7 +9,7 @@
 #include "images/float_image.h"
 #include "images/images.h"
 #include "images/textures.h"
-#include "maps/shading.h"
+#include "maps/texels/shading.h"
 #include "tool/folder_files.h"
 #include "tool/run_tool.h"
 #include "tspace/map_files.h"

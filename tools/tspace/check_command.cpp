@@ -8,7 +8,7 @@
 
 #include "command_table.h"
 #include "commands/check/check_report.h"
-#include "commands/shared/page/check_page.h"
+#include "commands/pages/check_page.h"
 #include "commands/shared/request.h"
 #include "common_options.h"
 #include "console.h"

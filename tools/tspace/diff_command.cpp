@@ -4,7 +4,7 @@
 
 #include "command_table.h"
 #include "commands/diff/diff_report.h"
-#include "commands/shared/page/diff_page.h"
+#include "commands/pages/diff_page.h"
 #include "commands/shared/request.h"
 #include "common_options.h"
 #include "console.h"

@@ -4,7 +4,7 @@
 
 #include <span>
 
-#include "commands/shared/page/page_parts.h"
+#include "commands/pages/page_parts.h"
 #include "tspace/result.h"
 
 namespace tspace::tool {

@@ -31,7 +31,7 @@ const notHere = new Set([
   "core/base/parallel.cpp", "core/base/arena.cpp", "core/tangents/many_meshes.cpp", "model/io/atomic_output_disk.cpp", "model/io/bytes.cpp", "model/io/file_io.cpp", "model/io/recorded_files.cpp",
   "model/obj/tiny_obj_loader.cpp", "model/gltf/codecs/draco_library.cpp", "model/gltf/codecs/meshopt_library.cpp",
   ...["astc", "basis_lz", "bc7", "dds", "ktx2", "texel_format", "texture", "uastc", "unpack_level", "write_texture"].map((name) => `images/${name}.cpp`),
-  "images/exr.cpp", "images/float_image.cpp", "images/float_range.cpp", "images/jpeg.cpp", "images/png.cpp", "images/read_tga.cpp", "images/webp.cpp", "maps/rays.cpp",
+  "images/exr.cpp", "images/float_image.cpp", "images/float_range.cpp", "images/jpeg.cpp", "images/png.cpp", "images/read_tga.cpp", "images/webp.cpp", "maps/rays/rays.cpp",
   "commands/generate/convert_maps.cpp", "commands/generate/mend_maps.cpp", "commands/diff/diff_words.cpp",
   "commands/shared/map_coverage.cpp", "commands/shared/map_image_file.cpp", "commands/shared/texture_vectors.cpp", "commands/flip_green/texture_png.cpp",
   ...["bake/all_maps", "bake/bake_file", "bake/high_maps", "bake/match_meshes", "bake/model_maps", "bake/model_surfaces", "convert_map/convert_map_file",

@@ -5,7 +5,7 @@
 #include <set>
 #include <utility>
 
-#include "maps/uv_coverage.h"
+#include "maps/layout/uv_coverage.h"
 #include "model/gltf/container.h"
 #include "model/io/file_error.h"
 #include "model/io/file_io.h"

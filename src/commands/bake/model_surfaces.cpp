@@ -21,7 +21,7 @@
 #include "core/base/numbers.h"
 #include "core/base/vec_math.h"
 #include "core/mesh/surface/float_loss.h"
-#include "maps/map_surfaces.h"
+#include "maps/rays/map_surfaces.h"
 #include "model/gltf/load_document.h"
 #include "model/io/file_error.h"
 #include "model/io/file_io.h"

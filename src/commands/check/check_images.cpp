@@ -17,8 +17,8 @@
 #include "images/float_image.h"
 #include "images/image.h"
 #include "images/texture_file.h"
-#include "maps/texture_sample.h"
-#include "maps/uv_coverage.h"
+#include "maps/layout/uv_coverage.h"
+#include "maps/texels/texture_sample.h"
 #include "model/io/file_error.h"
 #include "model/io/memory_budget.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What tspace check reports. As a page it is in shared/page/check_page.h.
+// What tspace check reports. As a page it is in pages/check_page.h.
 #pragma once
 
 #include <string>

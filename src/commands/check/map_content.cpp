@@ -8,7 +8,7 @@
 
 #include "commands/check/normal_map.h"
 #include "core/base/vec_math.h"
-#include "maps/grey.h"
+#include "maps/texels/grey.h"
 
 namespace tspace {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "commands/check/map_content.h"
 #include "images/image.h"
-#include "maps/uv_coverage.h"
+#include "maps/layout/uv_coverage.h"
 #include "tspace/map_files.h"
 
 namespace tspace {

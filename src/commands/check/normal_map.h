@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "images/image.h"
-#include "maps/uv_coverage.h"
+#include "maps/layout/uv_coverage.h"
 #include "tspace/map_files.h"
 
 namespace tspace {

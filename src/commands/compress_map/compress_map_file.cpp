@@ -12,7 +12,7 @@
 #include "commands/shared/file_options.h"
 #include "commands/shared/map_image_file.h"
 #include "commands/shared/request.h"
-#include "maps/shading.h"
+#include "maps/texels/shading.h"
 #include "model/io/atomic_output.h"
 #include "model/io/file_error.h"
 #include "model/io/output_name.h"

@@ -6,9 +6,9 @@
 
 #include "commands/shared/map_coverage.h"
 #include "commands/shared/texture_vectors.h"
-#include "maps/filtered_error.h"
-#include "maps/fit_blocks.h"
-#include "maps/shading.h"
+#include "maps/blocks/filtered_error.h"
+#include "maps/blocks/fit_blocks.h"
+#include "maps/texels/shading.h"
 
 namespace tspace {
 namespace {

@@ -10,9 +10,9 @@
 
 #include "images/float_image.h"
 #include "images/write_texture.h"
-#include "maps/filtered_error.h"
-#include "maps/normal_levels.h"
-#include "maps/roughness_levels.h"
+#include "maps/blocks/filtered_error.h"
+#include "maps/blocks/normal_levels.h"
+#include "maps/blocks/roughness_levels.h"
 #include "tspace/map_files.h"
 
 namespace tspace {

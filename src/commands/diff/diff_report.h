@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What tspace diff reports, as JSON, as text and in words. As a page it is in shared/page/diff_page.h.
+// What tspace diff reports, as JSON, as text and in words. As a page it is in pages/diff_page.h.
 #pragma once
 
 #include <string>

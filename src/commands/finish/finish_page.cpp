@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include "commands/finish/finish_report.h"
+#include "commands/pages/check_page.h"
+#include "commands/pages/page_parts.h"
 #include "commands/render/model_picture.h"
-#include "commands/shared/page/check_page.h"
-#include "commands/shared/page/page_parts.h"
 #include "model/io/file_error.h"
 #include "model/read/read_scene.h"
 #include "tspace/version.h"

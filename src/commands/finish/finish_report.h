@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "commands/shared/page/page_parts.h"
+#include "commands/pages/page_parts.h"
 #include "commands/shared/report.h"
 #include "tspace/bake_file.h"
 

@@ -10,8 +10,8 @@
 #include "commands/shared/image_budget.h"
 #include "commands/shared/map_image_file.h"
 #include "commands/shared/texture_vectors.h"
-#include "maps/convert_texel.h"
-#include "maps/uv_coverage.h"
+#include "maps/convert/convert_texel.h"
+#include "maps/layout/uv_coverage.h"
 #include "model/gltf/material_needs.h"
 #include "model/gltf/read_scene.h"
 

@@ -9,7 +9,7 @@
 #include "commands/shared/map_image_file.h"
 #include "commands/shared/texture_vectors.h"
 #include "core/base/numbers.h"
-#include "maps/shading.h"
+#include "maps/texels/shading.h"
 #include "model/io/atomic_output.h"
 #include "model/io/file_error.h"
 #include "model/io/file_io.h"

@@ -5,8 +5,8 @@
 #include "commands/map_error/map_error_report.h"
 #include "commands/shared/map_image_file.h"
 #include "commands/shared/texture_vectors.h"
-#include "maps/filtered_error.h"
-#include "maps/shading.h"
+#include "maps/blocks/filtered_error.h"
+#include "maps/texels/shading.h"
 #include "model/io/file_error.h"
 #include "tspace/map_files.h"
 

@@ -10,10 +10,10 @@
 #include <string_view>
 #include <utility>
 
+#include "commands/pages/check_page.h"
+#include "commands/pages/page_parts.h"
 #include "commands/render/model_picture.h"
 #include "commands/shared/map_image_file.h"
-#include "commands/shared/page/check_page.h"
-#include "commands/shared/page/page_parts.h"
 #include "model/io/atomic_output.h"
 #include "model/io/file_error.h"
 #include "model/io/file_io.h"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "commands/shared/page/page_parts.h"
+#include "commands/pages/page_parts.h"
 #include "commands/shared/report.h"
 #include "model/io/path.h"
 #include "tspace/file_options.h"

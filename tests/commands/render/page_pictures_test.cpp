@@ -3,9 +3,9 @@
 #include <cmath>
 
 #include "commands/check/remedy.h"
+#include "commands/pages/check_page.h"
+#include "commands/pages/diff_page.h"
 #include "commands/render/drawn.h"
-#include "commands/shared/page/check_page.h"
-#include "commands/shared/page/diff_page.h"
 #include "commands/shared/picture/colors.h"
 
 namespace tspace::test {

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "commands/render/drawn.h"
-#include "maps/shading.h"
+#include "maps/texels/shading.h"
 #include "support/temp_folder.h"
 
 namespace tspace::test {

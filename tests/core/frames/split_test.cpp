@@ -30,7 +30,7 @@ SplitResult split(const Indices& indices, std::size_t vertex_count, std::vector<
 
 bool sameBits(float a, float b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 
-/// The rule of split.h, word for word, in quadratic time.
+/// The rule of splitVertices (indexed_frames.h), word for word, in quadratic time.
 SplitResult splitSlowly(const Indices& indices, std::size_t vertex_count, std::span<const CornerAttribute> attributes) {
     const auto equal = [&](std::size_t a, std::size_t b) {
         for (const CornerAttribute& attribute : attributes) {

@@ -11,8 +11,8 @@
 #include "core/base/parallel.h"
 #include "core/mesh/surface/affine.h"
 #include "images/image.h"
-#include "maps/shading.h"
-#include "maps/texture_sample.h"
+#include "maps/texels/shading.h"
+#include "maps/texels/texture_sample.h"
 #include "tspace/render.h"
 #include "tspace/span.h"
 

@@ -1,0 +1,300 @@
+// SPDX-License-Identifier: MIT
+
+#include "commands/pages/check_page.h"
+
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <utility>
+
+#include "commands/check/check_image.h"
+#include "commands/check/findings.h"
+#include "commands/generate/generate_model.h"
+#include "commands/pages/picture_pair.h"
+#include "commands/pages/place_pictures.h"
+#include "commands/shared/report.h"
+#include "commands/shared/request.h"
+#include "model/io/file_error.h"
+
+namespace tspace {
+namespace {
+
+constexpr const char* kNothingToSee = "It changes nothing that this picture shows.";
+
+/// The first command of a finding that works on the model; nothing where there is none.
+const RemedyCommand* modelCommand(const Finding& finding) {
+    const auto found = std::find_if(finding.commands.begin(), finding.commands.end(),
+                                    [](const RemedyCommand& command) { return command.verb == "generate"; });
+    return found == finding.commands.end() ? nullptr : &*found;
+}
+
+}  // namespace
+
+std::optional<GenerateOptions> optionsOf(const RemedyCommand& command) {
+    if (!command.placeholders.empty()) return {};
+    GenerateOptions result;
+    const options::OptionList list = options::generateOptions(result);
+    options::Given given;
+    for (const RemedyOption& part : command.options) {
+        const options::Option* option = options::findOption(list, "--" + part.name);
+        const bool is_known = option != nullptr && option->value.empty() == part.value.empty();
+        if (!is_known || !options::giveValue(*option, part.value, given).empty()) return {};
+    }
+    if (!options::checkTogether(list, given).empty() || !options::finish(given, result).empty()) return {};
+    return result;
+}
+
+DrawnScene mendedScene(const std::string& input, const FileOptions& file, GenerateOptions options) {
+    options.file = file;
+    return generateModel(input, options, true).model.drawnScene(true);
+}
+
+struct FindingPictures::Model {
+    /// The model after a command.
+    struct MendedModel {
+        MendedModel(const std::string& input, const FileOptions& options, const Scene& before,
+                    const GenerateOptions& command)
+            : model(mendedScene(input, options, command)), pairs(pairPrimitives(before, model.scene())) {}
+
+        PicturedModel model;
+        std::vector<PrimitivePair> pairs;
+    };
+
+    /// A command that was run: a model, or why there is none.
+    struct Mending {
+        std::unique_ptr<MendedModel> model = {};
+        std::string why_not = {};
+    };
+
+    Model(std::string path, const FileOptions& options) : input(std::move(path)), file(options), before(input, file) {}
+
+    /// `line`: the command with these options.
+    Mending& mendedBy(const std::string& line, const GenerateOptions& command) {
+        const auto [mending, is_new] = mended.try_emplace(line);
+        if (is_new) run(command, mending->second);
+        return mending->second;
+    }
+
+    void run(const GenerateOptions& command, Mending& mending) {
+        try {
+            mending.model = std::make_unique<MendedModel>(input, file, before.scene(), command);
+        } catch (const FileError& failure) {
+            mending.why_not = "It cannot be run here: " + failure.error.message + ".";
+        }
+    }
+
+    std::string input;
+    FileOptions file;
+    PicturedModel before;
+    std::map<std::string, Mending> mended = {};
+};
+
+FindingPictures::FindingPictures(const std::string& input, const FileOptions& options)
+    : model_(std::make_unique<Model>(input, options)) {}
+
+FindingPictures::~FindingPictures() = default;
+
+FindingPicture FindingPictures::draw(const Finding& finding) {
+    FindingPicture result;
+    const std::size_t primitive = findPrimitive(model_->before.scene(), finding.mesh, finding.primitive);
+    if (finding.place.empty() || primitive == kNoPrimitive) return result;
+    // A picture with computed tangents would hide that the file has none.
+    const bool lacks = finding.code == FindingCode::tangentsMissing || finding.code == FindingCode::tangentsIgnored;
+    const RenderFrames frames = lacks ? RenderFrames::stored : RenderFrames::automatic;
+    const std::vector<std::size_t> triangles =
+        trianglesAt(model_->before.scene().primitives[primitive], finding.vertices);
+    if (const RemedyCommand* const command = modelCommand(finding)) {
+        result.command = commandLine(*command);
+        result.why_no_after = drawAfter(*command, primitive, triangles, frames, result);
+        if (!result.after.empty() || result.why_no_after == kNothingToSee) return result;
+    }
+    result.before = drawPlace(model_->before.lit(frames), RenderShow::lit, primitive, triangles);
+    return result;
+}
+
+std::string FindingPictures::drawAfter(const RemedyCommand& command, std::size_t primitive,
+                                       std::span<const std::size_t> triangles, RenderFrames frames,
+                                       FindingPicture& result) {
+    const std::optional<GenerateOptions> options = optionsOf(command);
+    if (!options) return "It leaves a choice open.";
+    const Model::Mending& mending = model_->mendedBy(commandLine(command), *options);
+    if (!mending.model) return mending.why_not;
+    const auto pair = std::find_if(mending.model->pairs.begin(), mending.model->pairs.end(),
+                                   [&](const PrimitivePair& candidate) { return candidate.a == primitive; });
+    if (pair == mending.model->pairs.end() || pair->b == kNoPrimitive)
+        return "It cuts this place into other triangles.";
+    PicturePair drawn =
+        drawPair({model_->before.lit(frames), primitive}, triangles, {mending.model->model.lit(frames), pair->b});
+    if (drawn.before.empty()) return kNothingToSee;
+    result.before = std::move(drawn.before);
+    result.after = std::move(drawn.after);
+    result.difference = std::move(drawn.difference);
+    result.is_clay = drawn.is_clay;
+    const auto tenths = static_cast<std::uint64_t>(1000 * drawn.differing_share);
+    result.caption = "difference" +
+                     (drawn.gain == 1 ? std::string() : ", " + std::to_string(drawn.gain) + " times as bright") + ": " +
+                     std::to_string(tenths / 10) + "." + std::to_string(tenths % 10) + " % of the pixels";
+    return {};
+}
+
+namespace {
+
+using report::counted;
+
+constexpr std::size_t kMostPicturedFindings = 12;
+
+std::string severityCounts(const CheckReport& report) {
+    if (report.findings.empty()) return "<b class=\"good\">nothing found</b>";
+    return "<b class=\"error\">" + counted(report.error_count, "error") + "</b>, <b class=\"warning\">" +
+           counted(report.warning_count, "warning") + "</b>, <b class=\"note\">" + counted(report.note_count, "note") +
+           "</b>";
+}
+
+std::string whereHtml(const Finding& finding) {
+    if (finding.place.empty()) return {};
+    std::string text = "mesh " + std::to_string(finding.mesh);
+    if (!finding.mesh_name.empty()) text += " \"" + htmlText(finding.mesh_name) + "\"";
+    text += ", primitive " + std::to_string(finding.primitive);
+    if (!finding.material_name.empty()) text += ", material \"" + htmlText(finding.material_name) + "\"";
+    return "<p class=\"dim\">" + text + " (at " + htmlText(finding.place) + ")</p>\n";
+}
+
+std::string figuresOf(const FindingPicture& picture) {
+    if (picture.before.empty())
+        return picture.why_no_after.empty()
+                   ? ""
+                   : noFigureHtml("No pictures: " + picture.command + " changes nothing that a picture shows.");
+    const std::string command = "after " + picture.command;
+    std::string figures = figureHtml(picture.before, kPlaceWidth, kPlaceHeight,
+                                     picture.is_clay ? "as the file is, without base color" : "as the file is");
+    if (!picture.after.empty())
+        return figures + figureHtml(picture.after, kPlaceWidth, kPlaceHeight, command) +
+               figureHtml(picture.difference, kPlaceWidth, kPlaceHeight, picture.caption);
+    const std::string why = picture.command.empty() ? "No picture of the remedy: no command of tspace gives it."
+                                                    : "No picture " + command + ": " + picture.why_no_after;
+    return figures + noFigureHtml(why);
+}
+
+/// Pictures of one file, as long as there is room; nothing where they cannot be had. The file is read when the first is
+/// asked for.
+class PictureSource {
+  public:
+    PictureSource(std::string input, const FileOptions& file, std::size_t room, const Progress& progress)
+        : input_(std::move(input)), file_(file), progress_(progress), room_(room) {}
+
+    [[nodiscard]] const std::string& input() const { return input_; }
+
+    std::string html(const Finding& finding) {
+        if (finding.place.empty() || is_over_ || input_ == "-") return {};
+        std::string figures;
+        if (progress_) progress_("drawing pictures", count_, kMostPicturedFindings);
+        try {
+            if (!pictures_) pictures_ = std::make_unique<FindingPictures>(input_, file_);
+            figures = figuresOf(pictures_->draw(finding));
+        } catch (const FileError&) {
+            // The error of the file has been reported before.
+            is_over_ = true;
+        }
+        if (figures.empty()) return {};
+        is_over_ = is_over_ || figures.size() > room_ || ++count_ >= kMostPicturedFindings;
+        if (figures.size() > room_) return {};
+        room_ -= figures.size();
+        return figuresHtml(figures);
+    }
+
+  private:
+    std::string input_;
+    FileOptions file_;
+    const Progress& progress_;
+    std::unique_ptr<FindingPictures> pictures_ = {};
+    std::size_t room_, count_ = 0;
+    bool is_over_ = false;
+};
+
+/// `pictures`: null: without.
+std::string findingHtml(const Finding& finding, PictureSource* pictures) {
+    std::string html = "<article class=\"" + std::string(severityName(finding.severity)) + "\">\n<h3><b>" +
+                       severityName(finding.severity) + "</b> " + findingName(finding.code) + "</h3>\n";
+    html += "<p>" + htmlText(finding.message) + "</p>\n" + whereHtml(finding);
+    html += "<p>Mend: " + htmlText(finding.remedy) + "</p>\n";
+    if (pictures == nullptr) return html + "</article>\n";
+    html += pictures->html(finding);
+    if (const char* look = findingLook(finding.code);
+        *look != '\0' && pictures->input() != "-" && !finding.place.empty())
+        html += "<p>A larger picture: <code>" +
+                htmlText("tspace render " + shellWord(pictures->input()) + " -o picture.png --show " + look) +
+                "</code></p>\n";
+    return html + "</article>\n";
+}
+
+std::string anchorOf(std::size_t number) { return "file-" + std::to_string(number + 1); }
+
+std::string fileHtml(const report::CheckOutcome& outcome, std::size_t number, PictureSource* pictures) {
+    std::string html = "<section id=\"" + anchorOf(number) + "\">\n<h2>" + htmlText(outcome.input) + "</h2>\n";
+    if (!outcome.result) {
+        return html + "<article class=\"error\"><h3><b>error</b> not read</h3><p>" +
+               htmlText(outcome.result.error().message) + "</p></article>\n</section>\n";
+    }
+    const CheckReport& report = *outcome.result;
+    if (report.image) {
+        html += "<p>" + severityCounts(report) + "; " + htmlText(imageText(report)) + "</p>\n";
+        for (const Finding& finding : report.findings) html += findingHtml(finding, nullptr);
+        return html + "</section>\n";
+    }
+    html += "<p>" + severityCounts(report) + " in " + counted(report.primitive_count, "primitive") + ", " +
+            std::to_string(report.tangents_count) + " of them with tangents; looked at " +
+            counted(report.image_count, "normal map") +
+            ": what the channels hold, and which way green points (told by " + std::to_string(report.green_count) +
+            ")</p>\n";
+    if (!report.generator.empty()) html += "<p class=\"dim\">made by " + htmlText(report.generator) + "</p>\n";
+    for (const Finding& finding : report.findings) html += findingHtml(finding, pictures);
+    return html + "</section>\n";
+}
+
+std::string overviewHtml(const std::vector<report::CheckOutcome>& outcomes) {
+    std::string html(kWideTable);
+    html +=
+        "<thead><tr><th>file</th><th class=\"n\">errors</th><th class=\"n\">warnings</th>"
+        "<th class=\"n\">notes</th></tr></thead><tbody>\n";
+    for (std::size_t i = 0; i < outcomes.size(); ++i) {
+        html += "<tr><td><a href=\"#" + anchorOf(i) + "\">" + htmlText(outcomes[i].input) + "</a></td>";
+        if (const auto& result = outcomes[i].result; result) {
+            for (const std::uint64_t count : {result->error_count, result->warning_count, result->note_count})
+                html += "<td class=\"n\">" + std::to_string(count) + "</td>";
+        } else {
+            html += "<td colspan=\"3\" class=\"n\"><b class=\"error\">not read</b></td>";
+        }
+        html += "</tr>\n";
+    }
+    return html + "</tbody></table></div>\n";
+}
+
+}  // namespace
+
+std::string checkedFileHtml(const report::CheckOutcome& outcome, std::size_t number, const FileOptions& file,
+                            std::size_t room, const Progress& progress) {
+    PictureSource pictures(outcome.input, file, room, progress);
+    return fileHtml(outcome, number, &pictures);
+}
+
+std::string findingsHtml(const report::CheckOutcome& outcome) { return fileHtml(outcome, 0, nullptr); }
+
+std::string checkPage(const std::vector<report::CheckOutcome>& outcomes, const FileOptions& file,
+                      const PageOrigin& origin, const Progress& progress) {
+    std::string html = pageHead("tspace check");
+    html += "<h1>Frames of " + counted(outcomes.size(), "file") + "</h1>\n";
+    html +=
+        originHtml(origin) +
+        "<p class=\"dim\">An error surely renders wrong; a warning renders wrong in some "
+        "renderers, in a small part, or only perhaps; a note is worth knowing. A frame marks "
+        "the place of a finding. Pictures before and after have the camera and the light that show their difference "
+        "best.</p>\n";
+    if (outcomes.size() > 1) html += overviewHtml(outcomes);
+    for (std::size_t i = 0; i < outcomes.size(); ++i) {
+        const std::size_t left = html.size() < kMostPageBytes ? kMostPageBytes - html.size() : 0;
+        html += checkedFileHtml(outcomes[i], i, file, std::min(left, kMostModelBytes), progress);
+    }
+    return html + pageEnd();
+}
+
+}  // namespace tspace

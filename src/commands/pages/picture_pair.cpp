@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: MIT
+#include "commands/pages/picture_pair.h"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <numeric>
+#include <optional>
+
+#include "commands/pages/page_parts.h"
+#include "commands/pages/place_pictures.h"
+#include "commands/shared/picture/colors.h"
+#include "core/base/vec_math.h"
+
+namespace tspace {
+namespace {
+
+constexpr PictureSize kTrial{80, 60, 1}, kWhole{kPlaceWidth, kPlaceHeight, 2};
+/// A difference of a channel, of 255, that is seen.
+constexpr int kSeenStep = 12;
+
+/// One side of a comparison: all meshes of its model, or the primitive's alone.
+struct Side {
+    const ModelPicture& model;
+    std::size_t number = 0;  ///< of the primitive's mesh
+
+    [[nodiscard]] RgbImage draw(RenderShow show, const PlaceView& view, const PictureSize& size, const DVec3& to_light,
+                                std::span<const ShownSurface* const> surfaces) const {
+        return drawView(show, model.meshes(), surfaces, number, view, size, to_light);
+    }
+};
+
+/// Surfaces without base colors. Those with holes keep theirs, which says where they are.
+class Clay {
+  public:
+    explicit Clay(std::span<const ShownSurface* const> surfaces) {
+        for (const ShownSurface* surface : surfaces) {
+            ShownSurface& clay = surfaces_.emplace_back(*surface);
+            if (clay.alpha_cutoff == 0) {
+                clay.base = {};
+                clay.base_color = {0.75f, 0.75f, 0.75f, 1};
+                clay.colors = {};
+            }
+            pointers_.push_back(&clay);
+        }
+    }
+    [[nodiscard]] std::span<const ShownSurface* const> surfaces() const { return pointers_; }
+
+  private:
+    std::deque<ShownSurface> surfaces_ = {};
+    std::vector<const ShownSurface*> pointers_ = {};
+};
+
+DVec3 ringLight(const Camera& camera, int number) {
+    // Two rings about the view: grazing lights show relief, steeper ones whole faces.
+    constexpr int kPerRing = 8;
+    const SineCosine around = sineCosine(2 * kPi * (number % kPerRing) / kPerRing);
+    const double back = number < kPerRing ? 0.35 : 1.1;
+    DVec3 light = around.cosine * camera.right() + around.sine * camera.up() + back * camera.back();
+    normalize(light);
+    return light;
+}
+constexpr int kLights = 16;
+
+/// The normal that a pixel of RenderShow::mapped shows.
+DVec3 pixelNormal(const RgbImage& image, std::size_t pixel) {
+    const auto component = [&](std::size_t c) { return image.rgb[3 * pixel + c] / 127.5 - 1; };
+    return {component(0), component(1), component(2)};
+}
+
+/// A camera and a light, and the mean difference of what they show, 0 to 1.
+struct Trial {
+    PlaceView view = {};
+    DVec3 to_light = {};
+    double difference = 0;
+    std::size_t pixel = 0;  ///< in the middle of the largest difference
+};
+
+class PairSearch {
+  public:
+    PairSearch(const Side& before, const Side& after) : before_(before), after_(after) {}
+
+    Trial tryView(const PlaceView& view) const {
+        const RgbImage a = before_.draw(RenderShow::mapped, view, kTrial, {0, 0, 1}, before_.model.surfaces()),
+                       b = after_.draw(RenderShow::mapped, view, kTrial, {0, 0, 1}, after_.model.surfaces());
+        const Camera camera = view.camera(kTrial);
+        const std::size_t pixels = std::size_t{kTrial.width} * kTrial.height;
+        Trial best{.view = view, .to_light = ringLight(camera, 0)};
+        for (int i = 0; i < kLights; ++i) {
+            const DVec3 light = ringLight(camera, i);
+            std::vector<double> differences(pixels, 0.0);
+            for (std::size_t pixel = 0; pixel < pixels; ++pixel) {
+                if (std::equal(&a.rgb[3 * pixel], &a.rgb[3 * pixel] + 3, &b.rgb[3 * pixel])) continue;
+                differences[pixel] = std::fabs(std::max(0.0, dot(pixelNormal(a, pixel), light)) -
+                                               std::max(0.0, dot(pixelNormal(b, pixel), light)));
+            }
+            const double mean =
+                std::accumulate(differences.begin(), differences.end(), 0.0) / static_cast<double>(pixels);
+            if (!(mean > best.difference)) continue;
+            best.to_light = light;
+            best.difference = mean;
+            best.pixel = densestPixel(differences);
+        }
+        return best;
+    }
+
+    /// The triangles around the largest difference of a view that sees the primitive alone.
+    [[nodiscard]] std::vector<std::size_t> trianglesAt(const Trial& trial) const {
+        Effort effort(std::uint64_t{1} << 30);
+        const std::span<const DrawnMesh> meshes = before_.model.meshes().subspan(before_.number, 1);
+        const VisibleTriangles visible(meshes, trial.view.camera(kTrial), kTrial.width, kTrial.height, effort);
+        const std::uint32_t seen =
+            visible.row(static_cast<std::uint32_t>(trial.pixel / kTrial.width))[trial.pixel % kTrial.width];
+        if (seen == VisibleTriangles::kNone) return {};
+        return trianglesNear(meshes[0], visible.placeOf(seen).triangle);
+    }
+
+  private:
+    /// The middle of the block of pixels with the largest sum.
+    static std::size_t densestPixel(std::span<const double> differences) {
+        constexpr std::uint32_t kBlock = 10;
+        double most = -1;
+        std::size_t pixel = 0;
+        for (std::uint32_t top = 0; top + kBlock <= kTrial.height; top += kBlock / 2) {
+            for (std::uint32_t left = 0; left + kBlock <= kTrial.width; left += kBlock / 2) {
+                double sum = 0, largest = -1;
+                std::size_t at = 0;
+                for (std::uint32_t i = 0; i < kBlock * kBlock; ++i) {
+                    const std::size_t one = std::size_t{top + i / kBlock} * kTrial.width + left + i % kBlock;
+                    sum += differences[one];
+                    if (differences[one] > largest) {
+                        largest = differences[one];
+                        at = one;
+                    }
+                }
+                if (!(sum > most)) continue;
+                most = sum;
+                pixel = at;
+            }
+        }
+        return pixel;
+    }
+
+    /// Those within a seventh of the size of the mesh.
+    static std::vector<std::size_t> trianglesNear(const DrawnMesh& mesh, std::size_t triangle) {
+        const auto centre = [&](std::size_t i) {
+            DVec3 sum;
+            for (std::size_t k = 0; k < 3; ++k) sum = sum + toDouble(mesh.positions[mesh.corners[3 * i + k]]);
+            return mesh.to_world.point((1.0 / 3) * sum);
+        };
+        DVec3 least{INFINITY, INFINITY, INFINITY}, most{-INFINITY, -INFINITY, -INFINITY};
+        const std::size_t count = mesh.corners.size() / 3;
+        for (std::size_t i = 0; i < count; ++i) {
+            const DVec3 c = centre(i);
+            least = {std::min(least.x, c.x), std::min(least.y, c.y), std::min(least.z, c.z)};
+            most = {std::max(most.x, c.x), std::max(most.y, c.y), std::max(most.z, c.z)};
+        }
+        const DVec3 middle = centre(triangle), size = most - least;
+        const double radius_squared = dot(size, size) / (7.0 * 7.0);
+        std::vector<std::size_t> near;
+        for (std::size_t i = 0; i < count; ++i) {
+            const DVec3 way = centre(i) - middle;
+            if (i == triangle || dot(way, way) <= radius_squared) near.push_back(i);
+        }
+        return near;
+    }
+
+    const Side& before_;
+    const Side& after_;
+};
+
+/// The camera and light of the largest difference.
+Trial bestTrial(const Side& before, const Side& after, std::span<const std::size_t> triangles) {
+    constexpr ViewAngles kSides[] = {{35, 20}, {215, 20}, {125, 20}, {-55, 20}, {35, 70}, {35, -70}};
+    const PairSearch search(before, after);
+    const DrawnMesh& mesh = before.model.meshes()[before.number];
+    Trial place;
+    if (!triangles.empty()) place = search.tryView(viewOver(before.model.meshes(), before.number, triangles));
+    std::vector<std::size_t> all(mesh.corners.size() / 3);
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    const PlacePoints whole(mesh, all);
+    Trial best;
+    for (const ViewAngles& angles : kSides) {
+        const Trial trial = search.tryView({.points = whole, .angles = angles, .is_alone = true});
+        if (trial.difference > best.difference) best = trial;
+    }
+    if (best.difference > 0) {
+        const std::vector<std::size_t> near = search.trianglesAt(best);
+        if (!near.empty()) {
+            const Trial trial = search.tryView(
+                {.points = PlacePoints(mesh, near), .angles = best.view.angles, .around = 1.2, .is_alone = true});
+            if (trial.difference > best.difference) best = trial;
+        }
+    }
+    return !triangles.empty() && place.difference > 0 && 2 * place.difference >= best.difference ? place : best;
+}
+
+int largestDifference(const RgbImage& a, const RgbImage& b, std::size_t pixel) {
+    int most = 0;
+    for (std::size_t c = 3 * pixel; c < 3 * pixel + 3; ++c) most = std::max(most, std::abs(a.rgb[c] - b.rgb[c]));
+    return most;
+}
+
+struct Compared {
+    RgbImage before = {}, after = {};
+    std::uint64_t sum = 0;
+    std::size_t seen_count = 0;
+    int most = 0;
+};
+
+Compared comparedSides(const Side& before, const Side& after, const Trial& trial, bool is_clay) {
+    const auto drawn = [&](const Side& side) {
+        if (!is_clay) return side.draw(RenderShow::lit, trial.view, kWhole, trial.to_light, side.model.surfaces());
+        const Clay clay(side.model.surfaces());
+        return side.draw(RenderShow::lit, trial.view, kWhole, trial.to_light, clay.surfaces());
+    };
+    Compared result{.before = drawn(before), .after = drawn(after)};
+    for (std::size_t pixel = 0; 3 * pixel < result.before.rgb.size(); ++pixel) {
+        const int difference = largestDifference(result.before, result.after, pixel);
+        result.sum += static_cast<std::uint64_t>(difference);
+        result.seen_count += difference >= kSeenStep;
+        result.most = std::max(result.most, difference);
+    }
+    return result;
+}
+
+std::optional<Side> sideOf(const PicturedPrimitive& pictured) {
+    const std::optional<std::size_t> number = meshOf(pictured.model, pictured.primitive);
+    if (!number) return {};
+    return Side{pictured.model, *number};
+}
+
+}  // namespace
+
+PicturePair drawPair(const PicturedPrimitive& before, std::span<const std::size_t> triangles,
+                     const PicturedPrimitive& after) {
+    constexpr double kLeastShare = 0.002;
+    // A base color hides the difference that takes less than this part of what clay shows.
+    constexpr double kHidden = 0.7;
+    PicturePair pair;
+    const std::optional<Side> a = sideOf(before), b = sideOf(after);
+    if (!a || !b) return pair;
+    std::vector<std::size_t> held(triangles.begin(), triangles.end());
+    std::sort(held.begin(), held.end());
+    const Trial trial = bestTrial(*a, *b, held);
+    if (!(trial.difference > 0)) return pair;
+    Compared shown = comparedSides(*a, *b, trial, false), clay = comparedSides(*a, *b, trial, true);
+    pair.is_clay = static_cast<double>(shown.sum) < kHidden * static_cast<double>(clay.sum);
+    if (pair.is_clay) shown = std::move(clay);
+    pair.differing_share = static_cast<double>(shown.seen_count) /
+                           (static_cast<double>(kWhole.width) * static_cast<double>(kWhole.height));
+    if (pair.differing_share < kLeastShare) return pair;
+    while (pair.gain < 8 && 2 * static_cast<int>(pair.gain) * shown.most <= 255) pair.gain *= 2;
+    RgbImage difference{.width = kWhole.width, .height = kWhole.height};
+    difference.rgb.resize(shown.before.rgb.size());
+    for (std::size_t pixel = 0; 3 * pixel < difference.rgb.size(); ++pixel) {
+        const int value = static_cast<int>(pair.gain) * largestDifference(shown.before, shown.after, pixel);
+        std::fill_n(&difference.rgb[3 * pixel], 3, static_cast<std::uint8_t>(value));
+    }
+    if (trial.view.is_place) {
+        const Camera camera = trial.view.camera(kWhole);
+        for (RgbImage* image : {&shown.before, &shown.after, &difference})
+            drawFrame(*image, camera, PlacePoints(a->model.meshes()[a->number], held));
+    }
+    pair.before = encodePicture(shown.before);
+    pair.after = encodePicture(shown.after);
+    pair.difference = encodePicture(difference);
+    return pair;
+}
+
+}  // namespace tspace

@@ -1,0 +1,366 @@
+// SPDX-License-Identifier: MIT
+#include "maps/bake/trace_texels.h"
+
+#include "core/base/vec_math.h"
+#include "maps/bake/texel_plan.h"
+#include "maps/error/measure_points.h"
+#include "maps/layout/uv_pieces.h"
+#include "maps/solve/solve_texels.h"
+
+namespace tspace {
+
+namespace {
+
+/// The cosine of half of two degrees: how short the mean of two unit vectors may be.
+constexpr float kAgreeing = 0.99985F;
+constexpr double kApartDeg = 2;
+/// TracedTexels::owners of a texel whose centre no triangle shows.
+constexpr std::uint32_t kNobody = 0xffffffff;
+/// How much an error of the length counts beside one of the direction.
+constexpr float kAlong = 0.02F;
+
+/// The vectors wanted at points of triangles.
+class WantedVectors {
+  public:
+    WantedVectors(const MapSurfaces& surfaces, const BakeOptions& options) : surfaces_(surfaces), options_(options) {}
+
+    /// take(i, is_hit, wanted) for each of kLinesAtOnce points at most.
+    template <class Take>
+    void at(std::span<const LowPoint> points, const Take& take) {
+        std::array<DVec3, kLinesAtOnce> normals;
+        surfaces_.truthsAt(points, guess_, normals);
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            const bool is_met = dot(normals[i], normals[i]) > 0;
+            const Vec3 wanted = is_met ? vectorOf(points[i], normals[i]) : Vec3{};
+            take(i, is_met && isDirection(wanted), wanted);
+        }
+    }
+
+  private:
+    Vec3 vectorOf(const LowPoint& point, const DVec3& normal) {
+        if (options_.space != MapSpace::tangent) return toFloat(alongAxes(options_.axes, normal));
+        if (point.triangle != triangle_) {
+            triangle_ = point.triangle;
+            corners_ = surfaces_.corners(triangle_, surfaces_.low().tangents);
+        }
+        return toFloat(vectorFor(shadingFrame(corners_, point.weights, options_.reading), normal));
+    }
+
+    const MapSurfaces& surfaces_;
+    const BakeOptions& options_;
+    std::uint32_t triangle_ = kNoTriangle;
+    CornerFrames corners_ = {};
+    double guess_ = 0;
+};
+
+FitSample sampleOf(const BakeOptions& options, const Vec3& wanted) {
+    if (options.reading.two_channels) return twoChannelSample(wanted);
+    // Integers are chosen with any length; real numbers would shrink.
+    return acrossSample(wanted, options.bits == 8 ? 0.0F : kAlong, kWantedLength);
+}
+
+FitSample weighted(float weight, FitSample sample) {
+    for (float& part : sample.metric) part *= weight;
+    sample.side = weight * sample.side;
+    return sample;
+}
+
+/// Whether rays say what is wanted in a cell.
+bool isTraced(TexelCell cell) { return cell == TexelCell::asked || cell == TexelCell::rough; }
+
+class Tracing {
+  public:
+    Tracing(const MapSurfaces& surfaces, const TexelTriangles& triangles, const BakeOptions& options,
+            const MapWork& work, TracedTexels& traced)
+        : surfaces_(surfaces),
+          triangles_(triangles),
+          options_(options),
+          work_(work),
+          traced_(traced),
+          uvs_(surfaces.low(), work.allocator) {}
+
+    void run() {
+        const Allocator* const allocator = work_.allocator;
+        const std::size_t texels = std::size_t{options_.width} * options_.height;
+        traced_.wanted = Buffer<Vec3>(allocator, texels, Vec3{});
+        traced_.origins = Buffer<TexelOrigin>(allocator, texels, TexelOrigin::background);
+        votes_ = Buffer<std::uint16_t>(allocator, texels, std::uint16_t{0});
+        traced_.ranks = ranksOfPieces(surfaces_.low(), options_.overlap, allocator);
+        if (traced_.ranks.size() > 0) {
+            traced_.owners = Buffer<std::uint32_t>(allocator, texels, kNobody);
+            others_ = Buffer<Vec3>(allocator, texels, Vec3{});
+        }
+        traceInside();
+        traceBeside();
+    }
+
+  private:
+    void traceInside() {
+        const SampleBands bands(uvs_.triangles(options_.wrap_u, options_.wrap_v), options_.width, options_.height, 1, 0,
+                                work_.allocator);
+        const auto texelOf = [&](const BandSample& sample) {
+            return std::size_t{sample.row} * options_.width + sample.column;
+        };
+        const auto traceBand = [&](std::size_t band) {
+            // A texel's samples are all in one band.
+            if (traced_.ranks.size() > 0) {
+                bands.forSamples(band, [&](const BandSample& sample) {
+                    std::uint32_t& owner = traced_.owners[texelOf(sample)];
+                    owner = std::min(owner, traced_.ranks[sample.triangle]);
+                });
+            }
+            WantedVectors vectors(surfaces_, options_);
+            const auto ask = [&](std::span<const LowPoint> points, std::span<const std::size_t> texels) {
+                vectors.at(points, [&](std::size_t i, bool is_hit, const Vec3& wanted) {
+                    if (counts(texels[i], points[i].triangle)) {
+                        vote(texels[i], is_hit, wanted);
+                    } else if (is_hit) {
+                        others_[texels[i]] = others_[texels[i]] + wanted;
+                    }
+                });
+            };
+            askTogether<std::size_t>(ask, [&](auto& together) {
+                bands.forSamples(band, [&](const BandSample& sample) {
+                    together.add({sample.triangle, sample.weights()}, texelOf(sample));
+                });
+            });
+        };
+        forTasksTold(work_, bands.bandCount(), "tracing", traceBand);
+        decideVotes();
+    }
+
+    /// Whether a triangle has a say in a texel.
+    [[nodiscard]] bool counts(std::size_t texel, std::uint32_t triangle) const {
+        return traced_.ranks.size() == 0 || traced_.owners[texel] == traced_.ranks[triangle];
+    }
+
+    void vote(std::size_t texel, bool is_hit, const Vec3& wanted) {
+        TexelOrigin& origin = traced_.origins[texel];
+        if (origin != TexelOrigin::hit) origin = is_hit ? TexelOrigin::hit : TexelOrigin::missed;
+        if (!is_hit || votes_[texel] == 0xffff) return;
+        traced_.wanted[texel] = traced_.wanted[texel] + wanted;
+        ++votes_[texel];
+    }
+
+    void decideVotes() {
+        for (std::size_t i = 0; i < votes_.size(); ++i) {
+            if (votes_[i] == 0) continue;
+            const float size = length(traced_.wanted[i]);
+            if (triangles_.overlaps[i] && size < kAgreeing * static_cast<float>(votes_[i]))
+                countConflict(anglePairOf(size / static_cast<float>(votes_[i])));
+            DVec3 mean = toDouble(traced_.wanted[i]);
+            traced_.wanted[i] = normalize(mean) ? toFloat(mean) : Vec3{};
+            if (others_.size() == 0 || isZero(others_[i])) continue;
+            const double apart = degreesBetween(toDouble(traced_.wanted[i]), toDouble(others_[i]));
+            if (apart > kApartDeg) countConflict(apart);
+        }
+    }
+
+    void countConflict(double degrees) {
+        ++traced_.conflict_count;
+        traced_.conflict_sum_deg += degrees;
+        traced_.conflict_max_deg = std::max(traced_.conflict_max_deg, degrees);
+    }
+
+    /// The angle between two unit vectors whose mean is so long.
+    static double anglePairOf(float mean_length) {
+        const double cosine = std::min(1.0, static_cast<double>(mean_length));
+        return 2 * polarAngle(cosine, std::sqrt(1 - cosine * cosine)) * (180 / kPi);
+    }
+
+    void traceBeside() {
+        const TextureShape& shape = triangles_.shape;
+        const UvTriangles triangles = uvs_.triangles(options_.wrap_u, options_.wrap_v);
+        constexpr std::size_t kRows = 8;
+        const auto trace = [&](std::size_t task) {
+            WantedVectors vectors(surfaces_, options_);
+            const auto ask = [&](std::span<const LowPoint> points, std::span<const std::size_t> texels) {
+                vectors.at(points, [&](std::size_t i, bool is_hit, const Vec3& wanted) {
+                    if (is_hit) traced_.wanted[texels[i]] = wanted;
+                });
+            };
+            askTogether<std::size_t>(ask, [&](auto& together) {
+                const std::size_t end = std::min<std::size_t>((task + 1) * kRows * shape.width, votes_.size());
+                for (std::size_t texel = task * kRows * shape.width; texel < end; ++texel) {
+                    if (triangles_.kinds[texel] != TexelCoverage::beside ||
+                        traced_.origins[texel] != TexelOrigin::background)
+                        continue;
+                    const TexelPlace& place = triangles_.places[texel];
+                    traced_.origins[texel] = TexelOrigin::padding;
+                    together.add({place.triangle, weightsAt(triangles, shape, place)}, texel);
+                }
+            });
+        };
+        const std::size_t tasks = (shape.height + kRows - 1) / kRows;
+        forTasksTold(work_, tasks, "padding", trace);
+    }
+
+    const MapSurfaces& surfaces_;
+    const TexelTriangles& triangles_;
+    const BakeOptions& options_;
+    const MapWork& work_;
+    TracedTexels& traced_;
+    LowUvs uvs_;
+    Buffer<std::uint16_t> votes_ = {};
+    Buffer<Vec3> others_ = {};  ///< with ranks: sums of what pieces want that do not count
+};
+
+}  // namespace
+
+void traceTexels(const MapSurfaces& surfaces, const TexelTriangles& triangles, const BakeOptions& options,
+                 const MapWork& work, TracedTexels& traced) {
+    Tracing(surfaces, triangles, options, work, traced).run();
+}
+
+namespace {
+
+/// Where points lie at 1/4 and 3/4 of the way from a centre to the next, the centres take part too, such that the integral of
+/// the square of any linear function over a cell is exact: a corner counts an eighth of such a point.
+constexpr float kCornerOfCell = 0.125F;
+
+void addCentres(const TracedTexels& traced, const TexelPlan& plan, const TexelWindow& window,
+                const BakeOptions& options, Parallel& parallel, TexelSystem& system) {
+    const std::size_t width = plan.width;
+    parallel.forRanges(window.count, 8, [&](std::size_t begin, std::size_t end) {
+        for (auto row = static_cast<std::uint32_t>(begin); row < end; ++row) {
+            const std::size_t y = window.inImage(row), here = y * width,
+                              above = (y > 0 ? y - 1 : plan.height - 1) * width;
+            for (std::uint32_t x = 0; x < plan.width; ++x) {
+                if (traced.origins[here + x] != TexelOrigin::hit) continue;
+                const std::uint32_t left = system.left(x);
+                float weight = 0;
+                for (const std::size_t cell : {here + x, here + left, above + x, above + left})
+                    weight += isTraced(plan.cells[cell]) ? kCornerOfCell : 0;
+                if (weight > 0) system.add(x, row, 0, 0, weighted(weight, sampleOf(options, traced.wanted[here + x])));
+            }
+        }
+    });
+}
+
+}  // namespace
+
+std::vector<std::size_t> bandsOf(const TexelWindow& window) {
+    constexpr std::uint32_t kRows = SampleBands::kBandTexels;
+    std::vector<std::size_t> bands;
+    for (std::uint32_t begin = 0; begin < window.height; begin += kRows) {
+        bool has = false;
+        for (std::uint32_t y = begin; y < std::min(begin + kRows, window.height); ++y) has = has || window.hasCells(y);
+        if (has) bands.push_back(begin / kRows);
+    }
+    return bands;
+}
+
+void traceBetween(const MapSurfaces& surfaces, const TracedTexels& traced, const TexelPlan& plan,
+                  const TexelWindow& window, const PointsBetween& points, const BakeOptions& options,
+                  const MapWork& work, ToldSteps& steps, TexelSystem& system) {
+    // What lies nearest to a texel counts as its centre does.
+    const auto counts = [&](std::uint32_t triangle, const BetweenTexels& x, const BetweenTexels& y) {
+        if (traced.ranks.size() == 0) return true;
+        const std::size_t column = x.part < 0.5F ? x.texel : system.right(x.texel),
+                          row = y.part < 0.5F ? y.texel : (y.texel + 1) % plan.height;
+        const std::uint32_t owner = traced.owners[row * options.width + column];
+        return owner == kNobody || owner == traced.ranks[triangle];
+    };
+    const auto traceBand = [&](std::size_t band) {
+        struct Place {
+            BetweenTexels x = {}, y = {};
+        };
+        WantedVectors vectors(surfaces, options);
+        const auto ask = [&](std::span<const LowPoint> asked, std::span<const Place> places) {
+            vectors.at(asked, [&](std::size_t i, bool is_hit, const Vec3& wanted) {
+                const auto& [x, y] = places[i];
+                if (is_hit) system.add(x.texel, window.local(y.texel), x.part, y.part, sampleOf(options, wanted));
+            });
+        };
+        askTogether<Place>(ask, [&](auto& together) {
+            points.bands.forSamples(band, [&](const BandSample& sample) {
+                const BetweenTexels x = betweenTexels(sample.column, points.n, options.width, options.wrap_u),
+                                    y = betweenTexels(sample.row, points.n, options.height, options.wrap_v);
+                const TexelCell cell = plan.cells[std::size_t{y.texel} * options.width + x.texel];
+                if (isTraced(cell) && window.hasCells(y.texel) && counts(sample.triangle, x, y))
+                    together.add({sample.triangle, sample.weights()}, {x, y});
+            });
+        });
+    };
+    const std::vector<std::size_t> bands = bandsOf(window);
+    // Bands beside each other share a row of texels.
+    forApart(bands.size(), [&](std::size_t begin, std::size_t number) {
+        forTasksTold(work, number, "tracing between texels", steps,
+                     [&](std::size_t i) { traceBand(bands[begin + 2 * i]); });
+        steps.before += number;
+    });
+    if (points.n == 2) addCentres(traced, plan, window, options, work.parallel, system);
+}
+
+void addSmoothCells(const TexelPlan& plan, const TexelWindow& window, std::span<const Vec3> texels,
+                    std::uint32_t points, const BakeOptions& options, Parallel& parallel, TexelSystem& system) {
+    // Gauss's two points of a line, twice: the integral over the cell, since what is asked is a product of two filters.
+    constexpr float kNear = 0.21132487F, kFar = 1 - kNear;
+    // As much in all as the points of a cell that rays are shot at, with its corners.
+    const float weight = points == 2 ? 1 + kCornerOfCell : static_cast<float>(points * points) / 4;
+    const auto addCell = [&](std::uint32_t x, std::uint32_t row) {
+        const std::size_t here = std::size_t{row} * plan.width, below = std::size_t{system.below(row)} * plan.width;
+        if (plan.cells[std::size_t{window.inImage(row)} * plan.width + x] != TexelCell::smooth) return;
+        const std::uint32_t right = system.right(x);
+        for (const float fy : {kNear, kFar}) {
+            const Vec3 left_side = (1 - fy) * texels[here + x] + fy * texels[below + x];
+            const Vec3 right_side = (1 - fy) * texels[here + right] + fy * texels[below + right];
+            for (const float fx : {kNear, kFar}) {
+                const Vec3 mixed = (1 - fx) * left_side + fx * right_side;
+                system.add(x, row, fx, fy, weighted(weight, sampleOf(options, (1 / length(mixed)) * mixed)));
+            }
+        }
+    };
+    forRowsApart(parallel, window.count, [&](std::uint32_t row) {
+        if (!window.hasCells(window.inImage(row))) return;
+        for (std::uint32_t x = 0; x < plan.width; ++x) addCell(x, row);
+    });
+}
+
+void fillFromNeighbours(TracedTexels& traced, const TextureShape& shape) {
+    Buffer<Vec3>& wanted = traced.wanted;
+    std::vector<std::size_t> empty, next;
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+        if (traced.origins[i] != TexelOrigin::background && isZero(wanted[i])) empty.push_back(i);
+    }
+    // The first ring goes on as the two texels before it do: at a rim, a filter reads it beside them. Further away the mean
+    // around, which cannot grow.
+    bool is_first_ring = true;
+    const auto meanAround = [&](std::size_t texel) {
+        const auto x = static_cast<std::int64_t>(texel % shape.width),
+                   y = static_cast<std::int64_t>(texel / shape.width);
+        const auto at = [&](int dx, int dy) {
+            return toDouble(wanted[std::size_t{wrappedTexel(y + dy, shape.height, shape.wrap_v)} * shape.width +
+                                   wrappedTexel(x + dx, shape.width, shape.wrap_u)]);
+        };
+        DVec3 sum{}, ahead{};
+        for (const int dy : {-1, 0, 1}) {
+            for (const int dx : {-1, 0, 1}) {
+                const DVec3 near = at(dx, dy), far = at(2 * dx, 2 * dy);
+                sum = sum + near;
+                // A jump is no slope.
+                if (dot(near, far) > 0.9) ahead = ahead + (2.0 * near - far);
+            }
+        }
+        if (is_first_ring && normalize(ahead)) return toFloat(ahead);
+        return normalize(sum) ? toFloat(sum) : Vec3{};
+    };
+    std::vector<Vec3> means;
+    while (!empty.empty()) {
+        means.clear();
+        for (const std::size_t texel : empty) means.push_back(meanAround(texel));
+        next.clear();
+        for (std::size_t i = 0; i < empty.size(); ++i) {
+            wanted[empty[i]] = means[i];
+            if (isZero(means[i])) next.push_back(empty[i]);
+        }
+        if (next.size() == empty.size()) break;
+        empty.swap(next);
+        is_first_ring = false;
+    }
+    for (Vec3& vector : wanted) {
+        if (isZero(vector)) vector = {0, 0, 1};
+    }
+}
+
+}  // namespace tspace

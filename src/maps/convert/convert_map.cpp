@@ -1,0 +1,454 @@
+// SPDX-License-Identifier: MIT
+// convertMap: the frames of both sides at each texel, and the sums of the report.
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numbers>
+
+#include "core/base/border.h"
+#include "core/base/memory.h"
+#include "core/base/parallel.h"
+#include "core/base/sort.h"
+#include "core/base/unique_index.h"
+#include "core/base/vec_math.h"
+#include "maps/convert/convert_texel.h"
+#include "maps/layout/texel_triangles.h"
+#include "maps/rays/map_surfaces.h"
+#include "maps/solve/choose_lengths.h"
+#include "maps/solve/solve_texels.h"
+#include "tspace/maps.h"
+
+namespace tspace {
+
+namespace {
+
+constexpr std::size_t kTexelsOfTask = 4096, kTasksOfStep = 64;
+
+/// The part of a reading that matters: in object space only the green channel.
+MapReading readingOf(const MapSide& side) {
+    return side.space == MapSpace::tangent ? side.reading : MapReading{.green = side.reading.green};
+}
+
+bool hasFrames(const MapSide& side) { return side.space == MapSpace::tangent && !side.uvs.empty(); }
+
+/// Sums of some texels, in their order.
+struct Sums {
+    std::uint64_t converted = 0, changed = 0, background = 0, without_frame = 0, below_horizon = 0, unmatched = 0,
+                  apart = 0;
+    double change = 0, most_change = 0;
+
+    void add(const Sums& other) {
+        converted += other.converted;
+        changed += other.changed;
+        background += other.background;
+        without_frame += other.without_frame;
+        below_horizon += other.below_horizon;
+        unmatched += other.unmatched;
+        apart += other.apart;
+        change += other.change;
+        most_change = std::max(most_change, other.most_change);
+    }
+};
+
+// -- triangles of both sides that are one triangle of the surface --
+
+struct HashedTriangle {
+    std::uint64_t hash = 0;
+    std::uint32_t triangle = 0;
+};
+
+std::uint64_t hashOf(const MapSide& side, std::size_t triangle, bool with_positions) {
+    std::array<std::uint64_t, 3> corners{};
+    const auto bits = [](float f) { return std::uint64_t{std::bit_cast<std::uint32_t>(f == 0.0f ? 0.0f : f)}; };
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Vec2 uv = side.uvs[3 * triangle + i];
+        corners[i] = foldHash(bits(uv.x) | bits(uv.y) << 32,
+                              with_positions ? hashPosition(side.positions[3 * triangle + i]) : 0);
+    }
+    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+    return foldHash(foldHash(foldHash(0, corners[0]), corners[1]), corners[2]);
+}
+
+Buffer<HashedTriangle> sorted(const MapSide& side, bool with_positions, const Allocator* allocator) {
+    Buffer<HashedTriangle> list(allocator, side.uvs.count / 3);
+    for (std::size_t i = 0; i < list.size(); ++i) {
+        list[i] = {hashOf(side, i, with_positions), static_cast<std::uint32_t>(i)};
+    }
+    sortList(list.begin(), list.end(), [](const HashedTriangle& a, const HashedTriangle& b) {
+        return a.hash != b.hash ? a.hash < b.hash : a.triangle < b.triangle;
+    });
+    return list;
+}
+
+DVec3 positionAt(const MapSide& side, const UvTriangles& triangles, const TextureShape& shape,
+                 const TexelPlace& place) {
+    const std::array<double, 3> weights = weightsAt(triangles, shape, place);
+    DVec3 sum{};
+    for (std::size_t i = 0; i < 3; ++i) sum = sum + weights[i] * toDouble(side.positions[3 * place.triangle + i]);
+    return sum;
+}
+
+/// For each triangle of `side` the one of `other` with the same UVs and, where both have them, positions, or kNoTriangle. Corners
+/// may begin elsewhere, but run the same way round. Of several with the same corners each is matched once, in order.
+/// O(n log n).
+Buffer<std::uint32_t> matchTriangles(const MapSide& side, const MapSide& other, const Allocator* allocator) {
+    const bool with_positions = !side.positions.empty() && !other.positions.empty();
+    const Buffer<HashedTriangle> mine = sorted(side, with_positions, allocator);
+    const Buffer<HashedTriangle> theirs = sorted(other, with_positions, allocator);
+    Buffer<std::uint32_t> match(allocator, mine.size(), kNoTriangle);
+    for (std::size_t a = 0, b = 0; a < mine.size() && b < theirs.size();) {
+        if (mine[a].hash == theirs[b].hash) {
+            match[mine[a++].triangle] = theirs[b++].triangle;
+        } else if (mine[a].hash < theirs[b].hash) {
+            ++a;
+        } else {
+            ++b;
+        }
+    }
+    return match;
+}
+
+/// visit(texel, its place) for each texel whose centre lies inside of a triangle.
+template <class Visit>
+void forEachTexel(const UvTriangles& triangles, std::size_t triangle, const TextureShape& shape, const Visit& visit) {
+    forEachSample(cornerUvs(triangles, triangle), shape, 1, [&](const UvSample& sample) {
+        const auto x = static_cast<std::int64_t>(std::floor(sample.x));
+        const auto y = static_cast<std::int64_t>(std::floor(sample.y));
+        const std::uint32_t column = texelInImage(x, shape.width, shape.wrap_u);
+        const std::uint32_t row = texelInImage(y, shape.height, shape.wrap_v);
+        if (column >= shape.width || row >= shape.height) return;
+        visit(std::size_t{row} * shape.width + column,
+              TexelPlace{static_cast<std::uint32_t>(triangle), static_cast<std::int32_t>(x),
+                         static_cast<std::int32_t>(y)});
+    });
+}
+
+/// For texels inside of triangles of both, which may lie over each other: takes the triangle of `other` that is nearest in
+/// space to where `places` has the texel on `side`. Both have positions.
+void chooseByPosition(const MapSide& side, const UvTriangles& triangles, const TexelTriangles& places,
+                      const MapSide& other, const UvTriangles& other_triangles, TexelTriangles& other_places,
+                      const Allocator* allocator) {
+    const TextureShape& shape = other_places.shape;
+    Buffer<double> distances(allocator, places.kinds.size(), static_cast<double>(INFINITY));
+    for (std::size_t triangle = 0; triangle < other.uvs.count / 3; ++triangle) {
+        forEachTexel(other_triangles, triangle, shape, [&](std::size_t texel, const TexelPlace& place) {
+            if (places.kinds[texel] != TexelCoverage::inside) return;
+            const DVec3 apart = positionAt(other, other_triangles, shape, place) -
+                                positionAt(side, triangles, shape, places.places[texel]);
+            const double distance = dot(apart, apart);
+            if (!(distance < distances[texel])) return;
+            distances[texel] = distance;
+            other_places.places[texel] = place;
+        });
+    }
+}
+
+// -- converting --
+
+class Conversion {
+  public:
+    Conversion(const MapImage& map, const MapSide& from, const MapSide& to, std::span<Vec3> out,
+               const ConvertMapOptions& options, const Allocator* allocator, Parallel& parallel)
+        : map_(map),
+          from_(from),
+          to_(to),
+          out_(out),
+          options_(options),
+          allocator_(allocator),
+          parallel_(parallel),
+          // Where one side alone has frames, both sides use them.
+          one_mesh_(!(hasFrames(from) && hasFrames(to))),
+          main_(from.uvs.empty() || (to.space == MapSpace::tangent && from.space == MapSpace::object) ? to : from),
+          other_(&main_ == &from ? to : from),
+          main_corners_(main_, allocator),
+          other_corners_(one_mesh_ ? MapSide{} : other_, allocator) {}
+
+    Result<ConvertMapReport> run(const Progress& progress) {
+        if (!main_.uvs.empty()) {
+            if (!findPlaces()) {
+                return makeError(ErrorCode::tooLarge, kNoElement, "the UVs show the image far too often");
+            }
+        }
+        const std::size_t texels = map_.texels.size(), tasks = (texels + kTexelsOfTask - 1) / kTexelsOfTask;
+        if (from_.space == MapSpace::tangent && to_.space == MapSpace::object && places_.counts.overlapping > 0)
+            countConflicts();
+        if (choosesTogether()) {
+            vectors_ = Buffer<Vec3>(allocator_, texels, Vec3{});
+            keeps_ = Buffer<bool>(allocator_, texels, true);
+        }
+        Buffer<Sums> sums(allocator_, tasks, Sums{});
+        for (std::size_t first = 0; first < tasks; first += kTasksOfStep) {
+            if (progress) progress("converting texels", first, tasks);
+            parallel_.forTasks(std::min(kTasksOfStep, tasks - first), [&](std::size_t task) {
+                const std::size_t begin = (first + task) * kTexelsOfTask;
+                for (std::size_t i = begin; i < std::min(begin + kTexelsOfTask, texels); ++i) {
+                    convert(i, sums[first + task]);
+                }
+            });
+        }
+        Sums all;
+        for (const Sums& part : sums) all.add(part);
+        if (vectors_.size() > 0) all.changed = chooseTogether(all.changed);
+        return reportOf(all);
+    }
+
+  private:
+    /// False: too much work.
+    bool findPlaces() {
+        const UvTriangles triangles = main_corners_.triangles(map_);
+        // The texels that filtering reads are found within two.
+        const std::uint32_t padding = std::max<std::uint32_t>(options_.padding, 2);
+        auto places = findTexelTriangles(triangles, map_.width, map_.height, padding, parallel_, allocator_);
+        if (!places) return false;
+        places_ = std::move(*places);
+        if (one_mesh_) return true;
+        matches_ = matchTriangles(main_, other_, allocator_);
+        if (!main_.positions.empty() && !other_.positions.empty()) size_ = PositionBox(main_.positions).diagonal();
+        if (std::find(matches_.begin(), matches_.end(), kNoTriangle) == matches_.end()) return true;
+        const UvTriangles others = other_corners_.triangles(map_);
+        auto other_places = findTexelTriangles(others, map_.width, map_.height, padding, parallel_, allocator_);
+        if (!other_places) return false;
+        other_places_ = std::move(*other_places);
+        if (other_places_.counts.overlapping > 0 && !main_.positions.empty() && !other_.positions.empty()) {
+            chooseByPosition(main_, triangles, places_, other_, others, other_places_, allocator_);
+        }
+        return true;
+    }
+
+    /// Whether integers are chosen such that neighbours make good what is rounded off: where vectors lie anywhere between
+    /// integers, as those from another space do, and where integers are few. The third of two channels follows from x and y.
+    [[nodiscard]] bool choosesTogether() const {
+        return options_.bits == 16 ? from_.space != to_.space : options_.bits == 8 && !to_.reading.two_channels;
+    }
+
+    /// `changed`: how many texels are others already. Returns how many are then.
+    std::uint64_t chooseTogether(std::uint64_t changed) {
+        const std::span<Vec3> vectors(vectors_.data(), vectors_.size());
+        const std::span<const bool> keeps(keeps_.data(), keeps_.size());
+        if (options_.bits == 16) {
+            roundTexels(vectors, map_.width, {.keeps_lengths = to_.reading.two_channels, .keeps = keeps}, parallel_,
+                        allocator_);
+        } else {
+            chooseLengths({.vectors = vectors,
+                           .keeps = keeps,
+                           .width = map_.width,
+                           .wrap_u = map_.wrap_u,
+                           .wrap_v = map_.wrap_v,
+                           .scale = to_.reading.scale},
+                          options_.lengths, parallel_, allocator_);
+        }
+        for (std::size_t i = 0; i < vectors.size(); ++i) {
+            if (keeps_[i]) continue;
+            const Vec3 texel = channelsOf(toDouble(vectors[i]), {.bits = options_.bits});
+            changed += texel == out_[i] ? 0 : 1;
+            out_[i] = texel;
+        }
+        return changed;
+    }
+
+    void convert(std::size_t texel, Sums& sums) {
+        const Vec3 before = map_.texels[texel];
+        out_[texel] = before;
+        ShadingFrame from{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, to = from;
+        if (!main_.uvs.empty()) {
+            const TexelCoverage kind = places_.kinds[texel];
+            const bool is_shown = kind == TexelCoverage::inside || places_.is_read[texel] ||
+                                  (kind == TexelCoverage::beside && options_.padding > 0);
+            if (!is_shown) {
+                ++sums.background;
+                return;
+            }
+            if (!findFrames(texel, from, to, sums)) {
+                ++sums.unmatched;
+                return;
+            }
+        }
+        const bool is_chosen_later = vectors_.size() > 0;
+        const auto converted = convertTexel(before, from, readingOf(from_), to, readingOf(to_),
+                                            {.bits = options_.bits, .are_chosen = is_chosen_later});
+        if (!converted) {
+            ++sums.without_frame;
+            return;
+        }
+        if (is_chosen_later) {
+            const Vec3& channels = converted->texel;
+            vectors_[texel] = {2 * channels.x - 1, 2 * channels.y - 1, 2 * channels.z - 1};
+            keeps_[texel] = converted->stays;
+        }
+        if (!is_chosen_later || converted->stays) {
+            out_[texel] = converted->texel;
+            sums.changed += converted->texel == before ? 0 : 1;
+        }
+        ++sums.converted;
+        sums.below_horizon += converted->is_below_horizon ? 1 : 0;
+        sums.change += converted->change_deg;
+        sums.most_change = std::max(sums.most_change, converted->change_deg);
+    }
+
+    /// Before any texel is written: `out_` may be the input.
+    void countConflicts() {
+        constexpr double kApartDeg = 2;
+        const UvTriangles triangles = main_corners_.triangles(map_);
+        const TextureShape& shape = places_.shape;
+        Buffer<bool> counted(allocator_, places_.kinds.size(), false);
+        const auto directionAt = [&](std::size_t texel, const TexelPlace& place) {
+            const ShadingFrame frame = oneMeshFrame(from_, place.triangle, weightsAt(triangles, shape, place));
+            return shadedNormal(frame, decodeTexel(map_.texels[texel], readingOf(from_)));
+        };
+        for (std::size_t triangle = 0; triangle < main_.uvs.count / 3; ++triangle) {
+            forEachTexel(triangles, triangle, shape, [&](std::size_t texel, const TexelPlace& place) {
+                if (places_.kinds[texel] != TexelCoverage::inside || !places_.overlaps[texel] || counted[texel]) return;
+                const TexelPlace& first = places_.places[texel];
+                if (first.triangle == triangle) return;
+                counted[texel] = degreesBetween(directionAt(texel, first), directionAt(texel, place)) > kApartDeg;
+                conflict_count_ += counted[texel] ? 1 : 0;
+            });
+        }
+    }
+
+    /// Whether the texel lies far from where the other side has it.
+    [[nodiscard]] bool isApart(const TexelPlace& place, const TexelPlace& other) const {
+        if (!(size_ > 0)) return false;
+        constexpr double kFar = 0.02;
+        const DVec3 apart = positionAt(main_, main_corners_.triangles(map_), places_.shape, place) -
+                            positionAt(other_, other_corners_.triangles(map_), places_.shape, other);
+        return dot(apart, apart) > kFar * kFar * size_ * size_;
+    }
+
+    /// False: the other side has no triangle there.
+    [[nodiscard]] bool findFrames(std::size_t texel, ShadingFrame& from, ShadingFrame& to, Sums& sums) const {
+        const TexelPlace& place = places_.places[texel];
+        const std::array<double, 3> weights = weightsAt(main_corners_.triangles(map_), places_.shape, place);
+        if (one_mesh_) {
+            from = oneMeshFrame(from_, place.triangle, weights);
+            to = oneMeshFrame(to_, place.triangle, weights);
+            return true;
+        }
+        TexelPlace other_place = place;
+        other_place.triangle = matches_[place.triangle];
+        if (other_place.triangle == kNoTriangle) other_place = other_places_.places[texel];
+        if (other_place.triangle == kNoTriangle) return false;
+        if (matches_[place.triangle] == kNoTriangle && isApart(place, other_place)) ++sums.apart;
+        const ShadingFrame main_frame = sideFrame(main_, place.triangle, weights);
+        const ShadingFrame other_frame = sideFrame(
+            other_, other_place.triangle, weightsAt(other_corners_.triangles(map_), places_.shape, other_place));
+        from = &main_ == &from_ ? main_frame : other_frame;
+        to = &main_ == &from_ ? other_frame : main_frame;
+        return true;
+    }
+
+    [[nodiscard]] ShadingFrame oneMeshFrame(const MapSide& side, std::size_t triangle,
+                                            const std::array<double, 3>& weights) const {
+        if (side.space == MapSpace::object || hasFrames(side)) return sideFrame(side, triangle, weights);
+        MapSide with_mesh = main_;
+        with_mesh.reading = side.reading;
+        return sideFrame(with_mesh, triangle, weights);
+    }
+
+    [[nodiscard]] ConvertMapReport reportOf(const Sums& sums) const {
+        ConvertMapReport report;
+        report.converted = sums.converted;
+        report.changed = sums.changed;
+        report.background = sums.background;
+        report.without_frame = sums.without_frame;
+        report.below_horizon = sums.below_horizon;
+        report.unmatched = sums.unmatched;
+        report.overlapping = places_.counts.overlapping;
+        report.conflicting = conflict_count_;
+        report.apart = sums.apart;
+        report.degenerate_uv_count = places_.counts.without_area;
+        report.bad_uv_count = places_.counts.not_finite + places_.counts.too_far;
+        if (sums.converted > 0) report.mean_change_deg = sums.change / static_cast<double>(sums.converted);
+        report.max_change_deg = sums.most_change;
+        if (options_.bits != 32) {
+            report.half_step_deg = 180 / std::numbers::pi / (TexelNumbers{options_.bits}.most());
+            report.is_below_half_step = sums.changed > 0 && report.mean_change_deg < report.half_step_deg;
+        }
+        return report;
+    }
+
+    const MapImage& map_;
+    const MapSide &from_, &to_;
+    std::span<Vec3> out_;
+    const ConvertMapOptions& options_;
+    const Allocator* allocator_;
+    Parallel& parallel_;
+    bool one_mesh_;
+    const MapSide &main_, &other_;  ///< texels go by the triangles of the first
+    CornerTriangles main_corners_, other_corners_;
+    TexelTriangles places_ = {}, other_places_ = {};
+    /// Where integers are chosen together: vectors as computed, and which texels stay as they are by then.
+    Buffer<Vec3> vectors_ = {};
+    Buffer<bool> keeps_ = {};
+    std::uint64_t conflict_count_ = 0;
+    double size_ = 0;                     ///< of the mesh, where both sides have positions
+    Buffer<std::uint32_t> matches_ = {};  ///< triangles of the other side, by those of the main one
+};
+
+const Error kFine{ErrorCode::ok};
+
+Error checkSide(const MapSide& side, const MapSide& other, const char* missing) {
+    const std::size_t corners = side.uvs.count;
+    if (Error error = checkSpan(side.uvs, kAnyCount, "uvs"); error.code != ErrorCode::ok) return error;
+    if (corners % 3 != 0 || corners / 3 >= kNoTriangle / 3) {
+        return makeError(ErrorCode::countMismatch, kNoElement, "uvs: three per triangle are needed");
+    }
+    if (!side.positions.empty()) {
+        if (Error error = checkSpan(side.positions, corners, "positions"); error.code != ErrorCode::ok) return error;
+    }
+    const MapReading& reading = side.reading;
+    if (!std::isfinite(reading.scale) || reading.scale == 0) {
+        return makeError(ErrorCode::invalidOption, kNoElement, "a map's scale is finite and not 0");
+    }
+    if (side.space == MapSpace::object) {
+        const std::size_t triangles = (corners != 0 && other.space == MapSpace::object ? corners : other.uvs.count) / 3;
+        if (!side.axes.empty() && side.axes.size() != triangles) {
+            return makeError(ErrorCode::countMismatch, kNoElement, "axes: one per triangle is needed");
+        }
+        return kFine;
+    }
+    if (corners == 0) {
+        const bool same_frames =
+            reading.bitangent == other.reading.bitangent && reading.unit_vectors == other.reading.unit_vectors;
+        const bool needs_mesh = other.space == MapSpace::object || (other.uvs.empty() && !same_frames);
+        return needs_mesh ? makeError(ErrorCode::missingAttribute, kNoElement, "%s", missing) : kFine;
+    }
+    if (side.normals.empty() || side.tangents.empty()) {
+        return makeError(ErrorCode::missingAttribute, kNoElement, "tangent space needs normals and tangents");
+    }
+    if (Error error = checkSpan(side.normals, corners, "normals"); error.code != ErrorCode::ok) return error;
+    return checkSpan(side.tangents, corners, "tangents");
+}
+
+Error checkCall(const MapImage& map, const MapSide& from, const MapSide& to, std::span<Vec3> out,
+                const ConvertMapOptions& options) {
+    const std::uint64_t texels = std::uint64_t{map.width} * map.height;
+    if (texels == 0 || texels >> 32 != 0) {
+        return makeError(ErrorCode::tooLarge, kNoElement, "an image has 1 to 2^32 texels");
+    }
+    if (map.texels.size() != texels || out.size() != texels) {
+        return makeError(ErrorCode::countMismatch, kNoElement, "texels: width * height are needed");
+    }
+    if (options.bits != 8 && options.bits != 16 && options.bits != 32) {
+        return makeError(ErrorCode::invalidOption, kNoElement, "bits are 8, 16 or 32");
+    }
+    if (Error error = checkSide(from, to, "the frames that the map was made for are needed: a mesh");
+        error.code != ErrorCode::ok) {
+        return error;
+    }
+    return checkSide(to, from, "the frames that the map is to be read with are needed: a mesh");
+}
+
+}  // namespace
+
+Result<ConvertMapReport> convertMap(const MapImage& map, const MapSide& from, const MapSide& to,
+                                    const ConvertMapOptions& options, std::span<Vec3> out, const Execution& execution,
+                                    const Progress& progress) {
+    return atBorder([&]() -> Result<ConvertMapReport> {
+        if (Error error = checkCall(map, from, to, out, options); error.code != ErrorCode::ok) return error;
+        Parallel parallel(execution);
+        return Conversion(map, from, to, out, options, execution.allocator, parallel).run(progress);
+    });
+}
+
+}  // namespace tspace

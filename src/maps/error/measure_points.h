@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: MIT
+// Points spread over a low poly, the truth at each, and how far a map is from it.
+#pragma once
+
+#include <utility>
+
+#include "core/base/memory.h"
+#include "core/base/parallel.h"
+#include "maps/layout/texel_triangles.h"
+#include "maps/rays/map_surfaces.h"
+
+namespace tspace {
+
+// Points of triangles on a grid of n x n a texel, cut into bands of texel rows. Within a band points come one after the
+// other, so sums are equal for any number of threads.
+
+/// A column or row of a grid of n points a texel, as a part of the way from the centre of a texel to the next.
+struct BetweenTexels {
+    std::uint32_t texel = 0;
+    float part = 0;
+};
+
+inline BetweenTexels betweenTexels(std::uint32_t at, std::uint32_t n, std::uint32_t size, TextureWrap wrap) {
+    const std::uint32_t shift = n / 2;
+    const bool repeats = wrap == TextureWrap::repeat;
+    // Points before the first centre belong to the last texel of an image that repeats; others show the first alone there.
+    if (at < shift && !repeats) return {};
+    const std::uint32_t from_centre = at < shift ? at + size * n - shift : at - shift, texel = from_centre / n;
+    if (texel + 1 == size && !repeats) return {texel, 0};
+    const float first = n % 2 == 0 ? 0.5F / static_cast<float>(n) : 0.0F;
+    return {texel, first + static_cast<float>(from_centre % n) / static_cast<float>(n)};
+}
+
+/// A point inside of a triangle or on its edge.
+struct BandSample {
+    std::uint32_t triangle = 0;
+    std::uint32_t row = 0, column = 0;  ///< of the grid, in the image
+    double x = 0, y = 0;                ///< in texels, where the triangle is placed
+    const ExactTriangle* exact = nullptr;
+
+    [[nodiscard]] std::array<double, 3> weights() const { return exact->weights(x, y); }
+};
+
+/// Band b has the grid rows b * kBandTexels * n + shift and on, as many as kBandTexels texels have or are left; beyond the last
+/// row comes the first. What lies outside of a clamped image is left out. Points beside each other come after each other, in
+/// blocks of 4 x 4, since rays beside each other take less time together.
+class SampleBands {
+  public:
+    static constexpr std::uint32_t kBandTexels = 16;
+
+    SampleBands(const UvTriangles& triangles, std::uint32_t width, std::uint32_t height, std::uint32_t n,
+                std::uint32_t shift, const Allocator* allocator)
+        : triangles_(triangles),
+          shape_{width, height, triangles.wrap_u, triangles.wrap_v},
+          grid_{width * n, height * n, triangles.wrap_u, triangles.wrap_v},
+          n_(n),
+          shift_(shift),
+          begin_(allocator, bandCount() + 1, std::size_t{0}),
+          marks_(allocator, bandCount(), std::size_t{0}) {
+        const std::size_t count = triangles.corners.size() / 3;
+        for (std::size_t i = 0; i < count; ++i) {
+            forBands(i, [&](std::size_t band) { ++begin_[band]; });
+        }
+        std::size_t total = 0;
+        for (std::size_t band = 0; band <= bandCount(); ++band) total += std::exchange(begin_[band], total);
+        entries_ = Buffer<std::uint32_t>(allocator, total);
+        Buffer<std::size_t> next(allocator, bandCount(), std::size_t{0});
+        for (std::size_t i = 0; i < count; ++i) {
+            forBands(i,
+                     [&](std::size_t band) { entries_[begin_[band] + next[band]++] = static_cast<std::uint32_t>(i); });
+        }
+    }
+
+    [[nodiscard]] std::size_t bandCount() const { return (shape_.height + kBandTexels - 1) / kBandTexels; }
+    /// Texel rows of a band.
+    [[nodiscard]] std::uint32_t rowCount(std::size_t band) const {
+        return std::min(kBandTexels, shape_.height - static_cast<std::uint32_t>(band) * kBandTexels);
+    }
+
+    /// visit(BandSample), triangle after triangle.
+    template <class Visit>
+    void forSamples(std::size_t band, Visit&& visit) const {
+        const std::int64_t height = grid_.height;
+        const std::int64_t first = std::int64_t{kBandTexels} * n_ * static_cast<std::int64_t>(band) + shift_;
+        const std::int64_t last = first + std::int64_t{rowCount(band)} * n_ - 1;
+        const TexelRange parts[] = {{0, last - height}, {first, std::min(last, height - 1)}};
+        for (std::size_t i = begin_[band]; i < begin_[band + 1]; ++i) {
+            const std::array<Vec2, 3> uvs = cornerUvs(triangles_, entries_[i]);
+            PlacedTriangle placed;
+            if (placed.place(uvs, grid_) != UvPlacing::placed) continue;
+            const ExactTriangle exact(uvs, placed, shape_);
+            const TexelRange rows = placed.rows();
+            for (std::int64_t tile = floorDiv(rows.first, height); tile <= floorDiv(rows.last, height); ++tile) {
+                const bool flipped = isFlipped(tile, grid_.wrap_v);
+                for (const TexelRange& part : parts) {
+                    const TexelRange inside = rowsOfTile(rows, tile, grid_.height, grid_.wrap_v, part.first, part.last);
+                    for (std::int64_t at = inside.first; at <= inside.last; at += kBlock) {
+                        const TexelRange some{at, std::min(inside.last, at + kBlock - 1)};
+                        visitRows(placed, some, tile * height + (flipped ? height - 1 : 0), flipped ? -1 : 1,
+                                  {.triangle = entries_[i], .exact = &exact}, visit);
+                    }
+                }
+            }
+        }
+    }
+
+  private:
+    static constexpr std::int64_t kBlock = 4;
+
+    /// Rows of the image; its row 0 is `origin` of the endless plane, and the next one is `step` further.
+    template <class Visit>
+    void visitRows(const PlacedTriangle& placed, TexelRange rows, std::int64_t origin, std::int64_t step,
+                   BandSample sample, Visit&& visit) const {
+        std::array<TexelRange, kBlock> columns;
+        std::int64_t first = INT64_MAX, last = INT64_MIN;
+        for (std::int64_t row = rows.first; row <= rows.last; ++row) {
+            const TexelRange range = placed.columns(origin + step * row);
+            columns[static_cast<std::size_t>(row - rows.first)] = range;
+            if (range.isEmpty()) continue;
+            first = std::min(first, range.first);
+            last = std::max(last, range.last);
+        }
+        if (grid_.wrap_u == TextureWrap::clamp) {
+            first = std::max<std::int64_t>(first, 0);
+            last = std::min<std::int64_t>(last, grid_.width - 1);
+        }
+        for (std::int64_t block = first; block <= last; block += kBlock) {
+            for (std::int64_t row = rows.first; row <= rows.last; ++row) {
+                const TexelRange& range = columns[static_cast<std::size_t>(row - rows.first)];
+                sample.row = static_cast<std::uint32_t>(row);
+                sample.y = (static_cast<double>(origin + step * row) + 0.5) / n_;
+                const TexelRange some{std::max(range.first, block), std::min(range.last, block + kBlock - 1)};
+                if (some.isEmpty()) continue;
+                forColumnsInImage(some, grid_.width, grid_.wrap_u, [&](std::int64_t column, std::size_t at) {
+                    sample.x = (static_cast<double>(column) + 0.5) / n_;
+                    sample.column = static_cast<std::uint32_t>(at);
+                    visit(sample);
+                });
+            }
+        }
+    }
+
+    /// visit(band), once for each that the triangle has rows in. Of three tiles one is shown whole.
+    template <class Visit>
+    void forBands(std::size_t triangle, Visit&& visit) {
+        PlacedTriangle placed;
+        if (placed.place(cornerUvs(triangles_, triangle), grid_) != UvPlacing::placed || placed.doubleArea() == 0)
+            return;
+        ++mark_;
+        const auto visitOnce = [&](std::int64_t band) {
+            std::size_t& mark = marks_[static_cast<std::size_t>(band)];
+            if (mark != mark_) visit(static_cast<std::size_t>(band));
+            mark = mark_;
+        };
+        const TexelRange rows = placed.rows();
+        const std::int64_t height = grid_.height, band_rows = std::int64_t{kBandTexels} * n_;
+        const std::int64_t first_tile = floorDiv(rows.first, height);
+        for (std::int64_t tile = first_tile; tile <= std::min(floorDiv(rows.last, height), first_tile + 2); ++tile) {
+            const TexelRange inside = rowsOfTile(rows, tile, grid_.height, grid_.wrap_v, 0, height - 1);
+            if (inside.isEmpty()) continue;
+            if (inside.first < shift_) visitOnce(static_cast<std::int64_t>(bandCount()) - 1);
+            const std::int64_t begin = std::max<std::int64_t>(inside.first - shift_, 0);
+            for (std::int64_t band = begin / band_rows; band * band_rows <= inside.last - shift_; ++band)
+                visitOnce(band);
+        }
+    }
+
+    UvTriangles triangles_;
+    TextureShape shape_, grid_;
+    std::uint32_t n_, shift_;
+    Buffer<std::size_t> begin_;
+    Buffer<std::uint32_t> entries_ = {};
+    Buffer<std::size_t> marks_;  ///< by band: the last triangle that has it
+    std::size_t mark_ = 0;
+};
+
+/// Resources of a call.
+struct MapWork {
+    const Allocator* allocator;
+    Parallel& parallel;
+    const Progress& progress;
+};
+
+class MeasurePoints {
+  public:
+    /// Shoots a ray for each of `count` points. Memory: 48 bytes a point.
+    static MeasurePoints spread(const MapSurfaces& surfaces, std::uint32_t count, const MapWork& work);
+
+    /// Without heat. `tangents` as MapCandidate.
+    [[nodiscard]] MapError measure(const MapImage& map, const MapSurfaces& surfaces, const MapCandidate& candidate,
+                                   Parallel& parallel) const;
+
+  private:
+    struct Point {
+        std::uint32_t triangle = 0;
+        std::array<float, 2> weights = {};  ///< of the second and the third corner
+        bool is_hit = false, is_hidden = false, met_back = false, is_inward = false;
+        Vec3 normal = {};  ///< the truth
+    };
+    std::vector<Point> points_ = {};
+    std::vector<std::uint8_t> borders_ =
+        {};  ///< per triangle: bit i, its edge from corner i on is a border of the UV map
+
+    void findBorders(const LowPoly& low);
+    void countPoints(MapError& error) const;
+    [[nodiscard]] bool isNearBorder(const MapImage& map, const LowPoly& low, const Point& point, const Vec2& uv) const;
+};
+
+/// The unit normal that a renderer shades at a point.
+DVec3 shadedAt(const MapImage& map, const MapCandidate& candidate, const CornerFrames& corners,
+               const std::array<double, 3>& weights, const Vec2& uv);
+
+/// Degrees per texel: the mean of four points of it, -1 where none is in a triangle or meets the high poly.
+std::vector<float> heatOf(const MapImage& map, const MapSurfaces& surfaces, const MapCandidate& candidate,
+                          const MapWork& work);
+
+/// A part of the steps that progress is told of.
+struct ToldSteps {
+    std::uint64_t before = 0, total = 0;
+};
+
+/// Bodies of parallel loops see nothing of the caller. Calls task(i) for each i below `count`, and now and then `progress`
+/// from the calling thread.
+template <class Task>
+void forTasksTold(const MapWork& work, std::size_t count, const char* what, ToldSteps steps, Task&& task) {
+    const std::size_t at_once = std::size_t{work.parallel.width()} * 4;
+    for (std::size_t begin = 0; begin < count; begin += at_once) {
+        if (work.progress) work.progress(what, steps.before + begin, steps.total);
+        work.parallel.forTasks(std::min(at_once, count - begin), [&](std::size_t i) { task(begin + i); });
+    }
+}
+template <class Task>
+void forTasksTold(const MapWork& work, std::size_t count, const char* what, Task&& task) {
+    forTasksTold(work, count, what, {0, count}, task);
+}
+
+}  // namespace tspace

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: MIT
+#include "maps/rays/missed_cause.h"
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "core/base/numbers.h"
+#include "core/base/unique_index.h"
+#include "core/base/vec_math.h"
+#include "maps/rays/map_surfaces.h"
+#include "maps/rays/ray_directions.h"
+#include "maps/rays/rays.h"
+
+namespace tspace {
+
+namespace {
+
+constexpr std::size_t kSamples = 1000;
+constexpr double kMeets = 0.8;
+/// In parts of the low poly's size.
+constexpr double kUsualReach = 0.05;
+
+/// The rows of a turn by quarters.
+using Turn = std::array<DVec3, 3>;
+constexpr Turn kNone{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+
+DVec3 turnedBack(const Turn& turn, const DVec3& at) { return at.x * turn[0] + at.y * turn[1] + at.z * turn[2]; }
+
+Turn product(const Turn& second, const Turn& first) {
+    Turn result{};
+    for (std::size_t i = 0; i < 3; ++i)
+        result[i] = second[i].x * first[0] + second[i].y * first[1] + second[i].z * first[2];
+    return result;
+}
+
+bool isEqual(const Turn& a, const Turn& b) {
+    for (std::size_t i = 0; i < 3; ++i) {
+        const DVec3 gap = a[i] - b[i];
+        if (dot(gap, gap) > 0) return false;
+    }
+    return true;
+}
+
+struct NamedTurn {
+    Turn turn = kNone;
+    std::string name = {};
+};
+
+/// All turns by quarters but the one that changes nothing: about one axis, and about two.
+std::vector<NamedTurn> quarterTurns() {
+    constexpr Turn kAxes[3] = {{{{1, 0, 0}, {0, 0, -1}, {0, 1, 0}}},
+                               {{{0, 0, 1}, {0, 1, 0}, {-1, 0, 0}}},
+                               {{{0, -1, 0}, {1, 0, 0}, {0, 0, 1}}}};
+    constexpr const char* kNames[3] = {" degrees about x", " degrees about y", " degrees about z"};
+    constexpr const char* kAngles[3] = {"90", "180", "-90"};
+    std::vector<NamedTurn> about_one;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        Turn turn = kNone;
+        for (const char* const angle : kAngles) {
+            turn = product(kAxes[axis], turn);
+            about_one.push_back({turn, std::string("by ") + angle + kNames[axis]});
+        }
+    }
+    std::vector<NamedTurn> all = about_one;
+    for (const NamedTurn& first : about_one) {
+        for (const NamedTurn& second : about_one) {
+            const Turn turn = product(second.turn, first.turn);
+            const bool is_known = isEqual(turn, kNone) || std::any_of(all.begin(), all.end(), [&](const auto& other) {
+                                      return isEqual(other.turn, turn);
+                                  });
+            if (!is_known) all.push_back({turn, first.name + ", then " + second.name});
+        }
+    }
+    return all;
+}
+
+struct Sample {
+    DVec3 place = {}, outward = {};
+    std::uint32_t group = 0;
+};
+
+/// Points of the low poly, evenly over its area.
+std::vector<Sample> samplesOf(const LowPoly& low) {
+    std::vector<double> ends(low.positions.count / 3);
+    double total = 0;
+    for (std::size_t i = 0; i < ends.size(); ++i) {
+        const DVec3 first = toDouble(low.positions[3 * i]);
+        const double area =
+            length(cross(toDouble(low.positions[3 * i + 1]) - first, toDouble(low.positions[3 * i + 2]) - first));
+        ends[i] = total += std::isfinite(area) ? area : 0;
+    }
+    std::vector<Sample> samples;
+    for (std::size_t i = 0; total > 0 && i < kSamples; ++i) {
+        const double at = total * (static_cast<double>(i) + 0.5) / kSamples;
+        const auto found = std::upper_bound(ends.begin(), ends.end(), at) - ends.begin();
+        const auto triangle = static_cast<std::size_t>(std::min(found, std::ssize(ends) - 1));
+        const std::uint64_t bits = mixBits(i + 1);
+        double s = static_cast<double>(bits >> 40) / 16777216.0, t = static_cast<double>(bits & 0xffffff) / 16777216.0;
+        if (s + t > 1) {
+            s = 1 - s;
+            t = 1 - t;
+        }
+        const std::array<double, 3> weights{1 - s - t, s, t};
+        Sample sample{mixedAt(low.positions, triangle, weights), mixedAt(low.normals, triangle, weights),
+                      low.groups.empty() ? 0 : low.groups[triangle]};
+        if (normalize(sample.outward) && std::isfinite(sample.place.x + sample.place.y + sample.place.z))
+            samples.push_back(sample);
+    }
+    return samples;
+}
+
+/// The high poly, and the samples that meet it when it is turned and scaled.
+class Trial {
+  public:
+    Trial(const RaySurface& surface, std::vector<Sample> samples) : surface_(surface), samples_(std::move(samples)) {}
+
+    /// Which part meets a front.
+    [[nodiscard]] double met(double reach, const Turn& turn = kNone, double scale = 1) const {
+        std::size_t count = 0;
+        double guess = 0;
+        for (const Sample& sample : samples_) {
+            RayHit hit;
+            count += surface_.nearest((1 / scale) * turnedBack(turn, sample.place), turnedBack(turn, sample.outward),
+                                      reach / scale, sample.group, guess, hit)
+                         ? 1
+                         : 0;
+        }
+        return partOf(count);
+    }
+    /// Which part meets backs, and no front.
+    [[nodiscard]] double metBacksAlone(double reach) const {
+        std::size_t count = 0;
+        for (const Sample& sample : samples_) {
+            const RayCrossings crossings =
+                surface_.crossings(sample.place, sample.outward, -reach, reach, sample.group);
+            count += crossings.backs > 0 && crossings.fronts == 0 ? 1 : 0;
+        }
+        return partOf(count);
+    }
+
+  private:
+    [[nodiscard]] double partOf(std::size_t count) const {
+        return samples_.empty() ? 0 : static_cast<double>(count) / static_cast<double>(samples_.size());
+    }
+    const RaySurface& surface_;
+    std::vector<Sample> samples_;
+};
+
+/// The turn and the scale with which most rays meet the high poly, where they are more than `enough`.
+std::string otherPlace(const Trial& trial, double size, double high_size, double reach, double enough) {
+    constexpr double kOtherSize = 1.5;
+    std::vector<NamedTurn> turns = quarterTurns();
+    turns.insert(turns.begin(), NamedTurn{});
+    std::vector<double> scales = {1};
+    if (high_size > 0 && (size > kOtherSize * high_size || high_size > kOtherSize * size))
+        scales.push_back(size / high_size);
+    double most = enough;
+    std::string best;
+    for (const double scale : scales) {
+        for (const NamedTurn& turn : turns) {
+            if (turn.name.empty() && scale == 1) continue;
+            const double met = trial.met(reach, turn.turn, scale);
+            if (!(met > most)) continue;
+            most = met;
+            best = turn.name.empty() ? "" : "turn it " + turn.name;
+            if (scale != 1) best += (best.empty() ? "scale it by " : " and scale it by ") + shortNumber(scale);
+        }
+    }
+    return best.empty() ? best : "it stands in other axes or units: " + best + ", and it lies on the low poly";
+}
+
+}  // namespace
+
+std::string causeOfMisses(const LowPoly& low, const HighPoly& high, const RaySurface& surface, double reach) {
+    const Trial trial(surface, samplesOf(low));
+    if (trial.metBacksAlone(reach) >= 0.5) return "its faces point inwards: rays met only their backs";
+    const double size = PositionBox(low.positions).diagonal(), high_size = PositionBox(high.positions).diagonal();
+    const double usual = std::max(reach, kUsualReach * size);
+    const auto furtherAway = [&](double other) {
+        return "it lies further away than the rays go: --reach " + shortNumber(other) + " meets it";
+    };
+    if (usual > reach && trial.met(usual) >= kMeets) return furtherAway(usual);
+    const std::string moved = otherPlace(trial, size, high_size, usual, kMeets);
+    if (!moved.empty()) return moved;
+    for (const double factor : {2.0, 4.0, 8.0}) {
+        if (trial.met(factor * usual) >= kMeets) return furtherAway(factor * usual);
+    }
+    if (trial.metBacksAlone(usual) >= 0.5) return "its faces point inwards: rays met only their backs";
+    return {};
+}
+
+std::string otherPlaceOf(const LowPoly& low, const HighPoly& high, const RaySurface& surface) {
+    constexpr double kFew = 0.5, kNearlyAll = 0.95;
+    const Trial trial(surface, samplesOf(low));
+    const double size = PositionBox(low.positions).diagonal(), high_size = PositionBox(high.positions).diagonal();
+    if (trial.met(kUsualReach * size) >= kFew) return {};
+    return otherPlace(trial, size, high_size, kUsualReach * size, kNearlyAll);
+}
+
+}  // namespace tspace

@@ -1,0 +1,361 @@
+// SPDX-License-Identifier: MIT
+#include "maps/rays/ray_directions.h"
+
+#include <algorithm>
+#include <queue>
+#include <span>
+#include <vector>
+
+#include "core/base/disjoint_sets.h"
+#include "core/base/mesh_loops.h"
+#include "core/base/near_positions.h"
+#include "core/base/vec_math.h"
+#include "core/base/weld.h"
+#include "maps/texels/texture_sample.h"
+
+namespace tspace {
+
+namespace {
+
+std::uint32_t nextCorner(std::uint32_t corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; }
+
+class Search {
+  public:
+    Search(StridedSpan<const Vec3> positions, std::span<const std::uint32_t> roots, double far)
+        : positions_(positions), roots_(roots), far_(far), groups_(positions.count) {
+        for (std::uint32_t i = 0; i < groups_.size(); ++i) groups_[i] = i;
+    }
+
+    HardEdges run() {
+        const auto forHalves = [&](const auto& add) {
+            for (std::uint32_t corner = 0; corner < positions_.count; ++corner) {
+                const std::uint32_t a = roots_[corner], b = roots_[nextCorner(corner)];
+                if (a != b) add(std::min(a, b), std::max(a, b), corner);
+            }
+        };
+        forEachEdge(positions_.count, nullptr, forHalves,
+                    [&](std::uint32_t low, std::uint32_t high, std::span<const HalfEdge> sides) {
+                        joinOrPart(low, high, sides);
+                    });
+        if (found_.edges.empty()) return std::move(found_);
+        spread();
+        found_.nearest.resize(groups_.size());
+        found_.at_edge.resize(groups_.size());
+        for (const auto& [corner, edge] : at_edges_) found_.at_edge[groupOf(corner)] = true;
+        for (std::uint32_t i = 0; i < groups_.size(); ++i) {
+            const std::uint32_t group = groupOf(i);
+            found_.nearest[i] = near_[group];
+            found_.at_edge[i] = found_.at_edge[group];
+        }
+        found_.groups.resize(groups_.size());
+        for (std::uint32_t i = 0; i < groups_.size(); ++i) found_.groups[i] = groupOf(i);
+        return std::move(found_);
+    }
+
+  private:
+    [[nodiscard]] DVec3 normalOf(std::uint32_t corner) const {
+        const std::uint32_t first = corner - corner % 3;
+        const DVec3 at = toDouble(positions_[first]);
+        DVec3 normal = cross(toDouble(positions_[first + 1]) - at, toDouble(positions_[first + 2]) - at);
+        return normalize(normal) ? normal : DVec3{};
+    }
+
+    /// The sides of one edge: it is hard, or its two faces are one around both of its ends.
+    void joinOrPart(std::uint32_t low, std::uint32_t high, std::span<const HalfEdge> sides) {
+        constexpr double kCosine = 0.861629160441525819;  // of kHardDeg
+        if (sides.size() == 1) return;
+        if (sides.size() == 2) {
+            const DVec3 a = normalOf(cornerOf(sides[0])), b = normalOf(cornerOf(sides[1]));
+            // A triangle without area bends nothing.
+            const bool has_angle = dot(a, a) > 0 && dot(b, b) > 0;
+            if (!has_angle || dot(a, b) >= kCosine) {
+                for (const std::uint32_t end : {low, high})
+                    joinSets(groups_.data(), cornerAt(cornerOf(sides[0]), end), cornerAt(cornerOf(sides[1]), end));
+                return;
+            }
+        }
+        const auto edge = static_cast<std::uint32_t>(found_.edges.size());
+        DVec3 way{};
+        for (const HalfEdge side : sides) way = way + normalOf(cornerOf(side));
+        const std::uint32_t first = cornerOf(sides[0]);
+        found_.edges.push_back({{first, nextCorner(first)}, normalize(way) ? way : DVec3{}});
+        for (const HalfEdge side : sides) {
+            at_edges_.push_back({cornerOf(side), edge});
+            at_edges_.push_back({nextCorner(cornerOf(side)), edge});
+        }
+    }
+
+    [[nodiscard]] std::uint32_t cornerAt(std::uint32_t side, std::uint32_t root) const {
+        return roots_[side] == root ? side : nextCorner(side);
+    }
+
+    /// The first corner of its group.
+    std::uint32_t groupOf(std::uint32_t corner) { return rootOf(groups_.data(), corner); }
+
+    [[nodiscard]] double distanceTo(std::uint32_t edge, std::uint32_t corner) const {
+        const auto& [from, to] = found_.edges[edge].corners;
+        return std::sqrt(
+            squaredDistanceTo(toDouble(positions_[corner]), toDouble(positions_[from]), toDouble(positions_[to])));
+    }
+
+    struct Reached {
+        double distance = 0;
+        std::uint32_t group = 0, edge = 0;
+        bool operator<(const Reached& other) const {
+            if (distance != other.distance) return distance > other.distance;
+            return group != other.group ? group > other.group : edge > other.edge;
+        }
+    };
+
+    /// Edges pass from corners to the other corners of their triangles, the nearest first; a corner passes on the first two
+    /// that reach it.
+    void spread() {
+        near_.assign(groups_.size(), {HardEdges::kNone, HardEdges::kNone});
+        // The corners of each group, in a list.
+        std::vector<std::uint32_t> first(groups_.size(), HardEdges::kNone), next(groups_.size(), HardEdges::kNone);
+        for (auto corner = static_cast<std::uint32_t>(groups_.size()); corner-- > 0;) {
+            const std::uint32_t group = groupOf(corner);
+            next[corner] = first[group];
+            first[group] = corner;
+        }
+        std::priority_queue<Reached> queue;
+        for (const auto& [corner, edge] : at_edges_) queue.push({0, groupOf(corner), edge});
+        while (!queue.empty()) {
+            const Reached reached = queue.top();
+            queue.pop();
+            auto& near = near_[reached.group];
+            if (near[0] == reached.edge || near[1] != HardEdges::kNone) continue;
+            near[near[0] == HardEdges::kNone ? 0 : 1] = reached.edge;
+            for (std::uint32_t at = first[reached.group]; at != HardEdges::kNone; at = next[at]) {
+                for (std::uint32_t other = nextCorner(at); other != at; other = nextCorner(other)) {
+                    const std::uint32_t group = groupOf(other);
+                    if (near_[group][0] == reached.edge || near_[group][1] != HardEdges::kNone) continue;
+                    const double distance = distanceTo(reached.edge, other);
+                    if (distance <= far_) queue.push({distance, group, reached.edge});
+                }
+            }
+        }
+    }
+
+    StridedSpan<const Vec3> positions_;
+    std::span<const std::uint32_t> roots_;
+    double far_;
+    std::vector<std::uint32_t> groups_;  ///< corners at one place whose faces meet smoothly: a forest
+    std::vector<std::array<std::uint32_t, 2>> at_edges_ = {};  ///< corners at hard edges, and which
+    std::vector<std::array<std::uint32_t, 2>> near_ = {};      ///< of each group
+    HardEdges found_ = {};
+};
+
+}  // namespace
+
+HardEdges findHardEdges(StridedSpan<const Vec3> positions, std::span<const std::uint32_t> roots, double far) {
+    return Search(positions, roots, far).run();
+}
+
+namespace {
+
+/// The cage is at most this many times as far from a corner as from its faces: spikes would have none.
+constexpr double kMostFactor = 3;
+/// Less of its own direction, and a corner has no part in the mean: both sides of a leaf are at one place.
+constexpr double kOwnPart = 0.05;
+
+/// How far from a hard edge ways bend towards it, in parts of the cage's offset. On boxes with bevels, ribs and bolts at an
+/// offset of .1, seen from seven sides: 1 and .5 are as near to the high poly, .25 is as near but for misses at sharp rims,
+/// and .1 as far off as stored normals.
+constexpr double kBend = 0.5;
+
+DVec3 unitOr(DVec3 v, const DVec3& other) { return normalize(v) ? v : other; }
+
+/// The whole mesh: the triangles that the map shows, and the rest. Near positions are one.
+struct WholeMesh {
+    WholeMesh(const LowPoly& low, float weld_distance, const Allocator* allocator, Parallel& parallel)
+        : positions(allocator, low.positions.count + low.rest_positions.count),
+          normals(allocator, positions.size()),
+          faces(allocator, positions.size() / 3) {
+        const std::size_t shown = low.positions.count;
+        for (std::size_t i = 0; i < positions.size(); ++i) {
+            positions[i] = i < shown ? low.positions[i] : low.rest_positions[i - shown];
+            normals[i] = i < shown ? low.normals[i] : low.rest_normals[i - shown];
+        }
+        const NearPositions near({.positions = view()}, weld_distance, allocator, parallel);
+        if (!near.empty()) positions = near.moved(view());
+        for (std::size_t i = 0; i < faces.size(); ++i) {
+            const DVec3 at = toDouble(positions[3 * i]);
+            faces[i] = unitOr(cross(toDouble(positions[3 * i + 1]) - at, toDouble(positions[3 * i + 2]) - at), {});
+        }
+        roots = weldPositions({.positions = view()}, allocator, parallel);
+        if (roots.empty()) {
+            roots = Buffer<std::uint32_t>(allocator, positions.size());
+            for (std::uint32_t i = 0; i < roots.size(); ++i) roots[i] = i;
+        }
+    }
+
+    [[nodiscard]] StridedSpan<const Vec3> view() const {
+        return std::span<const Vec3>(positions.data(), positions.size());
+    }
+    [[nodiscard]] double angleAt(std::size_t corner) const {
+        const std::size_t first = corner - corner % 3;
+        const DVec3 at = toDouble(positions[corner]), a = toDouble(positions[first + (corner + 1) % 3]) - at,
+                    b = toDouble(positions[first + (corner + 2) % 3]) - at;
+        const double sum = a.x + a.y + a.z + b.x + b.y + b.z;
+        return std::isfinite(sum) ? angleBetween(a, b) : 0;
+    }
+
+    Buffer<Vec3> positions, normals;
+    Buffer<DVec3> faces;  ///< unit normals; zero where there is none
+    Buffer<std::uint32_t> roots = {};
+};
+
+DVec3 ownOf(const WholeMesh& mesh, std::size_t corner) { return unitOr(toDouble(mesh.normals[corner]), {}); }
+
+/// At the root of each place the way to the cage along the mean of all normals there. Zero where there is none.
+Buffer<Vec3> meanWays(const WholeMesh& mesh, const Allocator* allocator) {
+    const std::size_t count = mesh.positions.size();
+    Buffer<DVec3> means(allocator, count, DVec3{});
+    for (std::size_t i = 0; i < count; ++i)
+        means[mesh.roots[i]] = means[mesh.roots[i]] + mesh.angleAt(i) * ownOf(mesh, i);
+    for (std::size_t i = 0; i < count; ++i) means[i] = unitOr(means[i], {});
+    // How much of the mean is along the face that leans away from it most.
+    Buffer<double> along(allocator, count, 1.0);
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::uint32_t root = mesh.roots[i];
+        const DVec3& face = mesh.faces[i / 3];
+        if (dot(face, face) > 0 && dot(means[root], ownOf(mesh, i)) > kOwnPart)
+            along[root] = std::min(along[root], dot(means[root], face));
+    }
+    Buffer<Vec3> ways(allocator, count);
+    for (std::size_t i = 0; i < count; ++i) ways[i] = toFloat((1 / std::max(along[i], 1 / kMostFactor)) * means[i]);
+    return ways;
+}
+
+/// For each corner that the map shows that of its place, or its own normal where the mean is not on its side.
+Buffer<Vec3> averagedWays(const WholeMesh& mesh, const Buffer<Vec3>& means, std::size_t shown,
+                          const Allocator* allocator) {
+    Buffer<Vec3> ways(allocator, shown);
+    for (std::size_t i = 0; i < shown; ++i) {
+        const Vec3& mean = means[mesh.roots[i]];
+        const DVec3 own = ownOf(mesh, i);
+        const bool has_part = dot(unitOr(toDouble(mean), {}), own) > kOwnPart || dot(own, own) == 0;
+        ways[i] = has_part ? mean : toFloat(own);
+    }
+    return ways;
+}
+
+/// The mean of the faces that meet smoothly at a corner with a hard edge; as `averaged` elsewhere.
+Buffer<Vec3> straightWays(const WholeMesh& mesh, const HardEdges& hard, const Buffer<Vec3>& averaged,
+                          const Allocator* allocator) {
+    Buffer<DVec3> means(allocator, mesh.positions.size(), DVec3{});
+    for (std::size_t i = 0; i < means.size(); ++i) {
+        if (hard.at_edge[i]) means[hard.groups[i]] = means[hard.groups[i]] + mesh.angleAt(i) * mesh.faces[i / 3];
+    }
+    Buffer<Vec3> ways(allocator, averaged.size());
+    for (std::size_t i = 0; i < ways.size(); ++i) {
+        DVec3 mean = hard.at_edge[i] ? means[hard.groups[i]] : DVec3{};
+        ways[i] = normalize(mean) ? toFloat(mean) : averaged[i];
+    }
+    return ways;
+}
+
+DVec3 mixedWay(const Buffer<Vec3>& values, std::size_t triangle, const std::array<double, 3>& weights) {
+    return mixedAt(StridedSpan<const Vec3>(std::span<const Vec3>(values.data(), values.size())), triangle, weights);
+}
+
+}  // namespace
+
+RayField::RayField(const LowPoly& low, const RayOptions& rays, double offset, Parallel& parallel,
+                   const Allocator* allocator)
+    : low_(low), rays_(rays), offset_(offset) {
+    if (!low.cage.empty()) return;
+    const bool is_painted = !rays.skew.texels.empty();
+    if (rays.directions == RayDirections::normals && !is_painted) return;
+    const WholeMesh mesh(low, rays.weld_distance, allocator, parallel);
+    const std::size_t shown = low.positions.count;
+    const Buffer<Vec3> means = meanWays(mesh, allocator);
+    averaged_ = averagedWays(mesh, means, shown, allocator);
+    if (rays.directions != RayDirections::automatic || is_painted) return;
+    bend_ = kBend * offset;
+    const HardEdges hard = findHardEdges(mesh.view(), {mesh.roots.data(), mesh.roots.size()}, 2 * bend_);
+    if (hard.edges.empty()) return;
+    edges_ = Buffer<HardEdge>(allocator, hard.edges.size());
+    for (std::size_t i = 0; i < edges_.size(); ++i) {
+        const auto& [corners, way] = hard.edges[i];
+        const double along = dot(way, mesh.faces[corners[0] / 3]);
+        edges_[i] = {.from = mesh.positions[corners[0]],
+                     .to = mesh.positions[corners[1]],
+                     .way = toFloat((1 / std::max(along, 1 / kMostFactor)) * way),
+                     .way_of_from = means[mesh.roots[corners[0]]],
+                     .way_of_to = means[mesh.roots[corners[1]]]};
+    }
+    near_ = Buffer<NearEdges>(allocator, shown);
+    for (std::size_t i = 0; i < shown; ++i) near_[i] = hard.nearest[i];
+    straight_ = straightWays(mesh, hard, averaged_, allocator);
+}
+
+bool RayField::at(std::size_t triangle, const std::array<double, 3>& weights, DVec3& outward, double& height) const {
+    if (averaged_.empty()) {
+        outward = mixedAt(low_.normals, triangle, weights);
+        height = offset_;
+        return normalizeOrdinary(outward);
+    }
+    DVec3 way = mixedWay(near_.empty() ? averaged_ : straight_, triangle, weights);
+    if (!rays_.skew.texels.empty()) {
+        const double part = painted(triangle, weights);
+        way = (1 - part) * way + part * faceOf(triangle);
+    } else if (isNearEdges(triangle)) {
+        way = bentAtEdges(triangle, mixedAt(low_.positions, triangle, weights), way);
+    }
+    height = offset_ * length(way);
+    outward = way;
+    return normalizeOrdinary(outward) && std::isfinite(height);
+}
+
+DVec3 RayField::faceOf(std::size_t triangle) const {
+    const DVec3 first = toDouble(low_.positions[3 * triangle]);
+    return unitOr(
+        cross(toDouble(low_.positions[3 * triangle + 1]) - first, toDouble(low_.positions[3 * triangle + 2]) - first),
+        {});
+}
+
+double RayField::painted(std::size_t triangle, const std::array<double, 3>& weights) const {
+    double u = 0, v = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        u += weights[i] * low_.uvs[3 * triangle + i].x;
+        v += weights[i] * low_.uvs[3 * triangle + i].y;
+    }
+    const MapImage& image = rays_.skew;
+    const TextureShape shape{image.width, image.height, image.wrap_u, image.wrap_v};
+    return static_cast<double>(sampleBilinear(shape, image.texels, {static_cast<float>(u), static_cast<float>(v)}).x);
+}
+
+DVec3 RayField::bentAtEdges(std::size_t triangle, const DVec3& point, const DVec3& straight) const {
+    const auto smooth = [](double part) { return part * part * (3 - 2 * part); };
+    DVec3 sum{};
+    double total = 0;
+    std::array<std::uint32_t, 6> seen{};
+    for (std::size_t i = 0; i < seen.size(); ++i) {
+        const std::uint32_t number = near_[3 * triangle + i / 2][i % 2];
+        const bool is_known = std::any_of(seen.begin(), seen.begin() + i, [&](auto other) { return other == number; });
+        seen[i] = number;
+        if (number == kNoEdge || is_known) continue;
+        const HardEdge& edge = edges_[number];
+        const DVec3 from = toDouble(edge.from), to = toDouble(edge.to);
+        const double part = nearestPart(point, from, to);
+        const DVec3 at = from + part * (to - from);
+        const double away = length(point - at);
+        if (!(away < bend_)) continue;
+        // At the edge the way is its own, and at its ends that of all faces there: equal seen from all faces.
+        const double size = length(to - from), near_end = std::min(bend_, size / 2);
+        const double of_from = smooth(std::max(0.0, 1 - part * size / near_end)),
+                     of_to = smooth(std::max(0.0, 1 - (1 - part) * size / near_end));
+        DVec3 way = toDouble(edge.way);
+        way = way + of_from * (toDouble(edge.way_of_from) - way) + of_to * (toDouble(edge.way_of_to) - way);
+        // Of several edges the nearer count more, and one that is met alone.
+        const double bent = smooth(1 - away / bend_), least = 1e-6 * bend_;
+        const double weight = bent / (away * away + least * least);
+        sum = sum + (weight * bent) * (way - straight);
+        total += weight;
+    }
+    return total > 0 ? straight + (1 / total) * sum : straight;
+}
+
+}  // namespace tspace

@@ -1,0 +1,552 @@
+// SPDX-License-Identifier: MIT
+#include "maps/rays/rays.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <limits>
+#include <vector>
+
+#ifdef TSPACE_HAS_EMBREE
+#if __has_include(<embree4/rtcore.h>)
+#include <embree4/rtcore.h>
+#else
+#include <embree3/rtcore.h>
+#endif
+
+#include "images/loaded_library.h"
+#endif
+
+#include "core/base/border.h"
+#include "tspace/maps.h"
+
+namespace tspace {
+
+#ifdef TSPACE_HAS_EMBREE
+
+namespace {
+
+/// The functions of Embree that are used, from the library that is there at run time.
+struct Embree {
+    /// Embree 3 and TBB take 47 MB. Their constructors end the process where memory ends.
+    static constexpr std::size_t kLoadedBytes = std::size_t{64} << 20;
+    LoadedLibrary library = LoadedLibrary(TSPACE_EMBREE_LIBRARY, kLoadedBytes);
+    decltype(&rtcNewDevice) newDevice = library.find("rtcNewDevice");
+    decltype(&rtcReleaseDevice) releaseDevice = library.find("rtcReleaseDevice");
+    decltype(&rtcGetDeviceError) getDeviceError = library.find("rtcGetDeviceError");
+    decltype(&rtcNewScene) newScene = library.find("rtcNewScene");
+    decltype(&rtcReleaseScene) releaseScene = library.find("rtcReleaseScene");
+    decltype(&rtcSetSceneFlags) setSceneFlags = library.find("rtcSetSceneFlags");
+    decltype(&rtcJoinCommitScene) joinCommitScene = library.find("rtcJoinCommitScene");
+    decltype(&rtcNewGeometry) newGeometry = library.find("rtcNewGeometry");
+    decltype(&rtcReleaseGeometry) releaseGeometry = library.find("rtcReleaseGeometry");
+    decltype(&rtcSetSharedGeometryBuffer) setSharedGeometryBuffer = library.find("rtcSetSharedGeometryBuffer");
+    decltype(&rtcSetGeometryIntersectFilterFunction) setGeometryIntersectFilterFunction =
+        library.find("rtcSetGeometryIntersectFilterFunction");
+    decltype(&rtcCommitGeometry) commitGeometry = library.find("rtcCommitGeometry");
+    decltype(&rtcAttachGeometry) attachGeometry = library.find("rtcAttachGeometry");
+    decltype(&rtcIntersect1) intersect1 = library.find("rtcIntersect1");
+    decltype(&rtcIntersect16) intersect16 = library.find("rtcIntersect16");
+    decltype(&rtcSetGeometryOccludedFilterFunction) setGeometryOccludedFilterFunction =
+        library.find("rtcSetGeometryOccludedFilterFunction");
+    decltype(&rtcOccluded1) occluded1 = library.find("rtcOccluded1");
+    bool is_loaded = library.hasAll();
+};
+
+const Embree& embree() {
+    static const Embree loaded;
+    return loaded;
+}
+
+/// Whether Embree ran out of memory in this process, which must not call it again.
+std::atomic<bool> has_embree_failed = false;
+
+#if RTC_VERSION_MAJOR >= 4
+using QueryContext = RTCRayQueryContext;
+#else
+using QueryContext = RTCIntersectContext;
+#endif
+
+constexpr std::uint32_t kNothingSkipped = 0xffffffffu;
+
+/// A point of a triangle's plane.
+struct PlanePoint {
+    double distance = 0;
+    std::array<double, 3> weights = {};
+};
+
+}  // namespace
+
+struct RaySurface::State {
+    StridedSpan<const Vec3> positions;
+    std::span<const std::uint32_t> corners, groups;
+    // For Embree the surface is moved and scaled into the unit cube: it drops what is very large, and its boxes round.
+    DVec3 centre = {};
+    double scale = 1, size = 1;     ///< size: 1 / scale
+    std::vector<Vec4> placed = {};  // 16 bytes each: Embree reads them so
+    RTCDevice device = nullptr, second_device = nullptr;
+    RTCScene scene = nullptr;
+
+    /// Leaks what Embree made and reports a lack of memory. Embree's devices share state whose locks stay locked after a
+    /// failed call: releasing them, or any further device, would wait forever.
+    Error abandon() {
+        has_embree_failed = true;
+        scene = nullptr;
+        device = second_device = nullptr;
+        return makeError(ErrorCode::outOfMemory, kNoElement, "out of memory for the rays");
+    }
+
+    ~State() {
+        if (scene != nullptr) embree().releaseScene(scene);
+        if (device != nullptr) embree().releaseDevice(device);
+        if (second_device != nullptr) embree().releaseDevice(second_device);
+    }
+
+    /// Intersects the line with the plane of a triangle whose front faces against `direction`.
+    bool meet(std::uint32_t triangle, const DVec3& from, const DVec3& direction, PlanePoint& point) const {
+        std::array<DVec3, 3> corner{};
+        for (std::size_t i = 0; i < 3; ++i) corner[i] = toDouble(positions[corners[3 * triangle + i]]) - from;
+        const DVec3 normal = cross(corner[1] - corner[0], corner[2] - corner[0]);
+        const double slope = dot(normal, direction);
+        if (!(slope < 0)) return false;
+        point.distance = dot(normal, corner[0]) / slope;
+        double sum = 0;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const double volume = dot(direction, cross(corner[(i + 1) % 3], corner[(i + 2) % 3]));
+            point.weights[i] = std::max(0.0, -volume);
+            sum += point.weights[i];
+        }
+        if (!(sum > 0)) return false;
+        const double part = 1 / sum;
+        for (double& weight : point.weights) weight *= part;
+        return std::isfinite(point.distance);
+    }
+};
+
+namespace {
+
+/// Which of the fronts on a line is looked for, if one is.
+enum class Wanted : std::uint8_t {
+    nearest,  ///< to `from`, on either side
+    first,    ///< in the order of the direction
+    last,
+    any,  ///< the first, fronts or backs
+    all   ///< all are counted, and backs
+};
+
+/// A line and its best hit.
+struct Query {
+    const RaySurface::State* surface;
+    DVec3 from, direction;
+    double begin, end;  ///< along the direction
+    Wanted wanted;
+    std::uint32_t group;
+    std::uint32_t skipped;  ///< a triangle that is not met; kNothingSkipped: none
+    bool is_hit;
+    RayHit best;
+    RayCrossings crossings;
+
+    /// Less is better.
+    [[nodiscard]] double rank(double distance) const {
+        return wanted == Wanted::nearest ? std::fabs(distance) : wanted == Wanted::last ? -distance : distance;
+    }
+    [[nodiscard]] bool reaches(double distance) const {
+        if (wanted == Wanted::nearest) return std::fabs(distance) <= std::max(std::fabs(begin), std::fabs(end));
+        return distance >= begin && distance <= end;
+    }
+};
+
+/// A call of Embree for one line or several. Embree's part comes first: filter functions get a pointer to it.
+struct Shot {
+    QueryContext context;
+    Query* queries;
+
+    Shot(Query* of, bool is_coherent) : queries(of) {
+#if RTC_VERSION_MAJOR >= 4
+        rtcInitRayQueryContext(&context);
+        static_cast<void>(is_coherent);
+#else
+        rtcInitIntersectContext(&context);
+        if (is_coherent) context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+#endif
+    }
+};
+
+/// visit(query, triangle, valid) for each line of a filter function's call: `valid` 0 rejects the triangle.
+template <class Visit>
+void forLines(const RTCFilterFunctionNArguments* arguments, const Visit& visit) {
+    const auto& shot = *reinterpret_cast<const Shot*>(arguments->context);
+    const unsigned count = arguments->N;
+    for (unsigned i = 0; i < count; ++i) {
+        if (arguments->valid[i] == 0) continue;
+        visit(shot.queries[RTCRayN_id(arguments->ray, count, i)], RTCHitN_primID(arguments->hit, count, i),
+              arguments->valid[i]);
+    }
+}
+
+/// Counts a triangle that is met, in front or from behind.
+void countCrossing(Query& query, std::uint32_t triangle) {
+    for (const double sign : {1.0, -1.0}) {
+        PlanePoint point;
+        if (!query.surface->meet(triangle, query.from, sign * query.direction, point)) continue;
+        if (query.reaches(sign * point.distance)) ++(sign > 0 ? query.crossings.fronts : query.crossings.backs);
+    }
+}
+
+/// Intersects the line with the plane of a triangle, whichever way it faces.
+bool meetEitherSide(const Query& query, std::uint32_t triangle, PlanePoint& point) {
+    if (query.surface->meet(triangle, query.from, query.direction, point)) return true;
+    if (!query.surface->meet(triangle, query.from, -1.0 * query.direction, point)) return false;
+    point.distance = -point.distance;
+    return true;
+}
+
+/// Called for triangles that may hide the way; rejects those that do not, so that Embree goes on to others.
+void acceptBlocking(const RTCFilterFunctionNArguments* arguments) {
+    forLines(arguments, [](const Query& query, std::uint32_t triangle, int& valid) {
+        PlanePoint point;
+        const bool is_met =
+            triangle != query.skipped && meetEitherSide(query, triangle, point) && query.reaches(point.distance);
+        if (!is_met) valid = 0;
+    });
+}
+
+/// Takes a triangle that a line meets, if it is better than what was met before.
+void takeHit(Query& query, std::uint32_t triangle) {
+    if (!query.surface->groups.empty() && query.group != kEveryGroup) {
+        const std::uint32_t group = query.surface->groups[triangle];
+        if (group != query.group && group != kEveryGroup) return;
+    }
+    if (query.wanted == Wanted::all) {
+        countCrossing(query, triangle);
+        return;
+    }
+    PlanePoint point;
+    const bool is_met = query.wanted == Wanted::any
+                            ? triangle != query.skipped && meetEitherSide(query, triangle, point)
+                            : query.surface->meet(triangle, query.from, query.direction, point);
+    if (!is_met || !query.reaches(point.distance)) return;
+    const double rank = query.rank(point.distance), best = query.is_hit ? query.rank(query.best.distance) : 0;
+    if (query.is_hit && !(rank < best || (rank == best && triangle < query.best.triangle))) return;
+    query.is_hit = true;
+    query.best = {triangle, point.weights, point.distance};
+}
+
+/// Called for triangles that lines meet; rejects each, so that Embree goes on to all others.
+void collectHits(const RTCFilterFunctionNArguments* arguments) {
+    forLines(arguments, [](Query& query, std::uint32_t triangle, int& valid) {
+        valid = 0;
+        takeHit(query, triangle);
+    });
+}
+
+/// Sets centre and scale from the finite positions.
+void findPlace(RaySurface::State& state) {
+    DVec3 least{1e300, 1e300, 1e300}, most = -1.0 * least;
+    for (std::size_t i = 0; i < state.positions.count; ++i) {
+        const Vec3& at = state.positions[i];
+        if (!isFinite(at)) continue;
+        least = {std::fmin(least.x, at.x), std::fmin(least.y, at.y), std::fmin(least.z, at.z)};
+        most = {std::fmax(most.x, at.x), std::fmax(most.y, at.y), std::fmax(most.z, at.z)};
+    }
+    if (!(least.x <= most.x)) return;
+    state.centre = 0.5 * (least + most);
+    const double size = std::max({most.x - least.x, most.y - least.y, most.z - least.z});
+    state.scale = size > 0 ? 1 / size : 1;
+    state.size = 1 / state.scale;
+}
+
+/// A device whose scenes are built by those threads that call joinCommitScene, `threads` at most. Its number of threads is
+/// the limit of TBB for the whole process, and so for a host that uses it too, as long as no device has a larger one: a
+/// second device, which has none, takes that back, and the first keeps its arena. False where there are no devices.
+bool makeDevices(RaySurface::State& state, unsigned threads) {
+    char settings[96];
+    // Without this each device reserves 128 MB for subdivision surfaces.
+    constexpr const char* kNoCache = "tessellation_cache_size=0";
+    std::snprintf(settings, sizeof settings, "threads=%u,user_threads=%u,%s", threads, threads, kNoCache);
+    state.device = embree().newDevice(settings);
+    if (state.device == nullptr) return false;
+    state.second_device = embree().newDevice(kNoCache);
+    return state.device != nullptr && state.second_device != nullptr;
+}
+
+/// By all threads of the call.
+RTCError buildScene(const RaySurface::State& state, Parallel& parallel) {
+    std::atomic<RTCError> failure = RTC_ERROR_NONE;
+    parallel.forTasks(parallel.width(), [&](std::size_t) {
+        embree().joinCommitScene(state.scene);
+        // Each thread has its own.
+        if (const RTCError error = embree().getDeviceError(state.device); error != RTC_ERROR_NONE) failure = error;
+    });
+    return failure;
+}
+
+}  // namespace
+
+RaySurface::RaySurface(std::unique_ptr<State> state) : state_(std::move(state)) {}
+RaySurface::~RaySurface() = default;
+
+Result<std::unique_ptr<const RaySurface>> RaySurface::make(StridedSpan<const Vec3> positions,
+                                                           std::span<const std::uint32_t> corners,
+                                                           std::span<const std::uint32_t> groups, Parallel& parallel) {
+    const Embree& api = embree();
+    if (!api.is_loaded)
+        return makeError(ErrorCode::unsupportedFile, kNoElement, "rays need Embree: %s cannot be loaded",
+                         TSPACE_EMBREE_LIBRARY);
+    auto state = std::make_unique<State>();
+    state->positions = positions;
+    state->corners = corners;
+    state->groups = groups;
+    findPlace(*state);
+    state->placed.resize(positions.count);
+    for (std::size_t i = 0; i < positions.count; ++i) {
+        const Vec3 at = toFloat(state->scale * (toDouble(positions[i]) - state->centre));
+        state->placed[i] = {at.x, at.y, at.z, 0};
+    }
+    // More than devices, threads and a tree of triangles take. What fails inside of Embree may end the process.
+    constexpr std::size_t kDeviceBytes = std::size_t{16} << 20, kThreadBytes = std::size_t{1} << 20,
+                          kTriangleBytes = 256;
+    requireMemory(kDeviceBytes + kThreadBytes * parallel.width() + kTriangleBytes * (corners.size() / 3));
+    if (has_embree_failed)
+        return makeError(ErrorCode::outOfMemory, kNoElement, "Embree ran out of memory earlier in this process");
+    if (!makeDevices(*state, parallel.width())) {
+        if (state->device == nullptr && api.getDeviceError(nullptr) == RTC_ERROR_UNSUPPORTED_CPU)
+            return makeError(ErrorCode::unsupportedFile, kNoElement, "Embree does not run on this CPU");
+        return state->abandon();  // settings are right, and Embree has several codes for a lack of memory
+    }
+    state->scene = api.newScene(state->device);
+    const RTCGeometry geometry = api.newGeometry(state->device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    if (state->scene == nullptr || geometry == nullptr) return state->abandon();
+    api.setSceneFlags(state->scene, RTC_SCENE_FLAG_ROBUST);
+    api.setSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, state->placed.data(), 0,
+                                sizeof(Vec4), state->placed.size());
+    api.setSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, corners.data(), 0,
+                                3 * sizeof(std::uint32_t), corners.size() / 3);
+    api.setGeometryIntersectFilterFunction(geometry, collectHits);
+    api.setGeometryOccludedFilterFunction(geometry, acceptBlocking);
+    api.commitGeometry(geometry);
+    api.attachGeometry(state->scene, geometry);
+    api.releaseGeometry(geometry);
+    RTCError error = api.getDeviceError(state->device);  // of the calls above
+    if (error == RTC_ERROR_NONE) error = buildScene(*state, parallel);
+    if (error == RTC_ERROR_INVALID_ARGUMENT || error == RTC_ERROR_INVALID_OPERATION)
+        return makeError(ErrorCode::internal, kNoElement, "Embree fails with code %u", static_cast<unsigned>(error));
+    if (error != RTC_ERROR_NONE) return state->abandon();
+    return std::unique_ptr<const RaySurface>(new RaySurface(std::move(state)));
+}
+
+namespace {
+
+/// A line between `begin` and `end`, on which nothing is looked for yet.
+Query lineOf(const RaySurface::State& state, const DVec3& from, const DVec3& direction, double begin, double end,
+             Wanted wanted, std::uint32_t group) {
+    Query query;
+    query.surface = &state;
+    query.from = from;
+    query.direction = direction;
+    query.begin = begin;
+    query.end = end;
+    query.wanted = wanted;
+    query.crossings = {};
+    query.group = group;
+    query.skipped = kNothingSkipped;
+    query.is_hit = false;
+    return query;
+}
+
+/// The part of a line near the surface, as Embree has it. False where there is none.
+bool placeRay(const Query& query, RTCRay& ray) {
+    // Embree ends the process where a ray begins or ends beyond 1.8e18: only the part near the surface is given to it,
+    // whose box has sides of 1 about the centre.
+    constexpr double kBeyond = 2;
+    const RaySurface::State& state = *query.surface;
+    const double middle = dot(state.centre - query.from, query.direction);
+    const double begin = std::max(query.begin, middle - kBeyond * state.size);
+    const double end = std::min(query.end, middle + kBeyond * state.size);
+    const DVec3 place = state.scale * (query.from + begin * query.direction - state.centre);
+    if (!(begin <= end) || !(dot(place, place) <= 4 * kBeyond * kBeyond)) return false;
+    const Vec3 origin = toFloat(place);
+    ray.org_x = origin.x;
+    ray.org_y = origin.y;
+    ray.org_z = origin.z;
+    const Vec3 along = toFloat(query.direction);
+    ray.dir_x = along.x;
+    ray.dir_y = along.y;
+    ray.dir_z = along.z;
+    ray.tfar = static_cast<float>(state.scale * (end - begin));
+    ray.mask = ~0u;
+    return true;
+}
+
+/// Finds what is wanted on the line, or counts what is there.
+void shoot(Query& query) {
+    RTCRayHit ray{};
+    if (!placeRay(query, ray.ray)) return;
+    ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    Shot shot(&query, false);
+#if RTC_VERSION_MAJOR >= 4
+    RTCIntersectArguments arguments;
+    rtcInitIntersectArguments(&arguments);
+    arguments.context = &shot.context;
+    embree().intersect1(query.surface->scene, &ray, &arguments);
+#else
+    embree().intersect1(query.surface->scene, &shot.context, &ray);
+#endif
+}
+
+/// The same for kLinesAtOnce lines at most, all of one surface.
+void shootTogether(std::span<Query> queries) {
+    RTCRayHit16 rays{};
+    alignas(64) std::array<int, kLinesAtOnce> valid{};
+    for (std::size_t i = 0; i < queries.size(); ++i) {
+        RTCRay ray{};
+        if (!placeRay(queries[i], ray)) continue;
+        valid[i] = -1;
+        rays.ray.org_x[i] = ray.org_x;
+        rays.ray.org_y[i] = ray.org_y;
+        rays.ray.org_z[i] = ray.org_z;
+        rays.ray.dir_x[i] = ray.dir_x;
+        rays.ray.dir_y[i] = ray.dir_y;
+        rays.ray.dir_z[i] = ray.dir_z;
+        rays.ray.tfar[i] = ray.tfar;
+        rays.ray.mask[i] = ray.mask;
+        rays.ray.id[i] = static_cast<unsigned>(i);
+        rays.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+        rays.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+    }
+    Shot shot(queries.data(), true);
+#if RTC_VERSION_MAJOR >= 4
+    RTCIntersectArguments arguments;
+    rtcInitIntersectArguments(&arguments);
+    arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
+    arguments.context = &shot.context;
+    embree().intersect16(valid.data(), queries[0].surface->scene, &rays, &arguments);
+#else
+    embree().intersect16(valid.data(), queries[0].surface->scene, &shot.context, &rays);
+#endif
+}
+
+Query shoot(const RaySurface::State& state, const DVec3& from, const DVec3& direction, double begin, double end,
+            Wanted wanted, std::uint32_t group) {
+    Query query = lineOf(state, from, direction, begin, end, wanted, group);
+    shoot(query);
+    return query;
+}
+
+/// Whether a triangle is accepted by acceptBlocking.
+bool isHidden(Query& query) {
+    RTCRay ray{};
+    if (!placeRay(query, ray)) return false;
+    Shot shot(&query, false);
+#if RTC_VERSION_MAJOR >= 4
+    RTCOccludedArguments arguments;
+    rtcInitOccludedArguments(&arguments);
+    arguments.context = &shot.context;
+    embree().occluded1(query.surface->scene, &ray, &arguments);
+#else
+    embree().occluded1(query.surface->scene, &shot.context, &ray);
+#endif
+    return ray.tfar < 0;
+}
+
+/// The best hit, with its distance along the other direction.
+bool takeTurned(const Query& query, RayHit& hit) {
+    if (!query.is_hit) return false;
+    hit = query.best;
+    hit.distance = -hit.distance;
+    return true;
+}
+
+}  // namespace
+
+bool RaySurface::nearest(const DVec3& from, const DVec3& outward, double reach, std::uint32_t group, double& guess,
+                         RayHit& hit) const {
+    const DVec3 inward = -1.0 * outward;
+    // The part of a reach that is hardly more than zero may be zero.
+    const double least = std::max(reach / 1024, std::min(reach, std::numeric_limits<double>::min()));
+    for (double half = std::clamp(guess, least, reach);; half = std::min(4 * half, reach)) {
+        if (takeTurned(shoot(*state_, from, inward, -half, half, Wanted::nearest, group), hit)) {
+            guess = 2 * std::fabs(hit.distance);
+            return true;
+        }
+        if (half == reach) return false;
+    }
+}
+
+bool RaySurface::first(const DVec3& from, const DVec3& inward, double most, std::uint32_t group, RayHit& hit) const {
+    const Query query = shoot(*state_, from, inward, 0, most, Wanted::nearest, group);
+    if (query.is_hit) hit = query.best;
+    return query.is_hit;
+}
+
+bool RaySurface::outermost(const DVec3& from, const DVec3& outward, double begin, double end, std::uint32_t group,
+                           RayHit& hit) const {
+    return takeTurned(shoot(*state_, from, -1.0 * outward, -end, -begin, Wanted::first, group), hit);
+}
+
+bool RaySurface::innermost(const DVec3& from, const DVec3& outward, double begin, double end, std::uint32_t group,
+                           RayHit& hit) const {
+    return takeTurned(shoot(*state_, from, -1.0 * outward, -end, -begin, Wanted::last, group), hit);
+}
+
+std::uint32_t RaySurface::outermost(std::span<const RayLine> lines, std::span<RayHit> hits) const {
+    std::array<Query, kLinesAtOnce> queries;
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+        const RayLine& line = lines[i];
+        queries[i] = lineOf(*state_, line.from, -1.0 * line.outward, -line.end, -line.begin, Wanted::first, line.group);
+    }
+    if (!lines.empty()) shootTogether({queries.data(), lines.size()});
+    std::uint32_t met = 0;
+    for (std::size_t i = 0; i < lines.size(); ++i) met |= takeTurned(queries[i], hits[i]) ? 1U << i : 0U;
+    return met;
+}
+
+bool RaySurface::isBlocked(const DVec3& from, const DVec3& direction, double begin, double end,
+                           std::uint32_t skipped) const {
+    Query query = lineOf(*state_, from, direction, begin, end, Wanted::any, kEveryGroup);
+    query.skipped = skipped;
+    return isHidden(query);
+}
+
+bool RaySurface::firstOfAny(const DVec3& from, const DVec3& direction, double begin, double end, std::uint32_t skipped,
+                            RayHit& hit) const {
+    Query query = lineOf(*state_, from, direction, begin, end, Wanted::any, kEveryGroup);
+    query.skipped = skipped;
+    shoot(query);
+    if (query.is_hit) hit = query.best;
+    return query.is_hit;
+}
+
+double RaySurface::size() const { return state_->size; }
+
+RayCrossings RaySurface::crossings(const DVec3& from, const DVec3& outward, double begin, double end,
+                                   std::uint32_t group) const {
+    return shoot(*state_, from, -1.0 * outward, -end, -begin, Wanted::all, group).crossings;
+}
+
+#else
+
+struct RaySurface::State {};
+RaySurface::RaySurface(std::unique_ptr<State> state) : state_(std::move(state)) {}
+RaySurface::~RaySurface() = default;
+
+Result<std::unique_ptr<const RaySurface>> RaySurface::make(StridedSpan<const Vec3>, std::span<const std::uint32_t>,
+                                                           std::span<const std::uint32_t>, Parallel&) {
+    return makeError(ErrorCode::unsupportedFile, kNoElement, "rays need Embree, and this build has none");
+}
+bool RaySurface::nearest(const DVec3&, const DVec3&, double, std::uint32_t, double&, RayHit&) const { return false; }
+bool RaySurface::first(const DVec3&, const DVec3&, double, std::uint32_t, RayHit&) const { return false; }
+bool RaySurface::outermost(const DVec3&, const DVec3&, double, double, std::uint32_t, RayHit&) const { return false; }
+bool RaySurface::innermost(const DVec3&, const DVec3&, double, double, std::uint32_t, RayHit&) const { return false; }
+std::uint32_t RaySurface::outermost(std::span<const RayLine>, std::span<RayHit>) const { return 0; }
+RayCrossings RaySurface::crossings(const DVec3&, const DVec3&, double, double, std::uint32_t) const { return {}; }
+bool RaySurface::isBlocked(const DVec3&, const DVec3&, double, double, std::uint32_t) const { return false; }
+bool RaySurface::firstOfAny(const DVec3&, const DVec3&, double, double, std::uint32_t, RayHit&) const { return false; }
+double RaySurface::size() const { return 1; }
+
+#endif
+
+}  // namespace tspace
