@@ -88,7 +88,7 @@ namespace Tspace
                 made.Bitangents = new Native.Span(b, Whole(bitangents, 3), 0);
                 made.MagnitudesS = new Native.Span(u, magnitudesS.Length, 0);
                 made.MagnitudesT = new Native.Span(v, magnitudesT.Length, 0);
-                made.HasTangent = new Native.ByteSpan { Data = mask, Count = (UIntPtr)(uint)hasTangent.Length };
+                made.HasTangent = new Native.ByteSpan { Data = (byte*)mask, Count = (UIntPtr)(uint)hasTangent.Length };
                 // Lambdas hold no pointers to locals that are fixed, but may hold their addresses as numbers.
                 IntPtr output = (IntPtr)(&made), counts = (IntPtr)(&report), choices = (IntPtr)(&how), run = (IntPtr)(&execution);
                 Pinned.Use(mesh, raw =>
@@ -118,7 +118,7 @@ namespace Tspace
                 {
                     Native.Error error;
                     uint code = Native.tspace_generateNormals(raw, (Native.NormalOptions*)choices, span,
-                                                              (Native.Execution*)run, IntPtr.Zero, &error);
+                                                              (Native.Execution*)run, null, &error);
                     Native.Check(code, ref error);
                 });
             }
@@ -175,7 +175,7 @@ namespace Tspace
                 Native.Error error;
                 Native.IndexedFrames* made;
                 uint code = Native.tspace_makeIndexedFrames(raw, (Native.IndexedFramesOptions*)choices,
-                                                            (Native.Execution*)run, out made, &error);
+                                                            (Native.Execution*)run, &made, &error);
                 Native.Check(code, ref error);
                 try
                 {
@@ -231,7 +231,7 @@ namespace Tspace
             {
                 Native.Error error;
                 IntPtr made;
-                Native.Check(Native.tspace_planTangents(raw, (Native.TangentOptions*)choices, (Native.Execution*)run, out made,
+                Native.Check(Native.tspace_planTangents(raw, (Native.TangentOptions*)choices, (Native.Execution*)run, &made,
                                                         &error), ref error);
                 plan = made;
             });

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 import type { CheckReport, DiffReport, Finding, GenerateReport, IdentifyReport, InspectReport } from "./reports.js";
+import type { CheckFileOptions, DiffFileOptions, FileOptions, GenerateFileOptions, IdentifyFileOptions } from "./file_options.js";
 import type { NewUint8Array } from "./types.js";
 
 export { TspaceError } from "./types.js";
@@ -73,7 +74,7 @@ export interface StopSignal {
 export type ImageType = "image/png" | "image/jpeg" | "image/webp";
 
 /** Options are those of the tool (docs/reference/tool.md), in camelCase: --memory-limit is memoryLimit. */
-export interface ModelOptions {
+export interface ModelOptions extends FileOptions {
   /** What reports call the model. OBJ is told by its ending. */
   name?: string;
   resources?: Resources;
@@ -86,10 +87,6 @@ export interface ModelOptions {
    * signal of another thread has to go through shared memory (docs/reference/javascript.md).
    */
   signal?: StopSignal;
-  /** Memory that working on the model may take, such as "2G"; 0: by its size. */
-  memoryLimit?: string | number;
-  /** Also ask for files outside of the model's folder. */
-  allowExternal?: boolean;
 }
 
 /** Nothing, or an error thrown: the image is not looked at, and the report says so. */
@@ -105,92 +102,16 @@ export interface ImageOptions {
   decodeImage?: DecodeImage;
 }
 
-export interface GenerateOptions extends ModelOptions, ImageOptions, WatchOptions {
-  /** Also where the material needs no tangents. */
-  all?: boolean;
-  /** Keep tangents that are there (the default), compute them anew, or mend what is wrong with them. */
-  onlyMissing?: boolean;
-  overwrite?: boolean;
-  repair?: boolean;
-  /** Take tangents away where no material needs them. */
-  strip?: boolean;
-  method?: "mikktspace" | "uniform" | "angle" | "area" | "fast" | "best" | "lengyel" | "flat" | "basis";
-  faces?: "triangles" | "quads" | "auto";
-  pairing?: "reference" | "corrected";
-  /** Degrees. */
-  threshold?: number | string;
-  frame?: "gram-schmidt" | "symmetric";
-  refine?: number | string;
-  convention?: "gltf" | "opengl" | "directx" | "unreal" | "unity" | "blender" | "godot";
-  textureTransform?: "apply" | "ignore";
-  bitangents?: boolean;
-  format?: "float32" | "snorm16" | "snorm8";
-  pack?: string;
-  packDrop?: "nothing" | "tangents" | "all";
-  /** How normals are made where they are missing. */
-  normals?: "flat" | "uniform" | "area" | "angle" | "angle-area" | "max" | "best";
-  /** Degrees, or "auto". */
-  crease?: number | string;
-  /** For `best` on noisy positions: "auto", or 0 to 4 times the noise that is measured. */
-  denoise?: number | string;
-  /** Positions that differ by no more than this in each coordinate are one, for normals and winding; "auto", the default: by the spacing of floats. */
-  weldDistance?: number | string;
-  /** Normals of each primitive from its own triangles; else they are smooth over the borders of primitives of one mesh. */
-  normalsPerPrimitive?: boolean;
-  /** Normals that are there are made anew too, and the tangents that are there with them. */
-  overwriteNormals?: boolean;
-  /** What morph targets add to normals that stay. */
-  morphNormals?: "keep" | "missing" | "all";
-  /** How geometry is packed: as it came (the default), not at all, or by a codec, which must be given. */
-  compress?: "keep" | "none" | "meshopt" | "draco";
-  /** Inverts the green channel of normal maps whose green points down, or of all of them. Needs decodeImage and encodeImage. */
-  flipGreen?: boolean;
-  flipGreenAll?: boolean;
-  /** Writes normal maps anew whose channels hold something else than glTF reads. Needs decodeImage and encodeImage. */
-  mendMaps?: boolean;
-  /** Leaves inverted signs as they are with `repair`, instead of reading the pixels of normal maps. */
-  noImages?: boolean;
-  /** Images come out as they went in, but for normal maps that another option writes anew. */
-  compressMaps?: "keep";
+export interface GenerateOptions extends ModelOptions, ImageOptions, WatchOptions, GenerateFileOptions {
   /** The image as a file of this type, without loss but for a JPEG. */
   encodeImage?: (pixels: PixelsToEncode, type: ImageType) => Uint8Array;
-  /** Turns triangles that are wound against their neighbours, and parts that are inside out as a whole. */
-  mendWinding?: boolean;
-  noSanitize?: boolean;
-  orthogonalize?: boolean;
-  /** For OBJ: no offset is taken out of coordinates far from the origin. */
-  keepCoordinates?: boolean;
-  /** Nothing is made, but the report says what would be. */
-  dryRun?: boolean;
 }
 
-export interface CheckOptions extends ModelOptions, ImageOptions, WatchOptions {
-  /** Findings from this severity on make exitCode 1. */
-  failOn?: Severity;
-  /** Findings below it are left out. */
-  severity?: Severity;
-  /** Codes of findings that are left out. */
-  ignore?: string | readonly string[];
-  /** Degrees: angles up to it are right. */
-  angle?: number | string;
-  /** Positions that differ by no more than this in each coordinate are one, for winding and borders; "auto" by default. */
-  weldDistance?: number | string;
-  convention?: GenerateOptions["convention"];
-  faces?: GenerateOptions["faces"];
-  noImages?: boolean;
-}
+export interface CheckOptions extends ModelOptions, ImageOptions, WatchOptions, CheckFileOptions {}
 
-export interface IdentifyOptions extends ModelOptions {
-  /** Degrees: a method explains a tangent that it comes this close to. */
-  tolerance?: number | string;
-}
+export interface IdentifyOptions extends ModelOptions, IdentifyFileOptions {}
 
-export interface DiffOptions extends Omit<ModelOptions, "name"> {
-  /** Degrees: larger angles are differences. */
-  tolerance?: number | string;
-  /** How many of the worst places are listed. */
-  worst?: number | string;
-}
+export interface DiffOptions extends Omit<ModelOptions, "name">, DiffFileOptions {}
 
 export type Severity = "error" | "warning" | "note";
 

@@ -4,6 +4,7 @@ import { source } from "#gltf";
 import { bytes, fail, failType, object } from "./check.js";
 import { Codecs, codecsOf } from "./codecs.js";
 import { TspaceError } from "./error.js";
+import { optionNames } from "./file_options.js";
 import { textAt, Wasm } from "./wasm.js";
 
 export { TspaceError };
@@ -31,21 +32,16 @@ export const ready = wasm.start(source);
 export const release = () => wasm.release();
 
 const verbs = ["generate", "check", "inspect", "identify", "diff"];
-const ofAll = ["resources", "meshopt", "draco", "signal", "memoryLimit", "allowExternal"];
-const watched = ["decodeImage", "onProgress", "convention", "faces"];
+const ofAll = ["resources", "meshopt", "draco", "signal", ...optionNames.inspect];
+const ofImages = ["decodeImage", "onProgress"];
 
 /** Names of the options of each verb. */
 const known = {
-  generate: [
-    "name", ...ofAll, ...watched, "all", "onlyMissing", "overwrite", "repair", "strip", "method", "pairing", "threshold", "frame", "refine",
-    "textureTransform", "bitangents", "format", "pack", "packDrop", "normals", "crease", "denoise", "weldDistance", "normalsPerPrimitive",
-    "overwriteNormals", "morphNormals", "compress", "flipGreen", "flipGreenAll", "mendMaps", "noImages", "compressMaps", "mendWinding",
-    "encodeImage", "noSanitize", "orthogonalize", "keepCoordinates", "dryRun",
-  ],
-  check: ["name", ...ofAll, ...watched, "failOn", "severity", "ignore", "angle", "weldDistance", "noImages"],
+  generate: ["name", ...ofAll, ...ofImages, "encodeImage", ...optionNames.generate],
+  check: ["name", ...ofAll, ...ofImages, ...optionNames.check],
   inspect: ["name", ...ofAll],
-  identify: ["name", ...ofAll, "tolerance"],
-  diff: [...ofAll, "tolerance", "worst"],
+  identify: ["name", ...ofAll, ...optionNames.identify],
+  diff: [...ofAll, ...optionNames.diff],
 };
 const cannotRead = 103;
 

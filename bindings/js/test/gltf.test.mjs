@@ -111,9 +111,9 @@ describe("models in memory", () => {
   });
 
   it("know the options that their types have, and that the module knows", () => {
-    const types = readFileSync(new URL("../node_modules/tspace/src/gltf.d.ts", import.meta.url), "utf8");
+    const types = ["gltf", "file_options"].map((name) => readFileSync(new URL(`../node_modules/tspace/src/${name}.d.ts`, import.meta.url), "utf8")).join("");
     const membersOf = (name) => {
-      const [, parents = "", body] = types.match(new RegExp(`interface ${name}(?: extends (.*?))? \\{\\n([\\s\\S]*?)\\n\\}`));
+      const [, parents = "", body = ""] = types.match(new RegExp(`interface ${name}(?: extends (.*?))? \\{(?:\\n([\\s\\S]*?)\\n)?\\}`));
       const own = [...body.matchAll(/^  (\w+)\?:/gm)].map((match) => match[1]);
       return [...own, ...(parents.match(/\w+Options/g) ?? []).flatMap(membersOf)];
     };

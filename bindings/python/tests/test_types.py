@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: MIT
 """What type checkers are told. Run where mypy (Debian: mypy) and pyright (npm: scripts/setup python-all) are installed."""
 
-import ast
-import inspect
 import json
 import shutil
 import subprocess
@@ -105,25 +103,6 @@ class Types(unittest.TestCase):
         first = len(USES.splitlines())
         expected = [[str(program), str(first + i)] for i, line in enumerate(WRONG.splitlines(), 1) if line]
         self.assertEqual(wrong, expected, lines)
-
-
-class FileCalls(unittest.TestCase):
-    def test_type_checkers_know_the_options_of_files(self):
-        verbs = {"generate_file": "generate", "generate_bytes": "generate", "flip_green_file": "flipGreen"}
-        verbs.update({"flip_green_bytes": "flipGreen", "height_to_normal_file": "heightToNormal"})
-        verbs.update({"convert_map_file": "convertMap"})
-        verbs.update({"compress_map_file": "compressMap", "compress_map_bytes": "compressMap"})
-        verbs.update({"bake_file": "bake", "finish_file": "finish"})
-        verbs.update({name: name for name in ("check", "identify", "inspect", "diff")})
-        tree = ast.parse((Path(tspace.__file__).parent / "_file_calls.pyi").read_text())
-        functions = {node.name: node for node in tree.body if isinstance(node, ast.FunctionDef)}
-        self.assertEqual(set(functions), set(verbs))
-        for name, node in functions.items():
-            with self.subTest(name):
-                has = [argument.arg for argument in node.args.args + node.args.kwonlyargs]
-                signature = inspect.signature(getattr(tspace, name)).parameters.values()
-                takes = [argument.name for argument in signature if argument.kind is not argument.VAR_KEYWORD]
-                self.assertEqual(sorted(has), sorted(takes + tspace._files._OPTIONS[verbs[name]].split()))
 
 
 if __name__ == "__main__":

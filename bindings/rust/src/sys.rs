@@ -1,17 +1,90 @@
 // SPDX-License-Identifier: MIT
-//! The C API, as `tspace.h` declares it. Sized structs are checked by the library: a layout that differs is an error of
-//! every call, and `tests/` compares the sizes.
+//! The C API, as `tspace.h` declares it. Written by scripts/api. Sized structs are checked by the library: a layout that
+//! differs is an error of every call, and `tests/` compares the sizes.
+#![allow(dead_code)]
 
 use std::os::raw::{c_char, c_void};
 
+pub const NO_ELEMENT: u64 = 0xffffffffffffffff;
+pub const MAX_CORNERS: u32 = 0x7fffffff;
+pub const ALL_THREADS: u32 = 0xffffffff;
+pub const NO_CORNER: u32 = 0xffffffff;
 pub const OK: u32 = 0;
-pub const NO_ELEMENT: u64 = u64::MAX;
+pub const ERROR_NULL_DATA: u32 = 1;
+pub const ERROR_COUNT_MISMATCH: u32 = 2;
+pub const ERROR_INDEX_OUT_OF_RANGE: u32 = 3;
+pub const ERROR_STRIDE_TOO_SMALL: u32 = 4;
+pub const ERROR_MISALIGNED: u32 = 5;
+pub const ERROR_TOO_LARGE: u32 = 6;
+pub const ERROR_MISSING_ATTRIBUTE: u32 = 7;
+pub const ERROR_INVALID_OPTION: u32 = 8;
+pub const ERROR_OUT_OF_MEMORY: u32 = 9;
+pub const ERROR_PLAN_MISMATCH: u32 = 10;
+pub const ERROR_INTERNAL: u32 = 11;
+pub const ERROR_CANCELLED: u32 = 12;
+pub const ERROR_INVALID_FILE: u32 = 100;
+pub const ERROR_UNSUPPORTED_FILE: u32 = 101;
+pub const ERROR_FORBIDDEN_PATH: u32 = 102;
+pub const ERROR_CANNOT_READ: u32 = 103;
+pub const ERROR_CANNOT_WRITE: u32 = 104;
 pub const INDEX_NONE: u32 = 0;
+pub const INDEX_U8: u32 = 1;
 pub const INDEX_U16: u32 = 2;
 pub const INDEX_U32: u32 = 4;
 pub const INDEX_CORNERS: u32 = 8;
+pub const SIMD_BEST: u32 = 0;
+pub const SIMD_SCALAR: u32 = 1;
+pub const SIMD_SSE2: u32 = 2;
+pub const SIMD_AVX2: u32 = 3;
+pub const SIMD_AVX512: u32 = 4;
+pub const SIMD_NEON: u32 = 5;
+pub const V_UNSET: u32 = 0;
+pub const V_UP: u32 = 1;
+pub const V_DOWN: u32 = 2;
+pub const GREEN_UP: u32 = 0;
+pub const GREEN_DOWN: u32 = 1;
+pub const SIGN_AS_IS: u32 = 0;
+pub const SIGN_NEGATED: u32 = 1;
+pub const HANDEDNESS_RIGHT: u32 = 0;
+pub const HANDEDNESS_LEFT: u32 = 1;
+pub const WINDING_COUNTER_CLOCKWISE: u32 = 0;
+pub const WINDING_CLOCKWISE: u32 = 1;
+pub const METHOD_MIKKTSPACE: u32 = 0;
+pub const METHOD_LENGYEL: u32 = 1;
+pub const METHOD_UNIFORM: u32 = 2;
+pub const METHOD_ANGLE: u32 = 3;
+pub const METHOD_AREA: u32 = 4;
+pub const METHOD_FLAT: u32 = 5;
+pub const METHOD_BASIS: u32 = 6;
+pub const METHOD_FAST: u32 = 7;
+pub const METHOD_BEST: u32 = 8;
+pub const PAIRING_REFERENCE: u32 = 0;
+pub const PAIRING_CORRECTED: u32 = 1;
+pub const NGONS_TRIANGULATE: u32 = 0;
+pub const NGONS_SKIP: u32 = 1;
+pub const DOMAIN_CORNER: u32 = 0;
+pub const DOMAIN_VERTEX: u32 = 1;
+pub const FRAME_GRAM_SCHMIDT: u32 = 0;
+pub const FRAME_SYMMETRIC: u32 = 1;
+pub const NORMAL_WEIGHTING_FLAT: u32 = 0;
+pub const NORMAL_WEIGHTING_UNIFORM: u32 = 1;
+pub const NORMAL_WEIGHTING_AREA: u32 = 2;
+pub const NORMAL_WEIGHTING_ANGLE: u32 = 3;
+pub const NORMAL_WEIGHTING_ANGLE_AREA: u32 = 4;
+pub const NORMAL_WEIGHTING_MAX: u32 = 5;
+pub const NORMAL_WEIGHTING_BEST: u32 = 6;
+pub const FRAME_FORMAT_FRAME32: u32 = 0;
+pub const FRAME_FORMAT_FRAME48: u32 = 1;
+pub const FRAME_FORMAT_FRAME64: u32 = 2;
+pub const FRAME_FORMAT_OCT32: u32 = 3;
+pub const FRAME_FORMAT_QTANGENT64: u32 = 4;
+pub const FRAME_FORMAT_SNORM8_PAIR: u32 = 5;
+pub const FRAME_FORMAT_SNORM16_PAIR: u32 = 6;
+pub const FRAME_FORMAT_GLTF_SNORM8: u32 = 7;
+pub const FRAME_FORMAT_GLTF_SNORM16: u32 = 8;
 
 #[repr(C)]
+#[derive(Clone, Copy)]
 pub struct Error {
     pub code: u32,
     pub reserved: u32,
@@ -52,6 +125,7 @@ pub struct Indices {
 }
 
 #[repr(C)]
+#[derive(Clone, Copy)]
 pub struct Mesh {
     pub struct_size: u32,
     pub face_size: u32,
@@ -66,11 +140,28 @@ pub struct Mesh {
 }
 
 #[repr(C)]
+#[derive(Clone, Copy)]
+pub struct Executor {
+    pub run: Option<unsafe extern "C" fn(*mut c_void, usize, Option<unsafe extern "C" fn(*mut c_void, usize)>, *mut c_void)>,
+    pub user: *mut c_void,
+    pub concurrency: u32,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct Allocator {
+    pub allocate: Option<unsafe extern "C" fn(*mut c_void, usize, usize) -> *mut c_void>,
+    pub release: Option<unsafe extern "C" fn(*mut c_void, *mut c_void, usize, usize)>,
+    pub user: *mut c_void,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy)]
 pub struct Execution {
     pub struct_size: u32,
     pub thread_count: u32,
-    pub executor: *const c_void,
-    pub allocator: *const c_void,
+    pub executor: *const Executor,
+    pub allocator: *const Allocator,
     pub simd: u32,
     pub reserved: u32,
 }
@@ -86,6 +177,7 @@ pub struct Convention {
 }
 
 #[repr(C)]
+#[derive(Clone, Copy)]
 pub struct TangentOptions {
     pub struct_size: u32,
     pub method: u32,
@@ -115,6 +207,7 @@ pub struct TangentReport {
 }
 
 #[repr(C)]
+#[derive(Clone, Copy)]
 pub struct TangentOutput {
     pub struct_size: u32,
     pub reserved: u32,
@@ -126,6 +219,17 @@ pub struct TangentOutput {
 }
 
 #[repr(C)]
+#[derive(Clone, Copy)]
+pub struct MeshJob {
+    pub mesh: *const Mesh,
+    pub options: *const TangentOptions,
+    pub out: *const TangentOutput,
+    pub report: *mut TangentReport,
+    pub error: *mut Error,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy)]
 pub struct Pose {
     pub struct_size: u32,
     pub reserved: u32,
@@ -134,6 +238,7 @@ pub struct Pose {
 }
 
 #[repr(C)]
+#[derive(Clone, Copy)]
 pub struct TangentPlanInfo {
     pub struct_size: u32,
     pub method: u32,
@@ -144,6 +249,61 @@ pub struct TangentPlanInfo {
 }
 
 #[repr(C)]
+#[derive(Clone, Copy)]
+pub struct Triangulation {
+    pub corners: *const u32,
+    pub faces: *const u32,
+    pub triangle_count: usize,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct Vec2 {
+    pub x: f32,
+    pub y: f32,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct Vec3 {
+    pub x: f32,
+    pub y: f32,
+    pub z: f32,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct Vec4 {
+    pub x: f32,
+    pub y: f32,
+    pub z: f32,
+    pub w: f32,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct Frame {
+    pub tangent: Vec3,
+    pub bitangent: Vec3,
+    pub normal: Vec3,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct Mat3 {
+    pub rows: [Vec3; 3],
+}
+
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct FaceFrame {
+    pub tangent: Vec3,
+    pub bitangent: Vec3,
+    pub determinant: f32,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy)]
 pub struct NormalOptions {
     pub struct_size: u32,
     pub weighting: u32,
@@ -172,6 +332,17 @@ pub struct NormalReport {
 }
 
 #[repr(C)]
+#[derive(Clone, Copy)]
+pub struct PositionNoise {
+    pub struct_size: u32,
+    pub sigma: f32,
+    pub kink_share: f32,
+    pub noise: f32,
+    pub mean_edge: f64,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy)]
 pub struct SanitizeOptions {
     pub struct_size: u32,
     pub orthogonalize_all: u32,
@@ -198,15 +369,7 @@ pub struct SanitizeReport {
 }
 
 #[repr(C)]
-pub struct WindingOptions {
-    pub struct_size: u32,
-    pub convention: Convention,
-    pub use_normals: u32,
-    pub weld_positions: u32,
-    pub weld_distance: f32,
-}
-
-#[repr(C)]
+#[derive(Clone, Copy)]
 pub struct CornerAttribute {
     pub data: *const f32,
     pub stride_bytes: usize,
@@ -215,6 +378,7 @@ pub struct CornerAttribute {
 }
 
 #[repr(C)]
+#[derive(Clone, Copy)]
 pub struct SplitResult {
     pub indices: *const u32,
     pub corner_count: usize,
@@ -224,6 +388,7 @@ pub struct SplitResult {
 }
 
 #[repr(C)]
+#[derive(Clone, Copy)]
 pub struct IndexedFramesOptions {
     pub struct_size: u32,
     pub make_normals: u32,
@@ -236,6 +401,7 @@ pub struct IndexedFramesOptions {
 }
 
 #[repr(C)]
+#[derive(Clone, Copy)]
 pub struct IndexedFrames {
     pub indices: *const u32,
     pub corner_count: usize,
@@ -250,10 +416,60 @@ pub struct IndexedFrames {
 }
 
 #[repr(C)]
-pub struct Triangulation {
-    pub corners: *const u32,
-    pub faces: *const u32,
-    pub triangle_count: usize,
+#[derive(Clone, Copy)]
+pub struct FrameErrorBound {
+    pub normal_deg: f64,
+    pub tangent_deg: f64,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct PackReport {
+    pub struct_size: u32,
+    pub reserved: u32,
+    pub bad_normal_count: u64,
+    pub not_finite_count: u64,
+    pub zero_count: u64,
+    pub parallel_count: u64,
+    pub not_unit_count: u64,
+    pub not_orthogonal_count: u64,
+    pub bad_sign_count: u64,
+    pub mended_count: u64,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct WindingOptions {
+    pub struct_size: u32,
+    pub convention: Convention,
+    pub use_normals: u32,
+    pub weld_positions: u32,
+    pub weld_distance: f32,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct WindingReport {
+    pub struct_size: u32,
+    pub reserved: u32,
+    pub face_count: u64,
+    pub turned_count: u64,
+    pub conflict_count_before: u64,
+    pub conflict_count_after: u64,
+    pub component_count: u64,
+    pub turned_component_count: u64,
+    pub by_normals_count: u64,
+    pub by_volume_count: u64,
+    pub by_nesting_count: u64,
+    pub by_winding_number_count: u64,
+    pub by_majority_count: u64,
+    pub small_count: u64,
+    pub one_sided_count: u64,
+}
+
+#[repr(C)]
+pub struct Arena {
+    _private: [u8; 0],
 }
 
 #[repr(C)]
@@ -261,22 +477,36 @@ pub struct TangentPlan {
     _private: [u8; 0],
 }
 
-// What a struct is prepared by.
+/// The function that prepares a sized struct.
 pub type Init<Struct> = unsafe extern "C" fn(*mut Struct, u32, *mut Error) -> u32;
 
 extern "C" {
     pub fn tspace_version() -> u32;
-    pub fn tspace_findConvention(name: *const c_char, out: *mut Convention, error: *mut Error) -> u32;
+    pub fn tspace_errorName(code: u32) -> *const c_char;
     pub fn tspace_cornerCount(mesh: *const Mesh) -> usize;
     pub fn tspace_faceCount(mesh: *const Mesh) -> usize;
     pub fn tspace_validate(mesh: *const Mesh, error: *mut Error) -> u32;
-    pub fn tspace_initExecution(execution: *mut Execution, struct_size: u32, error: *mut Error) -> u32;
-    pub fn tspace_initTangentOptions(options: *mut TangentOptions, struct_size: u32, error: *mut Error) -> u32;
-    pub fn tspace_initNormalOptions(options: *mut NormalOptions, struct_size: u32, error: *mut Error) -> u32;
-    pub fn tspace_initWindingOptions(options: *mut WindingOptions, struct_size: u32, error: *mut Error) -> u32;
-    pub fn tspace_initSanitizeOptions(options: *mut SanitizeOptions, struct_size: u32, error: *mut Error) -> u32;
-    pub fn tspace_initIndexedFramesOptions(
-        options: *mut IndexedFramesOptions,
+    pub fn tspace_initExecution(
+        execution: *mut Execution,
+        struct_size: u32,
+        error: *mut Error,
+    ) -> u32;
+    pub fn tspace_createArena(arena: *mut *mut Arena, error: *mut Error) -> u32;
+    pub fn tspace_arenaAllocator(arena: *const Arena) -> *const Allocator;
+    pub fn tspace_arenaHeldBytes(arena: *const Arena) -> usize;
+    pub fn tspace_arenaUsedBytes(arena: *const Arena) -> usize;
+    pub fn tspace_trimArena(arena: *mut Arena);
+    pub fn tspace_destroyArena(arena: *mut Arena);
+    pub fn tspace_findConvention(
+        name: *const c_char,
+        out: *mut Convention,
+        error: *mut Error,
+    ) -> u32;
+    pub fn tspace_signFactor(convention: Convention) -> f32;
+    pub fn tspace_normalFactor(convention: Convention) -> f32;
+    pub fn tspace_methodName(method: u32) -> *const c_char;
+    pub fn tspace_initTangentOptions(
+        options: *mut TangentOptions,
         struct_size: u32,
         error: *mut Error,
     ) -> u32;
@@ -286,6 +516,12 @@ extern "C" {
         out: *const TangentOutput,
         execution: *const Execution,
         report: *mut TangentReport,
+        error: *mut Error,
+    ) -> u32;
+    pub fn tspace_generateTangentsOfMeshes(
+        jobs: *const MeshJob,
+        job_count: usize,
+        execution: *const Execution,
         error: *mut Error,
     ) -> u32;
     pub fn tspace_planTangents(
@@ -303,8 +539,46 @@ extern "C" {
         report: *mut TangentReport,
         error: *mut Error,
     ) -> u32;
-    pub fn tspace_describeTangentPlan(plan: *const TangentPlan, info: *mut TangentPlanInfo, error: *mut Error) -> u32;
+    pub fn tspace_describeTangentPlan(
+        plan: *const TangentPlan,
+        info: *mut TangentPlanInfo,
+        error: *mut Error,
+    ) -> u32;
     pub fn tspace_destroyTangentPlan(plan: *mut TangentPlan);
+    pub fn tspace_triangulate(
+        mesh: *const Mesh,
+        result: *mut *mut Triangulation,
+        error: *mut Error,
+    ) -> u32;
+    pub fn tspace_destroyTriangulation(result: *mut Triangulation);
+    pub fn tspace_faceFrame(positions: *const Vec3, uvs: *const Vec2) -> FaceFrame;
+    pub fn tspace_faceFrameFromPath(positions: *const Vec3, uvs: *const Vec2) -> FaceFrame;
+    pub fn tspace_determinant(frame: Frame) -> f32;
+    pub fn tspace_frameSign(frame: Frame) -> f32;
+    pub fn tspace_rebuildBitangent(normal: Vec3, tangent: Vec4) -> Vec3;
+    pub fn tspace_orthonormalize(frame: Frame) -> Frame;
+    pub fn tspace_packTangent(frame: Frame) -> Vec4;
+    pub fn tspace_basisFromNormal(unit_normal: Vec3) -> Frame;
+    pub fn tspace_tangentToObject(frame: Frame) -> Mat3;
+    pub fn tspace_objectToTangentOrthonormal(frame: Frame) -> Mat3;
+    pub fn tspace_objectToTangent(frame: Frame, out: *mut Mat3) -> i32;
+    pub fn tspace_transform(m: Mat3, v: Vec3) -> Vec3;
+    pub fn tspace_toTangentSpace(frame: Frame, direction: Vec3) -> Vec3;
+    pub fn tspace_toObjectSpace(frame: Frame, direction: Vec3) -> Vec3;
+    pub fn tspace_decodeNormal(texel: Vec3, scale: f32, green: u32) -> Vec3;
+    pub fn tspace_tileUv(uv: Vec2, tiling: Vec2, offset: Vec2) -> Vec2;
+    pub fn tspace_lambert(frame: Frame, light_direction: Vec3, tangent_space_normal: Vec3) -> f32;
+    pub fn tspace_objectNormal(frame: Frame, tangent_space_normal: Vec3) -> Vec3;
+    pub fn tspace_objectNormalMikktspace(
+        interpolated_normal: Vec3,
+        interpolated_tangent: Vec4,
+        tangent_space_normal: Vec3,
+    ) -> Vec3;
+    pub fn tspace_initNormalOptions(
+        options: *mut NormalOptions,
+        struct_size: u32,
+        error: *mut Error,
+    ) -> u32;
     pub fn tspace_generateNormals(
         mesh: *const Mesh,
         options: *const NormalOptions,
@@ -313,21 +587,23 @@ extern "C" {
         report: *mut NormalReport,
         error: *mut Error,
     ) -> u32;
+    pub fn tspace_measurePositionNoise(
+        mesh: *const Mesh,
+        execution: *const Execution,
+        noise: *mut PositionNoise,
+        error: *mut Error,
+    ) -> u32;
+    pub fn tspace_initSanitizeOptions(
+        options: *mut SanitizeOptions,
+        struct_size: u32,
+        error: *mut Error,
+    ) -> u32;
     pub fn tspace_sanitizeTangents(
         mesh: *const Mesh,
         options: *const SanitizeOptions,
         tangents: Span,
         execution: *const Execution,
         report: *mut SanitizeReport,
-        error: *mut Error,
-    ) -> u32;
-    pub fn tspace_mendWinding(
-        mesh: *const Mesh,
-        options: *const WindingOptions,
-        turned: *mut u8,
-        turned_count: usize,
-        execution: *const Execution,
-        report: *mut c_void,
         error: *mut Error,
     ) -> u32;
     pub fn tspace_splitVertices(
@@ -341,8 +617,11 @@ extern "C" {
         error: *mut Error,
     ) -> u32;
     pub fn tspace_destroySplitResult(result: *mut SplitResult);
-    pub fn tspace_triangulate(mesh: *const Mesh, result: *mut *mut Triangulation, error: *mut Error) -> u32;
-    pub fn tspace_destroyTriangulation(result: *mut Triangulation);
+    pub fn tspace_initIndexedFramesOptions(
+        options: *mut IndexedFramesOptions,
+        struct_size: u32,
+        error: *mut Error,
+    ) -> u32;
     pub fn tspace_makeIndexedFrames(
         mesh: *const Mesh,
         options: *const IndexedFramesOptions,
@@ -352,13 +631,14 @@ extern "C" {
     ) -> u32;
     pub fn tspace_destroyIndexedFrames(frames: *mut IndexedFrames);
     pub fn tspace_frameBytes(format: u32) -> usize;
+    pub fn tspace_frameErrorBound(format: u32) -> FrameErrorBound;
     pub fn tspace_packFrames(
         normals: ConstSpan,
         tangents: ConstSpan,
         format: u32,
         out: *mut c_void,
         out_bytes: usize,
-        report: *mut c_void,
+        report: *mut PackReport,
         error: *mut Error,
     ) -> u32;
     pub fn tspace_unpackFrames(
@@ -369,5 +649,18 @@ extern "C" {
         tangents: Span,
         error: *mut Error,
     ) -> u32;
+    pub fn tspace_initWindingOptions(
+        options: *mut WindingOptions,
+        struct_size: u32,
+        error: *mut Error,
+    ) -> u32;
+    pub fn tspace_mendWinding(
+        mesh: *const Mesh,
+        options: *const WindingOptions,
+        turned: *mut u8,
+        turned_count: usize,
+        execution: *const Execution,
+        report: *mut WindingReport,
+        error: *mut Error,
+    ) -> u32;
 }
-

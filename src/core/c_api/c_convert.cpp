@@ -10,42 +10,6 @@
 
 namespace tspace::c_api {
 
-// The numbers are one set: a C program and a C++ program can show each other their codes.
-static_assert(TSPACE_OK == static_cast<std::uint32_t>(ErrorCode::ok));
-static_assert(TSPACE_ERROR_NULL_DATA == static_cast<std::uint32_t>(ErrorCode::nullData));
-static_assert(TSPACE_ERROR_COUNT_MISMATCH == static_cast<std::uint32_t>(ErrorCode::countMismatch));
-static_assert(TSPACE_ERROR_INDEX_OUT_OF_RANGE == static_cast<std::uint32_t>(ErrorCode::indexOutOfRange));
-static_assert(TSPACE_ERROR_STRIDE_TOO_SMALL == static_cast<std::uint32_t>(ErrorCode::strideTooSmall));
-static_assert(TSPACE_ERROR_MISALIGNED == static_cast<std::uint32_t>(ErrorCode::misaligned));
-static_assert(TSPACE_ERROR_TOO_LARGE == static_cast<std::uint32_t>(ErrorCode::tooLarge));
-static_assert(TSPACE_ERROR_MISSING_ATTRIBUTE == static_cast<std::uint32_t>(ErrorCode::missingAttribute));
-static_assert(TSPACE_ERROR_INVALID_OPTION == static_cast<std::uint32_t>(ErrorCode::invalidOption));
-static_assert(TSPACE_ERROR_OUT_OF_MEMORY == static_cast<std::uint32_t>(ErrorCode::outOfMemory));
-static_assert(TSPACE_ERROR_PLAN_MISMATCH == static_cast<std::uint32_t>(ErrorCode::planMismatch));
-static_assert(TSPACE_ERROR_CANCELLED == static_cast<std::uint32_t>(ErrorCode::cancelled));
-static_assert(TSPACE_ERROR_INTERNAL == static_cast<std::uint32_t>(ErrorCode::internal));
-static_assert(TSPACE_ERROR_INVALID_FILE == static_cast<std::uint32_t>(ErrorCode::invalidFile));
-static_assert(TSPACE_ERROR_UNSUPPORTED_FILE == static_cast<std::uint32_t>(ErrorCode::unsupportedFile));
-static_assert(TSPACE_ERROR_FORBIDDEN_PATH == static_cast<std::uint32_t>(ErrorCode::forbiddenPath));
-static_assert(TSPACE_ERROR_CANNOT_READ == static_cast<std::uint32_t>(ErrorCode::cannotRead));
-static_assert(TSPACE_ERROR_CANNOT_WRITE == static_cast<std::uint32_t>(ErrorCode::cannotWrite));
-static_assert(TSPACE_NO_ELEMENT == kNoElement);
-
-static_assert(TSPACE_INDEX_NONE == static_cast<std::uint32_t>(IndexType::none));
-static_assert(TSPACE_INDEX_U8 == static_cast<std::uint32_t>(IndexType::u8));
-static_assert(TSPACE_INDEX_U16 == static_cast<std::uint32_t>(IndexType::u16));
-static_assert(TSPACE_INDEX_CORNERS == static_cast<std::uint32_t>(IndexType::corners));
-static_assert(TSPACE_INDEX_U32 == static_cast<std::uint32_t>(IndexType::u32));
-
-static_assert(TSPACE_ALL_THREADS == kAllThreads);
-static_assert(TSPACE_MAX_CORNERS == kMaxCorners);
-static_assert(TSPACE_V_UP == static_cast<std::uint32_t>(VAxis::up));
-static_assert(TSPACE_V_DOWN == static_cast<std::uint32_t>(VAxis::down));
-static_assert(TSPACE_GREEN_DOWN == static_cast<std::uint32_t>(Green::down));
-static_assert(TSPACE_SIGN_NEGATED == static_cast<std::uint32_t>(StoredSign::negated));
-static_assert(TSPACE_HANDEDNESS_LEFT == static_cast<std::uint32_t>(Handedness::left));
-static_assert(TSPACE_WINDING_CLOCKWISE == static_cast<std::uint32_t>(Winding::clockwise));
-
 void appendMessage(std::string_view text, tspace_Error& to) noexcept {
     const std::size_t used = std::strlen(to.message), room = sizeof(to.message) - 1 - used;
     std::size_t length = std::min(text.size(), room);

@@ -149,10 +149,6 @@ TangentOptions toOptions(const tspace_TangentOptions& options);
 Result<std::vector<CornerAttribute>> toAttributes(const tspace_CornerAttribute* attributes, std::size_t count,
                                                   const char* name);
 
-tspace_NormalReport toReport(const NormalReport& report);
-tspace_TangentReport toReport(const TangentReport& report);
-tspace_SanitizeReport toReport(const SanitizeReport& report);
-
 /// C++ copies of the caller's hooks. Must outlive the Execution it gives, so it neither moves nor is copied.
 class Hooks {
   public:

@@ -3,7 +3,7 @@
 #include <bit>
 #include <memory>
 
-#include "core/c_api/c_convert.h"
+#include "core/c_api/c_fields.h"
 #include "tspace/execution.h"
 #include "tspace/frame.h"
 #include "tspace/pack.h"
@@ -173,33 +173,9 @@ tspace_Vec3 tspace_objectNormalMikktspace(tspace_Vec3 interpolated_normal, tspac
 using namespace tspace;         // NOLINT: this file only forwards
 using namespace tspace::c_api;  // NOLINT
 
-static_assert(TSPACE_FRAME_FORMAT_FRAME32 == static_cast<std::uint32_t>(FrameFormat::frame32));
-static_assert(TSPACE_FRAME_FORMAT_FRAME48 == static_cast<std::uint32_t>(FrameFormat::frame48));
-static_assert(TSPACE_FRAME_FORMAT_FRAME64 == static_cast<std::uint32_t>(FrameFormat::frame64));
-static_assert(TSPACE_FRAME_FORMAT_OCT32 == static_cast<std::uint32_t>(FrameFormat::oct32));
-static_assert(TSPACE_FRAME_FORMAT_QTANGENT64 == static_cast<std::uint32_t>(FrameFormat::qtangent64));
-static_assert(TSPACE_FRAME_FORMAT_SNORM8_PAIR == static_cast<std::uint32_t>(FrameFormat::snorm8Pair));
-static_assert(TSPACE_FRAME_FORMAT_SNORM16_PAIR == static_cast<std::uint32_t>(FrameFormat::snorm16Pair));
-static_assert(TSPACE_FRAME_FORMAT_GLTF_SNORM8 == static_cast<std::uint32_t>(FrameFormat::gltfSnorm8));
-static_assert(TSPACE_FRAME_FORMAT_GLTF_SNORM16 == static_cast<std::uint32_t>(FrameFormat::gltfSnorm16));
-
 namespace {
 
 // C API: packed frames.
-
-void writePackReport(const PackReport& from, tspace_PackReport* to) {
-    tspace_PackReport made;
-    TSPACE_INIT(made);
-    made.bad_normal_count = from.bad_normal_count;
-    made.not_finite_count = from.not_finite_count;
-    made.zero_count = from.zero_count;
-    made.parallel_count = from.parallel_count;
-    made.not_unit_count = from.not_unit_count;
-    made.not_orthogonal_count = from.not_orthogonal_count;
-    made.bad_sign_count = from.bad_sign_count;
-    made.mended_count = from.mendedCount();
-    give(made, to);
-}
 
 /// A span can be made of these bytes: null has none.
 Error checkBytes(const void* bytes, std::size_t count) { return checkSpan(bytes, count, 1, 1, count, "bytes"); }
@@ -224,7 +200,7 @@ tspace_ErrorCode tspace_packFrames(tspace_ConstSpan normals, tspace_ConstSpan ta
             packFrames(toSpan<Vec3>(normals), toSpan<Vec4>(tangents), static_cast<FrameFormat>(format),
                        {static_cast<std::byte*>(out), out_bytes});
         if (!result) return result.error();
-        writePackReport(*result, report);
+        give(toReport(*result), report);
         return Done{};
     });
 }

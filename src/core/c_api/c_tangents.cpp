@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/c_api/c_convert.h"
+#include "core/c_api/c_fields.h"
 #include "tspace/indexed_frames.h"
 #include "tspace/mesh.h"
 #include "tspace/tangents.h"
@@ -23,26 +23,6 @@ struct tspace_TangentPlan {
     std::optional<TangentPlan> plan;
 };
 
-namespace {
-
-// C API: tangents, plans and sanitize.
-
-static_assert(TSPACE_METHOD_MIKKTSPACE == static_cast<std::uint32_t>(Method::mikktspace));
-static_assert(TSPACE_METHOD_LENGYEL == static_cast<std::uint32_t>(Method::lengyel));
-static_assert(TSPACE_METHOD_UNIFORM == static_cast<std::uint32_t>(Method::uniform));
-static_assert(TSPACE_METHOD_ANGLE == static_cast<std::uint32_t>(Method::angle));
-static_assert(TSPACE_METHOD_AREA == static_cast<std::uint32_t>(Method::area));
-static_assert(TSPACE_METHOD_FLAT == static_cast<std::uint32_t>(Method::flat));
-static_assert(TSPACE_METHOD_BASIS == static_cast<std::uint32_t>(Method::basis));
-static_assert(TSPACE_METHOD_FAST == static_cast<std::uint32_t>(Method::fast));
-static_assert(TSPACE_METHOD_BEST == static_cast<std::uint32_t>(Method::best));
-static_assert(TSPACE_PAIRING_CORRECTED == static_cast<std::uint32_t>(Pairing::corrected));
-static_assert(TSPACE_NGONS_SKIP == static_cast<std::uint32_t>(Ngons::skip));
-static_assert(TSPACE_FRAME_SYMMETRIC == static_cast<std::uint32_t>(FrameShape::symmetric));
-static_assert(TSPACE_DOMAIN_VERTEX == static_cast<std::uint32_t>(OutputDomain::vertex));
-
-}  // namespace
-
 namespace tspace::c_api {
 
 Error checkOptions(const tspace_TangentOptions* given) {
@@ -50,61 +30,13 @@ Error checkOptions(const tspace_TangentOptions* given) {
     const tspace_TangentOptions options = orDefault(given);
     const bool has_defaults = options.angular_threshold_deg != 0 || options.refine != 0;
     return firstError([&] { return checkPrepared(has_defaults, "TangentOptions", "angular_threshold_deg and refine"); },
-                      [&] { return checkChoice(options.method, TSPACE_METHOD_BEST, "method"); },
-                      [&] { return checkChoice(options.pairing, TSPACE_PAIRING_CORRECTED, "pairing"); },
-                      [&] { return checkChoice(options.ngons, TSPACE_NGONS_SKIP, "ngons"); },
-                      [&] { return checkChoice(options.domain, TSPACE_DOMAIN_VERTEX, "domain"); },
-                      [&] { return checkChoice(options.frame, TSPACE_FRAME_SYMMETRIC, "frame"); },
-                      [&] { return checkChoice(options.normalize_normals, 1, "normalize_normals"); },
-                      [&] { return checkConvention(options.convention); });
+                      [&] { return checkFields(options); });
 }
 
 TangentOptions toOptions(const tspace_TangentOptions& options) {
     TangentOptions result;
-    result.method = static_cast<Method>(options.method);
-    result.angular_threshold_deg = options.angular_threshold_deg;
-    result.pairing = static_cast<Pairing>(options.pairing);
-    result.ngons = static_cast<Ngons>(options.ngons);
-    result.domain = static_cast<OutputDomain>(options.domain);
-    result.convention = toConvention(options.convention);
-    result.frame = static_cast<FrameShape>(options.frame);
-    result.refine = options.refine;
-    result.normalize_normals = options.normalize_normals != 0;
+    copyFields(options, result);
     return result;
-}
-
-tspace_TangentReport toReport(const TangentReport& from) {
-    tspace_TangentReport made;
-    TSPACE_INIT(made);
-    made.reference_order_abandoned = from.reference_order_abandoned ? 1 : 0;
-    made.triangle_count = from.triangle_count;
-    made.degenerate_triangle_count = from.degenerate_triangle_count;
-    made.degenerate_uv_count = from.degenerate_uv_count;
-    made.mirrored_count = from.mirrored_count;
-    made.skipped_face_count = from.skipped_face_count;
-    made.group_count = from.group_count;
-    made.default_corner_count = from.default_corner_count;
-    made.not_finite_count = from.not_finite_count;
-    return made;
-}
-
-tspace_SanitizeReport toReport(const SanitizeReport& from) {
-    tspace_SanitizeReport made;
-    TSPACE_INIT(made);
-    made.not_finite_count = from.not_finite_count;
-    made.zero_count = from.zero_count;
-    made.not_unit_count = from.not_unit_count;
-    made.parallel_count = from.parallel_count;
-    made.placeholder_count = from.placeholder_count;
-    made.bad_sign_count = from.bad_sign_count;
-    made.mixed_sign_count = from.mixed_sign_count;
-    made.orthogonalized_count = from.orthogonalized_count;
-    made.normalized_count = from.normalized_count;
-    made.from_neighbor_count = from.from_neighbor_count;
-    made.from_basis_count = from.from_basis_count;
-    made.bad_normal_count = from.bad_normal_count;
-    made.mended_count = from.mendedCount();
-    return made;
 }
 
 }  // namespace tspace::c_api
@@ -242,7 +174,7 @@ tspace_ErrorCode tspace_sanitizeTangents(const tspace_Mesh* mesh, const tspace_S
                              [&] { return checkExecution(execution); }, [&] { return checkSized(report, "report"); });
         if (e.code != ErrorCode::ok) return e;
         const tspace_SanitizeOptions given = orDefault(options);
-        e = checkChoice(given.orthogonalize_all, 1, "orthogonalize_all");
+        e = checkFields(given);
         if (e.code != ErrorCode::ok) return e;
         const Hooks hooks(execution);
         const Result<SanitizeReport> result =
@@ -292,10 +224,7 @@ Error checkOptions(const tspace_IndexedFramesOptions* given) {
     if (Error error = checkNeeded(given, "options"); error.code != ErrorCode::ok) return error;
     const tspace_IndexedFramesOptions options = orDefault(given);
     return firstError([&] { return c_api::checkOptions(options.tangents); },
-                      [&] { return c_api::checkOptions(options.normals); },
-                      [&] { return checkChoice(options.make_normals, 1, "make_normals"); },
-                      [&] { return checkChoice(options.sanitize, 1, "sanitize"); },
-                      [&] { return checkChoice(options.orthogonalize_all, 1, "orthogonalize_all"); });
+                      [&] { return c_api::checkOptions(options.normals); }, [&] { return checkFields(options); });
 }
 
 }  // namespace
@@ -315,11 +244,9 @@ tspace_ErrorCode tspace_makeIndexedFrames(const tspace_Mesh* mesh, const tspace_
         if (!keep_apart) return keep_apart.error();
         const Hooks hooks(execution);
         IndexedFramesOptions converted;
+        copyFields(given, converted);
         converted.tangents = toOptions(orDefault(given.tangents));
         converted.normals = toOptions(orDefault(given.normals));
-        converted.make_normals = given.make_normals != 0;
-        converted.sanitize = given.sanitize != 0;
-        converted.orthogonalize_all = given.orthogonalize_all != 0;
         converted.keep_apart = *keep_apart;
         Result<IndexedFrames> made = makeIndexedFrames(toMesh(*mesh), converted, hooks.execution());
         if (!made) return made.error();
@@ -336,8 +263,6 @@ using namespace tspace::c_api;  // NOLINT
 namespace {
 
 // C API: split and triangulate, whose results the library owns until the caller destroys them.
-
-static_assert(TSPACE_NO_CORNER == kNoCorner);
 
 /// The struct of the C API, as the first base, and the memory that its pointers point into.
 struct OwnedSplit : tspace_SplitResult {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Frame mathematics from C: every function once, on values that can be checked by hand. */
-#include "tspace/tspace_frame.h"
+#include "tspace/tspace.h"
 
 #include "c_check.h"
 

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Writes the man pages and completions of tspace. Runs when tspace is built.
 // usage: tspace_pages FOLDER DATE
+//        tspace_pages --options      prints the options of the calls of the C API as JSON, for scripts/api
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <string_view>
 
 #include "command_table.h"
 #include "pages/pages.h"
@@ -21,8 +23,12 @@ bool write(const std::filesystem::path& path, const std::string& text) {
 
 int main(int argc, char** argv) {
     using namespace tspace::tool;
+    if (argc == 2 && std::string_view(argv[1]) == "--options") {
+        std::cout << optionsJson();
+        return 0;
+    }
     if (argc != 3) {
-        std::cerr << "usage: tspace_pages FOLDER DATE\n";
+        std::cerr << "usage: tspace_pages FOLDER DATE, or tspace_pages --options\n";
         return 2;
     }
     const std::filesystem::path folder = argv[1];

@@ -17,6 +17,9 @@ std::string bashCompletion(const ToolTable& tool);
 std::string zshCompletion(const ToolTable& tool);
 std::string fishCompletion(const ToolTable& tool);
 
+/// Options of the calls of the C API, as JSON.
+std::string optionsJson();
+
 /// The description of an option in completions: its help up to the end of the first sentence, or its first colon.
 std::string firstSentence(const std::string& help);
 /// `text` with each `mark` replaced.

@@ -67,8 +67,8 @@ def float_array(name: str, value: Any, components: int) -> numpy.ndarray:
         array = array.reshape(0, components)
     if array.ndim != 2 or array.shape[1] != components:
         raise InputError(f"{name} must have shape (n, {components}), not {shape_text(array.shape)}", "countMismatch")
-    if len(array) > _abi.MAX_COUNT:
-        raise InputError(f"{name} has {len(array)} entries; at most {_abi.MAX_COUNT} are possible", "tooLarge")
+    if len(array) > _abi.MAX_CORNERS:
+        raise InputError(f"{name} has {len(array)} entries; at most {_abi.MAX_CORNERS} are possible", "tooLarge")
     return array
 
 
@@ -128,8 +128,8 @@ def index_array(name: str, value: Any) -> numpy.ndarray:
         if array.size or type(value) is numpy.ndarray:
             raise TypeError(f"{name} must be an array of integers, not of {array.dtype}")
         array = array.astype(UINT32)  # an empty list
-    if array.size > _abi.MAX_COUNT:
-        raise InputError(f"{name} has {array.size} entries; at most {_abi.MAX_COUNT} are possible", "tooLarge")
+    if array.size > _abi.MAX_CORNERS:
+        raise InputError(f"{name} has {array.size} entries; at most {_abi.MAX_CORNERS} are possible", "tooLarge")
     return array
 
 

@@ -12,6 +12,7 @@ import numpy
 
 from . import _abi, _file_reports, _files_abi
 from ._errors import InputError, UnknownOptionError, raise_error, shown
+from ._file_options import OPTIONS
 from ._file_reports import (
     BakeReport,
     CheckReport,
@@ -32,30 +33,6 @@ FindFile = Union[Callable[[str], Optional[bytes]], Mapping[str, bytes]]
 _INTERNAL, _INVALID_FILE, _CANNOT_READ = 11, 100, 103
 _OBJ_LINE = re.compile(rb"(?m)^(v|vn|vt|f|usemtl) +[-0-9.\w]")
 _NAME_IT = b'. An OBJ is told by its name: name="model.obj"'
-
-# What each function takes, by the name in its C functions.
-_LIMITS = "allow_external memory_limit import_seconds"
-_BAKED = (
-    "match maps samples ao_distance height_range curvature_range thickness_range id size bits padding overlap wrap high_green"
-    " ignore_high_maps rays directions cage_offset reach"
-)
-_OPTIONS = {
-    "generate": "all only_missing overwrite repair strip method faces pairing threshold frame refine texture_transform"
-    " bitangents convention format pack pack_drop normals crease denoise weld_distance normals_per_primitive overwrite_normals morph_normals compress flip_green mend_maps"
-    f" flip_green_all convert_maps no_images compress_maps mend_winding no_sanitize orthogonalize keep_coordinates dry_run threads no_sync {_LIMITS}",
-    "check": f"fail_on severity ignore angle convention faces weld_distance no_images threads {_LIMITS}",
-    "inspect": _LIMITS,
-    "identify": f"tolerance threads {_LIMITS}",
-    "diff": f"tolerance worst {_LIMITS}",
-    "flipGreen": "dry_run memory_limit no_sync",
-    "convertMap": "mesh to_mesh material tile from_ to axes from_convention to_convention from_bitangent to_bitangent channels srgb"
-    f" linearised flip_red flip_green bits lengths alpha dds_header padding method dry_run threads no_sync {_LIMITS}",
-    "heightToNormal": f"strength encoding texel_size mesh material clamp convention bits method dry_run threads no_sync {_LIMITS}",
-    "compressMap": "format quality signed alpha dds_header mips no_levels zstd bits roughness roughness_output roughness_factor"
-    " dry_run threads no_sync memory_limit import_seconds",
-    "bake": f"{_BAKED} out_mesh misses heat space axes convention unit fit lengths udim skew cage method denoise weld_distance threads no_sync {_LIMITS}",
-    "finish": f"low html normals crease denoise weld_distance keep_winding no_images keep_coordinates {_BAKED} threads no_sync {_LIMITS}",
-}
 
 
 class IdentifyReport(_file_reports.IdentifyReport):
@@ -113,17 +90,17 @@ class _Call:
         self.keep.append(view)
         return view
 
-    def model(self, name: str, value: Any, file_name: Optional[str], find_file: Optional[FindFile]) -> _files_abi.Model:
+    def model(self, name: str, value: Any, file_name: Optional[str], find_file: Optional[FindFile]) -> _abi.Model:
         data = self.buffer(name, value)
         if file_name is not None and (not isinstance(file_name, str) or "\0" in file_name):
             raise TypeError(f"name must be text, not {shown(file_name)}")
         encoded = None if file_name is None else os.fsencode(file_name)
         if not (file_name or "").lower().endswith(".obj") and _OBJ_LINE.search(data[:65536].tobytes()):
             self.looks_like_obj = True
-        callback = _files_abi.FindFile(0) if find_file is None else self.callback(find_file)
+        callback = _abi.FindFile(0) if find_file is None else self.callback(find_file)
         self.keep += [encoded, callback]
-        return _files_abi.Model(
-            ctypes.sizeof(_files_abi.Model), 0, data.ctypes.data, data.size, encoded, callback, None
+        return _abi.Model(
+            ctypes.sizeof(_abi.Model), 0, data.ctypes.data, data.size, encoded, callback, None
         )
 
     def hint(self, code: int) -> bytes:
@@ -150,13 +127,13 @@ class _Call:
             data[0], size[0] = view.ctypes.data, view.size
             return 0
 
-        return _files_abi.FindFile(found)
+        return _abi.FindFile(found)
 
     def run(self, function: str, *arguments: Any, options: Mapping[str, Any], has_output: bool = False) -> Any:
         """The document of the report, and the output where there is one."""
         _check_names(function, options)
         text = json.dumps({name.rstrip("_").replace("_", "-"): value for name, value in options.items()}, default=_plain)
-        backs = [_files_abi.Bytes() for _ in range(2 if has_output else 1)]
+        backs = [_abi.Bytes() for _ in range(2 if has_output else 1)]
         error = _abi.Error()
         failed = getattr(self.library, function)(*arguments, text.encode(), *map(byref, backs), byref(error))
         try:
@@ -176,7 +153,7 @@ class _Call:
 
 def _check_names(function: str, options: Mapping[str, Any]) -> None:
     verb = re.sub("^tspace_|(File|Bytes)s?$", "", function)
-    known = _OPTIONS[verb].split()
+    known = OPTIONS[verb]
     for name in options:
         if name not in known:
             raise UnknownOptionError(f"there is no option {name!r}: known are {', '.join(known)}", "invalidOption")

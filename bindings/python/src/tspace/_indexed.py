@@ -20,7 +20,7 @@ from ._types import (
     DegreesOrAuto,
     FaceSizes,
     FloatArray,
-    FrameName,
+    FrameShapeName,
     IndexArray,
     MethodName,
     NgonsName,
@@ -28,7 +28,7 @@ from ._types import (
     PairingName,
     Rows,
     Threads,
-    WeightingName,
+    NormalWeightingName,
 )
 
 _library = _abi.library
@@ -67,10 +67,10 @@ def make_indexed_frames(
     threshold: float = 180.0,
     pairing: PairingName = "reference",
     ngons: NgonsName = "triangulate",
-    frame: FrameName = "gram_schmidt",
+    frame: FrameShapeName = "gram_schmidt",
     refine: Optional[int] = None,
     make_normals: bool = False,
-    weighting: WeightingName = "angle",
+    weighting: NormalWeightingName = "angle",
     crease_angle: DegreesOrAuto = 180.0,
     denoise: DegreesOrAuto = 0,
     smoothing_groups: Optional[Numbers] = None,

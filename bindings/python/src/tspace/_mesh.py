@@ -114,7 +114,7 @@ class Mesh:
         if isinstance(value, str):
             if value != "corners":
                 raise InputError(f'{name} is {value!r}; it must be an array, "corners" or None', "invalidOption")
-            return _abi.Indices(None, 0, _abi.INDEX_CORNERS)
+            return _abi.Indices(None, 0, _abi.INDEX_TYPES["corners"])
         array = index_array(name, value)
         if array.size != self.corner_count:
             raise InputError(f"{name} has {array.size} entries, corners are {self.corner_count}", "countMismatch")
@@ -167,7 +167,7 @@ def _face_size(indices: Optional[numpy.ndarray], face_sizes: Any) -> Optional[in
     if face_sizes is None:
         return 3
     if isinstance(face_sizes, numbers.Integral):
-        if isinstance(face_sizes, bool) or not 1 <= int(face_sizes) <= _abi.MAX_COUNT:
+        if isinstance(face_sizes, bool) or not 1 <= int(face_sizes) <= _abi.MAX_CORNERS:
             raise InputError(f"face_sizes is {face_sizes}; faces must have 1 corner or more", "invalidOption")
         return int(face_sizes)
     return None

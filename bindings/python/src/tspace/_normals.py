@@ -12,7 +12,7 @@ from ._arrays import check_apart, output_array, uint32_array, write_span
 from ._mesh import Mesh
 from ._options import ConventionLike, convention_struct, execution, named, real_or_auto, small_number
 from ._reports import NormalReport, PositionNoise, report
-from ._types import DegreesOrAuto, FaceSizes, FloatArray, Numbers, Rows, Threads, WeightingName
+from ._types import DegreesOrAuto, FaceSizes, FloatArray, Numbers, Rows, Threads, NormalWeightingName
 
 
 class NormalResult(NamedTuple):
@@ -39,7 +39,7 @@ def normal_options(
         refine = 1
     return _abi.NormalOptions(
         ctypes.sizeof(_abi.NormalOptions),
-        named("weighting", weighting, _abi.WEIGHTINGS),
+        named("weighting", weighting, _abi.NORMAL_WEIGHTINGS),
         convention_struct("gltf" if convention is None else convention),
         real_or_auto("crease_angle", crease_angle),
         None if groups is None else groups.ctypes.data,
@@ -59,7 +59,7 @@ def normals(
     indices: Optional[Numbers] = ...,
     *,
     face_sizes: FaceSizes = ...,
-    weighting: WeightingName = ...,
+    weighting: NormalWeightingName = ...,
     crease_angle: DegreesOrAuto = ...,
     smoothing_groups: Optional[Numbers] = ...,
     smoothing_groups_are_masks: bool = ...,
@@ -81,7 +81,7 @@ def normals(
     indices: Optional[Numbers] = ...,
     *,
     face_sizes: FaceSizes = ...,
-    weighting: WeightingName = ...,
+    weighting: NormalWeightingName = ...,
     crease_angle: DegreesOrAuto = ...,
     smoothing_groups: Optional[Numbers] = ...,
     smoothing_groups_are_masks: bool = ...,
@@ -102,7 +102,7 @@ def normals(
     indices: Optional[Numbers] = None,
     *,
     face_sizes: FaceSizes = None,
-    weighting: WeightingName = "angle",
+    weighting: NormalWeightingName = "angle",
     crease_angle: DegreesOrAuto = 180.0,
     smoothing_groups: Optional[Numbers] = None,
     smoothing_groups_are_masks: bool = False,

@@ -12,7 +12,7 @@ from ._arrays import FLOAT32, float_array, read_span, write_span
 from ._errors import InputError, raise_error
 from ._options import named
 from ._reports import PackReport, report
-from ._types import ByteArray, FloatArray, FormatName, Rows
+from ._types import ByteArray, FloatArray, FrameFormatName, Rows
 
 _library = _abi.library
 
@@ -25,17 +25,17 @@ class PackResult(NamedTuple):
 
 
 @overload
-def pack_frames(normals: Rows, tangents: Rows, format: FormatName = ..., *, full: Literal[False] = ...) -> ByteArray:
+def pack_frames(normals: Rows, tangents: Rows, format: FrameFormatName = ..., *, full: Literal[False] = ...) -> ByteArray:
     ...
 
 
 @overload
-def pack_frames(normals: Rows, tangents: Rows, format: FormatName = ..., *, full: Literal[True]) -> PackResult:
+def pack_frames(normals: Rows, tangents: Rows, format: FrameFormatName = ..., *, full: Literal[True]) -> PackResult:
     ...
 
 
 def pack_frames(
-    normals: Rows, tangents: Rows, format: FormatName = "frame32", *, full: bool = False
+    normals: Rows, tangents: Rows, format: FrameFormatName = "frame32", *, full: bool = False
 ) -> Union[ByteArray, PackResult]:
     """Packs whole frames (N, T and the sign) into 4 to 16 bytes each: (frames, bytes) uint8.
 
@@ -66,7 +66,7 @@ def pack_frames(
 
 
 def unpack_frames(
-    frames: Union[bytes, bytearray, memoryview, ByteArray], format: FormatName = "frame32"
+    frames: Union[bytes, bytearray, memoryview, ByteArray], format: FrameFormatName = "frame32"
 ) -> Tuple[FloatArray, FloatArray]:
     """Unpacks frames: normals (frames, 3) and tangents (frames, 4), float32.
 

@@ -84,8 +84,8 @@ def split(
     """
     if not isinstance(vertex_count, (int, numpy.integer)) or isinstance(vertex_count, bool):
         raise TypeError(f"vertex_count must be a number, not {shown(vertex_count)}")
-    if not 0 <= vertex_count <= _abi.MAX_COUNT:
-        raise InputError(f"vertex_count is {vertex_count}; it must be 0 to {_abi.MAX_COUNT}", "tooLarge")
+    if not 0 <= vertex_count <= _abi.MAX_CORNERS:
+        raise InputError(f"vertex_count is {vertex_count}; it must be 0 to {_abi.MAX_CORNERS}", "tooLarge")
     struct, corner_count, index_list = NO_INDICES, int(vertex_count), None
     if indices is not None:
         given = index_array("indices", indices)

@@ -10,16 +10,17 @@ try:
 except ImportError:  # pragma: no cover
     from typing_extensions import Literal, Protocol  # type: ignore
 
-MethodName = Literal["mikktspace", "lengyel", "uniform", "angle", "area", "flat", "basis", "fast", "best"]
-PairingName = Literal["reference", "corrected"]
-NgonsName = Literal["triangulate", "skip"]
-DomainName = Literal["corner", "vertex"]
-FrameName = Literal["gram_schmidt", "symmetric"]
-WeightingName = Literal["flat", "uniform", "area", "angle", "angle_area", "max", "best"]
-FormatName = Literal[
-    "frame32", "frame48", "frame64", "oct32", "qtangent64", "snorm8_pair", "snorm16_pair", "gltf_snorm8", "gltf_snorm16"
-]
-PresetName = Literal["gltf", "opengl", "directx", "unreal", "unity", "blender", "godot"]
+from ._names import (  # noqa: F401: for the modules that declare functions
+    FrameFormatName,
+    FrameShapeName,
+    MethodName,
+    NgonsName,
+    NormalWeightingName,
+    OutputDomainName,
+    PairingName,
+    PresetName,
+)
+
 Threads = Union[int, Literal["all"]]
 DegreesOrAuto = Union[float, Literal["auto"]]
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""What the C++ headers declare and say about it, as data: the one source of what C says (scripts/c_comments), and of
-what other languages may say. Reads headers as scripts/format leaves them; it is no parser of C++."""
+"""What the C++ headers declare and say about it, as data: the one source of what C and
+other languages say. Reads headers as scripts/format leaves them; it is no parser of C++."""
 import dataclasses
 import re
 

@@ -1,34 +1,21 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""usage: scripts/c_comments [--check]
+"""C: comments and defaults of the C headers, values of enumerations, and new fields of sized structs, from the C++ headers.
 
-Writes the comments of the C headers from those of the C++ headers, the one place where they are edited. Names become
-those of C. What a comment says of C alone stands behind "In C:" and is kept. Run scripts/format afterwards.
-  --check   changes nothing; prints what would change, and exits with 1 where anything would
-
-Also an error: what only one of the two APIs has and scripts/c_twins.py does not name, enumerators with other numbers
-or names, and other defaults.
+Names become those of C. Text about C alone stands behind "In C:" and is kept. Also a problem: what only one of the two APIs
+has and twins.py does not name, and enumerators with other numbers or names.
 """
 import dataclasses
-import difflib
-import os
 import re
-import sys
 import textwrap
 
-sys.dont_write_bytecode = True  # a test leaves nothing in the sources
-import c_twins
-import cpp_docs
+import cpp as cpp_headers
+import twins
 
-INCLUDE = os.path.join(os.path.dirname(os.path.dirname(os.path.realpath(__file__))), "include", "tspace")
 WIDTH = 117  # leaves room for the end of a comment
+DEFAULTS = "/* == defaults == */"
+C_TYPES = {"bool": "uint32_t", "std::uint32_t": "uint32_t", "std::uint64_t": "uint64_t", "float": "float", "double": "double"}
 problems = []
-used = set()  # patterns of c_twins that something is listed by
-
-
-def read(name):
-    with open(os.path.join(INCLUDE, name), encoding="utf-8") as file:
-        return file.read()
+used = set()  # patterns of twins.py that something is listed by
 
 
 def listed(name, table):
@@ -57,20 +44,20 @@ def first_parameter(declaration):
 class Cpp:
     """All that the C++ headers declare, by name."""
 
-    def __init__(self):
+    def __init__(self, read):
         self.heads, self.entities = {}, {}
         for header in re.findall(r'#include "tspace/(\w+\.h)"', read("tspace.hpp")):
-            self.heads[header], entities = cpp_docs.parse(read(header))
+            self.heads[header], entities = cpp_headers.parse(read(header))
             self.add(entities, header)
         # In C, options and reports of the calls on files are JSON.
-        for header in c_twins.FILE_HEADERS:
-            self.add((entity for entity in cpp_docs.parse(read(header))[1] if entity.kind == "function"), header)
+        for header in twins.FILE_HEADERS:
+            self.add((entity for entity in cpp_headers.parse(read(header))[1] if entity.kind == "function"), header)
 
     def add(self, entities, header):
         for entity in entities:
             entity.header = header
             overload = f"{entity.name}({first_parameter(entity.type)})" if entity.kind == "function" else ""
-            if overload in c_twins.TWINS.values():
+            if overload in twins.TWINS.values():
                 entity.name = overload
             if entity.name not in self.entities or entity.doc:
                 self.entities[entity.name] = entity
@@ -174,8 +161,8 @@ class Pairs:
         for name in cpp.entities:
             owner = name.partition("::")[0]
             if name not in self.c_name:
-                if not listed(owner, c_twins.CPP_ALONE) and not listed(name, c_twins.CPP_ALONE):
-                    problems.append(f"{name} has no twin in C, and scripts/c_twins.py does not say why")
+                if not listed(owner, twins.CPP_ALONE) and not listed(name, twins.CPP_ALONE):
+                    problems.append(f"{name} has no twin in C, and twins.py does not say why")
 
     def pair(self, item):
         if ", " in item.name:  # several fields on a line
@@ -184,19 +171,19 @@ class Pairs:
             return
         full = item.full()
         name = self.find(item, full)
-        if name in self.cpp.entities and not (item.kind == "type" and listed(full, c_twins.C_ALONE)):
+        if name in self.cpp.entities and not (item.kind == "type" and listed(full, twins.C_ALONE)):
             self.twin[full] = self.cpp.entities[name]
             self.c_name.setdefault(name, full)
             return
         self.c_only.add(full)
-        if not listed(full, c_twins.C_ALONE) and not listed(item.owner or full, c_twins.C_ALONE):
-            problems.append(f"{full} has no twin in C++, and scripts/c_twins.py does not say why")
+        if not listed(full, twins.C_ALONE) and not listed(item.owner or full, twins.C_ALONE):
+            problems.append(f"{full} has no twin in C++, and twins.py does not say why")
 
     def find(self, item, full):
-        if full in c_twins.TWINS:
+        if full in twins.TWINS:
             used.add(full)
-            return c_twins.TWINS[full]
-        owner = c_twins.TWINS.get(item.owner, item.owner[len("tspace_"):])
+            return twins.TWINS[full]
+        owner = twins.TWINS.get(item.owner, item.owner[len("tspace_"):])
         if item.kind == "enumerator":
             for entity in self.cpp.entities.values():
                 if entity.kind == "enumerator" and entity.owner == owner and entity.value == item.value:
@@ -206,7 +193,7 @@ class Pairs:
             return ""
         if item.kind == "field":
             method = f"{owner}::{camel(item.name)}"
-            is_method = method in self.cpp.entities and not listed(full, c_twins.C_ALONE)
+            is_method = method in self.cpp.entities and not listed(full, twins.C_ALONE)
             return method if is_method else f"{owner}::{item.name}"
         if item.kind == "constant":
             return "k" + camel("_" + item.name[len("TSPACE_"):].lower())
@@ -233,13 +220,13 @@ class Words:
                 self.methods[member] = c
 
     def of(self, text, entity):
-        for phrase, c in c_twins.PHRASES.items():
+        for phrase, c in twins.PHRASES.items():
             if re.search(phrase, text):
                 used.add(phrase)
                 text = re.sub(phrase, c, text)
         text = self.NAME.sub(lambda found: self.word(found, entity), text).replace("an tspace_", "a tspace_")
         left = self.LEFT.search(text)
-        if left and left[0] not in c_twins.WORDS:
+        if left and left[0] not in twins.WORDS:
             problems.append(f"{entity.name}: what is \"{left[0]}\" in C?")
         return text
 
@@ -262,7 +249,7 @@ class Words:
                 return f"{tick}{c}{tick}"
         if name in self.codes and not before.endswith('"'):
             return self.codes[name]
-        if tick and entity.header not in c_twins.FILE_HEADERS:
+        if tick and entity.header not in twins.FILE_HEADERS:
             return self.enumerator(name, entity.header) or found[0]
         return {"true": "1", "false": "0"}.get(name, found[0])
 
@@ -308,7 +295,7 @@ def comment(item, entity, words, defaults):
     own = "\n".join(comment_lines(item.comment)) if item.comment else ""
     found = re.search(r"(?:^|(?<=[\s.]))In C: ", own)
     own = own[found.start():].split("\n") if found else []
-    parts = [(kind, names, words.of(text, entity)) for kind, names, text in cpp_docs.blocks(entity.doc, entity.indent)]
+    parts = [(kind, names, words.of(text, entity)) for kind, names, text in cpp_headers.blocks(entity.doc, entity.indent)]
     if item.kind == "function":
         for at, (kind, names, text) in enumerate(parts):
             for name in filter(None, names.split(", ")):
@@ -333,27 +320,86 @@ def comment(item, entity, words, defaults):
     return parts, own
 
 
-def defaults_of(text):
-    """(type, field) -> value, as the functions say that TSPACE_INIT calls."""
+def defaults_of(pairs, words):
+    """(type, field) -> value, of the fields of sized structs whose default is not zero."""
     found = {}
-    for kind, body in re.findall(r"static inline void \w+Defaults\((tspace_\w+)\* \w+\) \{(.*?)\}", text, re.S):
-        for field, value in re.findall(r"->(\w+) = (\S+);", body):
-            found[kind, field] = re.sub(r"\.0f$|f$", "", value)
-    return found
-
-
-def check_defaults(pairs, words, found):
-    """The fields of sized structs have the defaults of their twins: TSPACE_INIT sets all to zero but those found."""
     for full, entity in pairs.twin.items():
         owner, _, field = full.partition(".")
-        if entity.kind != "field" or f"{owner}.struct_size" not in pairs.c_only or listed(full, c_twins.OTHER_DEFAULTS):
+        if entity.kind != "field" or f"{owner}.struct_size" not in pairs.c_only or listed(full, twins.OTHER_DEFAULTS):
             continue
         named = pairs.cpp.entities.get(entity.value)  # an enumerator
         zero = named.value if named else entity.value
-        is_zero = zero in ("", "{}", "nullptr", "false") or re.fullmatch(r"0(\.0f)?", zero)
-        expected = "" if is_zero else words.of(re.sub(r"\.0f$|f$", "", entity.value), entity)
-        if found.get((owner, field), "") != expected:
-            problems.append(f"{full}: C has the default {found.get((owner, field), '0')}, C++ {expected or '0'}")
+        if zero not in ("", "{}", "nullptr", "false") and not re.fullmatch(r"0(\.0f)?", zero):
+            found[owner, field] = words.of(re.sub(r"\.0f$|f$", "", entity.value), entity)
+    return found
+
+
+def defaults_code(defaults, pairs):
+    """The end of the header: what TSPACE_INIT calls."""
+    types = list(dict.fromkeys(owner for owner, _ in defaults))
+    lines = [DEFAULTS, "/* For TSPACE_INIT: the defaults that are not zero. */",
+             "static inline void tspace_setNoDefaults(void* object) { (void)object; }"]
+    for kind in types:
+        lines.append(f"static inline void {_setter(kind)}({kind}* options) {{")
+        for (owner, field), value in defaults.items():
+            if owner == kind:
+                is_float = pairs.twin[f"{owner}.{field}"].type == "float"
+                lines.append(f"    options->{field} = {value}{('f' if '.' in value else '.0f') if is_float else ''};")
+        lines.append("}")
+    lines += ["", "#ifdef __cplusplus", "}", "", "inline void tspace_setDefaults(void*) noexcept {}"]
+    lines += [f"inline void tspace_setDefaults({kind}* options) noexcept {{ {_setter(kind)}(options); }}" for kind in types]
+    lines += ["#define TSPACE_SET_DEFAULTS(object) tspace_setDefaults(&(object))", "#else", "/* clang-format off */",
+              "#define TSPACE_SET_DEFAULTS(object) \\", "    _Generic((object), \\"]
+    lines += [f"        {kind}: {_setter(kind)}, \\" for kind in types]
+    lines += ["        default: tspace_setNoDefaults)((void*)&(object))", "/* clang-format on */", "#endif"]
+    return "\n".join(lines)
+
+
+def _setter(kind):
+    return f"tspace_set{kind[len('tspace_'):].removesuffix('Options')}Defaults"
+
+
+def completed(parts, cpp):
+    """The parts of a header with the enumerators and fields at its ends that C++ has and it lacks."""
+    owner, kind, seen = "", "", []
+    for part in parts:
+        if isinstance(part, Item):
+            if part.kind in ("field", "enumerator"):
+                owner, kind = part.owner, part.kind
+                seen.append(part)
+        elif seen and part.startswith("}"):
+            twin = twins.TWINS.get(owner, owner[len("tspace_"):])
+            if kind == "enumerator":
+                yield from _missing_values(seen, owner, twin, cpp)
+            elif seen[0].name == "struct_size":
+                yield from _missing_fields(seen, owner, twin, cpp)
+            seen = []
+        yield part
+
+
+def _missing_values(seen, owner, twin, cpp):
+    there = {item.value for item in seen}
+    wanted = [entity for entity in cpp.entities.values() if entity.kind == "enumerator" and entity.owner == twin]
+    missing = [entity for entity in wanted if entity.value not in there]
+    if not missing:
+        return
+    first = next(entity for entity in wanted if entity.value == seen[0].value)
+    prefix = seen[0].name.removesuffix(capitals(first.name.partition("::")[2]))
+    seen[-1].code = seen[-1].code.removesuffix(",") + ","
+    for entity in missing:
+        name = prefix + capitals(entity.name.partition("::")[2])
+        yield Item("enumerator", name, owner, entity.value, f"    {name} = {entity.value},")
+
+
+def _missing_fields(seen, owner, twin, cpp):
+    there = {name for item in seen for name in item.name.split(", ")}
+    for entity in cpp.entities.values():
+        name = entity.name.rpartition("::")[2]
+        is_wanted = entity.kind == "field" and entity.owner == twin and name not in there
+        is_enum = any(other.kind == "enumerator" and other.owner == entity.type for other in cpp.entities.values())
+        kind = f"tspace_{entity.type}" if is_enum else C_TYPES.get(entity.type)
+        if is_wanted and kind and not listed(entity.name, twins.CPP_ALONE):
+            yield Item("field", name, owner, code=f"    {kind} {name};")
 
 
 def rewritten(item, pairs, words, defaults):
@@ -372,61 +418,39 @@ def rewritten(item, pairs, words, defaults):
     return f"{written(lines, indent)}\n{item.code}"
 
 
-def head(name, text, cpp, words):
-    """The comment at the top of a header that has a twin."""
-    twin = c_twins.HEADS.get(name)
-    if not twin:
+def section(text, cpp, words):
+    """A comment that begins with "== frame.h ==": that at the top of this C++ header."""
+    found = re.match(r"/\* == (\w+\.h) ==", text)
+    if not found:
         return text
-    start = text.index("\n") + 1
-    end = text.index("*/", start) + 2
-    lines = comment_lines(text[start:end])
-    own = "\n".join(lines)
-    own = own[own.index("In C: "):].split("\n") if "In C: " in own else []
-    entity = cpp_docs.Entity(twin, "head", header=twin)
-    parts = [(kind, names, words.of(part, entity)) for kind, names, part in cpp_docs.blocks(cpp.heads[twin])]
-    return text[:start] + written(wrapped(parts, 0) + own, 0) + text[end:]
+    entity = cpp_headers.Entity(found[1], "head", header=found[1])
+    parts = [(kind, names, words.of(part, entity)) for kind, names, part in cpp_headers.blocks(cpp.heads[found[1]])]
+    return written([f"== {found[1]} ==", *wrapped(parts, 0)], 0) + text[text.index("*/") + 2:]
 
 
 def plain(text):
     """Without what scripts/format decides."""
-    return re.sub(r"[ \t]+", " ", text)
+    return "".join(text.replace("\\\n", "").split())
 
 
-def main():
-    if sys.argv[1:] not in ([], ["--check"]):
-        is_asked_for = sys.argv[1:] in (["-h"], ["--help"])
-        print(__doc__.strip(), file=sys.stdout if is_asked_for else sys.stderr)
-        return 0 if is_asked_for else 2
-    cpp = Cpp()
-    headers = {name: read(name) for name in c_twins.C_HEADERS}
-    parsed = {name: list(items(text)) for name, text in headers.items()}
-    declared = [item for parts in parsed.values() for item in parts if isinstance(item, Item)]
-    pairs = Pairs(cpp, declared)
-    words = Words(pairs)
-    defaults = defaults_of("".join(headers.values()))
-    check_defaults(pairs, words, defaults)
-    is_different = False
-    for name, parts in parsed.items():
-        made = "\n".join(rewritten(part, pairs, words, defaults) if isinstance(part, Item) else part for part in parts)
-        made = head(name, made, cpp, words)
-        if plain(made) == plain(headers[name]):
-            continue
-        is_different = True
-        if sys.argv[1:]:
-            before, after = (plain(text).splitlines(True) for text in (headers[name], made))
-            sys.stdout.writelines(difflib.unified_diff(before, after, name, "scripts/c_comments", n=1))
-        elif not problems:
-            with open(os.path.join(INCLUDE, name), "w", encoding="utf-8") as file:
-                file.write(made)
-    tables = (c_twins.TWINS, c_twins.C_ALONE, c_twins.CPP_ALONE, c_twins.OTHER_DEFAULTS, c_twins.PHRASES)
-    problems.extend(f"scripts/c_twins.py: nothing is \"{name}\"" for table in tables for name in table
-                    if name not in used and name not in pairs.c_name.values() and name not in pairs.twin)
-    for problem in problems:
-        print(f"c_comments: {problem}", file=sys.stderr)
-    if is_different and sys.argv[1:]:
-        print("c_comments: run scripts/c_comments, then scripts/format", file=sys.stderr)
-    return 1 if problems or (is_different and sys.argv[1:]) else 0
+class Headers:
+    """The C headers as they have to be: `texts`, by name; and which declaration of C is which of C++: `pairs`."""
 
-
-if __name__ == "__main__":
-    sys.exit(main())
+    def __init__(self, read):
+        cpp = Cpp(read)
+        parsed = {name: list(completed(items(read(name).partition(DEFAULTS)[0]), cpp)) for name in twins.C_HEADERS}
+        self.items = [item for parts in parsed.values() for item in parts if isinstance(item, Item)]
+        self.pairs = pairs = Pairs(cpp, self.items)
+        words = Words(pairs)
+        self.defaults = defaults_of(pairs, words)
+        self.texts = {}
+        for name, parts in parsed.items():
+            made = "\n".join(rewritten(part, pairs, words, self.defaults) if isinstance(part, Item) else section(part, cpp, words)
+                             for part in parts)
+            end = read(name).partition(DEFAULTS)[2]
+            if end:
+                made += defaults_code(self.defaults, pairs) + end[end.rindex("\n#if defined(__GNUC__)"):]
+            self.texts[name] = read(name) if plain(made) == plain(read(name)) else made
+        tables = (twins.TWINS, twins.C_ALONE, twins.CPP_ALONE, twins.OTHER_DEFAULTS, twins.PHRASES)
+        problems.extend(f"twins.py: nothing is \"{name}\"" for table in tables for name in table
+                        if name not in used and name not in pairs.c_name.values() and name not in pairs.twin)

@@ -1,11 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""What scripts/c_comments cannot know by itself: where the two APIs differ, and why they may."""
+"""What c_headers.py cannot know by itself: where the two APIs differ, and why they may."""
 
-C_HEADERS = ("tspace_tangents.h", "tspace_normals.h", "tspace_indexed_frames.h", "tspace_frame.h", "tspace_pack.h", "tspace_winding.h",
-             "tspace_files.h")
+C_HEADERS = ("tspace.h", "tspace_files.h")
 FILE_HEADERS = ("bake_file.h", "check.h", "file_options.h", "generate.h", "inspect.h", "map_files.h")
-# Headers whose first comment is that of a C++ header.
-HEADS = {f"tspace_{name}": name for name in ("frame.h", "indexed_frames.h", "normals.h", "pack.h", "winding.h")}
 
 # Name in C -> name in C++, where it is no other by rule.
 TWINS = {

@@ -1,0 +1,59 @@
+# SPDX-License-Identifier: MIT
+"""C++: conversions between structs of the C API and their twins, and checks that both have the same numbers (c_fields.h)."""
+
+HEAD = """\
+// SPDX-License-Identifier: MIT
+// Fields of the C structs and of their C++ twins. Written by scripts/api: fields that are not one number each are converted
+// where the struct is.
+#pragma once
+
+#include "core/c_api/c_convert.h"
+"""
+
+
+def fields(headers):
+    pairs, structs = headers.pairs, {}
+    lines = []
+    for full, entity in pairs.twin.items():
+        owner, _, field = full.partition(".")
+        if entity.kind == "enumerator":
+            lines.append(f"static_assert({full} == static_cast<std::uint32_t>({entity.name}));")
+        elif entity.kind == "constant":
+            lines.append(f"static_assert({full} == {entity.name});")
+        elif field and f"{owner}.struct_size" in pairs.c_only:
+            structs.setdefault(owner, []).append((field, entity))
+    largest = {entity.owner: full for full, entity in pairs.twin.items() if entity.kind == "enumerator"}
+    used = [structs[owner][0][1].header for owner in structs if owner.endswith(("Options", "Report", "Noise"))]
+    head = [HEAD, *(f'#include "tspace/{name}"' for name in sorted(set(used))), "", "namespace tspace::c_api {", ""]
+    for owner, members in structs.items():
+        twin = owner.removeprefix("tspace_")
+        if owner.endswith(("Report", "Noise")):
+            lines += ["", f"inline {owner} toReport(const {twin}& from) {{", f"    {owner} made;", "    TSPACE_INIT(made);",
+                      *(f"    made.{field} = from.{_from_cpp(entity)};" for field, entity in members), "    return made;", "}"]
+        elif owner.endswith("Options"):
+            kinds = [(field, kind) for field, entity in members for kind in [_kind(entity, largest)] if kind]
+            lines += ["", f"inline void copyFields(const {owner}& from, {twin}& to) {{",
+                      *(f"    to.{field} = {kind.format('from.' + field)};" for field, kind in kinds), "}",
+                      "/// The first choice or flag that is above its largest value, or ok.",
+                      f"inline Error checkFields(const {owner}& options) {{",
+                      f"    return firstError({(',' + chr(10) + 22 * ' ').join(_checks(members, largest))});", "}"]
+    return "\n".join([*head, *lines, "", "}  // namespace tspace::c_api", ""])
+
+
+def _from_cpp(entity):
+    name = entity.name.rpartition("::")[2]
+    return f"{name}()" if entity.kind == "method" else f"{name} ? 1 : 0" if entity.type == "bool" else name
+
+
+def _kind(entity, enums):
+    """How C++ gets the value of a field, "" for what is not one number."""
+    known = {"bool": "{} != 0", "Convention": "toConvention({})", "float": "{}", "std::uint32_t": "{}"}
+    return f"static_cast<{entity.type}>({{}})" if entity.type in enums else known.get(entity.type, "")
+
+
+def _checks(members, largest):
+    for field, entity in members:
+        if entity.type == "Convention":
+            yield f"[&] {{ return checkConvention(options.{field}); }}"
+        elif entity.type == "bool" or entity.type in largest:
+            yield f'[&] {{ return checkChoice(options.{field}, {largest.get(entity.type, 1)}, "{field}"); }}'
