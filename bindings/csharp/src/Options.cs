@@ -26,26 +26,6 @@ namespace Tspace
         }
     }
 
-    /// <summary>How tangents are computed; docs/concepts/methods/ explains each.</summary>
-    public enum Method : uint
-    {
-        /// <summary>Bit for bit the MikkTSpace reference: what bakers, glTF and Unity's "Calculate Mikktspace" mean.</summary>
-        Mikktspace = 0,
-        Lengyel = 1, Uniform = 2, Angle = 3, Area = 4, Flat = 5, Basis = 6, Fast = 7, Best = 8
-    }
-
-    /// <summary>How Mikktspace finds neighbouring faces: with the reference's defect, or without.</summary>
-    public enum Pairing : uint { Reference = 0, Corrected = 1 }
-
-    /// <summary>Faces of more than 4 corners: cut, or left out as the reference does (results are 0).</summary>
-    public enum Ngons : uint { Triangulate = 0, Skip = 1 }
-
-    /// <summary>Which orthonormal frame stands for sheared UVs.</summary>
-    public enum FrameShape : uint { GramSchmidt = 0, Symmetric = 1 }
-
-    /// <summary>How much a face counts in the mean at one of its corners.</summary>
-    public enum NormalWeighting : uint { Flat = 0, Uniform = 1, Area = 2, Angle = 3, AngleArea = 4, Max = 5, Best = 6 }
-
     /// <summary>What a format or engine means by its numbers: it decides the sign of tangents, and which side of a face is
     /// out. There is no default.</summary>
     public readonly struct Convention

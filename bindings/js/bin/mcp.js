@@ -7,6 +7,7 @@ import { existsSync, mkdtempSync, readFileSync, readdirSync, realpathSync, rmSyn
 import { tmpdir } from "node:os";
 import { basename, dirname, join, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
+import { methodNames } from "../src/names.js";
 import { isIn, onlyInside, realPlace } from "./inside.js";
 
 const help = `tspace mcp - serve inspect, check, identify, generate and bake to agents
@@ -31,7 +32,6 @@ const text = (description) => ({ type: "string", description });
 const flag = (description) => ({ type: "boolean", description });
 const model = text("A model (.glb, .vrm, .gltf, .obj) in the folder, or a folder of models");
 const replace = flag("Write over files that are there; false unless given");
-const methods = ["mikktspace", "lengyel", "uniform", "angle", "area", "flat", "basis", "fast", "best"];
 
 /** What a client sees of each tool, and words(arguments, place): the command line. `place` checks paths of inputs and outputs. */
 const tools = {
@@ -58,7 +58,7 @@ const tools = {
     properties: {
       file: text("A model (.glb, .vrm, .gltf, .obj) in the folder"),
       output: text("The file to write: a .glb in the folder"),
-      method: { type: "string", enum: methods, description: "How tangents are computed; mikktspace unless given" },
+      method: { type: "string", enum: methodNames, description: "How tangents are computed; mikktspace unless given" },
       overwrite: flag("Replace tangents that are there"),
       all: flag("Also where no material needs them"),
       repair: flag("Mend what check finds"),

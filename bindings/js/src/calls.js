@@ -2,15 +2,7 @@
 // The calls that both entries have, for the module that they load.
 import { boolean, choice, count, fail, failType, floats, integers, isMissing, number, numberWithin, object, optionsOf, output } from "./check.js";
 import { conventionBits } from "./convention.js";
-
-export const tangentCounts = [
-  "triangleCount", "degenerateTriangleCount", "degenerateUvCount", "mirroredCount", "skippedFaceCount", "groupCount",
-  "defaultCornerCount", "notFiniteCount", "referenceOrderAbandoned",
-];
-export const sanitizeCounts = [
-  "notFiniteCount", "zeroCount", "notUnitCount", "parallelCount", "placeholderCount", "badSignCount", "mixedSignCount",
-  "orthogonalizedCount", "normalizedCount", "fromNeighborCount", "fromBasisCount", "badNormalCount", "mendedCount",
-];
+import { frameShapeNames, pairingNames, sanitizeReportNames, tangentReportNames } from "./names.js";
 
 const meshMembers = ["positions", "normals", "uvs", "indices", "faceSizes", "normalIndices", "uvIndices"];
 /** The mesh (or pose) of a caller: an object that has no member but those of meshes. */
@@ -56,10 +48,10 @@ export function tangentArguments(options, { methods, ngons }) {
   return [
     choice(options.method ?? "mikktspace", "method", methods),
     numberWithin(options.threshold ?? 180, "threshold", 0, 360, " degrees"),
-    choice(options.pairing ?? "reference", "pairing", ["reference", "corrected"]),
+    choice(options.pairing ?? "reference", "pairing", pairingNames),
     choice(options.ngons ?? ngons[0], "ngons", ngons),
     conventionBits(options.convention),
-    choice(options.frame ?? "gramSchmidt", "frame", ["gramSchmidt", "symmetric"]),
+    choice(options.frame ?? "gramSchmidt", "frame", frameShapeNames),
     count(options.refine ?? 1, "refine"),
     boolean(options.normalizeNormals ?? false, "normalizeNormals"),
   ];
@@ -92,7 +84,7 @@ export function writeTangents(wasm, mesh, outputCount, options, compute) {
     const out = call.allocate(outputCount * 16);
     const mask = hasTangent ? call.allocate(outputCount) : 0;
     call.check(compute(call.wasm, out, mask));
-    keepReport(call, options, tangentCounts, ignoredOptions(options));
+    keepReport(call, options, tangentReportNames, ignoredOptions(options));
     hasTangent?.set(new Uint8Array(call.wasm.memory.buffer, mask, outputCount));
     return call.get(Float32Array, out, outputCount * 4);
   });
@@ -142,7 +134,7 @@ export function makeCalls(wasm, choices) {
         setMesh(call, checked);
         const place = call.put(given);
         call.check(call.wasm.sanitizeTangents(place, given.length / 4, all));
-        keepReport(call, options, sanitizeCounts, []);
+        keepReport(call, options, sanitizeReportNames, []);
         return call.get(Float32Array, place, given.length);
       });
     },

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: MIT
 // The whole core, for the entries that load its module.
-import { givenMesh, ignoredOptions, makeCalls, meshOf, mikktspaceOptions, sanitizeCounts, setMesh, tangentArguments, tangentCounts, withIgnored, writeTangents } from "./calls.js";
+import { givenMesh, ignoredOptions, makeCalls, meshOf, mikktspaceOptions, setMesh, tangentArguments, withIgnored, writeTangents } from "./calls.js";
 import { boolean, fail, failType, floats, isMissing, object, optionsOf } from "./check.js";
 import { TspaceError } from "./error.js";
-import { ignoredNormalOptions, normalArguments, normalCounts, normalOptions, normalsOf } from "./normal_calls.js";
+import { methodNames, ngonsNames, normalReportNames, sanitizeReportNames, tangentReportNames } from "./names.js";
+import { ignoredNormalOptions, normalArguments, normalOptions, normalsOf } from "./normal_calls.js";
 import { Wasm } from "./wasm.js";
 
 const wasm = new Wasm();
 /** Loads the module, once, from where `source` says. */
 export const start = (source) => wasm.start(source);
 
-const methods = ["mikktspace", "lengyel", "uniform", "angle", "area", "flat", "basis", "fast", "best"];
 const tangentOptions = [...mikktspaceOptions, "frame", "refine"];
-const choices = { methods, ngons: ["triangulate", "skip"], options: tangentOptions };
+const choices = { methods: methodNames, ngons: ngonsNames, options: tangentOptions };
 const steps = ["makeNormals", "sanitize", "orthogonalizeAll"];
 
 export const { generateTangents, sanitizeTangents, splitVertices } = makeCalls(wasm, choices);
@@ -69,9 +69,9 @@ export function makeIndexedFrames(mesh, options = {}) {
     const take = (Type, i, size) => call.take(Type, words[2 * i], size * words[2 * i + 1]);
     const makesNormals = chosen[0] || !checked.normals;
     const report = withIgnored({
-      normals: makesNormals ? call.report(normalCounts, {}, 22) : null,
-      tangents: call.report(tangentCounts, {}),
-      sanitize: chosen[1] ? call.report(sanitizeCounts, {}, 9) : null,
+      normals: makesNormals ? call.report(normalReportNames, {}, 22) : null,
+      tangents: call.report(tangentReportNames, {}),
+      sanitize: chosen[1] ? call.report(sanitizeReportNames, {}, 9) : null,
     }, ignoredFrameOptions(options, makesNormals));
     if (options.report) Object.assign(withIgnored(options.report, []), report);
     return {

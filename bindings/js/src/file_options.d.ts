@@ -43,7 +43,7 @@ export interface GenerateFileOptions {
    * What mikktspace is computed on. triangles: those of the file, which fit bakes of triangulated models; quads: pairs
    * of triangles that follow each other, as Blender does before it writes triangles; auto: quads where the file's
    * tangents show it, or where it has none, comes from Blender and its triangles are cut quads. `repair` takes auto
-   * where nothing else is given. See docs/quads.md. Default: triangles.
+   * where nothing else is given. See docs/concepts/quads.md. Default: triangles.
    */
   faces?: "triangles" | "quads" | "auto";
   /**
@@ -83,7 +83,8 @@ export interface GenerateFileOptions {
   format?: "float" | "snorm16" | "snorm8";
   /**
    * Also write the whole frame of each vertex, N, T and the sign, as an attribute of its own: _FRAME32 and so on, for
-   * engines that read it. Of every primitive that has normals and tangents in the end, old ones too. See docs/pack.md.
+   * engines that read it. Of every primitive that has normals and tangents in the end, old ones too. See
+   * docs/concepts/pack.md.
    */
   pack?: "frame32" | "frame48" | "frame64" | "oct32" | "qtangent64" | "snorm8_pair" | "snorm16_pair" | "gltf_snorm8" | "gltf_snorm16";
   /**

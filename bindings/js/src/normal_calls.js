@@ -3,10 +3,9 @@
 import { givenMesh, keepReport, meshOf, setMesh } from "./calls.js";
 import { boolean, choice, count, fail, integers, isMissing, number, optionsOf } from "./check.js";
 import { conventionBits } from "./convention.js";
+import { normalReportNames, normalWeightingNames } from "./names.js";
 
-const weightings = ["flat", "uniform", "area", "angle", "angleArea", "max", "best"];
 export const normalOptions = ["weighting", "creaseAngle", "smoothingGroups", "smoothingGroupsAreMasks", "weldPositions", "weldDistance", "refine", "denoise"];
-export const normalCounts = ["faceCount", "degenerateFaceCount", "fallbackCornerCount", "noise", "creaseAngle"];
 
 /** Names of the options that were given and that the weighting does not read. */
 export function ignoredNormalOptions({ weighting = "angle", ...options }) {
@@ -27,7 +26,7 @@ export function normalArguments(options, isWhole) {
   for (const [name, given] of [["creaseAngle", options.creaseAngle === "auto"], ["denoise", (options.denoise ?? 0) !== 0]])
     if (given && !isWhole) fail("invalidOption", `${name}: ${options[name]} is for generateNormals of "tspace/normals"`);
   const groups = integers(options.smoothingGroups, "smoothingGroups");
-  const before = [choice(options.weighting ?? "angle", "weighting", weightings), numberOrAuto(options.creaseAngle ?? 180, "creaseAngle")];
+  const before = [choice(options.weighting ?? "angle", "weighting", normalWeightingNames), numberOrAuto(options.creaseAngle ?? 180, "creaseAngle")];
   const after = [
     boolean(options.smoothingGroupsAreMasks ?? false, "smoothingGroupsAreMasks"),
     boolean(options.weldPositions ?? true, "weldPositions"),
@@ -49,7 +48,7 @@ export const normalsOf = (wasm, isWhole) => function generateNormals(mesh, optio
     setMesh(call, checked);
     const out = call.allocate(checked.cornerCount * 12 + 16);
     call.check(call.wasm.generateNormals(...given(call), out));
-    keepReport(call, options, normalCounts, ignoredNormalOptions(options));
+    keepReport(call, options, normalReportNames, ignoredNormalOptions(options));
     return call.get(Float32Array, out, checked.cornerCount * 3);
   });
 };

@@ -5,6 +5,7 @@ import { givenMesh, meshOf, setMesh } from "./calls.js";
 import { boolean, optionsOf } from "./check.js";
 import { conventionBits } from "./convention.js";
 import { normalsOf, numberOrAuto } from "./normal_calls.js";
+import { windingReportNames } from "./names.js";
 import { Wasm } from "./wasm.js";
 
 export { conventions } from "./convention.js";
@@ -13,11 +14,6 @@ export { TspaceError } from "./error.js";
 const wasm = new Wasm();
 export const ready = wasm.start(source);
 export const release = () => wasm.release();
-
-const windingCounts = [
-  "faceCount", "turnedCount", "conflictCountBefore", "conflictCountAfter", "componentCount", "turnedComponentCount", "byNormalsCount",
-  "byVolumeCount", "byNestingCount", "byWindingNumberCount", "byMajorityCount", "smallCount", "oneSidedCount",
-];
 
 export const generateNormals = normalsOf(wasm, true);
 
@@ -60,7 +56,7 @@ export function mendWinding(mesh, options = {}) {
     const out = call.allocate(faceCount + 16);
     call.check(call.wasm.mendWinding(...given, out));
     const report = {};
-    call.report(windingCounts, report);
+    call.report(windingReportNames, report);
     const turned = call.get(Uint8Array, out, faceCount);
     return { indices: turnedIndices(checked, turned), turned, report };
   });

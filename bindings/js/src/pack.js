@@ -2,6 +2,7 @@
 // The entry "tspace/pack": whole frames in 4 to 16 bytes.
 import { source } from "#pack";
 import { bytes as bytesOf, choice, fail, floats, optionsOf } from "./check.js";
+import { frameFormatNames, packReportNames } from "./names.js";
 import { Wasm } from "./wasm.js";
 
 export { TspaceError } from "./error.js";
@@ -10,14 +11,7 @@ const wasm = new Wasm();
 export const ready = wasm.start(source);
 export const release = () => wasm.release();
 
-/** In the order of tspace::FrameFormat. */
-export const frameFormats = Object.freeze([
-  "frame32", "frame48", "frame64", "oct32", "qtangent64", "snorm8_pair", "snorm16_pair", "gltf_snorm8", "gltf_snorm16",
-]);
-const packCounts = [
-  "badNormalCount", "notFiniteCount", "zeroCount", "parallelCount", "notUnitCount", "notOrthogonalCount", "badSignCount",
-  "mendedCount",
-];
+export const frameFormats = Object.freeze([...frameFormatNames]);
 
 const numberOf = (format) => choice(format, "format", frameFormats);
 
@@ -32,7 +26,7 @@ export function packFrames(normals, tangents, format, options = {}) {
     const bytes = count * call.wasm.frameBytes(number);
     const [n, t, out] = [call.put(givenNormals), call.put(givenTangents), call.allocate(bytes + 16)];
     call.check(call.wasm.packFrames(n, count, t, givenTangents.length / 4, number, out, bytes));
-    if (options.report) call.report(packCounts, options.report);
+    if (options.report) call.report(packReportNames, options.report);
     return call.get(Uint8Array, out, bytes);
   });
 }

@@ -13,7 +13,7 @@ from unittest import mock
 
 import tspace
 from tspace import _abi, _files
-from tspace._file_options import OPTIONS
+from tspace._file_options import OPTIONS as FILE_OPTIONS
 
 ROOT = Path(__file__).resolve().parents[3]
 INCLUDE, OPTIONS = ROOT / "include", ROOT / "src/commands"
@@ -68,7 +68,7 @@ class Names(unittest.TestCase):
         for path in OPTIONS.rglob("*.cpp"):
             names.update(name.replace("-", "_") for name in re.findall(r'"(?:-\w+, )?--([a-z-]+)"', path.read_text()))
         self.assertGreater(len(names), 40)
-        for verb, known in OPTIONS.items():
+        for verb, known in FILE_OPTIONS.items():
             call = {
                 "generate": tspace.generate_bytes,
                 "flipGreen": tspace.flip_green_bytes,

@@ -34,6 +34,7 @@
 
 pub mod bevy_mikktspace;
 mod callbacks;
+mod enums;
 mod error;
 mod frames;
 mod mesh;
@@ -47,18 +48,20 @@ mod tangents;
 mod tests;
 mod winding;
 
+pub use enums::{
+    FrameFormat, FrameShape, Green, Handedness, Method, Ngons, NormalWeighting, OutputDomain, Pairing, StoredSign, VAxis, Winding,
+};
 pub use error::{Error, ErrorCode};
 pub use frames::{
     make_indexed_frames, sanitize, split, triangulate, Attribute, IndexedFrames, IndexedFramesOptions, SanitizeReport,
     Split, Triangles,
 };
 pub use mesh::{Indices, Mesh, Points};
-pub use normals::{normals, normals_into, NormalOptions, NormalReport, NormalWeighting};
-pub use options::{Convention, Execution, Green, Handedness, StoredSign, VAxis, Winding};
-pub use pack::{pack_frames, unpack_frames, FrameFormat};
+pub use normals::{normals, normals_into, NormalOptions, NormalReport};
+pub use options::{Convention, Execution};
+pub use pack::{pack_frames, unpack_frames};
 pub use tangents::{
-    tangents, tangents_full, tangents_into, FrameShape, Method, Ngons, OutputDomain, Pairing, Plan, TangentOptions,
-    TangentReport, Tangents,
+    tangents, tangents_full, tangents_into, Plan, TangentOptions, TangentReport, Tangents,
 };
 pub use winding::{mend_winding, WindingOptions};
 

@@ -1,29 +1,10 @@
 // SPDX-License-Identifier: MIT
+use crate::enums::NormalWeighting;
 use crate::error::{checked, Error};
 use crate::mesh::Mesh;
 use crate::options::{prepared, Convention, Execution};
 use crate::sys;
 use crate::tangents::{new_report, span};
-
-/// How much a face counts in the mean at one of its corners.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum NormalWeighting {
-    /// Each corner gets its face's normal, as glTF asks where normals are missing.
-    Flat = 0,
-    /// Every face the same.
-    Uniform = 1,
-    /// Large faces count more.
-    Area = 2,
-    /// The corner's angle: independent of tessellation.
-    #[default]
-    Angle = 3,
-    /// Angle times area.
-    AngleArea = 4,
-    /// Exact on a sphere (Max 1999).
-    Max = 5,
-    /// The normal of a quadratic surface: the most accurate, and the slowest.
-    Best = 6,
-}
 
 /// How normals are computed. [`NormalOptions::new`] has every default.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,53 +1,9 @@
 // SPDX-License-Identifier: MIT
+use crate::enums::{Green, Handedness, StoredSign, VAxis, Winding};
 use crate::error::{checked, Error};
 use crate::sys;
 use std::ffi::CString;
 use std::mem::{size_of, MaybeUninit};
-
-/// Where v = 0 lies in the texture.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum VAxis {
-    /// At the bottom row of the image (OpenGL, Blender, Unity).
-    Up = 1,
-    /// At the top row (glTF, DirectX, Unreal, Godot).
-    Down = 2,
-}
-
-/// What a large green value in a normal map means.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Green {
-    /// Towards the top row of the image ("OpenGL", +Y).
-    Up = 0,
-    /// Towards the bottom row ("DirectX", -Y).
-    Down = 1,
-}
-
-/// Whether the stored sign is that of `B = sign * cross(N, T)` or its negative.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum StoredSign {
-    /// `B = sign * cross(N, T)`.
-    AsIs = 0,
-    /// Its negative.
-    Negated = 1,
-}
-
-/// Of the coordinate system.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Handedness {
-    /// Right-handed.
-    Right = 0,
-    /// Left-handed.
-    Left = 1,
-}
-
-/// Order of a face's vertices as seen from outside.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Winding {
-    /// Counter-clockwise.
-    CounterClockwise = 0,
-    /// Clockwise.
-    Clockwise = 1,
-}
 
 /// What a format or engine means by its numbers: it decides the sign of tangents, and which side of a face is out. There is
 /// no default.

@@ -1,32 +1,10 @@
 // SPDX-License-Identifier: MIT
+use crate::enums::FrameFormat;
 use crate::error::{checked, mismatch, Error};
 use crate::mesh::Points;
 use crate::sys;
 use crate::tangents::span;
 use std::ptr::null_mut;
-
-/// A code for N, T and the sign; `docs/concepts/pack.md` has what each costs in degrees.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum FrameFormat {
-    /// 4 bytes, 0.135 degrees.
-    Frame32 = 0,
-    /// 6 bytes, 0.0042.
-    Frame48 = 1,
-    /// 8 bytes, 0.00015.
-    Frame64 = 2,
-    /// 4 bytes, 0.165; the cheapest to decode of these.
-    Oct32 = 3,
-    /// 8 bytes, 0.004: a quaternion.
-    Qtangent64 = 4,
-    /// 8 bytes, 0.391: T and N as snorm8.
-    Snorm8Pair = 5,
-    /// 16 bytes, 0.00152: T and N as snorm16.
-    Snorm16Pair = 6,
-    /// 7 bytes, 0.391: as KHR_mesh_quantization stores them.
-    GltfSnorm8 = 7,
-    /// 14 bytes, 0.00152.
-    GltfSnorm16 = 8,
-}
 
 impl FrameFormat {
     /// Bytes of one frame.

@@ -1,74 +1,11 @@
 // SPDX-License-Identifier: MIT
+use crate::enums::{FrameShape, Method, Ngons, OutputDomain, Pairing};
 use crate::error::{checked, mismatch, Error};
 use crate::mesh::{Mesh, Points};
 use crate::options::{prepared, Convention, Execution};
 use crate::sys;
 use std::mem::{size_of, MaybeUninit};
 use std::ptr::null_mut;
-
-/// How tangents are computed.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Method {
-    /// Bit for bit the result of the MikkTSpace reference: what bakers and glTF expect.
-    #[default]
-    Mikktspace = 0,
-    /// One tangent per vertex index, in one pass (Lengyel 2001). Never splits.
-    Lengyel = 1,
-    /// Mean of unit face tangents, every face the same.
-    Uniform = 2,
-    /// Mean by corner angle.
-    Angle = 3,
-    /// Mean by face area.
-    Area = 4,
-    /// The face's own direction.
-    Flat = 5,
-    /// No UVs: a basis from the normal alone.
-    Basis = 6,
-    /// Two sums, one accurate on smooth surfaces, one robust, mixed.
-    Fast = 7,
-    /// A quadratic map fitted to the edges around each vertex.
-    Best = 8,
-}
-
-/// How [`Method::Mikktspace`] finds neighbouring faces.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Pairing {
-    /// With the reference's defect in the last bucket of its edge list: the bits of every other MikkTSpace.
-    #[default]
-    Reference = 0,
-    /// Without it.
-    Corrected = 1,
-}
-
-/// What happens to faces with more than 4 corners.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Ngons {
-    /// They are cut; results come back per corner of the face.
-    #[default]
-    Triangulate = 0,
-    /// As the reference: outputs are 0.
-    Skip = 1,
-}
-
-/// What one entry of the result belongs to.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum OutputDomain {
-    /// A corner.
-    #[default]
-    Corner = 0,
-    /// A vertex: for [`Method::Lengyel`] and [`Method::Basis`] only.
-    Vertex = 1,
-}
-
-/// Which orthonormal frame stands for sheared UVs.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum FrameShape {
-    /// T is the direction of dP/du.
-    #[default]
-    GramSchmidt = 0,
-    /// T is the bisector of dP/du and of the direction across dP/dv.
-    Symmetric = 1,
-}
 
 /// How tangents are computed. [`TangentOptions::new`] has every default.
 #[derive(Clone, Copy, Debug, PartialEq)]
