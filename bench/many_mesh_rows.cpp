@@ -2,8 +2,11 @@
 // Rows over many meshes at once: real models as they are in their files, tori of all sizes where a rule of the reference may
 // matter, triangles in other orders, sizes where threads may not pay.
 #include <algorithm>
+#include <cstdlib>
 #include <limits>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "job.h"
 #include "plain_loop.h"
@@ -170,6 +173,28 @@ Row threads(const std::string& title, unsigned thread_count, std::vector<std::si
             }};
 }
 
+/// Boxes in one call: two threads against one.
+Row meshJobs(const std::string& title, std::size_t box_count) {
+    return {title, [=](Lab& lab) {
+                RowResult row{.title = title};
+                const Mesh box = boxMesh();
+                const std::size_t corners = box.cornerCount();
+                std::vector<Vec4> tangents(box_count * corners);
+                std::vector<MeshJob> jobs(box_count);
+                for (std::size_t i = 0; i < box_count; ++i) {
+                    const std::span<Vec4> own(tangents.data() + i * corners, corners);
+                    jobs[i] = {box.view(), {.convention = conventions::opengl}, {.tangents = own}};
+                }
+                const auto generate = [&](unsigned threads) {
+                    return [&jobs, threads] {
+                        if (!generateTangents(jobs, {.thread_count = threads})) std::abort();
+                    };
+                };
+                const Pair pair = race(box, lab.rounds(), Clock::wall, generate(2), generate(1));
+                return summarize({pair}, 0.59, row), row;
+            }};
+}
+
 Row smallCall(const std::string& title) {
     return {title, [=](Lab& lab) {
                 constexpr int kCalls = 1000;  // one alone is below what clocks and caches blur
@@ -200,6 +225,7 @@ std::vector<Row> manyMeshRows() {
         models("models, all", 1, kAny),
         threads("two threads against one, 7k to 25k triangles", 2, {7000, 10000, 14000, 18000, 25000}),
         threads("all threads against one, 100 to 500 triangles", 0, {100, 200, 300, 400, 500}),
+        meshJobs("10,000 boxes in one call, two threads against one", 10000),
         smallCall("a call for a box of 12 triangles")};
     std::ranges::move(lastBucketRows(), std::back_inserter(rows));
     std::ranges::move(orderRows(), std::back_inserter(rows));
