@@ -314,6 +314,7 @@ def tangents_of_meshes(
     `tangents` would raise an InputError or MemoryError, this exception. A job that fails does not affect the others. Outputs
     of two jobs must not overlap.
 
+    jobs:    a MeshJob per mesh, any number of them
     threads: 1, another number, or "all"
 
     >>> job = tspace.MeshJob(positions, normals, uvs, indices, convention="gltf")
