@@ -23,7 +23,7 @@ class Docs(unittest.TestCase):
             os.chdir(folder)
             # The model that the pages name.
             Path("chair.glb").write_bytes(make_glb(torus(6, 8)))
-            for page in (ROOT / "README.md", ROOT / "docs/reference/python.md", ROOT / "bindings/python/README.md"):
+            for page in (ROOT / "docs/start/first-program.md", ROOT / "docs/reference/python.md", ROOT / "bindings/python/README.md"):
                 names = {}
                 for block in re.findall(r"^```python\n(.*?)^```", page.read_text(), re.M | re.S):
                     with self.subTest(page=page.name, block=block), contextlib.redirect_stdout(io.StringIO()):
