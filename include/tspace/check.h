@@ -94,6 +94,9 @@ const char* findingName(FindingCode code);
 /// What it is, in a short sentence that holds for every finding of the code: "Every sign is inverted."
 const char* findingSummary(FindingCode code);
 
+/// What a person sees where it is so, in one or two short sentences: "Bumps are lit from the wrong side."
+const char* findingEffect(FindingCode code);
+
 /// How it is usually mended: one or two sentences.
 const char* findingRemedy(FindingCode code);
 

@@ -109,6 +109,10 @@ export interface Finding {
   confidence: number;
   /** The first of them. */
   vertices: number[];
+  /** The fault, in a sentence that is the same for all findings of the code. */
+  summary: string;
+  /** The visible symptom, in a sentence that is the same for all findings of the code. */
+  effect: string;
   /** Human-readable summary in one sentence. */
   message: string;
   /** Human-readable fix. */

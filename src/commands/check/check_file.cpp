@@ -163,6 +163,8 @@ Json findingJson(const Finding& finding) {
         {"worstDegrees", finding.worst_deg},
         {"confidence", finding.confidence},
         {"vertices", finding.vertices},
+        {"summary", findingSummary(finding.code)},
+        {"effect", findingEffect(finding.code)},
         {"message", finding.message},
         {"remedy", finding.remedy},
         {"show", findingLook(finding.code)},

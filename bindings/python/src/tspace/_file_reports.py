@@ -117,6 +117,10 @@ class Finding:
     confidence: float
     #: The first of them.
     vertices: Tuple[int, ...]
+    #: The fault, in a sentence that is the same for all findings of the code.
+    summary: str
+    #: The visible symptom, in a sentence that is the same for all findings of the code.
+    effect: str
     #: Human-readable summary in one sentence.
     message: str
     #: Human-readable fix.
