@@ -170,7 +170,16 @@ async function inParallel(jobs) {
   return results;
 }
 
+/// Whether no object is newer than the linked module, and none is another one than those that it was linked from.
+function isLinked(wasm, list, objects) {
+  if (!existsSync(wasm) || !existsSync(list) || readFileSync(list, "utf8") !== objects.join("\n")) return false;
+  const made = statSync(wasm).mtimeMs;
+  return [...objects, fileURLToPath(import.meta.url)].every((path) => statSync(path).mtimeMs <= made);
+}
+
 async function link(name, module, objects) {
+  const wasm = join(out, `${name}.wasm`), list = join(out, name, "linked.txt");
+  if (isLinked(wasm, list, objects)) return;
   const libraries = (await run("em-config", ["CACHE"]).catch(() => ({ stdout: "" }))).stdout.trim() || "/usr/share/emscripten/cache";
   const folder = join(libraries, "sysroot/lib/wasm32-emscripten");
   const raw = join(out, `${name}_raw.wasm`);
@@ -178,7 +187,6 @@ async function link(name, module, objects) {
     `--initial-memory=${module.throws ? 2097152 : 1048576}`, "--max-memory=4294967296", "--lto-O2", "-mllvm", "-disable-lsr", ...copiesLess, ...inlined(-14000), ...objects,
     `-L${folder}/lto`, `-L${folder}`, ...(module.throws ? ["-ldlmalloc", "--export=stackSave", "--export=stackRestore", "--export-table"] : []),
     "-lc-optz", "-lc++-noexcept", "-lc++abi-noexcept", "-lcompiler_rt", "--export=__wasm_call_ctors", "--allow-undefined", "-o", raw]);
-  const wasm = join(out, `${name}.wasm`);
   // Low memory: the first KB is the end of the stack, where no offset below 1024 can lead by going round 2^32.
   await run("wasm-opt", ["--enable-simd", "--enable-bulk-memory", "--enable-sign-ext", "--enable-mutable-globals",
     "--enable-nontrapping-float-to-int", module.isFast ? "-Os" : "-Oz", "--converge", "--low-memory-unused", "-ocimfs=12", "-aimfs=5", raw, "-o", wasm]);
@@ -186,6 +194,7 @@ async function link(name, module, objects) {
   const imports = WebAssembly.Module.imports(new WebAssembly.Module(bytes)).map((i) => i.name);
   const unknown = imports.filter((i) => !(module.imports ?? ["endCall"]).includes(i));
   if (unknown.length !== 0) throw new Error(`${name}.wasm imports ${unknown.join(", ")}`);
+  writeFileSync(list, objects.join("\n"));
   console.log(`${name}.wasm: ${bytes.length} bytes, ${gzipSync(bytes, { level: 9 }).length} gzipped`);
 }
 
