@@ -31,27 +31,6 @@ function packedWasm(): Plugin {
   };
 }
 
-/** What `check` finds, in the words of docs/reference/check.md, which scripts/web lays beside this file: what each code means, and why it matters. */
-function meanings(): Plugin {
-  const plain = (text: string) => text.replace(/\[([^\]]*)\]\([^)]*\)/g, "$1").replaceAll("`", "");
-  const rows = () => {
-    const found: Record<string, { what: string; why: string }> = {};
-    for (const line of readFileSync(resolve(import.meta.dirname, "check.md"), "utf8").split("\n")) {
-      const [, codes, severity, what, why] = line.split("|").map((cell) => cell.replace(/<a id="\w+"><\/a>/g, "").trim());
-      if (!/^`\w+`(, `\w+`)*$/.test(codes ?? "") || !/error|warning|note/.test(severity)) continue;
-      for (const code of codes.replaceAll("`", "").split(", ")) found[code] = { what: plain(what), why: plain(why) };
-    }
-    if (Object.keys(found).length < 40) throw new Error("docs/reference/check.md has no table of codes any more");
-    return found;
-  };
-  return {
-    name: "meanings",
-    enforce: "pre",
-    resolveId: (id) => (id === "virtual:meanings" ? "\0meanings" : null),
-    load: (id) => (id === "\0meanings" ? `export default ${JSON.stringify(rows())}` : null),
-  };
-}
-
 /** The package's modules that lie in JavaScript, packed in the same way. */
 const insideOf = (name: string) => resolve(import.meta.dirname, `node_modules/tspace/src/${name}-inside.js`);
 
@@ -98,5 +77,5 @@ export default defineConfig({
   resolve: { alias: { "#core": insideOf("core"), "#gltf": insideOf("gltf"), "#textures": insideOf("textures") } },
   worker: { format: "iife", plugins: () => [packedWasm(), nodeModules] },
   define: { __VERSION__: JSON.stringify(JSON.parse(readFileSync(resolve(import.meta.dirname, "node_modules/tspace/package.json"), "utf8")).version) },
-  plugins: [packedWasm(), meanings(), oneFile()],
+  plugins: [packedWasm(), oneFile()],
 });

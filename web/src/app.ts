@@ -2,6 +2,7 @@
 // One model at a time: what is asked of the worker, in which order, and what the views are told. What comes back for a model
 // that is no longer the current one is dropped.
 import { LoaderError, loadModel } from "./model/load.js";
+import { imageOf, isMapName, surfaceWith } from "./model/lone_map.js";
 import { glbOfObj } from "./model/obj.js";
 import { triangleCount, type Model, type Part } from "./model/part.js";
 import { missingFiles, Refusal, type ModelFiles } from "./files.js";
@@ -16,7 +17,7 @@ import type { Progress } from "./views/progress.js";
 import type { Stage } from "./views/stage.js";
 import type { UvMapView } from "./views/uv_map.js";
 import { WorkError, type Work } from "./worker/client.js";
-import { nameOf, type Arrays, type Calls, type Right } from "./worker/protocol.js";
+import { isFile, nameOf, type Arrays, type Calls, type OtherFile, type Right } from "./worker/protocol.js";
 
 export interface Views {
   stage: Stage;
@@ -47,9 +48,12 @@ const sentenceOf = (error: unknown): string => (error instanceof Error ? error.m
 /** Files that did not come with the model, and what to do. */
 const lacking = (missing: string[]): string => `It names files that are not here: ${missing.slice(0, 8).join(", ")}${missing.length > 8 ? ` and ${missing.length - 8} more` : ""}. Drop them, too.`;
 
+/** Only what the library, the loader or the page's own readers say is said of the file, and what the browser says when it reads the file. */
+const isPageFault = (error: unknown): boolean => !(error instanceof LoaderError || error instanceof Refusal || error instanceof DOMException || (error instanceof WorkError && error.code !== "internal"));
+
 /** Why there is no picture. Only what the loader of three.js could not read is said of the file. */
 function plainly(error: unknown): string {
-  if (!(error instanceof LoaderError || error instanceof WorkError || error instanceof Refusal)) return `this page failed, which need not be the fault of the file (${String(error)}). The findings do not depend on the picture.`;
+  if (isPageFault(error)) return `this page failed, which need not be the fault of the file (${String(error)}). The findings do not depend on the picture.`;
   const text = sentenceOf(error).replace(/^THREE\.\w+: /, "");
   if (/Unsupported asset|Legacy binary/.test(text)) return "its version of glTF is older than 2.0.";
   if (/^Failed to load buffer/.test(text)) return "a file with its geometry is missing.";
@@ -62,6 +66,8 @@ const copyOf = (arrays: Arrays): Arrays => structuredClone(arrays);
 export class App {
   model: ModelFiles | null = null;
   reports: Reports = {};
+  /** The fixed file right of the line, and what `check` says of it. */
+  fixed: { model: ModelFiles; check: CheckReport | null } | null = null;
   /** Parts of the file that Mend has made. */
   #mended: Part[] = [];
   #mendedFile: ModelFiles | null = null;
@@ -104,6 +110,7 @@ export class App {
   #clear(): void {
     const { stage, look, uvMap, place, parts, motion } = this.views;
     place.clear();
+    this.fixed = null;
     this.#mended = [];
     this.#mendedFile = null;
     this.#mendedScene?.dispose();
@@ -113,7 +120,8 @@ export class App {
     this.#variant = -1;
     this.views.offered([]);
     stage.setGreen("none");
-    look.offerMended(false);
+    look.offerFile(null);
+    stage.nameFiles(null);
     stage.viewport.show(new Scene());
     look.showLines();
     look.showFigures();
@@ -151,15 +159,16 @@ export class App {
       const chosen = await choose();
       if (!isCurrent()) return;
       missing = missingFiles(chosen);
-      const isObj = /\.obj$/i.test(chosen.name);
-      const model = isObj ? glbOfObj(chosen) : chosen;
+      const isObj = /\.obj$/i.test(chosen.name), isMap = isMapName(chosen.name);
+      const model = isObj ? glbOfObj(chosen) : isMap && !chosen.loneMap ? await this.#onSurface(chosen) : chosen;
+      if (!isCurrent()) return;
       this.model = model;
       this.#before = before;
       this.#clear();
       opened(model, before);
       if (!read) await this.#inspect(model, isCurrent);
       if (!isCurrent()) return;
-      this.#remarks = isObj ? ["An OBJ is shown and judged as the GLB that it becomes."] : [];
+      this.#remarks = isObj ? ["An OBJ is shown and judged as the GLB that it becomes."] : isMap ? ["The normal map is shown on a flat surface. Drag the light."] : [];
       if (missing.length > 0) this.#remarks.push(lacking(missing));
       await this.#draw(model, isCurrent, { read });
       if (!isCurrent()) return;
@@ -168,9 +177,15 @@ export class App {
     } catch (error) {
       if (!isCurrent()) return;
       if (error instanceof WorkError && error.code === "stopped") return this.#stopped();
-      const sentence = error instanceof WorkError || error instanceof Refusal ? sentenceOf(error) : error instanceof TypeError || error instanceof ReferenceError ? `This page failed, which need not be the fault of the file (${String(error)}).` : `This file cannot be opened: ${sentenceOf(error)}`;
+      const sentence = isPageFault(error) ? `This page failed, which need not be the fault of the file (${String(error)}).` : error instanceof DOMException ? `This file cannot be read: ${sentenceOf(error)}` : sentenceOf(error);
       this.fail(missing.length > 0 ? `${lacking(missing)} (${sentence})` : sentence);
     }
+  }
+
+  /** A normal map on a surface, with what `check` says of the image. */
+  async #onSurface({ name, bytes }: ModelFiles): Promise<ModelFiles> {
+    const { report, image } = await this.work.run("image", { model: { name, bytes, others: new Map() } });
+    return { name, bytes: surfaceWith(name, image), others: new Map(), loneMap: report as CheckReport };
   }
 
   async #inspect(model: ModelFiles, isCurrent: () => boolean): Promise<void> {
@@ -231,7 +246,7 @@ export class App {
         if (corners) scene.add(i, part, corners);
         progress.at("Drawing", 0.1 + (0.2 * (i + 1)) / parts.length);
       }
-      if (!stage.viewport.hasPicture) remarks.unshift("This browser has no WebGL, so there is no picture. Findings and mends are complete.");
+      if (!stage.viewport.hasPicture) remarks.unshift("This browser has no WebGL, so there is no picture. Findings and fixes are complete.");
       stage.viewport.show(scene);
       if (!isOther) {
         stage.viewport.reset(true);
@@ -256,22 +271,25 @@ export class App {
     await this.compare(look.right, 0.3, 0.6);
     if (!isCurrent()) return;
     progress.at("Checking", 0.6);
-    this.reports.check = await this.work.run("report", { verb: "check", model });
+    const check = (this.reports.check = model.loneMap ?? ((await this.work.run("report", { verb: "check", model })) as CheckReport));
     if (!isCurrent()) return;
-    findings.show(this.reports.check as CheckReport);
-    this.views.checked(this.reports.check as CheckReport);
-    this.#turnGreen(this.reports.check as CheckReport);
-    progress.at("Asking who made the tangents", 0.8);
-    this.reports.identify = await this.work.run("report", { verb: "identify", model });
-    if (!isCurrent()) return;
-    findings.showVerdict((this.reports.identify as IdentifyReport).verdict);
+    findings.show(check);
+    this.views.checked(check);
+    this.#turnGreen(check);
+    if (!model.loneMap) {
+      progress.at("Comparing the tangents with those of known tools", 0.8);
+      this.reports.identify = await this.work.run("report", { verb: "identify", model });
+      if (!isCurrent()) return;
+    }
+    findings.showVerdict(model.loneMap ? "A normal map has no tangents." : (this.reports.identify as IdentifyReport).verdict);
     progress.done("");
     this.#state("ready");
     this.views.ready();
   }
 
   /** Right of the slider stands what is right: where green points down, it is read the other way round there. */
-  #turnGreen({ findings }: CheckReport): void {
+  #turnGreen({ findings, image }: CheckReport): void {
+    if (image?.green === "down") this.#greenDown.add(this.#normalImages[0]);
     for (const { code, place } of findings) {
       const material = code === "greenFlipped" ? /^\/materials\/(\d+)\/normalTexture$/.exec(place)?.[1] : undefined;
       if (material !== undefined) this.#greenDown.add(this.#normalImages[Number(material)] ?? -1);
@@ -282,7 +300,7 @@ export class App {
 
   #showGreen(): void {
     const { stage, look } = this.views, { scene } = stage.viewport;
-    for (const drawn of scene.drawn) scene.turnGreen(drawn, look.right !== "mended" && this.#greenDown.has(drawn.part.normalImage));
+    for (const drawn of scene.drawn) scene.turnGreen(drawn, !isFile(look.right) && this.#greenDown.has(drawn.part.normalImage));
     const withMap = scene.drawn.filter(({ rightMap }) => rightMap !== null);
     const turned = withMap.filter(({ turnsGreen }) => turnsGreen).length;
     stage.setGreen(turned === 0 ? "none" : turned < withMap.length ? "some" : "all");
@@ -291,9 +309,10 @@ export class App {
   /** What `check` says of a file that Mend has made, or null where it says nothing. */
   async checkMended(model: ModelFiles): Promise<CheckReport | null> {
     const { progress } = this.views;
-    progress.at("Checking the mended file", 0.8);
+    progress.at("Checking the fixed file", 0.8);
     try {
-      return (await this.work.run("report", { verb: "check", model })) as CheckReport;
+      if (!isMapName(model.name)) return (await this.work.run("report", { verb: "check", model })) as CheckReport;
+      return (await this.work.run("image", { model: { ...model, bytes: imageOf(model.bytes) } })).report as CheckReport;
     } catch {
       return null;
     } finally {
@@ -303,7 +322,7 @@ export class App {
 
   async generate(model: ModelFiles, options: Record<string, unknown>): Promise<{ report: unknown; bytes: Uint8Array<ArrayBuffer> }> {
     const { progress } = this.views;
-    progress.at("Mending", 0.5);
+    progress.at("Fixing", 0.5);
     try {
       return await this.work.run("generate", { model, options });
     } finally {
@@ -312,13 +331,25 @@ export class App {
   }
 
   /** Puts the file that Mend has made right of the slider: its frames and its normal maps, as they are in it; its normals and triangles, too, where these are others. */
-  async showMended(model: ModelFiles, hasOtherShape: boolean): Promise<void> {
+  async showMended(model: ModelFiles, hasOtherShape: boolean, as: OtherFile = "mended"): Promise<void> {
     const generation = this.#generation, isCurrent = () => generation === this.#generation;
     this.#hasOtherShape = hasOtherShape;
     if (!(await this.#loadMended(model, isCurrent))) return;
     this.#mendedFile = model;
-    this.views.look.offerMended(true);
-    await this.setRight("mended");
+    this.views.look.offerFile(as);
+    await this.setRight(as);
+  }
+
+  /** Another version of the model right of the line, seen by the same camera, and what `check` says of it; null where another model was opened meanwhile. */
+  async compareWith(choose: () => Promise<ModelFiles>): Promise<{ name: string; check: CheckReport } | null> {
+    const generation = this.#generation, chosen = await choose(), isObj = /\.obj$/i.test(chosen.name);
+    const other = isObj ? glbOfObj(chosen) : isMapName(chosen.name) ? await this.#onSurface(chosen) : chosen;
+    const check = other.loneMap ?? ((await this.work.run("report", { verb: "check", model: other })) as CheckReport);
+    if (generation !== this.#generation || !this.model) return null;
+    const names = [this.model.name, other.name] as const;
+    await this.showMended(other, true, "other");
+    this.views.stage.nameFiles(names[0] === names[1] ? [`${names[0]} (first)`, `${names[1]} (second)`] : names);
+    return { name: other.name, check };
   }
 
   async #loadMended(model: ModelFiles, isCurrent: () => boolean): Promise<boolean> {
@@ -350,14 +381,14 @@ export class App {
     const { stage, progress, look, uvMap } = this.views;
     const { scene } = stage.viewport;
     for (const [i, drawn] of scene.drawn.entries()) {
-      progress.at(right === "mended" ? "Reading the mended file" : `Computing frames by ${nameOf(right)}`, from + ((to - from) * i) / scene.drawn.length);
-      const mended = right === "mended" ? this.#mended.find(({ mesh, primitive }) => mesh === drawn.part.mesh && primitive === drawn.part.primitive) : undefined;
+      progress.at(isFile(right) ? `Reading ${nameOf(right)}` : `Computing frames by ${nameOf(right)}`, from + ((to - from) * i) / scene.drawn.length);
+      const mended = isFile(right) ? this.#mended.find(({ mesh, primitive }) => mesh === drawn.part.mesh && primitive === drawn.part.primitive) : undefined;
       const frames = await this.#frames(drawn, right, mended);
       if (scene !== stage.viewport.scene || look.right !== right) return;
       scene.setRight(drawn, frames, (mended ?? drawn.part).normalMap);
       stage.viewport.ask();
     }
-    stage.viewport.showRight(right === "mended" ? this.#mendedScene : null);
+    stage.viewport.showRight(isFile(right) ? this.#mendedScene : null);
     this.#showGreen();
     look.showFigures();
     look.showLines();
@@ -367,7 +398,7 @@ export class App {
   /** A stopped worker has forgotten its parts: they are told once more. A part without frames has none. */
   async #frames(drawn: Drawn, right: Right, mended: Part | undefined): Promise<Calls["otherFrames"]["answer"]> {
     const ask = () =>
-      right !== "mended" ? this.work.run("frames", { part: drawn.number, method: right })
+      !isFile(right) ? this.work.run("frames", { part: drawn.number, method: right })
       : mended ? this.work.run("otherFrames", { part: drawn.number, arrays: copyOf(mended.arrays) })
       : null;
     try {

@@ -6,3 +6,11 @@ export function fromBase64(text: string): Uint8Array<ArrayBuffer> {
   for (let i = 0; i < binary.length; ++i) bytes[i] = binary.charCodeAt(i);
   return bytes;
 }
+
+/** Through a data URL, which the browser makes in one go. */
+export const toBase64 = (bytes: Uint8Array<ArrayBuffer>): Promise<string> => new Promise((done, failed) => {
+  const reader = new FileReader();
+  reader.onload = () => done((reader.result as string).slice((reader.result as string).indexOf(",") + 1));
+  reader.onerror = () => failed(reader.error);
+  reader.readAsDataURL(new Blob([bytes]));
+});

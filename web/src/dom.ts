@@ -53,6 +53,16 @@ export function select<T extends string>(label: string, options: readonly (reado
   return { element: el("label", { class: "select" }, el("span", {}, label), input), input };
 }
 
+/** A slider with its number beside it. */
+export function slider(label: string, { min, max, step, value, unit }: { min: number; max: number; step: number; value: number; unit: string }, changed: (value: number) => void): HTMLElement {
+  const input = el("input", { type: "range", min, max, step, value }), text = el("span", { class: "number" }, `${value}${unit}`);
+  input.addEventListener("input", () => {
+    text.textContent = `${input.value}${unit}`;
+    changed(Number(input.value));
+  });
+  return el("label", { class: "select slider" }, el("span", {}, label), input, text);
+}
+
 /** `1,234`, whatever the language of the browser: reports are in English. */
 export const count = (n: number): string => n.toLocaleString("en");
 

@@ -8,6 +8,8 @@ export interface PageOrigin {
   version: string;
   date: string;
   command: string;
+  /** The end of the address with which the page was saved: what was seen. */
+  shown?: string;
 }
 
 /** Of a page that `tspace view` made. */

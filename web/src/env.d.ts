@@ -31,8 +31,3 @@ declare module "*.glb?inline" {
 
 /** The version of the library in the page. */
 declare const __VERSION__: string;
-
-declare module "virtual:meanings" {
-  const meanings: Record<string, { what: string; why: string } | undefined>;
-  export default meanings;
-}

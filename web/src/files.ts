@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Files that a person dropped or chose: which of them is the model, and how it finds the others.
 import { unzipSync } from "fflate";
+import { isMapName } from "./model/lone_map.js";
+import type { CheckReport } from "tspace/gltf";
 
 export interface ModelFiles {
   /** What reports call it. */
@@ -8,6 +10,8 @@ export interface ModelFiles {
   bytes: Uint8Array<ArrayBuffer>;
   /** Files that the model may name, by their path below the model's folder. */
   others: Map<string, Uint8Array<ArrayBuffer>>;
+  /** What `check` says of a normal map that came without a model; `bytes` is then a surface that shows it. */
+  loneMap?: CheckReport;
 }
 
 /** A sentence for the person. */
@@ -114,7 +118,7 @@ export class Pile {
 
   async add(dropped: Named[]): Promise<Named[]> {
     const found = (await Promise.all(dropped.map((one) => (/\.zip$/i.test(one.path) ? unpacked(one) : [one])))).flat();
-    const isMore = modelsIn(found).length === 0 && modelsIn(this.#files).length > 0 && found.some(({ path }) => /\.(bin|mtl|png|jpe?g|webp|ktx2)$/i.test(path));
+    const isMore = modelsIn(found).length === 0 && modelsIn(this.#files).some((path) => /\.(gltf|obj)$/i.test(path)) && found.some(({ path }) => /\.(bin|mtl|png|jpe?g|webp|ktx2)$/i.test(path));
     const names = new Set(found.map(({ path }) => path));
     this.#files = isMore ? [...this.#files.filter(({ path }) => !names.has(path)), ...found] : found;
     return this.#files;
@@ -148,9 +152,9 @@ export function missingFiles({ name, bytes, others }: ModelFiles): string[] {
 /** One of the models among the files, the first where none is named, with all files that it may name. */
 export async function chooseModel(named: Named[], chosen?: string): Promise<ModelFiles> {
   if (named.length > kMostFiles) throw new Refusal(`These are more than ${kMostFiles} files. Choose the folder of one model.`);
-  const path = chosen ?? modelsIn(named)[0], models = named.filter((one) => one.path === path);
+  const path = chosen ?? modelsIn(named)[0] ?? named.map(({ path }) => path).find(isMapName), models = named.filter((one) => one.path === path);
   if (models.length === 0) {
-    throw new Refusal(named.length === 1 ? `${named[0].path} is no model that this page reads: it reads .glb, .vrm, .gltf and .obj.` : "There is no .glb, .vrm, .gltf or .obj among these files.");
+    throw new Refusal(named.length === 1 ? `${named[0].path} is no file that this page reads: it reads models (.glb, .vrm, .gltf, .obj) and normal maps (PNG, JPEG, WebP, KTX2, DDS).` : "There is no .glb, .vrm, .gltf or .obj and no image among these files.");
   }
   const total = named.reduce((sum, { file }) => sum + file.size, 0);
   if (models[0].file.size > kMostBytes || total > 2 * kMostBytes) throw new Refusal(`${models[0].path} is too large for this page, which reads models of up to 1 GB. The tool has no such limit.`);

@@ -7,10 +7,16 @@ import { chooseModel, droppedFiles, modelsIn, pickedFiles, Pile, type ModelFiles
 import { embeddedModel, pageOrigin } from "./embedded.js";
 import { lessonLink } from "./lesson.js";
 import { keepLink, linkedBy, Visited } from "./link.js";
+import { pageWith } from "./one_page.js";
+import { forgetModel, keepModel, keptModel } from "./own_store.js";
 import { askedModel, askFirst, filesAt } from "./asked.js";
-import { faults, samples, type Sample } from "./samples.js";
+import { samples, type Sample } from "./samples.js";
 import { loadModel } from "./model/load.js";
+import { imageOf, mapType } from "./model/lone_map.js";
+import { planFor, type Plan } from "./views/advice.js";
 import { FindingsView } from "./views/findings.js";
+import { FixView } from "./views/fix.js";
+import { GalleryView } from "./views/gallery.js";
 import { LookView } from "./views/look.js";
 import { changesShape, MendView, mendedName, type Mended } from "./views/mend.js";
 import { MotionView } from "./views/motion.js";
@@ -22,23 +28,26 @@ import { Stage } from "./views/stage.js";
 import { TexelView } from "./views/texel.js";
 import { UvMapView } from "./views/uv_map.js";
 import { Work } from "./worker/client.js";
-import type { GenerateReport } from "tspace/gltf";
+import type { CheckReport, GenerateReport } from "tspace/gltf";
 
 // The library is read and compiled by the worker while WebGL starts, which holds this thread up for longer than all else. Until
 // the worker runs, this thread reads the page's own sample: nobody has to say first whether that is sound.
 const work = new Work();
-const own = embeddedModel(), asked = own ? null : askedModel(), first = linkedBy(location.hash);
-const sampleNamed = (name: string | undefined): Sample | undefined => [...samples, ...faults].find(({ file }) => file === name);
-const firstSample = own ? null : (sampleNamed(first.sample) ?? samples[0]);
+const own = embeddedModel(), asked = own ? null : askedModel(), first = linkedBy(location.hash || (pageOrigin()?.shown ?? ""));
+const sampleNamed = (name: string | undefined): Sample | undefined => samples.find(({ file }) => file === name);
+const kept = own || asked || first.sample ? null : await keptModel();
+const firstSample = own || kept ? null : (sampleNamed(first.sample) ?? samples[0]);
 const firstFiles = firstSample && filesOf(firstSample);
 const firstRead = firstFiles && loadModel(firstFiles, work);
 firstRead?.catch(() => {}); // said where it would be drawn
 await work.started;
 const largeMap = el("section", { class: "large-map", "aria-label": "UV map", hidden: true });
-const stage = new Stage(largeMap);
-const place = new PlaceView(stage.viewport, (look) => stage.setLook(look));
+let plan: Plan | null = null;
+const fix = new FixView(() => plan && void mend.run(plan.tangents));
+const stage = new Stage(fix.caption, fix.element, largeMap);
+const place = new PlaceView(stage.viewport, (look) => stage.setLook(look), (share) => stage.setSplit(share));
 const findings = new FindingsView({
-  choose: (chosen, isOne) => (stage.canvas.dataset.outlined = String(place.show(chosen, isOne))),
+  choose: (chosen, isOne) => (stage.canvas.dataset.outlined = String(place.show(chosen, isOne, app.fixed !== null))),
   mend: (finding) => mend.prepare(finding),
 });
 const progress = new Progress(() => app.stop());
@@ -54,32 +63,58 @@ const mend = new MendView(
     if (!model) throw new Error("There is no model.");
     const { report, bytes } = await app.generate(model, options);
     const mended = { name: mendedName(model.name), bytes, others: model.others };
-    const checked = await app.checkMended(mended);
-    void app.showMended(mended, changesShape(report as GenerateReport)).catch((error: Error) => stage.say(`The mended file cannot be drawn: ${error.message}`));
-    return { report, checked, ...mended };
+    const checked = await app.checkMended(mended), download = model.loneMap && { bytes: imageOf(bytes), type: mapType(model.name) };
+    void app.showMended(mended, changesShape(report as GenerateReport)).catch((error: Error) => stage.say(`The fixed file cannot be drawn: ${error.message}`));
+    return { report, checked, download, ...mended, ...(model.loneMap && checked && { loneMap: checked }) };
   },
-  ({ name, bytes, others }) => void app.openMended({ name, bytes, others }),
+  ({ name, bytes, others, loneMap }) => void app.openMended({ name, bytes, others, loneMap }),
+  { started: () => fix.working(), failed: (message) => fix.failed(message), done: showFixed },
 );
 const app: App = new App(work, {
-  stage, findings, look, uvMap, place, parts, motion, progress, opened: showName, offered: (variants) => look.offerVariants(variants), checked: (report) => mend.advise(report), ready: followLink,
+  stage, findings, look, uvMap, place, parts, motion, progress, opened: showName, offered: (variants) => look.offerVariants(variants), checked, ready: followLink,
   inspected: ({ primitives }) => mend.setCompressed(primitives.some(({ compression }) => compression !== "none")),
 });
 
 const share = new ShareView({
-  report: (kind) => reportAs(kind, app.model?.name ?? "no model", app.reports),
+  report: (kind) => (app.fixed?.check ? reportAs(kind, app.fixed.model.name, { check: app.fixed.check }) : reportAs(kind, app.model?.name ?? "no model", app.reports)),
   picture: async () => {
-    const name = app.model?.name ?? "model", blob = await pictureFile(stage.viewport, name, stage.sides);
+    const name = app.model?.name ?? "model", blob = await pictureFile(stage.viewport, name, stage.sides, stage.swatches);
     return blob && { blob, name: `${name.replace(/^.*\//, "").replace(/\.[^.]*$/, "")}-${stage.viewport.settings.look}.png` };
   },
+  page: async () => app.model && { blob: await pageWith(app.model, location.hash), name: `${app.model.name.replace(/^.*\//, "").replace(/\.[^.]*$/, "")}.html` },
+  link: () => location.href,
 });
+
+function checked(report: CheckReport): void {
+  mend.advise(report);
+  plan = planFor(report);
+  fix.offer(report, plan);
+}
+
+/** List, look, picture and counts follow a fix: they are about the fixed file, right of the line. */
+function showFixed({ name, bytes, others, checked: after }: Mended, url: string, isChanged: boolean): void {
+  const before = app.reports.check as CheckReport | undefined;
+  if (!before) return fix.wait();
+  if (!isChanged) return fix.offer(before, null);
+  app.fixed = { model: { name, bytes, others }, check: after };
+  plan = after && planFor(after);
+  fix.done(name, url, before.counts, after?.counts ?? null, plan?.tangents === "overwrite" ? plan : null);
+  place.clear();
+  if (after) findings.show(after, true);
+  findings.showVerdict("tspace, in the fixed file.");
+  stage.setLook("lit");
+}
 
 /** The first model is shown as the address says; from then on the address says what is shown. */
 let linked = asked ? {} : first;
 const keep = keepLink(stage, () => findings.chosen, () => (pile.isEmpty && app.model !== own ? (app.model?.name ?? null) : null));
 stage.viewport.onDrawn = () => document.documentElement.dataset.state === "ready" && keep();
 function followLink(): void {
-  const { look, finding, split, camera } = linked as typeof first;
+  const { look, finding, split, camera } = linked as typeof first, { check } = app.reports as { check?: CheckReport };
   linked = {};
+  // What one sees at once is the worst of it.
+  const worst = check?.findings.find(({ severity }) => severity !== "note");
+  if (worst && finding === undefined && split === undefined && !camera) place.aim(check!.findings.filter(({ code }) => code === worst.code));
   if (finding !== undefined) findings.openFinding(finding);
   if (look) stage.setLook(look);
   if (split !== undefined) stage.setSplit(split);
@@ -102,14 +137,14 @@ addEventListener("popstate", () => {
 function showName(model: ModelFiles | null, before: ModelFiles | null): void {
   if (model && visited.current?.model !== model) visited.add({ model, before, pile });
   mend.reset(model);
+  plan = null;
+  fix.wait();
   texel.reset();
   replaceChildren(title, model ? model.name : "");
   back.hidden = before === null;
   back.textContent = before ? `Back to ${before.name}` : "";
   document.title = model ? `${model.name} – tspace view` : "tspace view";
-  for (const button of sampleButtons) button.setAttribute("aria-pressed", String(model !== null && button.dataset.file === model.name));
-  // Two faults may be of one file, so what was chosen stays where it still fits.
-  if (gallery.value !== "" && faults[Number(gallery.value)].file !== model?.name) gallery.value = "";
+  gallery.mark(model?.name ?? null);
 }
 
 let pile = new Pile();
@@ -123,16 +158,33 @@ function openFiles(dropped: Promise<Named[]> | Named[]): void {
     others.hidden = models.length < 2;
     replaceChildren(others, ...models.map((path) => el("option", { value: path }, path)));
     others.onchange = () => void app.open(() => chooseModel(files, others.value));
-    return chooseModel(files);
+    const chosen = await chooseModel(files);
+    if (!asked) void keepModel(chosen).then((isKept) => showKept(isKept ? chosen.name : null));
+    return chosen;
   });
 }
 
-function picker(text: string, properties: Record<string, unknown>): HTMLElement {
+/** Another version of the model right of the line. */
+async function compare(dropped: Named[]): Promise<void> {
+  try {
+    const before = app.reports.check as CheckReport | undefined, other = await app.compareWith(async () => chooseModel(await new Pile().add(dropped)));
+    if (!other || !before || !app.model) return;
+    plan = null;
+    fix.compare([app.model.name, other.name], [before.counts, other.check.counts]);
+    place.clear();
+  } catch (error) {
+    stage.say(`The other file cannot be compared: ${error instanceof Error ? error.message : String(error)}`);
+  } finally {
+    progress.done("");
+  }
+}
+
+function picker(text: string, properties: Record<string, unknown>, take: (files: Named[]) => void = openFiles): HTMLElement {
   const input = el("input", { type: "file", multiple: true, tabindex: "-1", ...properties }) as HTMLInputElement;
   input.addEventListener("change", () => {
     const files = input.files ? pickedFiles(input.files) : [];
     input.value = "";
-    if (files.length > 0) openFiles(files);
+    if (files.length > 0) take(files);
   });
   return el("span", { class: "picker" }, input, el("button", { type: "button", onclick: () => input.click() }, text));
 }
@@ -147,24 +199,18 @@ function openSample(sample: Sample): void {
   void app.open(async () => filesOf(sample));
 }
 
-const sampleButtons = samples.map((sample) =>
-  el("button", { type: "button", class: "sample", "data-file": sample.file, title: sample.hint, "aria-pressed": "false", onclick: () => openSample(sample) }, sample.name));
-
-const gallery = el("select", { class: "faults", "aria-label": "Faults of real files" }, el("option", { value: "" }, "Faults…"),
-  ...faults.map(({ name, hint }, i) => el("option", { value: i, title: hint }, name)));
-gallery.addEventListener("change", () => {
-  if (gallery.value === "") return;
-  openSample(faults[Number(gallery.value)]);
-});
+const gallery = new GalleryView(openSample);
 
 const header = el("header", { class: "bar" },
-  el("h1", {}, "tspace ", el("span", {}, "view")),
-  el("div", { class: "open" }, picker("Open model…", { accept: ".glb,.vrm,.gltf,.obj,.zip,.bin,.mtl,image/*", "aria-label": "Open model" }), picker("Folder…", { webkitdirectory: true, "aria-label": "Open folder" })),
-  el("nav", { class: "samples", "aria-label": "Samples" }, el("span", { class: "quiet" }, "Samples"), ...sampleButtons, gallery),
-  lessonLink() || null, others, title, back);
+  el("p", { class: "brand" }, "tspace ", el("span", {}, "view")),
+  el("h1", {}, "Drop a model: see where its bumps are lit inside out, and fix it. ", el("span", {}, asked ? `Nothing is uploaded; only ${asked.host} is asked.` : "Nothing is uploaded.")),
+  el("div", { class: "open" }, picker("Open model…", { accept: ".glb,.vrm,.gltf,.obj,.zip,.bin,.mtl,image/*,.ktx2,.dds", "aria-label": "Open model" }), picker("Folder…", { webkitdirectory: true, "aria-label": "Open folder" }),
+    picker("Compare with…", { accept: ".glb,.vrm,.gltf,.obj,.zip,.bin,.mtl,image/*,.ktx2,.dds", "aria-label": "Compare with another version" }, (files) => void compare(files))),
+  others, title, back);
 const inspector = el("aside", { class: "inspector", "aria-label": "Inspector" }, look.element, texel.element, uvMap.element, motion.element, parts.element, mend.element, share.element);
-const main = el("main", {}, findings.element, stage.element, inspector);
-const footer = el("footer", {}, progress.element, el("span", { class: "quiet" }, `Drop a .glb, a .zip, a folder with a .gltf, or an .obj anywhere. ${asked ? `Nothing but a request to ${asked.host} can leave this computer.` : "Nothing leaves this computer."}`));
+const main = el("main", {}, gallery.element, findings.element, stage.element, inspector);
+const keptLine = el("p", { class: "kept row" });
+const footer = el("footer", {}, progress.element, keptLine, el("span", { class: "quiet" }, "Drop a .glb, .vrm, .obj or .zip, a folder with a .gltf, or a normal map (PNG, JPEG, WebP, KTX2, DDS) anywhere on the page."), lessonLink() || null);
 const question = asked && askFirst(asked, () => {
   linked = first;
   openFiles(filesAt(asked));
@@ -193,7 +239,13 @@ addEventListener("drop", (event) => {
   }
 });
 
+/** Below the page: that a model is kept in the browser, and the button that forgets it. */
+function showKept(name: string | null): void {
+  replaceChildren(keptLine, name && el("span", { class: "quiet" }, `${name} is kept in this browser for the next visit.`), name && el("button", { type: "button", class: "small", onclick: () => void forgetModel().then(() => showKept(null)) }, "Forget it"));
+}
+
 if (own) void app.open(async () => own);
+else if (kept) void app.open(async () => kept).then(() => showKept(kept.name));
 else if (firstFiles && firstRead) void app.open(async () => firstFiles, { read: firstRead });
 
 /** For tests, and for those who look with the browser's console. */

@@ -1,14 +1,26 @@
 // SPDX-License-Identifier: MIT
-// Models that scripts/web makes, and faults put into them. They are in the page, since nothing is loaded later.
+// Models that scripts/web makes, and faults put into them. The page contains them, since it loads nothing later.
+// samples/pictures.mjs makes their pictures.
 import { fromBase64 } from "./base64.js";
 import { bear } from "./bear.js";
 import ring from "../samples/ring-directx.glb?inline";
 import crate from "../samples/crate.glb?inline";
+import pictureAlong from "../samples/pictures/crate-along-normals.webp?inline";
+import pictureInverted from "../samples/pictures/crate-signs-inverted.webp?inline";
+import pictureSignsLost from "../samples/pictures/crate-signs-lost.webp?inline";
+import pictureSeams from "../samples/pictures/crate-seams-shared.webp?inline";
+import pictureAxes from "../samples/pictures/crate-wrong-axes.webp?inline";
+import pictureSet from "../samples/pictures/crate-wrong-set.webp?inline";
+import pictureCrate from "../samples/pictures/crate.webp?inline";
+import pictureBear from "../samples/pictures/bear-by-ai.webp?inline";
+import pictureRing from "../samples/pictures/ring-directx.webp?inline";
 
 export interface Sample {
   name: string;
   file: string;
   hint: string;
+  /** A small picture of it: as the file is on the left, fixed on the right. */
+  picture: string;
   bytes: () => Uint8Array<ArrayBuffer>;
 }
 
@@ -92,27 +104,17 @@ function wrongSet(): Uint8Array<ArrayBuffer> {
   return made;
 }
 
-const sample = (name: string, file: string, hint: string, bytes: () => Uint8Array<ArrayBuffer>): Sample => ({
-  name,
-  file,
-  hint,
-  bytes,
-});
+const sample = (name: string, file: string, hint: string, picture: string, bytes: () => Uint8Array<ArrayBuffer>): Sample => ({ name, file, hint, picture, bytes });
 
+/** Faults as they are found in real files, by what one sees, and one model without a fault. The first is shown when the page opens. */
 export const samples: readonly Sample[] = [
-  sample("Crate, broken", "crate-signs-lost.glb", "A crate whose exporter lost the signs: half of it is mirrored, and lit from the wrong side", signsLost),
-  sample("Crate", "crate.glb", "The same crate as it should be", () => decoded(crate)),
-  sample("Ring", "ring-directx.glb", "A ring without tangents, and with a normal map whose green points down", () => decoded(ring)),
-];
-
-/** Faults as they are found in real files, each on the crate. */
-export const faults: readonly Sample[] = [
-  sample("every sign inverted", "crate-signs-inverted.glb", "MikkTSpace was fed with v as glTF stores it", signsInverted),
-  sample("signs lost", "crate-signs-lost.glb", "The exporter forgot the fourth number of tangents", signsLost),
-  sample("shared over seams", "crate-seams-shared.glb", "Both sides of seams of the UV map share one tangent: it was written through the index list from before the split", sharedSeams),
-  sample("T along N", "crate-along-normals.glb", "Tangents are the normals: cross(N, T) vanishes", alongNormals),
-  sample("wrong UV set", "crate-wrong-set.glb", "Tangents follow a second UV set, as of a light map, and not that of the normal map", wrongSet),
-  sample("other axes", "crate-wrong-axes.glb", "The model was turned from Z up to Y up, and its tangents not", wrongAxes),
-  sample("mesh by AI", "bear-by-ai.glb", "As generators of meshes leave them: rough by chance, and patches of triangles wound against the others", bear),
-  sample("green points down", "ring-directx.glb", "A normal map made for DirectX", () => decoded(ring)),
+  sample("Half inside out", "crate-signs-lost.glb", "The exporter dropped the sign (w) of the tangents: the mirrored half of the crate is lit inside out", pictureSignsLost, signsLost),
+  sample("DirectX map", "ring-directx.glb", "A normal map made for DirectX, whose green points down, on a ring without tangents", pictureRing, () => decoded(ring)),
+  sample("All inside out", "crate-signs-inverted.glb", "Every sign is inverted: MikkTSpace was fed with v as glTF stores it", pictureInverted, signsInverted),
+  sample("Dark seams", "crate-seams-shared.glb", "Both sides of UV seams share one tangent: it was written through the index list from before the split", pictureSeams, sharedSeams),
+  sample("Flat bumps", "crate-along-normals.glb", "The tangents are copies of the normals, so there is no bitangent", pictureAlong, alongNormals),
+  sample("Wrong UV set", "crate-wrong-set.glb", "The tangents follow a second UV set, such as that of a light map, and not that of the normal map", pictureSet, wrongSet),
+  sample("Turned light", "crate-wrong-axes.glb", "The model was converted from Z up to Y up, and its tangents were not", pictureAxes, wrongAxes),
+  sample("AI mesh", "bear-by-ai.glb", "A mesh as generators leave it: rough at random, with patches of triangles that face inward", pictureBear, bear),
+  sample("Nothing wrong", "crate.glb", "The crate as it should be", pictureCrate, () => decoded(crate)),
 ];

@@ -53,7 +53,7 @@ test("a model that the address names is asked for after a click, and shown as th
     assert.equal(requests.length, 1, "nothing was asked for");
     assert.deepEqual(models.asked, []);
     assert.match(await tab.locator(".asked").textContent(), new RegExp(`crate\\.glb on ${models.host}.*Nothing has been asked for yet`));
-    assert.match(await tab.locator("footer").textContent(), new RegExp(`Nothing but a request to ${models.host} can leave this computer`));
+    assert.match(await tab.locator("h1").textContent(), new RegExp(`Nothing is uploaded; only ${models.host} is asked`));
     await shoot(tab, "asked");
     assert.equal(await load(tab), "ready");
     assert.deepEqual(models.asked, ["/crate.glb"]);

@@ -5,7 +5,7 @@ import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { fileURLToPath, pathToFileURL } from "node:url";
 import { test } from "node:test";
-import { choose, drawn, mended, missing, named, noShared, openFile, settled, shared, withPage } from "./support.mjs";
+import { choose, drawn, mended, missing, named, noShared, openFile, openSample, shared, withPage } from "./support.mjs";
 
 const lesson = process.env.TSPACE_LESSON;
 const axe = (() => {
@@ -52,11 +52,9 @@ for (const { scheme, width, height } of sizes) {
       await tab.locator(".uv button", { hasText: "Large" }).click();
       await drawn(tab);
       await look("large UV map");
-      await tab.getByRole("button", { name: "Ring", exact: true }).click();
-      await settled(tab);
+      await openSample(tab, "ring-directx.glb");
       await look("ring");
-      await tab.locator(".faults").selectOption({ label: "mesh by AI" });
-      await settled(tab);
+      await openSample(tab, "bear-by-ai.glb");
       await look("mesh by AI");
       for (const name of noShared ? [] : ["khronos/AnimatedMorphCube.glb", "blender/18_variants/18_variants.gltf"]) {
         const path = join(shared, "models", name);

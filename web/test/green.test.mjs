@@ -8,19 +8,18 @@ import { join } from "node:path";
 import { test } from "node:test";
 import { decode, encode } from "fast-png";
 import { Glb } from "./glb.mjs";
-import { choose, drawn, mended, missing, noTool, openFile, settled, shoot, tool, withPage } from "./support.mjs";
+import { choose, drawn, mended, missing, noTool, openFile, openSample, settled, shoot, tool, withPage } from "./support.mjs";
 
 const codes = (tab) => tab.locator(".finding").evaluateAll((items) => items.map((item) => item.dataset.code));
 
 async function ring(tab) {
-  await tab.getByRole("button", { name: "Ring", exact: true }).click();
-  await settled(tab);
+  await openSample(tab, "ring-directx.glb");
   return new Glb(Buffer.from(await tab.evaluate(() => [...window.tspaceView.model.bytes])));
 }
 
 async function turned(tab) {
   await tab.locator(".mend > summary").click();
-  await tab.getByLabel("Turn green of maps").check();
+  await tab.getByLabel("Flip green of maps").check();
   return mended(tab);
 }
 
@@ -31,16 +30,16 @@ test("green that points down is found, shown and mended", { skip: missing }, asy
     await tab.locator(".finding[data-code=greenFlipped]").click();
     assert.match(await tab.locator(".details:visible").textContent(), /--flip-green/);
     const before = await tab.locator(".frame canvas").screenshot();
-    await choose(tab, "green turned", ".look");
+    await choose(tab, "green flipped", ".look");
     await drawn(tab);
     assert.ok(!before.equals(await tab.locator(".frame canvas").screenshot()), "the picture has other light");
     await shoot(tab, "green-turned");
     await choose(tab, "on", ".look");
     await turned(tab);
     assert.match(await tab.locator(".command").textContent(), / --repair --flip-green$/);
-    assert.match(await tab.locator(".changes.maps").textContent(), /bricks-directxgreen turned/);
+    assert.match(await tab.locator(".changes.maps").textContent(), /bricks-directxgreen flipped/);
     await shoot(tab, "green-mended");
-    await tab.getByRole("button", { name: "Look at it" }).click();
+    await tab.getByRole("button", { name: "Open the fixed file" }).click();
     await settled(tab);
     assert.deepEqual(await codes(tab), []);
   });

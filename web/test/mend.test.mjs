@@ -7,30 +7,30 @@ import { tmpdir } from "node:os";
 import { dirname, join } from "node:path";
 import { test } from "node:test";
 import { Glb } from "./glb.mjs";
-import { choose, mended, missing, named, noTool, openFile, settled, shared, shoot, tool, withPage } from "./support.mjs";
+import { choose, mended, missing, named, noTool, openFile, openSample, settled, shared, shoot, tool, withPage } from "./support.mjs";
 
 test("repairing the broken crate leaves no finding, and shows what changed", { skip: missing }, async () => {
   await withPage(async (tab) => {
     await tab.locator(".mend summary").click();
     await mended(tab);
-    assert.match(await tab.locator(".changes").textContent(), /vertices mended/);
+    assert.match(await tab.locator(".changes").textContent(), /vertices corrected/);
     // The slider now shows what the download holds.
-    await tab.locator(".figures", { hasText: "the mended file" }).waitFor();
-    assert.equal(await tab.locator(".side.right").textContent(), "mended");
-    assert.match(await tab.locator(".figures").textContent(), /0\.00° from the mended file on average.* 1,728 of 5,184 corners have another sign/);
+    await tab.locator(".figures", { hasText: "the fixed file" }).waitFor();
+    assert.equal(await tab.locator(".side.right").textContent(), "fixed");
+    assert.match(await tab.locator(".figures").textContent(), /0\.00° from the fixed file on average.* 1,728 of 5,184 corners have another sign/);
     await tab.locator(".result").scrollIntoViewIfNeeded();
     await shoot(tab, "mended");
-    await tab.getByRole("button", { name: "Look at it" }).click();
+    await tab.getByRole("button", { name: "Open the fixed file" }).click();
     assert.equal(await settled(tab), "ready");
     assert.match(await tab.locator(".findings .fine").textContent(), /Nothing is wrong/);
-    assert.equal(await tab.locator(".model-name").textContent(), "crate-signs-lost-mended.glb");
+    assert.equal(await tab.locator(".model-name").textContent(), "crate-signs-lost-fixed.glb");
   });
 });
 
 test("right of the slider are the very tangents of the download, whatever made them", { skip: missing }, async () => {
   await withPage(async (tab) => {
     await tab.locator(".mend summary").click();
-    await choose(tab, "all anew", ".mend");
+    await choose(tab, "recompute all", ".mend");
     for (const method of ["flat", "best"]) {
       await tab.locator(".mend select").selectOption(method);
       const glb = new Glb(await mended(tab)), [primitive] = glb.primitives("TANGENT"), tangents = glb.numbers(primitive.attributes.TANGENT);
@@ -41,7 +41,7 @@ test("right of the slider are the very tangents of the download, whatever made t
     await tab.locator(".look select").first().selectOption("lengyel");
     await tab.locator(".figures", { hasText: "from lengyel" }).waitFor();
     await tab.locator(".look select").first().selectOption("mended");
-    await tab.locator(".figures", { hasText: "the mended file" }).waitFor();
+    await tab.locator(".figures", { hasText: "the fixed file" }).waitFor();
   });
 });
 
@@ -52,18 +52,17 @@ test("downloads are byte for byte the files that the tool writes with the comman
       await tab.locator(".mend summary").click();
       const cases = [
         async () => {},
-        async () => choose(tab, "all anew", ".mend"),
+        async () => choose(tab, "recompute all", ".mend"),
         async () => tab.locator(".mend select").selectOption("best"),
-        async () => choose(tab, "turned", ".mend"),
+        async () => choose(tab, "inverted", ".mend"),
       ];
-      for (const name of ["Crate, broken", "Ring"]) {
-        await tab.getByRole("button", { name, exact: true }).click();
-        await settled(tab);
+      for (const name of ["crate-signs-lost.glb", "ring-directx.glb"]) {
+        await openSample(tab, name);
         const model = await tab.evaluate(() => window.tspaceView.model.name);
         writeFileSync(join(folder, model), Uint8Array.from(await tab.evaluate(() => [...window.tspaceView.model.bytes])));
-        for (const act of name === "Ring" ? cases.slice(0, 1) : cases) {
+        for (const act of name === "ring-directx.glb" ? cases.slice(0, 1) : cases) {
           await act();
-          if (name === "Ring") await tab.getByLabel("Turn green of maps").uncheck(); // the page packs a PNG in other bytes
+          if (name === "ring-directx.glb") await tab.getByLabel("Flip green of maps").uncheck(); // the page packs a PNG in other bytes
           const bytes = await mended(tab);
           const [program, ...words] = (await tab.locator(".command").textContent()).split(" ");
           assert.equal(program, "tspace");
@@ -120,11 +119,11 @@ test("a .gltf that came in a folder goes out as a folder: only what changed has 
     const others = { ...named(path), "LICENSE.txt": join(shared, "models/README.md") };
     assert.equal(await openFile(tab, path, { others }), "ready");
     await tab.locator(".mend > summary").click();
-    await choose(tab, "all anew", ".mend");
+    await choose(tab, "recompute all", ".mend");
     const glb = new Glb(await mended(tab));
     const [download] = await Promise.all([tab.waitForEvent("download"), tab.locator(".result a.folder").click()]);
-    assert.equal(download.suggestedFilename(), "sofa_03_1k-mended.zip");
-    const zip = Object.fromEntries(Object.entries(unzipSync(readFileSync(await download.path()))).map(([name, bytes]) => [name.replace(/^sofa_03_1k-mended\//, ""), Buffer.from(bytes)]));
+    assert.equal(download.suggestedFilename(), "sofa_03_1k-fixed.zip");
+    const zip = Object.fromEntries(Object.entries(unzipSync(readFileSync(await download.path()))).map(([name, bytes]) => [name.replace(/^sofa_03_1k-fixed\//, ""), Buffer.from(bytes)]));
     assert.deepEqual(Object.keys(zip).sort(), [...Object.keys(others), "sofa_03_1k.gltf"].sort(), "the same names");
     const before = JSON.parse(readFileSync(path, "utf8")), after = JSON.parse(zip["sofa_03_1k.gltf"]);
     assert.deepEqual(after.images.map(({ uri }) => uri), before.images.map(({ uri }) => uri));
@@ -161,8 +160,7 @@ test("an image that a mend changes goes into the folder under its own name", { s
   const folder = mkdtempSync(join(tmpdir(), "tspace-ring-")), { unzipSync } = await import("fflate");
   try {
     await withPage(async (tab) => {
-      await tab.getByRole("button", { name: "Ring", exact: true }).click();
-      await settled(tab);
+      await openSample(tab, "ring-directx.glb");
       const glb = new Glb(Buffer.from(await tab.evaluate(() => [...window.tspaceView.model.bytes]))), { json } = glb, map = glb.bytesOfImage(0);
       writeFileSync(join(folder, "bricks map.png"), map);
       json.images[0] = { name: "bricks", uri: "maps/bricks%20map.png" };
@@ -172,12 +170,12 @@ test("an image that a mend changes goes into the folder under its own name", { s
       await tab.locator(".mend > summary").click();
       const whole = new Glb(await mended(tab));
       const [download] = await Promise.all([tab.waitForEvent("download"), tab.locator(".result a.folder").click()]);
-      const zip = unzipSync(readFileSync(await download.path())), own = Buffer.from(zip["ring-mended/maps/bricks map.png"]);
-      assert.deepEqual(Object.keys(zip).sort(), ["ring-mended/maps/bricks map.png", "ring-mended/ring.bin", "ring-mended/ring.gltf"]);
+      const zip = unzipSync(readFileSync(await download.path())), own = Buffer.from(zip["ring-fixed/maps/bricks map.png"]);
+      assert.deepEqual(Object.keys(zip).sort(), ["ring-fixed/maps/bricks map.png", "ring-fixed/ring.bin", "ring-fixed/ring.gltf"]);
       assert.ok(own.equals(whole.bytesOfImage(0)) && !own.equals(map), "green is turned in it");
-      const after = JSON.parse(Buffer.from(zip["ring-mended/ring.gltf"]).toString());
+      const after = JSON.parse(Buffer.from(zip["ring-fixed/ring.gltf"]).toString());
       assert.deepEqual(after.images, [{ name: "bricks", uri: "maps/bricks%20map.png" }]);
-      assert.equal(after.buffers[0].byteLength, zip["ring-mended/ring.bin"].length);
+      assert.equal(after.buffers[0].byteLength, zip["ring-fixed/ring.bin"].length);
     });
   } finally {
     rmSync(folder, { recursive: true, force: true });

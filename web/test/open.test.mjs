@@ -6,7 +6,7 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
 import { Glb } from "./glb.mjs";
-import { drawn, missing, openBytes, settled, shoot, withPage } from "./support.mjs";
+import { drawn, missing, openBytes, openSample, settled, shoot, withPage } from "./support.mjs";
 
 let folder;
 const at = (...names) => join(folder, ...names);
@@ -52,8 +52,7 @@ const shown = (tab) => tab.evaluate(() => ({
 
 test("dropped files, folders and OBJs are shown and judged", { skip: missing }, async () => {
   await withPage(async (tab) => {
-    await tab.getByRole("button", { name: "Ring", exact: true }).click();
-    await settled(tab);
+    await openSample(tab, "ring-directx.glb");
     assert.equal(await drop(tab, at("crate.glb")), "ready");
     assert.deepEqual(await shown(tab), { picture: "drawn", name: "crate.glb", others: [], codes: ["signsWrong"], maps: [true] });
     const files = ["crate.bin", "maps/side 0.png", "maps/side 1.png"];

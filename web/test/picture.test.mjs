@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { join } from "node:path";
-import { choose, drawn, farApart, missing, noShared, openFile, pixelsOf, settled, shared, shareOf, shares, shoot, withPage } from "./support.mjs";
+import { choose, drawn, farApart, missing, noShared, openFile, openSample, pixelsOf, settled, shared, shareOf, shares, shoot, withPage } from "./support.mjs";
 
 const red = [214, 32, 60];
 const aboveLegend = { left: 0, top: 0, right: 1, bottom: 0.88 };
@@ -86,8 +86,7 @@ test("difference of lighting is nothing where frames are the same, and a half tu
     let seen = await shares(tab, { none: [41, 48, 89], some: [33, 120, 181], more: [237, 224, 64] }, aboveLegend);
     assert.ok(seen.none > 0.1 && seen.some + seen.more > 0.005, JSON.stringify(seen));
     await shoot(tab, "difference");
-    await tab.getByRole("button", { name: "Crate", exact: true }).click();
-    await settled(tab);
+    await openSample(tab, "crate.glb");
     seen = await shares(tab, { none: [41, 48, 89], some: [33, 120, 181], more: [237, 224, 64] }, aboveLegend);
     assert.ok(seen.none > 0.1 && seen.some + seen.more < 0.0005, JSON.stringify(seen));
   });
@@ -109,9 +108,8 @@ const filled = async (tab) => {
 for (const [width, height] of [[390, 844], [820, 1180], [1280, 800]]) {
   test(`at ${width} pixels a model fills 85 % of the picture, nothing is squashed, and the pointer hits what it points at`, { skip: missing }, async () => {
     await withPage(async (tab) => {
-      for (const name of ["Crate, broken", "Ring"]) {
-        await tab.getByRole("button", { name, exact: true }).click();
-        await settled(tab);
+      for (const name of ["crate-signs-lost.glb", "ring-directx.glb"]) {
+        await openSample(tab, name);
         await drawn(tab);
         const { width: across, height: high } = await filled(tab);
         const canvas = await tab.locator(".frame canvas").boundingBox(), frame = await tab.locator(".frame").boundingBox();
@@ -213,8 +211,7 @@ test("animations move what bones, nodes and weights move, and end where they beg
       assert.deepEqual(await places(), rest, name);
     }
     await openFile(tab, join(shared, "models/khronos/SimpleMorph.gltf"), {});
-    await tab.getByRole("button", { name: "Crate", exact: true }).click();
-    await settled(tab);
+    await openSample(tab, "crate.glb");
     assert.equal(await tab.locator(".motion").isVisible(), false, "a crate does not move");
   }, { allowMessages: true });
 });

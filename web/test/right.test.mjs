@@ -6,12 +6,8 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { test } from "node:test";
 import { Glb } from "./glb.mjs";
-import { choose, drawn, farApart, mended, missing, noShared, openFile, pixelsOf, settled, shared, shareOf, shoot, withPage } from "./support.mjs";
+import { choose, drawn, farApart, mended, missing, noShared, openFile, openSample, pixelsOf, settled, shared, shareOf, shoot, withPage } from "./support.mjs";
 
-const sample = async (tab, name) => {
-  await tab.getByRole("button", { name, exact: true }).click();
-  return settled(tab);
-};
 const rightLabel = (tab) => tab.locator(".side.right").textContent();
 const cat = () => join(shared, "models/assets/Cat.glb");
 
@@ -25,20 +21,20 @@ async function picture(tab, split) {
 
 test("where green points down, the right side is what the file with turned green looks like", { skip: missing }, async () => {
   await withPage(async (tab) => {
-    await sample(tab, "Ring");
-    assert.equal(await rightLabel(tab), "right frames (mikktspace), green turned");
+    await openSample(tab, "ring-directx.glb");
+    assert.equal(await rightLabel(tab), "right frames (mikktspace), green flipped");
     const left = await picture(tab, "1000"), right = await picture(tab, "0");
     assert.ok(differing(left, right) > 0.02, "as the file is, bumps are dents");
     await tab.locator(".split").fill("500");
     await shoot(tab, "ring-green-turned");
     await tab.locator(".mend > summary").click();
-    assert.equal(await tab.getByLabel("Turn green of maps").isChecked(), true, "what the finding asks for is switched on");
+    assert.equal(await tab.getByLabel("Flip green of maps").isChecked(), true, "what the finding asks for is switched on");
     assert.match(await tab.locator(".reasons").textContent(), /Green points down in 1 normal map/);
     await mended(tab);
     await tab.waitForFunction(() => window.tspaceView.views.stage.viewport.scene.drawn.every(({ rightMap, part }) => rightMap !== part.normalMap));
-    assert.equal(await rightLabel(tab), "mended");
+    assert.equal(await rightLabel(tab), "fixed");
     assert.ok(differing(right, await picture(tab, "0")) < 0.002, "and the mended file looks the same");
-    await sample(tab, "Crate");
+    await openSample(tab, "crate.glb");
     assert.equal(await rightLabel(tab), "right frames (mikktspace)", "nothing of it is left on the next model");
   });
 });
@@ -48,8 +44,8 @@ test("a mend says what check says before and after it, and leads back by one key
     await tab.locator(".mend > summary").click();
     await mended(tab);
     assert.equal(await tab.locator(".result .counts").textContent(), "1 error → 0 errors");
-    await tab.getByRole("button", { name: "Look at it" }).click();
-    await tab.waitForFunction(() => window.tspaceView.model?.name === "crate-signs-lost-mended.glb");
+    await tab.getByRole("button", { name: "Open the fixed file" }).click();
+    await tab.waitForFunction(() => window.tspaceView.model?.name === "crate-signs-lost-fixed.glb");
     await settled(tab);
     assert.equal(await tab.locator(".back").textContent(), "Back to crate-signs-lost.glb");
     await shoot(tab, "way-back");
@@ -62,15 +58,15 @@ test("a mend says what check says before and after it, and leads back by one key
 
 test("a mend that changes nothing says so and offers nothing to take", { skip: missing }, async () => {
   await withPage(async (tab) => {
-    await sample(tab, "Crate");
+    await openSample(tab, "crate.glb");
     await tab.locator(".mend > summary").click();
     await mended(tab);
     assert.match(await tab.locator(".result").textContent(), /Nothing had to change/);
     assert.equal(await tab.locator(".result a").getAttribute("class"), "button plain-link");
-    await choose(tab, "all anew", ".mend");
+    await choose(tab, "recompute all", ".mend");
     await tab.locator(".mend select").selectOption("best");
-    await tab.getByLabel("Turn green of maps").check();
-    await sample(tab, "Crate, broken");
+    await tab.getByLabel("Flip green of maps").check();
+    await openSample(tab, "crate-signs-lost.glb");
     assert.match(await tab.locator(".command").textContent(), / --repair$/, "no choice is taken over to the next model");
   });
 });
@@ -83,10 +79,10 @@ test("inverted signs and green that cancel out are mended both or not at all", {
     assert.match(await tab.locator(".command").textContent(), / --repair$/);
     await mended(tab);
     assert.match(await tab.locator(".result .counts").textContent(), /^3 errors, .* → 0 errors, /);
-    await choose(tab, "all anew", ".mend");
+    await choose(tab, "recompute all", ".mend");
     assert.match(await tab.locator(".command").textContent(), / --overwrite --flip-green$/);
-    assert.match(await tab.locator(".reasons").textContent(), /it is switched on/);
-    await choose(tab, "turned", ".mend");
+    assert.match(await tab.locator(".reasons").textContent(), /that is switched on/);
+    await choose(tab, "inverted", ".mend");
     assert.match(await tab.locator(".command").textContent(), / --overwrite --convention opengl$/);
     await tab.locator(".look select").first().selectOption("mikktspace");
     await tab.locator(".figures", { hasText: "from mikktspace" }).waitFor();
@@ -145,7 +141,7 @@ test("without WebGL there are findings and mends, and a sentence where the pictu
     assert.equal(await tab.locator(".result .counts").textContent(), "1 error → 0 errors");
     await tab.locator(".uv > summary").click();
     await tab.locator(".uv", { hasText: "drawn by WebGL, which this browser has not" }).waitFor();
-    await sample(tab, "Ring");
+    await openSample(tab, "ring-directx.glb");
     assert.ok((await tab.locator(".finding").count()) > 0);
   }, { hasWebGl: false, allowMessages: true });
 });
@@ -213,7 +209,7 @@ test("the browser's Back and Forward go from model to model, each as it was seen
     };
     await choose(tab, "Signs");
     await tab.waitForFunction(() => /look=signs/.test(location.hash));
-    await sample(tab, "Ring");
+    await openSample(tab, "ring-directx.glb");
     await choose(tab, "Islands");
     await tab.waitForFunction(() => /sample=ring.*look=islands/.test(location.hash));
     await tab.evaluate(() => void window.tspaceView.open(async () => ({ ...window.tspaceView.model, name: "mine.glb" })));

@@ -6,7 +6,7 @@ import { join } from "node:path";
 import { test } from "node:test";
 import { pathToFileURL } from "node:url";
 import { Glb } from "./glb.mjs";
-import { difference, drawn, missing, noShared, openBytes, overGrey, ownPicture, settled, shared, shares, shoot, withPage } from "./support.mjs";
+import { difference, drawn, missing, noShared, openBytes, openSample, overGrey, ownPicture, shared, shares, shoot, withPage } from "./support.mjs";
 
 const plain = process.env.TSPACE_PLAIN, noPlain = missing || (!plain && "the page of three.js alone is not built");
 const small = { width: 900, height: 700 };
@@ -33,8 +33,7 @@ async function pictures(tab, bytes, wanted = looks) {
 }
 
 async function crate(tab) {
-  await tab.getByRole("button", { name: "Crate", exact: true }).click();
-  await settled(tab);
+  await openSample(tab, "crate.glb");
   return Buffer.from(await tab.evaluate(() => [...window.tspaceView.model.bytes]));
 }
 

@@ -66,6 +66,12 @@ export async function openFile(tab, path, { name = path.split("/").pop(), others
   return settled(tab, timeout);
 }
 
+/** Opens a sample by the name of its file, as by a press on its picture; gives the state. */
+export async function openSample(tab, file) {
+  await tab.locator(`.sample[data-file="${file}"]`).click();
+  return settled(tab);
+}
+
 /** Opens a model that a test has made. */
 export async function openBytes(tab, name, bytes) {
   await tab.evaluate(([name, text]) => void window.tspaceView.open(async () => ({ name, bytes: Uint8Array.from(atob(text), (c) => c.charCodeAt(0)), others: new Map() })), [name, bytes.toString("base64")]);
@@ -132,7 +138,7 @@ export const farApart = (a, at, b, other) => Math.max(...[0, 1, 2].map((k) => Ma
 /** Shares of the picture's pixels that are nearest to each of the named colours; what is far from all counts as "other". */
 export async function shares(tab, colors, area = { left: 0, top: 0, right: 1, bottom: 1 }) {
   await drawn(tab);
-  const png = (await tab.locator(".frame canvas").screenshot()).toString("base64");
+  const png = (await tab.locator(".frame canvas").screenshot({ style: ".frame > :not(canvas) { visibility: hidden; }" })).toString("base64");
   return tab.evaluate(async ([png, colors, area]) => {
     const bytes = Uint8Array.from(atob(png), (c) => c.charCodeAt(0));
     const image = await createImageBitmap(new Blob([bytes], { type: "image/png" }));

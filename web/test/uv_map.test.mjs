@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { join } from "node:path";
 import { test } from "node:test";
-import { drawn, missing, noShared, openFile, settled, shared, shoot, withPage } from "./support.mjs";
+import { drawn, missing, noShared, openFile, openSample, shared, shoot, withPage } from "./support.mjs";
 
 const marked = (tab, where) => tab.locator(where).first().getAttribute("data-marked");
 const inModel = (tab) => marked(tab, ".frame canvas");
@@ -167,8 +167,7 @@ test("of the next model nothing of the one before is marked", { skip: missing },
     const place = await placeOf(tab, await middleOf(tab, largest));
     await tab.mouse.move(place.x, place.y);
     assert.notEqual(await inModel(tab), "");
-    await tab.getByRole("button", { name: "Ring", exact: true }).click();
-    await settled(tab);
+    await openSample(tab, "ring-directx.glb");
     assert.equal(await inModel(tab), "");
     assert.equal(await inMap(tab), "");
     await tab.waitForFunction(() => /island/.test(document.querySelector(".large-map [role=status]").textContent));

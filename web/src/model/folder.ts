@@ -23,7 +23,7 @@ const kOwnReferences = /^EXT_(structural|feature|instance)_(metadata|features)$|
 const pathOf = (uri: string): string => decodeURIComponent(uri).replace(/^\.\//, "");
 const isFile = (uri: string | undefined): uri is string => uri !== undefined && !/^[a-z][a-z0-9+.-]*:/i.test(uri);
 
-function readGlb(bytes: Bytes): { json: Json; binary: Bytes } {
+export function readGlb(bytes: Bytes): { json: Json; binary: Bytes } {
   const length = new DataView(bytes.buffer, bytes.byteOffset).getUint32(12, true);
   return { json: JSON.parse(new TextDecoder().decode(bytes.subarray(20, 20 + length))) as Json, binary: bytes.subarray(Math.min(bytes.length, 28 + length)) };
 }

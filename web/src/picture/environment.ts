@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What surfaces mirror: a grey room with three lamps, or one of others, made here.
-import { BackSide, BoxGeometry, Color, Float32BufferAttribute, Mesh, MeshBasicMaterial, PMREMGenerator, Scene, SphereGeometry, type Texture, type WebGLRenderer } from "three";
+// What surfaces mirror: a gray room with three lamps or other generated surroundings, or a panorama of a person's own.
+import { BackSide, BoxGeometry, Color, DataTexture, EquirectangularReflectionMapping, Float32BufferAttribute, LinearFilter, Mesh, MeshBasicMaterial, PMREMGenerator, RGBAFormat, Scene, SphereGeometry, type Texture, type TextureDataType, type WebGLRenderer } from "three";
+import { HDRLoader } from "three/examples/jsm/loaders/HDRLoader.js";
 
 export const surroundings = ["room", "studio", "sky", "sunset"] as const;
 export type Surroundings = (typeof surroundings)[number];
@@ -46,6 +47,19 @@ function sceneOf({ below, level, above, lamps }: (typeof kinds)[Surroundings]): 
     scene.add(lamp);
   }
   return scene;
+}
+
+/** A panorama of an HDR file (Radiance), blurred for each roughness. Throws where it is not one. */
+export function environmentOf(renderer: WebGLRenderer, file: ArrayBuffer): Texture {
+  const { data, width, height, type } = new HDRLoader().parse(file) as { data: Uint16Array<ArrayBuffer>; width: number; height: number; type: TextureDataType };
+  const panorama = new DataTexture(data, width, height, RGBAFormat, type, EquirectangularReflectionMapping);
+  panorama.minFilter = panorama.magFilter = LinearFilter;
+  panorama.flipY = true;
+  panorama.needsUpdate = true;
+  const generator = new PMREMGenerator(renderer), { texture } = generator.fromEquirectangular(panorama);
+  generator.dispose();
+  panorama.dispose();
+  return texture;
 }
 
 /** As PMREM has it: blurred for each roughness. */

@@ -127,6 +127,17 @@ function rimOf(p: Float32Array, triangles: number[]): [number, number][] {
   return [...edges.values()].filter((edge) => edge !== null);
 }
 
+/** The middle and the way out of triangles of a part, at its first place; ways out are as long as the areas. */
+export function facesOf(drawn: Drawn, triangles: number[]): { center: Vector3; out: Vector3 }[] {
+  const { positions: p, normals: n } = drawn.corners, frame = new PlacedFrame(drawn.part.places[0] ?? new Matrix4()), matrix = drawn.part.places[0] ?? new Matrix4();
+  return triangles.map((triangle) => {
+    const [a, b, c] = [0, 1, 2].map((k) => new Vector3().fromArray(p, 9 * triangle + 3 * k).applyMatrix4(matrix)), out = new Vector3();
+    for (let k = 0; k < 3; ++k) out.add(frame.normal(new Vector3().fromArray(n, 9 * triangle + 3 * k)));
+    const twiceArea = b.clone().sub(a).cross(c.clone().sub(a)).length();
+    return { center: a.add(b).add(c).divideScalar(3), out: out.setLength(twiceArea / 2) };
+  }).filter(({ center, out }) => Number.isFinite(center.lengthSq() + out.lengthSq()));
+}
+
 /** Outlines of some triangles of a part, at its first place. */
 export function outlineTriangles(drawn: Drawn, triangles: number[]): Place {
   const p = drawn.corners.positions, n = drawn.corners.normals;

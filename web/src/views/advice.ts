@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the findings of a model ask Mend to do, and why. Only what the findings' own remedies name is switched on.
+// What the findings of a model ask the fix to do, and why: the commands of their remedies, as the engine gives them.
 import { plural } from "../dom.js";
 import type { CheckReport, Finding } from "tspace/gltf";
 
@@ -10,37 +10,38 @@ export interface Extras {
   flipGreen: boolean;
   mendMaps: boolean;
   overwriteNormals: boolean;
-  /** All normals anew, by what tells noise of positions from their shape. */
+  /** All normals recomputed by the method that removes the noise of positions. */
   denoise: boolean;
   mendWinding: boolean;
-  /** Tangents that no material needs are taken away. */
+  /** Removes tangents that no material needs. */
   strip: boolean;
   morphNormals: "missing" | "all" | null;
 }
 export const noExtras: Extras = { flipGreen: false, mendMaps: false, overwriteNormals: false, denoise: false, mendWinding: false, strip: false, morphNormals: null };
 
-/** What the first command of a remedy that works on the model does, or null where this page cannot do it. */
-export function remedyOptions({ code, commands }: Finding): (Partial<Extras> & { tangents?: Tangents }) | null {
-  // Of these the remedy says that both or neither is to be mended, which is more than one command.
+type Remedy = Partial<Extras> & { tangents?: Tangents };
+const flags = new Set<string>(["flipGreen", "mendMaps", "overwriteNormals", "mendWinding", "strip"]);
+const camel = (name: string): string => name.replace(/-./g, ([, letter]) => letter.toUpperCase());
+
+/** The switches for the first command of a remedy that works on the model, or null where this page has no switch for it. */
+export function remedyOptions({ code, commands }: Finding): Remedy | null {
+  // Where signs and green cancel out, the remedy has two commands: repair both or neither.
   if (code === "greenFlipped") return { flipGreen: true };
   const command = commands.find(({ verb }) => verb === "generate");
-  if (!command?.options.length) return null;
-  const options: Partial<Extras> & { tangents?: Tangents } = {};
+  if (!command) return null;
+  const remedy: Remedy = command.options.length === 0 ? { tangents: "repair" } : {};
   for (const { name, value } of command.options) {
-    if (name === "repair" || name === "overwrite") options.tangents = name;
-    else if (name === "flip-green") options.flipGreen = true;
-    else if (name === "mend-maps") options.mendMaps = true;
-    else if (name === "overwrite-normals") options.overwriteNormals = true;
-    else if (name === "mend-winding") options.mendWinding = true;
-    else if (name === "strip") options.strip = true;
-    else if (name === "denoise" && value === "auto") options.denoise = true;
-    else if (name === "normals" && value === "best") continue; // which --denoise goes with
-    else if (name === "morph-normals") options.morphNormals = value as "missing" | "all";
+    const option = camel(name);
+    if (option === "repair" || option === "overwrite") remedy.tangents = option;
+    else if (flags.has(option)) Object.assign(remedy, { [option]: true });
+    else if (option === "denoise" && value === "auto") remedy.denoise = true;
+    else if (option === "normals" && value === "best") continue; // which --denoise requires
+    else if (option === "morphNormals") remedy.morphNormals = value as "missing" | "all";
     else return null;
   }
-  // Normals without the noise are all made anew.
-  if (options.denoise) delete options.overwriteNormals;
-  return options;
+  // Normals without noise replace all others.
+  if (remedy.denoise) delete remedy.overwriteNormals;
+  return remedy;
 }
 
 export interface Advice {
@@ -49,52 +50,81 @@ export interface Advice {
   reasons: string[];
 }
 
-/** Of inverted signs and a green that points down `check` makes a warning and a note where they cancel out. */
+/** Where inverted signs and a green that points down cancel out, `check` makes a warning and a note of them. */
 const cancels = ({ findings }: CheckReport): boolean => findings.some(({ code, severity }) => code === "signsInverted" && severity === "warning");
 
-/** isTurned: signs are written the other way round, on purpose. */
+/** isTurned: signs are written inverted on purpose. */
 export function adviceFor(report: CheckReport | null, tangents: Tangents, isTurned: boolean): Advice {
   const extras = { ...noExtras }, reasons: string[] = [];
   if (!report) return { extras, reasons };
   const serious = report.findings.filter(({ severity }) => severity !== "note");
   const down = report.findings.filter(({ code }) => code === "greenFlipped");
-  const isAnew = tangents === "overwrite" && !isTurned;
+  const isOverwritten = tangents === "overwrite" && !isTurned;
   if (cancels(report)) {
-    reasons.push(isAnew
-      ? "Inverted signs and a green that points down cancel out in this file. All anew makes the signs right, so green has to be turned with them: it is switched on."
-      : "Inverted signs and a green that points down cancel out, so this file renders right. Both stay as they are.");
+    reasons.push(isOverwritten
+      ? "Inverted signs and a green that points down cancel out in this file. Recomputed tangents have right signs, so green has to be flipped with them: that is switched on."
+      : "Inverted signs and a green that points down cancel out, so this file renders right. The fix keeps both.");
   }
   if (isTurned && tangents === "overwrite") {
-    if (down.length > 0) reasons.push("Signs that are turned go with a green that points down: it stays as it is.");
-  } else if (down.some(({ severity }) => severity !== "note") || (isAnew && down.length > 0)) {
+    if (down.length > 0) reasons.push("Inverted signs require a green that points down: the fix keeps it.");
+  } else if (down.some(({ severity }) => severity !== "note") || (isOverwritten && down.length > 0)) {
     extras.flipGreen = true;
-    if (!cancels(report)) reasons.push(`Green points down in ${plural(down.length, "normal map")}: turning it is switched on.`);
+    if (!cancels(report)) reasons.push(`Green points down in ${plural(down.length, "normal map")}: flipping it is switched on.`);
   }
   const options = serious.map(remedyOptions);
   if (options.some((one) => one?.mendMaps)) {
     extras.mendMaps = true;
-    reasons.push("A normal map holds something else than glTF wants: converting it is switched on.");
+    reasons.push("A normal map is not encoded as glTF requires: converting it is switched on.");
   }
   if (options.some((one) => one?.mendWinding)) {
     extras.mendWinding = true;
-    reasons.push("Triangles are wound against their neighbours: turning them is switched on.");
+    reasons.push("The winding of some triangles is opposite to that of their neighbors: flipping them is switched on.");
   }
   const morph = options.map((one) => one?.morphNormals).filter(Boolean);
   if (morph.length > 0) {
     extras.morphNormals = morph.includes("all") ? "all" : "missing";
-    reasons.push("Normals of morph targets do not follow the morphed surface: making them is switched on.");
+    reasons.push("The normals of morph targets do not follow the morphed surface: computing them is switched on.");
   }
   return { extras, reasons };
 }
 
+export interface Plan {
+  tangents: Tangents;
+  /** What the fix will do, as the words behind "Fix it:". */
+  steps: string[];
+  /** Kinds of findings that a model in a 3D program has to be changed for. */
+  left: number;
+}
+
+/** What one click does about all errors and warnings; null where it can do nothing about them. */
+export function planFor(report: CheckReport): Plan | null {
+  // Signs that cancel out with green render right.
+  const serious = report.findings.filter(({ severity, code }) => severity !== "note" && !(code === "signsInverted" && cancels(report)));
+  const remedies = serious.map(remedyOptions), wants = (tangents: Tangents, isError: boolean) => remedies.some((one, i) => one?.tangents === tangents && (!isError || serious[i].severity === "error"));
+  // All tangents are recomputed for errors alone, or where nothing else has to be repaired.
+  const tangents: Tangents = wants("overwrite", true) || (wants("overwrite", false) && !wants("repair", false)) ? "overwrite" : "repair";
+  const { extras } = adviceFor(report, tangents, false), codes = (holds: (finding: Finding) => boolean) => new Set(serious.filter(holds).map(({ code }) => code)).size;
+  const isMissing = serious.some(({ code }) => code === "tangentsMissing" || code === "tangentsIgnored");
+  const isWrong = serious.some((finding, i) => remedies[i]?.tangents === "repair" && finding.commands.some(({ verb, options }) => verb === "generate" && options.length > 0));
+  const steps = [
+    tangents === "overwrite" ? "recompute all tangents" : isWrong ? "correct the wrong tangents" : isMissing || wants("repair", false) ? "add the missing tangents" : "",
+    extras.flipGreen ? `flip green in ${plural(report.findings.filter(({ code }) => code === "greenFlipped").length, "normal map")}` : "",
+    extras.mendWinding ? "flip triangles that face inward" : "",
+    extras.morphNormals ? "compute normals of morph targets" : "",
+  ].filter(Boolean);
+  return steps.length === 0 ? null : { tangents, steps, left: codes((finding) => remedyOptions(finding) === null || remedyOptions(finding)?.mendMaps === true) };
+}
+
 const kinds = ["error", "warning", "note"] as const;
 
-/** `4 errors, 1 warning → 0 errors, 0 warnings`: of each kind that was there before or after. */
+/** `4 errors, 1 warning`: the severities that `shown` has; none: "nothing wrong". */
+export const countsText = (counts: CheckReport["counts"], shown: readonly (keyof CheckReport["counts"])[] = kinds.filter((kind) => counts[kind] > 0)): string =>
+  shown.map((kind) => plural(counts[kind], kind)).join(", ") || "nothing wrong";
+
+/** `4 errors, 1 warning → 0 errors, 0 warnings`: every severity that occurs before or after. */
 export function changeOfCounts(before: CheckReport["counts"], after: CheckReport["counts"]): string {
   const shown = kinds.filter((kind) => before[kind] + after[kind] > 0);
-  if (shown.length === 0) return "No finding before, none after.";
-  const text = (counts: CheckReport["counts"]) => shown.map((kind) => plural(counts[kind], kind)).join(", ");
-  return `${text(before)} → ${text(after)}`;
+  return shown.length === 0 ? "No findings before or after." : `${countsText(before, shown)} → ${countsText(after, shown)}`;
 }
 export const isWorse = (before: CheckReport["counts"], after: CheckReport["counts"]): boolean => {
   const kind = kinds.find((one) => before[one] !== after[one]);

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-// What is wrong, a kind of finding at a time: a sentence, why it matters, how to mend it, and the places one after another. Also
-// who made the tangents.
+// What is wrong, a kind of finding at a time: what one sees, why, how to fix it, and the places one after another. Also which tool
+// made the tangents.
 import { count, el, plural, replaceChildren } from "../dom.js";
 import { remedyOptions } from "./advice.js";
 import { figureLink } from "../lesson.js";
-import meanings from "virtual:meanings";
+import { sureText } from "./fix.js";
 import type { CheckReport, Finding, Severity } from "tspace/gltf";
 
 const severities = ["error", "warning", "note"] as const;
-const titles: Record<Severity, string> = { error: "Errors", warning: "Warnings", note: "Notes" };
+const titles: Record<Severity, string> = { error: "Errors: they render wrong", warning: "Warnings: they may render wrong", note: "Notes" };
 /** From so many kinds or places on there is a field to filter them. */
 const kFilterFrom = 6;
 
@@ -46,7 +46,7 @@ export class FindingsView {
 
   constructor(private choices: Choices) {
     this.#filter.addEventListener("input", () => this.#applyFilter());
-    this.element.append(el("h2", {}, "What is wrong"), this.#list, el("h2", {}, "Who made the tangents"), this.#verdict);
+    this.element.append(el("h2", {}, "What is wrong"), this.#list, el("h2", {}, "What made the tangents"), this.#verdict);
     this.wait("Open a model to see its findings.");
   }
 
@@ -77,7 +77,8 @@ export class FindingsView {
     return found ? this.#findings.indexOf(found.group.findings[0]) : null;
   }
 
-  show(file: CheckReport): void {
+  /** `isFixed`: the findings are about the fixed file, and no longer about the one that was opened. */
+  show(file: CheckReport, isFixed = false): void {
     this.#findings = file.findings;
     this.#open = null;
     const groups = grouped(file.findings);
@@ -86,9 +87,9 @@ export class FindingsView {
       const n = file.counts[severity];
       summary.append(el("span", { class: `badge ${severity}${n === 0 ? " none" : ""}` }, plural(n, severity)));
     }
-    const looked = `${plural(file.primitives, "primitive")}, ${count(file.primitivesWithTangents)} with tangents; ${file.normalMaps === 0 ? "no normal map to look at." : `looked at ${plural(file.normalMaps, "normal map")}: what the channels hold, and which way green points (told by ${count(file.normalMapsWithGreen)}).`}`;
+    const looked = file.image ? mapText(file.image) : `Examined: ${plural(file.primitives, "primitive")}, ${count(file.primitivesWithTangents)} with tangents; ${file.normalMaps === 0 ? "no normal map." : `${plural(file.normalMaps, "normal map")}; the relief of ${count(file.normalMapsWithGreen)} shows which way green points.`}`;
     this.#filter.value = "";
-    replaceChildren(this.#list, summary, el("p", { class: "quiet" }, looked), file.findings.length >= kFilterFrom && this.#filter);
+    replaceChildren(this.#list, summary, isFixed && el("p", { class: "fine after" }, "These are the findings of the fixed file."), file.findings.length >= kFilterFrom && this.#filter);
     if (groups.length === 0) this.#list.append(el("p", { class: "fine" }, "Nothing is wrong."));
     this.#groups = [];
     for (const severity of severities) {
@@ -102,6 +103,7 @@ export class FindingsView {
       }
       this.#list.append(el("h3", {}, titles[severity]), items);
     }
+    this.#list.append(el("p", { class: "quiet looked" }, looked));
   }
 
   #applyFilter(): void {
@@ -114,17 +116,17 @@ export class FindingsView {
 
   #item(group: Group): HTMLElement[] {
     const { code, severity, findings } = group, [first] = findings;
-    const meaning = meanings[code];
-    const isOne = findings.length === 1;
+    const isOne = findings.length === 1, sure = findings.map(sureText).find((text) => text !== "") ?? "";
     const details = el("div", { class: "details", hidden: true },
-      meaning && el("p", {}, el("strong", {}, "What it does: "), meaning.why, "."),
-      el("p", { class: "mend" }, el("strong", {}, "Mend: "), first.remedy),
-      remedyOptions(first) && el("button", { class: "plain mend-this", type: "button", onclick: () => this.choices.mend(first) }, "Set Mend to this"),
+      el("p", { class: "mend" }, el("strong", {}, "Fix: "), first.remedy),
+      sure !== "" && el("p", {}, el("strong", {}, `${sure}: `), "the finding rests on statistics of the texture or mesh."),
+      remedyOptions(first) && el("button", { class: "plain mend-this", type: "button", onclick: () => this.choices.mend(first) }, "Add this to the fix"),
       figureLink(code),
       isOne ? firstVertices(first) : this.#steps(findings));
     const button = el("button", { class: `finding ${severity}`, type: "button", "aria-expanded": "false", "data-code": code },
-      el("span", { class: "message" }, isOne || !meaning ? first.message : meaning.what),
-      el("span", { class: "quiet" }, isOne ? placeOf(first) : `${plural(findings.length, "place")}, the first: ${placeOf(first)}`),
+      el("span", { class: "effect" }, first.effect),
+      el("span", { class: "message" }, isOne ? first.message : first.summary),
+      el("span", { class: "quiet" }, [isOne ? placeOf(first) : `${plural(findings.length, "place")}, the first: ${placeOf(first)}`, sure].filter(Boolean).join("; ")),
       el("span", { class: "code" }, isOne && first.place !== "" ? `${code} ${first.place}` : code));
     button.addEventListener("click", () => this.#toggle(button, details, findings));
     return [button, details];
@@ -155,6 +157,19 @@ export class FindingsView {
     const button = (name: string, step: number) => el("button", { type: "button", class: "small", onclick: () => go(step) }, name);
     return el("div", { class: "steps" }, el("div", { class: "row" }, button("Previous", -1), button("Next", 1)), text);
   }
+}
+
+const contents: Record<string, string> = {
+  normals: "a normal map in tangent space, as glTF reads it", twoChannels: "a normal map with x and y alone", unsignedZ: "a normal map whose blue is z itself", xInAlpha: "a normal map with x in alpha",
+  exchanged: "a normal map with exchanged channels", encoded: "a normal map stored by the sRGB curve", hemiOctahedral: "a normal map in hemi-octahedral encoding", objectSpace: "a normal map in object space",
+  height: "a height map", picture: "a picture, and no normal map", constant: "one color",
+};
+const greens: Record<string, string> = { up: "Green points up, as in glTF and OpenGL", down: "Green points down, as in DirectX", mixed: "Green points up in one part and down in another" };
+
+/** What a lone normal map is. */
+function mapText({ width, height, content, green, greenConfidence }: NonNullable<CheckReport["image"]>): string {
+  const direction = greens[green] ? `${greens[green]} (${Math.round(100 * greenConfidence)} % sure, if red points right)` : "The relief does not show which way green points";
+  return `${width} x ${height} texels: ${contents[content] ?? content}.${content === "picture" || content === "height" || content === "constant" ? "" : ` ${direction}.`}`;
 }
 
 const firstVertices = ({ vertices }: Finding): HTMLElement | false => vertices.length > 0 && el("p", { class: "quiet" }, `First at vertices ${vertices.join(", ")}.`);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// What the colours of the picture mean.
+// What the colors of the picture mean.
 import { css, heatDegrees, heatGradient, noData, signMinus, signPlus, wrong, type Rgb } from "../color.js";
 import { el, replaceChildren } from "../dom.js";
 import type { Look } from "../picture/shader.js";
 
 const swatch = (color: Rgb, text: string, isStriped = false): HTMLElement =>
-  el("span", { class: "swatch" }, el("i", { style: isStriped ? `background: repeating-linear-gradient(135deg, ${css(color)} 0 4px, transparent 4px 8px)` : `background: ${css(color)}` }), text);
+  el("span", { class: "swatch" }, el("i", { "data-color": css(color), style: isStriped ? `background: repeating-linear-gradient(135deg, ${css(color)} 0 4px, transparent 4px 8px)` : `background: ${css(color)}` }), text);
 
 /** The scale of errors, its degrees below it. */
 const scale = (label: string): HTMLElement =>
@@ -14,6 +14,11 @@ const scale = (label: string): HTMLElement =>
     ...heatDegrees.map((degrees, i) => el("span", { style: `left: ${(100 * i) / (heatDegrees.length - 1)}%` }, `${degrees}°`)));
 
 export class Legend {
+  /** Colors and what they mean, for pictures that are saved. */
+  get swatches(): { color: string; text: string }[] {
+    return [...this.element.querySelectorAll<HTMLElement>(".swatch")].map((one) => ({ color: one.querySelector("i")!.dataset.color!, text: one.textContent ?? "" }));
+  }
+
   readonly element = el("div", { class: "legend", "aria-live": "polite" });
 
   show(look: Look, method: string): void {
@@ -28,7 +33,7 @@ export class Legend {
         swatch(wrong, "sign differs", true),
         swatch(noData, "nothing to compare"),
       ],
-      islands: () => ["A colour for each island of the UV map; striped ones are mirrored."],
+      islands: () => ["A color for each island of the UV map; striped ones are mirrored."],
     };
     replaceChildren(this.element, ...sentences[look]());
     this.element.hidden = look === "lit";

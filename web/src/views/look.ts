@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 // How the model is looked at: the method of the right frames, the normal map, lines and edges.
-import { checkbox, choice, count, el, replaceChildren, select } from "../dom.js";
+import { checkbox, choice, count, el, replaceChildren, select, slider } from "../dom.js";
 import { frameLines, usualEdge, type Axis } from "../picture/overlays.js";
 import { surroundings } from "../picture/environment.js";
 import { replaceOverlay, type Viewport } from "../picture/viewport.js";
-import { methods, nameOf, type Right } from "../worker/protocol.js";
+import { isFile, methods, nameOf, type OtherFile, type Right } from "../worker/protocol.js";
 import type { Stage } from "./stage.js";
 import type { Object3D } from "three";
 
 export class LookView {
-  readonly element = el("details", { class: "panel look", open: true }, el("summary", {}, "Look"));
+  readonly element = el("details", { class: "panel look", open: innerWidth >= 900 }, el("summary", {}, "Look"));
   right: Right = "mikktspace";
   #axes = new Set<Axis>();
   #lines: Object3D | null = null;
@@ -20,19 +20,20 @@ export class LookView {
   #choice: HTMLSelectElement;
 
   #variants = el("div", { hidden: true });
+  #panoramaSaid = el("p", { class: "quiet", role: "status" });
 
   constructor(private stage: Stage, private changed: (right: Right) => void, private vary: (variant: number) => void) {
     const { viewport } = stage;
     this.#viewport = viewport;
-    const names = [...methods, "mended"] as const;
+    const names = [...methods, "mended", "other"] as const;
     const frames = select("Right frames by", names.map((name) => [name, nameOf(name)] as const), this.right, (right) => this.#choose(right));
     this.#choice = frames.input;
-    const map = choice("Normal map", [["1", "on"], ["0", "off"], ["2", "green turned"]] as const, "1", (value) => {
+    const map = choice("Normal map", [["1", "on"], ["0", "off"], ["2", "green flipped"]] as const, "1", (value) => {
       viewport.settings.map = Number(value) as 0 | 1 | 2;
       viewport.ask();
     });
     const wire = checkbox("Edges", false, (on) => this.#set({ isWire: on }));
-    const colors = checkbox("Colours", true, (on) => this.#set({ usesColors: on }));
+    const colors = checkbox("Colors", true, (on) => this.#set({ usesColors: on }));
     const axes = (["t", "b", "n"] as const).map((axis) => {
       const box = checkbox(axis.toUpperCase(), false, (on) => {
         if (on) this.#axes.add(axis);
@@ -47,6 +48,10 @@ export class LookView {
       this.showLines();
     });
     const around = choice("Surroundings", surroundings.map((name) => [name, name] as const), "room", (name) => viewport.setSurroundings(name));
+    const panorama = el("input", { type: "file", accept: ".hdr", "aria-label": "Panorama as an HDR file" });
+    panorama.addEventListener("change", () => void this.#usePanorama(panorama.files?.[0]));
+    const turn = slider("Turn the surroundings", { min: -180, max: 180, step: 5, value: 0, unit: "°" }, (value) => this.#set({ turn: value }));
+    const exposure = slider("Exposure", { min: -3, max: 3, step: 0.25, value: 0, unit: " stops" }, (value) => this.#set({ stops: value }));
     const shadows = checkbox("Shadows", false, (on) => viewport.setShadows(on));
     const ground = choice("Ground", [["grey", "grey"], ["light", "light"], ["dark", "dark"]] as const, "grey", (value) => stage.setGround(value));
     const length = el("input", { type: "range", min: "-10", max: "10", value: "0", "aria-label": "Length of the lines" });
@@ -57,8 +62,16 @@ export class LookView {
     this.element.append(
       el("div", { class: "rows" }, this.#variants, frames.element, this.#figures, map.element,
         el("div", { class: "row" }, wire.element, colors.element, shadows.element),
-        el("div", { class: "row lines" }, ...axes, length), whose.element, around.element, ground.element));
-    this.offerMended(false);
+        el("div", { class: "row lines" }, ...axes, length), whose.element, around.element, el("label", { class: "select" }, el("span", {}, "Your own (.hdr)"), panorama), this.#panoramaSaid, turn, exposure, ground.element));
+    this.offerFile(null);
+  }
+
+  async #usePanorama(file: File | undefined): Promise<void> {
+    if (!file) return;
+    const bytes = await file.arrayBuffer(), head = new TextDecoder().decode(bytes.slice(0, 11));
+    const isHdr = head.startsWith("#?RADIANCE") || head.startsWith("#?RGBE");
+    this.#panoramaSaid.textContent = isHdr ? "" : `${file.name} is not an HDR panorama (Radiance).`;
+    if (isHdr) this.#viewport.setPanorama(bytes);
   }
 
   /** A choice among the variants of the file, where it has some; `chosen`: by its number, or -1. */
@@ -74,12 +87,11 @@ export class LookView {
     this.changed(right);
   }
 
-  /** Whether there is a mended file; where there is, it is shown. */
-  offerMended(isThere: boolean): void {
-    const option = this.#choice.lastElementChild as HTMLOptionElement;
-    option.disabled = !isThere;
-    if (isThere) this.right = "mended";
-    else if (this.right === "mended") this.right = "mikktspace";
+  /** Shows a fixed file, or one to compare with; null where there is none any more. */
+  offerFile(file: OtherFile | null): void {
+    for (const option of this.#choice.options) option.disabled = isFile(option.value as Right) && option.value !== file;
+    if (file) this.right = file;
+    else if (isFile(this.right)) this.right = "mikktspace";
     this.#choice.value = this.right;
     this.stage.setRight(this.right);
   }

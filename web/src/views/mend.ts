@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Mends the model as `tspace generate` does: what to do, the same as a command line, what changed, and the file. Each model
+// Fixes the model as `tspace generate` does: what to do, the same as a command line, what changed, and the file. Each model
 // begins with what its own findings ask for.
 import { folderOf, zipOf } from "../model/folder.js";
 import { checkbox, choice, count, el, plural, replaceChildren, select } from "../dom.js";
+import { fixedMapName, isMapName } from "../model/lone_map.js";
 import type { ModelFiles } from "../files.js";
 import type { CheckReport, Finding, GeneratedPrimitive, GenerateReport, JudgedMap } from "tspace/gltf";
 import { methods, type Method } from "../worker/protocol.js";
@@ -10,34 +11,44 @@ import { adviceFor, changeOfCounts, isWorse, noExtras, remedyOptions, type Extra
 
 export interface Mended extends ModelFiles {
   report: unknown;
+  /** What is downloaded, where that is not the model itself: the image of a lone normal map. */
+  download?: { bytes: Uint8Array<ArrayBuffer>; type: string };
   /** What `check` says of the file that was made; null where it could not be checked. */
   checked: CheckReport | null;
+}
+
+/** What other parts of the page are told of a fix. */
+export interface Told {
+  started: () => void;
+  /** `url`: of the file, until the next one is made. `isChanged`: it has other bytes than the file that was opened. */
+  done: (mended: Mended, url: string, isChanged: boolean) => void;
+  failed: (message: string) => void;
 }
 
 const kMostRows = 200;
 const actions: Record<string, string> = {
   generated: "added",
-  replaced: "computed anew",
-  unchanged: "computed anew, same bits",
+  replaced: "recomputed",
+  unchanged: "recomputed, same bits",
   kept: "kept",
   notNeeded: "not needed",
   notTriangles: "no triangles",
   impossible: "impossible",
-  removed: "taken away",
+  removed: "removed",
 };
 /** Switches in the order of the panel. All but the first are seen where a finding asks for them. */
 const switches: readonly (readonly [keyof Extras, string])[] = [
-  ["flipGreen", "Turn green of maps where it points down"],
-  ["mendMaps", "Convert maps that hold something else"],
-  ["morphNormals", "Make normals of morph targets"],
-  ["overwriteNormals", "Make all normals anew"],
-  ["mendWinding", "Turn triangles that are wound against others"],
-  ["denoise", "Make all normals anew, without the noise of positions"],
-  ["strip", "Take away tangents that no material needs"],
+  ["flipGreen", "Flip green of maps where it points down"],
+  ["mendMaps", "Convert maps that are not encoded as glTF requires"],
+  ["morphNormals", "Compute normals of morph targets"],
+  ["overwriteNormals", "Recompute all normals"],
+  ["mendWinding", "Flip triangles wound against their neighbors"],
+  ["denoise", "Recompute all normals without the noise of positions"],
+  ["strip", "Remove tangents that no material needs"],
 ];
 
 export class MendView {
-  readonly element = el("details", { class: "panel mend" }, el("summary", {}, "Mend"));
+  readonly element = el("details", { class: "panel mend" }, el("summary", {}, "Fix options"));
   #tangents: Tangents = "repair";
   #method: Method = "mikktspace";
   #isTurned = false;
@@ -50,23 +61,26 @@ export class MendView {
   #model: ModelFiles | null = null;
   #checked: CheckReport | null = null;
   #reasons = el("div", { class: "reasons" });
-  #unpacks = el("p", { class: "quiet" }, "It goes out unpacked, for this page has no encoders. The tool has.");
+  #unpacks = el("p", { class: "quiet" }, "The fixed file is not compressed: this page has no encoders. The command line tool has.");
   #command = el("code", { class: "command" });
-  #button = el("button", { type: "button", class: "main" }, "Mend");
+  #button = el("button", { type: "button", class: "main" }, "Fix with these options");
   #result = el("div", { class: "result", "aria-live": "polite" });
   #tangentsChoice;
   #methodChoice;
   #signsChoice;
   #boxes = new Map<keyof Extras, { element: HTMLElement; input: HTMLInputElement }>();
 
-  constructor(private generate: (options: Record<string, unknown>) => Promise<Mended>, private open: (mended: Mended) => void) {
+  /** Object URLs of the result, which are released with it. */
+  #urls: string[] = [];
+
+  constructor(private generate: (options: Record<string, unknown>) => Promise<Mended>, private open: (mended: Mended) => void, private told: Told) {
     const changed = <T>(set: (value: T) => void) => (value: T) => {
       set(value);
       this.#refresh();
     };
-    this.#tangentsChoice = choice("Tangents", [["repair", "repair"], ["overwrite", "all anew"], ["missing", "add missing"]] as const, "repair", changed((v: Tangents) => (this.#tangents = v)));
+    this.#tangentsChoice = choice("Tangents", [["repair", "repair"], ["overwrite", "recompute all"], ["missing", "add missing"]] as const, "repair", changed((v: Tangents) => (this.#tangents = v)));
     this.#methodChoice = select("Method", methods.map((name) => [name, name] as const), this.#method, changed((v: Method) => (this.#method = v)));
-    this.#signsChoice = choice("Signs", [["gltf", "as glTF wants"], ["turned", "turned"]] as const, "gltf", changed((v: string) => (this.#isTurned = v === "turned")));
+    this.#signsChoice = choice("Signs", [["gltf", "as in glTF"], ["turned", "inverted"]] as const, "gltf", changed((v: string) => (this.#isTurned = v === "turned")));
     for (const [name, text] of switches) {
       this.#boxes.set(name, checkbox(text, false, changed((on: boolean) => {
         this.#touched.add(name);
@@ -92,7 +106,7 @@ export class MendView {
     this.#tangentsChoice.set("repair");
     this.#methodChoice.input.value = "mikktspace";
     this.#signsChoice.set("gltf");
-    replaceChildren(this.#result);
+    this.#forgetResult();
     this.#refresh();
   }
 
@@ -123,6 +137,14 @@ export class MendView {
     (this.element as HTMLDetailsElement).open = true;
     this.element.scrollIntoView({ block: "nearest" });
     this.#button.focus();
+  }
+
+  /** One click: what the findings ask for, with these tangents. */
+  async run(tangents: Tangents): Promise<void> {
+    this.#tangents = tangents;
+    this.#tangentsChoice.set(tangents);
+    this.#refresh();
+    await this.#mend();
   }
 
   /** Options of the package, which are those of the tool in camelCase. */
@@ -163,22 +185,40 @@ export class MendView {
     // A repair would turn such signs back.
     this.#signsChoice.element.disabled = this.#tangents !== "overwrite";
     this.#unpacks.hidden = !this.#isCompressed;
+    this.#button.disabled = this.#model === null;
     const words = Object.entries(this.#options()).map(([name, value]) => `--${name.replace(/[A-Z]/g, (letter) => `-${letter.toLowerCase()}`)}${value === true ? "" : ` ${String(value)}`}`);
     const name = this.#model?.name ?? "model.glb";
+    if (isMapName(name)) return void replaceChildren(this.#command, `tspace convert-map ${shellWord(name)} -o ${shellWord(mendedName(name))} --flip-green`);
     const parts = ["tspace generate", shellWord(name), whole("-o"), shellWord(mendedName(name)), ...words.map(whole)];
     replaceChildren(this.#command, ...parts.flatMap((part, i) => (i === 0 ? [part] : [" ", part])));
-    this.#button.disabled = this.#model === null;
+  }
+
+  #forgetResult(): void {
+    for (const url of this.#urls) URL.revokeObjectURL(url);
+    this.#urls = [];
+    replaceChildren(this.#result);
+  }
+
+  #urlOf(bytes: Uint8Array<ArrayBuffer>, type: string): string {
+    const url = URL.createObjectURL(new Blob([bytes], { type }));
+    this.#urls.push(url);
+    return url;
   }
 
   async #mend(): Promise<void> {
     this.#button.disabled = true;
+    this.#forgetResult();
     replaceChildren(this.#result, el("p", { class: "quiet" }, "Working…"));
+    this.told.started();
     const model = this.#model;
     try {
       const mended = await this.generate(this.#options());
       if (model === this.#model) this.#show(mended);
     } catch (error) {
-      if (model === this.#model) replaceChildren(this.#result, el("p", { class: "failure", role: "alert" }, error instanceof Error ? error.message : String(error)));
+      if (model !== this.#model) return;
+      const message = error instanceof Error ? error.message : String(error);
+      replaceChildren(this.#result, el("p", { class: "failure", role: "alert" }, message));
+      this.told.failed(message);
     } finally {
       this.#button.disabled = this.#model === null;
     }
@@ -188,21 +228,21 @@ export class MendView {
   #folder(mended: Mended): HTMLElement[] {
     const files = this.#model && folderOf(mended.bytes, this.#model);
     if (!files) return [];
-    const stem = mended.name.replace(/\.glb$/, ""), url = URL.createObjectURL(new Blob([zipOf(files, stem)], { type: "application/zip" }));
+    const stem = mended.name.replace(/\.glb$/, ""), url = this.#urlOf(zipOf(files, stem), "application/zip");
     return [el("a", { class: "button plain-link folder", href: url, download: `${stem}.zip` }, "Download the folder (.zip)")];
   }
 
   #show(mended: Mended): void {
-    const file = mended.report as GenerateReport;
-    const url = URL.createObjectURL(new Blob([mended.bytes], { type: "model/gltf-binary" }));
-    const look = el("button", { type: "button", onclick: () => this.open(mended) }, "Look at it");
+    const file = mended.report as GenerateReport, url = this.#urlOf(mended.download?.bytes ?? mended.bytes, mended.download?.type ?? "model/gltf-binary");
+    this.told.done(mended, url, file.changed);
+    const look = el("button", { type: "button", onclick: () => this.open(mended) }, "Open the fixed file");
     const sentence = verdictOf(mended, this.#checked);
     // Only a file that is better than the one before is offered as what to take.
     const download = el("a", { class: sentence.isGood ? "button" : "button plain-link", href: url, download: mended.name }, `Download ${mended.name}`);
     replaceChildren(this.#result,
       el("p", { class: sentence.isGood ? "fine" : "quiet" }, sentence.what),
       sentence.findings && el("p", { class: sentence.isWorse ? "failure" : "counts", role: sentence.isWorse ? "alert" : undefined }, sentence.findings),
-      asksForAnew(mended.checked) && this.#tangents !== "overwrite" && el("p", { class: "quiet" }, "What stays is kept by a repair, since it is a little off: all anew mends it."),
+      asksForAnew(mended.checked) && this.#tangents !== "overwrite" && el("p", { class: "quiet" }, "A repair keeps tangents that are only a little off: recompute all to fix the rest."),
       changeTable(file.primitives),
       file.normalMaps.length > 0 ? mapTable(file.normalMaps) : null,
       ...file.warnings.map((warning) => el("p", { class: "quiet" }, warning)),
@@ -238,8 +278,8 @@ const whole = (words: string): HTMLElement => el("span", { class: "whole" }, wor
 
 const shellWord = (name: string): string => (/^[\w./-]+$/.test(name) ? name : `'${name.replaceAll("'", "'\\''")}'`);
 
-/** `crate.glb` becomes `crate-mended.glb`; what comes out of memory is always GLB. */
-export const mendedName = (name: string): string => `${name.replace(/^.*\//, "").replace(/\.[^.]*$/, "")}-mended.glb`;
+/** `crate.glb` becomes `crate-fixed.glb`: the page always writes GLB. */
+export const mendedName = (name: string): string => isMapName(name) ? fixedMapName(name) : `${name.replace(/^.*\//, "").replace(/\.[^.]*$/, "")}-fixed.glb`;
 
 function table(head: string[], rows: { cells: string[]; title?: string }[], extraClass = ""): HTMLElement {
   const body = el("tbody", {}, ...rows.slice(0, kMostRows).map(({ cells, title }) => el("tr", { title }, ...cells.map((text) => el("td", {}, text)))));
@@ -250,13 +290,13 @@ function table(head: string[], rows: { cells: string[]; title?: string }[], extr
 
 const changeTable = (primitives: GeneratedPrimitive[]): HTMLElement =>
   table(["Part", "Tangents", "Vertices"], primitives.map((one) => {
-    const mended = one.mendedVertices > 0 ? `, ${count(one.mendedVertices)} ${one.mendedVertices === 1 ? "vertex" : "vertices"} mended` : "";
+    const mended = one.mendedVertices > 0 ? `, ${count(one.mendedVertices)} ${one.mendedVertices === 1 ? "vertex" : "vertices"} corrected` : "";
     const vertices = one.verticesBefore === one.verticesAfter ? count(one.verticesBefore) : `${count(one.verticesBefore)} → ${count(one.verticesAfter)}`;
     return {
-      cells: [`${one.mesh}/${one.primitive} ${one.meshName || one.materialName}`, `${actions[one.action] ?? one.action}${mended}${one.normalsGenerated ? ", normals made" : ""}${one.windingMended > 0 ? `, ${plural(one.windingMended, "triangle")} turned` : ""}`, vertices],
+      cells: [`${one.mesh}/${one.primitive} ${one.meshName || one.materialName}`, `${actions[one.action] ?? one.action}${mended}${one.normalsGenerated ? ", normals computed" : ""}${one.windingMended > 0 ? `, ${plural(one.windingMended, "triangle")} flipped` : ""}`, vertices],
       title: [one.reason, ...one.notes].join(" "),
     };
   }));
 
 const mapTable = (maps: JudgedMap[]): HTMLElement =>
-  table(["Normal map", "What was done"], maps.map(({ image, name, flipped, mended, reason }) => ({ cells: [`${image} ${name}`, flipped ? "green turned" : mended ? `converted: ${reason}` : `stays: ${reason}`] })), "maps");
+  table(["Normal map", "What was done"], maps.map(({ image, name, flipped, mended, reason }) => ({ cells: [`${image} ${name}`, flipped ? "green flipped" : mended ? `converted: ${reason}` : `kept: ${reason}`] })), "maps");

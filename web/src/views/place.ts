@@ -1,23 +1,22 @@
 // SPDX-License-Identifier: MIT
 // Shows findings in the picture: the look in which they are seen, outlines of all that they are about, and a flight to what is
 // only somewhere.
-import { Group, Vector3, type Object3D } from "three";
-import { bestDirection, outlinePart, outlineTriangles, trianglesAt, type Place } from "../picture/overlays.js";
+import { Group, Vector3, type Camera, type Object3D } from "three";
+import { bestDirection, facesOf, outlinePart, outlineTriangles, trianglesAt, type Place } from "../picture/overlays.js";
 import type { Drawn } from "../picture/scene.js";
 import type { Look } from "../picture/shader.js";
 import { replaceOverlay, type Viewport } from "../picture/viewport.js";
 import type { Finding } from "tspace/gltf";
 
-/** The look in which a kind of finding is seen, by how its name begins. */
-const looks: readonly (readonly [RegExp, Look])[] = [
-  [/^signs/, "signs"],
-  [/^(mirroredSeam|uvSeam|directions|uvSet|textureTransform|splitFrames|tangents(NotOrthogonal|NotUnit|NotFinite))/, "difference"],
-  [/^uvsDegenerate/, "mirrored"],
-];
-export const lookOf = ({ code }: Finding): Look => looks.find(([pattern]) => pattern.test(code))?.[1] ?? "lit";
+/** The look of this page for a view of `tspace render`, which the engine names for each finding. */
+const looks: Record<string, Look> = { sign: "signs", error: "difference", uv: "mirrored" };
+export const lookOf = ({ show }: Finding): Look => looks[show] ?? "lit";
 
 /** Tangents farther off than this are outlined where a finding is about directions. */
 const kFarDegrees = 5;
+/** Findings and triangles of each that decide where the picture is seen from. */
+const kMostAimed = 50, kMostFaces = 2000;
+
 /** Of a finding on more of the surface than this the picture stays where it is. */
 const kEverywhere = 0.5;
 
@@ -58,25 +57,53 @@ function trianglesOf(drawn: Drawn, finding: Finding): number[] {
 export class PlaceView {
   #outline: Object3D | null = null;
 
-  constructor(private viewport: Viewport, private setLook: (look: Look) => void) {}
+  constructor(private viewport: Viewport, private setLook: (look: Look) => void, private setSplit: (share: number) => void) {}
+
+  /** Shows the model from where most of some findings is seen, with the split line on the middle of it: one half as the file is, one half right. */
+  aim(findings: Finding[]): void {
+    const faces: { center: Vector3; out: Vector3 }[] = [], { scene } = this.viewport;
+    for (const finding of findings.slice(0, kMostAimed)) {
+      const drawn = finding.place === "" ? undefined : scene.find(finding.mesh, finding.primitive);
+      if (!drawn) continue;
+      const triangles = trianglesOf(drawn, finding), step = Math.ceil(triangles.length / kMostFaces);
+      faces.push(...facesOf(drawn, triangles.filter((_, i) => i % step === 0)));
+    }
+    const toEye = this.viewport.camera.position.clone().sub(this.viewport.target), isEverywhere = findings[0].surfaceShare >= kEverywhere, toward = isEverywhere ? toEye.normalize() : bestDirection(faces.map(({ out }) => out), toEye);
+    if (!toward) return this.setSplit(0.5);
+    this.#splitAt(faces, this.viewport.reset(false, toward));
+  }
+
+  /** Puts the split line on the middle of what is seen of these faces. */
+  #splitAt(faces: { center: Vector3; out: Vector3 }[], camera: Camera): void {
+    const spots: { x: number; size: number }[] = [];
+    for (const { center, out } of faces) {
+      const size = out.dot(camera.position.clone().sub(center).normalize());
+      if (size > 0) spots.push({ x: center.clone().project(camera).x, size });
+    }
+    spots.sort((a, b) => a.x - b.x);
+    let left = spots.reduce((sum, { size }) => sum + size, 0) / 2;
+    const middle = spots.find(({ size }) => (left -= size) <= 0);
+    if (middle) this.setSplit(Math.min(0.8, Math.max(0.2, (middle.x + 1) / 2)));
+  }
 
   clear(): void {
     this.#outline = replaceOverlay(this.viewport, this.#outline, null);
   }
 
-  /** Returns how many triangles are outlined. isOne: of several places this one. */
-  show(findings: Finding[], isOne: boolean): number {
+  /** Returns how many triangles are outlined. isOne: of several places this one. isOther: the findings are about another file, whose parts alone are the same. */
+  show(findings: Finding[], isOne: boolean, isOther: boolean): number {
     this.clear();
     this.setLook(lookOf(findings[0]));
-    const { scene } = this.viewport, outline = new Group(), places: Omit<Place, "outline">[] = [];
+    const { scene } = this.viewport, outline = new Group(), places: Omit<Place, "outline">[] = [], faces: { center: Vector3; out: Vector3 }[] = [];
     let outlined = 0, seen = 0, isWhole = false;
     for (const finding of findings) {
       const drawn = finding.place === "" ? undefined : scene.find(finding.mesh, finding.primitive);
       if (!drawn) continue;
       seen += 1;
-      const triangles = trianglesOf(drawn, finding);
+      const triangles = isOther ? [] : trianglesOf(drawn, finding);
       // Without vertices the finding is about all of the primitive.
       isWhole = triangles.length === 0 && scene.drawn.length === 1;
+      if (faces.length < kMostFaces) faces.push(...facesOf(drawn, triangles.slice(0, kMostFaces)));
       const place = triangles.length > 0 ? outlineTriangles(drawn, triangles) : { ...outlinePart(drawn), faces: [] };
       outlined += triangles.length > 0 ? triangles.length : drawn.corners.positions.length / 9;
       if (place.radius > 0) outline.add(place.outline);
@@ -84,16 +111,18 @@ export class PlaceView {
     }
     this.#outline = replaceOverlay(this.viewport, null, outline);
     const share = isOne ? findings[0].surfaceShare : seen / Math.max(1, scene.drawn.length);
-    if (seen > 0 && !isWhole && (isOne ? scene.drawn.length > 1 || share < kEverywhere : share < kEverywhere)) this.#fly(places);
+    const flies = seen > 0 && !isWhole && (isOne ? scene.drawn.length > 1 || share < kEverywhere : share < kEverywhere);
+    const camera = flies ? this.#fly(places) : this.viewport.camera;
+    this.#splitAt(faces, camera);
     return outlined;
   }
 
-  #fly(places: Omit<Place, "outline">[]): void {
+  #fly(places: Omit<Place, "outline">[]): Camera {
     const center = places.reduce((sum, place) => sum.add(place.center), new Vector3()).divideScalar(places.length);
     const radius = Math.max(...places.map((place) => place.center.distanceTo(center) + place.radius));
-    if (!(radius > 0)) return;
+    if (!(radius > 0)) return this.viewport.camera;
     const near = Math.max(radius * 1.25, this.viewport.scene.sphere().radius * 0.12);
     const toEye = this.viewport.camera.position.clone().sub(this.viewport.target);
-    this.viewport.fly(center, near, bestDirection(places.flatMap(({ faces }) => faces), toEye));
+    return this.viewport.fly(center, near, bestDirection(places.flatMap(({ faces }) => faces), toEye));
   }
 }

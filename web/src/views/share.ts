@@ -6,6 +6,10 @@ import type { Reports } from "../app.js";
 import type { Viewport } from "../picture/viewport.js";
 import type { CheckReport, IdentifyReport } from "tspace/gltf";
 
+interface Saved {
+  blob: Blob;
+  name: string;
+}
 type Kind = "text" | "markdown" | "json";
 
 const today = (): string => new Date().toISOString().slice(0, 10);
@@ -18,22 +22,22 @@ export function reportAs(kind: Kind, name: string, { inspect, check, identify }:
   lines.push(isMarkdown ? `### ${name}` : name, "");
   if (report) {
     lines.push(`${plural(report.counts.error, "error")}, ${plural(report.counts.warning, "warning")}, ${plural(report.counts.note, "note")}. tspace ${__VERSION__}, ${today()}.`, "");
-    for (const { severity, code, message, remedy, place } of report.findings) {
-      lines.push(isMarkdown ? `- **${severity}** \`${code}\` at \`${place || "the file"}\`: ${message}` : `${severity.padEnd(8)} ${code} at ${place || "the file"}`);
-      if (!isMarkdown) lines.push(`         ${message}`);
-      lines.push(isMarkdown ? `  - mend: ${remedy}` : `         mend: ${remedy}`);
+    for (const { severity, code, effect, message, remedy, place } of report.findings) {
+      lines.push(isMarkdown ? `- **${severity}** \`${code}\` at \`${place || "the file"}\`: ${effect} ${message}` : `${severity.padEnd(8)} ${code} at ${place || "the file"}`);
+      if (!isMarkdown) lines.push(`         ${effect} ${message}`);
+      lines.push(isMarkdown ? `  - fix: ${remedy}` : `         fix: ${remedy}`);
     }
     if (report.findings.length === 0) lines.push("Nothing is wrong.");
   }
-  if (verdict) lines.push("", `Who made the tangents: ${verdict}`);
+  if (verdict) lines.push("", `What made the tangents: ${verdict}`);
   return `${lines.join("\n")}\n`;
 }
 
 /** The picture with a strip below it: which file, which sides, the look, the version. */
-export async function pictureFile(viewport: Viewport, title: string, sides: string): Promise<Blob | null> {
+export async function pictureFile(viewport: Viewport, title: string, sides: string, swatches: { color: string; text: string }[]): Promise<Blob | null> {
   const image = viewport.draw();
   if (!image) return null;
-  const unit = Math.max(12, Math.round(image.width / 60)), strip = 3 * unit;
+  const unit = Math.max(12, Math.round(image.width / 60)), strip = (swatches.length > 0 ? 4.3 : 3) * unit;
   const canvas = new OffscreenCanvas(image.width, image.height + strip), context = canvas.getContext("2d")!;
   context.fillStyle = getComputedStyle(viewport.canvas.parentElement!).backgroundColor;
   context.fillRect(0, 0, image.width, image.height);
@@ -45,8 +49,19 @@ export async function pictureFile(viewport: Viewport, title: string, sides: stri
   const { look } = viewport.settings;
   context.fillText(`${title}: ${sides}`, unit, image.height + 1.3 * unit, image.width - 2 * unit);
   context.fillText(`tspace ${__VERSION__}, ${today()}`, unit, image.height + 2.6 * unit);
+  drawSwatches(context, swatches, unit, image.height + 3.1 * unit, (image.width - 2 * unit) / Math.max(1, swatches.length));
   if (look === "error" || look === "difference") drawScale(context, image.width / 2, image.height + 1.7 * unit, image.width / 2 - unit, unit);
   return canvas.convertToBlob({ type: "image/png" });
+}
+
+function drawSwatches(context: OffscreenCanvasRenderingContext2D, swatches: { color: string; text: string }[], unit: number, top: number, width: number): void {
+  context.font = `${Math.round(0.8 * unit)}px system-ui, sans-serif`;
+  for (const [i, { color, text }] of swatches.entries()) {
+    context.fillStyle = color;
+    context.fillRect(unit + i * width, top, 0.8 * unit, 0.8 * unit);
+    context.fillStyle = "#1b1f27";
+    context.fillText(text, unit + i * width + 1.1 * unit, top + 0.7 * unit, width - 1.6 * unit);
+  }
 }
 
 function drawScale(context: OffscreenCanvasRenderingContext2D, left: number, top: number, width: number, unit: number): void {
@@ -60,19 +75,22 @@ function drawScale(context: OffscreenCanvasRenderingContext2D, left: number, top
 }
 
 export class ShareView {
-  readonly element = el("details", { class: "panel share" }, el("summary", {}, "Take along"));
+  readonly element = el("details", { class: "panel share" }, el("summary", {}, "Share"));
   #kind: Kind = "text";
   #said = el("p", { class: "quiet", role: "status" });
 
-  constructor(private give: { report: (kind: Kind) => string; picture: () => Promise<{ blob: Blob; name: string } | null> }) {
-    const kind = select("Report as", [["text", "text"], ["markdown", "Markdown"], ["json", "JSON"]] as const, "text", (value) => (this.#kind = value));
-    const copy = el("button", { type: "button", onclick: () => void this.#copy() }, "Copy the report");
-    const save = el("button", { type: "button", onclick: () => void this.#save() }, "Save the picture");
-    this.element.append(el("div", { class: "rows" }, kind.element, el("div", { class: "row" }, copy, save), this.#said));
+  constructor(private give: { report: (kind: Kind) => string; picture: () => Promise<Saved | null>; page: () => Promise<Saved | null>; link: () => string }) {
+    const kind = select("Report as", [["text", "text"], ["markdown", "Markdown, for an issue tracker"], ["json", "JSON"]] as const, "text", (value) => (this.#kind = value));
+    const button = (text: string, act: () => Promise<void>) => el("button", { type: "button", onclick: () => void act() }, text);
+    this.element.append(el("div", { class: "rows" }, kind.element, el("div", { class: "row" },
+      button("Copy the report", () => this.#copy(this.give.report(this.#kind))),
+      button("Save the picture", () => this.#save(this.give.picture(), "There is no picture.")),
+      button("Save one HTML page", () => this.#save(this.give.page(), "There is no model.")),
+      button("Copy the link", () => this.#copy(this.give.link()))),
+      el("p", { class: "quiet" }, "The HTML page contains the model, its findings and this viewer, and works offline. The link says what is seen; of models it names samples alone."), this.#said));
   }
 
-  async #copy(): Promise<void> {
-    const text = this.give.report(this.#kind);
+  async #copy(text: string): Promise<void> {
     try {
       await navigator.clipboard.writeText(text);
       this.#said.textContent = "Copied.";
@@ -81,9 +99,9 @@ export class ShareView {
     }
   }
 
-  async #save(): Promise<void> {
-    const made = await this.give.picture();
-    if (!made) return void (this.#said.textContent = "There is no picture.");
+  async #save(making: Promise<Saved | null>, otherwise: string): Promise<void> {
+    const made = await making;
+    if (!made) return void (this.#said.textContent = otherwise);
     const url = URL.createObjectURL(made.blob);
     el("a", { href: url, download: made.name }).click();
     setTimeout(() => URL.revokeObjectURL(url), 10_000);

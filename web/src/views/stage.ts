@@ -3,7 +3,7 @@
 import { choice, el } from "../dom.js";
 import type { Look } from "../picture/shader.js";
 import { hasSplit, Viewport } from "../picture/viewport.js";
-import { nameOf, type Right } from "../worker/protocol.js";
+import { isFile, nameOf, type Right } from "../worker/protocol.js";
 import { Legend } from "./legend.js";
 
 const lookNames: readonly (readonly [Look, string])[] = [
@@ -20,7 +20,7 @@ const isTyping = ({ target, ctrlKey, metaKey, altKey }: KeyboardEvent): boolean 
 
 /** Of the normal maps right of the slider: how many have their green turned. */
 export type TurnedGreen = "none" | "some" | "all";
-const greenText: Record<TurnedGreen, string> = { none: "", some: ", green turned where it points down", all: ", green turned" };
+const greenText: Record<TurnedGreen, string> = { none: "", some: ", green flipped where it points down", all: ", green flipped" };
 
 export class Stage {
   readonly element: HTMLElement;
@@ -41,13 +41,15 @@ export class Stage {
   #looks;
   #right: Right = "mikktspace";
   #green: TurnedGreen = "none";
+  #otherName = "";
   #share = 0.5;
   #blinks = false;
 
-  constructor(beside: HTMLElement) {
-    const frame = this.#frame = el("div", { class: "frame", "data-ground": "grey" }, this.canvas, this.#line, this.#leftLabel, this.#rightLabel, this.#legend.element, this.#light, this.#remark);
+  /** `caption` stands above the picture, `overLine` in it beside the split line, and `beside` right of it. */
+  constructor(caption: HTMLElement, overLine: HTMLElement, beside: HTMLElement) {
+    const frame = this.#frame = el("div", { class: "frame", "data-ground": "grey" }, this.canvas, this.#line, this.#leftLabel, this.#rightLabel, this.#legend.element, this.#light, overLine, this.#remark);
     this.#looks = choice("Look", lookNames, "lit", (look) => this.setLook(look));
-    this.element = el("section", { class: "stage", "aria-label": "Picture" }, this.#looks.element, el("div", { class: "views" }, el("div", { class: "picture" }, frame, this.#split), beside));
+    this.element = el("section", { class: "stage", "aria-label": "Picture" }, caption, this.#looks.element, el("div", { class: "views" }, el("div", { class: "picture" }, frame, this.#split), beside));
     this.viewport = new Viewport(this.canvas);
     this.#split.addEventListener("input", () => this.setSplit(Number(this.#split.value) / 1000));
     this.canvas.addEventListener("light", () => this.#showLight());
@@ -80,6 +82,10 @@ export class Stage {
     return hasSplit(look) ? `left ${this.#leftLabel.textContent}, right ${right}` : `${lookNames.find(([name]) => name === look)?.[1]}, the file against ${right}`;
   }
 
+  get swatches(): { color: string; text: string }[] {
+    return this.#legend.swatches;
+  }
+
   setGround(ground: "grey" | "light" | "dark"): void {
     this.#frame.dataset.ground = ground;
   }
@@ -95,6 +101,13 @@ export class Stage {
     this.#refresh();
   }
 
+  /** The left and the right label where two files are compared; null: labels as usual. */
+  nameFiles(names: readonly [string, string] | null): void {
+    this.#leftLabel.textContent = names?.[0] ?? "as the file is";
+    this.#otherName = names?.[1] ?? "";
+    this.#refresh();
+  }
+
   setGreen(green: TurnedGreen): void {
     this.#green = green;
     this.#refresh();
@@ -105,7 +118,8 @@ export class Stage {
     if (this.#blinks) return;
     this.viewport.settings.split = share;
     this.#split.value = String(Math.round(share * 1000));
-    this.#line.style.left = `${share * 100}%`;
+    this.#frame.style.setProperty("--split", `${share * 100}%`);
+    this.#frame.dataset.side = share > 0.55 ? "left" : "right";
     this.#leftLabel.style.opacity = share > 0.12 ? "1" : "0";
     this.#rightLabel.style.opacity = share < 0.88 ? "1" : "0";
     this.viewport.ask();
@@ -115,7 +129,7 @@ export class Stage {
     const { look } = this.viewport.settings;
     const isSplit = hasSplit(look);
     for (const element of [this.#split, this.#line, this.#leftLabel, this.#rightLabel]) element.hidden = !isSplit;
-    this.#rightLabel.textContent = this.#right === "mended" ? "mended" : `right frames (${this.#right})${greenText[this.#green]}`;
+    this.#rightLabel.textContent = isFile(this.#right) ? (this.#right === "mended" ? "fixed" : this.#otherName) : `right frames (${this.#right})${greenText[this.#green]}`;
     this.#legend.show(look, nameOf(this.#right));
     this.viewport.ask();
   }

@@ -45,7 +45,7 @@ class TexelReader {
 const text = (v: Vector3): string => [v.x, v.y, v.z].map((x) => (Math.abs(x) < 0.0005 ? "0.000" : x.toFixed(3)).replace("-", "−")).join("  ");
 
 export class TexelView {
-  readonly element = el("details", { class: "panel texel", open: true }, el("summary", {}, "Under the pointer"));
+  readonly element = el("details", { class: "panel texel", open: innerWidth >= 900 }, el("summary", {}, "Under the pointer"));
   #body = el("div", { class: "rows" });
   #reader = new TexelReader();
   #isBusy = false;

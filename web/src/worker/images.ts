@@ -31,7 +31,7 @@ export async function decodeImage(file: Uint8Array, type: ImageType): Promise<Pi
   return pixels;
 }
 
-const pngOf = ({ width, height, channels, bits, data }: PixelsToEncode): Uint8Array => encode({ width, height, channels, depth: bits, data }, { zlib: { level: 6 } });
+export const pngOf = ({ width, height, channels, bits, data }: Omit<PixelsToEncode, "quality">): Uint8Array => encode({ width, height, channels, depth: bits, data }, { zlib: { level: 6 } });
 
 async function fileByCanvas({ width, height, channels, data }: PixelsToEncode, type: ImageType): Promise<Uint8Array> {
   const image = new ImageData(width, height);

@@ -3,7 +3,9 @@
 import { check, decodeImages, generate, identify, inspect, ready } from "tspace/gltf";
 import type { ModelFiles } from "../files.js";
 import { codecsFor } from "./codecs.js";
-import { decodeImage, withEncoder } from "./images.js";
+import { mapType } from "../model/lone_map.js";
+import { decodeImage, pngOf, withEncoder } from "./images.js";
+import { decodeTexture } from "./texture_files.js";
 import type { Verb } from "./protocol.js";
 
 const calls = { check, identify, inspect };
@@ -20,6 +22,15 @@ async function withImages(model: ModelFiles) {
 
 export async function reportOn(verb: Verb, model: ModelFiles): Promise<unknown> {
   return calls[verb](model.bytes, await (verb === "check" ? withImages(model) : optionsFor(model)));
+}
+
+/** KTX2 and DDS are judged by the texels of their first level. */
+export async function judgeImage({ name, bytes }: ModelFiles): Promise<{ report: unknown; image: Uint8Array<ArrayBuffer> }> {
+  await ready;
+  const texels = /\.(ktx2|dds)$/i.test(name) ? await decodeTexture(bytes) : null;
+  const image = texels ? (pngOf({ width: texels.width, height: texels.height, channels: 4, bits: 8, data: new Uint8Array(texels.rgba) }) as Uint8Array<ArrayBuffer>) : bytes;
+  const pixels = await decodeImage(image, mapType(name) as Parameters<typeof decodeImage>[1]);
+  return { report: check(image, { name, memoryLimit: "2G", decodeImage: () => pixels }), image };
 }
 
 /** Green may explain signs, so a repair looks at images too. */

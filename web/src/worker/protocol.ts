@@ -4,9 +4,11 @@ import type { ModelFiles } from "../files.js";
 
 export const methods = ["mikktspace", "best", "fast", "angle", "area", "uniform", "lengyel", "flat"] as const;
 export type Method = (typeof methods)[number];
-/** What stands right of the slider: frames by a method, or those of the file that Mend has made. */
-export type Right = Method | "mended";
-export const nameOf = (right: Right): string => (right === "mended" ? "the mended file" : right);
+/** What stands right of the slider: frames by a method, or those of another file: the fixed one, or one to compare with. */
+export type OtherFile = "mended" | "other";
+export type Right = Method | OtherFile;
+export const isFile = (right: Right): right is OtherFile => right === "mended" || right === "other";
+export const nameOf = (right: Right): string => (right === "mended" ? "the fixed file" : right === "other" ? "the other file" : right);
 
 /** The arrays of a primitive as its file has them. */
 export interface Arrays {
@@ -80,6 +82,8 @@ export interface TexturePixels {
 
 export interface Calls {
   report: { ask: { verb: Verb; model: ModelFiles }; answer: unknown };
+  /** A normal map without a model: what `check` says of it, and the image as PNG, JPEG or WebP. */
+  image: { ask: { model: ModelFiles }; answer: { report: unknown; image: Uint8Array<ArrayBuffer> } };
   generate: { ask: { model: ModelFiles; options: Record<string, unknown> }; answer: { report: unknown; bytes: Uint8Array<ArrayBuffer> } };
   /** `part`: what it is called in later questions, or null. */
   corners: { ask: { part: number | null; arrays: Arrays }; answer: Corners };

@@ -3,7 +3,7 @@
 import { decodeDraco, decodeMeshopt, forgetCodecs } from "./codecs.js";
 import { computeFrames, cornersOf, mapCorners, otherFrames } from "./corners.js";
 import { decodeTexture } from "./texture_files.js";
-import { generateModel, reportOn } from "./model_calls.js";
+import { generateModel, judgeImage, reportOn } from "./model_calls.js";
 import type { Answer, Arrays, Question } from "./protocol.js";
 
 const parts = new Map<number, Arrays>();
@@ -19,6 +19,8 @@ async function answerTo(question: Question): Promise<{ answer: unknown; transfer
   switch (question.call) {
     case "report":
       return { answer: await reportOn(question.ask.verb, question.ask.model) };
+    case "image":
+      return { answer: await judgeImage(question.ask.model) };
     case "generate":
       return { answer: await generateModel(question.ask.model, question.ask.options) };
     case "corners": {

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// This page with a model inside, as one HTML file: what `tspace view` makes, made by the page itself.
+import { toBase64 } from "./base64.js";
+import type { PageOrigin } from "./embedded.js";
+import type { ModelFiles } from "./files.js";
+import { imageOf } from "./model/lone_map.js";
+
+const escaped = (text: string): string => text.replaceAll("&", "&amp;").replaceAll('"', "&quot;").replaceAll("<", "&lt;");
+
+/** A lone normal map goes into the page as the image that it is, KTX2 and DDS as the PNG that was made of them. */
+function filesOf(model: ModelFiles): [string, Uint8Array<ArrayBuffer>][] {
+  if (model.loneMap) return [[model.name.replace(/\.(ktx2|dds)$/i, ".png"), imageOf(model.bytes)]];
+  return [[model.name, model.bytes], ...model.others];
+}
+
+/** `shown`: the end of the address that says what is seen. */
+export async function pageWith(model: ModelFiles, shown: string): Promise<Blob> {
+  const blocks: string[] = [];
+  for (const [name, bytes] of filesOf(model)) blocks.push(`<script type="application/octet-stream" data-name="${escaped(name)}">${await toBase64(bytes)}</script>\n`);
+  const origin: PageOrigin = { version: __VERSION__, date: new Date().toISOString().slice(0, 10), command: `tspace view ${model.name}`, shown };
+  // Scripts and styles are those of this very page, so that the hashes in its policy hold.
+  const own = [...document.querySelectorAll('script[type="module"], script:not([type])')].filter((script) => script.closest("body"));
+  const parts = [
+    `<!doctype html>\n<html lang="en"><head>${document.head.innerHTML}</head>\n<body>\n`,
+    document.querySelector("noscript")?.outerHTML ?? "",
+    `<script type="application/json" id="origin">${JSON.stringify(origin).replaceAll("<", "\\u003c")}</script>\n`,
+    ...blocks,
+    ...own.map((script) => `<script type="module">${script.textContent}</script>`),
+    "\n</body></html>\n",
+  ];
+  return new Blob(parts, { type: "text/html" });
+}

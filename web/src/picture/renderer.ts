@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: MIT
+// What the graphics card draws: the scene, another file right of the line, the lamp, its shadows and the surroundings.
+import { DirectionalLight, NeutralToneMapping, Scene as ThreeScene, Vector2, WebGLRenderer, type PerspectiveCamera } from "three";
+import { environmentFor, environmentOf, type Surroundings } from "./environment.js";
+import type { Readable } from "./picking.js";
+import { Scene } from "./scene.js";
+import { setValues, type Look, type PictureValues } from "./shader.js";
+
+/** Looks with two sides. */
+export const hasSplit = (look: Look): boolean => look === "lit" || look === "normals" || look === "signs";
+
+export interface Settings {
+  look: Look;
+  map: 0 | 1 | 2;
+  isWire: boolean;
+  usesColors: boolean;
+  /** 0 to 1 from the left: where frames of the file end and right ones begin. */
+  split: number;
+  /** What surfaces mirror. */
+  surroundings: Surroundings;
+  /** Whether parts keep the lamp off others. */
+  hasShadows: boolean;
+  /** Turn of the surroundings about the vertical, in degrees. */
+  turn: number;
+  /** Exposure, in stops: each doubles the light. */
+  stops: number;
+}
+
+function rendererFor(canvas: HTMLCanvasElement): WebGLRenderer | null {
+  const context = canvas.getContext("webgl2", { antialias: true, alpha: true, depth: true, stencil: false, preserveDrawingBuffer: false });
+  if (!context) return null;
+  const renderer = new WebGLRenderer({ canvas, context, antialias: true, alpha: true });
+  renderer.setClearColor(0, 0);
+  renderer.autoClear = false;
+  renderer.toneMapping = NeutralToneMapping;
+  renderer.setPixelRatio(Math.min(2, devicePixelRatio));
+  return renderer;
+}
+
+export class Picture {
+  /** Null where the browser has no WebGL. */
+  readonly renderer: WebGLRenderer | null;
+  readonly overlay = new ThreeScene();
+  scene = new Scene();
+  /** What stands right of the line in the place of the scene: a file with other normals or triangles. */
+  #right: Scene | null = null;
+  #world = new ThreeScene();
+  #lamp = new DirectionalLight(0xffffff, 2);
+  #hasDrawn = false;
+  #panorama: ArrayBuffer | null = null;
+
+  constructor(canvas: HTMLCanvasElement) {
+    this.renderer = rendererFor(canvas);
+    this.#lamp.shadow.mapSize.set(2048, 2048);
+    this.#world.add(this.#lamp, this.#lamp.target);
+  }
+
+  readable(camera: PerspectiveCamera): Readable | null {
+    return this.renderer && { renderer: this.renderer, world: this.#world, scene: this.scene, camera };
+  }
+
+  show(scene: Scene): void {
+    this.showRight(null);
+    this.#world.remove(this.scene.root);
+    this.scene.dispose();
+    this.scene = scene;
+    this.#world.add(scene.root);
+  }
+
+  showRight(right: Scene | null): void {
+    if (this.#right) this.#world.remove(this.#right.root);
+    this.#right = right;
+    if (right) {
+      right.root.visible = false;
+      this.#world.add(right.root);
+    }
+  }
+
+  /** Surroundings of a person's own: a panorama in an HDR file. Null: generated ones. */
+  setPanorama(file: ArrayBuffer | null): void {
+    this.#panorama = file;
+    this.forgetEnvironment();
+  }
+
+  /** The next picture generates the environment again. */
+  forgetEnvironment(): void {
+    this.#world.environment?.dispose();
+    this.#world.environment = null;
+  }
+
+  setShadows(on: boolean): void {
+    this.#lamp.castShadow = on;
+    if (this.renderer) this.renderer.shadowMap.enabled = on;
+  }
+
+  /** The lamp stands outside of the scene, and its shadows take in all of it. */
+  #placeLamp(values: PictureValues & Settings): void {
+    this.#lamp.position.copy(values.light);
+    if (!values.hasShadows) return void this.#lamp.target.position.set(0, 0, 0);
+    const { center, radius } = this.scene.sphere(), { camera } = this.#lamp.shadow;
+    this.#lamp.target.position.copy(center);
+    this.#lamp.position.multiplyScalar(2 * radius).add(center);
+    Object.assign(camera, { left: -radius, right: radius, top: radius, bottom: -radius, near: 0.5 * radius, far: 3.5 * radius });
+    camera.updateProjectionMatrix();
+    this.#lamp.shadow.normalBias = 0.006 * radius; // about three texels of the shadow map
+  }
+
+  /** Draws, and says whether another picture has to follow: the first one does without the environment. */
+  draw(camera: PerspectiveCamera, values: PictureValues & Settings, split: number): boolean {
+    const { renderer } = this;
+    // Before the first model the canvas is empty, and the graphics card has enough to do.
+    if (!renderer || (this.scene.drawn.length === 0 && !this.#hasDrawn)) return false;
+    for (const { material } of this.scene.drawn) setValues(material, values);
+    this.#placeLamp(values);
+    // The first picture does not wait for the environment, which is blurred for each roughness.
+    const wantsSurface = values.look === "lit" && values.usesColors && !values.isWire, isSurface = wantsSurface && this.#hasDrawn;
+    if (isSurface) this.#world.environment ??= this.#panorama ? environmentOf(renderer, this.#panorama) : environmentFor(renderer, values.surroundings);
+    this.#world.environmentRotation.y = (values.turn * Math.PI) / 180;
+    renderer.toneMappingExposure = 2 ** values.stops;
+    renderer.clear();
+    if (this.#right && hasSplit(values.look)) this.#drawSides(renderer, camera, this.#right, values, isSurface, split);
+    else this.#drawScene(renderer, camera, this.scene, isSurface);
+    renderer.render(this.overlay, camera);
+    if (this.scene.drawn.length > 0 && !this.#hasDrawn) performance.mark("first picture");
+    this.#hasDrawn ||= this.scene.drawn.length > 0;
+    return wantsSurface && !isSurface && this.scene.drawn.length > 0;
+  }
+
+  #drawScene(renderer: WebGLRenderer, camera: PerspectiveCamera, scene: Scene, isSurface: boolean): void {
+    scene.show(isSurface);
+    renderer.render(this.#world, camera);
+    scene.show(false);
+  }
+
+  /** Left of the line the scene, right of it the other file as that is: its own frames. */
+  #drawSides(renderer: WebGLRenderer, camera: PerspectiveCamera, right: Scene, values: PictureValues, isSurface: boolean, split: number): void {
+    const { x: width, y: height } = renderer.getSize(new Vector2()), line = Math.round(width * Math.min(1, split));
+    for (const one of right.drawn) {
+      setValues(one.material, { ...values, split: Infinity });
+      one.hidden = this.scene.find(one.part.mesh, one.part.primitive)?.hidden ?? new Set();
+    }
+    renderer.setScissorTest(true);
+    for (const [scene, from, to] of [[this.scene, 0, line], [right, line, width]] as const) {
+      if (from === to) continue;
+      this.scene.root.visible = scene === this.scene;
+      right.root.visible = scene === right;
+      renderer.setScissor(from, 0, to - from, height);
+      this.#drawScene(renderer, camera, scene, isSurface);
+    }
+    renderer.setScissorTest(false);
+    this.scene.root.visible = true;
+    right.root.visible = false;
+  }
+}

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+// The answer to "what is wrong, and what do I press": a sentence above the picture, and one large button beside the split line.
+import { el, plural, replaceChildren } from "../dom.js";
+import { changeOfCounts, countsText, type Plan } from "./advice.js";
+import type { CheckReport, Finding } from "tspace/gltf";
+
+/** `87 % sure`, or nothing where a finding is certain. */
+export const sureText = ({ confidence }: Finding): string => (confidence < 1 ? `${Math.round(100 * confidence)} % sure` : "");
+
+export class FixView {
+  /** What one sees, above the picture. */
+  readonly caption = el("p", { class: "seen", role: "status" });
+  /** Over the picture, beside the split line. */
+  readonly element = el("div", { class: "fix", hidden: true });
+  #button = el("button", { type: "button", class: "main large" });
+
+  constructor(private fix: () => void) {
+    this.#button.addEventListener("click", () => this.fix());
+  }
+
+  wait(): void {
+    this.element.hidden = true;
+    replaceChildren(this.caption);
+    delete this.caption.dataset.severity;
+  }
+
+  /** What check found, and what one click will do about it. */
+  offer(report: CheckReport, plan: Plan | null): void {
+    const [worst] = report.findings, isWrong = worst !== undefined && worst.severity !== "note";
+    this.caption.dataset.severity = isWrong ? worst.severity : "fine";
+    const kinds = new Set(report.findings.filter(({ severity }) => severity !== "note").map(({ code }) => code)).size;
+    const others = kinds > 1 ? ` And ${plural(kinds - 1, "other fault")}.` : "";
+    replaceChildren(this.caption, isWrong && el("strong", {}, worst.effect), isWrong ? `${others} ${sureText(worst)}` : `Nothing is wrong here${report.counts.note > 0 ? `; ${plural(report.counts.note, "note")}` : ""}.`);
+    this.element.hidden = plan === null;
+    if (!plan) return;
+    const left = plan.left > 0 ? ` ${plural(plan.left, "fault")} must be fixed where the model was made.` : "";
+    this.#button.disabled = false;
+    replaceChildren(this.#button, el("strong", {}, "Fix it"), el("span", {}, `${plan.steps.join(", ")}${left === "" ? "" : "."}${left}`));
+    replaceChildren(this.element, this.#button);
+  }
+
+  working(): void {
+    this.#button.disabled = true;
+    replaceChildren(this.#button, el("strong", {}, "Fixing…"));
+  }
+
+  failed(message: string): void {
+    this.caption.dataset.severity = "error";
+    replaceChildren(this.caption, el("strong", {}, `The fix failed: ${message}`));
+    this.element.hidden = true;
+  }
+
+  /** Two versions, as `check` counts them. */
+  compare(names: [string, string], counts: [CheckReport["counts"], CheckReport["counts"]]): void {
+    this.element.hidden = true;
+    delete this.caption.dataset.severity;
+    replaceChildren(this.caption, el("strong", {}, "Two versions: "), `left ${names[0]} (${countsText(counts[0])}), right ${names[1]} (${countsText(counts[1])}). Difference and Error show degrees between them.`);
+  }
+
+  /** The fixed file stands right of the line. `rest`: what would fix what is left of it. */
+  done(name: string, url: string, before: CheckReport["counts"], after: CheckReport["counts"] | null, rest: Plan | null): void {
+    const isFixed = after !== null && after.error + after.warning === 0;
+    this.caption.dataset.severity = isFixed || after === null ? "fine" : after.error > 0 ? "error" : "warning";
+    const counts = after === null ? "" : ` ${changeOfCounts(before, after)}.`;
+    replaceChildren(this.caption, el("strong", {}, isFixed ? "Fixed:" : after ? `Fixed in part, ${countsText(after)} left:` : "Done:"), `${counts} The file as it was is left of the line, the fixed one right of it.`);
+    this.element.hidden = false;
+    this.#button.disabled = false;
+    if (rest) replaceChildren(this.#button, el("strong", {}, "Fix the rest"), el("span", {}, rest.steps.join(", ")));
+    replaceChildren(this.element, rest && this.#button, el("a", { class: "button large", href: url, download: name }, el("strong", {}, "Download"), el("span", {}, name)));
+  }
+}

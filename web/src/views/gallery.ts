@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+// The samples as pictures to press.
+import { el } from "../dom.js";
+import { samples, type Sample } from "../samples.js";
+
+export class GalleryView {
+  readonly element: HTMLElement;
+  #buttons: HTMLButtonElement[];
+
+  constructor(open: (sample: Sample) => void) {
+    this.#buttons = samples.map((sample) =>
+      el("button", { type: "button", class: "sample", "data-file": sample.file, title: sample.hint, "aria-pressed": "false", onclick: () => open(sample) },
+        el("img", { src: sample.picture, alt: "", width: 72, height: 48 }), el("span", {}, sample.name)));
+    this.element = el("nav", { class: "samples", "aria-label": "Samples" }, ...this.#buttons);
+  }
+
+  /** Marks the sample that is shown, by the name of its file. */
+  mark(file: string | null): void {
+    for (const button of this.#buttons) button.setAttribute("aria-pressed", String(button.dataset.file === file));
+  }
+}

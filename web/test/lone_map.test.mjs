@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+// A normal map without a model: what it is, which way green points, and one click that flips it.
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { test } from "node:test";
+import { decode } from "fast-png";
+import { Glb } from "./glb.mjs";
+import { farApart, missing, noShared, noTool, openSample, pixelsOf, settled, shareOf, shoot, tool, withPage } from "./support.mjs";
+
+const inFolder = async (act) => {
+  const folder = mkdtempSync(join(tmpdir(), "tspace-map-"));
+  try {
+    return await act(folder);
+  } finally {
+    rmSync(folder, { recursive: true, force: true });
+  }
+};
+
+async function openMap(tab, path) {
+  await tab.evaluate(() => (document.documentElement.dataset.state = "asked"));
+  await tab.locator(".picker input").first().setInputFiles(path);
+  return settled(tab);
+}
+
+async function ringMap(tab, folder) {
+  await openSample(tab, "ring-directx.glb");
+  const glb = new Glb(Buffer.from(await tab.evaluate(() => [...window.tspaceView.model.bytes]))), path = join(folder, "bricks.png");
+  writeFileSync(path, glb.bytesOfImage(0));
+  return path;
+}
+
+const looked = (tab) => tab.locator(".looked").textContent();
+
+test("a PNG for DirectX is named, shown on a surface that can be lit, and flipped by one click", { skip: missing }, async () => {
+  await inFolder((folder) => withPage(async (tab) => {
+    const path = await ringMap(tab, folder);
+    assert.equal(await openMap(tab, path), "ready");
+    assert.equal(await tab.evaluate(() => document.title), "bricks.png – tspace view");
+    assert.match(await looked(tab), /^256 x 256 texels: a normal map in tangent space.*Green points down, as in DirectX \(\d+ % sure/);
+    assert.match(await tab.locator(".seen").textContent(), /^Bumps look like dents/);
+    assert.match(await tab.locator(".fix button").textContent(), /flip green in 1 normal map/);
+    const before = await pixelsOf(tab);
+    await tab.evaluate(() => window.tspaceView.views.stage.viewport.setLight(0.7, -0.5));
+    const other = await pixelsOf(tab);
+    assert.ok(shareOf(before, (i) => farApart(before.data, i, other.data, i) > 6) > 0.05, "the light is followed");
+    await shoot(tab, "lone-map");
+    await tab.locator(".fix button.large").click();
+    await tab.waitForSelector(".fix a.large");
+    const [download] = await Promise.all([tab.waitForEvent("download"), tab.locator(".fix a.large").click()]);
+    assert.equal(download.suggestedFilename(), "bricks-fixed.png");
+    const fixed = decode(readFileSync(await download.path())), source = decode(readFileSync(path));
+    assert.deepEqual([...fixed.data.subarray(0, 3000)], [...source.data.subarray(0, 3000)].map((x, i) => (i % source.channels === 1 ? 255 - x : x)));
+    assert.match(await tab.locator(".seen").textContent(), /^Fixed:/);
+    assert.match(await looked(tab), /Green points up, as in glTF and OpenGL/);
+    await shoot(tab, "lone-map-fixed");
+    if (tool) assert.equal(JSON.parse(execFileSync(tool, ["check", "--json", await download.path()])).files[0].image.green, "up");
+  }));
+});
+
+test("DDS and KTX2 are judged by their texels", { skip: noTool }, async () => {
+  await inFolder((folder) => withPage(async (tab) => {
+    const path = await ringMap(tab, folder);
+    for (const ending of ["dds", "ktx2"]) {
+      const packed = join(folder, `bricks.${ending}`);
+      execFileSync(tool, ["compress-map", path, "-o", packed, "--quiet"]);
+      assert.equal(await openMap(tab, packed), "ready");
+      assert.match(await looked(tab), /256 x 256 texels/);
+      assert.equal(await tab.evaluate(() => document.documentElement.dataset.picture), "drawn");
+    }
+  }));
+});
+
+test("a picture is no normal map, and a broken file is said to be one", { skip: noShared }, async () => {
+  await inFolder((folder) => withPage(async (tab) => {
+    const broken = join(folder, "broken.png");
+    writeFileSync(broken, "no PNG");
+    assert.equal(await openMap(tab, broken), "failed");
+    assert.match(await tab.locator(".failure").textContent(), /\S/);
+    assert.doesNotMatch(await tab.locator(".failure").textContent(), /This page failed/);
+  }, { allowMessages: true }));
+});
