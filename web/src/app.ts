@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // One model at a time: what is asked of the worker, in which order, and what the views are told. What comes back for a model
 // that is no longer the current one is dropped.
+import { Vector3 } from "three";
 import { LoaderError, loadModel } from "./model/load.js";
 import { imageOf, isMapName, surfaceWith } from "./model/lone_map.js";
 import { glbOfObj } from "./model/obj.js";
@@ -61,6 +62,8 @@ function plainly(error: unknown): string {
   if (/Cannot read propert|is not iterable|is undefined|is not a function/.test(text)) return "the file names something that is not in it.";
   return text;
 }
+/** A lone map is seen from nearly straight ahead. */
+const kMapDirection = new Vector3(0.2, 0.12, 1).normalize();
 const copyOf = (arrays: Arrays): Arrays => structuredClone(arrays);
 
 export class App {
@@ -249,7 +252,7 @@ export class App {
       if (!stage.viewport.hasPicture) remarks.unshift("This browser has no WebGL, so there is no picture. Findings and fixes are complete.");
       stage.viewport.show(scene);
       if (!isOther) {
-        stage.viewport.reset(true);
+        stage.viewport.reset(true, model.loneMap && kMapDirection);
         this.views.offered(variants);
       }
       this.views.uvMap.reset();
@@ -385,7 +388,7 @@ export class App {
       const mended = isFile(right) ? this.#mended.find(({ mesh, primitive }) => mesh === drawn.part.mesh && primitive === drawn.part.primitive) : undefined;
       const frames = await this.#frames(drawn, right, mended);
       if (scene !== stage.viewport.scene || look.right !== right) return;
-      scene.setRight(drawn, frames, (mended ?? drawn.part).normalMap);
+      scene.setRight(drawn, frames, (mended ?? drawn.part).normalMap, !isFile(right));
       stage.viewport.ask();
     }
     stage.viewport.showRight(isFile(right) ? this.#mendedScene : null);

@@ -13,7 +13,7 @@ import { askedModel, askFirst, filesAt } from "./asked.js";
 import { samples, type Sample } from "./samples.js";
 import { loadModel } from "./model/load.js";
 import { imageOf, mapType } from "./model/lone_map.js";
-import { planFor, type Plan } from "./views/advice.js";
+import { planFor, worstOf, type Plan } from "./views/advice.js";
 import { FindingsView } from "./views/findings.js";
 import { FixView } from "./views/fix.js";
 import { GalleryView } from "./views/gallery.js";
@@ -101,7 +101,7 @@ function showFixed({ name, bytes, others, checked: after }: Mended, url: string,
   fix.done(name, url, before.counts, after?.counts ?? null, plan?.tangents === "overwrite" ? plan : null);
   place.clear();
   if (after) findings.show(after, true);
-  findings.showVerdict("tspace, in the fixed file.");
+  if (!app.model?.loneMap) findings.showVerdict("tspace, in the fixed file.");
   stage.setLook("lit");
 }
 
@@ -113,7 +113,7 @@ function followLink(): void {
   const { look, finding, split, camera } = linked as typeof first, { check } = app.reports as { check?: CheckReport };
   linked = {};
   // What one sees at once is the worst of it.
-  const worst = check?.findings.find(({ severity }) => severity !== "note");
+  const worst = check && worstOf(check);
   if (worst && finding === undefined && split === undefined && !camera) place.aim(check!.findings.filter(({ code }) => code === worst.code));
   if (finding !== undefined) findings.openFinding(finding);
   if (look) stage.setLook(look);

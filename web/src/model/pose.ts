@@ -67,12 +67,23 @@ export function poseCorners({ morphed, matrices }: Pose, arrays: Arrays, corners
   if (corners.tangents) poseTangents(matrices, arrays, corners.tangents);
 }
 
-/** Where bones mirror, cross(N, T) turns over and the surface does not: w changes sign, so that B goes with the surface. */
-export function poseTangents(matrices: Float32Array | null, arrays: Arrays, tangents: Float32Array): void {
+/** Whether a triangle is wound as its normals say. */
+function facesItsNormals({ positions: p, normals: n }: Pick<Corners, "positions" | "normals">, triangle: number): boolean {
+  const [a, b, c] = [0, 3, 6].map((k) => new Vector3().fromArray(p, 9 * triangle + k)), sum = new Vector3(), own = new Vector3();
+  for (const k of [0, 3, 6]) sum.add(own.fromArray(n, 9 * triangle + k));
+  return b.sub(a).cross(c.sub(a)).dot(sum) >= 0;
+}
+
+/**
+ * Where bones mirror, cross(N, T) is inverted and the surface is not: w changes sign, so that B follows the surface. `rest`: the tangents
+ * are those of a method, whose w follows the winding of the UVs. Where triangles are wound for the mirrored pose, and so against
+ * their normals at rest, that w is the one of the pose already.
+ */
+export function poseTangents(matrices: Float32Array | null, arrays: Arrays, tangents: Float32Array, rest: Pick<Corners, "positions" | "normals"> | null = null): void {
   const matrix = new Matrix4();
   if (!matrices) return;
   moved(tangents, 4, arrays, null, (vertex, v, corner) => {
     v.transformDirection(matrix.fromArray(matrices, 16 * vertex));
-    if (matrix.determinant() < 0) tangents[4 * corner + 3] *= -1;
+    if (matrix.determinant() < 0 && (!rest || facesItsNormals(rest, Math.floor(corner / 3)))) tangents[4 * corner + 3] *= -1;
   });
 }

@@ -14,7 +14,7 @@ export interface Drawn {
   corners: Corners;
   frames: Frames | null;
   /** Corners and right tangents before bones and morph weights moved them; null where nothing does. */
-  rest: { corners: Pick<Corners, "positions" | "normals" | "tangents">; right: Float32Array<ArrayBuffer> | null } | null;
+  rest: { corners: Pick<Corners, "positions" | "normals" | "tangents">; right: Float32Array<ArrayBuffer> | null; isOfMethod: boolean } | null;
   /** The normal map right of the slider. */
   rightMap: Texture | null;
   /** Whether green of that map is read the other way round, since `check` says that it points down. */
@@ -88,7 +88,7 @@ export class Scene {
     const drawn = draw(number, part, corners);
     if (part.isPosed) {
       const { positions, normals, tangents } = corners;
-      drawn.rest = { corners: { positions: positions.slice(), normals: normals.slice(), tangents: tangents?.slice() ?? null }, right: null };
+      drawn.rest = { corners: { positions: positions.slice(), normals: normals.slice(), tangents: tangents?.slice() ?? null }, right: null, isOfMethod: true };
       this.#pose(drawn);
     }
     for (const place of part.places) {
@@ -112,11 +112,12 @@ export class Scene {
   }
 
   /** What stands right of the slider. Without frames a renderer makes its own. */
-  setRight(drawn: Drawn, frames: Frames | null, map: Texture | null): void {
+  setRight(drawn: Drawn, frames: Frames | null, map: Texture | null, isOfMethod: boolean): void {
     const corners = drawn.corners.positions.length / 3, { uniforms } = drawn.material;
     drawn.frames = frames;
     if (drawn.rest) {
       drawn.rest.right = frames?.tangents.slice() ?? null;
+      drawn.rest.isOfMethod = isOfMethod;
       this.#pose(drawn);
     }
     drawn.rightMap = drawn.corners.uvs && map;
@@ -149,7 +150,7 @@ export class Scene {
     if (rest.right) frames?.tangents.set(rest.right);
     if (!part.pose) return;
     poseCorners(part.pose, part.arrays, corners);
-    if (frames) poseTangents(part.pose.matrices, part.arrays, frames.tangents);
+    if (frames) poseTangents(part.pose.matrices, part.arrays, frames.tangents, rest.isOfMethod ? rest.corners : null);
   }
 
   /** Right of the slider green is read the other way round. */

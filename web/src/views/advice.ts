@@ -88,6 +88,12 @@ export function adviceFor(report: CheckReport | null, tangents: Tangents, isTurn
   return { extras, reasons };
 }
 
+/** The finding that is said first: of the worst severity, and of these one that is seen in this very picture rather than in other viewers. */
+export function worstOf({ findings }: CheckReport): Finding | undefined {
+  const worst = findings.filter(({ severity }) => severity !== "note" && severity === findings[0].severity);
+  return worst.find(({ code }) => code !== "tangentsMissing") ?? worst[0];
+}
+
 export interface Plan {
   tangents: Tangents;
   /** What the fix will do, as the words behind "Fix it:". */

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The answer to "what is wrong, and what do I press": a sentence above the picture, and one large button beside the split line.
 import { el, plural, replaceChildren } from "../dom.js";
-import { changeOfCounts, countsText, type Plan } from "./advice.js";
+import { changeOfCounts, countsText, worstOf, type Plan } from "./advice.js";
 import type { CheckReport, Finding } from "tspace/gltf";
 
 /** `87 % sure`, or nothing where a finding is certain. */
@@ -26,11 +26,11 @@ export class FixView {
 
   /** What check found, and what one click will do about it. */
   offer(report: CheckReport, plan: Plan | null): void {
-    const [worst] = report.findings, isWrong = worst !== undefined && worst.severity !== "note";
-    this.caption.dataset.severity = isWrong ? worst.severity : "fine";
+    const worst = worstOf(report);
+    this.caption.dataset.severity = worst?.severity ?? "fine";
     const kinds = new Set(report.findings.filter(({ severity }) => severity !== "note").map(({ code }) => code)).size;
     const others = kinds > 1 ? ` And ${plural(kinds - 1, "other fault")}.` : "";
-    replaceChildren(this.caption, isWrong && el("strong", {}, worst.effect), isWrong ? `${others} ${sureText(worst)}` : `Nothing is wrong here${report.counts.note > 0 ? `; ${plural(report.counts.note, "note")}` : ""}.`);
+    replaceChildren(this.caption, worst && el("strong", {}, worst.effect), worst ? `${others} ${sureText(worst)}` : `Nothing is wrong here${report.counts.note > 0 ? `; ${plural(report.counts.note, "note")}` : ""}.`);
     this.element.hidden = plan === null;
     if (!plan) return;
     const left = plan.left > 0 ? ` ${plural(plan.left, "fault")} must be fixed where the model was made.` : "";
