@@ -169,6 +169,8 @@ const leastContrast = (tab) => tab.evaluate(() => {
 const cutOff = (tab) => tab.evaluate(() => [...document.querySelectorAll("body *")].filter((element) => {
   const own = [...element.childNodes].some((node) => node.nodeType === 3 && node.textContent.trim() !== "");
   if (!own || !element.checkVisibility() || getComputedStyle(element).clipPath !== "none") return false;
+  // Rows that scroll sideways.
+  if (element.closest(".samples, .stage > .choice")) return false;
   const { left, right } = element.getBoundingClientRect();
   return left < 0 || right > innerWidth + 0.5 || element.scrollWidth > element.clientWidth + 1 && getComputedStyle(element).display !== "inline";
 }).map((element) => `${element.className}: ${element.textContent.slice(0, 40)}`));
