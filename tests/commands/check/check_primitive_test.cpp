@@ -463,6 +463,7 @@ TEST(Check, EveryCodeHasANameAndARemedy) {
         names.insert(findingName(static_cast<FindingCode>(code)));
         EXPECT_GT(std::string(findingRemedy(static_cast<FindingCode>(code))).size(), 20u) << code;
         EXPECT_TRUE(std::string(findingSummary(static_cast<FindingCode>(code))).ends_with(".")) << code;
+        EXPECT_TRUE(std::string(findingEffect(static_cast<FindingCode>(code))).ends_with(".")) << code;
     }
     EXPECT_EQ(names.size(), kFindingCodeCount);
     EXPECT_STREQ(findingName(static_cast<FindingCode>(kFindingCodeCount)), "");
