@@ -9,6 +9,7 @@
 #include "tspace/mesh.h"
 #include "tspace/normals.h"
 #include "tspace/pack.h"
+#include "tspace/plan_buffers.h"
 #include "tspace/result.h"
 #include "tspace/span.h"
 #include "tspace/tangents.h"

@@ -3,6 +3,7 @@
 
 #include <vulkan/vulkan.h>
 
+#include <algorithm>
 #include <cstring>
 #include <functional>
 #include <utility>
@@ -72,8 +73,26 @@ class Device final : public VulkanCompute {
             const std::size_t result_bytes = results.size() * sizeof(float);
             const Buffer in = makeBuffer(owned, words.size_bytes()), out = makeBuffer(owned, result_bytes);
             copyIn(in, words.data(), words.size_bytes());
-            dispatch(owned, spirv, in, out, static_cast<std::uint32_t>((items + 63) / 64));
+            const Buffer both[] = {in, out};
+            dispatch(owned, spirv, "main", both, static_cast<std::uint32_t>((items + 63) / 64));
             copyOut(out, results.data(), result_bytes);
+            return {};
+        } catch (const Failed& failed) {
+            return failed.what;
+        }
+    }
+
+    std::string runBuffers(std::span<const std::uint32_t> spirv, const char* entry, std::uint32_t groups,
+                           std::span<std::vector<std::uint32_t>> arrays) override {
+        try {
+            Owned owned;
+            std::vector<Buffer> buffers;
+            for (const std::vector<std::uint32_t>& array : arrays) {
+                buffers.push_back(makeBuffer(owned, 4 * array.size()));
+                copyIn(buffers.back(), array.data(), 4 * array.size());
+            }
+            dispatch(owned, spirv, entry, buffers, groups);
+            for (std::size_t i = 0; i < arrays.size(); ++i) copyOut(buffers[i], arrays[i].data(), 4 * arrays[i].size());
             return {};
         } catch (const Failed& failed) {
             return failed.what;
@@ -165,9 +184,9 @@ class Device final : public VulkanCompute {
         vkUnmapMemory(device_, from.memory);
     }
 
-    VkDescriptorSetLayout makeSetLayout(Owned& owned) {
-        VkDescriptorSetLayoutBinding bindings[2]{};
-        for (std::uint32_t i = 0; i < 2; ++i) {
+    VkDescriptorSetLayout makeSetLayout(Owned& owned, std::size_t count) {
+        std::vector<VkDescriptorSetLayoutBinding> bindings(count);
+        for (std::uint32_t i = 0; i < count; ++i) {
             bindings[i].binding = i;
             bindings[i].descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
             bindings[i].descriptorCount = 1;
@@ -175,16 +194,16 @@ class Device final : public VulkanCompute {
         }
         VkDescriptorSetLayoutCreateInfo info{};
         info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
-        info.bindingCount = 2;
-        info.pBindings = bindings;
+        info.bindingCount = static_cast<std::uint32_t>(count);
+        info.pBindings = bindings.data();
         VkDescriptorSetLayout layout = VK_NULL_HANDLE;
         must(vkCreateDescriptorSetLayout(device_, &info, nullptr, &layout), "vkCreateDescriptorSetLayout");
         owned.add([this, layout] { vkDestroyDescriptorSetLayout(device_, layout, nullptr); });
         return layout;
     }
 
-    VkDescriptorSet makeSet(Owned& owned, VkDescriptorSetLayout layout, const Buffer& in, const Buffer& out) {
-        const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 2};
+    VkDescriptorSet makeSet(Owned& owned, VkDescriptorSetLayout layout, std::span<const Buffer> all) {
+        const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, static_cast<std::uint32_t>(all.size())};
         VkDescriptorPoolCreateInfo info{};
         info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
         info.maxSets = 1;
@@ -200,21 +219,22 @@ class Device final : public VulkanCompute {
         allocate.pSetLayouts = &layout;
         VkDescriptorSet set = VK_NULL_HANDLE;
         must(vkAllocateDescriptorSets(device_, &allocate, &set), "vkAllocateDescriptorSets");
-        const VkDescriptorBufferInfo buffers[2] = {{in.buffer, 0, VK_WHOLE_SIZE}, {out.buffer, 0, VK_WHOLE_SIZE}};
-        for (std::uint32_t i = 0; i < 2; ++i) {
+        for (std::uint32_t i = 0; i < all.size(); ++i) {
+            const VkDescriptorBufferInfo buffer{all[i].buffer, 0, VK_WHOLE_SIZE};
             VkWriteDescriptorSet write{};
             write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
             write.dstSet = set;
             write.dstBinding = i;
             write.descriptorCount = 1;
             write.descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-            write.pBufferInfo = &buffers[i];
+            write.pBufferInfo = &buffer;
             vkUpdateDescriptorSets(device_, 1, &write, 0, nullptr);
         }
         return set;
     }
 
-    VkPipeline makePipeline(Owned& owned, std::span<const std::uint32_t> spirv, VkPipelineLayout layout) {
+    VkPipeline makePipeline(Owned& owned, std::span<const std::uint32_t> spirv, const char* entry,
+                            VkPipelineLayout layout) {
         VkShaderModuleCreateInfo info{};
         info.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
         info.codeSize = spirv.size_bytes();
@@ -227,7 +247,7 @@ class Device final : public VulkanCompute {
         pipeline_info.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
         pipeline_info.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
         pipeline_info.stage.module = module;
-        pipeline_info.stage.pName = "main";
+        pipeline_info.stage.pName = entry;
         pipeline_info.layout = layout;
         VkPipeline pipeline = VK_NULL_HANDLE;
         must(vkCreateComputePipelines(device_, VK_NULL_HANDLE, 1, &pipeline_info, nullptr, &pipeline),
@@ -236,18 +256,39 @@ class Device final : public VulkanCompute {
         return pipeline;
     }
 
-    void dispatch(Owned& owned, std::span<const std::uint32_t> spirv, const Buffer& in, const Buffer& out,
-                  std::uint32_t groups) {
-        VkDescriptorSetLayout set_layout = makeSetLayout(owned);
+    /// A shader with its layouts.
+    struct Program {
+        Owned owned;
+        std::vector<std::uint32_t> spirv;
+        VkDescriptorSetLayout set_layout = VK_NULL_HANDLE;
+        VkPipelineLayout layout = VK_NULL_HANDLE;
+        VkPipeline pipeline = VK_NULL_HANDLE;
+    };
+
+    /// The last one is kept: software devices take seconds to compile a shader.
+    const Program& programOf(std::span<const std::uint32_t> spirv, const char* entry, std::size_t buffer_count) {
+        if (program_ != nullptr &&
+            std::equal(spirv.begin(), spirv.end(), program_->spirv.begin(), program_->spirv.end()))
+            return *program_;
+        program_ = std::make_unique<Program>();
+        program_->spirv.assign(spirv.begin(), spirv.end());
+        program_->set_layout = makeSetLayout(program_->owned, buffer_count);
         VkPipelineLayoutCreateInfo layout_info{};
         layout_info.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
         layout_info.setLayoutCount = 1;
-        layout_info.pSetLayouts = &set_layout;
-        VkPipelineLayout layout = VK_NULL_HANDLE;
-        must(vkCreatePipelineLayout(device_, &layout_info, nullptr, &layout), "vkCreatePipelineLayout");
-        owned.add([this, layout] { vkDestroyPipelineLayout(device_, layout, nullptr); });
-        VkPipeline pipeline = makePipeline(owned, spirv, layout);
-        VkDescriptorSet set = makeSet(owned, set_layout, in, out);
+        layout_info.pSetLayouts = &program_->set_layout;
+        must(vkCreatePipelineLayout(device_, &layout_info, nullptr, &program_->layout), "vkCreatePipelineLayout");
+        program_->owned.add([this, layout = program_->layout] { vkDestroyPipelineLayout(device_, layout, nullptr); });
+        program_->pipeline = makePipeline(program_->owned, spirv, entry, program_->layout);
+        return *program_;
+    }
+
+    void dispatch(Owned& owned, std::span<const std::uint32_t> spirv, const char* entry,
+                  std::span<const Buffer> buffers, std::uint32_t groups) {
+        const Program& program = programOf(spirv, entry, buffers.size());
+        VkPipelineLayout layout = program.layout;
+        VkPipeline pipeline = program.pipeline;
+        VkDescriptorSet set = makeSet(owned, program.set_layout, buffers);
 
         VkCommandPoolCreateInfo pool_info{};
         pool_info.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO;
@@ -278,6 +319,7 @@ class Device final : public VulkanCompute {
     }
 
     Owned owned_;
+    std::unique_ptr<Program> program_;  ///< destroyed before the device
     VkInstance instance_ = VK_NULL_HANDLE;
     VkPhysicalDevice physical_ = VK_NULL_HANDLE;
     VkDevice device_ = VK_NULL_HANDLE;

@@ -21,6 +21,10 @@ class VulkanCompute {
     /// `results` has. Empty, or what failed.
     virtual std::string run(std::span<const std::uint32_t> spirv, std::span<const std::uint32_t> words,
                             std::size_t items, std::vector<float>& results) = 0;
+    /// Dispatches `entry` of `spirv` for so many groups, with one storage buffer per array, which take what was written.
+    /// No array may be empty. Empty, or what failed.
+    virtual std::string runBuffers(std::span<const std::uint32_t> spirv, const char* entry, std::uint32_t groups,
+                                   std::span<std::vector<std::uint32_t>> arrays) = 0;
 };
 
 }  // namespace tspace::shaders

@@ -143,6 +143,35 @@ Result<NormalReport> generatePoseNormals(const MeshView& mesh, const StridedSpan
     });
 }
 
+Result<std::vector<std::uint32_t>> findSharedNormals(const MeshView& given, const NormalOptions& options,
+                                                     const Execution& execution) {
+    Parallel parallel(execution, kSlow * given.cornerCount());
+    if (Error e = checkMesh(given, &parallel); e.code != ErrorCode::ok) return e;
+    if (Error e = checkOptions(given, options); e.code != ErrorCode::ok) return e;
+    if (!PointItems::areTriangles(given))
+        return Error{ErrorCode::invalidOption, "shared normals need a mesh of triangles: triangulate it first"};
+    std::vector<std::uint32_t> shared(given.cornerCount());
+    for (std::uint32_t c = 0; c < shared.size(); ++c) shared[c] = c;
+    if (options.weighting == NormalWeighting::flat || shared.empty()) return shared;
+    const NearMesh near(given, options.weld_positions ? options.weld_distance : 0, execution.allocator, parallel);
+    const MeshView& mesh = near.near().empty() ? given : near.view();
+    Call<NormalOptions> used{options, execution};
+    Creases creases;
+    if (options.crease_angle_deg == NormalOptions::crease_auto) {
+        creases = findCreases(mesh, options, execution, parallel);
+        used.crease_angle_deg = creases.are_all_soft ? 180 : creases.angle_deg;
+    }
+    Buffer<Vec3> unused(execution.allocator, mesh.cornerCount());
+    NormalsCall call(mesh, mesh, used, {unused.data(), unused.size()}, parallel);
+    if (!creases.edges.empty()) call.edges = creases.edges.data();
+    call.shared = shared.data();
+    smoothFaces(call);
+    for (std::uint32_t c = 0; c < shared.size(); ++c) {
+        if (call.items.pointOf(call.faces.previous(c)) == call.items.pointOf(c)) shared[c] |= kNoSharedNormal;
+    }
+    return shared;
+}
+
 }  // namespace tspace
 
 namespace tspace::smooth {

@@ -167,6 +167,8 @@ struct NormalsCall {
     bool by_area, by_angle;
     /// Where smoothFaces leaves, for `best`, the lowest corner of each corner's component. Null: not wanted.
     Buffer<std::uint32_t>* components = nullptr;
+    /// Where smoothFaces writes the lowest corner that shares the normal of each corner. Null: not needed.
+    std::uint32_t* shared = nullptr;
     const EdgeKind* edges = nullptr;  ///< per corner; null: all by their angle
 };
 

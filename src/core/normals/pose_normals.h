@@ -16,4 +16,11 @@ Result<NormalReport> generatePoseNormals(const MeshView& mesh, const StridedSpan
                                          const NormalOptions& options, StridedSpan<Vec3> out,
                                          const Execution& execution = {});
 
+/// Finds which corners share one normal, in all poses: per corner the lowest such corner, or kNoSharedNormal where the corner
+/// adds nothing to the mean because its face visits the point twice. Weighting flat: each corner has its own.
+/// Errors: as generateNormals, and invalidOption for faces that are not triangles.
+inline constexpr std::uint32_t kNoSharedNormal = 0x80000000u;  ///< a flag beside the corner
+Result<std::vector<std::uint32_t>> findSharedNormals(const MeshView& mesh, const NormalOptions& options,
+                                                     const Execution& execution = {});
+
 }  // namespace tspace

@@ -156,6 +156,8 @@ class RangeWork {
             const Link* const links = findComponents(setting_.rule, room_.deciding, at, room_.links, room_.parents);
             for (std::uint32_t first = 0, past = 0; first < count; first = past) {
                 while (past < count && links[past].key == links[first].key) ++past;
+                for (std::uint32_t i = first; call_.shared != nullptr && i < past; ++i)
+                    call_.shared[at.corner(links[i].slot)] = at.corner(links[first].slot);
                 substitutes += write(at, links + first, past - first);
             }
         }

@@ -23,6 +23,7 @@
 #include "core/tangents/mikktspace/vertex_path.h"
 #include "core/tangents/mikktspace/weld.h"
 #include "core/tangents/mirrored_count.h"
+#include "core/tangents/plan_parts.h"
 #include "tspace/tangents.h"
 
 namespace tspace::mikk {
@@ -372,6 +373,12 @@ TangentPlan::~TangentPlan() { delete state_; }
 const TangentPlan::State& TangentPlan::state() const {
     static const State kMovedFrom;
     return state_ == nullptr ? kMovedFrom : *state_;
+}
+
+PlanParts partsOf(const TangentPlan& plan) {
+    const TangentPlan::State& state = plan.state();
+    return {std::get_if<mikk::EvaluationPlan>(&state.plan), std::get_if<IndexedPlan>(&state.plan), state.is_symmetric,
+            state.normalizes_normals, !state.source_vertices.empty()};
 }
 
 std::size_t TangentPlan::vertexCount() const { return state().vertex_count; }

@@ -20,7 +20,7 @@ try {
     const glsl = { shader: await text("/shaders/tspace.glsl"), cases: await text("/tests/cases.glsl") };
     const runners = {};
     try {
-        runners.wgsl = await openWebGpu(tspace + wgsl_cases, snippets.map((code) => tspace + code));
+        runners.wgsl = await openWebGpu(tspace + wgsl_cases, [await text("/shaders/tspace_evaluate.wgsl"), ...snippets.map((code) => tspace + code)]);
     } catch (error) {
         if (error.is_wrong_shader) throw error;
         await send("/without/wgsl", String(error));

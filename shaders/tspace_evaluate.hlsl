@@ -1,0 +1,603 @@
+// SPDX-License-Identifier: MIT
+// Normals and tangents of a pose from a plan (planBuffers of tspace), in HLSL: one thread gathers one result. No atomics, and
+// sums in a fixed order: the same bits from run to run. docs/gpu.md of tspace describes the buffers.
+//
+// Dispatch tspace_evaluate with 64 threads per group, ceil(results / 64) groups in x and y together (65535 at most in x).
+
+// The words of a plan: PlanBuffers in plan_buffers.h.
+StructuredBuffer<uint> tspace_plan : register(t0);
+// How the arrays of a pose lie in their buffers: 32 words, see tspace_setting.
+StructuredBuffer<uint> tspace_settings : register(t1);
+StructuredBuffer<uint> tspace_positions : register(t2);
+// Morph deltas, joints, weights and matrices, where the settings ask for them.
+StructuredBuffer<uint> tspace_deform : register(t3);
+// Read where the plan makes no normals, else written.
+RWStructuredBuffer<uint> tspace_normals : register(u4);
+RWStructuredBuffer<uint> tspace_tangents : register(u5);
+
+// Words of tspace_settings. Offsets and strides are in bytes.
+static const uint tspace_position_format = 0u;  // 0: three floats; 1: three snorm16, times the scale
+static const uint tspace_position_offset = 1u;
+static const uint tspace_position_stride = 2u;
+static const uint tspace_position_scale = 3u;  // three floats
+static const uint tspace_normal_format = 6u;   // 0: none is written; 1: three floats. Those of a pose are floats
+static const uint tspace_normal_offset = 7u;
+static const uint tspace_normal_stride = 8u;
+static const uint tspace_tangent_format = 9u;  // 0: T and sign as four floats; 3: snorm8 pair
+static const uint tspace_tangent_offset = 10u;
+static const uint tspace_tangent_stride = 11u;
+static const uint tspace_morph_count = 12u;      // targets, of three floats per vertex one after the other; 0: none
+static const uint tspace_morph_weights = 13u;    // where the weights lie in tspace_deform, in words
+static const uint tspace_morph_deltas = 14u;     // where the deltas lie, in words
+static const uint tspace_vertex_count = 15u;     // of morph targets
+static const uint tspace_skin = 16u;             // 1: skinned, by four joints per vertex
+static const uint tspace_skin_joints = 17u;      // where four words per vertex lie in tspace_deform
+static const uint tspace_skin_weights = 18u;     // where four floats per vertex lie
+static const uint tspace_skin_matrices = 19u;    // where three rows of four floats per joint lie
+static const uint tspace_first_result = 20u;     // of this dispatch
+
+static const uint tspace_no_tangent = 0x80000000u;
+static const uint tspace_no_normal = 0x40000000u;
+static const uint tspace_next_part = 0xffffffffu;
+static const float tspace_least_normal = 1.17549435e-38;
+static const float tspace_greatest = 3.4e38;
+
+uint tspace_setting(uint word) { return tspace_settings[word]; }
+float tspace_float(uint word) { return asfloat(tspace_settings[word]); }
+
+// Subnormal numbers, zero and NaN count as zero.
+bool tspace_notZero(float3 v) {
+    return abs(v.x) > tspace_least_normal || abs(v.y) > tspace_least_normal || abs(v.z) > tspace_least_normal;
+}
+bool tspace_isFinite(float3 v) {
+    return abs(v.x) < tspace_greatest && abs(v.y) < tspace_greatest && abs(v.z) < tspace_greatest;
+}
+float3 tspace_normalized(float3 v) {
+    if (!tspace_notZero(v)) {
+        return v;
+    }
+    return (1.0 / sqrt(dot(v, v))) * v;
+}
+// The unit vector of v without its part along n, which is used as it is.
+float3 tspace_flatten(float3 n, float3 v) { return tspace_normalized(v - dot(n, v) * n); }
+
+float tspace_arcCosine(float cosine) {
+    float c = clamp(cosine, -1.0, 1.0);
+    float a = abs(c);
+    bool is_steep = a > 0.5;
+    float y = a * a;
+    if (is_steep) {
+        y = 0.5 - 0.5 * a;
+    }
+    float s = sqrt(y);
+    float p = ((((0.0421632 * y + 0.0241812) * y + 0.0454702) * y + 0.0749530) * y + 0.1666675) * y;
+    float arc = s + s * p;
+    if (!is_steep) {
+        if (c < 0.0) {
+            return 1.57079637 + arc;
+        }
+        return 1.57079637 - arc;
+    }
+    if (c < 0.0) {
+        return 3.14159274 - 2.0 * arc;
+    }
+    return 2.0 * arc;
+}
+
+// The angle in [0, pi] whose cosine and sine are as x to y; y is not negative.
+float tspace_angle(float x, float y) {
+    float size = abs(x);
+    float t = min(size, y) / max(max(size, y), tspace_least_normal);
+    float q = t * t;
+    float p = -2.386997316e-03;
+    p = p * q + 1.350777142e-02;
+    p = p * q - 3.587153898e-02;
+    p = p * q + 6.250169444e-02;
+    p = p * q - 8.656880430e-02;
+    p = p * q + 1.103376412e-01;
+    p = p * q - 1.427856875e-01;
+    p = p * q + 1.999973933e-01;
+    p = p * q - 3.333333173e-01;
+    float angle = t + t * (q * p);
+    if (size <= y) {
+        angle = 1.57079637 - angle;
+    }
+    if (x < 0.0) {
+        return 3.14159274 - angle;
+    }
+    return angle;
+}
+
+// ---- what a pose holds
+
+float tspace_shortAt(uint byte) {
+    uint word = tspace_positions[byte >> 2u];
+    if ((byte & 2u) == 0u) {
+        word = word << 16u;
+    }
+    return max(float(int(word) >> 16u) / 32767.0, -1.0);
+}
+
+float3 tspace_storedPosition(uint vertex_number) {
+    uint at = tspace_setting(tspace_position_offset) + vertex_number * tspace_setting(tspace_position_stride);
+    float3 scale = float3(tspace_float(tspace_position_scale), tspace_float(tspace_position_scale + 1u),
+                          tspace_float(tspace_position_scale + 2u));
+    if (tspace_setting(tspace_position_format) == 1u) {
+        return scale * float3(tspace_shortAt(at), tspace_shortAt(at + 2u), tspace_shortAt(at + 4u));
+    }
+    uint word = at >> 2u;
+    return float3(asfloat(tspace_positions[word]), asfloat(tspace_positions[word + 1u]),
+                  asfloat(tspace_positions[word + 2u]));
+}
+
+float3 tspace_deformVector(uint word) {
+    return float3(asfloat(tspace_deform[word]), asfloat(tspace_deform[word + 1u]), asfloat(tspace_deform[word + 2u]));
+}
+
+float3 tspace_morphed(float3 position, uint vertex_number) {
+    float3 sum = position;
+    uint count = tspace_setting(tspace_morph_count);
+    for (uint shape = 0u; shape < count; ++shape) {
+        float weight = asfloat(tspace_deform[tspace_setting(tspace_morph_weights) + shape]);
+        uint row = 3u * (shape * tspace_setting(tspace_vertex_count) + vertex_number);
+        if (weight != 0.0) {
+            sum += weight * tspace_deformVector(tspace_setting(tspace_morph_deltas) + row);
+        }
+    }
+    return sum;
+}
+
+float3 tspace_skinned(float3 position, uint vertex_number) {
+    float3 sum = float3(0.0, 0.0, 0.0);
+    for (uint i = 0u; i < 4u; ++i) {
+        float weight = asfloat(tspace_deform[tspace_setting(tspace_skin_weights) + 4u * vertex_number + i]);
+        uint joint = tspace_deform[tspace_setting(tspace_skin_joints) + 4u * vertex_number + i];
+        uint row = tspace_setting(tspace_skin_matrices) + 12u * joint;
+        if (weight != 0.0) {
+            float3 moved = float3(dot(tspace_deformVector(row), position) + asfloat(tspace_deform[row + 3u]),
+                                  dot(tspace_deformVector(row + 4u), position) + asfloat(tspace_deform[row + 7u]),
+                                  dot(tspace_deformVector(row + 8u), position) + asfloat(tspace_deform[row + 11u]));
+            sum += weight * moved;
+        }
+    }
+    return sum;
+}
+
+// The position of a vertex: stored, then morphed, then skinned.
+float3 tspace_positionOf(uint vertex_number) {
+    float3 position = tspace_storedPosition(vertex_number);
+    if (tspace_setting(tspace_morph_count) != 0u) {
+        position = tspace_morphed(position, vertex_number);
+    }
+    if (tspace_setting(tspace_skin) != 0u) {
+        position = tspace_skinned(position, vertex_number);
+    }
+    return position;
+}
+
+float3 tspace_normalOf(uint vertex_number) {
+    uint word = (tspace_setting(tspace_normal_offset) + vertex_number * tspace_setting(tspace_normal_stride)) >> 2u;
+    float3 normal =
+        float3(asfloat(tspace_normals[word]), asfloat(tspace_normals[word + 1u]), asfloat(tspace_normals[word + 2u]));
+    if ((tspace_plan[2] & 4u) == 0u) {
+        return normal;
+    }
+    // Only a length that rounding to 8 bits does not explain is changed.
+    float square = dot(normal, normal);
+    if (abs(square - 1.0) <= 0.0134 || !(square >= 1e-12) || !(square < tspace_greatest)) {
+        return normal;
+    }
+    return normal / sqrt(square);
+}
+
+// ---- triangles of a plan
+
+// A corner of a triangle.
+struct tspace_Corner {
+    float3 e1;        // from the triangle's first corner to its second
+    float3 e2;        // from its first to its third
+    float3 next;      // from this corner to the next one
+    float3 previous;  // from this corner to the one before
+    uint vertex_number;
+    uint uvs;  // where the coefficients of its UVs lie in tspace_plan
+};
+
+uint tspace_vertexOf(uint entry) {
+    return tspace_plan[tspace_plan[10] + ((entry & 0x3fffffffu) >> 2u) * tspace_plan[7] + (entry & 3u)];
+}
+
+tspace_Corner tspace_cornerOf(uint entry) {
+    uint k = entry & 3u;
+    uint at = tspace_plan[10] + ((entry & 0x3fffffffu) >> 2u) * tspace_plan[7];
+    float3 p0 = float3(0.0, 0.0, 0.0);
+    float3 p1 = p0;
+    float3 p2 = p0;
+    for (uint i = 0u; i < 3u; ++i) {  // a loop, so that compilers have one copy of what it calls
+        p0 = p1;
+        p1 = p2;
+        p2 = tspace_positionOf(tspace_plan[at + i]);
+    }
+    tspace_Corner corner;
+    corner.e1 = p1 - p0;
+    corner.e2 = p2 - p0;
+    corner.next = corner.e1;
+    corner.previous = corner.e2;
+    if (k == 1u) {
+        corner.next = p2 - p1;
+        corner.previous = p0 - p1;
+    }
+    if (k == 2u) {
+        corner.next = p0 - p2;
+        corner.previous = p1 - p2;
+    }
+    corner.vertex_number = tspace_plan[at + k];
+    corner.uvs = at + 3u;
+    return corner;
+}
+
+float tspace_largest(float3 v) { return max(abs(v.x), max(abs(v.y), abs(v.z))); }
+
+// A power of two that brings the edges of a result near 1, so that products of them stay in range; 0 where it has none.
+float tspace_scaleOf(uint begin, uint end) {
+    float largest = 0.0;
+    for (uint i = begin; i < end; ++i) {
+        uint entry = tspace_plan[i];
+        if (entry != tspace_next_part) {
+            tspace_Corner corner = tspace_cornerOf(entry);
+            float size = max(tspace_largest(corner.e1), tspace_largest(corner.e2));
+            if (size < tspace_greatest) {
+                largest = max(largest, size);
+            }
+        }
+    }
+    if (largest == 0.0) {
+        return 0.0;
+    }
+    uint exponent = clamp(asuint(largest) >> 23u, 1u, 253u);
+    return asfloat((254u - exponent) << 23u);
+}
+
+// ---- normals
+
+// The triangle's normal, twice as long as its area, from its two shortest edges: the least cancels there.
+float3 tspace_faceNormal(float3 e1, float3 e2) {
+    float3 e3 = e2 - e1;
+    float a = dot(e1, e1);
+    float b = dot(e2, e2);
+    float c = dot(e3, e3);
+    if (a >= b && a >= c) {
+        return cross(e2, e3);
+    }
+    if (b >= c) {
+        return cross(e1, e3);
+    }
+    return cross(e1, e2);
+}
+
+// The weight of a triangle's unit normal at a corner. `area`: of twice the triangle.
+float tspace_normalWeight(tspace_Corner corner, float scale, float area) {
+    uint weighting = tspace_plan[3];
+    float weight = 1.0;
+    if (weighting == 3u || weighting == 4u) {
+        weight = tspace_angle(dot(scale * corner.next, scale * corner.previous), area);
+    }
+    if (weighting == 2u || weighting == 4u) {
+        weight *= area;
+    }
+    if (weighting == 5u) {
+        float3 next = scale * corner.next;
+        float3 previous = scale * corner.previous;
+        weight = (area / dot(next, next)) / dot(previous, previous);
+    }
+    return weight;
+}
+
+// w: 1 where the mean vanishes, and results that share it have normals of their own.
+float4 tspace_normalOfResult(uint begin, uint end, uint own, float scale) {
+    float factor = 1.0;
+    if ((tspace_plan[2] & 2u) != 0u) {
+        factor = -1.0;
+    }
+    float3 sum = float3(0.0, 0.0, 0.0);
+    float3 own_normal = float3(0.0, 0.0, factor);
+    float weights = 0.0;
+    // The last round is the corner's own triangle, which counts where the mean vanishes.
+    for (uint i = begin; i <= end; ++i) {
+        uint entry = own;
+        if (i < end) {
+            entry = tspace_plan[i];
+        }
+        bool is_own = i == end && entry != tspace_next_part;
+        if (is_own || (i < end && (entry & tspace_no_normal) == 0u)) {
+            tspace_Corner corner = tspace_cornerOf(entry);
+            float3 n = tspace_faceNormal(scale * corner.e1, scale * corner.e2);
+            float area = sqrt(dot(n, n));
+            if (area > 0.0 && area < tspace_greatest) {
+                if (is_own) {
+                    own_normal = n / area;
+                } else {
+                    float weight = tspace_normalWeight(corner, scale, area);
+                    sum += (weight / area) * n;
+                    weights += weight;
+                }
+            }
+        }
+    }
+    float size = sqrt(dot(sum, sum));
+    if (size > 1e-6 * weights) {
+        float3 mean = (factor / size) * sum;
+        return float4(mean.x, mean.y, mean.z, 0.0);
+    }
+    own_normal = factor * own_normal;
+    return float4(own_normal.x, own_normal.y, own_normal.z, 1.0);
+}
+
+// The normal of the result that a corner belongs to.
+float3 tspace_normalAt(uint entry, uint vertex_number) {
+    uint result = vertex_number;
+    if ((tspace_plan[2] & 8u) != 0u) {
+        result = 3u * ((entry & 0x3fffffffu) >> 2u) + (entry & 3u);
+    }
+    uint row = tspace_plan[8] + 3u * result;
+    uint begin = tspace_plan[9] + tspace_plan[row];
+    uint end = begin + (tspace_plan[row + 1u] & 0x0fffffffu);
+    float4 made = tspace_normalOfResult(begin, end, tspace_plan[row + 2u], tspace_scaleOf(begin, end));
+    return float3(made.x, made.y, made.z);
+}
+
+// ---- tangents
+
+// Sums of a result. `a`: tangents; `b`: a second sum of fast and lengyel.
+struct tspace_Sums {
+    float3 a;
+    float3 b;
+};
+
+// What a corner adds for mikktspace, uniform, angle and area: its tangent across the normal, unit, times its weight.
+float3 tspace_weightedTangent(tspace_Corner corner, float3 n, uint method) {
+    float a = asfloat(tspace_plan[corner.uvs]);
+    float b = asfloat(tspace_plan[corner.uvs + 1u]);
+    float3 along = a * corner.e1 - b * corner.e2;
+    float size = sqrt(dot(along, along));
+    float3 tangent = float3(0.0, 0.0, 0.0);
+    if (size > tspace_least_normal) {
+        tangent = tspace_flatten(n, (1.0 / size) * along);
+    }
+    float weight = 1.0;
+    if (method == 0u) {
+        weight = tspace_arcCosine(dot(tspace_flatten(n, corner.previous), tspace_flatten(n, corner.next)));
+    }
+    if (method == 3u) {
+        weight = tspace_arcCosine(dot(tspace_normalized(corner.previous), tspace_normalized(corner.next)));
+    }
+    if (method == 4u) {
+        float3 c = cross(corner.next, corner.previous);
+        weight = 0.5 * sqrt(dot(c, c));
+    }
+    return weight * tangent;
+}
+
+// What a corner adds for fast: one sum that is accurate on smooth surfaces, one that is robust.
+tspace_Sums tspace_twoWeights(tspace_Corner corner, float scale) {
+    tspace_Sums sums;
+    sums.a = float3(0.0, 0.0, 0.0);
+    sums.b = float3(0.0, 0.0, 0.0);
+    float3 e1 = scale * corner.e1;
+    float3 e2 = scale * corner.e2;
+    float3 e3 = e2 - e1;
+    float squares = dot(e1, e1) + dot(e2, e2) + dot(e3, e3);
+    if (!(squares < tspace_greatest)) {
+        return sums;
+    }
+    float3 along = asfloat(tspace_plan[corner.uvs]) * e1 - asfloat(tspace_plan[corner.uvs + 1u]) * e2;
+    float size = sqrt(dot(along, along));
+    float3 c = cross(e1, e2);
+    float root = sqrt(squares);
+    float3 next = scale * corner.next;
+    float3 previous = scale * corner.previous;
+    float w = (1.0 / dot(next, next)) * (1.0 / dot(previous, previous));
+    if (w < tspace_greatest) {
+        sums.a = w * along;
+    }
+    float robust = dot(c, c) / (root * sqrt(root));
+    if (size > 0.0 && robust < tspace_greatest) {
+        sums.b = (robust / size) * along;
+    }
+    return sums;
+}
+
+// The unit vector of v, or zero.
+float3 tspace_direction(float3 v) {
+    float square = dot(v, v);
+    if (square > 0.0 && square < tspace_greatest) {
+        return (1.0 / sqrt(square)) * v;
+    }
+    return float3(0.0, 0.0, 0.0);
+}
+
+float3 tspace_mixed(float3 normal, tspace_Sums sums) {
+    float3 n = tspace_direction(normal);
+    if (dot(n, n) == 0.0) {
+        n = float3(0.0, 0.0, 1.0);
+    }
+    float3 accurate = tspace_direction(tspace_direction(sums.a) - dot(n, tspace_direction(sums.a)) * n);
+    float3 robust = tspace_direction(tspace_direction(sums.b) - dot(n, tspace_direction(sums.b)) * n);
+    float3 across = cross(accurate, robust);
+    float square = dot(across, across);
+    if (dot(accurate, robust) < 0.0) {
+        square = 1.0;
+    }
+    float r = square / 0.00351691;
+    float m = r / (1.0 + r);
+    if (dot(accurate, accurate) == 0.0) {
+        m = 1.0;
+    }
+    return tspace_direction((1.0 - m) * accurate + m * robust);
+}
+
+// lengyel: sums of dP/du and dP/dv, then Gram-Schmidt. w: the sign, and 0 where there is no tangent.
+float4 tspace_fromDerivatives(float3 n, tspace_Sums sums) {
+    float largest = tspace_largest(sums.a);
+    if (!(largest > 0.0) || !(largest < tspace_greatest)) {
+        return float4(1.0, 0.0, 0.0, 1.0);
+    }
+    float3 s = sums.a / largest;
+    float3 rest = s - dot(n, s) * n;
+    float size = tspace_largest(rest);
+    if (!(size > 0.0)) {
+        return float4(1.0, 0.0, 0.0, 1.0);
+    }
+    float3 t = tspace_direction(rest / size);
+    float sign = 1.0;
+    float3 b = sums.b / max(tspace_largest(sums.b), tspace_least_normal);
+    if (dot(cross(n, t), b) < 0.0) {
+        sign = -1.0;
+    }
+    return float4(t.x, t.y, t.z, sign);
+}
+
+// A part of a result is done: its sum becomes unit, or the default.
+float3 tspace_finish(float3 normal, tspace_Sums sums, uint method, uint flags) {
+    float3 tangent = sums.a;
+    if (method == 7u) {
+        tangent = tspace_mixed(normal, sums);
+    }
+    if (method != 7u) {
+        tangent = tspace_normalized(tangent);
+    }
+    if ((flags & 0x40000000u) != 0u && !tspace_notZero(tangent) && tangent.x == tangent.x) {
+        return float3(1.0, 0.0, 0.0);
+    }
+    return tangent;
+}
+
+float4 tspace_tangentOfResult(uint begin, uint end, uint flags, uint own, float3 made_normal, float scale) {
+    uint method = tspace_plan[1];
+    bool makes_normals = (tspace_plan[2] & 1u) != 0u;
+    float sign = 1.0;
+    if ((flags & 0x80000000u) != 0u) {
+        sign = -1.0;
+    }
+    float3 normal = made_normal;
+    if (!makes_normals && own != tspace_next_part) {
+        normal = tspace_normalOf(tspace_vertexOf(own));
+    }
+    tspace_Sums sums;
+    sums.a = float3(0.0, 0.0, 0.0);
+    sums.b = float3(0.0, 0.0, 0.0);
+    float3 merged = float3(0.0, 0.0, 0.0);
+    bool has_parts = false;
+    for (uint i = begin; i < end; ++i) {
+        uint entry = tspace_plan[i];
+        if (entry == tspace_next_part) {
+            float3 part = tspace_finish(normal, sums, method, flags);
+            if (has_parts) {
+                part = tspace_normalized(merged + part);
+            }
+            merged = part;
+            has_parts = true;
+            sums.a = float3(0.0, 0.0, 0.0);
+            sums.b = float3(0.0, 0.0, 0.0);
+        }
+        if ((entry & tspace_no_tangent) == 0u) {
+            tspace_Corner corner = tspace_cornerOf(entry);
+            if (method == 1u) {
+                float3 e1 = scale * corner.e1;
+                float3 e2 = scale * corner.e2;
+                float3 s = asfloat(tspace_plan[corner.uvs]) * e1 - asfloat(tspace_plan[corner.uvs + 1u]) * e2;
+                float3 t = asfloat(tspace_plan[corner.uvs + 2u]) * e2 - asfloat(tspace_plan[corner.uvs + 3u]) * e1;
+                if (tspace_isFinite(s) && tspace_isFinite(t)) {
+                    sums.a += s;
+                    sums.b += t;
+                }
+            }
+            if (method == 7u) {
+                tspace_Sums more = tspace_twoWeights(corner, scale);
+                sums.a += more.a;
+                sums.b += more.b;
+            }
+            if (method != 1u && method != 7u) {
+                float3 n = made_normal;
+                if (!makes_normals) {
+                    n = tspace_normalOf(corner.vertex_number);
+                }
+                if ((flags & 0x10000000u) != 0u) {
+                    n = tspace_normalAt(entry, corner.vertex_number);
+                }
+                sums.a += tspace_weightedTangent(corner, n, method);
+            }
+        }
+    }
+    if (method == 1u) {
+        float4 frame = tspace_fromDerivatives(normal, sums);
+        return float4(frame.x, frame.y, frame.z, sign * frame.w);
+    }
+    float3 tangent = tspace_finish(normal, sums, method, flags);
+    if (has_parts) {
+        tangent = tspace_normalized(merged + tangent);
+    }
+    return float4(tangent.x, tangent.y, tangent.z, sign);
+}
+
+// ---- what is written
+
+uint tspace_byte(float x) { return uint(int(floor(clamp(x, -1.0, 1.0) * 127.0 + 0.5))) & 255u; }
+
+void tspace_writeTangent(uint result, float3 normal, float4 tangent) {
+    uint at = (tspace_setting(tspace_tangent_offset) + result * tspace_setting(tspace_tangent_stride)) >> 2u;
+    uint format = tspace_setting(tspace_tangent_format);
+    if (format == 0u) {
+        tspace_tangents[at] = asuint(tangent.x);
+        tspace_tangents[at + 1u] = asuint(tangent.y);
+        tspace_tangents[at + 2u] = asuint(tangent.z);
+        tspace_tangents[at + 3u] = asuint(tangent.w);
+    }
+    if (format == 3u) {
+        uint t = tspace_byte(tangent.x) | (tspace_byte(tangent.y) << 8u) | (tspace_byte(tangent.z) << 16u);
+        uint n = tspace_byte(normal.x) | (tspace_byte(normal.y) << 8u) | (tspace_byte(normal.z) << 16u);
+        tspace_tangents[at] = t | (127u << 24u);
+        tspace_tangents[at + 1u] = n | (tspace_byte(tangent.w) << 24u);
+    }
+}
+
+void tspace_evaluateResult(uint result) {
+    uint row = tspace_plan[8] + 3u * result;
+    uint begin = tspace_plan[9] + tspace_plan[row];
+    uint flags = tspace_plan[row + 1u];
+    uint own = tspace_plan[row + 2u];
+    uint end = begin + (flags & 0x0fffffffu);
+    float scale = 1.0;
+    if ((tspace_plan[2] & 1u) != 0u || tspace_plan[1] == 1u || tspace_plan[1] == 7u) {
+        scale = tspace_scaleOf(begin, end);
+    }
+    float3 normal = float3(0.0, 0.0, 1.0);
+    if ((tspace_plan[2] & 1u) != 0u) {
+        float4 made = tspace_normalOfResult(begin, end, own, scale);
+        normal = float3(made.x, made.y, made.z);
+        if (made.w != 0.0) {
+            flags = flags | 0x10000000u;  // mixes_normals
+        }
+        if (tspace_setting(tspace_normal_format) == 1u) {
+            uint at = (tspace_setting(tspace_normal_offset) + result * tspace_setting(tspace_normal_stride)) >> 2u;
+            tspace_normals[at] = asuint(normal.x);
+            tspace_normals[at + 1u] = asuint(normal.y);
+            tspace_normals[at + 2u] = asuint(normal.z);
+        }
+    }
+    float4 tangent = float4(0.0, 0.0, 0.0, 0.0);
+    if ((flags & 0x20000000u) == 0u) {
+        tangent = tspace_tangentOfResult(begin, end, flags, own, normal, scale);
+    }
+    if (tspace_setting(tspace_tangent_format) != 0u && (tspace_plan[2] & 1u) == 0u && own != tspace_next_part) {
+        normal = tspace_normalOf(tspace_vertexOf(own));
+    }
+    tspace_writeTangent(result, normal, tangent);
+}
+
+[numthreads(64, 1, 1)]
+void tspace_evaluate(uint3 id : SV_DispatchThreadID) {
+    uint result = tspace_setting(tspace_first_result) + id.x + id.y * 4194240u;
+    if (result < tspace_plan[4]) {
+        tspace_evaluateResult(result);
+    }
+}

@@ -1,0 +1,604 @@
+// SPDX-License-Identifier: MIT
+// Written by scripts/shaders from tspace_evaluate.hlsl.
+// Normals and tangents of a pose from a plan (planBuffers of tspace), in WGSL: one thread gathers one result. No atomics, and
+// sums in a fixed order: the same bits from run to run. docs/gpu.md of tspace describes the buffers.
+//
+// Dispatch tspace_evaluate with 64 threads per group, ceil(results / 64) groups in x and y together (65535 at most in x).
+
+// The words of a plan: PlanBuffers in plan_buffers.h.
+@group(0) @binding(0) var<storage, read> tspace_plan: array<u32>;
+// How the arrays of a pose lie in their buffers: 32 words, see tspace_setting.
+@group(0) @binding(1) var<storage, read> tspace_settings: array<u32>;
+@group(0) @binding(2) var<storage, read> tspace_positions: array<u32>;
+// Morph deltas, joints, weights and matrices, where the settings ask for them.
+@group(0) @binding(3) var<storage, read> tspace_deform: array<u32>;
+// Read where the plan makes no normals, else written.
+@group(0) @binding(4) var<storage, read_write> tspace_normals: array<u32>;
+@group(0) @binding(5) var<storage, read_write> tspace_tangents: array<u32>;
+
+// Words of tspace_settings. Offsets and strides are in bytes.
+const tspace_position_format: u32 = 0u;  // 0: three floats; 1: three snorm16, times the scale
+const tspace_position_offset: u32 = 1u;
+const tspace_position_stride: u32 = 2u;
+const tspace_position_scale: u32 = 3u;  // three floats
+const tspace_normal_format: u32 = 6u;   // 0: none is written; 1: three floats. Those of a pose are floats
+const tspace_normal_offset: u32 = 7u;
+const tspace_normal_stride: u32 = 8u;
+const tspace_tangent_format: u32 = 9u;  // 0: T and sign as four floats; 3: snorm8 pair
+const tspace_tangent_offset: u32 = 10u;
+const tspace_tangent_stride: u32 = 11u;
+const tspace_morph_count: u32 = 12u;      // targets, of three floats per vertex one after the other; 0: none
+const tspace_morph_weights: u32 = 13u;    // where the weights lie in tspace_deform, in words
+const tspace_morph_deltas: u32 = 14u;     // where the deltas lie, in words
+const tspace_vertex_count: u32 = 15u;     // of morph targets
+const tspace_skin: u32 = 16u;             // 1: skinned, by four joints per vertex
+const tspace_skin_joints: u32 = 17u;      // where four words per vertex lie in tspace_deform
+const tspace_skin_weights: u32 = 18u;     // where four floats per vertex lie
+const tspace_skin_matrices: u32 = 19u;    // where three rows of four floats per joint lie
+const tspace_first_result: u32 = 20u;     // of this dispatch
+
+const tspace_no_tangent: u32 = 0x80000000u;
+const tspace_no_normal: u32 = 0x40000000u;
+const tspace_next_part: u32 = 0xffffffffu;
+const tspace_least_normal: f32 = 1.17549435e-38;
+const tspace_greatest: f32 = 3.4e38;
+
+fn tspace_setting(word: u32) -> u32 { return tspace_settings[word]; }
+fn tspace_float(word: u32) -> f32 { return bitcast<f32>(tspace_settings[word]); }
+
+// Subnormal numbers, zero and NaN count as zero.
+fn tspace_notZero(v: vec3f) -> bool {
+    return abs(v.x) > tspace_least_normal || abs(v.y) > tspace_least_normal || abs(v.z) > tspace_least_normal;
+}
+fn tspace_isFinite(v: vec3f) -> bool {
+    return abs(v.x) < tspace_greatest && abs(v.y) < tspace_greatest && abs(v.z) < tspace_greatest;
+}
+fn tspace_normalized(v: vec3f) -> vec3f {
+    if (!tspace_notZero(v)) {
+        return v;
+    }
+    return (1.0 / sqrt(dot(v, v))) * v;
+}
+// The unit vector of v without its part along n, which is used as it is.
+fn tspace_flatten(n: vec3f, v: vec3f) -> vec3f { return tspace_normalized(v - dot(n, v) * n); }
+
+fn tspace_arcCosine(cosine: f32) -> f32 {
+    var c: f32 = clamp(cosine, -1.0, 1.0);
+    var a: f32 = abs(c);
+    var is_steep: bool = a > 0.5;
+    var y: f32 = a * a;
+    if (is_steep) {
+        y = 0.5 - 0.5 * a;
+    }
+    var s: f32 = sqrt(y);
+    var p: f32 = ((((0.0421632 * y + 0.0241812) * y + 0.0454702) * y + 0.0749530) * y + 0.1666675) * y;
+    var arc: f32 = s + s * p;
+    if (!is_steep) {
+        if (c < 0.0) {
+            return 1.57079637 + arc;
+        }
+        return 1.57079637 - arc;
+    }
+    if (c < 0.0) {
+        return 3.14159274 - 2.0 * arc;
+    }
+    return 2.0 * arc;
+}
+
+// The angle in [0, pi] whose cosine and sine are as x to y; y is not negative.
+fn tspace_angle(x: f32, y: f32) -> f32 {
+    var size: f32 = abs(x);
+    var t: f32 = min(size, y) / max(max(size, y), tspace_least_normal);
+    var q: f32 = t * t;
+    var p: f32 = -2.386997316e-03;
+    p = p * q + 1.350777142e-02;
+    p = p * q - 3.587153898e-02;
+    p = p * q + 6.250169444e-02;
+    p = p * q - 8.656880430e-02;
+    p = p * q + 1.103376412e-01;
+    p = p * q - 1.427856875e-01;
+    p = p * q + 1.999973933e-01;
+    p = p * q - 3.333333173e-01;
+    var angle: f32 = t + t * (q * p);
+    if (size <= y) {
+        angle = 1.57079637 - angle;
+    }
+    if (x < 0.0) {
+        return 3.14159274 - angle;
+    }
+    return angle;
+}
+
+// ---- what a pose holds
+
+fn tspace_shortAt(byte: u32) -> f32 {
+    var word: u32 = tspace_positions[byte >> 2u];
+    if ((byte & 2u) == 0u) {
+        word = word << 16u;
+    }
+    return max(f32(i32(word) >> 16u) / 32767.0, -1.0);
+}
+
+fn tspace_storedPosition(vertex_number: u32) -> vec3f {
+    var at: u32 = tspace_setting(tspace_position_offset) + vertex_number * tspace_setting(tspace_position_stride);
+    var scale: vec3f = vec3f(tspace_float(tspace_position_scale), tspace_float(tspace_position_scale + 1u),
+                          tspace_float(tspace_position_scale + 2u));
+    if (tspace_setting(tspace_position_format) == 1u) {
+        return scale * vec3f(tspace_shortAt(at), tspace_shortAt(at + 2u), tspace_shortAt(at + 4u));
+    }
+    var word: u32 = at >> 2u;
+    return vec3f(bitcast<f32>(tspace_positions[word]), bitcast<f32>(tspace_positions[word + 1u]),
+                  bitcast<f32>(tspace_positions[word + 2u]));
+}
+
+fn tspace_deformVector(word: u32) -> vec3f {
+    return vec3f(bitcast<f32>(tspace_deform[word]), bitcast<f32>(tspace_deform[word + 1u]), bitcast<f32>(tspace_deform[word + 2u]));
+}
+
+fn tspace_morphed(position: vec3f, vertex_number: u32) -> vec3f {
+    var sum: vec3f = position;
+    var count: u32 = tspace_setting(tspace_morph_count);
+    for (var shape: u32 = 0u; shape < count; shape++) {
+        var weight: f32 = bitcast<f32>(tspace_deform[tspace_setting(tspace_morph_weights) + shape]);
+        var row: u32 = 3u * (shape * tspace_setting(tspace_vertex_count) + vertex_number);
+        if (weight != 0.0) {
+            sum += weight * tspace_deformVector(tspace_setting(tspace_morph_deltas) + row);
+        }
+    }
+    return sum;
+}
+
+fn tspace_skinned(position: vec3f, vertex_number: u32) -> vec3f {
+    var sum: vec3f = vec3f(0.0, 0.0, 0.0);
+    for (var i: u32 = 0u; i < 4u; i++) {
+        var weight: f32 = bitcast<f32>(tspace_deform[tspace_setting(tspace_skin_weights) + 4u * vertex_number + i]);
+        var joint: u32 = tspace_deform[tspace_setting(tspace_skin_joints) + 4u * vertex_number + i];
+        var row: u32 = tspace_setting(tspace_skin_matrices) + 12u * joint;
+        if (weight != 0.0) {
+            var moved: vec3f = vec3f(dot(tspace_deformVector(row), position) + bitcast<f32>(tspace_deform[row + 3u]),
+                                  dot(tspace_deformVector(row + 4u), position) + bitcast<f32>(tspace_deform[row + 7u]),
+                                  dot(tspace_deformVector(row + 8u), position) + bitcast<f32>(tspace_deform[row + 11u]));
+            sum += weight * moved;
+        }
+    }
+    return sum;
+}
+
+// The position of a vertex: stored, then morphed, then skinned.
+fn tspace_positionOf(vertex_number: u32) -> vec3f {
+    var position: vec3f = tspace_storedPosition(vertex_number);
+    if (tspace_setting(tspace_morph_count) != 0u) {
+        position = tspace_morphed(position, vertex_number);
+    }
+    if (tspace_setting(tspace_skin) != 0u) {
+        position = tspace_skinned(position, vertex_number);
+    }
+    return position;
+}
+
+fn tspace_normalOf(vertex_number: u32) -> vec3f {
+    var word: u32 = (tspace_setting(tspace_normal_offset) + vertex_number * tspace_setting(tspace_normal_stride)) >> 2u;
+    var normal: vec3f =
+        vec3f(bitcast<f32>(tspace_normals[word]), bitcast<f32>(tspace_normals[word + 1u]), bitcast<f32>(tspace_normals[word + 2u]));
+    if ((tspace_plan[2] & 4u) == 0u) {
+        return normal;
+    }
+    // Only a length that rounding to 8 bits does not explain is changed.
+    var square: f32 = dot(normal, normal);
+    if (abs(square - 1.0) <= 0.0134 || !(square >= 1e-12) || !(square < tspace_greatest)) {
+        return normal;
+    }
+    return normal / sqrt(square);
+}
+
+// ---- triangles of a plan
+
+// A corner of a triangle.
+struct tspace_Corner {
+    e1: vec3f,        // from the triangle's first corner to its second
+    e2: vec3f,        // from its first to its third
+    next: vec3f,      // from this corner to the next one
+    previous: vec3f,  // from this corner to the one before
+    vertex_number: u32,
+    uvs: u32,  // where the coefficients of its UVs lie in tspace_plan
+}
+
+fn tspace_vertexOf(entry: u32) -> u32 {
+    return tspace_plan[tspace_plan[10] + ((entry & 0x3fffffffu) >> 2u) * tspace_plan[7] + (entry & 3u)];
+}
+
+fn tspace_cornerOf(entry: u32) -> tspace_Corner {
+    var k: u32 = entry & 3u;
+    var at: u32 = tspace_plan[10] + ((entry & 0x3fffffffu) >> 2u) * tspace_plan[7];
+    var p0: vec3f = vec3f(0.0, 0.0, 0.0);
+    var p1: vec3f = p0;
+    var p2: vec3f = p0;
+    for (var i: u32 = 0u; i < 3u; i++) {  // a loop, so that compilers have one copy of what it calls
+        p0 = p1;
+        p1 = p2;
+        p2 = tspace_positionOf(tspace_plan[at + i]);
+    }
+    var corner: tspace_Corner;
+    corner.e1 = p1 - p0;
+    corner.e2 = p2 - p0;
+    corner.next = corner.e1;
+    corner.previous = corner.e2;
+    if (k == 1u) {
+        corner.next = p2 - p1;
+        corner.previous = p0 - p1;
+    }
+    if (k == 2u) {
+        corner.next = p0 - p2;
+        corner.previous = p1 - p2;
+    }
+    corner.vertex_number = tspace_plan[at + k];
+    corner.uvs = at + 3u;
+    return corner;
+}
+
+fn tspace_largest(v: vec3f) -> f32 { return max(abs(v.x), max(abs(v.y), abs(v.z))); }
+
+// A power of two that brings the edges of a result near 1, so that products of them stay in range; 0 where it has none.
+fn tspace_scaleOf(begin: u32, end: u32) -> f32 {
+    var largest: f32 = 0.0;
+    for (var i: u32 = begin; i < end; i++) {
+        var entry: u32 = tspace_plan[i];
+        if (entry != tspace_next_part) {
+            var corner: tspace_Corner = tspace_cornerOf(entry);
+            var size: f32 = max(tspace_largest(corner.e1), tspace_largest(corner.e2));
+            if (size < tspace_greatest) {
+                largest = max(largest, size);
+            }
+        }
+    }
+    if (largest == 0.0) {
+        return 0.0;
+    }
+    var exponent: u32 = clamp(bitcast<u32>(largest) >> 23u, 1u, 253u);
+    return bitcast<f32>((254u - exponent) << 23u);
+}
+
+// ---- normals
+
+// The triangle's normal, twice as long as its area, from its two shortest edges: the least cancels there.
+fn tspace_faceNormal(e1: vec3f, e2: vec3f) -> vec3f {
+    var e3: vec3f = e2 - e1;
+    var a: f32 = dot(e1, e1);
+    var b: f32 = dot(e2, e2);
+    var c: f32 = dot(e3, e3);
+    if (a >= b && a >= c) {
+        return cross(e2, e3);
+    }
+    if (b >= c) {
+        return cross(e1, e3);
+    }
+    return cross(e1, e2);
+}
+
+// The weight of a triangle's unit normal at a corner. `area`: of twice the triangle.
+fn tspace_normalWeight(corner: tspace_Corner, scale: f32, area: f32) -> f32 {
+    var weighting: u32 = tspace_plan[3];
+    var weight: f32 = 1.0;
+    if (weighting == 3u || weighting == 4u) {
+        weight = tspace_angle(dot(scale * corner.next, scale * corner.previous), area);
+    }
+    if (weighting == 2u || weighting == 4u) {
+        weight *= area;
+    }
+    if (weighting == 5u) {
+        var next: vec3f = scale * corner.next;
+        var previous: vec3f = scale * corner.previous;
+        weight = (area / dot(next, next)) / dot(previous, previous);
+    }
+    return weight;
+}
+
+// w: 1 where the mean vanishes, and results that share it have normals of their own.
+fn tspace_normalOfResult(begin: u32, end: u32, own: u32, scale: f32) -> vec4f {
+    var factor: f32 = 1.0;
+    if ((tspace_plan[2] & 2u) != 0u) {
+        factor = -1.0;
+    }
+    var sum: vec3f = vec3f(0.0, 0.0, 0.0);
+    var own_normal: vec3f = vec3f(0.0, 0.0, factor);
+    var weights: f32 = 0.0;
+    // The last round is the corner's own triangle, which counts where the mean vanishes.
+    for (var i: u32 = begin; i <= end; i++) {
+        var entry: u32 = own;
+        if (i < end) {
+            entry = tspace_plan[i];
+        }
+        var is_own: bool = i == end && entry != tspace_next_part;
+        if (is_own || (i < end && (entry & tspace_no_normal) == 0u)) {
+            var corner: tspace_Corner = tspace_cornerOf(entry);
+            var n: vec3f = tspace_faceNormal(scale * corner.e1, scale * corner.e2);
+            var area: f32 = sqrt(dot(n, n));
+            if (area > 0.0 && area < tspace_greatest) {
+                if (is_own) {
+                    own_normal = n / area;
+                } else {
+                    var weight: f32 = tspace_normalWeight(corner, scale, area);
+                    sum += (weight / area) * n;
+                    weights += weight;
+                }
+            }
+        }
+    }
+    var size: f32 = sqrt(dot(sum, sum));
+    if (size > 1e-6 * weights) {
+        var mean: vec3f = (factor / size) * sum;
+        return vec4f(mean.x, mean.y, mean.z, 0.0);
+    }
+    own_normal = factor * own_normal;
+    return vec4f(own_normal.x, own_normal.y, own_normal.z, 1.0);
+}
+
+// The normal of the result that a corner belongs to.
+fn tspace_normalAt(entry: u32, vertex_number: u32) -> vec3f {
+    var result: u32 = vertex_number;
+    if ((tspace_plan[2] & 8u) != 0u) {
+        result = 3u * ((entry & 0x3fffffffu) >> 2u) + (entry & 3u);
+    }
+    var row: u32 = tspace_plan[8] + 3u * result;
+    var begin: u32 = tspace_plan[9] + tspace_plan[row];
+    var end: u32 = begin + (tspace_plan[row + 1u] & 0x0fffffffu);
+    var made: vec4f = tspace_normalOfResult(begin, end, tspace_plan[row + 2u], tspace_scaleOf(begin, end));
+    return vec3f(made.x, made.y, made.z);
+}
+
+// ---- tangents
+
+// Sums of a result. `a`: tangents; `b`: a second sum of fast and lengyel.
+struct tspace_Sums {
+    a: vec3f,
+    b: vec3f,
+}
+
+// What a corner adds for mikktspace, uniform, angle and area: its tangent across the normal, unit, times its weight.
+fn tspace_weightedTangent(corner: tspace_Corner, n: vec3f, method: u32) -> vec3f {
+    var a: f32 = bitcast<f32>(tspace_plan[corner.uvs]);
+    var b: f32 = bitcast<f32>(tspace_plan[corner.uvs + 1u]);
+    var along: vec3f = a * corner.e1 - b * corner.e2;
+    var size: f32 = sqrt(dot(along, along));
+    var tangent: vec3f = vec3f(0.0, 0.0, 0.0);
+    if (size > tspace_least_normal) {
+        tangent = tspace_flatten(n, (1.0 / size) * along);
+    }
+    var weight: f32 = 1.0;
+    if (method == 0u) {
+        weight = tspace_arcCosine(dot(tspace_flatten(n, corner.previous), tspace_flatten(n, corner.next)));
+    }
+    if (method == 3u) {
+        weight = tspace_arcCosine(dot(tspace_normalized(corner.previous), tspace_normalized(corner.next)));
+    }
+    if (method == 4u) {
+        var c: vec3f = cross(corner.next, corner.previous);
+        weight = 0.5 * sqrt(dot(c, c));
+    }
+    return weight * tangent;
+}
+
+// What a corner adds for fast: one sum that is accurate on smooth surfaces, one that is robust.
+fn tspace_twoWeights(corner: tspace_Corner, scale: f32) -> tspace_Sums {
+    var sums: tspace_Sums;
+    sums.a = vec3f(0.0, 0.0, 0.0);
+    sums.b = vec3f(0.0, 0.0, 0.0);
+    var e1: vec3f = scale * corner.e1;
+    var e2: vec3f = scale * corner.e2;
+    var e3: vec3f = e2 - e1;
+    var squares: f32 = dot(e1, e1) + dot(e2, e2) + dot(e3, e3);
+    if (!(squares < tspace_greatest)) {
+        return sums;
+    }
+    var along: vec3f = bitcast<f32>(tspace_plan[corner.uvs]) * e1 - bitcast<f32>(tspace_plan[corner.uvs + 1u]) * e2;
+    var size: f32 = sqrt(dot(along, along));
+    var c: vec3f = cross(e1, e2);
+    var root: f32 = sqrt(squares);
+    var next: vec3f = scale * corner.next;
+    var previous: vec3f = scale * corner.previous;
+    var w: f32 = (1.0 / dot(next, next)) * (1.0 / dot(previous, previous));
+    if (w < tspace_greatest) {
+        sums.a = w * along;
+    }
+    var robust: f32 = dot(c, c) / (root * sqrt(root));
+    if (size > 0.0 && robust < tspace_greatest) {
+        sums.b = (robust / size) * along;
+    }
+    return sums;
+}
+
+// The unit vector of v, or zero.
+fn tspace_direction(v: vec3f) -> vec3f {
+    var square: f32 = dot(v, v);
+    if (square > 0.0 && square < tspace_greatest) {
+        return (1.0 / sqrt(square)) * v;
+    }
+    return vec3f(0.0, 0.0, 0.0);
+}
+
+fn tspace_mixed(normal: vec3f, sums: tspace_Sums) -> vec3f {
+    var n: vec3f = tspace_direction(normal);
+    if (dot(n, n) == 0.0) {
+        n = vec3f(0.0, 0.0, 1.0);
+    }
+    var accurate: vec3f = tspace_direction(tspace_direction(sums.a) - dot(n, tspace_direction(sums.a)) * n);
+    var robust: vec3f = tspace_direction(tspace_direction(sums.b) - dot(n, tspace_direction(sums.b)) * n);
+    var across: vec3f = cross(accurate, robust);
+    var square: f32 = dot(across, across);
+    if (dot(accurate, robust) < 0.0) {
+        square = 1.0;
+    }
+    var r: f32 = square / 0.00351691;
+    var m: f32 = r / (1.0 + r);
+    if (dot(accurate, accurate) == 0.0) {
+        m = 1.0;
+    }
+    return tspace_direction((1.0 - m) * accurate + m * robust);
+}
+
+// lengyel: sums of dP/du and dP/dv, then Gram-Schmidt. w: the sign, and 0 where there is no tangent.
+fn tspace_fromDerivatives(n: vec3f, sums: tspace_Sums) -> vec4f {
+    var largest: f32 = tspace_largest(sums.a);
+    if (!(largest > 0.0) || !(largest < tspace_greatest)) {
+        return vec4f(1.0, 0.0, 0.0, 1.0);
+    }
+    var s: vec3f = sums.a / largest;
+    var rest: vec3f = s - dot(n, s) * n;
+    var size: f32 = tspace_largest(rest);
+    if (!(size > 0.0)) {
+        return vec4f(1.0, 0.0, 0.0, 1.0);
+    }
+    var t: vec3f = tspace_direction(rest / size);
+    var sign: f32 = 1.0;
+    var b: vec3f = sums.b / max(tspace_largest(sums.b), tspace_least_normal);
+    if (dot(cross(n, t), b) < 0.0) {
+        sign = -1.0;
+    }
+    return vec4f(t.x, t.y, t.z, sign);
+}
+
+// A part of a result is done: its sum becomes unit, or the default.
+fn tspace_finish(normal: vec3f, sums: tspace_Sums, method: u32, flags: u32) -> vec3f {
+    var tangent: vec3f = sums.a;
+    if (method == 7u) {
+        tangent = tspace_mixed(normal, sums);
+    }
+    if (method != 7u) {
+        tangent = tspace_normalized(tangent);
+    }
+    if ((flags & 0x40000000u) != 0u && !tspace_notZero(tangent) && tangent.x == tangent.x) {
+        return vec3f(1.0, 0.0, 0.0);
+    }
+    return tangent;
+}
+
+fn tspace_tangentOfResult(begin: u32, end: u32, flags: u32, own: u32, made_normal: vec3f, scale: f32) -> vec4f {
+    var method: u32 = tspace_plan[1];
+    var makes_normals: bool = (tspace_plan[2] & 1u) != 0u;
+    var sign: f32 = 1.0;
+    if ((flags & 0x80000000u) != 0u) {
+        sign = -1.0;
+    }
+    var normal: vec3f = made_normal;
+    if (!makes_normals && own != tspace_next_part) {
+        normal = tspace_normalOf(tspace_vertexOf(own));
+    }
+    var sums: tspace_Sums;
+    sums.a = vec3f(0.0, 0.0, 0.0);
+    sums.b = vec3f(0.0, 0.0, 0.0);
+    var merged: vec3f = vec3f(0.0, 0.0, 0.0);
+    var has_parts: bool = false;
+    for (var i: u32 = begin; i < end; i++) {
+        var entry: u32 = tspace_plan[i];
+        if (entry == tspace_next_part) {
+            var part: vec3f = tspace_finish(normal, sums, method, flags);
+            if (has_parts) {
+                part = tspace_normalized(merged + part);
+            }
+            merged = part;
+            has_parts = true;
+            sums.a = vec3f(0.0, 0.0, 0.0);
+            sums.b = vec3f(0.0, 0.0, 0.0);
+        }
+        if ((entry & tspace_no_tangent) == 0u) {
+            var corner: tspace_Corner = tspace_cornerOf(entry);
+            if (method == 1u) {
+                var e1: vec3f = scale * corner.e1;
+                var e2: vec3f = scale * corner.e2;
+                var s: vec3f = bitcast<f32>(tspace_plan[corner.uvs]) * e1 - bitcast<f32>(tspace_plan[corner.uvs + 1u]) * e2;
+                var t: vec3f = bitcast<f32>(tspace_plan[corner.uvs + 2u]) * e2 - bitcast<f32>(tspace_plan[corner.uvs + 3u]) * e1;
+                if (tspace_isFinite(s) && tspace_isFinite(t)) {
+                    sums.a += s;
+                    sums.b += t;
+                }
+            }
+            if (method == 7u) {
+                var more: tspace_Sums = tspace_twoWeights(corner, scale);
+                sums.a += more.a;
+                sums.b += more.b;
+            }
+            if (method != 1u && method != 7u) {
+                var n: vec3f = made_normal;
+                if (!makes_normals) {
+                    n = tspace_normalOf(corner.vertex_number);
+                }
+                if ((flags & 0x10000000u) != 0u) {
+                    n = tspace_normalAt(entry, corner.vertex_number);
+                }
+                sums.a += tspace_weightedTangent(corner, n, method);
+            }
+        }
+    }
+    if (method == 1u) {
+        var frame: vec4f = tspace_fromDerivatives(normal, sums);
+        return vec4f(frame.x, frame.y, frame.z, sign * frame.w);
+    }
+    var tangent: vec3f = tspace_finish(normal, sums, method, flags);
+    if (has_parts) {
+        tangent = tspace_normalized(merged + tangent);
+    }
+    return vec4f(tangent.x, tangent.y, tangent.z, sign);
+}
+
+// ---- what is written
+
+fn tspace_byte(x: f32) -> u32 { return u32(i32(floor(clamp(x, -1.0, 1.0) * 127.0 + 0.5))) & 255u; }
+
+fn tspace_writeTangent(result: u32, normal: vec3f, tangent: vec4f) {
+    var at: u32 = (tspace_setting(tspace_tangent_offset) + result * tspace_setting(tspace_tangent_stride)) >> 2u;
+    var format: u32 = tspace_setting(tspace_tangent_format);
+    if (format == 0u) {
+        tspace_tangents[at] = bitcast<u32>(tangent.x);
+        tspace_tangents[at + 1u] = bitcast<u32>(tangent.y);
+        tspace_tangents[at + 2u] = bitcast<u32>(tangent.z);
+        tspace_tangents[at + 3u] = bitcast<u32>(tangent.w);
+    }
+    if (format == 3u) {
+        var t: u32 = tspace_byte(tangent.x) | (tspace_byte(tangent.y) << 8u) | (tspace_byte(tangent.z) << 16u);
+        var n: u32 = tspace_byte(normal.x) | (tspace_byte(normal.y) << 8u) | (tspace_byte(normal.z) << 16u);
+        tspace_tangents[at] = t | (127u << 24u);
+        tspace_tangents[at + 1u] = n | (tspace_byte(tangent.w) << 24u);
+    }
+}
+
+fn tspace_evaluateResult(result: u32) {
+    var row: u32 = tspace_plan[8] + 3u * result;
+    var begin: u32 = tspace_plan[9] + tspace_plan[row];
+    var flags: u32 = tspace_plan[row + 1u];
+    var own: u32 = tspace_plan[row + 2u];
+    var end: u32 = begin + (flags & 0x0fffffffu);
+    var scale: f32 = 1.0;
+    if ((tspace_plan[2] & 1u) != 0u || tspace_plan[1] == 1u || tspace_plan[1] == 7u) {
+        scale = tspace_scaleOf(begin, end);
+    }
+    var normal: vec3f = vec3f(0.0, 0.0, 1.0);
+    if ((tspace_plan[2] & 1u) != 0u) {
+        var made: vec4f = tspace_normalOfResult(begin, end, own, scale);
+        normal = vec3f(made.x, made.y, made.z);
+        if (made.w != 0.0) {
+            flags = flags | 0x10000000u;  // mixes_normals
+        }
+        if (tspace_setting(tspace_normal_format) == 1u) {
+            var at: u32 = (tspace_setting(tspace_normal_offset) + result * tspace_setting(tspace_normal_stride)) >> 2u;
+            tspace_normals[at] = bitcast<u32>(normal.x);
+            tspace_normals[at + 1u] = bitcast<u32>(normal.y);
+            tspace_normals[at + 2u] = bitcast<u32>(normal.z);
+        }
+    }
+    var tangent: vec4f = vec4f(0.0, 0.0, 0.0, 0.0);
+    if ((flags & 0x20000000u) == 0u) {
+        tangent = tspace_tangentOfResult(begin, end, flags, own, normal, scale);
+    }
+    if (tspace_setting(tspace_tangent_format) != 0u && (tspace_plan[2] & 1u) == 0u && own != tspace_next_part) {
+        normal = tspace_normalOf(tspace_vertexOf(own));
+    }
+    tspace_writeTangent(result, normal, tangent);
+}
+
+@compute @workgroup_size(64)
+fn tspace_evaluate(@builtin(global_invocation_id) id: vec3u) {
+    var result: u32 = tspace_setting(tspace_first_result) + id.x + id.y * 4194240u;
+    if (result < tspace_plan[4]) {
+        tspace_evaluateResult(result);
+    }
+}

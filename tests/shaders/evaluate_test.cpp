@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: MIT
+// The buffers of a plan against evaluateTangents and generateNormals: shaders/tspace_evaluate.metal as C++ (metal_shim) is the
+// plain loop over them.
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <cstring>
+
+#include "core/base/vec_math.h"
+#include "evaluate_expectations.h"
+#include "tspace/pack.h"
+
+// Last, as it has macros.
+#include <metal_stdlib>
+
+namespace tspace::shaders {
+
+namespace {
+
+namespace by_hand {
+using metal::as_type;
+#include "tspace_evaluate.metal"
+}  // namespace by_hand
+
+std::string evaluateByLoop(EvaluateBuffers& in) {
+    auto& [plan, settings, positions, deform, normals, tangents] = in.arrays;
+    for (uint i = 0; i < in.result_count; ++i) {
+        by_hand::tspace_evaluate(plan.data(), settings.data(), positions.data(), deform.data(), normals.data(),
+                                 tangents.data(), {i, 0, 0});
+    }
+    return {};
+}
+
+TEST(PlanBuffers, GiveTheTangentsOfThePlan) { expectTangents(generatedMeshes(), evaluateByLoop); }
+TEST(PlanBuffers, GiveTheFramesOfVertices) { expectFrames(generatedMeshes(), evaluateByLoop); }
+TEST(PlanBuffers, GiveTheTangentsOfSharedMeshes) {
+    const std::vector<PosedMesh> meshes = sharedMeshes();
+    if (meshes.empty()) GTEST_SKIP() << "the shared test data are not there";
+    for (const Method method : {Method::mikktspace, Method::uniform, Method::angle, Method::area})
+        expectNear(evaluateAll(meshes, {.method = method}, evaluateByLoop).tangents, methodName(method));
+    // These meshes have UVs nearly on a line and needles, whose derivatives and weights are what rounding leaves.
+    for (const Method method : {Method::lengyel, Method::fast}) {
+        Differences found = evaluateAll(meshes, {.method = method}, evaluateByLoop).tangents;
+        std::cout << methodName(method) << ": " << found.text() << ", p99 " << found.percentile(0.99) << '\n';
+        EXPECT_EQ(found.failure, "");
+        EXPECT_EQ(found.not_finite, 0u);
+        EXPECT_LE(found.percentile(0.99), kMostUsual);
+        EXPECT_LE(found.wrong_signs, found.count / 100);
+    }
+}
+
+/// A grid whose normals are made, and its buffers in the plan's own pose.
+struct Grid {
+    PosedMesh posed = generatedMeshes()[0];
+    PlanBuffers plan;
+    EvaluateBuffers in;
+
+    explicit Grid(Method method = Method::mikktspace) {
+        const MeshView mesh = posed.mesh.view();
+        const auto made = planTangents(mesh, {.method = method, .convention = conventions::gltf});
+        plan = *planBuffers(*made, {.mesh = mesh});
+        in.result_count = plan[PlanBuffers::result_count];
+        std::vector<std::uint32_t> positions;
+        for (const Vec3& p : posed.mesh.positions) append(positions, p);
+        in.arrays = {plan.words,
+                     plainSettings(true),
+                     positions,
+                     {0},
+                     std::vector<std::uint32_t>(3 * in.result_count),
+                     std::vector<std::uint32_t>(4 * in.result_count)};
+    }
+    static void append(std::vector<std::uint32_t>& words, const Vec3& v) {
+        for (const float x : {v.x, v.y, v.z}) words.push_back(std::bit_cast<std::uint32_t>(x));
+    }
+    static float number(const std::vector<std::uint32_t>& words, std::size_t i) {
+        return std::bit_cast<float>(words[i]);
+    }
+};
+
+void expectSameFrames(const EvaluateBuffers& a, const EvaluateBuffers& b) {
+    for (const std::size_t which : {EvaluateBuffers::normals, EvaluateBuffers::tangents}) {
+        ASSERT_EQ(a.arrays[which].size(), b.arrays[which].size());
+        for (std::size_t i = 0; i < a.arrays[which].size(); ++i)
+            ASSERT_NEAR(Grid::number(a.arrays[which], i), Grid::number(b.arrays[which], i), 2e-6f) << which << " " << i;
+    }
+}
+
+TEST(PlanBuffers, TakeAtMost48BytesPerTriangle) {
+    for (const PosedMesh& mesh : {generatedMeshes()[0], generatedMeshes()[1]}) {
+        for (const Method method : kMethods) {
+            Outcome outcome = evaluateAll({mesh}, {.method = method, .makes_normals = true}, evaluateByLoop);
+            const double bytes = 4.0 * static_cast<double>(outcome.plan_words) / static_cast<double>(outcome.triangles);
+            std::cout << mesh.name << ", " << methodName(method) << ": " << bytes << " bytes per triangle\n";
+            EXPECT_LE(bytes, 48) << mesh.name << " " << methodName(method);
+        }
+    }
+}
+
+TEST(PlanBuffers, ReadShortsOfAnyStride) {
+    Grid floats, shorts;
+    const float scale = 30;
+    auto& words = shorts.in.arrays[EvaluateBuffers::positions];
+    const std::size_t count = floats.posed.mesh.positions.size(), stride = 10, offset = 2;
+    std::vector<std::int16_t> halves(5 * count + 2);
+    std::vector<std::uint32_t> exact;
+    for (std::size_t v = 0; v < count; ++v) {
+        const Vec3& p = floats.posed.mesh.positions[v];
+        Vec3 rounded;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const auto code = static_cast<std::int16_t>(std::lround((&p.x)[i] / scale * 32767));
+            halves[1 + 5 * v + i] = code;
+            (&rounded.x)[i] = scale * (static_cast<float>(code) / 32767.0f);
+        }
+        Grid::append(exact, rounded);
+    }
+    floats.in.arrays[EvaluateBuffers::positions] = exact;
+    words.assign(halves.size() / 2 + 1, 0);
+    std::memcpy(words.data(), halves.data(), 2 * halves.size());
+    auto& settings = shorts.in.arrays[EvaluateBuffers::settings];
+    settings[position_format] = 1;
+    settings[position_offset] = offset;
+    settings[position_stride] = stride;
+    for (std::size_t i = 0; i < 3; ++i) settings[position_scale + i] = std::bit_cast<std::uint32_t>(scale);
+    evaluateByLoop(floats.in);
+    evaluateByLoop(shorts.in);
+    expectSameFrames(floats.in, shorts.in);
+}
+
+TEST(PlanBuffers, MorphAndSkinPositions) {
+    Grid deformed, plain;
+    const std::vector<Vec3>& positions = plain.posed.mesh.positions;
+    const std::size_t count = positions.size();
+    // One target of weight 0.5; two joints, the second of which turns about x and moves.
+    const float matrices[2][12] = {{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0},
+                                   {1, 0, 0, 2, 0, 0.6f, -0.8f, 1, 0, 0.8f, 0.6f, 0}};
+    std::vector<std::uint32_t> deform{std::bit_cast<std::uint32_t>(0.5f)}, moved;
+    std::vector<Vec3> deltas;
+    for (const Vec3& p : positions) deltas.push_back({0, 0.2f * p.z, 0.1f * p.x * p.x});
+    for (const Vec3& d : deltas) Grid::append(deform, d);
+    auto& settings = deformed.in.arrays[EvaluateBuffers::settings];
+    settings[morph_count] = 1;
+    settings[morph_deltas] = 1;
+    settings[vertex_count] = static_cast<std::uint32_t>(count);
+    settings[skin] = 1;
+    settings[skin_joints] = static_cast<std::uint32_t>(deform.size());
+    for (std::size_t v = 0; v < count; ++v) deform.insert(deform.end(), {0u, 1u, 0u, 0u});
+    settings[skin_weights] = static_cast<std::uint32_t>(deform.size());
+    const auto shareOf = [&](std::size_t v) { return positions[v].x / 24; };
+    for (std::size_t v = 0; v < count; ++v) {
+        for (const float w : {1 - shareOf(v), shareOf(v), 0.0f, 0.0f})
+            deform.push_back(std::bit_cast<std::uint32_t>(w));
+    }
+    settings[skin_matrices] = static_cast<std::uint32_t>(deform.size());
+    for (const auto& matrix : matrices) {
+        for (const float x : matrix) deform.push_back(std::bit_cast<std::uint32_t>(x));
+    }
+    deformed.in.arrays[EvaluateBuffers::deform] = deform;
+    for (std::size_t v = 0; v < count; ++v) {
+        const Vec3 p = positions[v] + 0.5f * deltas[v];
+        Vec3 sum;
+        for (std::size_t j = 0; j < 2; ++j) {
+            const float* const m = matrices[j];
+            const auto row = [&](std::size_t r) {
+                return m[4 * r] * p.x + m[4 * r + 1] * p.y + m[4 * r + 2] * p.z + m[4 * r + 3];
+            };
+            sum = sum + (j == 0 ? 1 - shareOf(v) : shareOf(v)) * Vec3{row(0), row(1), row(2)};
+        }
+        Grid::append(moved, sum);
+    }
+    plain.in.arrays[EvaluateBuffers::positions] = moved;
+    evaluateByLoop(plain.in);
+    evaluateByLoop(deformed.in);
+    expectSameFrames(plain.in, deformed.in);
+}
+
+TEST(PlanBuffers, WriteBytesOfBothVectors) {
+    Grid floats, bytes;
+    auto& settings = bytes.in.arrays[EvaluateBuffers::settings];
+    settings[tangent_format] = 3;
+    settings[tangent_stride] = 8;
+    evaluateByLoop(floats.in);
+    evaluateByLoop(bytes.in);
+    std::vector<Vec3> normals(floats.in.result_count);
+    std::vector<Vec4> tangents(floats.in.result_count);
+    const auto* const packed = reinterpret_cast<const std::byte*>(bytes.in.arrays[EvaluateBuffers::tangents].data());
+    ASSERT_TRUE(unpackFrames({packed, 8 * floats.in.result_count}, FrameFormat::snorm8Pair, normals, tangents));
+    for (std::size_t r = 0; r < floats.in.result_count; ++r) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            ASSERT_NEAR((&normals[r].x)[i], Grid::number(floats.in.arrays[EvaluateBuffers::normals], 3 * r + i),
+                        0.007f);
+            ASSERT_NEAR((&tangents[r].x)[i], Grid::number(floats.in.arrays[EvaluateBuffers::tangents], 4 * r + i),
+                        0.007f);
+        }
+        ASSERT_EQ(tangents[r].w, Grid::number(floats.in.arrays[EvaluateBuffers::tangents], 4 * r + 3));
+    }
+}
+
+TEST(PlanBuffers, RefuseWhatShadersDoNotHave) {
+    const PosedMesh posed = generatedMeshes()[0];
+    const MeshView mesh = posed.mesh.view();
+    for (const Method method : {Method::flat, Method::basis, Method::best}) {
+        const auto plan = planTangents(mesh, {.method = method, .convention = conventions::gltf});
+        EXPECT_EQ(planBuffers(*plan).error().code, ErrorCode::invalidOption) << methodName(method);
+    }
+    const auto plan = planTangents(mesh, {.convention = conventions::gltf});
+    EXPECT_EQ(planBuffers(*plan, {.mesh = mesh, .normals = {.weighting = NormalWeighting::best}}).error().code,
+              ErrorCode::invalidOption);
+    const std::uint32_t few[] = {0, 1, 2}, beyond[] = {1u << 30};
+    EXPECT_EQ(planBuffers(*plan, {.indices = few}).error().code, ErrorCode::countMismatch);
+    EXPECT_EQ(planBuffers(*plan, {.source_corners = beyond}).error().code, ErrorCode::indexOutOfRange);
+}
+
+}  // namespace
+
+}  // namespace tspace::shaders

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+// shaders/tspace_evaluate.* on a Vulkan device, lavapipe where it is installed, against the library.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <iostream>
+#include <sstream>
+
+#include "evaluate_expectations.h"
+#include "read_spirv.h"
+#include "vulkan_compute.h"
+
+namespace tspace::shaders {
+
+namespace {
+
+Evaluate evaluateOn(VulkanCompute& vulkan, const std::vector<std::uint32_t>& spirv) {
+    return [&vulkan, &spirv](EvaluateBuffers& in) {
+        const auto groups = static_cast<std::uint32_t>((in.result_count + 63) / 64);
+        return groups == 0 ? std::string() : vulkan.runBuffers(spirv, "main", groups, in.arrays);
+    };
+}
+
+class EvaluateLanguage : public testing::TestWithParam<const char*> {};
+
+TEST_P(EvaluateLanguage, GivesTheFramesOfTheLibrary) {
+    std::string why;
+    const std::unique_ptr<VulkanCompute> vulkan = VulkanCompute::open(why);
+    if (vulkan == nullptr) GTEST_SKIP() << why << " (scripts/setup installs mesa-vulkan-drivers)";
+    std::cout << vulkan->device() << '\n';
+    const std::vector<std::uint32_t> spirv = readSpirv(GetParam());
+    ASSERT_FALSE(spirv.empty()) << GetParam();
+    expectTangents(generatedMeshes(), evaluateOn(*vulkan, spirv));
+    expectFrames(generatedMeshes(), evaluateOn(*vulkan, spirv));
+
+    // The same bits from run to run.
+    const Evaluate once = evaluateOn(*vulkan, spirv);
+    const Evaluate twice = [&](EvaluateBuffers& in) {
+        EvaluateBuffers again = in;
+        std::string failure = once(in);
+        if (failure.empty()) failure = once(again);
+        return failure.empty() && again.arrays != in.arrays ? "two runs differ" : failure;
+    };
+    EXPECT_EQ(evaluateAll(generatedMeshes(), {.makes_normals = true}, twice).tangents.failure, "");
+}
+
+INSTANTIATE_TEST_SUITE_P(Spirv, EvaluateLanguage, testing::Values(TSPACE_EVALUATE_NAMES),
+                         [](const auto& language) { return std::string(language.param); });
+
+/// The GLSL shader with a part replaced; empty where it does not compile.
+std::vector<std::uint32_t> mutant(const std::string& from, const std::string& to) {
+    std::ifstream file(TSPACE_SHADER_FOLDER "/tspace_evaluate.glsl");
+    std::stringstream all;
+    all << file.rdbuf();
+    std::string text = all.str();
+    const std::size_t at = text.find(from);
+    if (at == std::string::npos) return {};
+    text.replace(at, from.size(), to);
+    const std::string path = TSPACE_SPIRV_DIR "/mutant.glsl";
+    std::ofstream(path) << text;
+    const std::string command = TSPACE_GLSLANG " -V --quiet -S comp -o " TSPACE_SPIRV_DIR "/mutant.spv " + path;
+    return std::system(command.c_str()) == 0 ? readSpirv("mutant") : std::vector<std::uint32_t>();
+}
+
+bool isNear(Differences& found) {
+    return found.failure.empty() && found.wrong_signs + found.not_finite + found.not_zero == 0 &&
+           found.percentile(0.9999) <= kMostUsual && found.worst_deg <= kMost;
+}
+
+TEST(EvaluateShader, IsFoundWrongWhereAPartIsReplaced) {
+    std::string why;
+    const std::unique_ptr<VulkanCompute> vulkan = VulkanCompute::open(why);
+    if (vulkan == nullptr) GTEST_SKIP() << why;
+    struct Mutation {
+        const char *from, *to;
+        Method method;
+    };
+    constexpr Mutation kMutations[] = {
+        {"weight = tspace_arcCosine(dot(tspace_flatten(n, corner.previous)",
+         "weight = 1.0 + 0.0 * (dot(tspace_flatten(n, corner.previous)", Method::mikktspace},
+        {"sums.a += tspace_weightedTangent", "sums.a = tspace_weightedTangent", Method::uniform},
+        {"float square = dot(across, across);", "float square = 0.0;", Method::fast},
+    };
+    for (const Mutation& mutation : kMutations) {
+        const std::vector<std::uint32_t> spirv = mutant(mutation.from, mutation.to);
+        ASSERT_FALSE(spirv.empty()) << mutation.from;
+        Outcome outcome = evaluateAll(generatedMeshes(), {.method = mutation.method}, evaluateOn(*vulkan, spirv));
+        EXPECT_FALSE(isNear(outcome.tangents)) << mutation.from << ": " << outcome.tangents.text();
+    }
+}
+
+}  // namespace
+
+}  // namespace tspace::shaders
