@@ -107,7 +107,7 @@ class DdsReader {
         constexpr std::uint32_t kCube = 0x200, kVolume = 0x200000;
         const std::uint32_t caps = number(kCapsAt);
         if ((caps & kCube) != 0) why_ = "it is a DDS of a cube map";
-        if ((caps & kVolume) != 0) why_ = "it is a DDS of a volume, which is no picture";
+        if ((caps & kVolume) != 0) why_ = "it is a three-dimensional DDS, not an image";
         return (caps & (kCube | kVolume)) == 0;
     }
 
@@ -144,8 +144,8 @@ class DdsReader {
         const std::uint32_t format = number(data_at_), dimension = number(data_at_ + 4), flags = number(data_at_ + 8),
                             layers = number(data_at_ + 12);
         data_at_ += kMoreBytes;
-        if (dimension != kFlat) why_ = "it is a DDS of a line or a volume, which is no picture";
-        if (layers > 1) why_ = "it is a DDS of several pictures (an array)";
+        if (dimension != kFlat) why_ = "it is a one- or three-dimensional DDS, not an image";
+        if (layers > 1) why_ = "it is a DDS of several images (an array)";
         if ((flags & kCube) != 0) why_ = "it is a DDS of a cube map";
         if (dimension != kFlat || layers > 1 || (flags & kCube) != 0) return false;
         if (choose(kDxgiFormats, format)) return true;

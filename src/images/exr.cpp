@@ -506,7 +506,7 @@ std::optional<FloatImage> decodeExr(ByteSpan bytes, std::uint64_t most_pixels, s
     why = "it is a broken EXR";
     const std::optional<ExrHead> head = ExrHeadReader(bytes).read();
     if (!head || isTooLarge(head->size, bytes.size(), most_pixels, why)) return {};
-    if (head->channel_count > kMostChannels) why = "it has more channels than are looked at";
+    if (head->channel_count > kMostChannels) why = "it has more channels than tspace reads";
     if (head->has_more) why = "it has several parts, or several values a pixel";
     if (!head->is_plain) why = "it is packed with loss (B44 or DWA), which is not read";
     if (head->channel_count > kMostChannels || head->has_more || !head->is_plain) return {};

@@ -49,7 +49,7 @@ Result<ImageFileFormat> outputFormat(ImageFileFormat input, const FlipGreenOptio
     const ImageFileFormat format = options.format == ImageFileFormat::sameAsInput ? input : options.format;
     if (format != input && format != ImageFileFormat::png) {
         return Error{ErrorCode::unsupportedFile,
-                     "the output is of another format, which would lose; write the format of the input, or PNG"};
+                     "converting to the format of the output would lose data; write the format of the input, or PNG"};
     }
     if (format == ImageFileFormat::png && whyNotRead(ImageFormat::png) != nullptr) {
         return Error{ErrorCode::unsupportedFile, whyNotRead(ImageFormat::png)};
@@ -67,7 +67,7 @@ Result<FlippedImage> flipTgaToPng(ByteSpan bytes) {
     std::optional<TgaImage> tga = decodeTgaPixels(bytes, ~std::uint64_t{0}, why);
     if (!tga) return Error{ErrorCode::invalidFile, why};
     if (tga->is_grey)
-        return Error{ErrorCode::unsupportedFile, "it is a grey TGA, which has no green channel of its own"};
+        return Error{ErrorCode::unsupportedFile, "it is a gray TGA, which has no green channel of its own"};
     ChannelImage image{tga->image.width, tga->image.height, 3, std::move(tga->image.rgb)};
     if (!tga->alpha.empty()) {
         const std::vector<std::uint8_t> rgb = std::move(image.pixels);
@@ -118,8 +118,7 @@ Result<FlippedImage> flipPixels(ByteSpan bytes, ImageFileFormat input, ImageFile
     FlippedImage result{*std::move(written), {.format = output, .width = image->width, .height = image->height}};
     if (output == ImageFileFormat::jpeg) {
         result.report.is_exact = false;
-        result.report.warnings.push_back(
-            "a JPEG is compressed once more, which rounds its texels again; a PNG would be exact");
+        result.report.warnings.push_back("a JPEG is recompressed, which rounds its texels again; a PNG would be exact");
     }
     return result;
 }

@@ -126,7 +126,7 @@ Result<FlippedPng> flipPng(ByteSpan bytes) {
     const std::vector<Chunk>& chunks = *read;
     const PngHeader header = pngHeader(chunks.front().data);
     if ((header.color & PngHeader::kHasColor) == 0) {
-        return Error{ErrorCode::unsupportedFile, "it is a grey PNG, which has no green channel of its own"};
+        return Error{ErrorCode::unsupportedFile, "it is a gray PNG, which has no green channel of its own"};
     }
     if (std::any_of(chunks.begin(), chunks.end(), [](const Chunk& chunk) { return chunk.type == "acTL"; })) {
         return Error{ErrorCode::unsupportedFile, "it is an animated PNG"};

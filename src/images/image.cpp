@@ -192,7 +192,7 @@ const char* whyNotRead(ImageFormat format) { return codecOf(format).why_not; }
 bool isTooLarge(ImageSize size, std::size_t byte_count, std::uint64_t most_pixels, std::string& why) {
     constexpr std::uint64_t kAlwaysAllowed = std::uint64_t{1} << 24;
     if (size.pixels() > most_pixels) {
-        why = "it has more pixels than are looked at";
+        why = "it has more pixels than tspace reads";
     } else if (size.pixels() > kAlwaysAllowed && size.pixels() / 64 > byte_count) {
         why = "it claims far more pixels than its bytes can hold";
     } else {

@@ -78,7 +78,7 @@ Result<ChannelImage> readJpegPixels(ByteSpan bytes) {
     const JpegHead head = readHead(decompressor, bytes);
     if (head.size.pixels() == 0) return Error{ErrorCode::invalidFile, "it is a broken JPEG"};
     if (head.color_space == TJCS_GRAY) {
-        return Error{ErrorCode::unsupportedFile, "it is a grey JPEG, which has no green channel of its own"};
+        return Error{ErrorCode::unsupportedFile, "it is a gray JPEG, which has no green channel of its own"};
     }
     if (head.isForPrint()) {
         return Error{ErrorCode::unsupportedFile, "it is a JPEG for print (CMYK)"};

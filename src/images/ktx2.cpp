@@ -38,7 +38,8 @@ constexpr VulkanFormat kVulkanFormats[] = {
 /// What the file says of its texels beside Vulkan's number.
 struct Description {
     std::uint32_t model = 0, transfer = 0;
-    std::uint32_t samples = 0, channel = 0, second_channel = 0;  ///< what the first two samples are
+    std::uint32_t samples = 0, channel = 0,
+                  second_channel = 0;  ///< number of samples, and the channels of the first two
 };
 
 class Ktx2Reader {
@@ -71,8 +72,8 @@ class Ktx2Reader {
 
     bool isPicture() {
         const std::uint32_t depth = number(28), layers = number(32), faces = number(36);
-        if (depth > 1) why_ = "it is a KTX2 of a volume, which is no picture";
-        if (layers > 1) why_ = "it is a KTX2 of several pictures (layers)";
+        if (depth > 1) why_ = "it is a three-dimensional KTX2, not an image";
+        if (layers > 1) why_ = "it is a KTX2 of several images (layers)";
         if (faces == 6) why_ = "it is a KTX2 of a cube map";
         return depth <= 1 && layers <= 1 && faces == 1;
     }

@@ -36,8 +36,9 @@ enum class ImageUse {
 
 /// What a file with its own layout of channels (KTX2, DDS, EXR) says of its pixels.
 struct TextureFacts {
-    std::string name = {};    ///< "BC5 in a DDS"
-    MapLayout layout = {};    ///< of a normal map: where the format has x, y and z. Not the default: z is to be made
+    std::string name = {};  ///< "BC5 in a DDS"
+    MapLayout layout =
+        {};  ///< layout of a normal map: the channels of x, y and z. If not the default, z must be reconstructed
     bool is_guessed = false;  ///< the layout is not said by the format, but the texels look like it
     bool is_srgb = false;     ///< it says that its numbers have the sRGB curve, which normal maps must not have
     bool has_blocks = false;  ///< smaller levels cannot be made of it by who loads it

@@ -235,7 +235,7 @@ Result<FlippedImage> flipTexture(ByteSpan bytes, ImageFileFormat format) {
     constexpr const char* kWritePng = "; flip-green -o OUT.png makes a PNG of it";
     if (texture->repacking != Repacking::none)
         return Error{ErrorCode::unsupportedFile,
-                     "it is a KTX2 packed once more (Zstandard, zlib, BasisLZ), which is not written anew" +
+                     "it is a supercompressed KTX2 (Zstandard, zlib, BasisLZ), which cannot be rewritten" +
                          std::string(kWritePng)};
     TextureFacts facts{.layout = texture->layout};
     if (texels.channels == 4 && facts.layout == MapLayout{}) {
@@ -247,7 +247,7 @@ Result<FlippedImage> flipTexture(ByteSpan bytes, ImageFileFormat format) {
     const std::uint8_t source = texture->swizzle[static_cast<std::size_t>(facts.layout.y.channel)];
     const bool is_masked_out = texels.masks[0] != 0 && source < texels.masks.size() && texels.masks[source] == 0;
     if (source >= texels.channels || texels.channels == 1 || is_masked_out)
-        return Error{ErrorCode::unsupportedFile, "it is a grey texture, which has no green channel of its own"};
+        return Error{ErrorCode::unsupportedFile, "it is a gray texture, which has no green channel of its own"};
     if (texels.invert == nullptr)
         return Error{ErrorCode::unsupportedFile,
                      "it is " + texture->name() + ", whose blocks cannot hold inverted green exactly" + kWritePng};
@@ -260,7 +260,7 @@ Result<FlippedImage> flipTexture(ByteSpan bytes, ImageFileFormat format) {
     if (texture->cut_count != 0)
         flipped.report.warnings.push_back("the file ends before the last " + std::to_string(texture->cut_count) +
                                           " of " + std::to_string(texture->levels.size() + texture->cut_count) +
-                                          " levels: what is there of them stays as it was");
+                                          " levels: their remaining bytes are unchanged");
     for (const TextureFile::Place& level : texture->levels) {
         for (std::size_t at = 0; at + texels.block_bytes <= level.bytes; at += texels.block_bytes)
             texels.invert(texels, flipped.bytes.data() + level.at + at, source);

@@ -134,7 +134,7 @@ TEST_F(CFilesBake, AnErrorOfABakeSaysWhichFileItIsAboutAndNothingIsWritten) {
     tspace_Error error;
     EXPECT_EQ(tspace_bakeFile("low.obj", "high.obj", "a.png", R"({"sise": 32})", nullptr, &error),
               TSPACE_ERROR_INVALID_OPTION);
-    EXPECT_STREQ(error.message, "there is no option '--sise'; did you mean '--size'?");
+    EXPECT_STREQ(error.message, "unknown option '--sise'; did you mean '--size'?");
 }
 
 TEST_F(CFilesBake, AnErrorOfFinishSaysWhichModelItIsAboutAndNothingIsWritten) {

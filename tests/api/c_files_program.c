@@ -82,7 +82,7 @@ int main(int argc, char** argv) {
     tspace_destroyBytes(&report);
 
     CHECK(tspace_checkBytes(&made, "{\"angel\": 5}", &report, &error) == TSPACE_ERROR_INVALID_OPTION);
-    CHECK(strcmp(error.message, "there is no option '--angel'; did you mean '--angle'?") == 0);
+    CHECK(strcmp(error.message, "unknown option '--angel'; did you mean '--angle'?") == 0);
     CHECK(report.data == NULL);
 
     tspace_destroyBytes(&output);

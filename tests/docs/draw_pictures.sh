@@ -73,4 +73,4 @@ normals cad right --normals best
 normals decimated usual --normals angle
 normals decimated right --normals best
 normals turned usual --normals angle
-normals turned right --normals angle --mend-winding
+normals turned right --normals angle --fix-winding

@@ -95,7 +95,7 @@ TEST_F(Exr, RefusesWhatIsBrokenOrTooLarge) {
     std::string why;
     EXPECT_FALSE(decodedExr(withCorner(file, 2, 65535), &why));
     EXPECT_FALSE(decodedExr(withCorner(withCorner(file, 2, 65535), 3, 65535), &why));
-    EXPECT_EQ(why, "it has more pixels than are looked at");
+    EXPECT_EQ(why, "it has more pixels than tspace reads");
     EXPECT_GT(imageWorkBytes(withCorner(withCorner(file, 2, 65535), 3, 65535)), std::uint64_t{16} << 32);
     EXPECT_FALSE(decodedExr(withCorner(file, 2, -1), &why));
     EXPECT_FALSE(decodedExr(withCorner(file, 2, std::numeric_limits<std::int32_t>::max())));

@@ -86,7 +86,7 @@ TEST(FloatImage, RefusesWhatIsBrokenOrTooLarge) {
     EXPECT_FALSE(decodeFloatImage(bytesOf(png.substr(0, png.size() / 2)), 1 << 22, why));
     EXPECT_EQ(why, "it is a broken PNG");
     EXPECT_FALSE(decodeFloatImage(bytesOf(png), 1000, why));
-    EXPECT_EQ(why, "it has more pixels than are looked at");
+    EXPECT_EQ(why, "it has more pixels than tspace reads");
 }
 
 }  // namespace

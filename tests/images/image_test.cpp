@@ -43,7 +43,7 @@ TEST(DecodeImage, GivesThePixelsOfAWebp) {
 TEST(DecodeImage, RefusesWebpThatItCannotTrust) {
     const std::string webp = webpFile(normalMapOf(64, bumps), true);
     EXPECT_EQ(whyNot(webp.substr(0, webp.size() / 2)), "it is a broken WebP");
-    EXPECT_EQ(whyNot(webp, 1000), "it has more pixels than are looked at");
+    EXPECT_EQ(whyNot(webp, 1000), "it has more pixels than tspace reads");
     // The head of a lossless image: 14 bits each of width - 1 and height - 1, behind a byte 0x2f.
     std::string claims = webp;
     const std::size_t head = claims.find("VP8L");
@@ -68,8 +68,8 @@ TEST(DecodeImage, SaysWhatItTakesOfMemory) {
 TEST(DecodeImage, SaysWhyItDoesNotLook) {
     const std::string png = pngFile(normalMapOf(64, bumps)), jpeg = jpegFile(normalMapOf(64, bumps), 90);
     EXPECT_EQ(whyNot(png), "");
-    EXPECT_EQ(whyNot(png, 1000), "it has more pixels than are looked at");
-    EXPECT_EQ(whyNot(jpeg, 1000), "it has more pixels than are looked at");
+    EXPECT_EQ(whyNot(png, 1000), "it has more pixels than tspace reads");
+    EXPECT_EQ(whyNot(jpeg, 1000), "it has more pixels than tspace reads");
     EXPECT_EQ(whyNot("RIFF????WEBP"), "it is a broken WebP");
     EXPECT_EQ(whyNot(""), "it is neither PNG, JPEG, WebP, KTX2, DDS nor TGA");
     EXPECT_EQ(whyNot("\xabKTX 20\xbb\r\n\x1a\n"), "it is a broken KTX2");

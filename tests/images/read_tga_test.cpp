@@ -200,7 +200,7 @@ TEST(ReadTga, ClaimsNoMorePixelsThanItsBytesCanHold) {
     EXPECT_EQ(whyNot(runs), "");
     std::string why;
     EXPECT_FALSE(decodeImage(runs, 1000, why));
-    EXPECT_EQ(why, "it has more pixels than are looked at");
+    EXPECT_EQ(why, "it has more pixels than tspace reads");
     runs.pop_back();
     EXPECT_EQ(imageFormat(runs), ImageFormat::unknown);
 }

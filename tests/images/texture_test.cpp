@@ -291,15 +291,15 @@ TEST(Texture, SaysWhatItDoesNotRead) {
     const Ktx2Parts plain{.format = 16, .width = 8, .height = 8, .levels = {std::string(128, '\x80')}};
     const std::string file = ktx2File(plain);
     EXPECT_EQ(whyNot(file), "");
-    EXPECT_EQ(whyNot(file, 10), "it has more pixels than are looked at");
+    EXPECT_EQ(whyNot(file, 10), "it has more pixels than tspace reads");
     const auto with = [&](std::size_t at, char value) {
         std::string changed = file;
         changed[at] = value;
         return changed;
     };
     EXPECT_EQ(whyNot(with(12, '\x8f')), "it is a KTX2 of Vulkan's format 143, which is not read");
-    EXPECT_EQ(whyNot(with(28, 2)), "it is a KTX2 of a volume, which is no picture");
-    EXPECT_EQ(whyNot(with(32, 2)), "it is a KTX2 of several pictures (layers)");
+    EXPECT_EQ(whyNot(with(28, 2)), "it is a three-dimensional KTX2, not an image");
+    EXPECT_EQ(whyNot(with(32, 2)), "it is a KTX2 of several images (layers)");
     EXPECT_EQ(whyNot(with(36, 6)), "it is a KTX2 of a cube map");
     EXPECT_EQ(whyNot(with(44, 9)), "it is a KTX2 packed by scheme 9, which is not read");
     Ktx2Parts etc1s{.width = 8, .height = 8, .levels = {"x"}, .unpacked = {0}};

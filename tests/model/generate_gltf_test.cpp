@@ -190,7 +190,7 @@ TEST(GenerateGltf, TakesTangentsWithoutNormalsForMissing) {
     EXPECT_EQ(outcome.report.primitives.at(0).action, PrimitiveAction::generated);
     EXPECT_TRUE(outcome.report.primitives.at(0).normals_generated);
     EXPECT_EQ(outcome.report.primitives.at(0).notes,
-              std::vector<std::string>{"the tangents that it had did not count, because it had no normals"});
+              std::vector<std::string>{"its old tangents were ignored, because it had no normals"});
     EXPECT_EQ(readTangents(outcome.after, outcome.primitives[0])[0], (Vec4{1, 0, 0, 1}));
 }
 
@@ -529,11 +529,14 @@ TEST(GenerateGltf, SignsThatWereAllInvertedStaySoWhereNormalsAreMadeAnew) {
         for (const Vec4& tangent : readTangents(after, readPrimitives(after)[0]))
             EXPECT_EQ(tangent.w, stays ? -1.0f : 1.0f);
         const std::vector<std::string>& notes = report->primitives[0].notes;
-        EXPECT_EQ(std::any_of(notes.begin(), notes.end(),
-                              [](const std::string& note) {
-                                  return note.find("most signs of its tangents were inverted, and all are now") == 0;
-                              }),
-                  stays);
+        EXPECT_EQ(
+            std::any_of(
+                notes.begin(), notes.end(),
+                [](const std::string& note) {
+                    return note.find(
+                               "most tangent signs of the file were inverted, so all new ones are inverted too") == 0;
+                }),
+            stays);
     }
 }
 
@@ -560,7 +563,7 @@ TEST(GenerateGltf, WarnsOfWhatItMakesOverRoundedPositions) {
         return report && !report->warnings.empty() ? report->warnings[0] : std::string();
     };
     const auto says = [](const std::string& warning, const std::string& made) {
-        return warning.find("primitives/0: " + made + " were made over positions that are rounded") !=
+        return warning.find("primitives/0: " + made + " were computed from positions that are rounded") !=
                std::string::npos;
     };
     EXPECT_TRUE(says(warningOf(true, {.all = true}), "tangents"));

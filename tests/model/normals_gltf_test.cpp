@@ -357,7 +357,7 @@ TEST(OverwriteNormals, NormalsStayWhereTangentsCouldNotFollow) {
     EXPECT_EQ(made.vec3(0, "NORMAL"), data.normals);
     EXPECT_FALSE(made.report.primitives[0].normals_replaced);
     ASSERT_FALSE(made.report.primitives[0].notes.empty());
-    EXPECT_NE(made.report.primitives[0].notes[0].find("its normals stay"), std::string::npos);
+    EXPECT_NE(made.report.primitives[0].notes[0].find("its normals are kept"), std::string::npos);
 }
 
 TEST(OverwriteNormals, InvertedSignsStayBecauseTheMapMayBeMadeForThem) {
@@ -431,8 +431,7 @@ TEST(OverwriteNormals, SaysWhereTangentsThatSomebodyMayHaveDrawnGo) {
     };
     const char* hair = R"({"extras":{"hairFlow":true}})";
     const char* brushed = R"({"extensions":{"KHR_materials_anisotropy":{"anisotropyStrength":1}}})";
-    EXPECT_TRUE(
-        says(notes(hair, anew()), "somebody may have drawn (extras of the material) were computed anew along u"));
+    EXPECT_TRUE(says(notes(hair, anew()), "may be authored (extras of the material) were recomputed along u"));
     EXPECT_TRUE(says(notes(R"({"extensions":{"EXT_fur":{}}})", anew()), "(the material extension EXT_fur)"));
     EXPECT_TRUE(says(notes(brushed, anew()), "(anisotropy without a texture)"));
     EXPECT_FALSE(says(notes(brushed, {}), "drawn")) << "they stay";
@@ -548,7 +547,7 @@ TEST(Winding, TurnedTrianglesAndNormalsBehindThemAreCounted) {
     const PrimitiveReport& report = made.report.primitives[0];
     EXPECT_EQ(report.turned_triangle_count, 19u);
     EXPECT_GT(report.normals_behind_count, 19u);
-    EXPECT_TRUE(says(made.report.warnings, "19 of 128 triangles are wound against the neighbours"));
+    EXPECT_TRUE(says(made.report.warnings, "19 of 128 triangles are wound opposite to the neighbors"));
     EXPECT_TRUE(says(made.report.warnings, "behind"));
     GltfBuilder sound;
     addPart(sound, arch(8, 0.5f));
@@ -567,7 +566,7 @@ TEST(Winding, SheetsWithTwoSidesAreCounted) {
         generateFile(shared("reports/walls_two_sided.obj").string(), folder.path("out.glb").string(), options);
     ASSERT_TRUE(report);
     EXPECT_EQ(report->primitives[0].two_sided_triangle_count, 4u) << "a quad and its reverse, cut along both diagonals";
-    EXPECT_TRUE(says(report->warnings, "sheets with two sides"));
+    EXPECT_TRUE(says(report->warnings, "two-sided sheets"));
 }
 
 TEST(OverwriteNormals, WorksForObj) {

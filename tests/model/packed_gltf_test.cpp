@@ -145,7 +145,7 @@ TEST(PackedGltf, IsLeftOutWithTheReasonWhereAFrameIsMissing) {
     EXPECT_FALSE(outcome.report.changed);
     EXPECT_FALSE(report.frames_packed);
     ASSERT_EQ(report.notes.size(), 1u);
-    EXPECT_EQ(report.notes[0], "its frames are not packed: it has no TANGENT (--all makes what is missing)");
+    EXPECT_EQ(report.notes[0], "its frames are not packed: it has no TANGENT (--all adds what is missing)");
     GenerateOptions all = packing(FrameFormat::frame32);
     all.all = true;
     EXPECT_TRUE(run(model, all).report.primitives.at(0).frames_packed) << "the advice holds";
@@ -206,7 +206,8 @@ TEST(PackedGltf, MayStandInPlaceOfWhatItWasPackedFrom) {
         const auto other = generateFile(output, output, packing(FrameFormat::oct32));
         ASSERT_TRUE(other && other->primitives[0].notes.size() == 1);
         EXPECT_EQ(other->primitives[0].notes[0],
-                  "its frames are not packed: it has others in _FRAME32, and not what they were packed from");
+                  "its frames are not packed: it has only other packed frames in _FRAME32, and not the data they were "
+                  "packed from");
     }
 }
 
@@ -247,7 +248,7 @@ TEST(PackedGltf, IsOfTheBaseOfMorphTargetsWhoseBaseStays) {
     EXPECT_FALSE(outcome.report.primitives[0].tangents_dropped || outcome.report.primitives[0].normals_dropped);
     ASSERT_EQ(outcome.report.primitives[0].notes.size(), 1u);
     EXPECT_EQ(outcome.report.primitives[0].notes[0],
-              "its NORMAL and TANGENT stay beside the packed frames, because its morph targets add to them");
+              "its NORMAL and TANGENT are kept beside the packed frames, because morph targets add to them");
 }
 
 TEST(PackedGltf, FollowsTangentsThatAreReplacedOnlyWhenAskedFor) {
@@ -261,7 +262,7 @@ TEST(PackedGltf, FollowsTangentsThatAreReplacedOnlyWhenAskedFor) {
     const auto report = generateFile(packed, turned, options);
     ASSERT_TRUE(report && report->primitives[0].notes.size() == 1);
     EXPECT_EQ(report->primitives[0].notes[0],
-              "its packed frames in _FRAME32 are those of before (--pack frame32 renews them)");
+              "its packed frames in _FRAME32 are outdated (--pack frame32 renews them)");
     const auto words = [](const std::string& file) {
         const gltf::Document document = gltf::loadDocument(file, {});
         return readPackedWords(document, readPrimitives(document).at(0), gltf::packedLayout(FrameFormat::frame32));

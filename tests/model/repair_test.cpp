@@ -61,7 +61,7 @@ class Model {
         EXPECT_EQ(report.action, PrimitiveAction::replaced);
         ASSERT_EQ(report.notes.size(), 1u);
         EXPECT_GT(report.mended_vertex_count, 0u);
-        EXPECT_EQ(report.notes[0].rfind("its tangents were wrong: ", 0), 0u);
+        EXPECT_EQ(report.notes[0].rfind("its old tangents were invalid:  ", 0), 0u);
         EXPECT_NE(report.notes[0].find(words), std::string::npos) << report.notes[0];
         EXPECT_EQ(readFile(repaired()), readFile(good()));
     }
@@ -76,7 +76,7 @@ TEST(Repair, KeepsGoodTangentsWhateverMethodMadeThem) {
         Model model(gridModel(Grid(6, splits)), method);
         const GenerateReport report = model.repair([](std::size_t, Vec4&) {});
         EXPECT_EQ(report.primitives.at(0).action, PrimitiveAction::kept);
-        EXPECT_EQ(report.primitives.at(0).reason, "its tangents are good");
+        EXPECT_EQ(report.primitives.at(0).reason, "its tangents are correct");
         EXPECT_FALSE(report.changed);
         EXPECT_EQ(readFile(model.repaired()), readFile(model.good()));
     }
@@ -88,7 +88,7 @@ TEST(Repair, ReplacesWrongSignsAndDirections) {
     model.expectRepaired("sign", [](std::size_t i, Vec4& t) {
         if (i < 9) t.w = -t.w;
     });
-    model.expectRepaired("do not point where u grows", [](std::size_t, Vec4& t) { t = {-t.y, t.x, 0, t.w}; });
+    model.expectRepaired("do not point along increasing u", [](std::size_t, Vec4& t) { t = {-t.y, t.x, 0, t.w}; });
     model.expectRepaired("not perpendicular", [](std::size_t, Vec4& t) { t = {0, 0, 1, t.w}; });
 }
 
@@ -182,7 +182,7 @@ TEST(Repair, DoesNotSayThatKeptTangentsFollowTheTransform) {
     const PrimitiveReport& report = result->primitives.at(0);
     EXPECT_EQ(report.action, PrimitiveAction::kept);
     EXPECT_TRUE(report.notes.empty()) << report.notes[0];
-    EXPECT_NE(report.reason.find("follow TEXCOORD_0 as it is"), std::string::npos) << report.reason;
+    EXPECT_NE(report.reason.find("follow TEXCOORD_0 without the rotation"), std::string::npos) << report.reason;
 }
 
 TEST(Repair, JudgesByTheUvsAfterTheTextureTransform) {
@@ -400,7 +400,7 @@ TEST(Repair, ReplacesTangentsThatCannotBeRead) {
     const std::vector<std::pair<GltfBuilder, std::string>> models{
         {of_another_shape, "they do not have 4 components"},
         {of_another_mesh, "there are 26 of them for 25 vertices"},
-        {of_bytes, "they are uint8x4, and must be floats or normalised signed integers"}};
+        {of_bytes, "they are uint8x4, and must be floats or normalized signed integers"}};
     for (const auto& [builder, why] : models) {
         for (const ExistingTangents existing :
              {ExistingTangents::keep, ExistingTangents::repair, ExistingTangents::replace}) {
@@ -408,7 +408,7 @@ TEST(Repair, ReplacesTangentsThatCannotBeRead) {
             for (const Vec4& t : tangentsAfter(builder, {.existing = existing}, report))
                 EXPECT_EQ(t, (Vec4{1, 0, 0, 1}));
             EXPECT_EQ(report.primitives.at(0).action, PrimitiveAction::replaced);
-            EXPECT_EQ(report.primitives.at(0).notes.at(0), "its tangents were wrong: " + why);
+            EXPECT_EQ(report.primitives.at(0).notes.at(0), "its old tangents were invalid:  " + why);
         }
         GltfBuilder unneeded = builder;
         firstPrimitive(unneeded)["material"] = 1;
@@ -503,7 +503,7 @@ TEST(Repair, LeavesTangentsThatNoTextureIsReadWith) {
         GenerateReport report;
         for (const Vec4& t : tangentsAfter(builder, kRepair, report)) EXPECT_EQ(t, (Vec4{0.6f, 0.8f, 0, 1}));
         EXPECT_EQ(report.primitives.at(0).mended_vertex_count, 2u);
-        EXPECT_NE(report.primitives.at(0).reason.find("no texture is read with them"), std::string::npos);
+        EXPECT_NE(report.primitives.at(0).reason.find("no texture uses them"), std::string::npos);
     }
 }
 
@@ -518,11 +518,11 @@ TEST(Repair, SaysWhatWasLookedAtWhereTangentsStay) {
         (void)tangentsAfter(builder, kRepair, report);
         return report.primitives.at(0).reason;
     };
-    EXPECT_EQ(reasonOf(), "its tangents are good");
+    EXPECT_EQ(reasonOf(), "its tangents are correct");
     for (std::size_t v = 0; v < 10; ++v) grid.uvs[v] = grid.uvs[v + 10];  // the first row has those of the second
     EXPECT_NE(reasonOf().find("on 25.0 % of the surface"), std::string::npos) << reasonOf();
     for (float& value : grid.uvs) value = 0;
-    EXPECT_NE(reasonOf().find("their values alone"), std::string::npos) << reasonOf();
+    EXPECT_NE(reasonOf().find("only their values"), std::string::npos) << reasonOf();
 }
 
 TEST(Repair, KeepsGoodTangentsAlsoWhereGeometryIsPackedAnew) {

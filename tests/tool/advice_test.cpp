@@ -66,7 +66,7 @@ std::vector<NamedCommand> commandsOf(const Json& finding) {
 Json withoutHarmless(const Json& findings) {
     Json rest = Json::array();
     for (const Json& finding : findings) {
-        const bool may_be_meant = finding["remedy"].get<std::string>().rfind("Nothing needs to be done", 0) == 0;
+        const bool may_be_meant = finding["remedy"].get<std::string>().rfind("No action is needed", 0) == 0;
         if (finding["severity"] != "note" || !may_be_meant) rest.push_back(finding);
     }
     return rest;

@@ -72,7 +72,7 @@ TEST(AllReports, OfIdentify) {
 TEST(AllReports, OfGenerate) {
     NEEDS_ALL;
     for (const char* options : {" --all --bitangents --morph-normals all --pack frame32 --normals angle",
-                                " --repair --flip-green --mend-maps"}) {
+                                " --repair --flip-green --fix-maps"}) {
         const Json document = reportOf(TempFolder(), "generate" + allFolders() + " -o out --dry-run" + options);
         EXPECT_TRUE(document["dryRun"].get<bool>());
         EXPECT_GT(document["files"].size(), 400U);

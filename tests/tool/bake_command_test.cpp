@@ -64,9 +64,9 @@ TEST_F(BakeCommand, BakesNoNoiseOfPositionsWhereItIsAskedTo) {
     folder.write("high.obj", noisySheet(80));
     const std::string common = "bake low.obj --high high.obj --size 64 --report r.json -q -o ";
     ASSERT_EQ(runTool(folder, common + "noisy.png").exit_code, 0);
-    EXPECT_NE(folder.read("r.json").find("--denoise auto bakes normals without that"), std::string::npos);
+    EXPECT_NE(folder.read("r.json").find("--denoise auto bakes normals without the noise"), std::string::npos);
     ASSERT_EQ(runTool(folder, common + "smooth.png --denoise auto").exit_code, 0);
-    EXPECT_NE(folder.read("r.json").find("its normals were made without that (--denoise)"), std::string::npos);
+    EXPECT_NE(folder.read("r.json").find("normals without the noise were computed (--denoise)"), std::string::npos);
     EXPECT_LT(leanOf(imageOf(folder, "smooth.png")), 0.2 * leanOf(imageOf(folder, "noisy.png")));
 }
 
@@ -244,7 +244,7 @@ TEST_F(BakeCommand, WhatReachesBeyondAClampedImageIsCounted) {
     folder.write("wide.gltf", model.dump());
     const ToolRun run = runTool(folder, "bake wide.gltf --high high.obj -o wide.png --size 32");
     EXPECT_EQ(run.exit_code, 0) << run.err;
-    EXPECT_NE(run.out.find("16 triangles reach beyond the edge"), std::string::npos) << run.out;
+    EXPECT_NE(run.out.find("16 triangles extend beyond the texture"), std::string::npos) << run.out;
 }
 
 TEST_F(BakeCommand, AMapTakesThePlaceOfAnImageWhoseViewDoesNotExist) {
@@ -293,7 +293,7 @@ TEST_F(BakeCommand, WhatIsWrongIsOneLineAndNothingIsWritten) {
           {"bake low.obj --high high.obj -o n.jpg", 2, ".png"},
           {"bake low.obj --high high.obj -o low.obj", 2, "is an input"},
           {"bake bare.obj --high high.obj -o n.png --size 32", 3, "no UVs"},
-          {"bake low.obj --high far.obj -o n.png --size 32", 3, "nowhere near"},
+          {"bake low.obj --high far.obj -o n.png --size 32", 3, "do not overlap"},
           {"bake low.obj --high broken.glb -o n.png --size 32", 3, ""},
           {"bake low.obj --high none.obj -o n.png", 4, "none.obj"},
           {"bake low.obj --high high.obj -o n.png --cage high.obj --size 32", 3, "cage"},

@@ -81,7 +81,7 @@ TEST_F(BakePairs, NamesInATableStayInTheFolderOfTheOutput) {
         EXPECT_EQ(run.exit_code, 3) << name << run.err;
         EXPECT_EQ(run.errorLines(), 1) << name << run.err;
         EXPECT_NE(run.err.find("line 2"), std::string::npos) << run.err;
-        EXPECT_FALSE(std::filesystem::exists(folder.path() / "in")) << name << ": nothing is written";
+        EXPECT_FALSE(std::filesystem::exists(folder.path() / "in")) << name << ": nothing was written";
         EXPECT_FALSE(std::filesystem::exists(absolute));
     }
     folder.write("t/table.txt", "../t/low.obj = ../high.obj = sub/deep.png\n");
@@ -96,7 +96,7 @@ TEST_F(BakePairs, ATableGivesNoFileAControlCharacterInItsName) {
         EXPECT_EQ(run.exit_code, 3) << run.err;
         EXPECT_NE(run.err.find("line 2: the output"), std::string::npos) << run.err;
         EXPECT_NE(run.err.find("has a control character in its name"), std::string::npos) << run.err;
-        EXPECT_FALSE(folder.has("in")) << "nothing is written";
+        EXPECT_FALSE(folder.has("in")) << "nothing was written";
     }
     folder.write("t/lo\bw.obj", folder.read("low.obj"));
     folder.write("t/table.txt", "lo\bw.obj = high.obj\n");

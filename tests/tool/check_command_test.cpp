@@ -19,10 +19,9 @@ TEST(CheckCommand, SaysInOneLineThatAGoodFileIsGood) {
     writeGood(folder, "good.glb");
     const ToolRun run = runTool(folder, "check good.glb");
     EXPECT_EQ(run.exit_code, 0) << run.err;
-    EXPECT_EQ(
-        run.out,
-        "good.glb: nothing found in 1 primitive, 1 of them with tangents; looked at 1 normal map: what the channels "
-        "hold; which way green points does not show\n");
+    EXPECT_EQ(run.out,
+              "good.glb: nothing found in 1 primitive, 1 of them with tangents; examined 1 normal map: channel "
+              "contents; the direction of green cannot be determined\n");
 }
 
 TEST(CheckCommand, BeginsWithASummaryAndEndsEachFindingWithItsRemedy) {
@@ -32,14 +31,14 @@ TEST(CheckCommand, BeginsWithASummaryAndEndsEachFindingWithItsRemedy) {
     EXPECT_EQ(run.exit_code, 1);
     EXPECT_EQ(run.err, "");
     EXPECT_EQ(run.out.rfind(
-                  "bad.glb: 1 error, 0 warnings, 0 notes in 1 primitive, 1 of them with tangents; looked at 1 normal "
-                  "map: what the channels hold; which way green points does not show\n",
+                  "bad.glb: 1 error, 0 warnings, 0 notes in 1 primitive, 1 of them with tangents; examined 1 normal "
+                  "map: channel contents; the direction of green cannot be determined\n",
                   0),
               0U)
         << run.out;
     for (const char* text :
          {"  error    signsInverted\n", "mesh 0 \"folded\", primitive 0, material \"skin\"",
-          "(at /meshes/0/primitives/0)", "every sign is inverted", "first at vertices 0, 1", "mend: Negate every w"}) {
+          "(at /meshes/0/primitives/0)", "every sign is inverted", "first at vertices 0, 1", "fix: Negate every w"}) {
         EXPECT_NE(run.out.find(text), std::string::npos) << text << "\n" << run.out;
     }
     EXPECT_EQ(run.out.find('\x1b'), std::string::npos) << "colours are for terminals";
@@ -52,14 +51,14 @@ TEST(CheckCommand, SaysHowGoodPackedFramesAreAndWhatToRunWhereTheyAreOthers) {
     const ToolRun first = runTool(folder, "check good.glb --fail-on note");
     EXPECT_EQ(first.exit_code, 0) << first.out;
     EXPECT_NE(first.out.find("packed frames of 1 primitive in _FRAME32: N within "), std::string::npos) << first.out;
-    EXPECT_NE(first.out.find("(0.135 and 0.135 promised), all signs agree\n"), std::string::npos) << first.out;
+    EXPECT_NE(first.out.find("(0.135 and 0.135 guaranteed), all signs match\n"), std::string::npos) << first.out;
 
     // The tangents change, and nobody tells the packed frames.
     ASSERT_EQ(runTool(folder, "generate good.glb -q -o other.glb --overwrite --convention opengl").exit_code, 0);
     const ToolRun second = runTool(folder, "check other.glb --convention opengl --fail-on warning");
     EXPECT_EQ(second.exit_code, 1);
     EXPECT_NE(second.out.find("  warning  packedFramesDiffer\n"), std::string::npos) << second.out;
-    EXPECT_NE(second.out.find("mend: Pack them anew: tspace generate --pack frame32.\n"), std::string::npos)
+    EXPECT_NE(second.out.find("fix: Pack them again: tspace generate --pack frame32.\n"), std::string::npos)
         << second.out;
     ASSERT_EQ(runTool(folder, "generate other.glb -q --in-place --pack frame32").exit_code, 0);
     EXPECT_EQ(runTool(folder, "check other.glb --convention opengl --fail-on note").exit_code, 0);

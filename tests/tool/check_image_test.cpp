@@ -226,7 +226,7 @@ TEST_F(CheckImage, FindsImagesInFoldersWithoutModels) {
     }
     // Named alone, an image is judged in any case.
     EXPECT_EQ(codes(check("textures/wood_color.png")).size(), 1U);
-    EXPECT_NE(runTool(folder_, "check textures").out.find("no normal map"), std::string::npos);
+    EXPECT_NE(runTool(folder_, "check textures").out.find("not a normal map"), std::string::npos);
     folder_.write("empty/readme.txt", "");
     const ToolRun empty = runTool(folder_, "check empty");
     EXPECT_EQ(empty.exit_code, 3);

@@ -28,7 +28,7 @@ TEST_P(FaultyAttributes, EndNoCommand) {
           "render faulty.gltf -o a.png --size 32", "finish faulty.gltf -o finished.glb",
           "bake faulty.gltf --high faulty.gltf -o baked.png --size 16",
           "generate faulty.gltf -o b.glb --overwrite-normals", "generate faulty.gltf -o c.glb --repair",
-          "generate faulty.gltf -o d.glb --mend-winding --morph-normals all --pack frame32"}) {
+          "generate faulty.gltf -o d.glb --fix-winding --morph-normals all --pack frame32"}) {
         const ToolRun run = runTool(folder_, command);
         EXPECT_NE(run.exit_code, 3) << command << ": " << run.err;
         EXPECT_LE(run.exit_code, 1) << command << ": " << run.err;

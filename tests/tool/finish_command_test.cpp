@@ -28,7 +28,7 @@ class Finish : public testing::Test {
         return codes;
     }
     [[nodiscard]] int turnable(const std::string& name) const {
-        const ToolRun run = runTool(folder, "generate --json --mend-winding --dry-run -o dry.glb " + name);
+        const ToolRun run = runTool(folder, "generate --json --fix-winding --dry-run -o dry.glb " + name);
         return Json::parse(run.out, nullptr, false)["files"][0]["windings"][0]["turned"].get<int>();
     }
     void make(const std::string& arguments) const { ASSERT_EQ(runTool(folder, arguments + " --quiet").exit_code, 0); }
@@ -69,7 +69,7 @@ TEST_F(Finish, LeavesAModelThatIsRightByteForByte) {
     make("generate a.obj -o right.glb");
     const Json json = report("right.glb -o out.glb");
     EXPECT_TRUE(folder.read("out.glb") == folder.read("right.glb"));
-    EXPECT_EQ(json["models"][0]["done"], Json::array({"nothing had to be done"}));
+    EXPECT_EQ(json["models"][0]["done"], Json::array({"no changes were needed"}));
     EXPECT_FALSE(json["models"][0]["made"]["changed"].get<bool>());
 }
 
@@ -239,7 +239,7 @@ TEST_F(FinishLow, WhereNoRayMeetsAnythingNothingIsWritten) {
     folder.write("far.obj", far);
     const ToolRun run = runTool(folder, "finish far.obj --low low.obj -o a.glb --size 32 --reach 0.01 --maps normal");
     EXPECT_EQ(run.exit_code, 1);
-    EXPECT_NE(run.err.find("nothing is written"), std::string::npos) << run.err;
+    EXPECT_NE(run.err.find("no map was written"), std::string::npos) << run.err;
     EXPECT_FALSE(std::filesystem::exists(folder.path() / "a.glb"));
 }
 

@@ -71,9 +71,9 @@ TEST(Generate, PacksFramesOfObjFilesToo) {
 TEST(Generate, SaysThatTangentsOfTheMethodBasisFollowNoUvs) {
     const TempFolder folder;
     writeFoldedObj(folder, "folded.obj");
-    EXPECT_NE(runTool(folder, "generate folded.obj -o basis.glb --method basis").out.find("follow no UVs"),
+    EXPECT_NE(runTool(folder, "generate folded.obj -o basis.glb --method basis").out.find("do not follow UVs"),
               std::string::npos);
-    EXPECT_EQ(runTool(folder, "generate folded.obj -o plain.glb").out.find("follow no UVs"), std::string::npos);
+    EXPECT_EQ(runTool(folder, "generate folded.obj -o plain.glb").out.find("do not follow UVs"), std::string::npos);
 }
 
 TEST(Generate, SaysWhichOptionsHaveNoEffect) {
@@ -81,14 +81,15 @@ TEST(Generate, SaysWhichOptionsHaveNoEffect) {
     folder.write("bare.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nvn 0 0 1\nf 1/1/1 2/2/1 3/3/1\n");
     ASSERT_EQ(runTool(folder, "generate -q --all bare.obj -o has.glb").exit_code, 0);
     for (const char* option :
-         {"--no-sanitize", "--orthogonalize", "--format snorm8", "--refine 2", "--mend-maps", "--flip-green",
+         {"--no-sanitize", "--orthogonalize", "--format snorm8", "--refine 2", "--fix-maps", "--flip-green",
           "--convention directx", "--texture-transform ignore", "--compress none", "--keep-coordinates"}) {
         const std::string name = std::string(option).substr(0, std::string(option).find(' '));
         const ToolRun run = runTool(folder, "generate --all has.glb -o out.glb " + std::string(option));
         EXPECT_NE(run.out.find(name + " has no effect: "), std::string::npos) << option << run.out << run.err;
     }
-    EXPECT_NE(runTool(folder, "generate --all bare.obj -o out.glb --refine 2").out.find("it is for --method best"),
-              std::string::npos);
+    EXPECT_NE(
+        runTool(folder, "generate --all bare.obj -o out.glb --refine 2").out.find("it only applies to --method best"),
+        std::string::npos);
     EXPECT_NE(runTool(folder, "generate bare.obj -o out.glb --strip").out.find("--strip has no effect"),
               std::string::npos);
     const ToolRun packed = runTool(folder, "generate --all has.glb -o packed.glb --compress meshopt");
@@ -136,11 +137,11 @@ TEST(Generate, RepairKeepsWhatItMadeItself) {
     const ToolRun run = runTool(folder, "generate a.glb -o b.glb --repair");
     EXPECT_EQ(run.exit_code, 0) << run.err;
     EXPECT_NE(run.out.find("1 kept"), std::string::npos) << run.out;
-    EXPECT_NE(run.out.find("its tangents are good"), std::string::npos) << run.out;
+    EXPECT_NE(run.out.find("its tangents are correct"), std::string::npos) << run.out;
     EXPECT_EQ(folder.read("a.glb"), folder.read("b.glb"));
     const ToolRun inverted = runTool(folder, "generate a.glb -o c.glb --repair --convention opengl");
     EXPECT_NE(inverted.out.find("1 replaced"), std::string::npos) << inverted.out;
-    EXPECT_NE(inverted.out.find("note: mesh 0, primitive 0: its tangents were wrong: "), std::string::npos)
+    EXPECT_NE(inverted.out.find("note: mesh 0, primitive 0: its old tangents were invalid:  "), std::string::npos)
         << inverted.out;
 }
 
@@ -382,7 +383,8 @@ TEST(Generate, TakesNoiseOutOfNormalsAndSaysSo) {
     EXPECT_EQ(clean.out.find("noisy"), clean.out.find("no positions are noisy") + 17) << clean.out;
     const ToolRun other =
         runTool(folder, "generate noisy.obj -o other.glb --all --method basis --normals area --denoise 2");
-    EXPECT_NE(other.out.find("--denoise has no effect: it is for --normals best"), std::string::npos) << other.out;
+    EXPECT_NE(other.out.find("--denoise has no effect: it only applies to --normals best"), std::string::npos)
+        << other.out;
     for (const char* wrong : {"--denoise 5", "--denoise loud", "--crease -1", "--crease 181"})
         EXPECT_EQ(runTool(folder, std::string("generate noisy.obj -o x.glb ") + wrong).exit_code, 2) << wrong;
 }

@@ -140,7 +140,7 @@ TEST(HeightToNormalCommand, ReadsTerrainInMeters) {
     }
     const ToolRun plain = runTool(folder, "height-to-normal tile.png -o n.png --encoding terrarium --strength 2");
     EXPECT_EQ(plain.exit_code, 0);
-    EXPECT_NE(plain.out.find("--texel-size says how wide it is"), std::string::npos) << plain.out;
+    EXPECT_NE(plain.out.find("set its width with --texel-size"), std::string::npos) << plain.out;
     folder.write("tile.jpg", jpegFile(normalMapOf(16, bumps), 90));
     EXPECT_EQ(runTool(folder, "height-to-normal tile.jpg -o n.png --encoding terrarium").exit_code, 2);
     writeHeights(folder, 16);
@@ -199,7 +199,7 @@ TEST(HeightToNormalCommand, TakesMapBumpForHeightsOnlyWhereItIsGrey) {
     const ToolRun check = runTool(folder, "check wall.obj");
     EXPECT_NE(check.out.find("normalMapIsPicture"), std::string::npos) << check.out;
     const ToolRun picture = runTool(folder, "generate wall.obj -o picture.glb");
-    EXPECT_NE(picture.out.find("it is a picture in colors"), std::string::npos) << picture.out;
+    EXPECT_NE(picture.out.find("it is a color image"), std::string::npos) << picture.out;
 }
 
 /// The picture of the OBJ is that of the GLB that generate makes of it.

@@ -31,7 +31,7 @@ TEST(Inspect, SeesTheTangentsThatGenerateWrote) {
     const ToolRun run = runTool(folder, "inspect a.glb");
     EXPECT_EQ(run.exit_code, 0) << run.err;
     EXPECT_NE(run.out.find("TANGENT float4"), std::string::npos) << run.out;
-    EXPECT_NE(run.out.find("needed and there"), std::string::npos) << run.out;
+    EXPECT_NE(run.out.find("needed and present"), std::string::npos) << run.out;
 }
 
 TEST(Inspect, NamesPackedFrames) {
@@ -64,7 +64,7 @@ TEST(Inspect, SaysWhatWasLeftOutAsAFileWasRead) {
     const Json json = Json::parse(runTool(folder, "inspect --json a.obj").out);
     EXPECT_EQ(json["files"][0]["warnings"], Json::array({"there is no material library 'none.mtl'"}));
     const std::string checked = runTool(folder, "check a.obj").out;
-    EXPECT_NE(checked.find("  note     fileRemark\n        there is no material library 'none.mtl'\n      mend: "),
+    EXPECT_NE(checked.find("  note     fileRemark\n        there is no material library 'none.mtl'\n      fix: "),
               std::string::npos)
         << checked;
 }

@@ -123,13 +123,13 @@ TEST(MendMaps, WhatCheckNamesMendsTheModelAndTheImage) {
         ASSERT_EQ(found.size(), 1U) << kind.code << found.dump(1);
         EXPECT_EQ(found[0]["code"], kind.code);
         const std::string remedy = found[0]["remedy"];
-        EXPECT_NE(remedy.find("tspace generate --mend-maps."), std::string::npos) << remedy;
+        EXPECT_NE(remedy.find("tspace generate --fix-maps."), std::string::npos) << remedy;
         const std::string start = "convert-map map.png -o OUT.png ", command = start + kind.options;
         const std::string last = kind.others == nullptr ? command : start + kind.others;
         EXPECT_NE(remedy.find("tspace " + command), std::string::npos) << remedy;
         EXPECT_TRUE(remedy.ends_with("tspace " + last)) << remedy;
 
-        ASSERT_EQ(runTool(folder, "generate --mend-maps map.gltf -o mended.gltf").exit_code, 0);
+        ASSERT_EQ(runTool(folder, "generate --fix-maps map.gltf -o mended.gltf").exit_code, 0);
         EXPECT_EQ(findingsIn(folder, "mended.gltf"), Json::array()) << kind.code;
         EXPECT_LT(meanError(imageIn(folder, "map-mended.png"), right), 1) << kind.code;
         EXPECT_TRUE(folder.read("map.png") == old_file) << "the old one stays";
@@ -166,8 +166,8 @@ TEST(MendMaps, TexturesBecomePngsThatTheModelNamesPlainly) {
         const Json findings = findingsIn(folder, "t.gltf");
         ASSERT_FALSE(findings.empty());
         EXPECT_EQ(findings[0]["code"], kind.code);
-        EXPECT_NE(findings[0]["remedy"].get<std::string>().find("generate --mend-maps"), std::string::npos);
-        const ToolRun run = runTool(folder, "generate t.gltf -o mended.gltf --mend-maps");
+        EXPECT_NE(findings[0]["remedy"].get<std::string>().find("generate --fix-maps"), std::string::npos);
+        const ToolRun run = runTool(folder, "generate t.gltf -o mended.gltf --fix-maps");
         ASSERT_EQ(run.exit_code, 0) << run.err;
         const Json mended = Json::parse(folder.read("mended.gltf"));
         EXPECT_EQ(mended["textures"][0], Json({{"source", 0}})) << mended["textures"];
@@ -205,7 +205,7 @@ TEST(MendMaps, MendsRedAndGreenThatWereExchanged) {
     const std::string remedy = found[0]["remedy"];
     EXPECT_NE(remedy.find("--channels grb. "), std::string::npos) << remedy;
     EXPECT_TRUE(remedy.ends_with("--channels GRb")) << remedy;
-    ASSERT_EQ(runTool(folder, "generate --mend-maps map.gltf -o mended.gltf").exit_code, 0);
+    ASSERT_EQ(runTool(folder, "generate --fix-maps map.gltf -o mended.gltf").exit_code, 0);
     EXPECT_EQ(findingsIn(folder, "mended.gltf"), Json::array());
     EXPECT_LT(meanError(imageIn(folder, "map-mended.png"), right), 1);
 }
@@ -221,7 +221,7 @@ TEST(MendMaps, NamesBothWaysToTurnTheVectorsOfAnImageThatWasTurned) {
     ASSERT_EQ(found.size(), 1U) << found.dump(1);
     EXPECT_EQ(found[0]["code"], "normalMapChannels");
     const std::string remedy = found[0]["remedy"];
-    EXPECT_EQ(remedy.find("--mend-maps"), std::string::npos) << remedy;
+    EXPECT_EQ(remedy.find("--fix-maps"), std::string::npos) << remedy;
     for (const std::string letters : {"Grb", "gRb"}) {
         const std::string command = "convert-map map.png -o OUT.png --channels " + letters;
         EXPECT_NE(remedy.find("tspace " + command + ". "), std::string::npos) << remedy;
@@ -230,8 +230,8 @@ TEST(MendMaps, NamesBothWaysToTurnTheVectorsOfAnImageThatWasTurned) {
         writeSquare(folder, "OUT");
         EXPECT_EQ(findingsIn(folder, "OUT.gltf"), Json::array());
     }
-    const ToolRun run = runTool(folder, "generate --mend-maps map.gltf -o mended.gltf");
-    EXPECT_NE(run.out.find("turned by 90 or 270 degrees"), std::string::npos) << run.out;
+    const ToolRun run = runTool(folder, "generate --fix-maps map.gltf -o mended.gltf");
+    EXPECT_NE(run.out.find("rotated by 90 or 270 degrees"), std::string::npos) << run.out;
     EXPECT_EQ(findingsIn(folder, "mended.gltf")[0]["code"], "normalMapChannels");
 }
 
@@ -247,9 +247,9 @@ TEST(MendMaps, OneCommandMendsChannelsAndGreen) {
     EXPECT_EQ(found[0]["code"], "normalMapTwoChannels");
     EXPECT_EQ(found[1]["code"], "greenFlipped");
     const std::string remedy = found[0]["remedy"];
-    EXPECT_NE(remedy.find("tspace generate --mend-maps --flip-green."), std::string::npos) << remedy;
+    EXPECT_NE(remedy.find("tspace generate --fix-maps --flip-green."), std::string::npos) << remedy;
     EXPECT_TRUE(remedy.ends_with("convert-map map.png -o OUT.png --channels rg --flip-green")) << remedy;
-    ASSERT_EQ(runTool(folder, "generate --mend-maps --flip-green map.gltf -o mended.gltf").exit_code, 0);
+    ASSERT_EQ(runTool(folder, "generate --fix-maps --flip-green map.gltf -o mended.gltf").exit_code, 0);
     EXPECT_EQ(findingsIn(folder, "mended.gltf"), Json::array());
     EXPECT_LT(meanError(imageIn(folder, "map-mended.png"), right), 1);
     ASSERT_EQ(runTool(folder, "convert-map map.png -o OUT.png --channels rg --flip-green").exit_code, 0);
@@ -290,7 +290,7 @@ TEST(MendMaps, TakesAMapOutOfObjectSpace) {
     EXPECT_EQ(found[0]["code"], "normalMapInObjectSpace");
     EXPECT_TRUE(
         found[0]["remedy"].get<std::string>().ends_with("convert-map map.png -o OUT.png --from object --mesh MODEL"));
-    ASSERT_EQ(runTool(folder, "generate --mend-maps tube.gltf -o mended.gltf").exit_code, 0);
+    ASSERT_EQ(runTool(folder, "generate --fix-maps tube.gltf -o mended.gltf").exit_code, 0);
     EXPECT_EQ(findingsIn(folder, "mended.gltf"), Json::array());
     EXPECT_LT(meanError(imageIn(folder, "map-mended.png"), right), 1);
     ASSERT_EQ(runTool(folder, "convert-map map.png -o OUT.png --from object --mesh tube.gltf").exit_code, 0);
@@ -376,7 +376,7 @@ TEST(MendMaps, WithoutImagesRepairKeepsInvertedSignsAndOverwriteReadsNone) {
     };
     EXPECT_EQ(actionOf("--repair"), "replaced");
     EXPECT_EQ(actionOf("--repair --no-images"), "kept");
-    EXPECT_EQ(runTool(folder, "generate inverted.glb -o out.glb --no-images --mend-maps").exit_code, 2);
+    EXPECT_EQ(runTool(folder, "generate inverted.glb -o out.glb --no-images --fix-maps").exit_code, 2);
     // Overwriting does not open the map: it warns without it.
     const ToolRun done = runTool(folder, "generate --json inverted.glb -o out.glb --overwrite");
     EXPECT_NE(done.out.find("Their normal maps were not examined"), std::string::npos) << done.out;

@@ -86,7 +86,7 @@ bool findsNormalsAgainstWinding(const TempFolder& folder, const std::string& fil
 TEST(MendWindingOfFiles, TurnsFacesOfObjBeforeNormalsAreMade) {
     TempFolder folder;
     writeTorus(folder, false);
-    const Json report = fileReport(folder, "generate --all --normals angle --mend-winding a.obj -o b.glb");
+    const Json report = fileReport(folder, "generate --all --normals angle --fix-winding a.obj -o b.glb");
     expectMended(report, kTurned);
     EXPECT_EQ(1, report["windings"][0]["byVolume"].get<int>());
     for (const Json& primitive : report["primitives"]) EXPECT_EQ(0, primitive["normalsBehind"].get<int>());
@@ -96,7 +96,7 @@ TEST(MendWindingOfFiles, TurnsFacesOfObjBeforeNormalsAreMade) {
     ASSERT_EQ(0, runTool(folder, "generate -q --all --normals angle a.obj -o c.glb").exit_code);
     EXPECT_EQ(0, runTool(folder, "diff b.glb c.glb").exit_code);
     EXPECT_NE(std::string::npos,
-              runTool(folder, "generate --mend-winding c.glb -o d.glb").out.find("--mend-winding has no effect"));
+              runTool(folder, "generate --fix-winding c.glb -o d.glb").out.find("--fix-winding has no effect"));
     EXPECT_EQ(folder.read("c.glb"), folder.read("d.glb"));
 }
 
@@ -108,16 +108,16 @@ TEST(MendWindingOfFiles, LeavesCheckNothingToFindWhateverTheFileIsPackedAs) {
         if (runTool(folder, "generate -q --compress " + packed + " a.glb -o b.glb").exit_code != 0) continue;
         EXPECT_TRUE(findsNormalsAgainstWinding(folder, "b.glb")) << packed;
         const ToolRun found = runTool(folder, "check --verbose b.glb");
-        EXPECT_NE(std::string::npos, (found.out + found.err).find("tspace generate --mend-winding")) << found.out;
+        EXPECT_NE(std::string::npos, (found.out + found.err).find("tspace generate --fix-winding")) << found.out;
         for (const std::string more : {"", " --compress none", " --compress meshopt"}) {
-            const Json report = fileReport(folder, "generate --mend-winding" + more + " b.glb -o c.glb");
+            const Json report = fileReport(folder, "generate --fix-winding" + more + " b.glb -o c.glb");
             // Draco rounds the positions of each primitive on a lattice of its own, so they meet nowhere.
             const int components = packed == "draco" ? 2 : 1;
             expectMended(report, kTurned, components);
             EXPECT_EQ(components, report["windings"][0]["byNormals"].get<int>());
             EXPECT_FALSE(findsNormalsAgainstWinding(folder, "c.glb")) << packed << more;
             EXPECT_EQ(0,
-                      fileReport(folder, "generate --mend-winding c.glb -o d.glb")["windings"][0]["turned"].get<int>());
+                      fileReport(folder, "generate --fix-winding c.glb -o d.glb")["windings"][0]["turned"].get<int>());
         }
     }
 }
@@ -126,7 +126,7 @@ TEST(MendWindingOfFiles, FollowsTheVolumeWhereNormalsAreMadeAnew) {
     TempFolder folder;
     writeTorus(folder, true);
     ASSERT_EQ(0, runTool(folder, "generate -q --all a.obj -o a.glb").exit_code);
-    const Json report = fileReport(folder, "generate --mend-winding --overwrite-normals a.glb -o b.glb");
+    const Json report = fileReport(folder, "generate --fix-winding --overwrite-normals a.glb -o b.glb");
     expectMended(report, kTurned);
     EXPECT_EQ(1, report["windings"][0]["byVolume"].get<int>());
     EXPECT_FALSE(findsNormalsAgainstWinding(folder, "b.glb"));
@@ -159,12 +159,12 @@ TEST(MendWindingOfFiles, TurnsEachCardTowardItsOwnNormals) {
     folder.write("a.obj", text + faces);
     ASSERT_EQ(0, runTool(folder, "generate -q a.obj -o a.glb").exit_code);
     const ToolRun found = runTool(folder, "check a.glb");
-    EXPECT_NE(std::string::npos, found.out.find("tspace generate --mend-winding")) << found.out;
-    const Json report = fileReport(folder, "generate --mend-winding a.glb -o b.glb");
+    EXPECT_NE(std::string::npos, found.out.find("tspace generate --fix-winding")) << found.out;
+    const Json report = fileReport(folder, "generate --fix-winding a.glb -o b.glb");
     expectMended(report, kCards, kCards);
     EXPECT_EQ(kCards, report["windings"][0]["byNormals"].get<int>());
     EXPECT_FALSE(findsNormalsAgainstWinding(folder, "b.glb"));
-    EXPECT_EQ(0, fileReport(folder, "generate --mend-winding b.glb -o c.glb")["windings"][0]["turned"].get<int>());
+    EXPECT_EQ(0, fileReport(folder, "generate --fix-winding b.glb -o c.glb")["windings"][0]["turned"].get<int>());
 }
 
 /// A tetrahedron without indices, as `mode`: its faces are given by corners.
@@ -216,8 +216,8 @@ TEST(MendWindingOfFiles, MakesListsOfStripsAndOfWhatHasNone) {
     folder.write("one.gltf", tetrahedron(4, {0, 2, 1, 0, 3, 1, 0, 3, 2, 1, 2, 3}, true));
     for (const auto& [name, turned] : {std::pair{"strip", 4}, std::pair{"bare", 4}, std::pair{"one", 1}}) {
         const std::string from = std::string(name) + ".gltf", to = std::string(name) + "2.gltf";
-        expectMended(fileReport(folder, "generate --mend-winding " + from + " -o " + to), turned);
-        expectMended(fileReport(folder, "generate --mend-winding " + to + " -o again.gltf"), 0);
+        expectMended(fileReport(folder, "generate --fix-winding " + from + " -o " + to), turned);
+        expectMended(fileReport(folder, "generate --fix-winding " + to + " -o again.gltf"), 0);
         const Json json = Json::parse(folder.read(to));
         const Json& primitive = json["meshes"][0]["primitives"][0];
         EXPECT_EQ(4u, primitive["mode"].get<unsigned>());

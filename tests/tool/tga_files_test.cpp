@@ -68,7 +68,7 @@ TEST_F(TgaFiles, OfAnObjAreJudgedAndInvertedIntoAPng) {
     EXPECT_NE(std::find(found.begin(), found.end(), "greenFlipped"), found.end());
     const ToolRun left_out = runTool(folder, "generate tga.obj -o plain.gltf");
     EXPECT_EQ(left_out.exit_code, 0);
-    EXPECT_NE(left_out.out.find("'n.tga' was left out: it is neither PNG nor JPEG"), std::string::npos) << left_out.out;
+    EXPECT_NE(left_out.out.find("'n.tga' was ignored: it is neither PNG nor JPEG"), std::string::npos) << left_out.out;
     EXPECT_EQ(runTool(folder, "generate --flip-green tga.obj -o flipped.glb").exit_code, 0);
     EXPECT_EQ(runTool(folder, "generate --flip-green png.obj -o flipped_png.glb").exit_code, 0);
     EXPECT_EQ(findingsOf("flipped.glb"), findingsOf("flipped_png.glb"));

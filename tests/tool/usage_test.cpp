@@ -81,7 +81,7 @@ TEST(Usage, AnOutputIsAskedForInWords) {
 
 TEST(Usage, ACommandThatDoesNotExistIsNamed) {
     for (const std::string name : {"a.glb", "polish", "x"}) {
-        EXPECT_EQ(runTool(TempFolder(), name).err, "tspace: there is no command '" + name + "' (see tspace --help)\n");
+        EXPECT_EQ(runTool(TempFolder(), name).err, "tspace: unknown command '" + name + "' (see tspace --help)\n");
     }
 }
 
@@ -188,7 +188,7 @@ TEST(Usage, AWrongLineSaysWhatIsWrongWithIt) {
         const char* says;
     };
     const std::vector<Case> cases = {
-        {"--json check a.obj", "a command comes first"},
+        {"--json check a.obj", "expected a command"},
         {"inspect", "IN... is missing"},
         {"diff a.obj", "B is missing"},
         {"diff a.obj b.obj c.obj", "'c.obj' is one too many"},
@@ -198,7 +198,7 @@ TEST(Usage, AWrongLineSaysWhatIsWrongWithIt) {
         {"inspect a.obj --jobs 1 --jobs 2", "--jobs is given twice"},
         {"inspect a.obj --jobs 1025", "--jobs 1025: must be a whole number from 0 to 1024"},
         {"generate a.obj -o b.glb --resume", "--resume needs --manifest"},
-        {"generate a.obj -o b.glb --all --strip", "--strip and --all exclude each other"},
+        {"generate a.obj -o b.glb --all --strip", "--strip and --all cannot be used together"},
         {"generate a.obj -o b.glb --crease 1e3", "--crease 1e3: must be a number of degrees from 0 to 180"},
     };
     for (const Case& wrong : cases) {

@@ -97,9 +97,9 @@ std::string finish(const Given& given, BakeArguments& arguments) {
     if (arguments.pairs.empty())
         return arguments.low.empty() || arguments.high.empty() ? "LOW and --high HIGH are missing, or --pairs TABLE"
                                                                : std::string();
-    if (!arguments.low.empty()) return "--pairs TABLE stands in place of LOW";
-    if (isModelFile(arguments.options.out_mesh)) return "with --pairs the models of --out-mesh go to a folder";
-    return kindOf(arguments.output) == PathKind::file ? "with --pairs the output is a folder" : "";
+    if (!arguments.low.empty()) return "--pairs TABLE replaces LOW";
+    if (isModelFile(arguments.options.out_mesh)) return "with --pairs, --out-mesh must name a folder";
+    return kindOf(arguments.output) == PathKind::file ? "with --pairs, the output must be a folder" : "";
 }
 
 }  // namespace
@@ -112,9 +112,9 @@ Command bakeCommand() {
         .summary = "bake the normal map of a low poly from a high poly",
         .operands = "{LOW --high HIGH | --pairs TABLE} -o OUT",
         .description =
-            "Makes a normal map that lets a low poly look like a high poly: right for the frames that the low poly has "
-            "in its file, filtered as renderers filter, and measured in degrees when it is done. Models of several "
-            "meshes are matched by name (Body_low with Body_high); several materials give a file each.",
+            "Bakes a normal map that makes a low poly look like a high poly: correct for the tangent frames that the "
+            "low poly has in its file, optimized for texture filtering, and measured in degrees at the end. Models "
+            "with several meshes are matched by name (Body_low with Body_high); each material gets its own file.",
         .examples = {"tspace bake low.glb --high high.glb -o normal.png --size 2048",
                      "tspace bake low.glb --high scan.ply -o normal.png --size 1024 --bits 8 --convention unreal",
                      "tspace bake low.glb --high high.obj -o normal.png --misses misses.png --heat heat.png --report "
@@ -123,21 +123,20 @@ Command bakeCommand() {
         .finish = [&arguments](const Given& given) { return finish(given, arguments); },
     };
     const char* group = kInputAndOutput;
-    command.add(group, operand("LOW", arguments.low, "The model that the map is for. It needs UVs.")).is_required =
+    command.add(group, operand("LOW", arguments.low, "The low poly, which the map is for. It needs UVs.")).is_required =
         false;
     Option& high = command.add(group, text("--high", "HIGH", arguments.high,
-                                           "The model with the detail, in the same place. It needs no UVs."));
+                                           "The high poly, which has the detail, in the same place. It needs no UVs."));
     high.is_file = true;
-    Option& output = command.add(group, text("-o, --output", "OUT", arguments.output,
-                                             "Where to write: a file that ends in .png, or in .tga (8 bits); or in "
-                                             ".ktx2 or .dds: BC5 with all levels."));
+    Option& output =
+        command.add(group, text("-o, --output", "OUT", arguments.output,
+                                "Output file: .png, or .tga (8 bits); or .ktx2 or .dds: BC5 with all mip levels."));
     output.is_file = output.is_required = true;
-    Option& pairs = command.add(
-        group,
-        text("--pairs", "TABLE", arguments.pairs,
-             "Many bakes in one run: lines LOW = HIGH, or LOW = HIGH = NAME.png, with paths from the folder of the "
-             "table; what begins with # is left out. OUT is then a folder, of maps that are called as LOW is, or "
-             "NAME; so is that of --out-mesh."));
+    Option& pairs =
+        command.add(group, text("--pairs", "TABLE", arguments.pairs,
+                                "Run many bakes: a text file of lines LOW = HIGH, or LOW = HIGH = NAME.png, with paths "
+                                "relative to the file; lines that begin with # are comments. OUT is then a folder of "
+                                "maps named after LOW, or NAME; --out-mesh is a folder too."));
     pairs.is_file = true;
     pairs.excludes = {"--high", "--misses", "--heat", "--cage", "--skew"};
     command.add(bakeOptions(arguments.options));
@@ -147,7 +146,7 @@ Command bakeCommand() {
             option.needs = "--pairs";
         if (option.name() == "--manifest") option.excludes.clear();
     }
-    command.add(kReporting, text("--report", "JSON", arguments.report, "Also write the result as JSON to this file."))
+    command.add(kReporting, text("--report", "JSON", arguments.report, "Also write the report as JSON to this file."))
         .is_file = true;
     addReporting(command, arguments.json, arguments.quiet);
     command.reads = Reads::models;

@@ -67,10 +67,10 @@ std::vector<Pair> readTable(const BakePairsArguments& arguments) {
         const bool is_whole = words.size() <= 3 && std::find(words.begin(), words.end(), "") == words.end();
         if (words.size() < 2 || !is_whole)
             failFile(ErrorCode::invalidFile,
-                     "line " + std::to_string(number) + ": this is neither LOW = HIGH nor LOW = HIGH = NAME");
+                     "line " + std::to_string(number) + ": expected LOW = HIGH or LOW = HIGH = NAME");
         if (words.size() == 3 && leadsAway(fs::path(Path(words[2]))) != nullptr)
             failFile(ErrorCode::forbiddenPath, "line " + std::to_string(number) + ": the output " + inQuotes(words[2]) +
-                                                   " does not lie in the folder that -o names");
+                                                   " lies outside the folder that -o names");
         Pair& pair = pairs.emplace_back();
         pair.line = number;
         pair.job.name = words[0];
@@ -83,7 +83,7 @@ std::vector<Pair> readTable(const BakePairsArguments& arguments) {
         pair.job.output = below(arguments.output, name);
         if (!arguments.options.out_mesh.empty()) pair.model = below(arguments.options.out_mesh, stemOf(name) + ".glb");
     }
-    if (pairs.empty()) failFile(ErrorCode::invalidFile, "there is no line LOW = HIGH");
+    if (pairs.empty()) failFile(ErrorCode::invalidFile, "the table has no line LOW = HIGH");
     return pairs;
 }
 
@@ -101,7 +101,7 @@ std::string sharedOutput(const std::vector<PairOutputs>& pairs) {
             const auto [first, is_new] = lines.emplace(identityOf(file), pair.line);
             if (!is_new && first->second != pair.line)
                 return "lines " + std::to_string(first->second) + " and " + std::to_string(pair.line) +
-                       " of the table both write " + file + "; LOW = HIGH = NAME gives one of them another name";
+                       " of the table both write " + file + "; use LOW = HIGH = NAME to rename one of them";
         }
     }
     return {};

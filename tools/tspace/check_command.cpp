@@ -43,14 +43,13 @@ constexpr Named<Color> kColors[] = {
 void addCheckReporting(Command& command, CheckArguments& arguments) {
     Option& sarif = command.add(kReporting, text("--sarif", "FILE", arguments.sarif,
                                                  "Write the findings to this file as SARIF 2.1.0, which CI systems "
-                                                 "show beside the code; '-': to stdout, in place of the text."));
+                                                 "show next to the code; '-': to stdout, instead of the text."));
     sarif.is_file = true;
-    command.add(kReporting,
-                htmlOutput("--html", "FILE", arguments.html,
-                           "Write the findings to this file as a page for people, with pictures of their places, "
-                           "before and after. It needs no other file."));
+    command.add(kReporting, htmlOutput("--html", "FILE", arguments.html,
+                                       "Write a self-contained HTML report to this file, with pictures of each finding "
+                                       "before and after its fix."));
     command.add(kReporting, choice("--color", "WHEN", kColors, arguments.color,
-                                   "Colour severities: always, never, or auto: on a terminal, unless the environment "
+                                   "Color severities: always, never, or auto: on a terminal, unless the environment "
                                    "variable NO_COLOR is set."));
 }
 
@@ -156,22 +155,23 @@ Command checkCommand() {
     CheckArguments& arguments = *owned;
     arguments.request.options.execution.thread_count = kAllThreads;
     Command command{
-        .summary = "find what is wrong with normals, tangents and UVs, or with a normal map",
+        .summary = "find errors in normals, tangents and UVs, or in a normal map",
         .operands = "IN...",
         .description =
-            "Compares tangents with the UVs that the material's textures are read with: signs, directions, seams, UV "
-            "sets, texture transforms; also values that are not finite or not unit, normals, morph targets, and normal "
-            "maps whose green points down. Every finding says how to mend it. An error surely renders wrong; a warning "
-            "renders wrong in some renderers, in a small part, or only perhaps; a note is worth knowing. Changes "
-            "nothing. An input that is an image (PNG, JPEG, WebP, EXR, KTX2, DDS, TGA) is judged as a normal map, "
-            "without a model: direction of green, channels, encoding, lengths. A folder or pattern without models is "
-            "searched for images; of those, what neither looks like a normal map nor is named as one gets no finding.",
+            "Compares tangents with the UVs that the material's textures use: signs, directions, seams, UV sets and "
+            "texture transforms. Also checks for values that are not finite or not unit, and checks normals, morph "
+            "targets, and normal maps whose green points down. Every finding states its fix. An error renders wrong "
+            "everywhere; a warning renders wrong in some renderers, in a small part, or only possibly; a note is worth "
+            "knowing. No input is changed. An image as input (PNG, JPEG, WebP, EXR, KTX2, DDS, TGA) is checked as a "
+            "normal map, without a model: direction of green, channels, encoding, lengths. A folder or pattern without "
+            "models is searched for images; images that neither look like a normal map nor are named like one get no "
+            "findings.",
         .examples = {"tspace check helmet.glb", "tspace check normal.png", "tspace check textures/",
                      "tspace check --fail-on warning --jobs 0 models/", "tspace check --json models/ > findings.json",
                      "tspace check --quiet --sarif findings.sarif models/",
                      "tspace check --html report.html helmet.glb"},
         .finish = [&arguments](const Given&) -> std::string {
-            return arguments.json && arguments.sarif == "-" ? "--json and --sarif - both want stdout" : "";
+            return arguments.json && arguments.sarif == "-" ? "--json and --sarif - both need stdout" : "";
         },
     };
     addInputs(command, arguments.inputs);

@@ -57,12 +57,12 @@ Command commandOf(const Entry& entry) {
 Command helpCommand() {
     const auto topic = std::make_shared<std::string>();
     Command command{
-        .summary = "print what a command does, and its options",
+        .summary = "print the help of a command",
         .operands = "[COMMAND]",
-        .description = "Prints the page of a command, as its --help does; without one, the list of commands.",
+        .description = "Prints the help page of a command, like its --help; without a command, the list of commands.",
         .examples = {"tspace help", "tspace help generate"},
     };
-    Option about = text("", "COMMAND", *topic, "The command that the page is about.");
+    Option about = text("", "COMMAND", *topic, "The command to describe.");
     for (const Entry& entry : kCommands) about.choices.emplace_back(entry.name);
     command.add("Input and output", about);
     command.add("Reporting", helpOption());

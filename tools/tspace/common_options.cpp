@@ -79,21 +79,20 @@ ExitCode readFileList(const std::string& list, std::vector<std::string>& inputs)
 
 void addInputs(Command& command, std::vector<std::string>& inputs) {
     Option& files = command.add(
-        kInputAndOutput,
-        operand("IN...", inputs,
-                "Model files (.glb, .vrm, .gltf, .obj; also .fbx, .ply, .stl, .dae, .3ds and more where "
-                "tspace-import is installed), folders, and patterns in quotes ('models/**/*.glb'). Of a folder "
-                "all model files in it and below are taken. '-': a GLB on stdin."));
+        kInputAndOutput, operand("IN...", inputs,
+                                 "Model files (.glb, .vrm, .gltf, .obj; also .fbx, .ply, .stl, .dae, .3ds and more "
+                                 "where tspace-import is installed), folders, and quoted patterns ('models/**/*.glb'). "
+                                 "Folders are searched recursively for model files. '-': a GLB on stdin."));
     files.is_required = false;
     const auto list = std::make_shared<std::string>();
     Option& from = command.add(kManyFiles, text("--files-from", "FILE", *list,
-                                                "Also read the names of inputs from this file, one per line, or "
-                                                "separated by NUL bytes; '-': from stdin. A list may be empty."));
+                                                "Also read input names from this file, one per line, or separated by "
+                                                "NUL bytes; '-': from stdin. The list may be empty."));
     from.is_file = true;
     command.finish = [&inputs, list, finish = std::move(command.finish)](const Given& given) {
         if (inputs.empty() && list->empty()) return std::string("IN... is missing");
         if (*list == "-" && std::find(inputs.begin(), inputs.end(), "-") != inputs.end())
-            return std::string("--files-from - and the input - both want stdin");
+            return std::string("--files-from - and the input - both need stdin");
         return finish ? finish(given) : std::string();
     };
     command.prepare = [&inputs, list] { return list->empty() ? ExitCode::done : readFileList(*list, inputs); };
@@ -102,27 +101,27 @@ void addInputs(Command& command, std::vector<std::string>& inputs) {
 void addBatch(Command& command, BatchArguments& batch, bool with_manifest) {
     const char* group = kManyFiles;
     command.add(group,
-                number("--jobs", batch.jobs, kMostJobs, "Files worked on at one time; 0: as many as there are cores."));
+                number("--jobs", batch.jobs, kMostJobs, "Number of files processed in parallel; 0: one per core."));
     const auto take_shard = [&batch](const std::string& text) -> std::string {
         return parseShard(text, batch.shard) ? "" : "must be I/N with I from 1 to N, such as 2/8";
     };
-    command.add(group, option("--shard", "I/N", take_shard,
-                              "Work on share I of N alone (I from 1), for several machines. A file's name below its "
-                              "input decides, so a file stays in its share when others come or go."));
+    command.add(group,
+                option("--shard", "I/N", take_shard,
+                       "Process only shard I of N (1-based), to split a batch across machines. The shard depends on "
+                       "the file's name below its input, so it does not change when other files come or go."));
     command.add(kReporting, flag("-v, --verbose", batch.verbose,
-                                 "Print the details of every file. By default there is a line for each where there are "
-                                 "several."));
+                                 "Print details for every file. By default several files get one line each."));
     if (!with_manifest) return;
     Option& manifest =
         command.add(group, text("--manifest", "FILE", batch.manifest,
-                                "Append a line of JSON to this file for every file done: hashes of what was read and "
-                                "written, options, result, time (schema: docs/reference/json.md)."));
+                                "Append one line of JSON to this file per finished file: hashes of "
+                                "inputs and outputs, options, result and time (schema: docs/reference/json.md)."));
     manifest.is_file = true;
     manifest.excludes = {"--dry-run"};
     command
         .add(group, flag("--resume", batch.resume,
-                         "Leave out files that the manifest says are done with these options, where neither they nor "
-                         "their outputs have changed since."))
+                         "Skip files that the manifest lists as done with these options, if neither they nor their "
+                         "outputs have changed since."))
         .needs = "--manifest";
 }
 
@@ -144,13 +143,13 @@ std::string resultOptions(const Given& given) {
 void addReporting(Command& command, bool& json, bool& quiet) {
     const char* group = kReporting;
     command.add(group, flag("--json", json, "Print the result as JSON on stdout (schema: docs/reference/json.md)."));
-    command.add(group, flag("-q, --quiet", quiet, "Print nothing but errors, and the JSON if asked for."));
+    command.add(group, flag("-q, --quiet", quiet, "Print only errors, and the JSON if requested."));
     command.add(group, helpOption());
 }
 
 Option helpOption() {
     return option(
-        "-h, --help", "", [](const std::string&) { return std::string(); }, "Print this page.");
+        "-h, --help", "", [](const std::string&) { return std::string(); }, "Print this help page.");
 }
 
 }  // namespace tspace::tool

@@ -51,12 +51,11 @@ Command compressMapCommand() {
         .summary = "pack a normal map as a texture for engines (BC5, EAC RG11)",
         .operands = "IN -o OUT",
         .description =
-            "Packs a normal map in tangent space as BC5 or EAC RG11, one byte a texel: x in red, y in green, and z "
-            "made by "
-            "who reads it. Blocks are those with the least error as it is filtered, from all bits that the image has, "
-            "so "
-            "16 bits give more than 8. All smaller levels are made of mean directions; with a roughness texture its "
-            "levels become wider by what they spread. The report says how far the texture is off.",
+            "Packs a normal map in tangent space as BC5 or EAC RG11, one byte per texel: x in red, y in green; the "
+            "reader reconstructs z. The encoder minimizes the error of the filtered texture and uses all bits of the "
+            "image, so 16-bit input gives better blocks than 8-bit input. All mip levels are computed from mean "
+            "directions; the levels of an optional roughness texture get rougher by the spread of the normals. The "
+            "report states the error of the texture.",
         .examples = {"tspace compress-map normal.png -o normal.ktx2", "tspace compress-map normal.exr -o normal.dds",
                      "tspace compress-map normal.png -o normal.ktx2 --roughness orm.png -o2 orm.ktx2"},
     };
@@ -64,8 +63,7 @@ Command compressMapCommand() {
     command.add(group,
                 operand("IN", arguments.input, "An image: PNG, JPEG, WebP, EXR, KTX2, DDS or TGA; - for stdin."));
     Option output = text("-o, --output", "OUT", arguments.output,
-                         "Where to write: a file that ends in .ktx2 or .dds, or a folder of PNGs (ends in /); - for "
-                         "stdout, a KTX2.");
+                         "Output file: .ktx2 or .dds, or a folder of PNGs (ends in /); - for stdout, as KTX2.");
     output.is_file = output.is_required = true;
     command.add(group, output);
     command.add(compressMapOptions(arguments.options));

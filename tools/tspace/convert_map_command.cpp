@@ -45,12 +45,12 @@ Command convertMapCommand() {
     ConvertMapArguments& arguments = *owned;
     arguments.options.execution.thread_count = kAllThreads;
     Command command{
-        .summary = "carry a normal map from one set of tangent frames to another",
+        .summary = "convert a normal map from one set of tangent frames to another",
         .operands = "IN -o OUT",
         .description =
-            "A normal map is right only for the tangent frames that it was made with. This writes it anew for those of "
-            "another model of the same surface and UVs, for object space, or for the program that is to show it, such "
-            "that the picture stays as it was. Texels that no triangle shows stay as they are.",
+            "A normal map is correct only for the tangent frames that it was made with. This command rewrites it for "
+            "the frames of another model with the same surface and UVs, for object space, or for another program, so "
+            "that the shading does not change. Texels outside all triangles stay unchanged.",
         .examples = {"tspace convert-map normal.png --mesh baked.glb --to-mesh best.glb -o normal-best.png",
                      "tspace convert-map normal.png --mesh helmet.glb --to object -o normal-object.png",
                      "tspace convert-map normal.png --flip-green --bits 8 -o normal-dx.png"},
@@ -59,10 +59,9 @@ Command convertMapCommand() {
     const char* group = kInputAndOutput;
     command.add(group,
                 operand("IN", arguments.input, "An image: PNG, JPEG, WebP, EXR, KTX2, DDS or TGA; - for stdin."));
-    Option output = text("-o, --output", "OUT", arguments.output,
-                         "Where to write: a file that ends in .png, .exr or .tga (8 bits); or in .ktx2 or .dds: BC5 "
-                         "with all levels; - for "
-                         "stdout, a PNG.");
+    Option output = text(
+        "-o, --output", "OUT", arguments.output,
+        "Output file: .png, .exr or .tga (8 bits); or .ktx2 or .dds: BC5 with all mip levels; - for stdout, as PNG.");
     output.is_file = output.is_required = true;
     command.add(group, output);
     command.add(convertMapOptions(arguments.options));

@@ -93,9 +93,8 @@ void addDepfile(Command& command) {
     const auto path = std::make_shared<std::string>();
     Option& depfile =
         command.add(kReporting, text("--depfile", "FILE", *path,
-                                     "Write a rule for make and ninja to this file: the outputs, and every "
-                                     "file that was read for them, such as buffers, images and "
-                                     "material libraries."));
+                                     "Write a dependency file for make and ninja: the outputs, and every file that was "
+                                     "read, such as buffers, images and material libraries."));
     depfile.is_file = true;
     depfile.excludes = {"--in-place", "--dry-run"};
     command.finish = [path, finish = std::move(command.finish)](const Given& given) {
@@ -104,7 +103,7 @@ void addDepfile(Command& command) {
         const bool has_output = std::any_of(given.items.begin(), given.items.end(), [&](const Given::Item& item) {
             return item.value != "-" && namesOutput(*item.option);
         });
-        return std::string(has_output ? "" : "--depfile needs an output that is a file");
+        return std::string(has_output ? "" : "--depfile needs an output file");
     };
     const auto run = [prepare = std::move(command.prepare), run = std::move(command.run)] {
         const ExitCode code = prepare ? prepare() : ExitCode::done;

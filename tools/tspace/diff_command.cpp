@@ -70,9 +70,9 @@ Command diffCommand() {
         .summary = "compare the frames of two models",
         .operands = "A B",
         .description =
-            "Pairs the primitives and triangles of two models that show the same surface, also when vertices are "
-            "split, merged or in another order, and prints the angles between their tangents (T), normals (N) and "
-            "rebuilt bitangents (B), signs that differ, and the worst places. Changes nothing.",
+            "Pairs the primitives and triangles of two models that show the same surface, even if vertices were split, "
+            "merged or reordered. Prints the angles between their tangents (T), normals (N) and reconstructed "
+            "bitangents (B), differing signs, and the worst places. No input is changed.",
         .examples = {"tspace diff before.glb after.glb",
                      "tspace diff mine.glb theirs.gltf --tolerance 0.5 --json > diff.json",
                      "tspace diff --html report.html before.glb after.glb"},
@@ -80,10 +80,9 @@ Command diffCommand() {
     command.add(kInputAndOutput, operand("A", arguments.a, "A model file."));
     command.add(kInputAndOutput, operand("B", arguments.b, "Another one."));
     command.add(diffOptions(arguments.request));
-    command.add(kReporting,
-                htmlOutput("--html", "FILE", arguments.html,
-                           "Write the comparison to this file as a page for people, with a heat map of the angles and "
-                           "pictures of the worst places. It needs no other file."));
+    command.add(kReporting, htmlOutput("--html", "FILE", arguments.html,
+                                       "Write a self-contained HTML report to this file, with a heat map of the angles "
+                                       "and pictures of the worst places."));
     addReporting(command, arguments.json, arguments.quiet);
     command.reads = Reads::models;
     command.run = [owned] {

@@ -87,26 +87,25 @@ Command finishCommand() {
     FinishArguments& arguments = *owned;
     arguments.options.execution.thread_count = kAllThreads;
     Command command{
-        .summary = "make a mesh of a generator or a scanner ready: winding, normals, tangents, all maps",
+        .summary = "prepare a generated or scanned mesh: winding, normals, tangents, all maps",
         .operands = "IN -o OUT.glb",
         .description =
-            "Turns triangles that are wound the wrong way, makes normals where they are missing or wrong (hard edges "
-            "and noise as they are measured), mends tangents, and says what check finds before and after. With --low "
-            "the result is that low poly, with all maps baked from IN. What is right stays as it is. There is no "
-            "retopology and no unwrapping: where UVs are missing it says what makes them.",
+            "Turns triangles with wrong winding, adds missing and replaces wrong normals (crease angle and noise are "
+            "measured), repairs tangents, and reports the findings of check before and after. With --low the result is "
+            "that low poly, with all maps baked from IN. Correct data are kept. Retopology and unwrapping are not "
+            "included: where UVs are missing, the report names tools that make them.",
         .examples = {"tspace finish scan.ply -o scan.glb --html scan.html",
                      "tspace finish sculpt.glb --low retopo.glb -o asset.glb --size 2048 --html asset.html",
                      "tspace finish generated.obj -o generated.glb --normals all --report generated.json"},
     };
     const char* group = kInputAndOutput;
     command.add(group, operand("IN", arguments.input, "A model of any format that generate reads."));
-    Option& output =
-        command.add(group, text("-o, --output", "OUT", arguments.output,
-                                "Where to write: a file that ends in .glb or .vrm. Maps stand beside it, "
-                                "OUT_normal.png and so on; those that glTF has a place for are in it too."));
+    Option& output = command.add(group, text("-o, --output", "OUT", arguments.output,
+                                             "Output file: .glb or .vrm. Maps are written beside it (OUT_normal.png, "
+                                             "...); maps that glTF has a texture slot for are also embedded."));
     output.is_file = output.is_required = true;
     command.add(finishOptions(arguments.options));
-    command.add(kReporting, text("--report", "JSON", arguments.report, "Also write the result as JSON to this file."))
+    command.add(kReporting, text("--report", "JSON", arguments.report, "Also write the report as JSON to this file."))
         .is_file = true;
     addReporting(command, arguments.json, arguments.quiet);
     command.reads = Reads::models;

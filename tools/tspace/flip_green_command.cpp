@@ -23,15 +23,15 @@ struct FlipGreenArguments {
 };
 
 std::string finish(FlipGreenArguments& arguments) {
-    if (arguments.in_place && arguments.input == "-") return "standard input cannot be written over; say -o OUT";
-    if (arguments.output.empty() && !arguments.in_place) return "say where to write: -o OUT, or --in-place";
+    if (arguments.in_place && arguments.input == "-") return "standard input has no file to overwrite; use -o OUT";
+    if (arguments.output.empty() && !arguments.in_place) return "the output is missing: use -o OUT, or --in-place";
     if (arguments.in_place) arguments.output = arguments.input;
     return {};
 }
 
 ExitCode runFlipGreen(const FlipGreenArguments& arguments) {
     if (!arguments.in_place && isOneFile(arguments.input, arguments.output)) {
-        return printUsageError("the output " + arguments.output + " is the input; --in-place writes over it");
+        return printUsageError("the output " + arguments.output + " is the input; use --in-place to overwrite it");
     }
     const Result<Done> fit = prepareOutputs({arguments.output}, {}, arguments.options.dry_run);
     if (!fit) return printUsageError(fit.error().message);
@@ -53,10 +53,10 @@ Command flipGreenCommand() {
         .summary = "invert the green channel of a normal map",
         .operands = "IN -o OUT",
         .description =
-            "Makes a normal map for OpenGL and glTF, where green points up, of one for DirectX, where it points down; "
-            "and back. Every texel gets exactly 255 - G, with 16 bits 65535 - G; all other channels, bits, palettes "
-            "and chunks stay. A JPEG is compressed once more, unless the output is a PNG. The maps in a model are "
-            "mended by tspace generate --flip-green.",
+            "Converts a normal map from DirectX, where green points down, to OpenGL and glTF, where it points up; and "
+            "back. Every texel gets exactly 255 - G (65535 - G with 16 bits); other channels, bit depth, palettes and "
+            "chunks are preserved. A JPEG is recompressed unless the output is a PNG. For maps inside a model use "
+            "tspace generate --flip-green.",
         .examples = {"tspace flip-green normal.png -o normal-gl.png", "tspace flip-green --in-place normal.png",
                      "tspace flip-green normal.jpg -o normal-gl.png"},
         .finish = [&arguments](const Given&) { return finish(arguments); },
@@ -66,14 +66,12 @@ Command flipGreenCommand() {
                                "An image: PNG, JPEG, WebP, KTX2, DDS or TGA (which becomes a PNG); - for stdin."));
     command
         .add(group, text("-o, --output", "OUT", arguments.output,
-                         "Where to write: a file that ends in .png, .jpg, .jpeg, .webp, .ktx2 or .dds, or - for "
-                         "stdout. The format "
-                         "is that of the input, or PNG."))
+                         "Output file: .png, .jpg, .jpeg, .webp, .ktx2 or .dds, or - for stdout. The format is that of "
+                         "the input, or PNG."))
         .is_file = true;
-    Option& in_place =
-        command.add(group, flag("--in-place", arguments.in_place,
-                                "Write over the input, once the result is complete. Without this, an output that "
-                                "is the input is refused."));
+    Option& in_place = command.add(group, flag("--in-place", arguments.in_place,
+                                               "Overwrite the input once the result is complete. Without this option, "
+                                               "an output that is also the input is rejected."));
     in_place.excludes = {"--output"};
     command.add(flipGreenOptions(arguments.options));
     addReporting(command, arguments.json, arguments.quiet);

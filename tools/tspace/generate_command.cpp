@@ -40,19 +40,18 @@ void addOutputOptions(Command& command, GenerateArguments& arguments) {
     const char* group = kInputAndOutput;
     addInputs(command, arguments.jobs.inputs);
     command
-        .add(group,
-             text("-o, --output", "OUT", arguments.jobs.output,
-                  "Where to write: a file that ends in .glb, .vrm or .gltf, or a folder. With several inputs, or a "
-                  "folder as input, it is a folder: it is made if it is not there, and files keep their paths "
-                  "relative to the input folder. Where a.glb and a.obj would both become a.glb, the later one "
-                  "becomes a.obj.glb. '-': the model, a GLB, goes to stdout, and the report to stderr."))
+        .add(group, text("-o, --output", "OUT", arguments.jobs.output,
+                         "Output file (.glb, .vrm or .gltf) or folder. Several inputs, or a folder as input, need a "
+                         "folder, which is created if missing; files keep their paths relative to the input folder. If "
+                         "a.glb and a.obj would both become a.glb, the later one becomes a.obj.glb. '-': writes the "
+                         "model as GLB to stdout and the report to stderr."))
         .is_file = true;
     command.add(group, flag("--in-place", arguments.jobs.in_place,
-                            "Write over the input files. Each is replaced only when its result is complete. Without "
-                            "this, an output that is an input is refused."));
+                            "Overwrite the input files. Each is replaced only when its result is complete. Without "
+                            "this option, an output that is also an input is rejected."));
     command.add(group, choice("--container", "FORMAT", kContainers, arguments.jobs.container,
-                              "File format of outputs whose name does not say it: glb or gltf. Default: that of the "
-                              "input; glb for OBJ."));
+                              "File format of outputs whose name does not determine it: glb or gltf. Default: that of "
+                              "the input; glb for OBJ."));
 }
 
 /// Applies what options mean together. Returns what makes no sense, or nothing.
@@ -232,11 +231,11 @@ Command generateCommand() {
         .summary = "add the tangents that normal maps need",
         .operands = "IN... -o OUT",
         .description =
-            "Reads model files, adds tangents where a material needs them (a normal map, clearcoat normal map or "
-            "anisotropy) and none are there, makes missing normals first, and writes glTF. Vertices are split where "
-            "their corners disagree, and all their attributes, skin weights and morph targets go along. Morph targets "
-            "that move the surface get tangent deltas. Everything else in a file stays as it is. A failed run leaves "
-            "the old output untouched.",
+            "Reads model files, adds missing tangents where a material needs them (a normal map, clearcoat normal map "
+            "or anisotropy), adds missing normals first, and writes glTF. Vertices are split where the tangents of "
+            "their corners differ, with all their attributes, skin weights and morph targets. Morph targets that move "
+            "the surface get tangent deltas. Everything else in the file is preserved. If a run fails, the old output "
+            "stays untouched.",
         .examples = {"tspace generate helmet.glb -o out/helmet.glb",
                      "tspace generate --all --overwrite models/ -o out/",
                      "tspace generate scan.obj -o scan.glb --all --normals angle --crease 60",

@@ -43,12 +43,12 @@ Command heightToNormalCommand() {
     HeightToNormalArguments& arguments = *owned;
     arguments.options.execution.thread_count = kAllThreads;
     Command command{
-        .summary = "make a normal map of a height map",
+        .summary = "make a normal map from a height map",
         .operands = "IN -o OUT",
         .description =
-            "Makes a normal map of a grey image in which white is high and black is low (a bump map): the slopes of "
-            "the heights, times a strength that you know. With the model that shows the map, the strength is in its "
-            "units, and slopes are those on its surface.",
+            "Computes a normal map from a gray image in which white is high and black is low (a bump map): the slopes "
+            "of the heights, times a strength that you provide. With the model that shows the map, the strength is in "
+            "model units, and slopes are those on its surface.",
         .examples = {"tspace height-to-normal height.png -o normal.png --strength 4",
                      "tspace height-to-normal height.png -o normal.png --mesh wall.glb --strength 0.02",
                      "tspace height-to-normal height.png -o normal-dx.png --convention directx --bits 8"},
@@ -56,11 +56,10 @@ Command heightToNormalCommand() {
     const char* group = kInputAndOutput;
     command.add(
         group,
-        operand("IN", arguments.input,
-                "A height map: PNG (8 or 16 bits), JPEG, WebP, EXR, KTX2, DDS or TGA; - for stdin. Of colors the mean "
-                "counts."));
-    Option output =
-        text("-o, --output", "OUT", arguments.output, "Where to write: a file that ends in .png; - for stdout.");
+        operand(
+            "IN", arguments.input,
+            "A height map: PNG (8 or 16 bits), JPEG, WebP, EXR, KTX2, DDS or TGA; - for stdin. Colors are averaged."));
+    Option output = text("-o, --output", "OUT", arguments.output, "Output file: .png; - for stdout.");
     output.is_file = output.is_required = true;
     command.add(group, output);
     command.add(heightToNormalOptions(arguments.options));

@@ -29,14 +29,10 @@ std::string leftOut() {
 }
 
 const char* const kExitCodes =
-    "Exit codes:\n"
-    "  0  done\n"
-    "  1  findings: a comparing or checking command found something\n"
-    "  2  wrong usage\n"
-    "  3  bad input: a file is broken, not supported, or leads outside its folder\n"
-    "  4  cannot read or write a file\n"
-    "  5  out of memory, or an internal error\n"
-    "Of several files the worst decides. Every error is one line on stderr.\n";
+    "Exit codes:\n  0  success\n  1  findings: a comparing or checking command found something\n  2  wrong usage\n  3  "
+    "bad input: a file is broken, not supported, or leads outside its folder\n  4  cannot read or write a file\n  5  "
+    "out of memory, or an internal error\nWith several files the exit code is that of the most severe result. Every "
+    "error is one line on stderr.\n";
 
 std::string usageLine(const Command& command) {
     return "tspace " + command.name + " " + command.operands + " [OPTION...]";
@@ -67,7 +63,7 @@ std::string helpPage(const ToolTable& tool) {
         if (command.name == "view" && !hasViewPage()) continue;
         page += "  " + command.name + "\n        " + command.summary + "\n";
     }
-    page += optionsText(tool.options) + "\ntspace help COMMAND says more about a command.\n\n" + kExitCodes;
+    page += optionsText(tool.options) + "\nRun 'tspace help COMMAND' for the options of a command.\n\n" + kExitCodes;
     if (const std::string parts = leftOut(); !parts.empty()) page += "\n" + parts;
     return page;
 }

@@ -49,12 +49,12 @@ Command identifyCommand() {
     IdentifyArguments& arguments = *owned;
     arguments.options.execution.thread_count = kAllThreads;
     Command command{
-        .summary = "say which method made the tangents of a model",
+        .summary = "find out which method made the tangents of a model",
         .operands = "IN...",
         .description =
-            "Runs every method on the model's own positions, normals and UVs, along every UV set, and says how many of "
-            "the stored tangents each one explains, and whether the signs are those that glTF wants or all inverted. "
-            "Changes nothing.",
+            "Runs every method on the model's own positions, normals and UVs, along every UV set. Reports what share "
+            "of the stored tangents each method reproduces, and whether the signs are those of glTF or all inverted. "
+            "No input is changed.",
         .examples = {"tspace identify helmet.glb", "tspace identify --json models/ > methods.json"},
     };
     addInputs(command, arguments.inputs);

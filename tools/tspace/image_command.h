@@ -19,7 +19,7 @@
 namespace tspace::tool {
 
 inline constexpr const char* kNoTextForATerminal =
-    "an image is no text for a terminal; send stdout to a file or a pipe";
+    "an image cannot be printed on a terminal; redirect stdout to a file or a pipe";
 
 template <class Arguments>
 bool goesToTerminal(const Arguments& arguments) {

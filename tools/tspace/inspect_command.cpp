@@ -45,11 +45,11 @@ Command inspectCommand() {
     const auto owned = std::make_shared<InspectArguments>();
     InspectArguments& arguments = *owned;
     Command command{
-        .summary = "say what is in model files",
+        .summary = "list the contents of model files",
         .operands = "IN...",
         .description =
-            "Per primitive: triangles, vertices, attributes, UV sets, material, whether it needs tangents and why, "
-            "triangles without UV area, and islands of the UV map that are mirrored. Changes nothing.",
+            "Prints for each primitive: triangles, vertices, attributes, UV sets, material, whether it needs tangents "
+            "and why, triangles without UV area, and mirrored UV islands. No input is changed.",
         .examples = {"tspace inspect helmet.glb", "tspace inspect --json models/ > models.json"},
     };
     addInputs(command, arguments.inputs);

@@ -164,10 +164,10 @@ Result<std::vector<Job>> jobWithNamedOutput(const JobRequest& request) {
     } else if (!isGltfName(job.output)) {
         return usage("the output '" + job.output + "' must end in .glb, .vrm or .gltf");
     } else if (request.container != Container::sameAsInput && is_glb != (request.container == Container::glb)) {
-        return usage("--container says otherwise than the name of the output: " + job.output);
+        return usage("--container contradicts the name of the output: " + job.output);
     }
     if (identityOf(job.output) == identityOf(job.input))
-        return usage("the output " + job.output + " is the input; --in-place writes over it");
+        return usage("the output " + job.output + " is the input; use --in-place to overwrite it");
     return std::vector<Job>{std::move(job)};
 }
 
@@ -175,9 +175,9 @@ Result<std::vector<Job>> jobWithNamedOutput(const JobRequest& request) {
 Result<std::vector<Job>> jobToStandardOutput(const JobRequest& request, bool has_several) {
     if (has_several) return usage("only one model can go to stdout");
     if (request.container == Container::gltf) return usage("only a GLB can go to stdout, not --container gltf");
-    if (request.has_manifest) return usage("a manifest is about files, not about stdout");
+    if (request.has_manifest) return usage("a manifest cannot describe stdout");
     if (!request.is_dry_run && isTerminal(stdout))
-        return usage("a model is no text for a terminal; send stdout to a file or a pipe");
+        return usage("a model cannot be printed on a terminal; redirect stdout to a file or a pipe");
     const std::string& input = request.inputs.front();
     return std::vector<Job>{{.input = input, .output = "-", .name = input}};
 }
@@ -191,7 +191,7 @@ Result<std::vector<Job>> jobsIntoFolder(const JobRequest& request) {
     std::vector<Job> jobs;
     for (Found& item : found) {
         Job& job = item.job;
-        if (job.input == "-") return usage("name a file with -o for the model on standard input");
+        if (job.input == "-") return usage("name the output with -o when the model comes from standard input");
         if (job.error.code == ErrorCode::ok) {
             const char* extension = extensionFor(request.container, job.input);
             fs::path relative = item.relative;
@@ -255,7 +255,8 @@ Result<std::vector<Job>> generateJobs(const JobRequest& request) {
     const std::string& output = request.output;
     if (request.in_place && !output.empty()) return usage("--in-place and -o exclude each other");
     if (request.in_place) return jobsInPlace(request);
-    if (output.empty()) return usage("say where to write: -o OUT, or --in-place to change the inputs themselves");
+    if (output.empty())
+        return usage("the output is missing: use -o OUT, or --in-place to change the inputs themselves");
 
     const bool several = request.has_list || request.inputs.size() > 1 || isFolder(request.inputs.front()) ||
                          isPatternInput(request.inputs.front());

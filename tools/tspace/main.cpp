@@ -85,7 +85,7 @@ std::string wrongKindOfInput(const Command& command, const Given& given) {
     }
     if (input.empty()) return {};
     if (reads_models)
-        return command.name + " reads models, but '" + input + "' is an image; tspace check judges a normal map";
+        return command.name + " reads models, but '" + input + "' is an image; tspace check examines a normal map";
     return command.name + " reads images, but '" + input +
            "' is a model; tspace generate --flip-green and --convert-maps change the maps of a model";
 }
@@ -103,13 +103,13 @@ ExitCode runWithoutCommand(const std::string& word) {
         for (const Command& command : tool.commands) names.push_back(command.name);
         for (const Synonym& synonym : kSynonyms) {
             if (word == synonym.word)
-                return printUsageError("there is no command '" + word + "'; use tspace " + synonym.command_line + see);
+                return printUsageError("unknown command '" + word + "'; use tspace " + synonym.command_line + see);
         }
-        return printUsageError("there is no command '" + word + "'" + didYouMean(word, names) + see);
+        return printUsageError("unknown command '" + word + "'" + didYouMean(word, names) + see);
     }
     for (const Option& option : tool.options) names.insert(names.end(), option.names.begin(), option.names.end());
     const std::string nearest = didYouMean(word, names);
-    return printUsageError("a command comes first, not '" + word + "'" + nearest + see);
+    return printUsageError("expected a command, not '" + word + "'" + nearest + see);
 }
 
 ExitCode run(int argc, char** argv) {

@@ -154,10 +154,11 @@ Result<ManifestWriter> ManifestWriter::open(const std::string& path) {
     const auto refuse = [&](const char* why) {
         return Error{ErrorCode::cannotWrite, "cannot write the manifest " + path + ": " + why};
     };
-    if (isForeignLink(path)) return refuse("it is a link that another user made in a folder where everybody may write");
+    if (isForeignLink(path))
+        return refuse("it is a symbolic link that another user created in a world-writable folder");
     const PathKind kind = kindOf(path);
     if (kind == PathKind::other) return refuse("it is neither a file nor a stream of bytes");
-    if (kind == PathKind::file && !isManifest(path)) return refuse("there is a file of that name that is no manifest");
+    if (kind == PathKind::file && !isManifest(path)) return refuse("the existing file of that name is not a manifest");
     const bool needs_line_end = kind == PathKind::file && endsInsideALine(path);
     writer.path_ = path;
     std::error_code failed;

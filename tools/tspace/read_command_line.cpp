@@ -34,7 +34,7 @@ class Reader {
   private:
     [[nodiscard]] const Option* find(const std::string& name) const {
         for (const Option& option : command_.options) {
-            if (std::find(option.names.begin(), option.names.end(), name) != option.names.end()) return &option;
+            if (option.isNamed(name)) return &option;
         }
         return nullptr;
     }

@@ -35,7 +35,7 @@ Result<RenderReport> render(const RenderArguments& arguments) {
 ExitCode runRender(const RenderArguments& arguments) {
     const bool to_stdout = arguments.output == "-";
     if (goesToTerminal(arguments))
-        return printUsageError("a picture is no text for a terminal; send stdout to a file or a pipe");
+        return printUsageError("a picture cannot be printed on a terminal; redirect stdout to a file or a pipe");
     if (!to_stdout && lowerExtension(arguments.output) != ".png")
         return printUsageError("the output '" + arguments.output + "' must end in .png");
     const Result<Done> fit = prepareOutputs({arguments.output}, {arguments.input}, arguments.options.dry_run);
@@ -52,27 +52,27 @@ Command renderCommand() {
     RenderArguments& arguments = *owned;
     arguments.options.execution.thread_count = kAllThreads;
     Command command{
-        .summary = "draw a model, or its frames, as a picture",
+        .summary = "draw a picture of a model or of its tangent frames",
         .operands = "IN -o OUT",
         .description =
-            "Draws a PNG: the model in the light of one lamp, as its normal maps and tangents say, or these "
-            "themselves: normals, tangents, signs, how far the tangents are from those of a method, the UV map. "
-            "Without a display and the same bytes everywhere. It is the shading reference made visible, no renderer: "
-            "no shadows, no reflections and no transparency.",
+            "Draws a PNG of the model under one light, shaded with its normal maps and tangents, or of the data "
+            "themselves: normals, tangents, signs, the error of the tangents against a method, the UV map. It needs no "
+            "display, and the output is byte-identical on all systems. It visualizes the shading reference and is not "
+            "a renderer: no shadows, reflections or transparency.",
         .examples = {"tspace render helmet.glb -o helmet.png", "tspace render helmet.glb -o signs.png --show sign",
                      "tspace render helmet.glb -o error.png --show error --view front --size 512",
                      "tspace render helmet.glb -o right.png --frames computed"},
         .finish = [&arguments](const Given&) -> std::string {
             if (arguments.options.turntable == 0) return "--turntable must be 1 to 999";
             if (arguments.options.turntable > 1 && arguments.output == "-")
-                return "--turntable writes several files, which stdout cannot be";
+                return "--turntable writes several files, so stdout cannot be the output";
             return arguments.options.samples == 0 ? "--samples must be 1 to 4" : "";
         },
     };
     const char* group = kInputAndOutput;
     command.add(group, operand("IN", arguments.input, "A model file; '-': a GLB on stdin."));
-    Option& output = command.add(group, text("-o, --output", "OUT", arguments.output,
-                                             "Where to write: a file that ends in .png, or - for stdout."));
+    Option& output =
+        command.add(group, text("-o, --output", "OUT", arguments.output, "Output file: .png, or - for stdout."));
     output.is_file = output.is_required = true;
     command.add(renderOptions(arguments.options));
     addReporting(command, arguments.json, arguments.quiet);

@@ -43,7 +43,7 @@ Result<std::vector<std::uint8_t>> readStandardInput(const char* what, std::uint6
     while (const std::size_t count = std::fread(block.data(), 1, block.size(), stdin)) {
         const std::string_view text(reinterpret_cast<const char*>(block.data()), count);
         if (bytes.empty() && !looks_right(text)) return Error{ErrorCode::unsupportedFile, why_not};
-        if (count > most - bytes.size()) return Error{ErrorCode::tooLarge, "standard input does not end in time"};
+        if (count > most - bytes.size()) return Error{ErrorCode::tooLarge, "standard input timed out"};
         bytes.insert(bytes.end(), block.begin(), block.begin() + static_cast<std::ptrdiff_t>(count));
     }
     if (std::ferror(stdin) != 0)
@@ -56,7 +56,7 @@ Result<Done> StandardInput::open(const std::string& input, FileOptions& options,
     if (input != "-") return Done{};
     Result<std::vector<std::uint8_t>> bytes =
         readStandardInput("a model", options.memory_limit_bytes, takes_images ? looksLikeModelOrImage : looksLikeModel,
-                          "standard input is neither GLB nor glTF; models of other formats are read from files");
+                          "standard input is neither GLB nor glTF; other formats must be read from files");
     if (!bytes) return std::move(bytes).error();
     bytes_ = *std::move(bytes);
     options.content = bytes_;

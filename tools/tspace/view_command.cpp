@@ -47,7 +47,7 @@ namespace {
 Result<ViewReport> view(const ViewArguments& arguments, const PageOrigin& origin) {
     const std::string page = pagePath();
     if (page.empty())
-        return Error{ErrorCode::cannotRead, "the page was not built with this tool: scripts/web builds it"};
+        return Error{ErrorCode::cannotRead, "the page was not built with this tool; scripts/web builds it"};
     progressLine().update(arguments.input, "checking", 0, 0);
     return writeViewPage(arguments.input, arguments.output, page, arguments.file, origin);
 }
@@ -79,22 +79,22 @@ Command viewCommand() {
     const auto owned = std::make_shared<ViewArguments>();
     ViewArguments& arguments = *owned;
     Command command{
-        .summary = "write a page that shows a model, its frames and what is wrong",
+        .summary = "write a web page that shows a model, its tangent frames and its findings",
         .operands = "IN -o OUT.html",
         .description =
-            "Makes one HTML file of the model, with everything it needs inside: it opens from disk in any browser, "
-            "asks no network, shows what tspace check finds, lights the model with the frames of the file and with "
-            "right ones, and mends it. The page itself is built by scripts/web and installed with the tool.",
+            "Writes one self-contained HTML file of the model: it opens from disk in any browser, needs no network, "
+            "shows the findings of tspace check, lights the model with its own and with correct frames, and repairs "
+            "it. The page itself is built by scripts/web and installed with the tool.",
         .examples = {"tspace view helmet.glb -o helmet.html"},
         .finish =
             [&arguments](const Given&) {
-                return arguments.output.empty() ? std::string("say where to write: -o OUT.html") : std::string();
+                return arguments.output.empty() ? std::string("the output is missing: use -o OUT.html") : std::string();
             },
     };
     const char* group = kInputAndOutput;
-    command.add(group,
-                operand("IN", arguments.input, "A model: .glb, .vrm, .gltf or .obj; what it names goes in too."));
-    command.add(group, htmlOutput("-o, --output", "OUT", arguments.output, "Where to write the page."));
+    command.add(group, operand("IN", arguments.input,
+                               "A model: .glb, .vrm, .gltf or .obj. The files that it references are embedded."));
+    command.add(group, htmlOutput("-o, --output", "OUT", arguments.output, "Output file of the page."));
     command.add(inspectOptions(arguments.file));
     addReporting(command, arguments.json, arguments.quiet);
     command.reads = Reads::models;

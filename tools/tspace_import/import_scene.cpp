@@ -314,7 +314,7 @@ std::string readNearOrigin(const Reading& reading, const aiScene& scene, Importe
     const std::optional<NearFile> moved = nearOrigin(reading.path);
     if (!moved) return "; the file has no more digits than those: move the model to the origin before it is exported";
     const std::string no_common =
-        ", and no common offset mends that; split the model, and move each part to its own origin";
+        ", and no common offset fixes that; split the model, and move each part to its own origin";
     if (moved->bytes.empty()) return no_common;
     const std::vector<aiVector3D> first_vertices = firstVertices(scene);
     std::vector<std::string> refused;  // the same as before
@@ -332,8 +332,8 @@ std::string readNearOrigin(const Reading& reading, const aiScene& scene, Importe
     imported.warnings.push_back(
         "the coordinates are so far from the origin that 32-bit floats would change the shape; (" +
         numberText(offset[0]) + ", " + numberText(offset[1]) + ", " + numberText(offset[2]) +
-        ") was taken out of them first, and is the translation of their nodes in glTF (generate --keep-coordinates "
-        "leaves it in)");
+        ") was subtracted from them first, and is the translation of their nodes in glTF (generate --keep-coordinates "
+        "disables this)");
     return {};
 }
 
@@ -347,12 +347,12 @@ void mendCoarse(const Reading& reading, const aiScene& scene, const Mended& mend
             "before it is exported, or export OBJ, PLY or STL, which are read in double";
     } else if (reading.rules.keep_coordinates) {
         imported.keeps_coordinates = true;
-        why = "; without --keep-coordinates an offset is taken out of them where that helps";
+        why = "; without --keep-coordinates an offset is subtracted where that helps";
     } else {
         try {
             why = readNearOrigin(reading, scene, imported);
         } catch (const std::bad_alloc&) {
-            why = "; reading them in double takes more memory than is allowed (--memory-limit allows more)";
+            why = "; reading them in double precision needs more memory than the limit (--memory-limit allows more)";
         }
     }
     if (!why.empty()) imported.warnings.push_back(coarse + why);

@@ -46,7 +46,7 @@ std::vector<std::string> Mended::warnings() const {
     add(uvs, "texture coordinates that are not finite and were set to 0");
     add(normals, "normals that are zero or not finite and were taken from a face");
     add(tangents, "tangents that are not finite and were set to 0");
-    add(transforms, "matrices of nodes or joints that are not finite and were left out");
+    add(transforms, "matrices of nodes or joints that are not finite and were ignored");
     if (coarse_places != 0) {
         char meters[32];
         const auto end = std::to_chars(meters, meters + sizeof meters, worst_place, std::chars_format::general, 2);

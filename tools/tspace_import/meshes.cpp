@@ -154,8 +154,9 @@ std::vector<Attribute> attributesOf(const aiMesh& mesh, const std::vector<std::u
 
 /// Which vertex stands for each: the first with the same bits in every attribute.
 struct Joined {
-    std::vector<std::uint32_t> place = {};  ///< of each old vertex among those kept
-    std::vector<std::uint32_t> kept = {};   ///< old numbers
+    std::vector<std::uint32_t> place =
+        {};                                ///< for each old vertex, the index of its representative among the kept ones
+    std::vector<std::uint32_t> kept = {};  ///< old numbers
 };
 
 Joined joinEqual(const std::vector<Attribute>& attributes, std::size_t count) {
@@ -186,7 +187,7 @@ std::vector<std::uint32_t> trianglesOf(const aiMesh& mesh) {
         sizes.push_back(face.mNumIndices);
         for (unsigned k = 0; k < face.mNumIndices; ++k) {
             if (face.mIndices[k] >= mesh.mNumVertices)
-                throw std::runtime_error("a face names a vertex that is not there");
+                throw std::runtime_error("a face refers to a vertex that does not exist");
             indices.push_back(face.mIndices[k]);
         }
     }

@@ -55,7 +55,7 @@ test("a mesh by AI is mended to the tool's bytes, and right of the line stands i
       assert.equal(await tab.locator(".frame canvas").getAttribute("data-outlined"), "1024", "all of them are outlined");
       await tab.locator(".finding").last().click();
       await tab.locator(".details:not([hidden]) .mend-this").click();
-      assert.match(await tab.locator(".command").textContent(), / --repair --mend-winding --overwrite-normals --normals best --denoise auto$/);
+      assert.match(await tab.locator(".command").textContent(), / --repair --fix-winding --overwrite-normals --normals best --denoise auto$/);
       const bytes = await mended(tab), [, ...words] = (await tab.locator(".command").textContent()).split(" ");
       writeFileSync(join(folder, "bear-by-ai.glb"), Uint8Array.from(await tab.evaluate(() => [...window.tspaceView.model.bytes])));
       execFileSync(tool, [...words, "--quiet"], { cwd: folder });

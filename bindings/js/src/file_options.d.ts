@@ -2,236 +2,236 @@
 // Options of calls on files, with the help of the tool. Written by scripts/api.
 
 export interface GenerateFileOptions {
-  /** Do everything but write: say what would be written, and where something is wrong. */
+  /** Dry run: report what would be written and what is wrong, without writing. */
   dryRun?: boolean;
   /**
-   * How geometry is packed. keep: what came in compressed goes out compressed the same way; none: everything is
-   * unpacked; meshopt: EXT_meshopt_compression, which changes no value; draco: KHR_draco_mesh_compression, which rounds
-   * positions, normals and UVs that were not in it before. Default: keep.
+   * Geometry compression of the output. keep: the compression of the input; none: uncompressed; meshopt:
+   * EXT_meshopt_compression, which is lossless; draco: KHR_draco_mesh_compression, which quantizes positions, normals
+   * and UVs that were not Draco data before. Default: keep.
    */
   compress?: "keep" | "none" | "meshopt" | "draco";
   /**
-   * For OBJ, PLY and STL: write coordinates as they are. By default an offset is taken out of those that are too far
-   * from the origin for the 32-bit floats of glTF, such as metres of a map, and becomes the translation of the nodes.
+   * Write the coordinates of OBJ, PLY and STL files unchanged. By default an offset is subtracted from coordinates that
+   * are too far from the origin for the 32-bit floats of glTF, such as map coordinates in meters, and becomes the
+   * translation of the nodes.
    */
   keepCoordinates?: boolean;
-  /** Also for primitives whose material needs no tangents. */
+  /** Also process primitives whose material needs no tangents. */
   all?: boolean;
-  /** Add tangents where there are none and keep those that are there. This is the default. */
+  /** Add missing tangents and keep existing ones. This is the default. */
   onlyMissing?: boolean;
-  /** Compute tangents anew where they are there. */
+  /** Recompute existing tangents. */
   overwrite?: boolean;
   /**
-   * Add tangents where there are none, keep good ones, and compute anew where they are wrong: not finite, not unit, not
-   * orthogonal to the normal, of a wrong sign, or not along the UVs.
+   * Add missing tangents, keep good ones, and recompute wrong ones: not finite, not unit, not orthogonal to the normal,
+   * with a wrong sign, or not along the UVs.
    */
   repair?: boolean;
-  /** Take tangents away where no material needs them, and their data with them. */
+  /** Remove tangents that no material needs, with their data. */
   strip?: boolean;
   /**
-   * For textures with KHR_texture_transform. apply: tangents follow the transformed UVs, as viewers want that use
-   * tangents as they are; ignore: those before, for viewers that turn tangents themselves. Default: apply.
+   * Treatment of KHR_texture_transform. apply: tangents follow the transformed UVs, for viewers that use tangents
+   * unchanged; ignore: tangents follow the stored UVs, for viewers that rotate tangents themselves. Default: apply.
    */
   textureTransform?: "apply" | "ignore";
   /**
-   * How tangents are computed. mikktspace: bit for bit what bakers and engines use; lengyel: one per vertex, no splits;
-   * uniform, angle, area: plain weighted means; fast, best: more accurate, for maps that were not baked; flat: one per
+   * Tangent method. mikktspace: bit-identical to what bakers and engines use; lengyel: one tangent per vertex, no
+   * splits; uniform, angle, area: weighted means; fast, best: more accurate, for maps that were not baked; flat: one per
    * face; basis: from the normals alone, without UVs. Default: mikktspace.
    */
   method?: "mikktspace" | "lengyel" | "uniform" | "angle" | "area" | "flat" | "basis" | "fast" | "best";
   /**
-   * What mikktspace is computed on. triangles: those of the file, which fit bakes of triangulated models; quads: pairs
-   * of triangles that follow each other, as Blender does before it writes triangles; auto: quads where the file's
-   * tangents show it, or where it has none, comes from Blender and its triangles are cut quads. `repair` takes auto
-   * where nothing else is given. See docs/concepts/quads.md. Default: triangles.
+   * Faces that mikktspace works on. triangles: those of the file, for bakes of triangulated models; quads: pairs of
+   * consecutive triangles, as in Blender before export; auto: quads if the file's tangents show it, or if a file without
+   * tangents comes from Blender and its triangles are split quads. `repair` uses auto unless another value is given. See
+   * docs/concepts/quads.md. Default: triangles.
    */
   faces?: "triangles" | "quads" | "auto";
   /**
-   * For mikktspace. reference: neighbours as the reference implementation finds them, with its known defect; corrected:
-   * without it, so that the order of faces does not matter. Default: reference.
+   * Neighbor search of mikktspace. reference: as in the reference implementation, including its known defect; corrected:
+   * without the defect, so that the result does not depend on face order. Default: reference.
    */
   pairing?: "reference" | "corrected";
   /**
-   * For mikktspace: faces whose tangents differ by this angle or more are not averaged. In degrees, 0 to 360. 180 is
-   * what every baker uses. Default: 180.
+   * Angular threshold of mikktspace: faces whose tangents differ by this angle or more are not averaged. In degrees, 0
+   * to 360. Bakers use 180. Default: 180.
    */
   threshold?: number | string;
   /**
-   * What the tangent is where UVs are sheared. gram-schmidt: the direction of dP/du; symmetric: half of the way to the
+   * Tangent direction where UVs are sheared. gram-schmidt: along dP/du; symmetric: halfway between dP/du and the
    * direction perpendicular to dP/dv. Not for mikktspace and basis. Default: gram-schmidt.
    */
   frame?: "gram-schmidt" | "symmetric";
   /**
-   * For `method` best and `normals` best: steps after the fit, each of which makes what is interpolated along edges fit
-   * the edges better: 0, 1 or 2. Without it normals take 2 steps. Default: 1.
+   * Refinement steps of `method` best and `normals` best: 0, 1 or 2. Each step improves the fit of the interpolated
+   * vectors along edges. Without this option normals take 2 steps. Default: 1.
    */
   refine?: number | string;
   /**
-   * Also write the direction of dP/dv, which is not cross(N, T) where UVs are sheared, as the attribute _BITANGENT: for
-   * shaders that read it. Only where tangents are computed; morph targets get no deltas of it.
+   * Also write the direction of dP/dv as the attribute _BITANGENT, for shaders that read it; it differs from cross(N, T)
+   * where UVs are sheared. Written only where tangents are computed, and without morph target deltas.
    */
   bitangents?: boolean;
   /**
-   * Whose sign is stored: gltf, opengl, directx, unreal, unity, blender or godot. Positions, UVs and normals stay as
-   * they are. Any other than gltf is only for readers that expect it. Default: gltf.
+   * Sign convention of the output tangents: gltf, opengl, directx, unreal, unity, blender or godot. Positions, UVs and
+   * normals are unchanged. Use a value other than gltf only for readers that expect it. Default: gltf.
    */
   convention?: "gltf" | "opengl" | "directx" | "unreal" | "unity" | "blender" | "godot";
   /**
-   * Numbers of the tangents and normals that are written: float, snorm16 (half the size) or snorm8 (a quarter). The sign
+   * Component type of the written tangents and normals: float, snorm16 (half the size) or snorm8 (a quarter). The sign
    * stays exact. The last two declare KHR_mesh_quantization. Default: float.
    */
   format?: "float" | "snorm16" | "snorm8";
   /**
-   * Also write the whole frame of each vertex, N, T and the sign, as an attribute of its own: _FRAME32 and so on, for
-   * engines that read it. Of every primitive that has normals and tangents in the end, old ones too. See
+   * Also write the whole frame of each vertex (N, T and the sign) as one packed attribute, _FRAME32 for example, for
+   * engines that read it. Applies to every primitive that ends up with normals and tangents, existing ones included. See
    * docs/concepts/pack.md.
    */
   pack?: "frame32" | "frame48" | "frame64" | "oct32" | "qtangent64" | "snorm8_pair" | "snorm16_pair" | "gltf_snorm8" | "gltf_snorm16";
   /**
-   * What to take away where frames were packed. tangents: TANGENT; all: NORMAL too, for engines that read nothing but
-   * packed frames. What morph targets add to stays. Without this, both stay.
+   * Attributes to remove where frames were packed. tangents: TANGENT; all: NORMAL too, for engines that read only packed
+   * frames. Attributes that morph targets add to are kept. By default both are kept.
    */
   packDrop?: "tangents" | "all";
   /**
-   * Invert the green channel of normal maps whose green points down throughout (as DirectX has it), as check finds them;
-   * all others stay. Images beside a .gltf stay as they are, and the output gets new ones.
+   * Invert the green channel of normal maps whose green points down throughout (as in DirectX), as detected by check.
+   * Images beside a .gltf are not changed; the output gets new files.
    */
   flipGreen?: boolean;
   /** Invert the green channel of every normal map, whichever way it points. */
   flipGreenAll?: boolean;
   /**
-   * Write normal maps anew that hold something else than glTF reads, as check finds them: two channels, exchanged
-   * channels, x in alpha, colors (sRGB), object space. They become PNGs, from KTX2 and DDS too. Height maps stay: their
-   * strength is not known (tspace height-to-normal).
+   * Rewrite normal maps whose encoding is not that of glTF, as detected by check: two channels, exchanged channels, x in
+   * alpha, colors (sRGB), object space. They become PNGs, also from KTX2 and DDS. Height maps are kept, because their
+   * strength is unknown (see tspace height-to-normal).
    */
   mendMaps?: boolean;
   /**
-   * Do not read the pixels of normal maps, which `repair` does where most signs are inverted. Such signs then stay,
-   * since the maps may be inverted too.
+   * Do not read the pixels of normal maps; `repair` reads them where most signs are inverted. Inverted signs are then
+   * kept, since the maps may be inverted too.
    */
   noImages?: boolean;
   /**
-   * keep: images come out as they went in, KTX2 and DDS too, but for normal maps that another option writes anew: those
-   * are PNGs. Textures for engines: tspace compress-map. Default: keep.
+   * keep: images are unchanged, including KTX2 and DDS, except normal maps that another option rewrites: those become
+   * PNGs. For engine textures see tspace compress-map. Default: keep.
    */
   compressMaps?: "keep";
   /**
-   * How normals are made where they are missing (or all, with `overwriteNormals`): flat, uniform, area, angle, angle-
-   * area, max or best. Default: flat, as glTF asks for; for OBJ files with smoothing groups those decide, with angle
-   * weights.
+   * Method for missing normals (or all, with `overwriteNormals`): flat, uniform, area, angle, angle-area, max or best.
+   * Default: flat, as glTF specifies; the smoothing groups of an OBJ file, with angle weights, if it has any.
    */
   normals?: "flat" | "uniform" | "area" | "angle" | "max" | "angle-area" | "best";
   /**
-   * For normals that are made: edges sharper than this stay hard. In degrees, 0 to 180; 180 makes none hard. auto: an
-   * angle by the mesh, which the report says. Given without `normals` it takes the weights of angle. Default: 180.
+   * Crease angle for computed normals: sharper edges stay hard. In degrees, 0 to 180; 180: no hard edges. auto: an angle
+   * chosen per mesh, which the report states. Without `normals` it implies angle weights. Default: 180.
    */
   crease?: number | string;
   /**
-   * For `normals` best on noisy positions, such as scans: normals by more of the surface around, so that noise is not
-   * shaded. Vertices stay. auto: as much as is measured, and nothing where that is shape; 0 to 4: so many times the
-   * noise that is measured, also where it looks like shape. Default: 0.
+   * Denoising for `normals` best on noisy positions, such as scans: uses a larger neighborhood, so that noise is not
+   * shaded. Vertices do not move. auto: as much as is measured, and none where that is shape; 0 to 4: this multiple of
+   * the measured noise, even where it looks like shape. Default: 0.
    */
   denoise?: number | string;
   /**
-   * Positions that differ by no more than this in each coordinate are one, where normals are made and triangles turned,
-   * in the unit of positions before nodes move them. 0: only equal ones are. auto: twice the spacing of floats at the
-   * largest coordinate of the mesh. Tangents are computed on positions as they are. Default: auto.
+   * Weld distance, in the unit of positions before node transforms: positions that differ by at most this in each
+   * coordinate count as one when normals are computed and triangles are turned. 0: only equal positions. auto: twice the
+   * float spacing at the largest coordinate of the mesh. Tangents are always computed on the unwelded positions.
+   * Default: auto.
    */
   weldDistance?: number | string;
   /**
-   * Make the normals of each primitive from its own triangles. By default they are smooth over the border of two
-   * primitives of a mesh that are one surface (they share edges); `crease` holds there too.
+   * Compute the normals of each primitive only from its own triangles. By default normals are smooth across the border
+   * of two primitives of a mesh that share edges; `crease` applies there too.
    */
   normalsPerPrimitive?: boolean;
   /**
-   * Make normals anew where they are there, by `normals` and `crease`, and where they are missing, in every primitive.
-   * Without `normals`: with the weights of angle. Tangents that are there are computed anew with them, because old ones
-   * would not fit.
+   * Recompute existing normals and add missing ones in every primitive, by `normals` and `crease`. Without `normals`:
+   * with angle weights. Existing tangents are recomputed too, because they would not fit the new normals.
    */
   overwriteNormals?: boolean;
   /**
-   * What morph targets add to normals that stay. keep: what is there; missing: targets without it get it; all: it is
-   * computed for all. The normal turns as the surface around it turns. Default: keep.
+   * Normal deltas of morph targets. keep: keep existing ones; missing: add them to targets without any; all: recompute
+   * them for all targets. The normal rotates as the surrounding surface does. Default: keep.
    */
   morphNormals?: "keep" | "missing" | "all";
   /**
-   * Turn triangles that are wound against their neighbours, and parts that are inside out as a whole, before anything
-   * else is done. Normals that stay say which side is out where they agree; else the volume, the inside or the majority
-   * does.
+   * Turn triangles whose winding disagrees with their neighbors, and parts that are inside out, before anything else.
+   * The outside is given by existing normals where they agree; otherwise by the volume, the inside or the majority.
    */
   mendWinding?: boolean;
   /**
-   * Write what the method gives, even where it is not finite, zero, not unit, parallel to the normal, or of mixed sign
-   * inside a face. By default such tangents are mended and counted.
+   * Write the raw result of the method, even where it is not finite, zero, not unit, parallel to the normal, or of mixed
+   * sign within a face. By default such tangents are repaired and counted.
    */
   noSanitize?: boolean;
   /**
-   * Also make every sound tangent unit and orthogonal to its normal. The result then no longer matches bakes exactly
+   * Also make every valid tangent unit and orthogonal to its normal. The result then no longer matches bakes exactly
    * where normals are not unit.
    */
   orthogonalize?: boolean;
 }
 
 export interface CheckFileOptions {
-  /** Exit with code 1 when there is a finding of this severity or above: note, warning or error. Default: error. */
+  /** Exit with code 1 if there is a finding of this severity or higher: note, warning or error. Default: error. */
   failOn?: "note" | "warning" | "error";
   /**
-   * Leave out findings below this severity: note, warning or error. They are not shown, and do not count for the exit
+   * Minimum severity to report: note, warning or error. Findings below it are not printed and do not affect the exit
    * code. Default: note.
    */
   severity?: "note" | "warning" | "error";
   /**
-   * Leave out findings of this code, such as tangentsUnused: they are not shown, and do not count for the exit code.
-   * Several with commas between them, or several times.
+   * Ignore findings with this code, such as tangentsUnused: they are not printed and do not affect the exit code. Comma-
+   * separated; may be given several times.
    */
   ignore?: string | readonly string[];
   /**
-   * How far a tangent may lie outside the directions that the triangles around it give. In degrees, 0 to 180. Default:
-   * 10.
+   * Tolerance in degrees, 0 to 180: how far a tangent may lie outside the range of directions that its adjacent
+   * triangles span. Default: 10.
    */
   angle?: number | string;
-  /** Whose signs are right: gltf, opengl, directx, unreal, unity, blender or godot, as for generate. Default: gltf. */
+  /** Expected sign convention: gltf, opengl, directx, unreal, unity, blender or godot, as in generate. Default: gltf. */
   convention?: "gltf" | "opengl" | "directx" | "unreal" | "unity" | "blender" | "godot";
   /**
-   * What tangents are compared with. auto: triangles, and quads where the tangents fit clearly better to those, as
-   * Blender's do; triangles, quads: only those. Default: auto.
+   * Reference faces for tangents. auto: triangles, or quads where the tangents clearly fit those better, as Blender's
+   * do; triangles, quads: only those. Default: auto.
    */
   faces?: "triangles" | "quads" | "auto";
   /**
-   * Positions that differ by no more than this in each coordinate are one, for winding, borders of primitives and noise,
-   * in the unit of positions before nodes move them. 0: only equal ones are. auto: twice the spacing of floats at the
-   * largest coordinate of the mesh. Tangents are computed on positions as they are. Default: auto.
+   * Weld distance, in the unit of positions before node transforms: positions that differ by at most this in each
+   * coordinate count as one for winding, borders of primitives and noise. 0: only equal positions. auto: twice the float
+   * spacing at the largest coordinate of the mesh. Tangents are always computed on the unwelded positions. Default:
+   * auto.
    */
   weldDistance?: number | string;
-  /** Do not look at the pixels of normal maps. */
+  /** Do not examine the pixels of normal maps. */
   noImages?: boolean;
 }
 
 export interface FileOptions {
   /**
    * Also follow paths in a model that lead outside its own folder. By default absolute paths, paths with '..' and URLs
-   * are refused.
+   * are rejected.
    */
   allowExternal?: boolean;
   /**
-   * What working on one file may take of memory, about: a number with M or G (64M or more), or none. What it would take
-   * is estimated first, and more is refused. Default: 64M, and 16 times the bytes of the file and of those it names, so
-   * that a small file that claims to be huge does no harm.
+   * Approximate memory limit per file, e.g. 512M or 4G (at least 64M), or none. Memory use is estimated first, and a
+   * file that would exceed the limit is rejected. Default: 64M plus 16 times the size of the file and the files it
+   * references, so that a small file that claims huge sizes does no harm.
    */
   memoryLimit?: number | string;
 }
 
 export interface IdentifyFileOptions {
-  /** Tangents nearer than this count as the same. In degrees, 0 to 180. Default: 1. */
+  /** Tangents that differ by less than this count as equal. In degrees, 0 to 180. Default: 1. */
   tolerance?: number | string;
 }
 
 export interface DiffFileOptions {
   /**
-   * Exit with 1 when an angle is above this, a sign differs, or a triangle has no partner. In degrees, 0 to 180.
-   * Default: 1.
+   * Exit with code 1 if an angle exceeds this tolerance, a sign differs, or a triangle has no match. In degrees, 0 to
+   * 180. Default: 1.
    */
   tolerance?: number | string;
-  /** How many of the worst places are listed. Default: 8. */
+  /** Number of worst places to list. Default: 8. */
   worst?: number | string;
 }

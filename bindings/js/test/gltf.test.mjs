@@ -128,7 +128,7 @@ describe("models in memory", () => {
         try {
           call(model, { [option]: "?" });
         } catch (error) {
-          assert.doesNotMatch(error.message, /there is no option/, name);
+          assert.doesNotMatch(error.message, /unknown option/, name);
         }
     }
   });

@@ -142,7 +142,7 @@ describe("compressMap", () => {
     refuses("invalidOption", /options.quallity is unknown/, () => compressMap(image, { quallity: "best" }));
     for (const rgba of [new Uint8Array(256).fill(255), new Uint8Array(256), new Float32Array(256).fill(NaN)]) {
       const { report } = compressMap({ ...image, rgba });
-      assert.match(report.warnings.join(), /no unit vectors/);
+      assert.match(report.warnings.join(), /not unit vectors/);
       assert.ok(Number.isFinite(report.meanErrorDeg));
     }
   });
@@ -179,7 +179,7 @@ describe("readTexture", () => {
         assert.deepEqual([read.width, read.height, read.levels], [Math.max(20 >> level, 1), Math.max(12 >> level, 1), 5]);
         assert.deepEqual([read.container, read.format, read.channels, read.bits, read.isFloat, read.isSrgb], [container.toUpperCase(), "R8G8", 2, 8, false, false]);
         assert.deepEqual(read.layout, { x: "red", y: "green", z: null, isGuessed: false });
-        assert.match(read.howRead, /x is read from red and y from green, and z is made of them/);
+        assert.match(read.howRead, /x is read from red and y from green, and z is reconstructed from them/);
         const plain = readTexture(bytes, { level, vectors: false });
         assert.deepEqual([read.numbers, plain.numbers, plain.howRead], ["uint16", "uint8", ""]);
         for (let i = 0; i < read.width * read.height; ++i) {

@@ -233,7 +233,7 @@ std::uint32_t compressMap(const ImageWords* given, const ImageWords* roughness, 
         rough = {other->width, other->height, std::move(other->texels)};
         if (const std::string why = whyGridsDiffer(rough, image->width, image->height); !why.empty())
             return fail(ErrorCode::invalidOption, "the roughness: " + why);
-        if (!other->alpha.empty()) made_report.warnings.emplace_back("alpha of the roughness texture is left out");
+        if (!other->alpha.empty()) made_report.warnings.emplace_back("alpha of the roughness texture is ignored");
     }
     Parallel parallel({});
     MapLevels map = makeMapLevels(*std::move(image), options, roughness != nullptr, false, parallel, made_report);

@@ -90,7 +90,7 @@ class Names(unittest.TestCase):
             return False  # a path of the call, such as `low`
         with mock.patch.object(_files, "_check_names"), self.assertRaises(tspace.Error) as caught:
             call(*models, **{option: "\1"})
-        return "there is no option" not in str(caught.exception)
+        return "unknown option" not in str(caught.exception)
 
 
 @unittest.skipUnless(INCLUDE.exists(), "the C headers are not there")

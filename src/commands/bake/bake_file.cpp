@@ -58,7 +58,7 @@ class FileBaking {
         checkOutput();
         checkOutMesh();
         if (!options_.layers.has_normal && !options_.heat.empty())
-            failFile(ErrorCode::invalidOption, "a picture of the error needs the normal map");
+            failFile(ErrorCode::invalidOption, "the error heat map needs the normal map");
         if (Error error = checkBakeOptions(options_.map, 0, 0); error.code != ErrorCode::ok) throw FileError{error};
         models_ = readBakeModels(low, high, options_, step_.sources);
         report_.frames_made = models_.low.frames_made;
@@ -89,8 +89,9 @@ class FileBaking {
         mesh.positions = high.positions;
         mesh.indices = high.corners;
         if (const double noise = notedNoise(mesh, models_.high.position_step); noise > 0)
-            report_.warnings.push_back("the positions of the high poly are noisy, by " + shortNumber(noise) +
-                                       " of an edge, and the map shows it: --denoise auto bakes normals without that");
+            report_.warnings.push_back(
+                "the positions of the high poly are noisy, by " + shortNumber(noise) +
+                " of an edge length, and the map shows it: --denoise auto bakes normals without the noise");
     }
 
     /// A .png; a .tga, of 8 bits; or a texture, whose blocks are fitted to what the texels of 16 bits are filtered to.
@@ -98,17 +99,17 @@ class FileBaking {
         if (lowerExtension(output_) == ".png") return;
         if (isTgaName(output_)) {
             if (!options_.out_mesh.empty())
-                failFile(ErrorCode::invalidOption, "a glTF model holds no TGA; bake a .png for it");
+                failFile(ErrorCode::invalidOption, "a glTF model cannot contain a TGA; bake a .png for it");
             options_.map.bits = 8;
             return;
         }
         if (!isTextureName(output_)) failEnding(output_, {".png", ".tga", ".ktx2", ".dds"});
         if (!options_.layers.layers.empty() || !options_.layers.has_normal)
-            failFile(ErrorCode::invalidOption, "other maps than normals are written as .png alone");
+            failFile(ErrorCode::invalidOption, "maps other than normals are written as .png only");
         if (!options_.out_mesh.empty())
-            failFile(ErrorCode::invalidOption, "a glTF model holds no texture of two channels; bake a .png for it");
+            failFile(ErrorCode::invalidOption, "a glTF model cannot contain a two-channel texture; bake a .png for it");
         if (options_.map.space == MapSpace::object)
-            failFile(ErrorCode::invalidOption, "textures of two channels hold tangent space alone; bake a .png");
+            failFile(ErrorCode::invalidOption, "two-channel textures hold tangent space only; bake a .png");
         options_.map.bits = 16;
     }
 
@@ -123,7 +124,7 @@ class FileBaking {
     void checkOutMesh() const {
         if (options_.out_mesh.empty()) return;
         if (!isGltfName(options_.out_mesh)) failEnding(options_.out_mesh, {".glb", ".vrm", ".gltf"});
-        if (options_.udim) failFile(ErrorCode::invalidOption, "a glTF model has one image per material, and no tiles");
+        if (options_.udim) failFile(ErrorCode::invalidOption, "a glTF model has one image per material, not tiles");
         if (options_.map.space == MapSpace::object)
             failFile(ErrorCode::invalidOption, "normal maps of glTF models are in tangent space");
         if (options_.map.reading.green == Green::down)
@@ -165,14 +166,14 @@ class FileBaking {
         for (std::size_t i = 0; !options_.wrap && i < count; ++i) outside += isOutside(i) ? 1 : 0;
         if (outside == count) {
             report_.warnings.push_back("all triangles of " + nameOf(image) +
-                                       " have UVs outside of 0 to 1; they are baked as with --wrap");
+                                       " lie outside the 0-1 UV range; they are baked as with --wrap");
             outside = 0;
         }
         if (outside == 0) return image.part;
         report_.warnings.push_back(std::to_string(outside) + " of " + std::to_string(count) + " triangles of " +
                                    nameOf(image) +
-                                   " have UVs outside of 0 to 1 and no say, as copies that were moved there; --wrap "
-                                   "bakes them too, --udim gives each tile a file");
+                                   " lie outside the 0-1 UV range and were ignored (treated as offset copies); use "
+                                   "--wrap to bake them too, or --udim to write one file per tile");
         LowPart part;
         for (std::size_t i = 0; i < count; ++i) {
             if (isOutside(i)) {
@@ -195,9 +196,9 @@ class FileBaking {
             std::uint64_t outside = 0;
             LowPart part = insidePart(image, outside);
             if (const std::size_t count = beyondEdges(image, part))
-                report_.warnings.push_back(std::to_string(count) +
-                                           " triangles reach beyond the edge of the texture of " + nameOf(image) +
-                                           ", which is clamped: there they show the texels of its edge");
+                report_.warnings.push_back(std::to_string(count) + " triangles extend beyond the texture of " +
+                                           nameOf(image) +
+                                           ", whose wrap mode is clamp: there they show the edge texels");
             addOtherImages(part);
             bakeImage(image, word, 0, part, outside);
             return;
@@ -219,8 +220,8 @@ class FileBaking {
             }
         }
         if (outside > 0)
-            report_.warnings.push_back(std::to_string(outside) + " triangles lie in no tile, and are left out");
-        if (tiles.empty()) failFile(ErrorCode::missingAttribute, "the UVs of the low poly lie in no tile");
+            report_.warnings.push_back(std::to_string(outside) + " triangles lie in no UDIM tile and were ignored");
+        if (tiles.empty()) failFile(ErrorCode::missingAttribute, "the UVs of the low poly lie in no UDIM tile");
         for (auto& [tile, part] : tiles) {
             for (std::size_t i = 0; i < image.part.triangleCount(); ++i) {
                 if (tileOf(&image.part.corners.uvs[3 * i]) != tile) part.addToRest(image.part, i);
@@ -329,17 +330,18 @@ class FileBaking {
         constexpr std::uint64_t kFew = 50;  // one of so many
         if (map.missed_count > map.hit_count) {
             add(std::to_string(map.missed_count) + " of " + std::to_string(map.missed_count + map.hit_count) +
-                    " texels of " + pathInQuotes(file.path) + " met no front of it" +
-                    (map.hit_count == 0 ? ", and nothing is written" : ""),
+                    " texels of " + pathInQuotes(file.path) + " hit no front face of it" +
+                    (map.hit_count == 0 ? ", so no map was written" : ""),
                 causeOfMisses(part.view(), models_.high.view(), *shared_.surface, map.error.reach));
         } else if (2 * map.error.inward_count > map.error.point_count) {
-            add("its normals point inwards, against its faces, at " + std::to_string(map.error.inward_count) + " of " +
-                    std::to_string(map.error.point_count) + " points",
+            add("its normals point inwards, opposite to its faces, at " + std::to_string(map.error.inward_count) +
+                    " of " + std::to_string(map.error.point_count) + " points",
                 "");
         } else if (kFew * map.missed_count > map.hit_count) {
             const std::string why = otherPlaceOf(part.view(), models_.high.view(), *shared_.surface);
             if (!why.empty())
-                add(std::to_string(map.missed_count) + " texels of " + pathInQuotes(file.path) + " met no front of it",
+                add(std::to_string(map.missed_count) + " texels of " + pathInQuotes(file.path) +
+                        " hit no front face of it",
                     why);
         }
     }
@@ -348,10 +350,10 @@ class FileBaking {
     void warnOfRays(const BakedFile& file) {
         const MapError& own = file.map.own_error;
         if (own.hidden_count == 0) return;
-        report_.warnings.push_back(std::to_string(own.hidden_count) + " of " +
-                                   std::to_string(own.point_count + own.missed_count) +
-                                   " points met another front of the high poly further out, which hides what " +
-                                   pathInQuotes(file.path) + " shows; --rays outermost bakes it");
+        report_.warnings.push_back(
+            std::to_string(own.hidden_count) + " of " + std::to_string(own.point_count + own.missed_count) +
+            " points would hit another front face of the high poly further out, which hides the part that " +
+            pathInQuotes(file.path) + " bakes; --rays outermost bakes the outer one");
     }
 
     const std::string& output_;

@@ -66,11 +66,10 @@ Option mapsOption(LayerOptions& layers) {
         }
         return {};
     };
-    Option maps =
-        option("--maps", "LIST", take,
-               "Which maps, with commas between them. normal is the output itself, the others stand beside it: "
-               "OUT_ao.png. color, orm (occlusion, roughness, metal) and emission are what the high poly's "
-               "materials show.");
+    Option maps = option(
+        "--maps", "LIST", take,
+        "Comma-separated list of maps to bake. normal is written to OUT, each other map beside it: OUT_ao.png. color, "
+        "orm (occlusion, roughness, metalness) and emission are transferred from the materials of the high poly.");
     maps.choices.emplace_back("normal");
     for (std::uint32_t i = 0; i < kMapLayerCount; ++i) maps.choices.emplace_back(layerName(static_cast<MapLayer>(i)));
     maps.default_text = layers.layers.empty() ? "normal" : "all of them";
@@ -86,7 +85,8 @@ Option samplesOption(std::uint32_t& target) {
         target = static_cast<std::uint32_t>(count);
         return {};
     };
-    Option samples = option("--samples", "RAYS", take, "Rays from each texel for ao, bent and thickness: 1 to 4096.");
+    Option samples =
+        option("--samples", "RAYS", take, "Number of rays per texel for ao, bent and thickness: 1 to 4096.");
     samples.default_text = std::to_string(target);
     return samples;
 }
@@ -97,24 +97,23 @@ void addLayerOptions(OptionList& list, LayerOptions& layers, BakeIds& ids) {
     add(list, group, samplesOption(layers.ray_count));
     add(list, group,
         lengthOption("--ao-distance", layers.sky_distance,
-                     "What is further away hides nothing, in units of the models. Default: everything does."));
+                     "Maximum occlusion distance, in model units. Default: unlimited."));
     add(list, group,
         lengthOption("--height-range", layers.height_range,
-                     "The height that white stands for, in units of the models; black is as far below. Default: the "
-                     "largest that is met; the report says how much."));
+                     "Height mapped to white, in model units; its negative maps to black. Default: the largest "
+                     "absolute height found, which the report states."));
     add(list, group,
         lengthOption("--curvature-range", layers.curvature_range,
-                     "The mean curvature that white stands for, 1 / radius in units of the models; black is as much "
-                     "inwards. Default: what 99 % of the texels are below; the report says how much."));
+                     "Mean curvature (1/radius, in model units) mapped to white; its negative maps to black. Default: "
+                     "the 99th percentile of the texels, which the report states."));
     add(list, group,
         lengthOption("--thickness-range", layers.thickness_range,
-                     "The thickness that white stands for, in units of the models. Default: the largest that is met; "
-                     "the report says how much."));
+                     "Thickness mapped to white, in model units. Default: the largest thickness found, which the "
+                     "report states."));
     add(list, group,
-        choice(
-            "--id", "BY", kIds, ids,
-            "What has a colour of its own in the map of ids: material, object (nodes by their names), or shell (what "
-            "hangs together by its positions)."));
+        choice("--id", "BY", kIds, ids,
+               "Content of the ID map: one color per material, object (node name), or each shell "
+               "(connected component by position)."));
 }
 
 Option fileOption(const char* name, const char* value, std::string& target, const char* help) {
@@ -127,37 +126,37 @@ void addRayOptions(OptionList& list, double& reach, RayOptions& rays, std::strin
     const char* group = "Rays";
     add(list, group,
         choice("--rays", "WHICH", kTargets, rays.target,
-               "Which front of the high poly counts. outermost: the first one from the cage inwards, which is what is "
-               "seen, and beyond the cage where there is none; nearest: the one nearest to the low poly, on either "
-               "side, for fingers and thin parts."));
+               "Hit on the high poly that is baked. outermost: the first front face from the cage inwards, which is "
+               "the visible one, or the first beyond the cage where there is none; nearest: the front face nearest to "
+               "the low poly on either side, for fingers and thin parts."));
     add(list, group,
         choice("--directions", "HOW", kDirections, rays.directions,
-               "Where rays point. averaged: along the mean of the normals at each position, which leaves no gaps at "
-               "hard edges; auto: so near edges where faces meet at over 30 degrees, and straight at the faces away "
-               "from them, where averaged detail would lean; normals: along the normals as stored."));
+               "Ray directions. averaged: along the mean of the normals at each position, which avoids gaps at hard "
+               "edges; auto: averaged near edges where faces meet at more than 30 degrees, and along the face normal "
+               "elsewhere, where averaged directions would skew detail; normals: along the stored normals."));
     add(list, group,
         lengthOption("--cage-offset", rays.cage_offset,
-                     "How far from the faces of the low poly the cage is, where rays begin, in units of the models. "
-                     "Default: as the reach; the report says how much."));
+                     "Cage distance: how far from the low poly rays start, in model units. Default: the reach; the "
+                     "report states it."));
     add(list, group,
-        lengthOption("--reach", reach,
-                     "How far from the low poly the high poly is looked for, outwards and inwards, in units of the "
-                     "models. Default: a twentieth of the size of the larger one, or more where their boxes differ by "
-                     "more; the report says how much."));
+        lengthOption(
+            "--reach", reach,
+            "Maximum search distance from the low poly, outwards and inwards, in model units. Default: 5 % of the size "
+            "of the larger model, or more where the bounding boxes differ by more; the report states it."));
     add(list, group,
         numberOrAuto("--weld-distance", "DISTANCE", "a distance", rays.weld_distance, NormalOptions::weld_auto,
                      1000000000,
-                     "Positions that differ by no more than this in each coordinate are one point for ray directions, "
-                     "curvature, shells and normals that are made, in units of the models. 0: only equal ones are. "
-                     "auto: twice the spacing of floats at the largest coordinate of the mesh."));
+                     "Weld distance, in model units: positions that differ by at most this in each coordinate count as "
+                     "one point for ray directions, curvature, shells and generated normals. 0: only equal positions. "
+                     "auto: twice the float spacing at the largest coordinate of the mesh."));
     Option painted = fileOption("--skew", "IMAGE", skew,
-                                "In place of --directions: an image by the UVs of the map, black where rays are "
-                                "averaged and white where they go straight at the triangles.");
+                                "Skew map, used instead of --directions: an image in the UVs of the map, black where "
+                                "rays are averaged and white where they follow the face normals.");
     painted.excludes = {"--directions"};
     add(list, group, std::move(painted));
     Option own = fileOption("--cage", "MODEL", cage,
-                            "The low poly with its vertices moved outwards, in the same order: rays go from there to "
-                            "the low poly and on, to the first front.");
+                            "Cage mesh: the low poly with its vertices moved outwards, in the same vertex order. Rays "
+                            "run from the cage through the low poly to the first front face.");
     own.excludes = {"--rays", "--directions", "--cage-offset", "--skew"};
     add(list, group, std::move(own));
 }
@@ -166,40 +165,38 @@ void addBakedMapOptions(OptionList& list, BakeFileOptions& options) {
     const char* group = "Map";
     BakeOptions& map = options.map;
     add(list, group, mapSizeOption(map));
-    add(list, group, choice("--bits", "8|16", kMapBits, map.bits, "Bits of a channel of the PNG."));
+    add(list, group, choice("--bits", "8|16", kMapBits, map.bits, "Bits per channel of the PNG."));
     add(list, group,
         choice("--space", "SPACE", kMapSpaces, map.space,
-               "What the map is told in. tangent: along the frames of the low poly; object: along the axes of the "
+               "Space of the output normals. tangent: the tangent frames of the low poly; object: the axes of the "
                "scene."));
     add(list, group, axesOption([&map](const MapAxes& axes) { map.axes = axes; })).default_text = "y-up";
     add(list, group,
-        readingOption(
-            "--convention", map.reading,
-            "Whose shader the map is for. directx and unreal have green down; unity, unreal and godot read two "
-            "channels, so that all texels have length 1; godot and three interpolate bitangents."));
+        readingOption("--convention", map.reading,
+                      "Program whose shader will read the map. directx and unreal use green down; unity, unreal and "
+                      "godot read two channels, so all texels get length 1; godot and three interpolate bitangents."));
     add(list, group,
         flag("--unit", options.unit,
-             "All texels have length 1, so that z can be made from x and y: for formats of two channels (BC5, DXT5nm). "
-             "The error is that of such a reader."));
+             "Give all texels length 1, so that z can be reconstructed from x and y: for two-channel formats (BC5, "
+             "DXT5nm). The reported error is that of such a reader."));
     add(list, group,
         choice("--fit", "HOW", kFits, map.fit,
-               "solve: all texels together, such that the filtered map is right between texels too; texel: each alone, "
-               "right at its centre, which is faster."));
+               "How texels are computed. solve: all texels together, so that the filtered map is also right between "
+               "texels; texel: each texel on its own, right at its center, which is faster."));
     addLengths(list, group, map.lengths);
     add(list, group,
         number("--padding", map.padding, kMostPadding,
-               "Texels around the triangles that continue them, so that filters and smaller mip levels meet no "
+               "Padding around UV islands, in texels, so that filtering and smaller mip levels never sample the "
                "background."));
     add(list, group,
-        choice(
-            "--overlap", "HOW", kOverlaps, map.overlap,
-            "Whose normals count where triangles share texels and want different ones, as mirrored halves. mean: the "
-            "mean of all; first: the piece of the UV map that comes first in the file; larger: the piece with the "
-            "larger surface. The report says how far they are apart."));
-    add(list, group, flag("--udim", options.udim, "A file per tile of the UV map, NAME.1001.png and on."));
+        choice("--overlap", "HOW", kOverlaps, map.overlap,
+               "Normal of texels where UVs overlap and the triangles need different normals, as on mirrored halves. "
+               "mean: the mean of all; first: the UV island that comes first in the file; larger: the UV island with "
+               "the larger surface. The report states how far they differ."));
+    add(list, group, flag("--udim", options.udim, "Write one file per UDIM tile: NAME.1001.png, NAME.1002.png, ..."));
     Option wrap = flag("--wrap", options.wrap,
-                       "Also bake triangles whose UVs lie outside of 0 to 1, where the texture is shown again. Without "
-                       "this they have no say, as copies that were moved there by 1.");
+                       "Also bake triangles outside the 0-1 UV range, where the texture repeats. By default they are "
+                       "ignored, as offset copies.");
     wrap.excludes = {"--udim"};
     add(list, group, std::move(wrap));
 }
@@ -208,7 +205,7 @@ void addHighMapOptions(OptionList& list, bool& ignore, std::optional<Green>& gre
     const char* group = "High poly";
     add(list, group,
         flag("--ignore-high-maps", ignore,
-             "Look at the high poly's own normals alone. Without this, the normal maps of its materials are baked "
+             "Use only the vertex normals of the high poly. By default the normal maps of its materials are baked "
              "through."));
     const auto take = [&green](const std::string& text) -> std::string {
         if (text != "up" && text != "down") return "must be up or down";
@@ -216,18 +213,17 @@ void addHighMapOptions(OptionList& list, bool& ignore, std::optional<Green>& gre
         return {};
     };
     Option told = option("--high-green", "up|down", take,
-                         "Which way green of these maps points. Default: as the file says or the slopes of the map "
-                         "show, and up where neither does.");
+                         "Green direction of the high poly's normal maps. Default: as the file declares or the slopes "
+                         "of the map show; up where neither is known.");
     told.excludes = {"--ignore-high-maps"};
     add(list, group, std::move(told));
 }
 
 Option matchOption(std::string& target) {
-    Option match =
-        text("--match", "HOW", target,
-             "Which objects of the low poly look at which of the high poly. names: Body_low at Body, Body_high, "
-             "Body_hp, Body_high_001 and Body_high_buckle, and what has no partner at everything; all: each at "
-             "everything; else a file with lines LOW = HIGH.");
+    Option match = text("--match", "HOW", target,
+                        "Pairing of low-poly with high-poly objects. names: Body_low from "
+                        "Body, Body_high, Body_hp, Body_high_001 and Body_high_buckle; objects without a partner from "
+                        "everything; all: each from everything; otherwise a file with lines LOW = HIGH.");
     match.default_text = "names";
     return match;
 }
@@ -236,19 +232,18 @@ Option matchOption(std::string& target) {
 
 OptionList bakeOptions(BakeFileOptions& options) {
     OptionList list;
-    Option out_mesh =
-        fileOption("--out-mesh", "OUT", options.out_mesh,
-                   "Also write the low poly to this .glb, .vrm or .gltf, with the frames that were used and "
-                   "the map as its normal texture.");
+    Option out_mesh = fileOption("--out-mesh", "OUT", options.out_mesh,
+                                 "Also write the low poly to this .glb, .vrm or .gltf file, with the tangent frames "
+                                 "that were used and the map as its normal texture.");
     out_mesh.excludes = {"--udim"};
     add(list, kInputAndOutput, std::move(out_mesh));
     add(list, kInputAndOutput,
         fileOption(
             "--misses", "PNG", options.misses,
-            "A picture of what each texel is: green is baked, red met nothing, yellow is shown by several triangles."));
+            "Write a picture of the texel states: green: baked, red: no hit, yellow: shared by several triangles."));
     add(list, kInputAndOutput,
         fileOption("--heat", "PNG", options.heat,
-                   "A picture of the error: from black over red to white, which is the 99th percentile."));
+                   "Write a heat map of the error, from black over red to white (the 99th percentile)."));
     add(list, kInputAndOutput, matchOption(options.match));
     addAllowExternal(list, options.file);
     addLayerOptions(list, options.layers, options.ids);
@@ -257,15 +252,14 @@ OptionList bakeOptions(BakeFileOptions& options) {
     addRayOptions(list, options.map.reach, options.map.rays, options.cage, options.skew);
     add(list, "Frames",
         choice("--method", "NAME", kMethods, options.tangents.method,
-               "How tangents are made for a low poly that has none, as generate makes them. Those that are in the file "
-               "stay."));
+               "Tangent method for a low poly without tangents, as in generate. Existing tangents are kept."));
     add(list, "High poly",
         numberOrAuto("--denoise", "FACTOR", "a number", options.denoise, NormalOptions::denoise_auto, 4,
-                     "For a high poly with noisy positions, such as a scan: its normals are made anew by more of the "
-                     "surface around, so that noise is not baked. auto: as much as is measured, and nothing where that "
-                     "is shape; 0 to 4: so many times the noise that is measured, also where it looks like shape."));
-    addRunning(list, options.execution,
-               "Number of threads; 0: as many as there are cores. Changes no bit of the result.", options.file);
+                     "Denoising for a high poly with noisy positions, such as a scan: recomputes its normals from a "
+                     "larger neighborhood, so that noise is not baked. auto: as much as is measured, and none where "
+                     "that is shape; 0 to 4: this multiple of the measured noise, even where it looks like shape."));
+    addRunning(list, options.execution, "Number of threads; 0: one per core. Every number gives identical output.",
+               options.file);
     return list;
 }
 
@@ -273,27 +267,27 @@ OptionList mapErrorOptions(MapErrorFileOptions& options) {
     OptionList list;
     add(list, kInputAndOutput,
         fileOption("--heat", "PNG", options.heat,
-                   "A picture of the error: from black over red to white, which is the 99th percentile."));
+                   "Write a heat map of the error, from black over red to white (the 99th percentile)."));
     add(list, kInputAndOutput,
-        text("--material", "NAME", options.material, "Look only at triangles of this material. Default: at all."));
+        text("--material", "NAME", options.material, "Measure only triangles of this material. Default: all."));
     add(list, kInputAndOutput,
         number("--tile", options.tile, 9999,
-               "Look only at triangles of this UDIM tile, whose file the map is: 1001 and on. 0: at all."));
+               "Measure only triangles of this UDIM tile (1001, ...), whose file the map is. 0: all."));
     add(list, kInputAndOutput, matchOption(options.match));
     addAllowExternal(list, options.file);
     const char* group = "Map";
     add(list, group,
         choice("--space", "SPACE", kMapSpaces, options.map.space,
-               "What the map is taken for: tangent, along the frames of the low poly; object, along the axes of the "
+               "Space that the map is read in. tangent: the tangent frames of the low poly; object: the axes of the "
                "scene."));
     add(list, group, axesOption([&options](const MapAxes& axes) { options.map.axes = axes; })).default_text = "y-up";
-    add(list, group, readingOption("--convention", options.map.reading, "Whose shader the map is taken to be for."));
+    add(list, group, readingOption("--convention", options.map.reading, "Program whose shader the map is read with."));
     add(list, group,
         flag("--two-channels", options.two_channels,
-             "z is made from x and y, as of BC5 and DXT5nm; blue is not read."));
+             "Reconstruct z from x and y, as for BC5 and DXT5nm; blue is ignored."));
     addHighMapOptions(list, options.ignore_high_maps, options.high_green);
     addRayOptions(list, options.map.reach, options.map.rays, options.cage, options.skew);
-    addRunning(list, options.execution, "Number of threads; 0: as many as there are cores. Changes no figure.",
+    addRunning(list, options.execution, "Number of threads; 0: one per core. Every number gives identical results.",
                options.file);
     return list;
 }

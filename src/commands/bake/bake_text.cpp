@@ -48,32 +48,33 @@ void addFile(const BakedFile& file, Table& table) {
     for (const BakedLayerFile& layer : file.layers)
         table.addRow({layerName(layer.layer), fmt::format("{}, {} x {}, {} bits{}", unbroken(layer.path), map.width,
                                                           map.height, layer.bits, rangeText(layer))});
-    table.addRow({"texels", fmt::format("{} baked, {} around them", map.hit_count, map.padding_count)});
+    table.addRow({"texels", fmt::format("{} baked, {} padding", map.hit_count, map.padding_count)});
     if (!file.path.empty())
-        table.addRow({"error", fmt::format("mean {} degrees, 99 % below {}, largest {}; at seams {} in the mean",
+        table.addRow({"error", fmt::format("mean {} degrees, 99th percentile {}, maximum {}; at seams mean {}",
                                            degreesText(map.error.mean_deg), degreesText(map.error.p99_deg),
                                            degreesText(map.error.max_deg), degreesText(map.error.seam_mean_deg))});
     if (map.own_error.point_count > 0)
         table.addRow(
-            {"", fmt::format("mean {} degrees against what its own rays met", degreesText(map.own_error.mean_deg))});
+            {"", fmt::format("mean {} degrees against the hits of its own rays", degreesText(map.own_error.mean_deg))});
     table.addRow({"rays", raysText(file)});
     if (map.error.missed_count > 0)
         table.addRow(
-            {"note", fmt::format("{} of {} points of the error met no high poly: each counts as {:.0f} degrees; "
-                                 "the mean of the others is {}",
-                                 map.error.missed_count, map.error.missed_count + map.error.point_count, kMissedDeg,
-                                 degreesText(map.error.met_mean_deg))});
+            {"note",
+             fmt::format(
+                 "{} of {} error samples hit no high poly: each counts as {:.0f} degrees; the mean of the others is {}",
+                 map.error.missed_count, map.error.missed_count + map.error.point_count, kMissedDeg,
+                 degreesText(map.error.met_mean_deg))});
     if (map.missed_count > 0)
         table.addRow(
-            {"warning", fmt::format("{} met no high poly and {} filled from around; --reach looks further, "
-                                    "--misses shows where",
+            {"warning", fmt::format("{} hit no high poly and {} filled from neighbors; a larger --reach searches "
+                                    "further, --misses writes a picture of them",
                                     counted(map.missed_count, "texel"), map.missed_count == 1 ? "is" : "are")});
     if (map.overlap_count > 0)
         table.addRow({map.conflict_count > 0 ? "warning" : "note",
-                      fmt::format("{} shown by several triangles{}", counted(map.overlap_count, "texel"),
+                      fmt::format("{} shared by several triangles{}", counted(map.overlap_count, "texel"),
                                   map.conflict_count > 0
-                                      ? fmt::format(", which want different normals in {} of them: {:.1f} degrees "
-                                                    "apart in the mean, {:.1f} at most (--overlap)",
+                                      ? fmt::format(", which need different normals in {} of them: mean difference "
+                                                    "{:.1f} degrees, maximum {:.1f} (--overlap)",
                                                     map.conflict_count, map.conflict_mean_deg, map.conflict_max_deg)
                                       : std::string())});
     if (map.degenerate_uv_count > 0)
@@ -95,8 +96,8 @@ void addBakedRows(const BakeFileReport& done, const std::string& out_mesh, Table
     for (const std::string& finding : done.findings) table.addRow({"finding", printable(finding)});
     if (!out_mesh.empty() && !done.output_files.empty())
         table.addRow({"model", fmt::format("{}, with its frames and maps", unbroken(out_mesh))});
-    if (done.frames_made) table.addRow({"note", "the low poly lacks frames; they were made as generate makes them"});
-    if (done.matched_by_name) table.addRow({"note", "meshes were matched by their names"});
+    if (done.frames_made) table.addRow({"note", "missing frames of the low poly were computed as in generate"});
+    if (done.matched_by_name) table.addRow({"note", "meshes were matched by name"});
     for (const std::string& warning : done.warnings) table.addRow({"warning", printable(warning)});
 }
 
@@ -108,15 +109,15 @@ std::string bakeText(const Outcome<BakeFileReport>& outcome, const std::string& 
 
 std::string bakeLine(const Outcome<BakeFileReport>& outcome) {
     std::string line = fmt::format("{} -> {}: ", unbroken(outcome.input), unbroken(outcome.output));
-    if (outcome.was_done_before) return line + "done before, and nothing has changed\n";
+    if (outcome.was_done_before) return line + "already done, and nothing has changed\n";
     const BakeFileReport& done = *outcome.result;
-    if (done.output_files.empty()) return line + "nothing is written\n";
+    if (done.output_files.empty()) return line + "nothing was written\n";
     line += counted(done.output_files.size(), "file");
     if (!done.files.empty() && !done.files.front().path.empty())
         line += fmt::format(", error mean {} degrees", degreesText(done.files.front().map.error.mean_deg));
     if (!done.findings.empty()) line += "; " + counted(done.findings.size(), "finding");
     if (!done.warnings.empty()) line += "; " + counted(done.warnings.size(), "warning");
-    return line + (done.findings.empty() && done.warnings.empty() ? "\n" : " (--verbose says which)\n");
+    return line + (done.findings.empty() && done.warnings.empty() ? "\n" : " (--verbose shows them)\n");
 }
 
 }  // namespace tspace::report

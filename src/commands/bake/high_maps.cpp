@@ -75,9 +75,9 @@ const TangentUse* HighMapReading::find(const ScenePrimitive& primitive) {
         if (!image.number) return nullptr;
         if (!image.is_grey) return &use;
         if (!was_known)
-            made_.warnings.push_back("the high poly's map " + inQuotes(nameOf(*use.image)) +
-                                     " is grey, as height maps are, and is not baked through; tspace "
-                                     "height-to-normal makes a normal map of it");
+            made_.warnings.push_back(
+                "the high poly's map " + inQuotes(nameOf(*use.image)) +
+                " is gray, like a height map, and is not baked through; convert it with tspace height-to-normal");
         return nullptr;
     }
     return nullptr;
@@ -101,9 +101,9 @@ std::uint32_t HighMapReading::numberOf(const ScenePrimitive& primitive, const Ta
             report.green_is = GreenSource::seen;
         }
         if (report.green_is == GreenSource::seen && report.green == Green::down)
-            made_.warnings.push_back("green of the high poly's normal map " + inQuotes(report.image) +
-                                     " points down, as its slopes show, and it is read so; --high-green up reads it "
-                                     "as glTF says");
+            made_.warnings.push_back(
+                "green of the high poly's normal map " + inQuotes(report.image) +
+                " points down according to its slopes, and was inverted; --high-green up reads it as glTF specifies");
         const FloatImage& pixels = made_.images[*image.number];
         made_.maps.push_back({.image = {pixels.width, pixels.height, pixels.texels, use.wrap_u, use.wrap_v},
                               .reading = {.green = report.green, .scale = static_cast<float>(use.scale)}});

@@ -85,7 +85,7 @@ Pairs readPairs(const std::string& path, const FileOptions& file) {
         const std::string_view high = equals < line.size() ? trimmed(line.substr(equals + 1)) : std::string_view();
         if (low.empty() || high.empty())
             failFile(ErrorCode::invalidFile,
-                     pathInQuotes(path) + ", line " + std::to_string(number) + ": this is no LOW = HIGH");
+                     pathInQuotes(path) + ", line " + std::to_string(number) + ": expected LOW = HIGH");
         pairs[std::string(high)] = std::string(low);
     }
     return pairs;
@@ -130,11 +130,11 @@ class Matching {
                 lonely_high.insert(namesOf(high_, i).shown());
         }
         if (!lonely_low.empty())
-            match_.warnings.push_back("nothing of the high poly has the name of " + listOf(lonely_low) +
-                                      ": there everything is looked at");
+            match_.warnings.push_back("no mesh of the high poly matches the name " + listOf(lonely_low) +
+                                      "; it is baked from the whole high poly");
         if (!lonely_high.empty())
-            match_.warnings.push_back("nothing of the low poly has the name of " + listOf(lonely_high) +
-                                      " of the high poly: everything looks at it");
+            match_.warnings.push_back("no mesh of the low poly matches the name " + listOf(lonely_high) +
+                                      " of the high poly; it is baked onto all low-poly meshes");
         return std::move(match_);
     }
 

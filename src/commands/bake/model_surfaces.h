@@ -96,7 +96,8 @@ struct LowModel {
         std::string material = {};
         LowPart part = {};
         std::vector<MappedPrimitive> primitives = {};
-        TextureWrap wrap_u = TextureWrap::repeat, wrap_v = TextureWrap::repeat;  ///< of the first primitive's texture
+        TextureWrap wrap_u = TextureWrap::repeat,
+                    wrap_v = TextureWrap::repeat;  ///< wrap modes of the first primitive's texture
     };
     std::vector<Image> images = {};
     std::vector<std::string> warnings = {};

@@ -53,7 +53,7 @@ void joinUnused(const Scene& scene, std::span<PrimitiveJudgement> judgements, st
     const Tally all{.count = unused.size(), .total = total};
     findings.push_back(makeFinding(FindingCode::tangentsUnused, Severity::note, all, "primitives",
                                    countText(all, "primitives with tangents") +
-                                       " need none: no material of theirs reads a texture in tangent space"));
+                                       " do not need them: none of their materials reads a texture in tangent space"));
 }
 
 /// The warnings of reading. They are about the file, so no primitive is named.

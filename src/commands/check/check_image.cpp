@@ -85,10 +85,10 @@ std::optional<Finding> constantFinding(const std::string& name, const RgbImage& 
     const bool is_vector = std::fabs(lengthOf(first) - 1) < 0.1;
     const bool is_flat = is_vector && first[0] - 126 < 4 && first[1] - 126 < 4 && first[0] > 125 && first[1] > 125;
     Finding finding = noteOn(FindingCode::normalMapConstant, count, count,
-                             "all texels of " + name + " are " + texelText(first) +
+                             "the map is a single color: all texels of " + name + " are " + texelText(first) +
                                  (is_flat     ? ": the map is flat"
                                   : is_vector ? ": one direction, which is not that of a flat map"
-                                              : ": it is one color, and no normal map"));
+                                              : ": it is not a normal map"));
     if (!is_flat) finding.severity = Severity::warning;
     return finding;
 }
@@ -110,8 +110,9 @@ std::optional<Finding> lengthFinding(const std::string& name, const RgbImage& im
     }
     if (total == 0 || static_cast<double>(count) < kLeastShare * static_cast<double>(total)) return {};
     return noteOn(FindingCode::normalMapLengths, count, total,
-                  "vectors of " + name + " are not unit: " + std::to_string(count) + " of " + std::to_string(total) +
-                      " texels are off by more than a tenth, and their mean length is " +
+                  "the relief may look too strong or too weak: vectors of " + name +
+                      " are not unit length: " + std::to_string(count) + " of " + std::to_string(total) +
+                      " texels deviate by more than 0.1, and the mean length is " +
                       shortNumber(sum / static_cast<double>(total)));
 }
 
@@ -126,11 +127,10 @@ std::optional<Finding> zeroFinding(const std::string& name, const RgbImage& imag
         high += rgb[0] == 128 && rgb[1] == 128 ? 1 : 0;
     }
     if (low <= high || static_cast<double>(low) < kLeastShare * static_cast<double>(total)) return {};
-    return noteOn(
-        FindingCode::normalMapZero, low, total,
-        "flat texels of " + name +
-            " are (127, 127), where most programs write (128, 128): both lean by 0.3 degrees, to opposite sides, and "
-            "a reader that subtracts 128 / 255 sees twice that");
+    return noteOn(FindingCode::normalMapZero, low, total,
+                  "flat areas may look slightly tilted: flat texels of " + name +
+                      " are (127, 127), where most programs write (128, 128). Both values tilt the normal by 0.3 "
+                      "degrees, in opposite directions, and a reader that subtracts 128 / 255 shows twice that");
 }
 
 }  // namespace
@@ -152,21 +152,23 @@ std::string imageText(const CheckReport& report) {
     if (image.content == "normals") {
         text += "a normal map in tangent space";
     } else if (image.content == "height") {
-        return text + "gray, as height maps are, and no normal map";
+        return text + "gray like a height map, not a normal map";
     } else if (image.content == "picture") {
-        return text + "no normal map";
+        return text + "not a normal map";
     } else if (image.content == "constant") {
         return text + "one color";
     } else if (image.content == "objectSpace") {
-        return text + "a normal map, and not in tangent space";
+        return text + "a normal map, but not in tangent space";
     } else {
         text += "a normal map whose channels are not those of glTF";
     }
     if (image.green == "up")
-        text += by("green points up, as in OpenGL and glTF, or red and green are both inverted (dents for bumps)");
-    if (image.green == "down") text += by("green points down, as in DirectX, or red is inverted (dents for bumps)");
+        text +=
+            by("green points up, as in OpenGL and glTF, or red and green are both inverted (bumps look like dents)");
+    if (image.green == "down")
+        text += by("green points down, as in DirectX, or red is inverted (bumps look like dents)");
     if (image.green == "mixed") text += by("green points up in one part and down in another");
-    if (image.green == "unknown") text += "; which way green points does not show";
+    if (image.green == "unknown") text += "; the direction of green cannot be determined";
     return text;
 }
 

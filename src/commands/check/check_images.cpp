@@ -300,32 +300,33 @@ const MapPart& partOf(const NormalMap& map) {
 Finding unreadable(const std::string& name, const std::string& why_not) {
     const Tally one{.count = 1, .total = 1};
     return makeFinding(FindingCode::normalMapUnreadable, Severity::note, one, "images",
-                       "the normal map " + name + " was not looked at: " + why_not);
+                       "the normal map " + name + " was not examined: " + why_not);
 }
 
 Finding flipped(const std::string& name, const GreenTest& test) {
     const Tally blocks{.count = test.down_block_count, .total = test.block_count};
     return makeFinding(FindingCode::greenFlipped, Severity::warning, blocks, "blocks",
-                       "red or green is inverted in the normal map " + name +
-                           "; nearly always that is green, which points down, as DirectX has it. So say " +
+                       "bumps probably look like dents: red or green is inverted in the normal map " + name +
+                           ", nearly always green, which then points down as in DirectX; this is the result for " +
                            countText(blocks, "blocks") + " of 16 x 16 pixels with relief");
 }
 
 /// Without a model there is nothing that generate could do.
 Remedy loneGreenRemedy(const NamedImage& image) {
     return {
-        "If it was made for DirectX and is read by glTF or OpenGL, invert green: {}. If bumps are dents then, it was "
-        "red: {}. The map alone does not tell the two apart.",
+        "If the map was made for DirectX and is read as glTF or OpenGL, invert green: {}. If bumps look like dents "
+        "afterwards, red was inverted: {}. The map alone cannot tell the two cases apart.",
         {imageCommand("flip-green", image), withOption(convertCommand(image), "flip-red")}};
 }
 
 Finding mixed(const std::string& name, const GreenTest& test) {
     const Tally blocks{.count = test.down_block_count, .total = test.block_count};
-    return makeFinding(FindingCode::greenMixed, Severity::warning, blocks, "blocks",
-                       "green seems to point down in one part of the normal map " + name + " (" +
-                           rectText(test.down_part) + " counted from the top left) and up in another (" +
-                           rectText(test.up_part) + "): down say " + countText(blocks, "blocks") +
-                           " of 16 x 16 pixels with relief, " + shareText(blocks.share()));
+    return makeFinding(
+        FindingCode::greenMixed, Severity::warning, blocks, "blocks",
+        "bumps probably look like dents in one part: green seems to point down in one part of the normal map " + name +
+            " (" + rectText(test.down_part) + " from the top left) and up in another (" + rectText(test.up_part) +
+            "): " + countText(blocks, "blocks") + " of 16 x 16 pixels with relief point down, " +
+            shareText(blocks.share()));
 }
 
 NamedImage namedImage(const Scene& scene, const NormalMap& map) {
@@ -363,34 +364,34 @@ void describeStorage(const Scene& scene, const NormalMap& map, const std::string
             makeFinding(code, severity, one, "images", "the normal map " + name + std::move(text)));
     };
     if (isEtc1s(facts) || isLossyWebp(image.bytes)) {
-        std::string text = isEtc1s(facts) ? " is " + facts->name + ", which keeps one color for each 4 x 4 texels"
-                                          : " is a WebP with loss, which keeps colors at half the width and height";
+        std::string text = isEtc1s(facts) ? " is " + facts->name + ", which stores one color per 4 x 4 texels"
+                                          : " is a lossy WebP, which stores colors at half the width and height";
         if (content == MapContent::normals)
-            text += std::string(isEtc1s(facts) ? "; so" : "; by the lengths of its vectors") +
+            text += std::string(isEtc1s(facts) ? "; so" : "; judging by the lengths of its vectors,") +
                     " its texels are about " + shortNumber(std::max(0.1, std::round(10 * map.packing_deg) / 10)) +
-                    " degrees off, in the root of the mean square" +
-                    (isEtc1s(facts) ? " (as UASTC our maps were off by a third of that at most)"
-                                    : " (8 bits without loss: 0.2)");
+                    " degrees off (root mean square" +
+                    (isEtc1s(facts) ? "; measured on our maps,  UASTC has at most a third of that error)"
+                                    : "; lossless 8 bits: 0.2)");
         add(FindingCode::normalMapLossy, Severity::note, std::move(text));
     }
     if (!facts) return;
     const bool is_map = content != MapContent::picture && content != MapContent::height;
     if (facts->is_srgb && is_map && content != MapContent::encoded) {
-        Finding& finding =
-            add(FindingCode::normalMapIsSrgb, Severity::warning,
-                " (" + facts->name +
-                    ") says that its numbers have the sRGB curve, and they have not: renderers that take the "
-                    "file's word, as three.js does, turn all its normals");
+        Finding& finding = add(FindingCode::normalMapIsSrgb, Severity::warning,
+                               " (" + facts->name +
+                                   ") is declared as sRGB, but its values are linear: renderers that follow the "
+                                   "declaration, such as three.js, tilt all its normals");
         const NamedImage named = namedImage(scene, map);
-        setRemedy(finding, named.is_alone ? Remedy{"Convert it: {}", {convertCommand(named)}}
-                                          : Remedy{"Pack it anew, as linear; or, as a PNG: {}. The image alone: {}",
-                                                   {toCommand("generate --mend-maps"), convertCommand(named)}});
+        setRemedy(finding, named.is_alone
+                               ? Remedy{"Convert it: {}", {convertCommand(named)}}
+                               : Remedy{"Pack it again as linear; or convert it to PNG: {}. The image alone: {}",
+                                        {toCommand("generate --fix-maps"), convertCommand(named)}});
     }
     if (facts->has_blocks && facts->level_count == 1 && claimedSize(image.bytes).pixels() > 1 && readsLevels(map))
         add(FindingCode::normalMapLevels, Severity::note,
             " (" + facts->name +
-                ") has blocks and no smaller levels, which renderers do not make of blocks: from afar it "
-                "flickers");
+                ") is block-compressed and has no mip levels, which renderers cannot generate for compressed blocks: "
+                "the relief flickers in the distance");
 }
 
 /// Findings on what the channels hold, and on green.
@@ -401,7 +402,8 @@ std::vector<Finding> describe(const Scene& scene, const NormalMap& map) {
         findings.push_back(unreadable(name, map.why_not));
         if (scene.images[map.image].is_unavailable) {
             findings.back().severity = Severity::warning;
-            setRemedy(findings.back(), "Put the image where the model names it, or correct its name in the model.");
+            setRemedy(findings.back(),
+                      "Put the image where the model references it, or correct its name in the model.");
         }
     } else {
         const bool has_own_green = hasOwnGreen(map.look.layout);
@@ -411,12 +413,10 @@ std::vector<Finding> describe(const Scene& scene, const NormalMap& map) {
         if (content && facts) content->message += " (it is " + facts->name + ")";
         if (content && map.look.content == MapContent::height && mayBeHeights(map)) {
             content->severity = Severity::note;
-            content->message = name + " is a height map (map_bump), and no normal map";
-            setRemedy(
-                *content,
-                {"Nothing needs to be done: generate makes a normal map of it, with -bm as its height in units of "
-                 "the model. For the image alone: {}.",
-                 {toCommand("height-to-normal MAP -o OUT.png --strength S")}});
+            content->message = name + " is a height map (map_bump), not a normal map";
+            setRemedy(*content, {"No action is needed: generate makes a normal map from it, with -bm as its height in "
+                                 "model units. For the image alone: {}.",
+                                 {toCommand("height-to-normal MAP -o OUT.png --strength S")}});
         }
         if (content) findings.push_back(*std::move(content));
         if (has_own_green && isDown(map) && !isDeclared(map)) {
@@ -503,9 +503,9 @@ std::vector<Finding> checkMapScales(const Scene& scene) {
             const Tally one{.count = 1, .total = 1};
             findings.push_back(makeFinding(
                 FindingCode::normalMapScale, Severity::note, one, "textures",
-                use.scale == 0 ? "the scale of the normal map is 0, so nothing of it shows"
-                               : "the scale of the normal map is below 0: it inverts red and green, so bumps are "
-                                 "dents"));
+                use.scale == 0
+                    ? "the normal map has no visible effect: its scale is 0"
+                    : "bumps look like dents: the scale of the normal map is negative, which inverts red and green"));
             placeAt(primitive, use.place, findings.back());
         }
     }

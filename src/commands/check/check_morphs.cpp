@@ -93,9 +93,10 @@ class MorphValues {
     void report(FindingCode code, const FaultyTargets& faulty, const char* attribute, const std::string& what) {
         if (faulty.count == 0) return;
         const std::size_t more = faulty.count - 1;
-        std::string message = "what target " + std::to_string(faulty.first) + " adds to the " + attribute + " of " +
-                              countText(faulty.vertices, "vertices") + " " + what;
-        if (more != 0) message += "; so it is in " + std::to_string(more) + " more target" + (more == 1 ? "" : "s");
+        std::string message = "the offsets of morph target " + std::to_string(faulty.first) + " for the " + attribute +
+                              " of " + countText(faulty.vertices, "vertices") + " " + what;
+        if (more != 0)
+            message += "; the same fault is in " + std::to_string(more) + " more target" + (more == 1 ? "" : "s");
         facts_.add(code, Severity::error, faulty.vertices, "vertices", std::move(message));
         Finding& finding = facts_.findings.back();
         finding.place = facts_.primitive.place + "/targets/" + std::to_string(faulty.first);
@@ -128,16 +129,16 @@ void checkMorphValues(PrimitiveFacts& facts) {
     MorphValues values(facts);
     const auto not_finite = [](std::uint32_t, const Vec3& offset) { return !isFinite(offset); };
     values.report(FindingCode::positionsNotFinite, values.find(&SceneMorphTarget::positions, not_finite), "positions",
-                  "is NaN or infinite");
+                  "are NaN or infinite");
     if (facts.mesh.normals.empty() || facts.primitive.is_unlit) return;
     values.report(FindingCode::normalsNotFinite, values.find(&SceneMorphTarget::normals, not_finite), "normals",
-                  "is NaN or infinite");
+                  "are NaN or infinite");
     const auto vanishes = [&](std::uint32_t v, const Vec3& offset) {
         const Vec3& base = facts.mesh.normals[v];
         return isDirection(base) && isFinite(offset) && length(toDouble(base + offset)) < kLeastLength;
     };
     values.report(FindingCode::morphNormalsWrong, values.find(&SceneMorphTarget::normals, vanishes), "normals",
-                  "leaves them without length, so shaders get NaN at full weight");
+                  "cancel the normals, so shaders get NaN at full weight");
 }
 
 // Morph targets: whether base plus delta is still a normal of the morphed surface.
@@ -192,11 +193,14 @@ class MorphNormalsChecker {
         const double share = facts_.options.error_share;
         missing_.report(facts_, FindingCode::morphNormalsMissing,
                         missing_.targets.surface_share >= share ? Severity::warning : Severity::note,
-                        countText(missing_.targets, "targets that add nothing to normals") + " turn the surface",
+                        "shading is wrong when the mesh deforms: " +
+                            countText(missing_.targets, "targets without normal deltas") + " rotate the surface",
                         "normals");
-        wrong_.report(
-            facts_, FindingCode::morphNormalsWrong, wrong_.far_share >= share ? Severity::error : Severity::warning,
-            "the normals of " + countText(wrong_.targets, "targets") + " do not turn with the surface", "normals");
+        wrong_.report(facts_, FindingCode::morphNormalsWrong,
+                      wrong_.far_share >= share ? Severity::error : Severity::warning,
+                      "shading is wrong when the mesh deforms: the normals of " + countText(wrong_.targets, "targets") +
+                          " do not rotate with the surface",
+                      "normals");
     }
 
   private:
@@ -387,10 +391,14 @@ class MorphChecker {
         const double share = facts_.options.error_share;
         missing_.report(facts_, FindingCode::morphTangentsMissing,
                         missing_.targets.surface_share >= share ? Severity::warning : Severity::note,
-                        countText(missing_.targets, "targets") + " without tangents turn the surface", "tangents");
-        wrong_.report(
-            facts_, FindingCode::morphTangentsWrong, wrong_.far_share >= share ? Severity::error : Severity::warning,
-            "the tangents of " + countText(wrong_.targets, "targets") + " do not fit the morphed surface", "tangents");
+                        "the relief is lit wrong when the mesh deforms: " + countText(missing_.targets, "targets") +
+                            " without tangent deltas rotate the surface",
+                        "tangents");
+        wrong_.report(facts_, FindingCode::morphTangentsWrong,
+                      wrong_.far_share >= share ? Severity::error : Severity::warning,
+                      "the relief is lit wrong when the mesh deforms: the tangents of " +
+                          countText(wrong_.targets, "targets") + " do not fit the morphed surface",
+                      "tangents");
     }
 
   private:

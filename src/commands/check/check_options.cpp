@@ -21,10 +21,9 @@ Option ignoreOption(std::vector<FindingCode>& ignored) {
         }
         return std::string();
     };
-    Option made =
-        option("--ignore", "CODE", take,
-               "Leave out findings of this code, such as tangentsUnused: they are not shown, and do not count "
-               "for the exit code. Several with commas between them, or several times.");
+    Option made = option("--ignore", "CODE", take,
+                         "Ignore findings with this code, such as tangentsUnused: they are not printed and do not "
+                         "affect the exit code. Comma-separated; may be given several times.");
     for (std::uint32_t code = 0; code < kFindingCodeCount; ++code)
         made.choices.emplace_back(findingName(static_cast<FindingCode>(code)));
     made.is_repeatable = made.is_list = true;
@@ -36,33 +35,31 @@ void addChecking(OptionList& list, CheckRequest& request) {
     CheckOptions& options = request.options;
     add(list, group,
         choice("--fail-on", "LEVEL", kSeverities, request.fail_on,
-               "Exit with code 1 when there is a finding of this severity or above: note, warning or "
-               "error."));
+               "Exit with code 1 if there is a finding of this severity or higher: note, warning or error."));
     add(list, group,
         choice("--severity", "LEVEL", kSeverities, request.least_severity,
-               "Leave out findings below this severity: note, warning or error. They are not shown, and "
-               "do not count for the exit code."));
+               "Minimum severity to report: note, warning or error. Findings below it are not printed and do not "
+               "affect the exit code."));
     add(list, group, ignoreOption(request.ignored));
     add(list, group,
         degrees("--angle", options.direction_deg, 180,
-                "How far a tangent may lie outside the directions that the triangles around it give. In "
-                "degrees, 0 to 180."));
+                "Tolerance in degrees, 0 to 180: how far a tangent may lie outside the range of directions that its "
+                "adjacent triangles span."));
     add(list, group,
         choice("--convention", "NAME", kConventions, options.convention,
-               "Whose signs are right: gltf, opengl, directx, unreal, unity, blender or godot, as for "
-               "generate."));
+               "Expected sign convention: gltf, opengl, directx, unreal, unity, blender or godot, as in generate."));
     add(list, group,
         choice("--faces", "FACES", kFaces, options.faces,
-               "What tangents are compared with. auto: triangles, and quads where the tangents fit "
-               "clearly better to those, as Blender's do; triangles, quads: only those."));
+               "Reference faces for tangents. auto: triangles, or quads where the tangents clearly fit those better, "
+               "as Blender's do; triangles, quads: only those."));
     add(list, group,
         numberOrAuto("--weld-distance", "DISTANCE", "a distance", options.weld_distance, NormalOptions::weld_auto,
                      1000000000,
-                     "Positions that differ by no more than this in each coordinate are one, for winding, "
-                     "borders of primitives and noise, in the unit of positions before "
-                     "nodes move them. 0: only equal ones are. auto: twice the spacing of floats at the largest "
-                     "coordinate of the mesh. Tangents are computed on positions as they are."));
-    add(list, group, setting("--no-images", options.images, false, "Do not look at the pixels of normal maps."));
+                     "Weld distance, in the unit of positions before node transforms: positions that differ by at most "
+                     "this in each coordinate count as one for winding, borders of primitives and noise. 0: only equal "
+                     "positions. auto: twice the float spacing at the largest coordinate of the mesh. Tangents are "
+                     "always computed on the unwelded positions."));
+    add(list, group, setting("--no-images", options.images, false, "Do not examine the pixels of normal maps."));
 }
 
 }  // namespace
@@ -72,7 +69,7 @@ OptionList checkOptions(CheckRequest& request) {
     CheckOptions& options = request.options;
     addAllowExternal(list, options.file);
     addChecking(list, request);
-    addThreads(list, options.execution, "Number of threads for each file; 0: as many as there are cores.");
+    addThreads(list, options.execution, "Number of threads per file; 0: one per core.");
     addLimits(list, options.file);
     return list;
 }

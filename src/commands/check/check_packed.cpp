@@ -86,17 +86,17 @@ std::string degreesText(double degrees) {
 
 std::string differenceText(const ScenePacked& packed, const PackedErrors& errors) {
     const FrameErrorBound bound = frameErrorBound(packed.format);
-    std::string text = packed.attribute + " holds other frames than NORMAL and TANGENT at " +
+    std::string text = packed.attribute + " differs from NORMAL and TANGENT at " +
                        countText(errors.beyond, "vertices") + ": N is off by up to " + degreesText(errors.normal_deg) +
                        " degrees, T by " + degreesText(errors.tangent_deg) + ", where " +
-                       frameFormatName(packed.format) + " promises " + degreesText(bound.normal_deg) + " and " +
+                       frameFormatName(packed.format) + " guarantees " + degreesText(bound.normal_deg) + " and " +
                        degreesText(bound.tangent_deg);
-    if (errors.sign_count != 0) text += "; the sign is another at " + std::to_string(errors.sign_count);
+    if (errors.sign_count != 0) text += "; the sign differs at " + std::to_string(errors.sign_count);
     return text;
 }
 
 Remedy packAgain(FrameFormat format) {
-    return {"Pack them anew: {}.", {withOption(toCommand("generate"), "pack", frameFormatName(format))}};
+    return {"Pack them again: {}.", {withOption(toCommand("generate"), "pack", frameFormatName(format))}};
 }
 
 /// Whether generate has frames to pack, or makes some.
@@ -109,10 +109,10 @@ Finding unreadablePacking(const ScenePrimitive& primitive, const ScenePacked& pa
     const Tally one{.count = 1, .total = 1};
     Finding finding = makeFinding(FindingCode::packedFramesUnreadable, Severity::warning, one, "attributes",
                                   packed.attribute + " " + packed.fault);
-    setRemedy(finding, canPack(primitive)
-                           ? packAgain(packed.format)
-                           : Remedy{"Pack them anew from a model that has normals and tangents, or take the attribute "
-                                    "away."});
+    setRemedy(finding,
+              canPack(primitive)
+                  ? packAgain(packed.format)
+                  : Remedy{"Pack them again from a model that has normals and tangents, or remove the attribute."});
     return finding;
 }
 

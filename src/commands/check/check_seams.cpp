@@ -191,10 +191,11 @@ class MeshSeams {
         tally.vertices = seam.vertices;
         Finding finding =
             makeFinding(FindingCode::normalSeam, Severity::note, tally, "positions",
-                        "its normals and those of primitive " + std::to_string(second.primitive) + " differ by up to " +
-                            decimalText(seam.worst_deg) + " degrees at " + std::to_string(seam.likely.size()) +
-                            " positions of their border, though the surface is smooth there: each has the "
-                            "normals of its own triangles alone");
+                        "a visible edge on a smooth surface: its normals and those of primitive " +
+                            std::to_string(second.primitive) + " differ by up to " + decimalText(seam.worst_deg) +
+                            " degrees at " + std::to_string(seam.likely.size()) +
+                            " positions of their common border; the normals of each primitive are computed from its "
+                            "own triangles only");
         placeAt(first, first.place, finding);
         return finding;
     }
@@ -209,7 +210,7 @@ Finding notCompared(const ScenePrimitive& first, const std::string& why) {
     const Tally one{.count = 1, .total = 1};
     Finding finding =
         makeFinding(FindingCode::fileRemark, Severity::note, one, "meshes",
-                    "normals at the borders of the primitives of this mesh were not compared: that " + why);
+                    "normals at the borders of the primitives of this mesh were not compared: comparing them " + why);
     placeAt(first, first.place, finding);
     finding.material_name.clear();  // it is about all of the mesh
     return finding;

@@ -272,16 +272,16 @@ void addExplanation(PrimitiveFacts& facts, const FrameHealth& health, const Othe
     const Tally& wrong = areDirectionsWrong(health, facts.surface) ? health.directions_wrong : health.signs_wrong;
     FindingCode code = FindingCode::textureTransformIgnored;
     Severity severity = Severity::warning;
-    std::string message = "the tangents follow " + set +
-                          " as it is, not as KHR_texture_transform turns or mirrors it for " +
+    std::string message = "the relief is lit from the wrong direction: the tangents follow " + set +
+                          " without the rotation or mirroring of KHR_texture_transform for " +
                           facts.primitive.uses.front().needed_by;
     if (other.reading.uv_set != facts.reading.uv_set) {
         code = FindingCode::uvSetWrong;
-        message = "the tangents follow TEXCOORD_" + std::to_string(other.reading.uv_set) +
-                  ", but the texture is read with " + set;
+        message = "the relief is lit from the wrong direction: the tangents follow TEXCOORD_" +
+                  std::to_string(other.reading.uv_set) + ", but the texture uses " + set;
         if (!other.use && !whyTangentsAreWrong(health, facts.options).empty()) severity = Severity::error;
     }
-    if (other.use) message += "; " + facts.primitive.uses[*other.use].needed_by + " is read as they are";
+    if (other.use) message += "; " + facts.primitive.uses[*other.use].needed_by + " uses these UVs";
     facts.add(code, severity, wrong, "vertices", message);
     // Readings that agree do not make the tangents better.
     for (const std::uint32_t vertex : facts.mesh.corners) facts.faults[vertex] |= faultBit(code);
@@ -290,9 +290,8 @@ void addExplanation(PrimitiveFacts& facts, const FrameHealth& health, const Othe
 void checkUnreadable(PrimitiveFacts& facts) {
     const Tally all{.count = facts.mesh.positions.size(), .total = facts.mesh.positions.size()};
     for (const SceneTangentFault& fault : facts.primitive.tangent_faults) {
-        const std::string what = fault.target < 0
-                                     ? "the tangents"
-                                     : "what morph target " + std::to_string(fault.target) + " adds to the tangents";
+        const std::string what =
+            fault.target < 0 ? "the tangents" : "the tangent deltas of morph target " + std::to_string(fault.target);
         facts.add(FindingCode::tangentsUnreadable, Severity::error, all, "vertices",
                   what + " cannot be read: " + fault.why);
     }
@@ -308,18 +307,17 @@ void checkTangentsMissing(PrimitiveFacts& facts) {
     if (facts.primitive.uses.empty() || isUnreadable(facts.primitive) || !facts.primitive.attribute_faults.empty())
         return;
     Tally all{.count = facts.mesh.positions.size(), .total = facts.mesh.positions.size()};
-    const char* state =
-        facts.primitive.tangents_not_read ? "were not read (the importer cannot give them)" : "are missing";
+    const char* state = facts.primitive.tangents_not_read ? "cannot be read from this format" : "are missing";
     const std::string& user = facts.primitive.uses.front().needed_by;
     if (const ScenePacked* packed = facts.primitive.packedAlone()) {
         facts.add(FindingCode::tangentsMissing, Severity::note, all, "vertices",
-                  user + " needs tangents, and they are only in the packed frames of " + packed->attribute);
+                  user + " needs tangents, which exist only in the packed frames of " + packed->attribute);
         return;
     }
     facts.add(FindingCode::tangentsMissing, facts.is_gltf ? Severity::warning : Severity::note, all, "vertices",
               facts.is_gltf
-                  ? user + " needs tangents, and there are none"
-                  : user + " needs tangents, and they " + state + "; tspace generate writes a glTF file that has them");
+                  ? user + " needs tangents, but there are none: the relief may look different in each renderer"
+                  : user + " needs tangents, but they " + state + "; tspace generate writes a glTF file with tangents");
 }
 
 /// Replaces the triangles by the quads on which the tangents were made, if they were made on quads.
@@ -348,13 +346,13 @@ Result<Done> checkTangents(PrimitiveFacts& facts) {
     if (facts.primitive.uses.empty() && !facts.primitive.hasFreeTangents()) {
         // No material reads these tangents, so their faults are not seen.
         facts.add(FindingCode::tangentsUnused, Severity::note, all, "vertices",
-                  "it has tangents, but its material needs none");
+                  "the file is larger than necessary: the primitive has tangents, but its material needs none");
         return Done{};
     }
     if (facts.mesh.normals.empty()) {
         if (facts.primitive.findFault("NORMAL") != nullptr) return Done{};
         facts.add(FindingCode::tangentsIgnored, Severity::warning, all, "vertices",
-                  "it has tangents but no normals, and glTF tells readers to ignore such tangents");
+                  "the tangents have no effect: without normals, glTF requires readers to ignore tangents");
         return Done{};
     }
     Result<FrameHealth> health = examineTangents(facts.mesh, facts.surface, facts.options);
@@ -384,7 +382,7 @@ Result<Done> checkTangents(PrimitiveFacts& facts) {
         if (finding.code == FindingCode::directionsWrong && !axes.empty()) {
             finding.message +=
                 "; as (" + axes +
-                ") of what is stored they fit, so the mesh was turned to other axes, and its tangents were not";
+                ") of the stored vectors they fit, so the mesh was rotated to other axes without its tangents";
         }
         // Without a texture the side on which v grows is seldom seen.
         if (finding.code == FindingCode::signsMixed && facts.primitive.hasFreeTangents())

@@ -23,10 +23,10 @@ std::string countsText(std::uint64_t errors, std::uint64_t warnings, std::uint64
 /// Which tests the normal maps went through. Flat maps have no relief that shows which way green points.
 std::string lookedText(const CheckReport& report) {
     if (report.image_count == 0) return {};
-    std::string text = fmt::format("; looked at {}: what the channels hold", counted(report.image_count, "normal map"));
-    if (report.green_count == report.image_count) return text + ", which way green points";
-    if (report.green_count == 0) return text + "; which way green points does not show";
-    return text + fmt::format(", which way green points in {}", report.green_count);
+    std::string text = fmt::format("; examined {}: channel contents", counted(report.image_count, "normal map"));
+    if (report.green_count == report.image_count) return text + ", direction of green";
+    if (report.green_count == 0) return text + "; the direction of green cannot be determined";
+    return text + fmt::format(", direction of green in {}", report.green_count);
 }
 
 std::string summaryLine(const CheckOutcome& outcome) {
@@ -58,9 +58,9 @@ std::string packedText(std::span<const PackedFramesInfo> all, FrameFormat format
     if (compared == 0) return text + "no NORMAL and TANGENT to compare with\n";
     const FrameErrorBound bound = frameErrorBound(format);
     text += fmt::format(
-        "N within {:.2g} degrees, T within {:.2g} ({} and {} promised), {}", worst.worst_normal_deg,
+        "N within {:.2g} degrees, T within {:.2g} ({} and {} guaranteed), {}", worst.worst_normal_deg,
         worst.worst_tangent_deg, bound.normal_deg, bound.tangent_deg,
-        worst.differing_sign_count == 0 ? "all signs agree" : counted(worst.differing_sign_count, "sign") + " differ");
+        worst.differing_sign_count == 0 ? "all signs match" : counted(worst.differing_sign_count, "sign") + " differ");
     if (compared != primitives) text += fmt::format("; {} could not be compared", primitives - compared);
     return text + "\n";
 }
@@ -110,7 +110,7 @@ std::string groupText(std::span<const Finding* const> group, bool in_color) {
         if (group.size() == 1) text += verticesText(first);
     }
     if (group.size() > kMostPlaces) text += fmt::format("      and {} more\n", group.size() - kMostPlaces);
-    return text + fmt::format("      mend: {}\n", first.remedy);
+    return text + fmt::format("      fix: {}\n", first.remedy);
 }
 
 }  // namespace

@@ -166,48 +166,52 @@ void addValues(const FrameHealth& health, const CheckOptions& options, FindingLi
     };
     list.addWhole(FindingCode::tangentsNotFinite, health.has_not_finite ? Severity::error : Severity::warning,
                   health.not_finite,
-                  "the tangents of " + countText(health.not_finite, kVertices) + " are NaN or infinite");
+                  "black or flickering spots: the tangents of " + countText(health.not_finite, kVertices) +
+                      " are NaN or infinite");
     list.addWhole(FindingCode::tangentsNotUnit, health.has_zero ? Severity::error : severity(health.far_from_unit),
                   health.not_unit,
-                  "the tangents of " + countText(health.not_unit, kVertices) + " are not unit" +
-                      (health.has_zero ? ", some have no length at all" : "") + onSurface(health.not_unit));
+                  "the relief looks too strong or too weak: the tangents of " + countText(health.not_unit, kVertices) +
+                      " are not unit length" + (health.has_zero ? ", some have length 0" : "") +
+                      onSurface(health.not_unit));
     Tally leaning = health.not_orthogonal;
     if (health.parallel_apart) {
         list.addWhole(FindingCode::tangentsNotOrthogonal, Severity::error, health.parallel,
-                      "the tangents of " + countText(health.parallel, kVertices) +
-                          " lie along the normal, so that there is no bitangent" + onSurface(health.parallel));
+                      "the relief vanishes or turns black: the tangents of " + countText(health.parallel, kVertices) +
+                          " are parallel to the normal, so there is no bitangent" + onSurface(health.parallel));
     } else {
         leaning.include(health.parallel);
     }
     const bool is_parallel =
         !health.parallel_apart && health.parallel.surface_share >= options.error_share && health.parallel.count != 0;
-    list.addWhole(FindingCode::tangentsNotOrthogonal, is_parallel ? Severity::error : Severity::warning, leaning,
-                  "the tangents of " + countText(leaning, kVertices) +
-                      " are not perpendicular to the normal, off by up to " + decimalText(leaning.worst_deg) +
-                      " degrees" +
-                      (is_parallel ? "; " + std::to_string(health.parallel.count) + " of them lie along it" : "") +
-                      onSurface(leaning));
+    list.addWhole(
+        FindingCode::tangentsNotOrthogonal, is_parallel ? Severity::error : Severity::warning, leaning,
+        "the relief may look tilted: the tangents of " + countText(leaning, kVertices) +
+            " are not perpendicular to the normal, off by up to " + decimalText(leaning.worst_deg) + " degrees" +
+            (is_parallel ? "; " + std::to_string(health.parallel.count) + " of them are parallel to it" : "") +
+            onSurface(leaning));
     list.addWhole(FindingCode::signsNotOne, health.sign_vanishes ? Severity::error : Severity::warning,
                   health.sign_not_one,
-                  "the sign (w) of " + countText(health.sign_not_one, kVertices) + " is neither +1 nor -1");
+                  "the relief may look too strong, too weak or flat: the sign (w) of " +
+                      countText(health.sign_not_one, kVertices) + " is neither +1 nor -1");
 }
 
 void addSigns(const FrameHealth& health, FindingList& list) {
     if (health.all_signs_wrong) {
-        list.add(FindingCode::signsInverted, Severity::error, health.signs_wrong, kVertices,
-                 "every sign is inverted: w is the opposite of what the UVs ask for at " +
-                     countText(health.signs_wrong, kVertices) + ", so bumps look like dents along v");
+        list.add(
+            FindingCode::signsInverted, Severity::error, health.signs_wrong, kVertices,
+            "bumps look like dents along v: every sign is inverted, so w is the opposite of what the UVs require at " +
+                countText(health.signs_wrong, kVertices));
     } else {
         list.add(FindingCode::signsWrong, Severity::error, health.signs_wrong, kVertices,
-                 "the sign (w) of " + countText(health.signs_wrong, kVertices) +
-                     " is the opposite of what the UVs ask for" + onSurface(health.signs_wrong));
+                 "bumps look like dents in places: the sign (w) of " + countText(health.signs_wrong, kVertices) +
+                     " is the opposite of what the UVs require" + onSurface(health.signs_wrong));
     }
     list.add(FindingCode::signsMixed, Severity::error, health.signs_mixed, kTriangles,
-             "the corners of " + countText(health.signs_mixed, kTriangles) +
-                 " have different signs, and the bitangent vanishes between them" + onSurface(health.signs_mixed));
+             "dark spots inside triangles: the corners of " + countText(health.signs_mixed, kTriangles) +
+                 " have different signs, so the bitangent vanishes between them" + onSurface(health.signs_mixed));
     list.add(FindingCode::mirroredSeamAveraged, Severity::error, health.mirrored_seams, kVertices,
-             "the two sides of a mirrored seam share one tangent at " + countText(health.mirrored_seams, kVertices) +
-                 onSurface(health.mirrored_seams));
+             "a visible seam along a mirrored UV border: both sides share one tangent at " +
+                 countText(health.mirrored_seams, kVertices) + onSurface(health.mirrored_seams));
 }
 
 void addDirections(const FrameHealth& health, const CheckOptions& options, FindingList& list) {
@@ -216,16 +220,17 @@ void addDirections(const FrameHealth& health, const CheckOptions& options, Findi
         return tally.surface_share >= options.error_share ? Severity::warning : Severity::note;
     };
     list.add(FindingCode::uvSeamAveraged, severity(health.uv_seams), health.uv_seams, kVertices,
-             "the tangents of " + countText(health.uv_seams, kVertices) +
-                 " are a mean over both sides of a UV seam, and fit neither, off by up to " +
+             "a visible seam along a UV border: the tangents of " + countText(health.uv_seams, kVertices) +
+                 " are averaged over both sides and fit neither, off by up to " +
                  decimalText(health.uv_seams.worst_deg) + " degrees" + onSurface(health.uv_seams));
     list.add(FindingCode::directionsWrong, severity(health.directions_wrong), health.directions_wrong, kVertices,
-             "the tangents of " + countText(health.directions_wrong, kVertices) +
-                 " do not point where u grows, off by up to " + decimalText(health.directions_wrong.worst_deg) +
-                 " degrees" + onSurface(health.directions_wrong));
-    list.add(FindingCode::splitFramesDiffer, Severity::warning, health.frames_differ, kVertices,
-             countText(health.frames_differ, kVertices) +
-                 " are equal to another in position, normal and UV but have another tangent, which shows as an edge");
+             "the relief is lit from the wrong direction: the tangents of " +
+                 countText(health.directions_wrong, kVertices) + " do not point along increasing u, off by up to " +
+                 decimalText(health.directions_wrong.worst_deg) + " degrees" + onSurface(health.directions_wrong));
+    list.add(
+        FindingCode::splitFramesDiffer, Severity::warning, health.frames_differ, kVertices,
+        countText(health.frames_differ, kVertices) +
+            " equal another vertex in position, normal and UV but have a different tangent, which shows as an edge");
 }
 
 }  // namespace

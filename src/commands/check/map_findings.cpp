@@ -13,7 +13,7 @@ namespace tspace {
 namespace {
 
 constexpr const char* kDoubt =
-    "; but as x and y these channels are the slopes of no height, so they may be in another encoding";
+    "; but read as x and y, these channels are not the slopes of any height field, so they may use another encoding";
 
 char letterOf(const MapComponent& component) {
     constexpr const char* kPlain = "rgba";
@@ -60,65 +60,65 @@ std::string messageOf(const NamedImage& image, const MapLook& look) {
     const bool is_srgb = layout.curve == MapCurve::srgb;
     switch (look.content) {
         case MapContent::twoChannels:
-            return "the normal map " + name +
-                   " holds only x and y, in red and green: its blue is the same everywhere and says nothing of z, "
-                   "which glTF reads there" +
+            return "the relief is lit wrong: the normal map " + name +
+                   " holds only x and y, in red and green; its blue is constant, but glTF reads z there" +
                    (look.is_doubtful ? kDoubt : "");
         case MapContent::unsignedZ:
-            return "blue of the normal map " + name +
-                   " is z itself, from 0 to 1, where glTF wants (z + 1) / 2: what leans is shown leaning too far";
+            return "the relief looks too steep: blue of the normal map " + name +
+                   " stores z itself, from 0 to 1, instead of (z + 1) / 2";
         case MapContent::xInAlpha:
             if (layout.x.channel != MapChannel::alpha || layout.y.channel != MapChannel::green) {
-                return "the normal map " + name + " holds only " + axisText("x", layout.x) + " and " +
-                       axisText("y", layout.y) + ", and no z, which glTF reads in blue" +
+                return "the relief is lit wrong: the normal map " + name + " holds only " + axisText("x", layout.x) +
+                       " and " + axisText("y", layout.y) + ", and no z, which glTF reads in blue" +
                        (look.is_doubtful ? kDoubt : "");
             }
-            return "the normal map " + name +
-                   " holds x in alpha and y in green (as DXT5nm does), and no z: red and blue say nothing" +
+            return "the relief is lit wrong: the normal map " + name +
+                   " holds x in alpha and y in green (DXT5nm) and no z; red and blue are unused" +
                    (look.is_doubtful ? kDoubt : "");
         case MapContent::exchanged:
             if (layout.z == MapLayout{}.z) {
-                return "red and green of the normal map " + name +
-                       " are exchanged: its slopes are those of a height only where x is in green and y in red";
+                return "the relief is lit from the wrong direction: red and green of the normal map " + name +
+                       " are exchanged: its slopes are those of a height field only with x in green and y in red";
             }
-            return "channels of the normal map " + name + " are exchanged: it has " + axisText("x", layout.x) + ", " +
-                   axisText("y", layout.y) + " and " + axisText("z", layout.z) + ", where it points in the mean";
+            return "the relief is lit from the wrong direction: channels of the normal map " + name +
+                   " are exchanged: it has " + axisText("x", layout.x) + ", " + axisText("y", layout.y) + " and " +
+                   axisText("z", layout.z) + ", the mean direction";
         case MapContent::encoded:
-            return "the normal map " + name +
-                   " was stored as a picture: its texels are unit vectors only once the sRGB "
-                   "curve is " +
-                   (is_srgb ? "taken off (flat is about 188, not 128)" : "put on (flat is about 55, not 128)");
+            return "the relief looks tilted: the normal map " + name +
+                   " was stored as a color image: its texels are unit vectors only after the sRGB curve is " +
+                   (is_srgb ? "removed (flat is about 188, not 128)" : "applied (flat is about 55, not 128)");
         case MapContent::objectSpace:
             if (!look.follows_mesh) {
-                return "the normal map " + name +
-                       " is not in tangent space: its vectors point all around, as in object or world space" +
+                return "the model is lit wrong all over: the normal map " + name +
+                       " is not in tangent space: its vectors point in all directions, as in object or world space" +
                        (image.is_alone ? "" : ", though not along the normals of this mesh");
             }
-            return "the normal map " + name +
-                   (look.is_in_world ? " is in world space: its vectors point along the normals that nodes turn"
-                                     : " is in object space: its vectors point along the normals of the mesh") +
+            return "the model is lit wrong all over: the normal map " + name +
+                   (look.is_in_world ? " is in world space: its vectors follow the normals after node transforms"
+                                     : " is in object space: its vectors follow the normals of the mesh") +
                    (layout == MapLayout{} ? std::string()
                                           : ", with " + axisText("x", layout.x) + ", " + axisText("y", layout.y) +
                                                 " and " + axisText("z", layout.z));
         case MapContent::picture:
             if (look.is_x_lost) {
                 return name +
-                       " is no normal map that can be used: only green varies, as y of a map with x in alpha (DXT5nm) "
-                       "does, and alpha, with x, is not there";
+                       " is unusable as a normal map: only green varies, like y of a map with x in alpha (DXT5nm), and "
+                       "the alpha channel is missing";
             }
             return name +
-                   " is a picture in colors, and no normal map: its texels are no unit vectors around one that points "
-                   "out of the surface";
+                   " is a color image, not a normal map: its texels are not unit vectors around a direction out of the "
+                   "surface";
         case MapContent::hemiOctahedral:
-            return "the normal map " + name + " is hemi-octahedrally encoded: " + channelName(layout.x.channel) +
-                   " and " + channelName(layout.y.channel) +
-                   " hold x + y and x - y of (x, y, z) / (|x| + |y| + z), as their slopes show, and glTF has no such "
-                   "encoding";
+            return "the relief is lit wrong: the normal map " + name +
+                   " is hemi-octahedrally encoded: " + channelName(layout.x.channel) + " and " +
+                   channelName(layout.y.channel) +
+                   " hold x + y and x - y of (x, y, z) / (|x| + |y| + z), as their slopes show, and glTF does not have "
+                   "this encoding";
         case MapContent::normals:
         case MapContent::height:
             break;
     }
-    return name + " is grey, and no normal map: it is a height map, perhaps";
+    return name + " is gray, not a normal map; it may be a height map";
 }
 
 RemedyCommand withLayout(RemedyCommand command, const MapLayout& layout) {
@@ -140,7 +140,7 @@ Remedy inModelOrAlone(const NamedImage& image, bool flips_green, RemedyCommand c
     Remedy remedy{"Convert it: {}" + behind, {}};
     if (!image.is_alone) {
         remedy.text = "In the model: {}. The image alone: {}" + behind;
-        RemedyCommand in_model = toCommand("generate --mend-maps");
+        RemedyCommand in_model = toCommand("generate --fix-maps");
         remedy.commands.push_back(flips_green ? withOption(std::move(in_model), "flip-green") : std::move(in_model));
     }
     remedy.commands.push_back(std::move(convert));
@@ -158,26 +158,26 @@ Remedy objectSpaceRemedy(const NamedImage& image, const MapLook& look, bool gree
     };
     const RemedyCommand object = withModel(from("object")), world = withModel(from("world"));
     if (look.follows_mesh && look.is_in_world)
-        return {"Take it out of world space: {}", {withLayout(world, look.layout)}};
+        return {"Convert it from world space: {}", {withLayout(world, look.layout)}};
     if (look.follows_mesh) return inModelOrAlone(image, green_is_down, withLayout(object, look.layout));
-    const std::string text = ": {} (or --from world, where the nodes of the scene counted).";
+    const std::string text = ": {} (or --from world, if the map used the node transforms).";
     if (image.is_alone) return {"Convert it with the model that it was made for" + text, {object}};
-    return {"Find out which model it was made for" + text + " Or bake it anew.", {object}};
+    return {"Find out which model it was made for" + text + " Or bake it again.", {object}};
 }
 
 Remedy remedyOf(const NamedImage& image, const MapLook& look, bool green_is_down) {
     const RemedyCommand convert = convertCommand(image);
-    if (look.is_x_lost) return {"Export the map from its source again, with its alpha channel: x cannot be restored."};
+    if (look.is_x_lost) return {"Export the map again from its source, with its alpha channel: x cannot be restored."};
     if (look.content == MapContent::picture) return usualRemedy(FindingCode::normalMapIsPicture);
     if (look.content == MapContent::hemiOctahedral) {
         return {
-            "Decode it with the program that encoded it, and export x, y and z. No command here does that, and "
-            "reading the two channels as x and y gives another surface."};
+            "Decode it with the program that encoded it, and export x, y and z. No tspace command decodes it, and "
+            "reading the two channels as x and y gives a different surface."};
     }
     if (look.content == MapContent::height) {
         RemedyCommand command = withOption(imageCommand("height-to-normal", image), "strength", "S");
         command.placeholders.emplace_back("S");
-        return {"Make a normal map of it: {}, where S is how high white stands above black.", {std::move(command)}};
+        return {"Make a normal map from it: {}, where S is the height of white above black.", {std::move(command)}};
     }
     if (look.content == MapContent::objectSpace) return objectSpaceRemedy(image, look, green_is_down);
     if (look.is_doubtful) {
@@ -190,15 +190,15 @@ Remedy remedyOf(const NamedImage& image, const MapLook& look, bool green_is_down
     if (isTurned(look, green_is_down)) {
         const MapLayout left = layout.x.is_inverted ? layout : invertedRelief(layout);
         return {
-            "Where the image was turned by 90 degrees counterclockwise: {}. Where it was turned clockwise: {}. Slopes "
-            "do not tell the two apart: with the wrong one, bumps are dents.",
+            "If the image was rotated by 90 degrees counterclockwise: {}. If it was rotated clockwise: {}. Slopes "
+            "cannot tell the two cases apart: with the wrong one, bumps look like dents.",
             {withLayout(convert, left), withLayout(convert, invertedRelief(left))}};
     }
     if ((look.content == MapContent::exchanged && !look.is_declared) || (green_is_down && !has_own_green)) {
         // Slopes cannot tell these readings apart.
         return inModelOrAlone(image, green_is_down, withLayout(convert, layout),
-                              ". Slopes do not tell bumps from dents; if the relief is turned inside out then, convert "
-                              "the original image by {}",
+                              ". Slopes cannot tell bumps from dents; if bumps look like dents afterwards, convert the "
+                              "original image with {}",
                               withLayout(convert, invertedRelief(layout)));
     }
     RemedyCommand command = withLayout(convert, look.layout);
@@ -222,9 +222,9 @@ std::optional<Finding> contentFinding(const NamedImage& image, const MapLook& lo
     const Tally texels{.count = look.count, .total = look.total};
     std::string message = messageOf(image, look);
     if (isTurned(look, green_is_down))
-        message += ", and one of them is inverted, as in an image that was turned without its vectors";
+        message += ", and one of them is inverted, as in an image that was rotated without its vectors";
     else if (green_is_down)
-        message += "; and y is inverted besides";
+        message += "; y is inverted as well";
     Finding finding = makeFinding(codeOf(look.content), Severity::warning, texels, "texels", std::move(message));
     setRemedy(finding, remedyOf(image, look, green_is_down));
     finding.confidence = texels.share();

@@ -76,7 +76,8 @@ class GreenBlocks {
     std::uint32_t width_ = 0, height_ = 0;
     std::uint32_t columns_ = 0, rows_ = 0;
     std::vector<Block> blocks_ = {};
-    std::vector<Block> means_ = {};  ///< by squares of four texels, where single ones do not say it of the whole map
+    std::vector<Block> means_ =
+        {};  ///< means of squares of four texels, if single texels are inconclusive for the whole map
     std::uint32_t part_count_ = 0;
 };
 

@@ -64,7 +64,7 @@ void checkNormalValues(PrimitiveFacts& facts) {
     not_unit.finish(facts.surface.area);
     if (not_finite.count > 0) {
         facts.add(FindingCode::normalsNotFinite, Severity::error, not_finite, "vertices",
-                  "the normals of " + countText(not_finite, "vertices") + " are NaN or infinite");
+                  "black spots: the normals of " + countText(not_finite, "vertices") + " are NaN or infinite");
     }
     if (not_unit.count > 0) {
         // One normal without length gives NaN in shaders. With other lengths, relief is shaded steeper or flatter by readers
@@ -76,12 +76,13 @@ void checkNormalValues(PrimitiveFacts& facts) {
             lengths = " (from " + stepText(scales->least_length) + " to " + stepText(scales->most_length) + ")";
         facts.add(FindingCode::normalsNotUnit, zero_count != 0 || is_far ? Severity::error : Severity::warning,
                   not_unit, "vertices",
-                  "the normals of " + countText(not_unit, "vertices") + " do not have length 1" + lengths +
+                  "the shading may be too dark, too bright or too steep: the normals of " +
+                      countText(not_unit, "vertices") + " do not have length 1" + lengths +
                       (zero_count != 0 ? ", " + std::to_string(zero_count) + " of them length 0" : ""));
         if (zero_count != 0) {
-            setRemedy(
-                facts.findings.back(),
-                "Export the normals again, those of length 0 cannot be normalised; then compute the tangents anew.");
+            setRemedy(facts.findings.back(),
+                      "Export the normals again, because those of length 0 cannot be normalized; then recompute the "
+                      "tangents.");
         }
     }
 }
@@ -174,11 +175,11 @@ void checkWinding(PrimitiveFacts& facts, const Directions& directions) {
                               : against.surface_share >= kSomeNormals ? Severity::warning
                                                                       : Severity::note;
     facts.add(FindingCode::normalsAgainstWinding, severity, against, "triangles",
-              "the normals of " + countText(against, "triangles") + " point to the back (" +
-                  shareText(against.surface_share) + " of the surface)");
+              "parts are lit from the wrong side: the normals of " + countText(against, "triangles") +
+                  " point to the back (" + shareText(against.surface_share) + " of the surface)");
     if (areTrianglesToBlame(facts, directions, faces_against))
-        setRemedy(facts.findings.back(), {"Turn those triangles round: {}. Tangents that are there stay.",
-                                          {toCommand("generate --mend-winding")}});
+        setRemedy(facts.findings.back(), {"Reverse the winding of those triangles: {}. Existing tangents are kept.",
+                                          {toCommand("generate --fix-winding")}});
 }
 
 /// Normals smoothed over hard edges, those of a whole tree on its leaves, or those of another shape. Some are meant, so the
@@ -207,9 +208,10 @@ void checkFarNormals(PrimitiveFacts& facts, const Directions& directions) {
     far.finish(facts.surface.area);
     if (far.surface_share < kSomeFar) return;
     facts.add(FindingCode::normalsFarFromFaces, Severity::note, far, "vertices",
-              "the normals of " + countText(far, "vertices") + " are more than " + decimalText(kFarDeg) +
-                  " and up to " + decimalText(far.worst_deg) + " degrees from every triangle around them (" +
-                  shareText(far.surface_share) + " of the surface)");
+              "the shading may look bent: the normals of " + countText(far, "vertices") + " are more than " +
+                  decimalText(kFarDeg) + " and up to " + decimalText(far.worst_deg) +
+                  " degrees from the normal of every adjacent triangle (" + shareText(far.surface_share) +
+                  " of the surface)");
 }
 
 }  // namespace
@@ -223,7 +225,8 @@ void checkPositions(PrimitiveFacts& facts) {
     }
     if (bad.count == 0) return;
     facts.add(FindingCode::positionsNotFinite, Severity::error, bad, "vertices",
-              "the positions of " + countText(bad, "vertices") + " are NaN or infinite");
+              "parts of the mesh are missing or distorted: the positions of " + countText(bad, "vertices") +
+                  " are NaN or infinite");
 }
 
 /// Random offsets of positions, by the mesh alone: what the file has as normals may well be without them.
@@ -232,8 +235,8 @@ void checkNoise(PrimitiveFacts& facts) {
     if (noise == 0) return;
     Tally all{.count = facts.mesh.positions.size(), .total = facts.mesh.positions.size()};
     facts.add(FindingCode::positionsNoisy, Severity::note, all, "vertices",
-              "its positions are noisy: they lie " + stepText(noise) +
-                  " of the length of an edge beside a smooth surface, in the mean square");
+              "the shading may look noisy: the positions deviate from a smooth surface by " + stepText(noise) +
+                  " of an edge length (root mean square)");
 }
 
 namespace {
@@ -244,23 +247,20 @@ Remedy attributeRemedy(const ScenePrimitive& primitive, const SceneAttributeFaul
     const auto isFatal = [](const SceneAttributeFault& other) { return other.repair == AttributeRepair::none; };
     const std::vector<SceneAttributeFault>& faults = primitive.attribute_faults;
     if (fault.repair == AttributeRepair::none)
-        return {"Export the mesh again: no command can repair it, and commands leave this primitive as it is."};
+        return {"Export the mesh again: no command can repair this attribute, and commands skip this primitive."};
     if (std::any_of(faults.begin(), faults.end(), isFatal))
-        return {
-            "Export the mesh again: another attribute cannot be repaired, so commands leave this primitive as it "
-            "is."};
+        return {"Export the mesh again: another attribute cannot be repaired, so commands skip this primitive."};
     const RemedyCommand repair = toCommand("generate --repair");
     if (fault.repair == AttributeRepair::resize) {
         const bool is_influence = fault.name.starts_with("JOINTS_") || fault.name.starts_with("WEIGHTS_");
-        return {
-            is_influence ? "Fill the missing influences with zeros: {}." : "Keep the components that it may have: {}.",
-            {repair}};
+        return {is_influence ? "Fill the missing influences with zeros: {}." : "Drop the surplus components: {}.",
+                {repair}};
     }
     if (fault.target >= 0 && fault.name == "NORMAL" && !primitive.normals.empty())
-        return {"Export the morph target again; or make new offsets of normals: {}.",
+        return {"Export the morph target again; or compute new normal deltas: {}.",
                 {withOption(repair, "morph-normals", "missing")}};
     if (fault.target < 0 && fault.name == "NORMAL")
-        return {"Export the normals again; or make new ones: {}.", {toCommand("generate --overwrite-normals")}};
+        return {"Export the normals again; or compute new ones: {}.", {toCommand("generate --overwrite-normals")}};
     if (fault.target < 0 && std::any_of(primitive.uses.begin(), primitive.uses.end(), isNeeded))
         return {"Export the UVs again: tangents follow them."};
     return {"Export the attribute again; or remove it: {}.", {repair}};
@@ -283,8 +283,8 @@ void checkNormals(PrimitiveFacts& facts) {
     if (facts.mesh.normals.empty()) {
         Tally all{.count = facts.mesh.positions.size(), .total = facts.mesh.positions.size()};
         facts.add(FindingCode::normalsMissing, Severity::note, all, "vertices",
-                  facts.is_gltf ? "it has no normals, so it is shaded flat"
-                                : "not all faces have normals, so new ones are made for those without");
+                  facts.is_gltf ? "the surface looks faceted: it has no normals, so glTF readers shade it flat"
+                                : "not all faces have normals, so normals are computed for the others");
         return;
     }
     const std::size_t first = facts.findings.size();
@@ -295,7 +295,7 @@ void checkNormals(PrimitiveFacts& facts) {
     if (!facts.primitive.is_unlit) return;
     for (Finding& finding : std::span(facts.findings).subspan(first)) {
         finding.severity = Severity::note;
-        finding.message += "; its material is unlit, so nobody sees that";
+        finding.message += "; the material is unlit, so this is not visible";
     }
 }
 
@@ -316,8 +316,9 @@ void checkUvsMissing(PrimitiveFacts& facts) {
         if (facts.primitive.findFault(setName(use.uv_set)) != nullptr) continue;
         Tally all{.count = facts.mesh.positions.size(), .total = facts.mesh.positions.size()};
         facts.add(FindingCode::uvsMissing, Severity::error, all, "vertices",
-                  facts.is_gltf ? use.needed_by + " is read with " + setName(use.uv_set) + ", which is not there"
-                                : "the material has a normal map, but the faces have no texture coordinates");
+                  facts.is_gltf ? use.needed_by + " uses " + setName(use.uv_set) + ", which is not there"
+                                : "the relief cannot be shown: the material has a normal map, but the faces have no "
+                                  "texture coordinates");
     }
 }
 
@@ -330,7 +331,8 @@ void checkFinite(PrimitiveFacts& facts) {
     bad.finish(facts.surface.area);
     if (bad.count == 0) return;
     facts.add(FindingCode::uvsNotFinite, onShare(Severity::error, bad.surface_share, facts.options), bad, "vertices",
-              setName(facts.reading.uv_set) + " is NaN or infinite at " + countText(bad, "vertices"));
+              "the texture looks black or garbled: " + setName(facts.reading.uv_set) + " is NaN or infinite at " +
+                  countText(bad, "vertices"));
 }
 
 void checkDegenerate(PrimitiveFacts& facts) {
@@ -345,8 +347,9 @@ void checkDegenerate(PrimitiveFacts& facts) {
     if (degenerate.count == 0) return;
     const bool matters = !facts.primitive.uses.empty() && degenerate.surface_share >= kSomeUvs;
     facts.add(FindingCode::uvsDegenerate, matters ? Severity::warning : Severity::note, degenerate, "triangles",
-              countText(degenerate, "triangles") + " have no area in " + setName(facts.reading.uv_set) + " (" +
-                  shareText(degenerate.surface_share) + " of the surface), so nothing says where their tangents point");
+              (matters ? "the relief may be lit from an arbitrary direction: " : "") +
+                  countText(degenerate, "triangles") + " have no area in " + setName(facts.reading.uv_set) + " (" +
+                  shareText(degenerate.surface_share) + " of the surface), so their tangent direction is undefined");
 }
 
 }  // namespace
@@ -405,9 +408,11 @@ void checkTextures(PrimitiveFacts& facts) {
         const Tally different = compareReadings(facts, reading);
         if (different.count == 0) continue;
         const bool of_two = uses[i].material != uses[0].material;
-        facts.add(FindingCode::texturesDisagree, Severity::warning, different, "triangles",
-                  textureText(uses[i], of_two) + " needs other tangents than " + textureText(uses[0], of_two) + " on " +
-                      countText(different, "triangles") + "; tangents can follow only the second of them");
+        facts.add(
+            FindingCode::texturesDisagree, Severity::warning, different, "triangles",
+            textureText(uses[i], of_two) + " needs different tangents than " + textureText(uses[0], of_two) + " on " +
+                countText(different, "triangles") +
+                ", so one of the two is lit wrong; a vertex has only one tangent, which can follow only the latter");
         facts.findings.back().place = uses[i].place;
     }
 }
@@ -455,15 +460,15 @@ void checkRounding(PrimitiveFacts& facts) {
                       .worst_deg = turned.worst_deg,
                       .vertices = {turned.first}};
     facts.add(FindingCode::positionsRounded, Severity::warning, tally, "triangles",
-              "positions are rounded to steps of " + stepText(rounding.step) + " at up to " + stepText(rounding.far) +
-                  " from the origin, which turns " + countText(tally, "triangles") + " by " +
-                  decimalText(facts.options.direction_deg) + " degrees or more, up to " +
-                  decimalText(turned.worst_deg) + " (" + shareText(turned.share) +
-                  " of the surface); tangents are not blamed for it");
+              "tangents and normals are unreliable: positions are rounded to steps of " + stepText(rounding.step) +
+                  " at up to " + stepText(rounding.far) + " from the origin, which rotates " +
+                  countText(tally, "triangles") + " by " + decimalText(facts.options.direction_deg) +
+                  " degrees or more, up to " + decimalText(turned.worst_deg) + " (" + shareText(turned.share) +
+                  " of the surface); tangents there are not reported as wrong");
     if (rounding.was_before) {
         setRemedy(facts.findings.back(),
-                  "Take the model as it was before its positions were rounded, or round them finer, and keep the "
-                  "tangents and normals that were made then.");
+                  "Use the model from before its positions were rounded, or round them to smaller steps, and keep the "
+                  "original tangents and normals.");
     }
 }
 

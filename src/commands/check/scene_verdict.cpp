@@ -188,12 +188,12 @@ void setHow(Finding& finding, const char* name, bool flips_green = false) {
 
 /// They cancel out.
 Remedy bothOrNeither() {
-    return {"Nothing needs to be done: the two cancel out, so correct both or neither. For both: {}.",
+    return {"No action is needed: the two inversions cancel out. Correct both or neither. To correct both: {}.",
             {toCommand("generate --overwrite --flip-green")}};
 }
 
 /// The convention that is asked for has green so.
-constexpr const char* kNothingToDo = "Nothing needs to be done; a reader of plain glTF wants green to point up.";
+constexpr const char* kNothingToDo = "No action is needed; readers of plain glTF expect green to point up.";
 
 /// The signs of some meshes, but not of all, are made for that.
 Remedy signsFirst() {
@@ -256,16 +256,18 @@ void weighSigns(PrimitiveJudgement& judgement, MapsSay maps) {
     judgement.signs = maps == MapsSay::cancel ? SignVerdict::cancelled : most ? SignVerdict::open : SignVerdict::plain;
     judgement.signs_stay = most;
     if (inverted != nullptr) {
-        soften(*inverted, maps == MapsSay::cancel
-                              ? "; but green points down in its normal map too, and the two cancel out"
-                              : "; but whether green points down in its normal map too, which would cancel that out, "
-                                "could not be seen");
+        soften(
+            *inverted,
+            maps == MapsSay::cancel
+                ? "; but green points down in its normal map too, and the two inversions cancel out"
+                : "; but it is unknown whether green points down in its normal map too, which would cancel this out");
         return;
     }
     if (maps == MapsSay::cancel) {
-        soften(*wrong, "; but green points down in its normal map too, so it is those signs that render right");
+        soften(*wrong,
+               "; but green points down in its normal map too, so the inverted signs are those that render correctly");
     } else if (most) {
-        soften(*wrong, "; but whether green points down in its normal map too could not be seen");
+        soften(*wrong, "; but it is unknown whether green points down in its normal map too");
     }
 }
 
@@ -323,14 +325,15 @@ void weighImages(const Scene& scene, const CheckOptions& options, ImageFindings&
         if (finding.code != FindingCode::greenFlipped) continue;
         if (options.convention.green == Green::down) {
             finding.severity = Severity::note;
-            finding.message += "; that is what the convention wants which was asked for";
+            finding.message += "; the requested convention expects that";
             setRemedy(finding, kNothingToDo);
             continue;
         }
         if (is_cancelled[images.images[i]]) setRemedy(finding, signsFirst());
         if (!is_needed[images.images[i]]) {
             finding.severity = Severity::note;
-            finding.message += "; but the signs of its meshes are inverted too, and the two cancel out";
+            finding.message +=
+                "; but the tangent signs of its meshes are inverted too, and the two inversions cancel out";
             setRemedy(finding, bothOrNeither());
         }
         addConvention(options, finding);
@@ -342,30 +345,27 @@ void weighImages(const Scene& scene, const CheckOptions& options, ImageFindings&
 namespace {
 
 constexpr const char* kUnwrapFirst =
-    "Give the mesh the UVs that the texture is read with; without them no tangent can be computed.";
-constexpr const char* kNoUvsToFollow =
-    "Give the mesh UVs for the tangents to follow, or export the tangents that are meant.";
+    "Give the mesh the UV set that the texture uses; without it no tangent can be computed.";
+constexpr const char* kNoUvsToFollow = "Give the mesh UVs for the tangents to follow, or export the intended tangents.";
 constexpr const char* kOtherTool =
-    "Recompute them with the tool that made them. Recomputing all tangents of the file here would invert signs that "
-    "its normal maps may need as they are.";
+    "Recompute the tangents with the program that made them. Recomputing all tangents of the file here would invert "
+    "signs that its normal maps may rely on.";
 constexpr const char* kBothByHand =
-    "Nothing needs to be done: the two cancel out, so correct both or neither: negate every w, and invert the green "
+    "No action is needed: the two inversions cancel out. Correct both or neither: negate every w, and invert the green "
     "channel of the normal map.";
 constexpr const char* kLookAtTheMap =
     "Look at the normal map. If its green points up, negate every w. If it points down, do both or neither: negate "
-    "every w and invert the green channel, or leave both as they are. Where the high poly is at hand, {} says which, "
-    "in "
-    "degrees.";
+    "every w and invert the green channel, or keep both. If the high poly is available, {} measures which is right.";
 
 constexpr const char* kOnlyForItsReaders =
-    "Nothing needs to be done for programs that read the packed frames. For others take the model that they were "
-    "packed from.";
+    "No action is needed for programs that read the packed frames. For others use the model that they were packed "
+    "from.";
 constexpr const char* kAlsoForOthers =
-    "Nothing needs to be done for programs that read the packed frames. For others compute tangents too: {}.";
+    "No action is needed for programs that read the packed frames. For others compute tangents too: {}.";
 
 constexpr const char* kDrawnTangents =
-    "Mend it with the tool that made the tangents. No texture is read with them, so nothing here says where they must "
-    "point.";
+    "Repair the tangents with the program that made them. No texture uses them, so their correct direction is unknown "
+    "here.";
 
 /// Findings that computing the tangents anew mends.
 bool isOfTangents(FindingCode code) {

@@ -32,7 +32,9 @@ Container containerOf(const std::string& output, bool takes_png) {
     failEnding(output, {".ktx2", ".dds", "/ (a folder of PNGs)"});
 }
 
-[[noreturn]] void failAstcenc() { failFile(ErrorCode::outOfMemory, "the library astcenc fails to pack the levels"); }
+[[noreturn]] void failAstcenc() {
+    failFile(ErrorCode::outOfMemory, "the library astcenc fails to encode the mip levels");
+}
 
 class MapCompression {
   public:
@@ -66,19 +68,20 @@ class MapCompression {
         if (options_.roughness.empty() != options_.roughness_output.empty())
             failFile(ErrorCode::invalidOption, "roughness needs both a texture and an output");
         if (options_.sink && !options_.roughness.empty())
-            failFile(ErrorCode::invalidOption, "two outputs do not fit one stream");
+            failFile(ErrorCode::invalidOption, "two outputs cannot both go to stdout");
         if (!options_.roughness.empty()) roughness_container_ = containerOf(options_.roughness_output, true);
-        if (options_.bits != 8 && options_.bits != 16) failFile(ErrorCode::invalidOption, "a PNG has 8 or 16 bits");
+        if (options_.bits != 8 && options_.bits != 16)
+            failFile(ErrorCode::invalidOption, "a PNG has 8 or 16 bits per channel");
         if (std::optional<Error> fault = textureFault(options_, container_ == Container::dds))
             throw FileError{*std::move(fault)};
         if (options_.dds_header != DdsHeader::dx10 && container_ != Container::dds &&
             roughness_container_ != Container::dds)
-            failFile(ErrorCode::invalidOption, "the header of a DDS is for outputs that end in .dds");
+            failFile(ErrorCode::invalidOption, "--dds-header is for outputs that end in .dds");
         if (options_.zstd_level == 0) return;
-        if (options_.zstd_level > kMostZstd) failFile(ErrorCode::invalidOption, "levels of Zstandard are 1 to 22");
+        if (options_.zstd_level > kMostZstd) failFile(ErrorCode::invalidOption, "Zstandard levels are 1 to 22");
         if (const char* why_not = whyNotZstd()) failFile(ErrorCode::unsupportedFile, why_not);
         if (container_ != Container::ktx2 && roughness_container_ != Container::ktx2)
-            failFile(ErrorCode::invalidOption, "Zstandard packs a .ktx2 alone");
+            failFile(ErrorCode::invalidOption, "Zstandard supercompression is for .ktx2 only");
     }
 
     RoughnessLevel readRoughness(const FloatImage& map) {
@@ -88,7 +91,7 @@ class MapCompression {
             RoughnessLevel level{image.width, image.height, std::move(image.texels)};
             if (const std::string why = whyGridsDiffer(level, map.width, map.height); !why.empty())
                 failFile(ErrorCode::invalidOption, why);
-            if (!image.alpha.empty()) report_.warnings.emplace_back("alpha of the roughness texture is left out");
+            if (!image.alpha.empty()) report_.warnings.emplace_back("alpha of the roughness texture is ignored");
             return level;
         } catch (FileError& failure) {
             failure.error.message = "the roughness " + pathInQuotes(options_.roughness) + ": " + failure.error.message;
@@ -113,7 +116,7 @@ class MapCompression {
             bytes = ddsFileOf(texture, options_.dds_header);
         } else {
             std::optional<std::vector<std::uint8_t>> file = writeKtx2(texture, static_cast<int>(options_.zstd_level));
-            if (!file) failFile(ErrorCode::outOfMemory, "the levels cannot be packed");
+            if (!file) failFile(ErrorCode::outOfMemory, "the mip levels cannot be encoded");
             bytes = *std::move(file);
         }
         files.add(output, std::span<const std::uint8_t>(bytes));
@@ -151,8 +154,8 @@ class MapCompression {
             if (!is_folder) {
                 levels.resize(1);
                 report_.warnings.emplace_back(
-                    "a PNG has no levels, so what their normals spread is not in the roughness; "
-                    "write a .ktx2, a .dds or a folder");
+                    "a PNG has no mip levels, so the roughness does not include the spread of the normals; write a "
+                    ".ktx2, a .dds or a folder");
             }
             for (std::size_t i = 0; i < levels.size(); ++i) {
                 const FloatImage image{levels[i].width, levels[i].height, 8, levels[i].texels, {}};
@@ -198,7 +201,7 @@ std::vector<std::uint8_t> packTexture(const std::string& name, std::uint32_t wid
         texture.levels.push_back(packLevel(level, {}, parallel)->bytes);
     if (lowerExtension(name) == ".dds") return ddsFileOf(texture, header);
     std::optional<std::vector<std::uint8_t>> file = writeKtx2(texture);
-    if (!file) failFile(ErrorCode::outOfMemory, "the levels cannot be packed");
+    if (!file) failFile(ErrorCode::outOfMemory, "the mip levels cannot be encoded");
     return *std::move(file);
 }
 
@@ -223,14 +226,11 @@ constexpr Named<TextureQuality> kQualities[] = {
 
 Option formatOption(TextureFormat& format) {
     Option made = choice("--format", "FORMAT", kFormats, format,
-                         "bc5 for desktops and consoles; eac-rg11 for phones (a .ktx2); astc-4x4 for phones with x in "
-                         "red and y in alpha (a .ktx2; by the library astcenc, where it is installed); rg8 is not "
-                         "compressed.");
+                         "Texture format. bc5: desktop and consoles; eac-rg11: mobile (.ktx2 only); astc-4x4: mobile, "
+                         "with x in red and y in alpha (.ktx2 only; needs the library astcenc); rg8: uncompressed.");
     made.take = [take = made.take](const std::string& name) {
         if (name == "uastc")
-            return std::string(
-                "tspace has no encoder of UASTC that is nearer than that of basisu, which is there for "
-                "it; in a glTF, PNG and WebP without loss are exact");
+            return std::string("tspace does not encode UASTC; use basisu. In a glTF, PNG and lossless WebP are exact");
         return take(name);
     };
     return made;
@@ -244,8 +244,8 @@ Option factorOption(double& factor) {
         return std::string();
     };
     Option option = options::option("--roughness-factor", "NUMBER", take,
-                                    "The material's roughnessFactor, which becomes a part of the texture: set it to 1 "
-                                    "in the material then.");
+                                    "roughnessFactor of the material, which is multiplied into the texture; set it to "
+                                    "1 in the material afterwards.");
     option.default_text = std::string("1");  // GCC 12 warns of a literal here
     option.needs = "--roughness";
     return option;
@@ -253,14 +253,15 @@ Option factorOption(double& factor) {
 
 void addRoughness(OptionList& list, CompressMapFileOptions& options) {
     Option texture = text("--roughness", "IMAGE", options.roughness,
-                          "A texture of occlusion, roughness and metalness, as glTF has it. Its levels become wider by "
-                          "what the normals of each texel spread, so that far surfaces do not shine. Its size is that "
-                          "of the normal map, or a power of two larger or smaller.");
+                          "A glTF texture of occlusion, roughness and metalness. Its mip levels get rougher by the "
+                          "spread of the normals within each texel, so that distant surfaces do not sparkle. Its size "
+                          "is that of the normal map, or a power of two larger or smaller.");
     texture.is_file = true;
     texture.needs = "--roughness-output";
     add(list, "Roughness", texture);
-    Option output = text("-o2, --roughness-output", "OUT", options.roughness_output,
-                         "Where it goes: .ktx2, .dds, .png (the first level), or a folder of PNGs (ends in /).");
+    Option output = text(
+        "-o2, --roughness-output", "OUT", options.roughness_output,
+        "Output file of the roughness texture: .ktx2, .dds, .png (first level only), or a folder of PNGs (ends in /).");
     output.is_file = true;
     output.needs = "--roughness";
     add(list, "Roughness", output);
@@ -274,28 +275,29 @@ OptionList compressMapOptions(CompressMapFileOptions& options) {
     add(list, "Texture", formatOption(options.format));
     add(list, "Texture",
         choice("--quality", "QUALITY", kQualities, options.quality,
-               "fast: blocks with the least error as it is filtered. best: 1 % nearer, 2.5 times as long. quick: each "
-               "channel by itself, a fifth farther off, a quarter of the time."));
+               "Encoder quality. fast: minimizes the error of the filtered texture. best: 1 % less error, 2.5 times "
+               "the time. quick: each channel by itself, 20 % more error, 25 % of the time."));
     add(list, "Texture",
         flag("--signed", options.is_signed,
-             "Write numbers with a sign (SNORM). Flat parts of maps of more than 8 bits are then exact; engines must "
-             "be told."));
+             "Write signed channels (SNORM). Flat parts of maps with more than 8 bits are then exact; the engine must "
+             "expect SNORM."));
     addAlpha(list, "Texture", options.alpha);
     addDdsHeader(list, "Texture", options.dds_header);
     add(list, "Texture",
-        setting("--mips", options.levels, true, "Write all smaller levels too, each from the first. So it is anyway."));
-    Option no_levels = setting("--no-levels", options.levels, false, "Write the first level alone.");
+        setting("--mips", options.levels, true,
+                "Write all mip levels, each computed from the first. This is the default."));
+    Option no_levels = setting("--no-levels", options.levels, false, "Write only the first level.");
     no_levels.excludes = {"--mips"};
     add(list, "Texture", no_levels);
     add(list, "Texture",
         number("--zstd", options.zstd_level, 22,
-               "Pack the levels of a .ktx2 once more by Zstandard: 1 is fast, 19 small; 0: not. Blocks of fine maps "
+               "Zstandard supercompression level of a .ktx2: 1 is fast, 19 small; 0: none. Blocks of detailed maps "
                "hardly become smaller."));
-    add(list, "Texture", number("--bits", options.bits, 16, "Bits of PNGs of normals: 8 or 16."));
+    add(list, "Texture", number("--bits", options.bits, 16, "Bits per channel of PNGs of normals: 8 or 16."));
     addRoughness(list, options);
-    add(list, kInputAndOutput, flag("--dry-run", options.dry_run, "Do everything but write."));
-    addRunning(list, options.execution,
-               "Threads; 0: as many as there are cores. The output is the same for any number.", options.file);
+    add(list, kInputAndOutput, flag("--dry-run", options.dry_run, "Dry run: do everything except writing."));
+    addRunning(list, options.execution, "Number of threads; 0: one per core. Every number gives identical output.",
+               options.file);
     return list;
 }
 

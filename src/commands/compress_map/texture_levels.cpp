@@ -77,15 +77,15 @@ void addWarnings(const FloatImage& image, std::uint64_t far_off, const CompressM
     const auto warn = [&](std::string text) { report.warnings.push_back(std::move(text)); };
     const std::uint64_t total = image.texels.size();
     if (report.below_horizon > 0 && !has_three)
-        warn(std::to_string(report.below_horizon) + " texels look below the horizon, which two channels cannot say");
+        warn(std::to_string(report.below_horizon) + " texels point below the surface, which two channels cannot store");
     if (far_off > total / 10)
         warn(std::to_string(far_off) + " of " + std::to_string(total) +
-             " texels are no unit vectors: is it a normal map in tangent space?");
+             " texels are not unit vectors: is it a normal map in tangent space?");
     if (has_three) {
         if (options.format != TextureFormat::bc5 || options.is_signed)
-            warn("PNGs hold three channels, whatever format was asked for");
+            warn("PNGs have three channels, so the format is ignored");
     } else if (options.format == TextureFormat::rg8 && options.quality != TextureQuality::fast) {
-        warn("the quality does not matter for RG8, which is rounded");
+        warn("the quality has no effect on RG8, which is only rounded");
     }
 }
 
@@ -121,9 +121,9 @@ std::vector<std::uint8_t> ddsFileOf(const Texture& texture, DdsHeader header) {
 
 std::optional<Error> textureFault(const CompressMapFileOptions& options, bool is_dds) {
     if (!(options.roughness_factor >= 0 && options.roughness_factor <= 1))
-        return Error{ErrorCode::invalidOption, "the factor of roughness must be from 0 to 1"};
+        return Error{ErrorCode::invalidOption, "the roughness factor must be from 0 to 1"};
     if (options.format == TextureFormat::astc4x4) {
-        if (options.is_signed) return Error{ErrorCode::invalidOption, "ASTC has no numbers with a sign"};
+        if (options.is_signed) return Error{ErrorCode::invalidOption, "ASTC has no signed format"};
         if (const char* why_not = whyNoAstcWritten()) return Error{ErrorCode::unsupportedFile, why_not};
     }
     if (is_dds) {

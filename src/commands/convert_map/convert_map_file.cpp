@@ -95,7 +95,7 @@ MapAxes axesOf(const FloatImage& image, const Meshes& meshes, const ConvertMapFi
     if (options.axes) {
         if (from_tangent == to_tangent)
             failFile(ErrorCode::invalidOption,
-                     "axes are told for conversions between tangent space and object or world space");
+                     "--axes applies only to conversions between tangent space and object or world space");
         return *options.axes;
     }
     if (from_tangent || !to_tangent) return {};
@@ -106,8 +106,8 @@ MapAxes axesOf(const FloatImage& image, const Meshes& meshes, const ConvertMapFi
     const double up_y = agreementOf(image, *mesh, reading, {}), up_z = agreementOf(image, *mesh, reading, kMapAxesZUp);
     if (!(up_z > kFits && up_z > up_y + kBetter)) return {};
     warnings.push_back(
-        "z points up in the map, as in those of Blender, and it is read so; --axes y-up reads it by the "
-        "axes of the model");
+        "z points up in the map, as in Blender, and it was read like that; --axes y-up reads it in the axes of the "
+        "model");
     return kMapAxesZUp;
 }
 
@@ -131,27 +131,28 @@ void addMapWarnings(const ConvertMapFileOptions& options, ConvertMapFileReport& 
     const ConvertMapReport& texels = report.texels;
     const auto warn = [&](std::string text) { report.warnings.push_back(std::move(text)); };
     if (texels.is_below_half_step) {
-        warn("the change is " + angleText(texels.mean_change_deg) + " degrees in the mean, less than half a step of " +
-             std::to_string(report.bits) + " bits (" + angleText(texels.half_step_deg) +
-             " degrees): rounding undoes it" + (report.bits == 8 ? "; 16 bits keep it" : ""));
+        warn("the mean change is " + angleText(texels.mean_change_deg) +
+             " degrees, less than half a quantization step of " + std::to_string(report.bits) + " bits (" +
+             angleText(texels.half_step_deg) + " degrees): rounding cancels it" +
+             (report.bits == 8 ? "; use 16 bits to keep it" : ""));
     }
     if (texels.overlapping > 0) {
-        warn(std::to_string(texels.overlapping) + " texels are shown by several triangles; the first decides" +
+        warn(std::to_string(texels.overlapping) + " texels are shared by several triangles; the first one was used" +
              (report.from.materials.size() + report.to.materials.size() > 2 ? "; choose a material by its name" : ""));
     }
     if (texels.unmatched > 0) {
         warn(std::to_string(texels.unmatched) +
-             " texels stay as they are, since only one of the meshes has triangles there");
+             " texels are unchanged, because only one of the meshes has triangles there");
     }
     if (texels.without_frame > 0) {
         warn(std::to_string(texels.without_frame) +
-             " texels stay as they are, since their frames or values are broken");
+             " texels are unchanged, because their frames or values are invalid");
     }
     if (texels.below_horizon > 0) {
-        warn(std::to_string(texels.below_horizon) + " texels look below the horizon, which two channels cannot say");
+        warn(std::to_string(texels.below_horizon) + " texels point below the surface, which two channels cannot store");
     }
     const bool has_mesh = report.from.triangle_count + report.to.triangle_count > 0;
-    if (has_mesh && texels.converted == 0) warn("no triangle of the mesh shows the map: nothing was converted");
+    if (has_mesh && texels.converted == 0) warn("no triangle of the mesh uses the map: nothing was converted");
     if (!options.to_mesh.empty() && texels.converted > 0 && texels.changed == 0) {
         warn("both meshes have the same frames: no texel changed");
     }
@@ -164,18 +165,17 @@ void checkConversion(const ConvertMapReport& texels) {
                         wrong = texels.unmatched + texels.apart;
     if (kOneOf * wrong > shown) {
         failFile(ErrorCode::invalidFile,
-                 std::string("the models are not one surface with one UV map: of ") + std::to_string(shown) +
-                     " texels that triangles show, " + std::to_string(texels.apart) +
-                     " lie elsewhere in space on the other model, and " + std::to_string(texels.unmatched) +
-                     " are shown by none of its triangles; bake bakes from one UV map to another");
+                 std::string("the models do not have the same surface and UVs: of ") + std::to_string(shown) +
+                     " texels inside triangles, " + std::to_string(texels.apart) +
+                     " have a different position on the other model, and " + std::to_string(texels.unmatched) +
+                     " are in none of its triangles; use bake to transfer a map between different UVs");
     }
     if (kOneOfShared * texels.conflicting > texels.converted) {
-        failFile(
-            ErrorCode::invalidFile,
-            std::to_string(texels.conflicting) + " of " + std::to_string(texels.converted) +
-                " texels are shown by several triangles that look different ways, as mirrored halves do, and a map "
-                "in object or world space has one direction a texel; choose a part with --material, or give each "
-                "half texels of its own");
+        failFile(ErrorCode::invalidFile,
+                 std::to_string(texels.conflicting) + " of " + std::to_string(texels.converted) +
+                     " texels are shared by triangles that face different directions, as on mirrored halves, but a map "
+                     "in object or world space has one direction per texel; choose a part with --material, or give "
+                     "each half its own texels");
     }
 }
 
@@ -185,7 +185,7 @@ ImageFormat outputFormat(const std::string& output, const ConvertMapFileOptions&
     const bool is_tga = !options.sink && isTgaName(output);
     if (!options.sink && extension != ".png" && extension != ".exr" && !is_tga)
         failEnding(output, {".png", ".exr", ".tga", ".ktx2", ".dds"});
-    if (is_tga && options.bits > 8) failFile(ErrorCode::invalidOption, "a TGA has 8 bits");
+    if (is_tga && options.bits > 8) failFile(ErrorCode::invalidOption, "a TGA has 8 bits per channel");
     if (const char* why_not = whyNotRead(format))
         failFile(ErrorCode::unsupportedFile, "the output cannot be written: " + std::string(why_not));
     return format;
@@ -194,8 +194,8 @@ ImageFormat outputFormat(const std::string& output, const ConvertMapFileOptions&
 unsigned outputBits(ImageFormat format, unsigned bits) {
     const bool is_exr = format == ImageFormat::exr;
     if (bits == 0) return is_exr ? 32 : 16;
-    if (!is_exr && bits != 8 && bits != 16) failFile(ErrorCode::invalidOption, "a PNG has 8 or 16 bits");
-    if (is_exr && bits != 16 && bits != 32) failFile(ErrorCode::invalidOption, "an EXR has 16 or 32 bits");
+    if (!is_exr && bits != 8 && bits != 16) failFile(ErrorCode::invalidOption, "a PNG has 8 or 16 bits per channel");
+    if (is_exr && bits != 16 && bits != 32) failFile(ErrorCode::invalidOption, "an EXR has 16 or 32 bits per channel");
     return bits;
 }
 
@@ -205,7 +205,7 @@ std::vector<Vec3> applyLayout(const MapLayout& layout, FloatImage& image) {
     const bool takes_alpha = layout.x.channel == MapChannel::alpha || layout.y.channel == MapChannel::alpha ||
                              layout.z.channel == MapChannel::alpha;
     if (takes_alpha && image.alpha.empty())
-        failFile(ErrorCode::invalidOption, "a vector is to be read from alpha, which the image does not have");
+        failFile(ErrorCode::invalidOption, "a channel is read from alpha, which the image does not have");
     std::vector<Vec3> before = image.texels;
     for (std::size_t i = 0; i < before.size(); ++i)
         image.texels[i] = readTexel(before[i], image.alpha.empty() ? 1 : image.alpha[i], layout);
@@ -239,7 +239,7 @@ ConvertMapFileReport convert(const std::string& input, const std::string& output
     const ImageFormat format = is_texture ? ImageFormat::ktx2 : outputFormat(output, options);
     const bool is_tga = !options.sink && isTgaName(output);
     if (options.dds_header != DdsHeader::dx10 && (options.sink || lowerExtension(output) != ".dds"))
-        failFile(ErrorCode::invalidOption, "the header of a DDS is for outputs that end in .dds");
+        failFile(ErrorCode::invalidOption, "--dds-header is for outputs that end in .dds");
     const unsigned bits = is_texture ? 16 : outputBits(format, is_tga ? 8 : options.bits);
     FloatImage image = readMapImage(input, options.content, options.file);
     const std::string how_read = options.layout == MapLayout{} ? readTextureVectors(image) : std::string();
@@ -248,7 +248,7 @@ ConvertMapFileReport convert(const std::string& input, const std::string& output
     std::vector<float> coverage;
     if (is_texture) coverage = takeCoverage(options.alpha, image, alpha_text);
     if (!is_texture && options.alpha != MapAlpha::automatic)
-        alpha_text.emplace_back("the meaning of alpha matters only for outputs with levels (.ktx2 and .dds)");
+        alpha_text.emplace_back("the meaning of alpha applies only to outputs with mip levels (.ktx2 and .dds)");
     const Meshes meshes = readMeshes(input, options);
     const MapMesh* const from = meshes.from ? &*meshes.from : nullptr;
     const MapMesh* const to = meshes.to ? &*meshes.to : nullptr;
@@ -272,7 +272,7 @@ ConvertMapFileReport convert(const std::string& input, const std::string& output
                                             axes);
     const MapSides sides = sidesOf(meshes, options, of_triangles);
     if (is_texture && sides.to.space == MapSpace::object)
-        failFile(ErrorCode::invalidOption, "textures of two channels hold tangent space alone; write a .png or .exr");
+        failFile(ErrorCode::invalidOption, "two-channel textures hold tangent space only; write a .png or .exr");
     report.texels =
         valueOrThrow(convertMap(map, sides.from, sides.to, chosen, image.texels, options.execution, options.progress));
     checkConversion(report.texels);
@@ -281,10 +281,10 @@ ConvertMapFileReport convert(const std::string& input, const std::string& output
     report.warnings.insert(report.warnings.end(), alpha_text.begin(), alpha_text.end());
     if (image.not_finite > 0)
         report.warnings.push_back(std::to_string(image.not_finite) +
-                                  " texels of the image are not finite; they become grey, which has no direction");
+                                  " texels of the image are not finite; they become gray, which is no direction");
     addMapWarnings(options, report);
     if (is_texture) {
-        if (options.bits != 0) report.warnings.emplace_back("the number of bits does not matter for BC5");
+        if (options.bits != 0) report.warnings.emplace_back("the number of bits has no effect on BC5");
         AtomicOutput files({.is_dry_run = options.dry_run, .sync = options.file.sync, .inputs = &inputs});
         const std::vector<std::uint8_t> file = packTexture(output, image.width, image.height, image.texels,
                                                            options.execution, std::move(coverage), options.dds_header);
@@ -357,7 +357,7 @@ constexpr Named<unsigned> kBitCounts[] = {{"8", 8}, {"16", 16}, {"32", 32}};
 /// "bgr": z, y and x. A capital letter is an inverted channel. With two letters z is computed.
 std::string takeChannels(const std::string& letters, MapLayout& layout) {
     constexpr const char* kWrong =
-        "must be two or three of r, g, b and a, such as rg, ag or bgr; a capital letter stands for an inverted channel";
+        "must be two or three of r, g, b and a, such as rg, ag or bgr; a capital letter inverts a channel";
     constexpr std::string_view kLetters = "rgbaRGBAxyzwXYZW";
     if (letters.size() != 2 && letters.size() != 3) return kWrong;
     MapComponent* const components[] = {&layout.x, &layout.y, &layout.z};
@@ -376,71 +376,70 @@ OptionList convertMapOptions(ConvertMapFileOptions& options) {
     OptionList list;
     add(list, kInputAndOutput,
         text("--mesh", "FILE", options.mesh,
-             "The model that the map was made for. Its own tangents count; where it has none they are made."))
+             "The model that the map was made for. Its tangents are used; missing ones are computed."))
         .is_file = true;
     add(list, kInputAndOutput,
         text("--to-mesh", "FILE", options.to_mesh,
-             "The model that the map is to be shown on: the same surface and UVs, other tangents, normals, splits or "
-             "triangles. Default: that of --mesh."))
+             "The model that will show the map: same surface and UVs, other tangents, normals, splits or "
+             "triangulation. Default: the model of --mesh."))
         .is_file = true;
     addMaterialOfMap(list, options.material);
     add(list, kInputAndOutput,
         number("--tile", options.tile, 9999,
-               "Takes the triangles of this UDIM tile, whose file the map is: 1001 and on. 0: all."));
-    add(list, kInputAndOutput, flag("--dry-run", options.dry_run, "Do everything but write."));
+               "Use only the triangles of this UDIM tile (1001, ...), whose file the map is. 0: all."));
+    add(list, kInputAndOutput, flag("--dry-run", options.dry_run, "Dry run: do everything except writing."));
     addAllowExternal(list, options.file);
     const char* group = "Map";
     add(list, group,
         choice("--from", "SPACE", kSpaces, options.from,
-               "What the map's vectors are told in. object: the coordinates of the mesh; world: those of the scene, as "
-               "the mesh's node turns it."));
-    add(list, group, choice("--to", "SPACE", kSpaces, options.to, "What those of the output are to be told in."));
+               "Space of the input vectors. object: the coordinates of the mesh; world: those of the scene, after the "
+               "node's transform."));
+    add(list, group, choice("--to", "SPACE", kSpaces, options.to, "Space of the output vectors."));
     add(list, group, axesOption([&options](const MapAxes& axes) { options.axes = axes; }));
-    add(list, group,
-        readingOption("--from-convention", options.from_reading, "The program that the map was made for."));
-    add(list, group, readingOption("--to-convention", options.to_reading, "The program that will show the output."));
+    add(list, group, readingOption("--from-convention", options.from_reading, "Program that the map was made for."));
+    add(list, group, readingOption("--to-convention", options.to_reading, "Program that will show the output."));
     add(list, group,
         choice("--from-bitangent", "WHERE", kBitangents, options.from_reading.bitangent,
-               "Where that program computes bitangents. Default: as its convention says; pixel for gltf."))
+               "Where that program computes bitangents: per vertex or per pixel. Default: as its convention does; "
+               "pixel for gltf."))
         .default_text.clear();
     add(list, group,
-        choice("--to-bitangent", "WHERE", kBitangents, options.to_reading.bitangent, "Where the other one does."))
+        choice("--to-bitangent", "WHERE", kBitangents, options.to_reading.bitangent,
+               "Where the target program computes bitangents: per vertex or per pixel."))
         .default_text.clear();
     add(list, group,
         option(
             "--channels", "LETTERS",
             [&options](const std::string& value) { return takeChannels(value, options.layout); },
-            "The channels of IN that x, y and z are in: bgr for red and blue exchanged. Of two letters z is made of x "
-            "and y: rg for maps whose blue says nothing, ag for DXT5nm. A capital letter stands for an inverted "
+            "Channels of IN that hold x, y and z: bgr if red and blue are exchanged. With two letters z is "
+            "reconstructed from x and y: rg for maps whose blue is unused, ag for DXT5nm. A capital letter inverts a "
             "channel. Default: rgb."));
     add(list, group,
         setting("--srgb", options.layout.curve, MapCurve::srgb,
-                "The values of IN were stored as colors, with the sRGB curve; it is taken off."));
+                "Undo an sRGB encoding: the values of IN were stored as colors, with the sRGB curve."));
     add(list, group,
         setting("--linearised", options.layout.curve, MapCurve::linearised,
-                "The values of IN were taken for colors, and their sRGB curve taken off; it is put on again."))
+                "Reapply the sRGB curve: the values of IN were decoded as sRGB by mistake."))
         .excludes = {"--srgb"};
     add(list, group,
         option(
             "--flip-red", "", [](const std::string&) { return std::string(); },
-            "Red of the output points the other way: for maps whose x was inverted."));
+            "Invert red of the output: for maps with inverted x."));
     add(list, group,
         option(
             "--flip-green", "", [](const std::string&) { return std::string(); },
-            "Green of the output points the other way than --to-convention says."));
+            "Invert green of the output relative to --to-convention."));
     add(list, group,
-        choice(
-            "--bits", "BITS", kBitCounts, options.bits,
-            "Of a channel of the output: 8 or 16 in a PNG; 16 (half) or 32 (float) in an EXR. Default: the most that "
-            "the format has."));
+        choice("--bits", "BITS", kBitCounts, options.bits,
+               "Bits per channel of the output: 8 or 16 in a PNG; 16 (half) or 32 (float) in an EXR. Default: the most "
+               "that the format supports."));
     addLengths(list, group, options.lengths);
     addAlpha(list, group, options.alpha);
     addDdsHeader(list, group, options.dds_header);
     add(list, group,
-        number(
-            "--padding", options.padding, 65536,
-            "Texels around the triangles that are converted as well. 0: those that filtering reads. All further ones "
-            "are background and stay as they are."));
+        number("--padding", options.padding, 65536,
+               "Padding: texels around UV islands that are converted too. 0: only those that filtering reads. Texels "
+               "further away are background and stay unchanged."));
     addMakingAnImage(list, group, options.tangents.method, options.execution, options.file);
     return list;
 }
@@ -460,12 +459,12 @@ std::string finish(const Given& given, ConvertMapFileOptions& options) {
     }
     const bool same_kind = options.from == options.to;
     if (!same_kind && options.mesh.empty() && options.to_mesh.empty()) {
-        return "from one space to another takes the frames of a model: --mesh";
+        return "converting between spaces needs the frames of a model: --mesh";
     }
     const bool same_frames = options.from_reading.bitangent == options.to_reading.bitangent &&
                              options.from_reading.unit_vectors == options.to_reading.unit_vectors;
     if (options.from == MapFileSpace::tangent && same_kind && !same_frames && options.mesh.empty()) {
-        return "these conventions interpolate frames in different ways, so the frames of a model are needed: --mesh";
+        return "these conventions interpolate frames differently, so the frames of a model are needed: --mesh";
     }
     return {};
 }

@@ -20,17 +20,17 @@ std::string convertMapText(const Outcome<ConvertMapFileReport>& outcome, const C
     const ConvertMapFileReport& done = *outcome.result;
     const ConvertMapReport& texels = done.texels;
     Table table;
-    table.addRow({"image", fmt::format("{} x {}, {} bits a channel, from {}", done.width, done.height, done.bits,
+    table.addRow({"image", fmt::format("{} x {}, {} bits per channel, from {}", done.width, done.height, done.bits,
                                        done.bits_before)});
     if (done.from.triangle_count > 0) table.addRow({"from", meshText(options.mesh, done.from)});
     if (done.to.triangle_count > 0) {
         table.addRow({"to", meshText(options.to_mesh.empty() ? options.mesh : options.to_mesh, done.to)});
     }
-    table.addRow({"texels", fmt::format("{} changed, {} of those shown stay, {} are background", texels.changed,
+    table.addRow({"texels", fmt::format("{} changed, {} unchanged inside triangles, {} background", texels.changed,
                                         texels.converted - texels.changed + texels.without_frame + texels.unmatched,
                                         texels.background)});
-    table.addRow({"change", fmt::format("{:.3g} degrees in the mean, {:.3g} at most", texels.mean_change_deg,
-                                        texels.max_change_deg)});
+    table.addRow(
+        {"change", fmt::format("mean {:.3g} degrees, maximum {:.3g}", texels.mean_change_deg, texels.max_change_deg)});
     for (const std::string& warning : done.warnings) table.addRow({"warning", printable(warning)});
     return fmt::format("{} -> {}{}\n{}", unbroken(outcome.input), unbroken(outcome.output),
                        outcome.is_dry_run ? " (not written)" : "", table.text("  "));

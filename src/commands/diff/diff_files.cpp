@@ -270,11 +270,10 @@ OptionList diffOptions(DiffRequest& request) {
     const char* group = "Comparing";
     addAllowExternal(list, request.options.file);
     add(list, group,
-        degrees(
-            "--tolerance", request.tolerance_deg, 180,
-            "Exit with 1 when an angle is above this, a sign differs, or a triangle has no partner. In degrees, 0 to "
-            "180."));
-    add(list, group, number("--worst", request.options.worst_count, 10000, "How many of the worst places are listed."));
+        degrees("--tolerance", request.tolerance_deg, 180,
+                "Exit with code 1 if an angle exceeds this tolerance, a sign differs, or a triangle has no match. In "
+                "degrees, 0 to 180."));
+    add(list, group, number("--worst", request.options.worst_count, 10000, "Number of worst places to list."));
     addLimits(list, request.options.file);
     return list;
 }
@@ -284,9 +283,8 @@ OptionList identifyOptions(IdentifyOptions& options) {
     addAllowExternal(list, options.file);
     add(list, "Comparing",
         degrees("--tolerance", options.tolerance_deg, 180,
-                "Tangents nearer than this count as the same. In degrees, 0 to 180."));
-    addThreads(list, options.execution,
-               "Number of threads; 0: as many as there are cores. Changes no bit of the result.");
+                "Tangents that differ by less than this count as equal. In degrees, 0 to 180."));
+    addThreads(list, options.execution, "Number of threads; 0: one per core. Every number gives identical results.");
     addLimits(list, options.file);
     return list;
 }
@@ -300,7 +298,7 @@ OptionList inspectOptions(FileOptions& options) {
 
 OptionList flipGreenOptions(FlipGreenOptions& options) {
     OptionList list;
-    add(list, kInputAndOutput, flag("--dry-run", options.dry_run, "Do everything but write."));
+    add(list, kInputAndOutput, flag("--dry-run", options.dry_run, "Dry run: do everything except writing."));
     addMemoryLimit(list, options.memory_limit_bytes);
     addSync(list, options.sync);
     return list;

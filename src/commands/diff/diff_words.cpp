@@ -28,21 +28,21 @@ std::string notReadText(const std::string& a, const std::string& b, const FrameD
     const bool in_a = any(&PrimitiveDiff::tangents_not_read_a), in_b = any(&PrimitiveDiff::tangents_not_read_b);
     if (!in_a && !in_b) return "";
     const std::string files = in_a && in_b ? "either file" : in_a ? a : b;
-    return "the tangents of " + files + ", if it has any, were not read: the importer cannot give them";
+    return "the tangents of " + files + ", if any, were not read: the importer cannot read them from this format";
 }
 
 void addSentences(const std::string& a, const std::string& b, const FrameDiff& diff, DiffWords& words) {
     words.summary = a + " against " + b + ": ";
     const std::string not_read = notReadText(a, b, diff);
     if (diff.corner_count == 0) {
-        words.summary += "no triangle of one is in the other";
+        words.summary += "no triangle of one model matches a triangle of the other";
     } else if (diff.tangents.count + diff.tangents.unusable_count == 0) {
         words.summary += not_read.empty() ? "no primitive has tangents in both" : not_read;
     } else if (diff.isWithin(0)) {
         words.summary += "equal frames at all " + counted(diff.corner_count, "corner");
     } else {
-        words.summary += "tangents differ by " + degrees(diff.tangents.median_deg) +
-                         " degrees at half of the corners, " + degrees(diff.tangents.max_deg) + " at most";
+        words.summary += "tangents differ by " + degrees(diff.tangents.median_deg) + " degrees at the median corner, " +
+                         degrees(diff.tangents.max_deg) + " at most";
         if (diff.sign_change_count != 0) {
             words.summary += "; " + std::to_string(diff.sign_change_count) + " of " +
                              std::to_string(diff.tangents.count) + " signs differ";
@@ -50,7 +50,7 @@ void addSentences(const std::string& a, const std::string& b, const FrameDiff& d
         if (!not_read.empty()) words.remarks.push_back(not_read);
     }
     if (diff.unpaired_triangle_count != 0)
-        words.remarks.push_back(counted(diff.unpaired_triangle_count, "triangle") + " without a partner");
+        words.remarks.push_back(counted(diff.unpaired_triangle_count, "triangle") + " without a match");
     if (diff.missing_count != 0 && not_read.empty())
         words.remarks.push_back(counted(diff.missing_count, "primitive") + " with tangents in one file only");
     for (const std::string& warning : diff.warnings) words.remarks.push_back("warning: " + warning);

@@ -24,8 +24,8 @@
 namespace tspace {
 namespace {
 
-/// What makes UVs, which tspace does not.
-constexpr const char* kUvMakers = "unwrapping makes them (Blender's Smart UV Project, xatlas, RizomUV)";
+/// Tools that make UVs, which tspace does not.
+constexpr const char* kUvMakers = "unwrapping tools make them (Blender's Smart UV Project, xatlas, RizomUV)";
 
 /// A name that says GLB, for bytes that are one.
 std::string glbName(const std::string& path) { return isGlbName(path) ? path : path + ".glb"; }
@@ -285,20 +285,20 @@ class Finishing {
     void checkLow() const {
         if (report_.low->without_uvs_count < report_.low->made.primitives.size()) return;
         throw FileError{{.code = ErrorCode::missingAttribute,
-                         .message = std::string("the low poly has no UVs, and so no maps: ") + kUvMakers,
+                         .message = std::string("the low poly has no UVs, so no maps were baked: ") + kUvMakers,
                          .element = static_cast<std::uint64_t>(BakeInput::low)}};
     }
 
     void sayWhatIsLeft(const FinishedModel& model) {
         if (model.left_winding_count != 0)
-            report_.remarks.push_back(report::counted(model.left_winding_count, "triangle") +
-                                      " would be turned by --normals all alone: the normals that are there fit the "
-                                      "triangles as they are");
+            report_.remarks.push_back(
+                report::counted(model.left_winding_count, "triangle") +
+                " would be reversed by --normals all: the existing normals fit the current winding");
         if (model.without_uvs_count == 0) return;
         const std::string which = model.without_uvs_count == 1
                                       ? "1 primitive has"
                                       : std::to_string(model.without_uvs_count) + " primitives have";
-        report_.remarks.push_back(which + " no UVs, and so no tangents and no maps: " + kUvMakers);
+        report_.remarks.push_back(which + " no UVs, so no tangents and no maps were made: " + kUvMakers);
     }
 
     /// The bake would name an option of its own.
@@ -311,8 +311,8 @@ class Finishing {
                                           [](const PrimitiveReport& primitive) { return primitive.normals.noise > 0; });
         if (is_noisy && !any_made)
             report_.remarks.emplace_back(
-                "the positions of the high poly are noisy, and its normals stay as they are: where they show that, "
-                "--normals all makes some without it");
+                "the positions of the high poly are noisy, and its normals are kept: if they show the noise, use "
+                "--normals all");
     }
 
     /// The model with its maps; the maps go to the outputs.
@@ -411,23 +411,23 @@ std::vector<std::string> doneTo(const FinishedModel& model) {
     std::vector<std::string> done;
     if (turned != 0) done.push_back(std::to_string(turned) + " of " + counted(faces, "triangle") + " turned");
     if (totals.normals_generated != 0) {
-        std::string text = "normals made for " + std::to_string(totals.normals_generated) + " of " +
+        std::string text = "normals computed for " + std::to_string(totals.normals_generated) + " of " +
                            counted(totals.primitive_count, "primitive");
-        if (totals.normals_replaced != 0)
-            text += ", in place of old ones for " + std::to_string(totals.normals_replaced);
+        if (totals.normals_replaced != 0) text += ", replacing old ones for " + std::to_string(totals.normals_replaced);
         if (hard_count != 0)
             text += ", hard at edges sharper than " + shortNumber(least) +
                     (most > least ? " to " + shortNumber(most) : std::string()) + " degrees";
-        if (noise > 0) text += ", without the noise of positions, which is " + shortNumber(noise) + " of an edge";
+        if (noise > 0)
+            text += ", without the noise of positions, which is " + shortNumber(noise) + " of an edge length";
         done.push_back(text);
     }
     if (totals.morph_normals_computed != 0)
-        done.push_back("normals of " + counted(totals.morph_normals_computed, "morph target") + " made");
+        done.push_back("normals of " + counted(totals.morph_normals_computed, "morph target") + " recomputed");
     const std::uint64_t made = totals.actions[static_cast<std::size_t>(PrimitiveAction::generated)],
                         anew = totals.actions[static_cast<std::size_t>(PrimitiveAction::replaced)];
-    if (made != 0) done.push_back("tangents made for " + counted(made, "primitive"));
-    if (anew != 0) done.push_back("tangents mended or made anew for " + counted(anew, "primitive"));
-    if (done.empty()) done.emplace_back(model.made.changed ? "only the format was changed" : "nothing had to be done");
+    if (made != 0) done.push_back("tangents computed for " + counted(made, "primitive"));
+    if (anew != 0) done.push_back("tangents repaired or recomputed for " + counted(anew, "primitive"));
+    if (done.empty()) done.emplace_back(model.made.changed ? "only the format was changed" : "no changes were needed");
     return done;
 }
 

@@ -39,42 +39,40 @@ constexpr std::string_view kBakes[] = {"--match",
 OptionList finishOptions(FinishOptions& options) {
     OptionList list;
     Option low = text("--low", "LOW", options.low,
-                      "A low poly of the same shape, in the same place, with UVs: it is finished too, all maps are "
-                      "baked onto it from IN, and OUT is this one, with its maps.");
+                      "A low poly of the same shape, in the same place, with UVs. It is finished too, all maps are "
+                      "baked onto it from IN, and OUT is the low poly with its maps.");
     low.is_file = true;
     add(list, kInputAndOutput, std::move(low));
     addAllowExternal(list, options.file);
     addKeepCoordinates(list, options.file);
     add(list, "Normals",
         choice("--normals", "WHICH", kFinishNormals, options.normals,
-               "Which normals are made, by the weights of best. missing: where there are none, and where check calls "
-               "those that are there an error; all: everywhere; none: none, but those that tangents need."));
+               "Normals to recompute, with the weights of best. missing: those that are missing or that check "
+               "reports as errors; all: every normal; none: only those that tangents require."));
     add(list, "Normals",
         numberOrAuto("--crease", "DEG", "a number of degrees", options.crease_angle_deg, NormalOptions::crease_auto,
                      180,
-                     "For normals of IN that are made: edges sharper than this stay hard. In degrees, 0 to 180; 180 "
-                     "makes none hard. auto: an angle by the mesh, which the report says."));
+                     "Crease angle for recomputed normals of IN: sharper edges stay hard. In degrees, 0 to 180; 180: "
+                     "no hard edges. auto: an angle chosen per mesh, which the report states."));
     add(list, "Normals",
-        numberOrAuto("--denoise", "FACTOR", "a number", options.denoise, NormalOptions::denoise_auto, 4,
-                     "For normals that are made on noisy positions, such as scans: by more of the surface around. "
-                     "auto: as much as is measured, and nothing where that is shape; 0 to 4: so many times the noise "
-                     "that is measured."));
+        numberOrAuto(
+            "--denoise", "FACTOR", "a number", options.denoise, NormalOptions::denoise_auto, 4,
+            "Denoising for recomputed normals on noisy positions, such as scans: uses a larger neighborhood. auto: as "
+            "much as is measured, and none where that is shape; 0 to 4: this multiple of the measured noise."));
     add(list, "Normals",
         numberOrAuto("--weld-distance", "DISTANCE", "a distance", options.weld_distance, NormalOptions::weld_auto,
                      1000000000,
-                     "Positions that differ by no more than this in each coordinate are one, where normals "
-                     "are made, triangles turned and borders compared, in the unit of positions before "
-                     "nodes move them. 0: only equal ones are. auto: twice the spacing of floats at the largest "
-                     "coordinate of the mesh. Tangents are computed on positions as they are."));
+                     "Weld distance, in the unit of positions before node transforms: positions that differ by at most "
+                     "this in each coordinate count as one when normals are computed, triangles are turned and borders "
+                     "are compared. 0: only equal positions. auto: twice the float spacing at the largest coordinate "
+                     "of the mesh. Tangents are always computed on the unwelded positions."));
     add(list, "Repair",
-        setting(
-            "--keep-winding", options.mend_winding, false,
-            "Leave triangles that are wound against their neighbours, and parts that are inside out, as they are."));
+        setting("--keep-winding", options.mend_winding, false,
+                "Keep the winding of triangles that disagree with their neighbors, and of parts that are inside out."));
     add(list, "Repair",
         setting("--no-images", options.images, false,
-                "Do not read the pixels of normal maps. Inverted signs of tangents then stay, since the maps may be "
-                "inverted "
-                "too."));
+                "Do not read the pixels of normal maps. Inverted tangent signs are then kept, since the maps may be "
+                "inverted too."));
     for (Option& option : bakeOptions(options.bake)) {
         if (std::find(std::begin(kBakes), std::end(kBakes), option.name()) == std::end(kBakes)) continue;
         option.needs = "--low";
@@ -82,13 +80,12 @@ OptionList finishOptions(FinishOptions& options) {
         if (option.name() == "--high-green") option.excludes = {"--ignore-high-maps"};
         list.push_back(std::move(option));
     }
-    addRunning(list, options.execution,
-               "Number of threads; 0: as many as there are cores. Changes no bit of the result.", options.file);
+    addRunning(list, options.execution, "Number of threads; 0: one per core. Every number gives identical output.",
+               options.file);
     add(list, kReporting,
         htmlOutput(
             "--html", "PAGE", options.page,
-            "Also write a page for people, with pictures before and after, and what check finds. It needs no other "
-            "file."));
+            "Also write a self-contained HTML report with pictures before and after and the findings of check."));
     return list;
 }
 

@@ -34,7 +34,7 @@ std::string viewsHtml(const std::string& path, const FileOptions& file, const st
         };
         add(RenderShow::lit, kYawDeg, "lit");
         add(RenderShow::lit, kBehindDeg, "lit, from behind");
-        add(RenderShow::mapped, kYawDeg, "the normals that are shaded, as colours");
+        add(RenderShow::mapped, kYawDeg, "the shaded normals, as colors");
     });
     if (failure) figures += noFigureHtml("No picture: " + failure->message + ".");
     return figuresHtml(figures);
@@ -71,14 +71,13 @@ std::string mapsHtml(const BakeFileReport& bake) {
             const auto hundredths = static_cast<std::uint64_t>(map.map.error.mean_deg * 100 + 0.5);
             const std::string digits = std::to_string(100 + hundredths % 100).substr(1);
             add("normal", map.path,
-                size + ", error " + std::to_string(hundredths / 100) + "." + digits + " degrees in the mean");
+                size + ", error " + std::to_string(hundredths / 100) + "." + digits + " degrees on average");
         }
         for (const BakedLayerFile& layer : map.layers) add(layerName(layer.layer), layer.path, size);
     }
     return "<h2>Maps</h2>\n" + std::string(kWideTable) +
-           "<thead><tr><th>file</th><th>what</th><th></th></tr></thead>"
-           "<tbody>\n" +
-           rows + "</tbody></table></div>\n";
+           "<thead><tr><th>file</th><th>content</th><th></th></tr></thead><tbody>\n" + rows +
+           "</tbody></table></div>\n";
 }
 
 }  // namespace
@@ -89,7 +88,7 @@ std::string finishPage(const FinishReport& report, const std::string& output_pat
     finished.content = output;
     std::string html = pageHead("tspace finish");
     html += "<h1>" + htmlText(output_path) + "</h1>\n" + originHtml(origin) +
-            "<p class=\"dim\">What is right stays as it was; tspace check says what is not.</p>\n";
+            "<p class=\"dim\">Correct data are preserved; tspace check lists what is wrong.</p>\n";
     html += kWideTable;
     html +=
         "<thead><tr><th>model</th><th class=\"n\">errors</th><th class=\"n\">warnings</th>"

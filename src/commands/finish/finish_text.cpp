@@ -25,7 +25,7 @@ void addErrors(const CheckReport& check, Table& table) {
         table.addRow({"", printable(finding.remedy)});
     }
     if (count > kMostErrors)
-        table.addRow({"", fmt::format("{} (--json has all)", counted(count - kMostErrors, "more error"))});
+        table.addRow({"", fmt::format("{} (--json lists all)", counted(count - kMostErrors, "more error"))});
 }
 
 }  // namespace

@@ -27,7 +27,7 @@ void checkWork(ByteSpan bytes, std::uint64_t memory_limit_bytes) {
     const std::uint64_t unpacked = flipUnpackedBytes(bytes);
     if (unpacked <= kTimesMemory * memory) return;
     const auto megabytes = [](std::uint64_t count) { return std::to_string(count >> 20) + " MB"; };
-    failFile(ErrorCode::tooLarge, "it claims to unpack to " + megabytes(unpacked) + ", and " +
+    failFile(ErrorCode::tooLarge, "its claimed uncompressed size is " + megabytes(unpacked) + ", and " +
                                       (memory_limit_bytes != 0 ? "--memory-limit" : "a file of its size") + " allows " +
                                       megabytes(kTimesMemory * memory) +
                                       (memory_limit_bytes != 0 ? "" : " (--memory-limit allows more)"));

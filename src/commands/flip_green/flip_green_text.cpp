@@ -10,10 +10,10 @@ namespace tspace::report {
 std::string flipGreenText(const Outcome<FlipGreenReport>& outcome) {
     const FlipGreenReport& done = *outcome.result;
     Table table;
-    table.addRow({"image", fmt::format("{}, {} x {}, {} bits a channel", imageFormatName(done.format), done.width,
+    table.addRow({"image", fmt::format("{}, {} x {}, {} bits per channel", imageFormatName(done.format), done.width,
                                        done.height, done.bits)});
     table.addRow({"green", done.is_exact                          ? "inverted exactly"
-                           : done.format == ImageFileFormat::jpeg ? "inverted, and compressed once more"
+                           : done.format == ImageFileFormat::jpeg ? "inverted, and recompressed"
                                                                   : "inverted, and rounded"});
     for (const std::string& warning : done.warnings) table.addRow({"warning", printable(warning)});
     return fmt::format("{} -> {}{}\n{}", unbroken(outcome.input), unbroken(outcome.output),

@@ -32,9 +32,9 @@ void noteUnreadableTangents(std::span<const Primitive> primitives, std::span<Pri
     for (std::size_t i = 0; i < primitives.size(); ++i) {
         for (const UnreadableTangents& tangents : primitives[i].unreadable_tangents) {
             const bool is_base = tangents.target < 0;
-            reports[i].notes.push_back((is_base ? "its tangents were wrong: "
-                                                : "what morph target " + std::to_string(tangents.target) +
-                                                      " added to its tangents was wrong: ") +
+            reports[i].notes.push_back((is_base ? "its old tangents were invalid: "
+                                                : "the old tangent deltas of morph target " +
+                                                      std::to_string(tangents.target) + " were invalid: ") +
                                        tangents.why);
             if (is_base && reports[i].action == PrimitiveAction::generated)
                 reports[i].action = PrimitiveAction::replaced;
@@ -169,10 +169,10 @@ bool anyHasTangents(const Primitive& primitive) {
 std::string morphNormalsNote(const PoolPlan& pool, const PoolElements& elements, const Primitive& primitive,
                              std::uint32_t count) {
     if (count == 0) return {};
-    std::string note = "what " + std::to_string(count) + (count == 1 ? " morph target adds" : " morph targets add") +
-                       " to its normals was computed";
+    std::string note = "what " + std::to_string(count) + (count == 1 ? " morph target got" : " morph targets got") +
+                       " computed normal deltas";
     const bool left = !elements.has_tangent_deltas || (pool.mendsTangents() && elements.differing_count != 0);
-    if (left && anyHasTangents(primitive)) note += "; what they add to tangents stays, and may not fit it";
+    if (left && anyHasTangents(primitive)) note += "; existing tangent deltas are kept and may not fit them";
     return note;
 }
 
@@ -189,8 +189,8 @@ void carryNumbers(std::span<const Primitive> primitives, const PoolPlan& pool, c
 std::string keptNote(const PoolElements& elements, const Primitive& primitive) {
     if (!elements.has_tangent_deltas) {
         if (!lacksDeltas(primitive)) return {};
-        return "; its morph targets lack tangent deltas and get none, because its tangents are not those that would be "
-               "computed (" +
+        return "; its morph targets lack tangent deltas, and none are added, because its tangents differ from the "
+               "computed ones (" +
                std::to_string(elements.differing_count) + " corners differ)";
     }
     if (!lacksDeltas(primitive)) return {};

@@ -159,14 +159,12 @@ std::string warnOfRounding(const PoolView& vertices, std::span<const PrimitiveGe
         return std::string(!vertices.normals.empty() ? "tangents"
                            : vertices.makes_tangents ? "normals and tangents"
                                                      : "normals") +
-               " were made over positions that are rounded too coarsely for it: " +
+               " were computed from positions that are rounded too coarsely: " +
                (rounding.was_before
-                    ? "their steps are so wide that triangles may be turned by over 10 degrees. Take the model as it "
-                      "was "
-                      "before it was rounded, or keep the tangents and normals that were made then"
-                    : "at their distance from the origin floats are so far apart that triangles may be turned by over "
-                      "10 "
-                      "degrees. Store positions relative to a point near the mesh, and put that point into the node");
+                    ? "the rounding steps may rotate triangles by more than 10 degrees. Use the model from before it "
+                      "was rounded, or keep its original tangents and normals"
+                    : "at their distance from the origin the float spacing may rotate triangles by more than 10 "
+                      "degrees. Store positions relative to a point near the mesh, and move the node to that point");
     }
     return {};
 }
@@ -353,8 +351,8 @@ PoolElements PoolComputer::computeOne(const PoolPlan& pool, const Execution& exe
         for (Vec4& tangent : frames.tangents) tangent.w = -tangent.w;
         for (const std::size_t number : pool.primitives) {
             reports[number].notes.emplace_back(
-                "most signs of its tangents were inverted, and all are now: its normal map may be made for that "
-                "(--overwrite makes them those of the UVs)");
+                "most tangent signs of the file were inverted, so all new ones are inverted too: its normal map may "
+                "rely on that (--overwrite writes the signs of the UVs)");
         }
     }
     PoolElements elements = packFrames(document_, primitives_, pool, std::move(frames),

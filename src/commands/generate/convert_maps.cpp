@@ -86,18 +86,19 @@ struct NewMap {
 void tellWhatIsLeft(const ConvertMapReport& texels, ConvertedMapReport& report) {
     const std::string bits = std::to_string(report.bits) + " bits";
     if (texels.is_below_half_step) {
-        report.notes.push_back("The change is " + degreesText(texels.mean_change_deg) +
-                               " in the mean, less than half a step of " + bits + " (" +
-                               degreesText(texels.half_step_deg) + "), so the map may as well stay; converted, " +
-                               degreesText(report.mean_error_deg) + " are left of it.");
+        report.notes.push_back("The mean change is " + degreesText(texels.mean_change_deg) +
+                               ", less than half a quantization step of " + bits + " (" +
+                               degreesText(texels.half_step_deg) +
+                               "), so the map could stay unchanged; the converted map has a remaining error of " +
+                               degreesText(report.mean_error_deg) + ".");
     }
     if (texels.overlapping > 0) {
         report.notes.push_back(std::to_string(texels.overlapping) +
-                               " texels are shown by several triangles of a primitive; the first decides.");
+                               " texels are shared by several triangles of a primitive; the first triangle was used.");
     }
     if (texels.without_frame > 0) {
         report.notes.push_back(std::to_string(texels.without_frame) +
-                               " texels stay as they are, since their old or new frames are broken.");
+                               " texels are unchanged, because their old or new frames are invalid.");
     }
 }
 
@@ -113,7 +114,7 @@ NewMap convertFor(const MapGroup& group, const FloatImage& image, const Generate
     const TangentUse& use = *group.front()->user.use;
     const double scale = use.scale;
     if (static_cast<float>(scale) == 0) {
-        report.reason = "its scale is 0, so nothing of it shows";
+        report.reason = "its scale is 0, so it has no visible effect";
         return made;
     }
     const OwnedMesh from = joinedSide(group, &ShownMap::from), to = joinedSide(group, &ShownMap::to);
@@ -126,7 +127,8 @@ NewMap convertFor(const MapGroup& group, const FloatImage& image, const Generate
     if (texels.changed == 0) {
         const bool is_bright =
             std::any_of(group.begin(), group.end(), [](const ShownMap* one) { return one->is_bright; });
-        report.reason = is_bright ? "new normals change the picture on purpose" : "the new tangents show it as before";
+        report.reason =
+            is_bright ? "new normals change the shading intentionally" : "the new tangents shade it as before";
         return made;
     }
     Parallel parallel(options.execution);
@@ -135,14 +137,14 @@ NewMap convertFor(const MapGroup& group, const FloatImage& image, const Generate
     report.mean_error_unconverted_deg = error.mean_unconverted_deg;
     if (!(error.mean_deg < error.mean_unconverted_deg)) {
         const char* why = texels.overlapping > 0 ? "several triangles that need different maps share its texels"
-                                                 : "rounding would undo the change";
-        report.reason = std::string(why) + ": " + degreesText(error.mean_deg) + " off when converted, " +
-                        degreesText(error.mean_unconverted_deg) + " as it is";
+                                                 : "rounding would cancel the change";
+        report.reason = std::string(why) + ": " + degreesText(error.mean_deg) + " off if converted, " +
+                        degreesText(error.mean_unconverted_deg) + " unchanged";
         return made;
     }
     const auto file = encodePng(converted, image.bits);
     if (!file) {
-        report.reason = "the new one cannot be packed as PNG";
+        report.reason = "the new map cannot be encoded as PNG";
         return made;
     }
     report.bits = image.bits;

@@ -80,15 +80,15 @@ std::string whyKept(const PrimitiveJudgement& judgement, bool is_free) {
         if (is_of_tangents) warnings += (warnings.empty() ? "" : "; and ") + finding.message;
     }
     if (is_free) {
-        return "its tangents stay: no texture is read with them, so their values alone were looked at" +
+        return "its tangents are kept: no texture uses them, so only their values were checked" +
                (warnings.empty() ? "" : "; " + warnings);
     }
-    if (!warnings.empty()) return "its tangents stay, since nothing in them is surely wrong; but " + warnings;
+    if (!warnings.empty()) return "its tangents are kept, because none of the faults is certain; but " + warnings;
     if (judgement.compared_share == 0)
-        return "its tangents stay: its UVs have no area, so their values alone were looked at";
-    if (judgement.compared_share >= kNearlyAll) return "its tangents are good";
-    return "nothing wrong was found in its tangents; on " + shareText(1 - judgement.compared_share) +
-           " of the surface the UVs have no area, and their values alone were looked at";
+        return "its tangents are kept: its UVs have no area, so only their values were checked";
+    if (judgement.compared_share >= kNearlyAll) return "its tangents are correct";
+    return "no fault was found in its tangents; on " + shareText(1 - judgement.compared_share) +
+           " of the surface the UVs have no area, so only the tangent values were checked";
 }
 
 Verdict verdictOf(const PrimitiveJudgement& judgement, bool is_free) {
@@ -119,8 +119,7 @@ void readAsAsked(const GenerateOptions& options, Scene& scene) {
     for (ScenePrimitive& primitive : scene.primitives) {
         // As if something read these tangents.
         if (primitive.uses.empty() && options.all) {
-            primitive.uses.push_back(
-                {.needed_by = "what was asked for", .has_texture = primitive.other_reader.empty()});
+            primitive.uses.push_back({.needed_by = "the option 'all'", .has_texture = primitive.other_reader.empty()});
         }
         if (options.texture_transform == TextureTransform::apply) continue;
         for (TangentUse& use : primitive.uses) use.transform = {};
@@ -308,15 +307,13 @@ std::string warnOfInvertedSigns(Model& model, const GeneratePlan& plan, const Ma
     });
     memory.giveBack(left);
     if (failure && failure->code != ErrorCode::tooLarge) throw FileError{*failure};
-    if (failure)
-        return "whether the replaced tangents had inverted signs was not examined: the memory limit is too low";
+    if (failure) return "the signs of the replaced tangents were not examined: the memory limit is too low";
     if (inverted == 0) return {};
     return "the tangents of " + primitivesText(inverted) +
-           " had inverted signs. Their normal maps were not examined: where green points down in these, the two "
-           "cancelled out, "
-           "and with the new tangents alone bumps become dents along v. `tspace check` on the input says so; then "
-           "invert "
-           "green too (--overwrite together with --flip-green), or keep the tangents (without --overwrite)";
+           " had inverted signs. Their normal maps were not examined: if green points down in them, the two inversions "
+           "cancelled out, and with the new tangents alone bumps look like dents along v. Run `tspace check` on the "
+           "input; if green points down, invert it too (--overwrite together with --flip-green), or keep the tangents "
+           "(without --overwrite)";
 }
 
 namespace {
@@ -409,10 +406,10 @@ void mendBrokenValues(Editor& editor, const Document& document, std::span<const 
             PrimitiveReport& report = reports[number];
             report.mended_vertex_count = count;
             if (report.action == PrimitiveAction::kept) report.action = PrimitiveAction::replaced;
-            report.notes.push_back(
-                "its tangents stay, but at " + std::to_string(count) + " of " + std::to_string(mended.size()) +
-                " vertices they were not finite, not unit, along the normal, or had a sign other than "
-                "+1 and -1: mended there");
+            report.notes.push_back("its tangents stay, but at " + std::to_string(count) + " of " +
+                                   std::to_string(mended.size()) +
+                                   " vertices they were repaired: not finite, not unit, parallel to the normal, or "
+                                   "with a sign other than +1 and -1");
         }
     }
 }

@@ -43,24 +43,24 @@ std::vector<bool> findCancelled(const Scene& scene, ImageFindings& found, const 
 
 /// Why a map stays as it is, where FlipGreen::down is asked for; empty: it does not.
 std::string whyItStays(GreenSide side, bool is_cancelled, bool is_declared, const Convention& convention) {
-    if (is_declared) return "the file declares that green points down, and its readers turn it";
+    if (is_declared) return "the file declares that green points down, so its readers invert it";
     switch (side) {
         case GreenSide::up:
             return "green points up already";
         case GreenSide::mixed:
-            return "green points down in one part of it and up in another (see tspace check)";
+            return "green points down in one part and up in another (see tspace check)";
         case GreenSide::unread:
-            return "it could not be looked at (see tspace check)";
+            return "it could not be examined (see tspace check)";
         case GreenSide::down:
-            if (convention.green == Green::down) return "green points down, as the convention wants that was asked for";
+            if (convention.green == Green::down) return "green points down, as the requested convention expects";
             if (!is_cancelled) return {};
-            return "green points down, but signs of tangents that stay are inverted too, and the two cancel out; "
-                   "--overwrite mends both";
+            return "green points down, but the signs of kept tangents are inverted too, and the two inversions cancel "
+                   "out; --overwrite fixes both";
         case GreenSide::noMap:
         case GreenSide::unknown:
             break;
     }
-    return "which way green points cannot be told";
+    return "the direction of green cannot be determined";
 }
 
 /// Inverts the map. `why`: the reason where that is not possible.
@@ -280,7 +280,7 @@ class Alternatives {
 void mendInPlace(Document& document, const Scene& scene, const GenerateOptions& options, JudgedMap& map,
                  MapFlips& flips) {
     if (!TextureUses(document).alternatives(map.image).empty()) {
-        if (!map.report.flipped) map.report.reason = "the same map is there in another format too";
+        if (!map.report.flipped) map.report.reason = "the same map exists in another format too";
         return;
     }
     const std::string why_not_flipped = map.report.reason;

@@ -19,28 +19,35 @@ namespace {
 /// Why maps are not converted with these options; empty: they are, or are not to be.
 std::string whyMapsStay(const std::string& input, const GenerateOptions& options) {
     if (!options.convert_maps) return {};
-    if (options.overwrite_normals) return "maps are converted for new tangents, but not for new normals";
-    if (options.flip_green != FlipGreen::none) return "maps are converted or inverted, one after the other";
-    if (options.mend_maps) return "maps are mended or converted, one after the other";
+    if (options.overwrite_normals)
+        return "normal maps cannot be converted together with new normals, only for new tangents";
+    if (options.flip_green != FlipGreen::none)
+        return "normal maps can be converted or inverted, but not both in one run";
+    if (options.mend_maps) return "normal maps can be fixed or converted, but not both in one run";
     if (options.existing == ExistingTangents::repair)
-        return "maps stay where tangents are repaired: what was wrong is to look right";
+        return "normal maps cannot be converted when tangents are repaired, because repairs are meant to change the "
+               "shading";
     if (options.texture_transform == TextureTransform::ignore)
-        return "maps are converted for viewers that use tangents as they are, so texture transforms are applied";
-    if (options.tangents.convention != conventions::gltf) return "maps are converted for the convention of glTF only";
+        return "converted normal maps are for viewers that use tangents unchanged, so texture transforms must be "
+               "applied";
+    if (options.tangents.convention != conventions::gltf)
+        return "normal maps can be converted for the glTF convention only";
     if (lowerExtension(input) == ".obj")
-        return "OBJ files have no tangents that their maps fit; make a glTF file of it first, then compute its "
-               "tangents anew";
+        return "OBJ files have no tangents that their maps were made for; make a glTF file first, then recompute its "
+               "tangents";
     return {};
 }
 
 void checkOptions(const std::string& input, const GenerateOptions& options) {
     const auto refuse = [](const std::string& why) { failFile(ErrorCode::invalidOption, why); };
-    if (options.all && options.strip) refuse("tangents for all primitives, and none where they are not needed");
-    if (options.pack && frameBytes(*options.pack) == 0) refuse("the format of packed frames is none of FrameFormat");
+    if (options.all && options.strip)
+        refuse("tangents cannot be added to all primitives and removed where they are not needed");
+    if (options.pack && frameBytes(*options.pack) == 0)
+        refuse("the format of packed frames is not a value of FrameFormat");
     if (!options.pack && options.pack_drop != PackDrop::nothing)
-        refuse("normals and tangents go only where frames are packed");
+        refuse("normals and tangents can be removed only where frames are packed");
     if (!options.images && (options.flip_green != FlipGreen::none || options.mend_maps || options.convert_maps))
-        refuse("normal maps are changed by their pixels, which are not to be read");
+        refuse("changing normal maps requires reading their pixels, which is disabled");
     if (const std::string why = whyMapsStay(input, options); !why.empty()) refuse(why);
 }
 

@@ -55,7 +55,7 @@ void noteMissingBitangents(std::span<const Primitive> primitives, std::span<Prim
     for (std::size_t i = 0; i < primitives.size(); ++i) {
         if (reports[i].action != PrimitiveAction::kept || primitives[i].find("_BITANGENT")) continue;
         reports[i].notes.emplace_back(
-            "its tangents stay, so it gets no bitangents: those are computed only together "
+            "its tangents are kept, so it gets no bitangents: tangents and bitangents are only computed together "
             "(--overwrite)");
     }
 }

@@ -33,7 +33,7 @@ namespace {
 
 void leaveOut(Material& material, const std::string& why, Model& model) {
     model.warnings.push_back("the height map '" + material.normal_texture.file +
-                             "' was left out, and no normal map was made of it: " + why);
+                             "' was skipped, and no normal map was made from it: " + why);
     material.normal_texture = {};
     material.normal_scale = 1;
 }
@@ -49,17 +49,17 @@ void convertHeightMap(const Scene& scene, std::size_t image, const GenerateOptio
     model.memory->take(made.file.size(), "material");
     material.made_normal_map = std::make_shared<const Bytes>(std::move(made.file));
     material.normal_scale = 1;
-    const std::string lean = shortNumber(made.mean_lean_deg) + " degrees in the mean";
+    const std::string lean = shortNumber(made.mean_lean_deg) + " degrees on average";
     NormalMapReport& report = reports.emplace_back();
     report.image = static_cast<std::uint32_t>(image);
     report.name = material.normal_texture.file;
     report.mended = true;
-    report.reason =
-        "it held heights; white stands " + shortNumber(strength) + " units high (-bm), and normals lean by " + lean;
+    report.reason = "it held heights; white is " + shortNumber(strength) +
+                    " model units high (-bm), and normals are tilted by " + lean;
     constexpr double kSteepDeg = 60;
     if (made.mean_lean_deg > kSteepDeg) {
-        model.warnings.push_back("the normal map made of '" + material.normal_texture.file + "' is very steep (" +
-                                 lean + "): -bm is taken for how many units of the model white stands above black");
+        model.warnings.push_back("the normal map made from '" + material.normal_texture.file + "' is very steep (" +
+                                 lean + "): -bm is read as the height of white above black, in model units");
     }
 }
 
@@ -149,7 +149,7 @@ bool decide(const Material& material, const ObjPrimitive& primitive, const Gener
     } else {
         report.action = PrimitiveAction::generated;
         report.reason = needed ? "the material has the normal map '" + material.normal_texture.file + "'"
-                               : "asked for all primitives";
+                               : "requested for all primitives";
         if (primitive.has_uvs) report.uv_set = 0;
         return true;
     }
@@ -191,7 +191,7 @@ void packWritten(const GenerateOptions& options, FinishedPrimitive& finished, Pr
     if (mesh.tangents.empty()) {
         const bool can_have = report.action == PrimitiveAction::notNeeded;
         report.notes.emplace_back(std::string("its frames are not packed: it has no TANGENT") +
-                                  (can_have ? " (--all makes what is missing)" : ""));
+                                  (can_have ? " (--all adds what is missing)" : ""));
         return;
     }
     roundUnits(std::span(mesh.tangents), finished.tangent_format);
@@ -253,7 +253,7 @@ Made generate(const std::string& input, const std::string& output, const Generat
               GenerateReport& report) {
     if (options.compression == Compression::meshopt || options.compression == Compression::draco) {
         failFile(ErrorCode::invalidOption,
-                 "what is made from OBJ is not compressed in the same run; compress the result in a second one");
+                 "the output of OBJ files is not compressed in the same run; compress the result in a second run");
     }
     tell(options, "reading", 0, 0);
     Model model = readModel(input, options.file);

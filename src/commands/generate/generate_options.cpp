@@ -58,13 +58,12 @@ void addOutput(OptionList& list, GenerateOptions& options) {
     const char* group = kInputAndOutput;
     add(list, group,
         flag("--dry-run", options.dry_run,
-             "Do everything but write: say what would be written, and where something is wrong."));
+             "Dry run: report what would be written and what is wrong, without writing."));
     add(list, group,
         choice("--compress", "HOW", kCompressions, options.compression,
-               "How geometry is packed. keep: what came in compressed goes out compressed the same way; none: "
-               "everything is unpacked; meshopt: EXT_meshopt_compression, which changes no value; draco: "
-               "KHR_draco_mesh_compression, which rounds positions, normals and UVs that were not in it "
-               "before."));
+               "Geometry compression of the output. keep: the compression of the input; none: uncompressed; meshopt: "
+               "EXT_meshopt_compression, which is lossless; draco: KHR_draco_mesh_compression, which quantizes "
+               "positions, normals and UVs that were not Draco data before."));
     addKeepCoordinates(list, options.file);
     addAllowExternal(list, options.file);
 }
@@ -72,23 +71,19 @@ void addOutput(OptionList& list, GenerateOptions& options) {
 /// Which primitives get tangents, and what becomes of those that are there.
 void addSelection(OptionList& list, GenerateOptions& options) {
     const char* group = "Tangents";
-    add(list, group, flag("--all", options.all, "Also for primitives whose material needs no tangents."));
+    add(list, group, flag("--all", options.all, "Also process primitives whose material needs no tangents."));
     add(list, group,
         setting("--only-missing", options.existing, ExistingTangents::keep,
-                "Add tangents where there are none and keep those that are there. This is the "
-                "default."));
+                "Add missing tangents and keep existing ones. This is the default."));
     add(list, group,
-        setting("--overwrite", options.existing, ExistingTangents::replace,
-                "Compute tangents anew where they are there."))
+        setting("--overwrite", options.existing, ExistingTangents::replace, "Recompute existing tangents."))
         .excludes = {"--only-missing"};
     add(list, group,
         setting("--repair", options.existing, ExistingTangents::repair,
-                "Add tangents where there are none, keep good ones, and compute anew where they are wrong: "
-                "not finite, not unit, not orthogonal to the normal, of a wrong sign, or not along the "
-                "UVs."))
+                "Add missing tangents, keep good ones, and recompute wrong ones: not finite, not unit, not orthogonal "
+                "to the normal, with a wrong sign, or not along the UVs."))
         .excludes = {"--only-missing", "--overwrite"};
-    add(list, group,
-        flag("--strip", options.strip, "Take tangents away where no material needs them, and their data with them."))
+    add(list, group, flag("--strip", options.strip, "Remove tangents that no material needs, with their data."))
         .excludes = {"--all"};
 }
 
@@ -97,67 +92,64 @@ void addTangentOptions(OptionList& list, GenerateOptions& options) {
     TangentOptions& tangents = options.tangents;
     add(list, group,
         choice("--texture-transform", "READING", kTextureTransforms, options.texture_transform,
-               "For textures with KHR_texture_transform. apply: tangents follow the transformed UVs, as "
-               "viewers want that use tangents as they are; ignore: those before, for viewers that turn "
-               "tangents themselves."));
+               "Treatment of KHR_texture_transform. apply: tangents follow the transformed UVs, for viewers that use "
+               "tangents unchanged; ignore: tangents follow the stored UVs, for viewers that rotate tangents "
+               "themselves."));
     add(list, group,
         choice("--method", "NAME", kMethods, tangents.method,
-               "How tangents are computed. mikktspace: bit for bit what bakers and engines use; "
-               "lengyel: one per vertex, no splits; uniform, angle, area: plain weighted means; fast, "
-               "best: more accurate, for maps that were not baked; flat: one per face; basis: from the "
-               "normals alone, without UVs."));
+               "Tangent method. mikktspace: bit-identical to what bakers and engines use; lengyel: one tangent per "
+               "vertex, no splits; uniform, angle, area: weighted means; fast, best: more accurate, for maps that were "
+               "not baked; flat: one per face; basis: from the normals alone, without UVs."));
     add(list, group,
         choice("--faces", "FACES", kFaces, options.faces,
-               "What mikktspace is computed on. triangles: those of the file, which fit bakes of "
-               "triangulated models; quads: pairs of triangles that follow each other, as Blender does "
-               "before it writes triangles; auto: quads where the file's tangents show it, or where it "
-               "has none, comes from Blender and its triangles are cut quads. --repair takes auto where "
-               "nothing else is given. See docs/concepts/quads.md."));
+               "Faces that mikktspace works on. triangles: those of the file, for bakes of triangulated models; quads: "
+               "pairs of consecutive triangles, as in Blender before export; auto: quads if the file's tangents show "
+               "it, or if a file without tangents comes from Blender and its triangles are split quads. --repair uses "
+               "auto unless another value is given. See docs/concepts/quads.md."));
     add(list, group,
         choice("--pairing", "NAME", kPairings, tangents.pairing,
-               "For mikktspace. reference: neighbours as the reference implementation finds them, with "
-               "its known defect; corrected: without it, so that the order of faces does not matter."));
+               "Neighbor search of mikktspace. reference: as in the reference implementation, including its known "
+               "defect; corrected: without the defect, so that the result does not depend on face order."));
     add(list, group,
         degrees("--threshold", tangents.angular_threshold_deg, 360,
-                "For mikktspace: faces whose tangents differ by this angle or more are not averaged. In "
-                "degrees, 0 to 360. 180 is what every baker uses."));
+                "Angular threshold of mikktspace: faces whose tangents differ by this angle or more are not averaged. "
+                "In degrees, 0 to 360. Bakers use 180."));
     add(list, group,
         choice("--frame", "NAME", kFrames, tangents.frame,
-               "What the tangent is where UVs are sheared. gram-schmidt: the direction of dP/du; "
-               "symmetric: half of the way to the direction perpendicular to dP/dv. Not for mikktspace "
-               "and basis."));
+               "Tangent direction where UVs are sheared. gram-schmidt: along dP/du; symmetric: halfway between dP/du "
+               "and the direction perpendicular to dP/dv. Not for mikktspace and basis."));
     add(list, group,
         number("--refine", tangents.refine, 2,
-               "For --method best and --normals best: steps after the fit, each of which makes what is "
-               "interpolated along edges fit the edges better: 0, 1 or 2. Without it normals take 2 steps."));
+               "Refinement steps of --method best and --normals best: 0, 1 or 2. Each step improves the fit of the "
+               "interpolated vectors along edges. Without this option normals take 2 steps."));
     add(list, group,
         flag("--bitangents", options.bitangents,
-             "Also write the direction of dP/dv, which is not cross(N, T) where UVs are sheared, as the "
-             "attribute _BITANGENT: for shaders that read it. Only where tangents are computed; morph "
-             "targets get no deltas of it."));
+             "Also write the direction of dP/dv as the attribute _BITANGENT, for shaders that read it; it differs from "
+             "cross(N, T) where UVs are sheared. Written only where tangents are computed, and without morph target "
+             "deltas."));
     add(list, group,
-        choice("--convention", "NAME", kConventions, tangents.convention,
-               "Whose sign is stored: gltf, opengl, directx, unreal, unity, blender or godot. Positions, UVs "
-               "and normals stay as they are. Any other than gltf is only for readers that expect it."));
+        choice(
+            "--convention", "NAME", kConventions, tangents.convention,
+            "Sign convention of the output tangents: gltf, opengl, directx, unreal, unity, blender or godot. "
+            "Positions, UVs and normals are unchanged. Use a value other than gltf only for readers that expect it."));
     add(list, group,
         choice("--format", "NUMBERS", kVectorFormats, options.format,
-               "Numbers of the tangents and normals that are written: float, snorm16 (half the size) or "
-               "snorm8 (a quarter). The sign stays exact. The last two declare "
-               "KHR_mesh_quantization."));
+               "Component type of the written tangents and normals: float, snorm16 (half the size) or snorm8 (a "
+               "quarter). The sign stays exact. The last two declare KHR_mesh_quantization."));
 }
 
 void addPackOptions(OptionList& list, GenerateOptions& options) {
     const char* group = "Packed frames";
     add(list, group,
         choice("--pack", "FORMAT", kPackFormats, options.pack,
-               "Also write the whole frame of each vertex, N, T and the sign, as an attribute of its own: "
-               "_FRAME32 and so on, for engines that read it. Of every primitive that has normals and "
-               "tangents in the end, old ones too. See docs/concepts/pack.md."));
+               "Also write the whole frame of each vertex (N, T and the sign) as one packed attribute, _FRAME32 for "
+               "example, for engines that read it. Applies to every primitive that ends up with normals and tangents, "
+               "existing ones included. See docs/concepts/pack.md."));
     add(list, group,
-        choice("--pack-drop", "WHAT", kPackDrops, options.pack_drop,
-               "What to take away where frames were packed. tangents: TANGENT; all: NORMAL too, for engines "
-               "that read nothing but packed frames. What morph targets add to stays. Without this, both "
-               "stay."))
+        choice(
+            "--pack-drop", "WHAT", kPackDrops, options.pack_drop,
+            "Attributes to remove where frames were packed.  tangents: TANGENT; all: NORMAL too, for engines that read "
+            "only packed frames. Attributes that morph targets add to are kept. By default both are kept."))
         .needs = "--pack";
 }
 
@@ -170,8 +162,8 @@ Option compressMapsOption() {
                               : std::string();
     };
     Option made = option("--compress-maps", "HOW", take,
-                         "keep: images come out as they went in, KTX2 and DDS too, but for normal maps that another "
-                         "option writes anew: those are PNGs. Textures for engines: tspace compress-map.");
+                         "keep: images are unchanged, including KTX2 and DDS, except normal maps that another "
+                         "option rewrites: those become PNGs. For engine textures see tspace compress-map.");
     made.choices = {"keep"};
     made.default_text = "keep";
     return made;
@@ -181,90 +173,86 @@ void addMapOptions(OptionList& list, GenerateOptions& options) {
     const char* group = "Normal maps";
     add(list, group,
         setting("--flip-green", options.flip_green, FlipGreen::down,
-                "Invert the green channel of normal maps whose green points down throughout (as DirectX "
-                "has it), as check finds them; all others stay. Images beside a .gltf stay as they are, and "
-                "the output gets new ones."));
+                "Invert the green channel of normal maps whose green points down throughout (as in DirectX), as "
+                "detected by check. Images beside a .gltf are not changed; the output gets new files."));
     add(list, group,
         setting("--flip-green-all", options.flip_green, FlipGreen::all,
                 "Invert the green channel of every normal map, whichever way it points."))
         .excludes = {"--flip-green"};
     add(list, group,
-        flag("--mend-maps", options.mend_maps,
-             "Write normal maps anew that hold something else than glTF reads, as check finds them: two channels, "
-             "exchanged channels, x in alpha, colors (sRGB), object space. They become PNGs, from KTX2 and DDS too. "
-             "Height "
-             "maps stay: their strength is not known (tspace height-to-normal)."));
+        flag("--fix-maps", options.mend_maps,
+             "Rewrite normal maps whose encoding is not that of glTF, as detected by check: two channels, exchanged "
+             "channels, x in alpha, colors (sRGB), object space. They become PNGs, also from KTX2 and DDS. Height maps "
+             "are kept, because their strength is unknown (see tspace height-to-normal)."))
+        .old_names = {"--mend-maps"};
     add(list, group,
         flag("--convert-maps", options.convert_maps,
-             "Write normal maps anew for the tangents that are computed, so that the picture stays as it was. Maps and "
-             "materials that several primitives share are copied where they need different ones. Images beside a .gltf "
-             "stay as they are, and the output gets new ones."))
-        .excludes = {"--flip-green", "--flip-green-all", "--mend-maps", "--repair"};
+             "Rewrite normal maps for the computed tangents, so that the shading does not change. Maps and materials "
+             "shared by several primitives are copied where they need different ones. Images beside a .gltf are not "
+             "changed; the output gets new files."))
+        .excludes = {"--flip-green", "--flip-green-all", "--fix-maps", "--repair"};
     add(list, group,
         setting("--no-images", options.images, false,
-                "Do not read the pixels of normal maps, which --repair does where most signs are inverted. Such signs "
-                "then stay, "
-                "since the maps may be inverted too."))
-        .excludes = {"--flip-green", "--flip-green-all", "--mend-maps", "--convert-maps"};
+                "Do not read the pixels of normal maps; --repair reads them where most signs are inverted. Inverted "
+                "signs are then kept, since the maps may be inverted too."))
+        .excludes = {"--flip-green", "--flip-green-all", "--fix-maps", "--convert-maps"};
     add(list, group, compressMapsOption());
 }
 
 void addOtherOptions(OptionList& list, GenerateOptions& options) {
-    Option& weighting =
-        add(list, "Normals",
-            choice("--normals", "NAME", kWeightings, options.normals.weighting,
-                   "How normals are made where they are missing (or all, with --overwrite-normals): flat, uniform, "
-                   "area, angle, angle-area, max or "
-                   "best. Default: flat, as glTF asks for; for OBJ files with smoothing groups those decide, "
-                   "with angle weights."));
+    Option& weighting = add(list, "Normals",
+                            choice("--normals", "NAME", kWeightings, options.normals.weighting,
+                                   "Method for missing normals (or all, with --overwrite-normals): flat, uniform, "
+                                   "area, angle, angle-area, max or best. Default: flat, as glTF specifies; the "
+                                   "smoothing groups of an OBJ file, with angle weights, if it has any."));
     weighting.default_text.clear();
     add(list, "Normals",
         numberOrAuto(
             "--crease", "DEG", "a number of degrees", options.normals.crease_angle_deg, NormalOptions::crease_auto, 180,
-            "For normals that are made: edges sharper than this stay hard. In degrees, 0 to 180; 180 makes none "
-            "hard. auto: an angle by the mesh, which the report says. Given without --normals it takes the "
-            "weights of angle."));
+            "Crease angle for computed normals: sharper edges stay hard. In degrees, 0 to 180; 180: no hard edges. "
+            "auto: an angle chosen per mesh, which the report states. Without --normals it implies angle weights."));
     add(list, "Normals",
         numberOrAuto("--denoise", "FACTOR", "a number", options.normals.denoise, NormalOptions::denoise_auto, 4,
-                     "For --normals best on noisy positions, such as scans: normals by more of the surface around, so "
-                     "that noise is not shaded. Vertices stay. auto: as much as is measured, and nothing where that is "
-                     "shape; 0 to 4: so many times the noise that is measured, also where it looks like shape."));
+                     "Denoising for --normals best on noisy positions, such as scans: uses a larger neighborhood, so "
+                     "that noise is not shaded. Vertices do not move. auto: as much as is measured, and none where "
+                     "that is shape; 0 to 4: this multiple of the measured noise, even where it looks like shape."));
     add(list, "Normals",
         numberOrAuto("--weld-distance", "DISTANCE", "a distance", options.normals.weld_distance,
                      NormalOptions::weld_auto, 1000000000,
-                     "Positions that differ by no more than this in each coordinate are one, where normals "
-                     "are made and triangles turned, in the unit of positions before "
-                     "nodes move them. 0: only equal ones are. auto: twice the spacing of floats at the largest "
-                     "coordinate of the mesh. Tangents are computed on positions as they are."));
+                     "Weld distance, in the unit of positions before node transforms: positions that differ by at most "
+                     "this in each coordinate count as one when normals are computed and triangles are turned. 0: only "
+                     "equal positions. auto: twice the float spacing at the largest coordinate of the mesh. Tangents "
+                     "are always computed on the unwelded positions."));
     add(list, "Normals",
         flag("--normals-per-primitive", options.normals_per_primitive,
-             "Make the normals of each primitive from its own triangles. By default they are smooth over the border of "
-             "two primitives of a mesh that are one surface (they share edges); --crease holds there too."));
+             "Compute the normals of each primitive only from its own triangles. By default normals are smooth across "
+             "the border of two primitives of a mesh that share edges; --crease applies there too."));
     add(list, "Normals",
         flag("--overwrite-normals", options.overwrite_normals,
-             "Make normals anew where they are there, by --normals and --crease, and where they are missing, in every "
-             "primitive. Without --normals: with the weights of angle. Tangents that are there are computed anew with "
-             "them, because old ones would not fit."))
+             "Recompute existing normals and add missing ones in every primitive, by --normals and --crease. Without "
+             "--normals: with angle weights. Existing tangents are recomputed too, because they would not fit the new "
+             "normals."))
         .excludes = {"--convert-maps"};
     add(list, "Normals",
         choice("--morph-normals", "WHICH", kMorphNormals, options.morph_normals,
-               "What morph targets add to normals that stay. keep: what is there; missing: targets without it get it; "
-               "all: it is computed for all. The normal turns as the surface around it turns."));
+               "Normal deltas of morph targets. keep: keep existing ones; missing: add them to targets without any; "
+               "all: recompute them for all targets. The normal rotates as the surrounding surface does."));
     add(list, "Repair",
-        flag("--mend-winding", options.mend_winding,
-             "Turn triangles that are wound against their neighbours, and parts that are inside out as a whole, before "
-             "anything else is done. Normals that stay say which side is out where they agree; else the volume, the "
-             "inside or the majority does."));
+        flag("--fix-winding", options.mend_winding,
+             "Turn triangles whose winding disagrees with their neighbors, and parts that are inside out, before "
+             "anything else. The outside is given by existing normals where they agree; otherwise by the volume, the "
+             "inside or the majority."))
+        .old_names = {"--mend-winding"};
     add(list, "Repair",
         setting("--no-sanitize", options.sanitize, false,
-                "Write what the method gives, even where it is not finite, zero, not unit, parallel to the "
-                "normal, or of mixed sign inside a face. By default such tangents are mended and counted."));
+                "Write the raw result of the method, even where it is not finite, zero, not unit, parallel to the "
+                "normal, or of mixed sign within a face. By default such tangents are repaired and counted."));
     add(list, "Repair",
         flag("--orthogonalize", options.sanitize_options.orthogonalize_all,
-             "Also make every sound tangent unit and orthogonal to its normal. The result then no "
-             "longer matches bakes exactly where normals are not unit."));
-    addRunning(list, options.execution,
-               "Number of threads; 0: as many as there are cores. Changes no bit of the result.", options.file);
+             "Also make every valid tangent unit and orthogonal to its normal. The result then no longer matches bakes "
+             "exactly where normals are not unit."));
+    addRunning(list, options.execution, "Number of threads; 0: one per core. Every number gives identical output.",
+               options.file);
 }
 
 }  // namespace

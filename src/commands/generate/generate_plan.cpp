@@ -57,7 +57,7 @@ bool makesNormalsAnew(PrimitiveReport& report, const Document& document, const P
     const bool can_follow = options.tangents.method == Method::basis || primitive.find(uvsOf(uses));
     if (!primitive.find("TANGENT") || tangentsGo(primitive, uses, options) || can_follow) return true;
     report.notes.push_back(
-        "its normals stay: its tangents would not fit new ones, and cannot be computed, because it has no " +
+        "its normals are kept: its tangents would not fit new ones and cannot be computed, because it has no " +
         uvsOf(uses));
     return false;
 }
@@ -106,18 +106,18 @@ bool isLeftAlone(PrimitiveReport& report, const Document& document, const Primit
     const std::string reader =
         primitive.find("TANGENT") && uses.empty() ? otherTangentReader(document, primitive) : std::string();
     if (!reader.empty()) {
-        why += "; " + reader + " may be about its tangents";
+        why += "; " + reader + " may refer to its tangents";
     } else if (tangentsGo(primitive, uses, options)) {
         report.action = PrimitiveAction::removed;
         why = "nothing needs its tangents: " + why;
     } else if (options.strip && uses.empty() && primitive.find("TANGENT")) {
-        why += "; its tangents stay, because a morph target moves nothing else";
+        why += "; its tangents are kept, because a morph target has only tangent deltas";
     }
     report.reason = std::move(why);
     return true;
 }
 
-constexpr const char* kKeptReason = "it has tangents, and overwriting was not asked for";
+constexpr const char* kKeptReason = "it has tangents, and overwriting was not requested";
 
 /// Fills action and reason. Returns true when tangents are to be computed; the action is then known only
 /// later, unless they are kept and only deltas of morph targets are computed.
@@ -137,8 +137,8 @@ bool decide(PrimitiveReport& report, const Document& document, const Primitive& 
     if (keeps && !lacksDeltas(primitive) && normals.morphs.empty()) return leave(PrimitiveAction::kept, kKeptReason);
     if (!primitive.attribute_faults.empty()) {
         const AttributeFault& fault = primitive.attribute_faults.front();
-        const char* remedy = primitive.canRepairFaults() ? " (--repair or --overwrite-normals mends that)"
-                                                         : " (no command can repair that; export the mesh again)";
+        const char* remedy = primitive.canRepairFaults() ? " (--repair or --overwrite-normals fixes that)"
+                                                         : " (no command can repair it; export the mesh again)";
         return leave(PrimitiveAction::impossible, "the elements of its " + attributeText(fault.name, fault.target) +
                                                       " cannot be read: " + fault.why + remedy);
     }
@@ -154,12 +154,12 @@ bool decide(PrimitiveReport& report, const Document& document, const Primitive& 
         report.uv_set = static_cast<std::int32_t>(uses.empty() ? 0 : uses[0].uv_set);
     }
     report.reason = !uses.empty() ? needWords(uses[0])
-                    : options.all ? "all primitives were asked for"
+                    : options.all ? "requested for all primitives"
                                   : "it has tangents";
     if (hasUsableTangents(primitive) && options.existing == ExistingTangents::replace) {
-        report.reason += ", and overwriting was asked for";
+        report.reason += ", and overwriting was requested";
     } else if (hasUsableTangents(primitive) && normals.anew) {
-        report.reason += ", and old ones would not fit its new normals";
+        report.reason += ", which would not fit its new normals";
     }
     if (keeps) leave(PrimitiveAction::kept, kKeptReason);
     return true;
@@ -173,7 +173,7 @@ std::string noteOnDrawn(const Document& document, const Primitive& primitive, co
     std::string reader = otherTangentReader(document, primitive);
     if (reader.empty() && !uses.empty()) reader = uses[0].needed_by + " without a texture";
     if (reader.empty()) return {};
-    return "tangents that somebody may have drawn (" + reader + ") were computed anew" + (along_u ? " along u" : "");
+    return "tangents that may be authored (" + reader + ") were recomputed" + (along_u ? " along u" : "");
 }
 
 /// Two primitives with the same key are computed together.
@@ -234,7 +234,7 @@ GeneratePlan planGenerate(const Document& document, std::span<const Primitive> p
         }
         if (!computes && !normals.anew && normals.morphs.empty()) continue;
         if (computes && primitive.find("TANGENT") && !hasUsableTangents(primitive))
-            report.notes.emplace_back("the tangents that it had did not count, because it had no normals");
+            report.notes.emplace_back("its old tangents were ignored, because it had no normals");
 
         const bool replaces = options.existing == ExistingTangents::replace || normals.anew;
         if (computes && replaces && report.action != PrimitiveAction::kept && hasUsableTangents(primitive)) {
@@ -440,20 +440,19 @@ class MeshPieces {
 };
 
 std::string noteOf(std::size_t others, std::uint64_t points, bool any_keeps) {
-    std::string note = "its normals are smooth over the border to " + std::to_string(others) +
+    std::string note = "its normals are smooth across the border to " + std::to_string(others) +
                        (others == 1 ? " other primitive" : " other primitives") + " of the mesh, at " +
                        std::to_string(points) + (points == 1 ? " position" : " positions") +
-                       " (--normals-per-primitive makes each alone)";
-    if (any_keeps) note += "; where another one has normals these stay, and are taken on at the border if they fit";
+                       " (--normals-per-primitive disables that)";
+    if (any_keeps) note += "; existing normals on the other side are kept, and adopted at the border where they fit";
     return note;
 }
 
 std::string noteOf(const Primitive& other, std::size_t points) {
     const std::string name = other.mesh_name.empty() ? "" : " \"" + other.mesh_name + "\"";
     return "it forms one surface with mesh " + std::to_string(other.mesh) + name + " (" + std::to_string(points) +
-           " shared border positions), but normals are smoothed within each mesh only: join the meshes where no edge "
-           "is "
-           "meant";
+           " shared border positions), but normals are smoothed within each mesh only: join the meshes if no edge is "
+           "intended";
 }
 
 /// The primitives with triangles, by where nodes put them. Each stands at its first place.

@@ -42,7 +42,7 @@ inline constexpr NamedCount kCauses[] = {
     {"placeholder", "without a direction", &SanitizeReport::placeholder_count},
     {"badSign", "sign not +1 or -1", &SanitizeReport::bad_sign_count},
     {"mixedSign", "mixed signs in a face", &SanitizeReport::mixed_sign_count},
-    {"orthogonalized", "made orthogonal as asked", &SanitizeReport::orthogonalized_count},
+    {"orthogonalized", "made orthogonal on request", &SanitizeReport::orthogonalized_count},
 };
 inline constexpr NamedCount kCures[] = {
     {"normalized", "", &SanitizeReport::normalized_count},

@@ -56,7 +56,7 @@ std::string inputFaultsText(const Totals& totals) {
         if (count != 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", counted(count, "triangle"), words);
     };
     add(totals.degenerate_uv_count, "without UV area");
-    add(totals.degenerate_triangle_count, "with two corners at one place");
+    add(totals.degenerate_triangle_count, "with two corners at one position");
     return text;
 }
 
@@ -76,8 +76,8 @@ std::vector<std::string> warningsOf(const GenerateReport& report, const Totals& 
     }
     if (totals.reference_order_abandoned) {
         warnings.emplace_back(
-            "the reference's neighbour search would take quadratic time here; the corrected one was used for its last "
-            "part");
+            "the reference neighbor search would take quadratic time on this mesh; the corrected search was used for "
+            "the remaining part");
     }
     return warnings;
 }
@@ -89,24 +89,23 @@ std::string imageText(std::uint32_t image, const std::string& name) {
 std::string convertedMapText(const ConvertedMapReport& map) {
     const std::string name =
         fmt::format("{} in {}", imageText(map.image, map.name), counted(map.primitive_count, "primitive"));
-    if (!map.converted) return fmt::format("{}: left as it is: {}", name, printable(map.reason));
-    return fmt::format("{}: converted with {} bits, {:.2g} degrees off in the mean (unconverted {:.2g})", name,
-                       map.bits, map.mean_error_deg, map.mean_error_unconverted_deg);
+    if (!map.converted) return fmt::format("{}: unchanged: {}", name, printable(map.reason));
+    return fmt::format("{}: converted with {} bits, mean error {:.2g} degrees (unconverted {:.2g})", name, map.bits,
+                       map.mean_error_deg, map.mean_error_unconverted_deg);
 }
 
 std::string normalMapText(const NormalMapReport& map) {
     const std::string name = imageText(map.image, map.name);
     if (map.mended)
-        return fmt::format("{}: written anew: {}{}", name, printable(map.reason),
-                           map.flipped ? "; green inverted" : "");
+        return fmt::format("{}: rewritten: {}{}", name, printable(map.reason), map.flipped ? "; green inverted" : "");
     if (map.flipped) return name + ": green inverted";
-    return fmt::format("{}: left as it is: {}", name, printable(map.reason));
+    return fmt::format("{}: unchanged: {}", name, printable(map.reason));
 }
 
 std::string packedText(const Totals& totals) {
     std::string text = "frames of " + counted(totals.frames_packed, "primitive");
-    if (totals.packed_mended != 0) text += fmt::format(", {} mended first", totals.packed_mended);
-    if (totals.tangents_dropped != 0) text += fmt::format("; TANGENT taken from {}", totals.tangents_dropped);
+    if (totals.packed_mended != 0) text += fmt::format(", {} repaired first", totals.packed_mended);
+    if (totals.tangents_dropped != 0) text += fmt::format("; TANGENT removed from {}", totals.tangents_dropped);
     if (totals.normals_dropped != 0) text += fmt::format(", NORMAL from {}", totals.normals_dropped);
     return text;
 }
@@ -126,9 +125,9 @@ std::string windingText(const std::vector<MendedWindingReport>& windings) {
     if (sum.turned_component_count != 0)
         text += fmt::format(", {} as a whole", counted(sum.turned_component_count, "part"));
     text += fmt::format("; edges in conflict: {} -> {}", sum.conflict_count_before, sum.conflict_count_after);
-    if (sum.one_sided_count != 0) text += fmt::format("; {} with one side only", counted(sum.one_sided_count, "part"));
+    if (sum.one_sided_count != 0) text += fmt::format("; {} not orientable", counted(sum.one_sided_count, "part"));
     if (sum.conflict_count_after != 0 && sum.small_count != 0)
-        text += fmt::format("; {} of fewer than 4 faces left", counted(sum.small_count, "part"));
+        text += fmt::format("; {} of fewer than 4 faces not turned", counted(sum.small_count, "part"));
     return text;
 }
 
@@ -137,24 +136,24 @@ std::string summaryRows(const GenerateOutcome& outcome, const Totals& totals) {
     Table table;
     table.addRow({"tangents", actionsText(totals)});
     if (nothingNeeded(totals)) {
-        table.addRow({"hint", "no material needs tangents; use --all to add them all the same"});
+        table.addRow({"hint", "no material needs tangents; use --all to add them anyway"});
     }
     if (totals.triangle_count != 0) {
         table.addRow({"computed", counted(totals.triangle_count, "triangle")});
         if (totals.on_quads != 0) {
-            table.addRow({"faces", fmt::format("{} in {}, the rest triangles", counted(totals.quad_count, "quad"),
+            table.addRow({"faces", fmt::format("{} in {}, triangles elsewhere", counted(totals.quad_count, "quad"),
                                                counted(totals.on_quads, "primitive"))});
         }
         const std::uint64_t before = totals.vertices.before(), after = totals.vertices.after();
         table.addRow({"vertices", fmt::format("{} -> {} ({} split)", before, after, after - before)});
         const std::string faults = inputFaultsText(totals);
         if (!faults.empty()) table.addRow({"in the input", faults});
-        table.addRow({"mended", mendedText(totals.sanitize)});
+        table.addRow({"repaired", mendedText(totals.sanitize)});
     }
     if (!report.windings.empty()) table.addRow({"winding", windingText(report.windings)});
     if (totals.normals_generated != 0) {
         const std::string anew =
-            totals.normals_replaced == 0 ? "" : fmt::format(", {} of them anew", totals.normals_replaced);
+            totals.normals_replaced == 0 ? "" : fmt::format(", {} of them recomputed", totals.normals_replaced);
         table.addRow({"normals", "generated for " + counted(totals.normals_generated, "primitive") + anew});
     }
     if (totals.morph_normals_computed != 0) {
@@ -208,7 +207,7 @@ std::string notesText(const GenerateReport& report) {
             text += fmt::format("  note: {}: {}\n", imageText(map.image, map.name), printable(note));
     }
     if (notes.size() > kMostNotes)
-        text += fmt::format("  note: {} (--json has all)\n", counted(notes.size() - kMostNotes, "more note"));
+        text += fmt::format("  note: {} (--json lists all)\n", counted(notes.size() - kMostNotes, "more note"));
     return text.empty() ? text : "\n" + text;
 }
 
@@ -240,7 +239,7 @@ std::string primitiveRows(const GenerateReport& report) {
 
 std::string generateText(const GenerateOutcome& outcome) {
     if (outcome.was_done_before) {
-        return fmt::format("{} -> {}\n  done before, and nothing has changed\n\n", unbroken(outcome.input),
+        return fmt::format("{} -> {}\n  already done, and nothing has changed\n\n", unbroken(outcome.input),
                            unbroken(outcome.output));
     }
     const Totals totals = totalsOf(*outcome.result);
@@ -250,13 +249,13 @@ std::string generateText(const GenerateOutcome& outcome) {
 
 std::string generateLine(const GenerateOutcome& outcome) {
     std::string line = fmt::format("{} -> {}: ", unbroken(outcome.input), unbroken(outcome.output));
-    if (outcome.was_done_before) return line + "done before, and nothing has changed\n";
+    if (outcome.was_done_before) return line + "already done, and nothing has changed\n";
     const Totals totals = totalsOf(*outcome.result);
     line += actionsText(totals);
     if (outcome.is_dry_run) line += " (not written)";
-    if (totals.sanitize.mendedCount() != 0) line += fmt::format("; mended {}", mendedText(totals.sanitize));
+    if (totals.sanitize.mendedCount() != 0) line += fmt::format("; repaired {}", mendedText(totals.sanitize));
     const std::size_t warnings = warningsOf(*outcome.result, totals).size();
-    if (warnings != 0) line += fmt::format("; {} (--verbose says which)", counted(warnings, "warning"));
+    if (warnings != 0) line += fmt::format("; {} (--verbose shows them)", counted(warnings, "warning"));
     return line + "\n";
 }
 
@@ -281,7 +280,7 @@ std::string generateSummary(const std::vector<GenerateOutcome>& outcomes, double
     }
     const char* written = !outcomes.empty() && outcomes.front().is_dry_run ? "would be written" : "written";
     const std::string before = skipped == 0 ? "" : fmt::format("{} done before, ", skipped);
-    return fmt::format("{} of {} {}, {}{} failed; {}, {} mended, {:.2f} s\n  {}\n", done,
+    return fmt::format("{} of {} {}, {}{} failed; {}, {} repaired, {:.2f} s\n  {}\n", done,
                        counted(outcomes.size(), "file"), written, before, outcomes.size() - done - skipped,
                        counted(triangles, "triangle"), counted(mended, "corner"), seconds, actionsText(all));
 }

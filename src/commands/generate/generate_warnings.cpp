@@ -33,10 +33,10 @@ void warnOfWinding(const GenerateOptions& options, GenerateReport& report) {
     }
     if (turned != 0) {
         std::string text = std::to_string(turned) + " of " + counted(triangles, "triangle") +
-                           (turned == 1 ? " is" : " are") + " wound against the neighbours" +
-                           (options.mend_winding ? "" : ": --mend-winding turns them");
+                           (turned == 1 ? " is" : " are") + " wound opposite to the neighbors" +
+                           (options.mend_winding ? "" : ": --fix-winding turns them");
         if (vertices.after() > vertices.before())
-            text += ", and vertices are split between them (" + std::to_string(vertices.before()) + " -> " +
+            text += ", and vertices were split between them (" + std::to_string(vertices.before()) + " -> " +
                     std::to_string(vertices.after()) + ")";
         report.warnings.push_back(text);
     }
@@ -44,8 +44,8 @@ void warnOfWinding(const GenerateOptions& options, GenerateReport& report) {
         const bool makes = std::any_of(report.primitives.begin(), report.primitives.end(),
                                        [](const PrimitiveReport& primitive) { return primitive.normals_generated; });
         report.warnings.push_back(counted(two_sided, "triangle") + (two_sided == 1 ? " lies" : " lie") +
-                                  " on others that are wound the other way (sheets with two sides)" +
-                                  (makes ? ": normals that are smooth over both cancel out" : ""));
+                                  " on triangles with the opposite winding (two-sided sheets)" +
+                                  (makes ? ": smooth normals over both cancel out" : ""));
     }
     if (behind != 0) {
         report.warnings.push_back(counted(behind, "corner") + (behind == 1 ? " has" : " have") +
@@ -79,7 +79,7 @@ void noteFoundValues(const NormalOptions& options, GenerateReport& report) {
                                       " degrees are hard (--crease auto)");
         if (normals.noise > 0)
             primitive.notes.push_back("its positions are noisy, by " + shortNumber(normals.noise) +
-                                      " of an edge: normals were made without that (--denoise)");
+                                      " of an edge length: normals were computed without the noise (--denoise)");
     }
 }
 
@@ -87,7 +87,7 @@ void warnOfNoise(const GenerateOptions& options, bool any_made, GenerateReport& 
     if (options.normals.denoise == 0 || !any_made) return;
     const bool any_denoised = any(report, [](const auto& primitive) { return primitive.normals.noise > 0; });
     if (options.normals.weighting != NormalWeighting::best)
-        warn({"--denoise"}, "it is for --normals best", report);
+        warn({"--denoise"}, "it only applies to --normals best", report);
     else if (!any_denoised)
         warn({"--denoise"}, "no positions are noisy", report);
 }
@@ -109,8 +109,8 @@ void warnOfIdleNormals(const GenerateOptions& options, GenerateReport& report) {
         if (options.normals_per_primitive) idle.emplace_back("--normals-per-primitive");
         warn(idle,
              options.overwrite_normals
-                 ? "there is no primitive whose normals can be made anew"
-                 : "no normals were made; those that are there stay (--overwrite-normals makes them anew)",
+                 ? "there is no primitive whose normals can be recomputed"
+                 : "no normals were computed; existing ones are kept (--overwrite-normals recomputes them)",
              report);
     }
     warnOfNoise(options, any_made, report);
@@ -118,7 +118,7 @@ void warnOfIdleNormals(const GenerateOptions& options, GenerateReport& report) {
     if (options.morph_normals != MorphNormals::keep && !morphs) {
         const bool any_target = any(report, [](const auto& primitive) { return primitive.morph_target_count != 0; });
         warn({"--morph-normals"},
-             any_target ? "no morph target moves a primitive whose normals stay and leaves them out"
+             any_target ? "no morph target without normal deltas moves a primitive whose normals are kept"
                         : "there are no morph targets",
              report);
     }
@@ -130,15 +130,16 @@ void warnOfTangents(const GenerateOptions& options, GenerateReport& report) {
     });
     if (any(report, wasComputed) && options.tangents.method == Method::basis) {
         report.warnings.emplace_back(
-            "the tangents of the method basis follow no UVs: normal maps that are read with them are shaded wrong, and "
-            "check says so");
+            "tangents of the method basis do not follow UVs: normal maps are shaded wrong with them, and check reports "
+            "it");
     }
     const TangentOptions plain, &tangents = options.tangents;
     const bool any_normals = any(report, [](const auto& primitive) { return primitive.normals_generated; });
     const bool refines_normals = any_normals && options.normals.weighting == NormalWeighting::best;
     const bool has_refine = tangents.refine != plain.refine && !refines_normals;
     if (any_made) {
-        if (has_refine && tangents.method != Method::best) warn({"--refine"}, "it is for --method best", report);
+        if (has_refine && tangents.method != Method::best)
+            warn({"--refine"}, "it only applies to --method best", report);
         return;
     }
     std::vector<std::string> idle;
@@ -156,20 +157,19 @@ void warnOfTangents(const GenerateOptions& options, GenerateReport& report) {
     if (options.sanitize_options.orthogonalize_all) idle.emplace_back("--orthogonalize");
     if (options.format != GenerateOptions{}.format && !any_normals) idle.emplace_back("--format");
     const bool any_kept = any(report, [](const auto& primitive) { return primitive.action == PrimitiveAction::kept; });
-    warn(idle, any_kept ? "no tangents were computed; those that are there stay" : "no tangents were computed", report);
+    warn(idle, any_kept ? "no tangents were computed; existing ones are kept" : "no tangents were computed", report);
 }
 
 void warnOfFile(const GenerateOptions& options, const WorkedOn& worked_on, GenerateReport& report) {
     if (options.texture_transform != GenerateOptions{}.texture_transform && !worked_on.texture_transforms)
-        warn({"--texture-transform"}, "no tangents that were computed follow a texture with KHR_texture_transform",
-             report);
+        warn({"--texture-transform"}, "no computed tangents belong to a texture with KHR_texture_transform", report);
     if (options.compression != Compression::keep && !worked_on.compression)
         warn({"--compress"},
              options.compression == Compression::none ? "no geometry is compressed"
-                                                      : "geometry is compressed so already, or cannot be",
+                                                      : "geometry is compressed like that already, or cannot be",
              report);
     if (options.file.keep_coordinates && !worked_on.far_coordinates)
-        warn({"--keep-coordinates"}, "no offset would have been taken out of the coordinates", report);
+        warn({"--keep-coordinates"}, "the coordinates need no offset", report);
 }
 
 }  // namespace
@@ -185,17 +185,18 @@ void addWarnings(const GenerateOptions& options, const WorkedOn& worked_on, bool
     if (options.flip_green != FlipGreen::none && report.normal_maps.empty())
         warn({options.flip_green == FlipGreen::all ? "--flip-green-all" : "--flip-green"}, "there is no normal map",
              report);
-    if (options.mend_maps && report.normal_maps.empty()) warn({"--mend-maps"}, "there is no normal map", report);
+    if (options.mend_maps && report.normal_maps.empty()) warn({"--fix-maps"}, "there is no normal map", report);
     if (!options.images && options.existing != ExistingTangents::repair)
         warn({"--no-images"}, "only --repair reads the pixels of normal maps", report);
     const bool any_turned = any(report, [](const auto& primitive) { return primitive.winding_mended_count != 0; });
     if (options.mend_winding && !any_turned)
-        warn({"--mend-winding"}, "no triangle is wound the wrong way, as far as that can be known", report);
+        warn({"--fix-winding"}, "no triangle with wrong winding was detected", report);
     const bool any_stripped =
         any(report, [](const auto& primitive) { return primitive.action == PrimitiveAction::removed; });
-    if (options.strip && !any_stripped) warn({"--strip"}, "there are no tangents that no material needs", report);
+    if (options.strip && !any_stripped)
+        warn({"--strip"}, "all tangents are needed by materials, or there are none", report);
     if (options.convert_maps && report.converted_maps.empty())
-        warn({"--convert-maps"}, "no primitive with a normal map got other tangents", report);
+        warn({"--convert-maps"}, "no primitive with a normal map got different tangents", report);
 }
 
 }  // namespace tspace

@@ -18,17 +18,17 @@ const char* whatItHeld(MapContent content) {
         case MapContent::twoChannels:
             return "it held only x and y";
         case MapContent::unsignedZ:
-            return "its blue was z itself";
+            return "its blue stored z unsigned";
         case MapContent::xInAlpha:
             return "it held x in alpha and y in green";
         case MapContent::exchanged:
             return "its channels were exchanged or inverted";
         case MapContent::encoded:
-            return "it was stored as a picture, by the sRGB curve";
+            return "it was stored as a color image (sRGB)";
         case MapContent::objectSpace:
             return "it was in object space";
         case MapContent::normals:
-            return "its file said that its numbers have the sRGB curve";
+            return "it was declared as sRGB, but its values are linear";
         case MapContent::height:
         case MapContent::picture:
         case MapContent::hemiOctahedral:
@@ -40,21 +40,22 @@ const char* whatItHeld(MapContent content) {
 /// Empty, or why an image with such a content stays. `claims_srgb`: what the file says of the numbers.
 std::string whyItStays(const JudgedMap& map, bool claims_srgb) {
     const MapLook& look = map.look;
-    if (look.content == MapContent::normals && !claims_srgb) return "it holds what glTF reads";
+    if (look.content == MapContent::normals && !claims_srgb) return "it is encoded as in glTF";
     if (look.content == MapContent::height)
-        return "it is grey: a height map, whose strength is not known (tspace height-to-normal)";
-    if (look.content == MapContent::picture) return "it is a picture in colors, and no normal map";
+        return "it is gray: a height map of unknown strength (tspace height-to-normal)";
+    if (look.content == MapContent::picture) return "it is a color image, not a normal map";
     if (look.content == MapContent::objectSpace && !look.follows_mesh)
-        return "it is not in tangent space, nor in that of this mesh";
+        return "it is neither in tangent space nor in the object space of this mesh";
     if (look.content == MapContent::objectSpace && look.is_in_world)
         return "it is in world space (tspace convert-map --from world)";
-    if (look.content == MapContent::hemiOctahedral) return "it is hemi-octahedrally encoded, which is not decoded here";
+    if (look.content == MapContent::hemiOctahedral)
+        return "it is hemi-octahedrally encoded, which tspace does not decode";
     if (look.is_doubtful)
-        return "its two channels may be in another encoding, since they are the slopes of no height (see tspace check)";
+        return "its two channels may use another encoding, since they are not the slopes of any height field (see "
+               "tspace check)";
     if (isTurned(look, map.is_y_inverted))
-        return "its image was turned by 90 or 270 degrees without its vectors, and slopes do not tell which (see "
-               "tspace "
-               "check)";
+        return "its image was rotated by 90 or 270 degrees without its vectors, and slopes cannot tell which (see "
+               "tspace check)";
     return {};
 }
 
@@ -103,7 +104,7 @@ Bytes mendMap(const Scene& scene, ByteSpan bytes, const GenerateOptions& options
     map.report.reason = whyItStays(map, facts && facts->is_srgb);
     if (!map.report.reason.empty()) return {};
     if (!scene.memory->has(kMapPixelBytes * claimedSize(bytes).pixels())) {
-        map.report.reason = "it takes more memory than the limit";
+        map.report.reason = "converting it would exceed the memory limit";
         return {};
     }
     std::optional<FloatImage> image = decodeFloatImage(bytes, kMostModelMapPixels, map.report.reason);
@@ -117,7 +118,7 @@ Bytes mendMap(const Scene& scene, ByteSpan bytes, const GenerateOptions& options
     constexpr unsigned kMostBits = 16;  // of a PNG
     const auto file = encodePng(*image, std::min(image->bits, kMostBits));
     if (!file) {
-        map.report.reason = "the new one cannot be packed as PNG";
+        map.report.reason = "the new map cannot be encoded as PNG";
         return {};
     }
     map.report.mended = true;
@@ -132,14 +133,14 @@ MadeOfHeights makeOfHeights(const Scene& scene, std::size_t material, std::size_
     if (bytes.empty() || whyNotRead(imageFormat(bytes)) != nullptr) return {};
     MadeOfHeights made{.is_height_map = true};
     if (!scene.memory->has(kMapPixelBytes * claimedSize(bytes).pixels())) {
-        made.why_not = "it takes more memory than the limit";
+        made.why_not = "converting it would exceed the memory limit";
         return made;
     }
     std::optional<FloatImage> heights = decodeFloatImage(bytes, kMostModelMapPixels, made.why_not, ImageUse::numbers);
     if (!heights) return made;
     if (!isGreyImage(*heights)) {
         made.is_height_map = isPicture(*heights);
-        made.why_not = "it is a picture in colors, neither heights nor a normal map";
+        made.why_not = "it is a color image, neither a height map nor a normal map";
         return made;
     }
     const MapMesh mesh = meshOf(scene, options, [&](const TangentUse& use) { return use.material == material; });
@@ -156,7 +157,7 @@ MadeOfHeights makeOfHeights(const Scene& scene, std::size_t material, std::size_
     heights->alpha.clear();
     const auto file = encodePng(*heights, heights->bits);
     if (!file) {
-        made.why_not = "the normal map made of it cannot be packed as PNG";
+        made.why_not = "the normal map made from it cannot be encoded as PNG";
         return made;
     }
     made.file.assign(file->begin(), file->end());

@@ -97,12 +97,12 @@ class PackedWriter {
     /// Why the primitive cannot be packed, half a sentence; empty when it can.
     [[nodiscard]] std::string whyNot(const Primitive& primitive, const PrimitiveReport& report) const {
         if (const std::string alone = packedAlone(document_, primitive); !alone.empty())
-            return "it has others in " + alone + ", and not what they were packed from";
+            return "it has only other packed frames in " + alone + ", and not the data they were packed from";
         for (const auto& [name, type] : {std::pair{"POSITION", ""}, {"NORMAL", "VEC3"}, {"TANGENT", "VEC4"}}) {
             const auto index = primitive.find(name);
             if (!index) {
                 const bool can_have = report.action == PrimitiveAction::notNeeded && name[0] != 'P';
-                return std::string("it has no ") + name + (can_have ? " (--all makes what is missing)" : "");
+                return std::string("it has no ") + name + (can_have ? " (--all adds what is missing)" : "");
             }
             const Accessor accessor = readAccessor(document_, *index);
             if (*type == '\0') continue;
@@ -165,8 +165,9 @@ class PackedWriter {
         const bool keeps_more = options_.pack_drop != PackDrop::nothing &&
                                 !(dropped.tangents && (dropped.normals || options_.pack_drop == PackDrop::tangents));
         if (!keeps_more) return;
-        report.notes.push_back(std::string(dropped.tangents ? "its NORMAL stays" : "its NORMAL and TANGENT stay") +
-                               " beside the packed frames, because its morph targets add to them");
+        report.notes.push_back(
+            std::string(dropped.tangents ? "its NORMAL is kept" : "its NORMAL and TANGENT are kept") +
+            " beside the packed frames, because morph targets add to them");
     }
 
     Editor& editor_;
@@ -192,7 +193,7 @@ void noteStalePackedFrames(const Document& document, std::span<const Primitive> 
         if (!is_new) continue;
         for (const StoredPacking& packing : findPacked(document, primitives[i])) {
             if (!packing.fault.empty() || packing.layout->format == options.pack) continue;
-            reports[i].notes.push_back("its packed frames in " + packing.attribute + " are those of before (--pack " +
+            reports[i].notes.push_back("its packed frames in " + packing.attribute + " are outdated (--pack " +
                                        frameFormatName(packing.layout->format) + " renews them)");
         }
     }

@@ -40,32 +40,33 @@ std::vector<float> terrainHeights(HeightEncoding encoding, const FloatImage& ima
 /// A byte that is off by one in red is off by kilometers.
 void checkTerrain(ByteSpan bytes, const FloatImage& image) {
     if (image.bits != 8)
-        failFile(ErrorCode::invalidOption, "heights in red, green and blue have 8 bits a channel, and the image has " +
-                                               std::to_string(image.bits));
+        failFile(
+            ErrorCode::invalidOption,
+            "heights in red, green and blue need 8 bits per channel, and the image has " + std::to_string(image.bits));
     if (imageFormat(bytes) == ImageFormat::jpeg || isLossyWebp(bytes))
         failFile(ErrorCode::invalidOption,
-                 "heights in red, green and blue do not survive a packing with loss, which the image has");
+                 "heights in red, green and blue do not survive lossy compression, which the image has");
 }
 
 void addHeightWarnings(const HeightToNormalFileOptions& options, HeightToNormalFileReport& report) {
     const auto warn = [&](std::string text) { report.warnings.push_back(std::move(text)); };
     const bool has_own_size =
         options.mesh.empty() && (options.texel_size != 1 || options.encoding != HeightEncoding::gray);
-    const std::string unit = has_own_size           ? " the unit of --texel-size"
+    const std::string unit = has_own_size           ? " units of --texel-size"
                              : options.mesh.empty() ? " texels"
-                                                    : " units of the model";
+                                                    : " model units";
     if (options.encoding != HeightEncoding::gray && options.mesh.empty() && options.texel_size == 1)
-        warn("the heights are in meters, and a texel is taken to be 1 m wide; --texel-size says how wide it is");
+        warn("the heights are in meters, and a texel is assumed to be 1 m wide; set its width with --texel-size");
     const HeightToNormalReport& texels = report.texels;
     if (texels.mean_lean_deg > kSteepDeg) {
-        warn("the normals lean by " + shortNumber(texels.mean_lean_deg) +
-             " degrees in the mean: white stands higher than makes sense; the strength is told in" + unit);
+        warn("the mean tilt of the normals is " + shortNumber(texels.mean_lean_deg) +
+             " degrees: white is implausibly high; check the strength, which is in" + unit);
     }
     if (texels.max_lean_deg < kFlatDeg) {
-        warn("the normals lean by " + shortNumber(texels.max_lean_deg) +
-             " degrees at most, so nothing of the relief shows; the strength is told in" + unit);
+        warn("the largest tilt of the normals is " + shortNumber(texels.max_lean_deg) +
+             " degrees, so the relief is invisible; check the strength, which is in" + unit);
     }
-    if (!options.mesh.empty() && texels.on_mesh == 0) warn("no triangle of the mesh shows the map");
+    if (!options.mesh.empty() && texels.on_mesh == 0) warn("no triangle of the mesh uses the map");
 }
 
 HeightToNormalFileReport convertHeights(const std::string& input, const std::string& output,
@@ -77,11 +78,13 @@ HeightToNormalFileReport convertHeights(const std::string& input, const std::str
     if (!options.sink) requireEnding(output, {".png"});
     if (const char* why_not = whyNotRead(ImageFormat::png))
         failFile(ErrorCode::unsupportedFile, "the output cannot be written: " + std::string(why_not));
-    if (options.bits != 8 && options.bits != 16) failFile(ErrorCode::invalidOption, "a PNG has 8 or 16 bits");
+    if (options.bits != 8 && options.bits != 16)
+        failFile(ErrorCode::invalidOption, "a PNG has 8 or 16 bits per channel");
     if (!(options.texel_size > 0) || !std::isfinite(options.texel_size))
         failFile(ErrorCode::invalidOption, "the size of a texel must be above 0");
     if (!options.mesh.empty() && options.texel_size != 1)
-        failFile(ErrorCode::invalidOption, "the mesh says how large texels are, so --texel-size does not fit --mesh");
+        failFile(ErrorCode::invalidOption,
+                 "the mesh determines the texel size, so --texel-size cannot be used with --mesh");
     const bool is_gray = options.encoding == HeightEncoding::gray;
     Bytes read;
     if (!is_gray && options.content.data() == nullptr) {
@@ -93,7 +96,7 @@ HeightToNormalFileReport convertHeights(const std::string& input, const std::str
     HeightToNormalFileReport report{.width = image.width, .height = image.height, .bits_before = image.bits};
     report.bits = options.bits;
     if (is_gray && !isGreyImage(image))
-        report.warnings.emplace_back("the image has colors; the mean of red, green and blue counts as height");
+        report.warnings.emplace_back("the image has colors; the mean of red, green and blue is used as height");
     MapMesh mesh;
     if (!options.mesh.empty()) {
         mesh = readNamedMapMesh(options.mesh, {.material = options.material, .image_name = fileNameOf(input)},
@@ -139,17 +142,16 @@ OptionList heightToNormalOptions(HeightToNormalFileOptions& options) {
     const auto take_strength = [&options](const std::string& value) {
         return parseReal(value, options.strength) ? std::string() : std::string("must be a number");
     };
-    Option strength = option(
-        "--strength", "S", take_strength,
-        "Height of white above black: in units of the model with --mesh, else in the unit of --texel-size, which is "
-        "texels by default. Below 0 white is deeper. With --encoding terrain-rgb or terrarium: factor of the heights.");
+    Option strength = option("--strength", "S", take_strength,
+                             "Height of white above black: in model units with --mesh, otherwise in the unit of "
+                             "--texel-size (texels by default). Negative: white is lower than black. With --encoding "
+                             "terrain-rgb or terrarium: a factor applied to the heights.");
     strength.default_text = std::to_string(1);
     add(list, "Map", strength);
     add(list, "Map",
         choice("--encoding", "NAME", kEncodings, options.encoding,
-               "How the image stores heights. gray: from black to white. terrain-rgb (Mapbox) and terrarium (Mapzen): "
-               "meters, in "
-               "the bytes of red, green and blue."));
+               "Height encoding of the image. gray: black is low, white is high. terrain-rgb (Mapbox) and terrarium "
+               "(Mapzen): meters, in the bytes of red, green and blue."));
     Option texel_size = option(
         "--texel-size", "SIZE",
         [&options](const std::string& value) {
@@ -162,27 +164,26 @@ OptionList heightToNormalOptions(HeightToNormalFileOptions& options) {
     add(list, "Map", texel_size);
     add(list, kInputAndOutput,
         text("--mesh", "FILE", options.mesh,
-             "The model that shows the map. Slopes are then those on its surface, whatever the size of the image and "
-             "of the UVs, and the normals are told in its tangent frames; missing tangents are made."))
+             "The model that shows the map. Slopes are then those on its surface, independent of the size of the image "
+             "and of the UVs, and the normals are written in its tangent frames; missing tangents are computed."))
         .is_file = true;
     addMaterialOfMap(list, options.material);
-    add(list, kInputAndOutput, flag("--dry-run", options.dry_run, "Do everything but write."));
+    add(list, kInputAndOutput, flag("--dry-run", options.dry_run, "Dry run: do everything except writing."));
     addAllowExternal(list, options.file);
     add(list, "Map",
         flag("--clamp", options.clamp,
-             "The image ends at its borders, where slopes are then one-sided differences. By default it goes on at the "
-             "other side, as textures that repeat do; with --mesh as the mesh's texture does."));
+             "Treat image borders as edges: slopes there are one-sided differences. By default the image wraps around, "
+             "as repeating textures do; with --mesh it wraps as the texture of the mesh does."));
     const auto take_convention = [&options](const std::string& name) {
         if (const MapReading* reading = findMapReading(name.c_str())) options.green = reading->green;
         return std::string();
     };
     Option convention = option("--convention", "NAME", take_convention,
-                               "The program that will show the output: green points up, or, for directx and unreal, "
-                               "down.");
+                               "Program that will show the output: green points up, or down for directx and unreal.");
     convention.choices = {"gltf", "opengl", "directx", "unreal", "unity", "blender", "godot", "three"};
     convention.default_text = "gltf";
     add(list, "Map", convention);
-    add(list, "Map", choice("--bits", "BITS", kPngBits, options.bits, "Of a channel of the output."));
+    add(list, "Map", choice("--bits", "BITS", kPngBits, options.bits, "Bits per channel of the output."));
     addMakingAnImage(list, "Map", options.tangents.method, options.execution, options.file);
     return list;
 }

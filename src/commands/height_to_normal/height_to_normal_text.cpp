@@ -11,14 +11,14 @@ std::string heightToNormalText(const Outcome<HeightToNormalFileReport>& outcome,
                                const HeightToNormalFileOptions& options) {
     const HeightToNormalFileReport& done = *outcome.result;
     Table table;
-    table.addRow({"image", fmt::format("{} x {}, {} bits a channel, from {}", done.width, done.height, done.bits,
+    table.addRow({"image", fmt::format("{} x {}, {} bits per channel, from {}", done.width, done.height, done.bits,
                                        done.bits_before)});
     const std::string unit = options.encoding == HeightEncoding::gray ? "units" : "m";
     const std::string scale = options.encoding == HeightEncoding::gray
-                                  ? fmt::format("white stands {:.4g} units high", options.strength)
+                                  ? fmt::format("white is {:.4g} units high", options.strength)
                                   : fmt::format("heights in meters, times {:.4g}", options.strength);
     if (options.mesh.empty() && options.texel_size == 1 && options.encoding == HeightEncoding::gray) {
-        table.addRow({"strength", fmt::format("white stands {:.4g} texels high", options.strength)});
+        table.addRow({"strength", fmt::format("white is {:.4g} texels high", options.strength)});
     } else {
         table.addRow({"strength", fmt::format("{}; a texel is {:.3g} {} wide", scale, done.texels.texel_size,
                                               options.mesh.empty() ? unit : "units")});
@@ -28,7 +28,7 @@ std::string heightToNormalText(const Outcome<HeightToNormalFileReport>& outcome,
                                           done.mesh.triangle_count, done.mesh.primitive_count,
                                           done.mesh.tangents_made ? ", tangents made" : "", done.texels.on_mesh)});
     }
-    table.addRow({"slopes", fmt::format("{:.3g} degrees in the mean, {:.3g} at most", done.texels.mean_lean_deg,
+    table.addRow({"slopes", fmt::format("mean {:.3g} degrees, maximum {:.3g}", done.texels.mean_lean_deg,
                                         done.texels.max_lean_deg)});
     for (const std::string& warning : done.warnings) table.addRow({"warning", printable(warning)});
     return fmt::format("{} -> {}{}\n{}", unbroken(outcome.input), unbroken(outcome.output),

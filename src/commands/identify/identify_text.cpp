@@ -16,7 +16,7 @@ std::string percent(std::uint64_t count, std::uint64_t total) {
 const char* signWords(SignReading reading) {
     switch (reading) {
         case SignReading::gltf:
-            return "as glTF wants";
+            return "as in glTF";
         case SignReading::inverted:
             return "inverted";
         case SignReading::mixed:

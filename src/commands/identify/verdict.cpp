@@ -337,15 +337,15 @@ std::string makerSentence(const Identification& result) {
         return "Made by " + name + ": it explains " + percent(best.nearShare()) + " of the corners" + ties + ".";
     if (keptOnePerVertex(best)) {
         return "Made by " + name +
-               ", but one tangent per vertex was kept where corners differ: " + percent(best.nearShare()) +
+               ", but only one tangent per vertex was kept where corners differ: " + percent(best.nearShare()) +
                " of the corners fit, " + percent(best.nearAnyShare()) + " at some corner of their vertex" +
                (best.nearShare() >= kLikelyShare ? ties : "") + ".";
     }
     if (best.nearShare() >= kLikelyShare) {
-        return "Probably made by " + name + ", with something changed or averaged afterwards: it explains " +
+        return "Probably made by " + name + ", and modified or averaged afterwards: it reproduces " +
                percent(best.nearShare()) + " of the corners" + ties + ".";
     }
-    return "Made by no method that tspace knows: the nearest, " + name + ", explains " + percent(best.nearShare()) +
+    return "Made by no method that tspace knows: the closest one, " + name + ", explains " + percent(best.nearShare()) +
            " of the corners.";
 }
 
@@ -374,10 +374,10 @@ std::string signSentence(const Identification& result) {
     if (best.nearShare() < kLikelyShare && !keptOnePerVertex(best) && differentMakers(result).empty()) return "";
     switch (best.signs()) {
         case SignReading::gltf:
-            return " The signs are as glTF wants them.";
+            return " The signs are those of glTF.";
         case SignReading::inverted:
-            return " Every sign is inverted: the method was fed raw glTF UVs (v not flipped) and its sign was stored "
-                   "as it came, so B points the wrong way.";
+            return " Every sign is inverted: the method was given raw glTF UVs (v not flipped) and its sign was stored "
+                   "unchanged, so the bitangent points the wrong way.";
         case SignReading::none:
             return "";
         case SignReading::mixed:
@@ -392,12 +392,12 @@ std::string signSentence(const Identification& result) {
         mixed += own->signs() == SignReading::mixed ? 1 : 0;
     }
     if (mixed == 0 && right != 0 && inverted != 0) {
-        return " The signs are as glTF wants them in " + primitivesText(right) + ", and inverted in " +
+        return " The signs are those of glTF in " + primitivesText(right) + ", and inverted in " +
                std::to_string(inverted) + ".";
     }
-    return " The signs fit neither reading: " +
+    return " The signs match neither convention: " +
            percent(static_cast<double>(best.gltf_sign_count) / static_cast<double>(best.corner_count)) +
-           " of the corners are as glTF wants them.";
+           " of the corners have the sign of glTF.";
 }
 
 /// Other UV sets that explain a primitive better than the texture's by far.
@@ -418,7 +418,7 @@ std::string uvSetSentence(const std::vector<PrimitiveIdentity>& primitives) {
         count += share + kClearlyMore < best->nearShare() ? 1 : 0;
     }
     if (count == 0) return "";
-    return " In " + primitivesText(count) + " the tangents follow another UV set than the texture does.";
+    return " In " + primitivesText(count) + " the tangents follow a different UV set than the texture uses.";
 }
 
 /// Which reading of texture transforms the tangents follow.
@@ -442,8 +442,9 @@ std::string whyNothing(const Identification& result) {
     if (none) return "There are no tangents in this file.";
     const bool not_read = std::any_of(result.primitives.begin(), result.primitives.end(),
                                       [](const PrimitiveIdentity& p) { return p.skipped == kNotRead; });
-    return not_read ? "The tangents of this file, if it has any, were not read: the importer cannot give them."
-                    : "No primitive has all that is needed to tell.";
+    return not_read
+               ? "The tangents of this file, if any, were not read: the importer cannot read them from this format."
+               : "No primitive has everything that is needed to identify the method.";
 }
 
 }  // namespace

@@ -16,12 +16,12 @@ std::string listed(const std::vector<std::string>& parts) { return fmt::format("
 
 std::string needText(const PrimitiveInfo& primitive) {
     if (!primitive.needs_tangents) {
-        return primitive.has_tangents        ? "not needed, but there"
+        return primitive.has_tangents        ? "not needed, but present"
                : primitive.tangents_not_read ? "not needed; not read"
                                              : "not needed";
     }
     return fmt::format("{} ({}{})",
-                       primitive.has_tangents             ? "needed and there"
+                       primitive.has_tangents             ? "needed and present"
                        : !primitive.packed_frames.empty() ? "needed, only packed"
                        : primitive.tangents_not_read      ? "needed, not read"
                                                           : "needed, missing",
@@ -47,7 +47,7 @@ void addUseRows(const PrimitiveInfo& primitive, Table& table) {
                                   use.material_name.empty() ? std::to_string(use.material)
                                                             : "'" + printable(use.material_name) + "'",
                                   use.only_in_variant ? " (a variant)" : "", use.uv_set, transformText(use),
-                                  use.follows_first ? "" : "; other tangents than the first")});
+                                  use.follows_first ? "" : "; needs different tangents than the first")});
     }
 }
 
@@ -74,7 +74,7 @@ std::string summaryLine(const InspectOutcome& outcome) {
     std::string tangents = "no primitive needs tangents";
     if (needed != 0) {
         tangents = fmt::format("{} {} tangents, {}", counted(needed, "primitive"), needed == 1 ? "needs" : "need",
-                               missing == 0 ? "none lacks them" : fmt::format("{} without", missing));
+                               missing == 0 ? "no primitive lacks them" : fmt::format("{} without", missing));
     }
     return fmt::format("{}: {}, {}, {}, {}; {}\n", unbroken(outcome.input),
                        counted(file.primitives.size(), "primitive"), counted(triangles, "triangle"),
@@ -124,11 +124,11 @@ std::string primitiveRows(const PrimitiveInfo& primitive) {
     }
     if (primitive.degenerate_triangle_count != 0) {
         table.addRow(
-            {"faults", counted(primitive.degenerate_triangle_count, "triangle") + " with two corners at one place"});
+            {"faults", counted(primitive.degenerate_triangle_count, "triangle") + " with two corners at one position"});
     }
     if (primitive.position_noise != 0) {
-        table.addRow({"positions", fmt::format("noisy, by {:.2g} of an edge; normals without that: tspace generate "
-                                               "--overwrite-normals --normals best --denoise auto",
+        table.addRow({"positions", fmt::format("noisy, by {:.2g} of an edge length; normals without the noise: tspace "
+                                               "generate --overwrite-normals --normals best --denoise auto",
                                                primitive.position_noise)});
     }
     return fmt::format("  mesh {}{}, primitive {}{}\n{}", primitive.mesh, name, primitive.primitive, material,

@@ -58,7 +58,7 @@ LowModel::Image shownPart(const LowModel& model, const MapErrorFileOptions& opti
     if (!shown.part.corners.positions.empty()) return shown;
     failFile(ErrorCode::missingAttribute, options.tile == 0
                                               ? "no triangles have the material " + inQuotes(options.material)
-                                              : "no triangles lie in the tile " + std::to_string(options.tile));
+                                              : "no triangles lie in the UDIM tile " + std::to_string(options.tile));
 }
 
 std::string degreesWord(double degrees) {
@@ -293,29 +293,28 @@ class FileMeasuring {
         report_.fits = reads_well && !other_rays_;
         if (asked.error.missed_count > asked.error.point_count) {
             report_.fits = false;
-            report_.verdict = "Most of the low poly meets no high poly within " + shortNumber(asked.error.reach) +
-                              ", so that nothing can be said about the map: the models do not lie on each other.";
+            report_.verdict = "Most of the low poly hits no high poly within " + shortNumber(asked.error.reach) +
+                              ", so the map cannot be measured: the models do not overlap.";
             return;
         }
         if (better > kUnexplainedDeg) {
             report_.fits = false;
-            report_.verdict = "No way to read the map explains it: the best is wrong by " + degreesWord(better) +
-                              " degrees in the mean, so it is probably of another model, of other UVs, or its high "
-                              "poly is elsewhere" +
-                              (shows_several_ ? "; or of one material, which --material names." : ".");
+            report_.verdict = "No interpretation of the map fits: the best one has an error of " + degreesWord(better) +
+                              " degrees on average, so the map is probably for another model or other UVs, or the high "
+                              "poly is in a different place" +
+                              (shows_several_ ? "; or it is for one material, which --material selects." : ".");
         } else if (!reads_well) {
-            report_.verdict = "The map was made for " + difference(asked, best) + ": read so it is wrong by " +
-                              degreesWord(better) + " degrees in the mean, and as it is read now by " +
+            report_.verdict = "The map was made for " + difference(asked, best) + ": read like that, its error is " +
+                              degreesWord(better) + " degrees on average, and as currently read by " +
                               degreesWord(mean) + ".";
         } else if (!other_rays_) {
-            report_.verdict =
-                "The map fits the model as it is: it is wrong by " + degreesWord(mean) + " degrees in the mean.";
+            report_.verdict = "The map fits the model: its error is " + degreesWord(mean) + " degrees on average.";
         }
         if (better <= kUnexplainedDeg) addRaysToVerdict();
         if (asked.error.missed_count * 1000 > asked.error.point_count)
             report_.verdict +=
-                " These are angles where it meets the high poly; " + std::to_string(asked.error.missed_count) + " of " +
-                std::to_string(asked.error.missed_count + asked.error.point_count) + " points meet nothing.";
+                " This excludes samples that hit no high poly: " + std::to_string(asked.error.missed_count) + " of " +
+                std::to_string(asked.error.missed_count + asked.error.point_count) + " samples.";
     }
 
     void addRaysToVerdict() {
@@ -324,9 +323,9 @@ class FileMeasuring {
         const bool is_near = best.reach == options_.map.reach;
         const std::string away = is_near ? "" : ", within " + shortNumber(best.reach);
         report_.verdict += (report_.verdict.empty() ? "The map was baked with " : " It was baked with ") +
-                           raysPhrase(best.options) + away + ": measured so it is wrong by " +
-                           degreesWord(best.error.mean_deg) + " degrees in the mean, and against what is met with " +
-                           raysPhrase(options_.map.rays) + " by " + degreesWord(report_.error.mean_deg) + ".";
+                           raysPhrase(best.options) + away + ": measured like that, its error is " +
+                           degreesWord(best.error.mean_deg) + " degrees on average, and with " +
+                           raysPhrase(options_.map.rays) + " it is " + degreesWord(report_.error.mean_deg) + ".";
     }
 
     static std::string raysPhrase(const RayOptions& rays) {
@@ -347,29 +346,28 @@ class FileMeasuring {
     /// What the map was made for, and this model is not.
     static std::string difference(const ExplainedReading& asked, const ExplainedReading& best) {
         if (best.frames == "object")
-            return best.axes == kMapAxesZUp
-                       ? "object space with z up, as Blender has it (convert-map --from object --axes "
-                         "z-up takes it to tangent space)"
-                       : "object space";
+            return best.axes == kMapAxesZUp ? "object space with z up, as in Blender (convert-map --from object --axes "
+                                              "z-up converts it to tangent space)"
+                                            : "object space";
         std::string words;
         const auto add = [&](const std::string& word) { words += (words.empty() ? "" : ", and ") + word; };
         if (best.reading.green != asked.reading.green)
-            add(best.reading.green == Green::down ? "green that points down (tspace flip-green turns it)"
-                                                  : "green that points up (tspace flip-green turns it)");
+            add(best.reading.green == Green::down ? "green that points down (tspace flip-green inverts it)"
+                                                  : "green that points up (tspace flip-green inverts it)");
         if (best.frames == "quads") {
-            add("the tangents of mikktspace on quads (tspace generate --overwrite --faces quads makes them)");
+            add("the tangents of mikktspace on quads (tspace generate --overwrite --faces quads writes them)");
         } else if (best.frames != asked.frames) {
             add(best.frames == "file" ? "the tangents in the file"
                                       : "other tangents than those in the file (tspace generate --overwrite --method " +
                                             best.frames + " makes them)");
         }
         if (best.reading.bitangent != asked.reading.bitangent)
-            add(best.reading.bitangent == BitangentPlace::perVertex
-                    ? "a bitangent per vertex, as three.js and Godot have it"
-                    : "a bitangent per pixel");
+            add(best.reading.bitangent == BitangentPlace::perVertex ? "a bitangent per vertex, as in three.js and Godot"
+                                                                    : "a bitangent per pixel");
         if (best.reading.two_channels != asked.reading.two_channels)
-            add(best.reading.two_channels ? "two channels, whose z is made from x and y (--two-channels reads it so)"
-                                          : "three channels");
+            add(best.reading.two_channels
+                    ? "two channels, with z reconstructed from x and y (--two-channels reads it like that)"
+                    : "three channels");
         return words;
     }
 

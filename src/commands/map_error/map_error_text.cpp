@@ -25,7 +25,7 @@ std::string readingText(const ExplainedReading& reading) {
 }
 
 std::string raysText(const ExplainedRays& rays) {
-    if (rays.rays.has_cage) return "the cage that was given";
+    if (rays.rays.has_cage) return "the given cage";
     return fmt::format("{}, directions: {}, within {:.4g}", raysWord(rays.rays), directionsWord(rays.rays),
                        rays.error.reach);
 }
@@ -38,7 +38,7 @@ std::string mapErrorText(const Outcome<MapErrorFileReport>& outcome) {
     Table table;
     const MapError& error = done.error;
     table.addRow(
-        {"error", fmt::format("mean {:.4f} degrees, 99 % below {:.4f}, largest {:.4f}; at seams {:.4f} in the mean",
+        {"error", fmt::format("mean {:.4f} degrees, 99th percentile {:.4f}, maximum {:.4f}; at seams mean {:.4f}",
                               error.mean_deg, error.p99_deg, error.max_deg, error.seam_mean_deg)});
     for (std::size_t i = 0; i < std::min(kShown, done.readings.size()); ++i)
         table.addRow({i == 0 ? "readings" : "", fmt::format("{:.4f} degrees: {}", done.readings[i].error.mean_deg,
@@ -47,11 +47,11 @@ std::string mapErrorText(const Outcome<MapErrorFileReport>& outcome) {
         table.addRow({i == 0 ? "rays" : "",
                       fmt::format("{:.4f} degrees: {}", done.rays[i].error.mean_deg, raysText(done.rays[i]))});
     if (error.hidden_count > 0)
-        table.addRow({"note", fmt::format("{} of {} points met another front of the high poly further out",
+        table.addRow({"note", fmt::format("{} of {} samples hit another front face of the high poly further out",
                                           error.hidden_count, error.missed_count + error.point_count)});
     if (error.missed_count > 0)
         table.addRow(
-            {"note", fmt::format("{} of {} points met no high poly within {:.4g}, and count as {:.0f} degrees",
+            {"note", fmt::format("{} of {} samples hit no high poly within {:.4g}, and count as {:.0f} degrees",
                                  error.missed_count, error.missed_count + error.point_count, error.reach, kMissedDeg)});
     for (const BakedHighMap& map : done.high_maps) table.addRow({"high map", highMapText(map)});
     for (const std::string& warning : done.warnings) table.addRow({"warning", printable(warning)});
@@ -63,10 +63,10 @@ std::string textureErrorText(const Outcome<TextureErrorReport>& outcome) {
     Table table;
     table.addRow({"texture",
                   fmt::format("{}, {} x {}", done.format.empty() ? "an image" : done.format, done.width, done.height)});
-    table.addRow({"error", fmt::format("{:.3g} degrees in the mean, {:.3g} at 99 % of the points, {:.3g} at most (at "
-                                       "texel {:.1f}, {:.1f}), filtered",
-                                       done.mean_error_deg, done.p99_error_deg, done.max_error_deg, done.max_error_x,
-                                       done.max_error_y)});
+    table.addRow(
+        {"error",
+         fmt::format("mean {:.3g} degrees, 99th percentile {:.3g}, maximum {:.3g} (at texel {:.1f}, {:.1f}), filtered",
+                     done.mean_error_deg, done.p99_error_deg, done.max_error_deg, done.max_error_x, done.max_error_y)});
     for (const std::string& warning : done.warnings) table.addRow({"warning", printable(warning)});
     return fmt::format("{}\n{}", unbroken(outcome.input), table.text("  "));
 }

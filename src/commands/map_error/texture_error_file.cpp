@@ -31,12 +31,11 @@ std::string sizeText(const FloatImage& image) {
 void addWarnings(const FloatImage& packed, std::vector<std::string>& warnings) {
     if (packed.texture.is_srgb)
         warnings.emplace_back(
-            "the file says that its numbers have the sRGB curve: they were read without it, and renderers that take "
-            "the "
-            "file's word turn all normals");
+            "the texture is declared as sRGB: it was read as linear, but renderers that follow the declaration tilt "
+            "all normals");
     if (packed.texture.layout == MapLayout{} && isGreyImage(packed))
         warnings.emplace_back(
-            "its channels are equal, or nearly: it is a height map or one channel of a map, and holds no vectors");
+            "its channels are equal, or nearly: it is a height map or a single channel, not a normal map");
 }
 
 TextureErrorReport measure(const std::string& texture, const std::string& source, const TextureErrorOptions& options) {
@@ -44,7 +43,7 @@ TextureErrorReport measure(const std::string& texture, const std::string& source
     TextureErrorReport report{.width = packed.width, .height = packed.height, .format = packed.texture.name};
     if (packed.width != map.width || packed.height != map.height)
         failFile(ErrorCode::countMismatch, "its " + sizeText(packed) + " texels are not the " + sizeText(map) +
-                                               " of the source: only the first level is compared");
+                                               " of the source: only the first mip level is compared");
     addWarnings(packed, report.warnings);
     report.makes_z = options.two_channels || packed.texture.layout.z.channel == MapChannel::none;
     for (FloatImage* image : {&packed, &map}) {

@@ -19,7 +19,7 @@
 namespace tspace {
 namespace {
 
-constexpr const char* kNothingToSee = "It changes nothing that this picture shows.";
+constexpr const char* kNothingToSee = "The fix changes nothing that this picture shows.";
 
 /// The first command of a finding that works on the model; nothing where there is none.
 const RemedyCommand* modelCommand(const Finding& finding) {
@@ -79,7 +79,7 @@ struct FindingPictures::Model {
         try {
             mending.model = std::make_unique<MendedModel>(input, file, before.scene(), command);
         } catch (const FileError& failure) {
-            mending.why_not = "It cannot be run here: " + failure.error.message + ".";
+            mending.why_not = "The fix cannot be run here: " + failure.error.message + ".";
         }
     }
 
@@ -116,13 +116,13 @@ std::string FindingPictures::drawAfter(const RemedyCommand& command, std::size_t
                                        std::span<const std::size_t> triangles, RenderFrames frames,
                                        FindingPicture& result) {
     const std::optional<GenerateOptions> options = optionsOf(command);
-    if (!options) return "It leaves a choice open.";
+    if (!options) return "The fix requires a choice.";
     const Model::Mending& mending = model_->mendedBy(commandLine(command), *options);
     if (!mending.model) return mending.why_not;
     const auto pair = std::find_if(mending.model->pairs.begin(), mending.model->pairs.end(),
                                    [&](const PrimitivePair& candidate) { return candidate.a == primitive; });
     if (pair == mending.model->pairs.end() || pair->b == kNoPrimitive)
-        return "It cuts this place into other triangles.";
+        return "The fix triangulates this place differently.";
     PicturePair drawn =
         drawPair({model_->before.lit(frames), primitive}, triangles, {mending.model->model.lit(frames), pair->b});
     if (drawn.before.empty()) return kNothingToSee;
@@ -166,11 +166,11 @@ std::string figuresOf(const FindingPicture& picture) {
                    : noFigureHtml("No pictures: " + picture.command + " changes nothing that a picture shows.");
     const std::string command = "after " + picture.command;
     std::string figures = figureHtml(picture.before, kPlaceWidth, kPlaceHeight,
-                                     picture.is_clay ? "as the file is, without base color" : "as the file is");
+                                     picture.is_clay ? "as in the file, without base color" : "as the file is");
     if (!picture.after.empty())
         return figures + figureHtml(picture.after, kPlaceWidth, kPlaceHeight, command) +
                figureHtml(picture.difference, kPlaceWidth, kPlaceHeight, picture.caption);
-    const std::string why = picture.command.empty() ? "No picture of the remedy: no command of tspace gives it."
+    const std::string why = picture.command.empty() ? "No picture of the fix: no tspace command provides it."
                                                     : "No picture " + command + ": " + picture.why_no_after;
     return figures + noFigureHtml(why);
 }
@@ -242,10 +242,9 @@ std::string fileHtml(const report::CheckOutcome& outcome, std::size_t number, Pi
         return html + "</section>\n";
     }
     html += "<p>" + severityCounts(report) + " in " + counted(report.primitive_count, "primitive") + ", " +
-            std::to_string(report.tangents_count) + " of them with tangents; looked at " +
-            counted(report.image_count, "normal map") +
-            ": what the channels hold, and which way green points (told by " + std::to_string(report.green_count) +
-            ")</p>\n";
+            std::to_string(report.tangents_count) + " of them with tangents; examined " +
+            counted(report.image_count, "normal map") + ": channel contents, and direction of green (determined for " +
+            std::to_string(report.green_count) + ")</p>\n";
     if (!report.generator.empty()) html += "<p class=\"dim\">made by " + htmlText(report.generator) + "</p>\n";
     for (const Finding& finding : report.findings) html += findingHtml(finding, pictures);
     return html + "</section>\n";
@@ -283,12 +282,10 @@ std::string checkPage(const std::vector<report::CheckOutcome>& outcomes, const F
                       const PageOrigin& origin, const Progress& progress) {
     std::string html = pageHead("tspace check");
     html += "<h1>Frames of " + counted(outcomes.size(), "file") + "</h1>\n";
-    html +=
-        originHtml(origin) +
-        "<p class=\"dim\">An error surely renders wrong; a warning renders wrong in some "
-        "renderers, in a small part, or only perhaps; a note is worth knowing. A frame marks "
-        "the place of a finding. Pictures before and after have the camera and the light that show their difference "
-        "best.</p>\n";
+    html += originHtml(origin) +
+            "<p class=\"dim\">An error renders wrong everywhere; a warning renders wrong in some renderers, in a small "
+            "part, or only possibly; a note is worth knowing. A frame marks the place of a finding. Pictures before "
+            "and after the fix use the camera and the light that show the difference best.</p>\n";
     if (outcomes.size() > 1) html += overviewHtml(outcomes);
     for (std::size_t i = 0; i < outcomes.size(); ++i) {
         const std::size_t left = html.size() < kMostPageBytes ? kMostPageBytes - html.size() : 0;

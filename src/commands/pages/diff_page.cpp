@@ -130,7 +130,7 @@ std::string heatHtml(DiffPictures& pictures) {
             pictures.heatMap(side), DiffPictures::kHeatWidth, DiffPictures::kHeatHeight,
             side == DiffPictures::Side::front ? "the angle between the frames, in degrees" : "the same from behind");
     }
-    return figures.empty() ? noFigureHtml("No heat map: the scene of A draws nothing.") : figures;
+    return figures.empty() ? noFigureHtml("No heat map: the scene of A has nothing to draw.") : figures;
 }
 
 std::string placesHtml(const FrameDiff& diff, DiffPictures& pictures, Room& room) {
@@ -170,16 +170,14 @@ std::string diffPage(const std::string& a, const std::string& b, const FrameDiff
     html += "<h1>Frames of two models</h1>\n<p>" + htmlText(words.summary) + "</p>\n";
     for (const std::string& remark : words.remarks) html += "<p>" + htmlText(remark) + "</p>\n";
     html += originHtml(origin) +
-            "<p class=\"dim\">T is the tangent, N the normal, B the bitangent as a shader rebuilds "
-            "it; "
-            "angles are in degrees, over corners of triangles.</p>\n";
-    html +=
-        heat +
-        "<p class=\"dim\">The largest of the angles between T and T, N and N, and B and B, on the surface of A. Grey: "
-        "nothing to compare.</p>\n";
+            "<p class=\"dim\">T is the tangent, N the normal, B the bitangent as reconstructed by shaders; angles are "
+            "in degrees, over triangle corners.</p>\n";
+    html += heat +
+            "<p class=\"dim\">The largest of the angles between the two T, N and B vectors, on the surface of A. Gray: "
+            "nothing to compare.</p>\n";
     html += tableHtml(words.angles) + histogramHtml(diff.tangents);
     html += "<h2>Primitives</h2>\n" + tableHtml(words.primitives);
-    if (!words.worst.empty()) html += "<h2>The worst places</h2>\n" + tableHtml(words.worst) + places;
+    if (!words.worst.empty()) html += "<h2>Worst places</h2>\n" + tableHtml(words.worst) + places;
     return html + pageEnd();
 }
 

@@ -22,18 +22,18 @@ void checkRenderOptions(const RenderOptions& options) {
             failFile(ErrorCode::invalidOption, "a picture has 16 to 8192 pixels along each side");
         if (options.samples < 1 || options.samples > 4 || pixels * options.samples > kMostSamples)
             failFile(ErrorCode::invalidOption,
-                     "a picture has 1 to 4 samples along each side of a pixel, and 16384 in all");
+                     "a picture has 1 to 4 samples per side of a pixel, and at most 16384 per side in total");
     }
     if (std::uint64_t{options.width} * options.samples * options.height * options.samples > kMostInAll)
-        failFile(ErrorCode::invalidOption, "the picture has more than 67108864 samples; ask for fewer of each pixel");
+        failFile(ErrorCode::invalidOption, "the picture has more than 67108864 samples; use fewer samples per pixel");
     if (!std::isfinite(options.yaw_deg) || !std::isfinite(options.pitch_deg))
         failFile(ErrorCode::invalidOption, "an angle of the view is not a number");
     if (!(options.field_of_view_deg >= 0 && options.field_of_view_deg <= 120))
         failFile(ErrorCode::invalidOption, "the field of view is not from 0 to 120 degrees");
     DVec3 light = toDouble(options.to_light);
-    if (!normalize(light)) failFile(ErrorCode::invalidOption, "the direction to the light has no length");
+    if (!normalize(light)) failFile(ErrorCode::invalidOption, "the direction to the light has length 0");
     if (options.turntable < 1 || options.turntable > 999)
-        failFile(ErrorCode::invalidOption, "a turn has 1 to 999 pictures");
+        failFile(ErrorCode::invalidOption, "a turntable has 1 to 999 pictures");
     if (!std::isfinite(options.reading.scale))
         failFile(ErrorCode::invalidOption, "the scale of the normal map is not a number");
 }

@@ -63,10 +63,9 @@ Option viewOption(RenderOptions& options) {
         options.pitch_deg = angles[1];
         return {};
     };
-    Option made =
-        option("--view", "VIEW", take,
-               "Where the camera stands: front (it looks from +z, the front of glTF models), back, left, right "
-               "(from +x), top (from +y), bottom, three-quarter, or YAW,PITCH in degrees.");
+    Option made = option("--view", "VIEW", take,
+                         "Camera position: front (at +z, the front of glTF models), back, left, right (at +x), top (at "
+                         "+y), bottom, three-quarter, or YAW,PITCH in degrees.");
     made.default_text = "three-quarter";
     return made;
 }
@@ -86,10 +85,9 @@ Option lightOption(RenderOptions& options) {
         const Vec3& light = options.to_light;
         return light.x == 0 && light.y == 0 && light.z == 0 ? "must not be 0" : "";
     };
-    Option made = option(
-        "--light", "DIRECTION", take,
-        "For lit and both: towards the lamp, as the camera sees it. X,Y,Z: to the right, up, and to the camera; or "
-        "YAW,PITCH in degrees, where 0,0 is the camera.");
+    Option made = option("--light", "DIRECTION", take,
+                         "Direction to the light for lit and both, in camera space. X,Y,Z: right, up, and towards the "
+                         "camera; or YAW,PITCH in degrees, where 0,0 is the camera.");
     made.default_text = "-0.45,0.65,0.8";
     return made;
 }
@@ -107,7 +105,7 @@ Option sizeOption(RenderOptions& options) {
         options.height = static_cast<std::uint32_t>(height);
         return {};
     };
-    Option made = option("--size", "SIZE", take, "Pixels of the picture: N for a square, or WIDTHxHEIGHT.");
+    Option made = option("--size", "SIZE", take, "Picture size in pixels: N for a square, or WIDTHxHEIGHT.");
     made.default_text = "1024";
     return made;
 }
@@ -117,11 +115,10 @@ Option readingOption(RenderOptions& options) {
         if (const MapReading* reading = findMapReading(name.c_str())) options.reading = *reading;
         return std::string();
     };
-    Option made =
-        option("--reading", "PROGRAM", take,
-               "How normal maps are read: gltf (green up; T and N as interpolated, which glTF does not specify), or "
-               "as this program does it: opengl, directx, unreal, unity, blender, godot or three. Frames stay "
-               "those of glTF.");
+    Option made = option(
+        "--reading", "PROGRAM", take,
+        "How normal maps are read: gltf (green up; T and N as interpolated, which glTF does not specify), or as in "
+        "this program: opengl, directx, unreal, unity, blender, godot or three. Frames are always those of glTF.");
     for (const char* name : kReadings) made.choices.emplace_back(name);
     made.default_text = kReadings[0];
     return made;
@@ -132,44 +129,42 @@ Option readingOption(RenderOptions& options) {
 OptionList renderOptions(RenderOptions& options) {
     OptionList list;
     const char* picture = "Picture";
-    add(list, kInputAndOutput, flag("--dry-run", options.dry_run, "Do everything but write."));
+    add(list, kInputAndOutput, flag("--dry-run", options.dry_run, "Dry run: do everything except writing."));
     addAllowExternal(list, options.file);
     add(list, picture,
         choice("--show", "WHAT", kShows, options.show,
-               "lit: the model in the light of one lamp, with its normal maps; normals, tangents: N and T as colours; "
-               "sign: w, and mirrored parts of the UV map; error: how far the tangents are from those of --method; uv: "
-               "the UV map and its islands; mapped: the normals that lit shades, as colours; both: lit, with the "
-               "file's tangents left of a line and those of --method right of it."));
+               "Content of the picture. lit:  the model under one light, with its normal maps; normals, tangents: N "
+               "and T as "
+               "colors; sign: w and mirrored parts of the UV map; error: angle between the tangents and those of "
+               "--method; uv: the UV map and its islands; mapped: the shaded normals of lit, as colors; both: lit, "
+               "with the file's tangents left of a line and those of --method right of it."));
     add(list, picture, viewOption(options));
     add(list, picture, lightOption(options));
     add(list, picture, sizeOption(options));
     add(list, picture,
         degrees("--fov", options.field_of_view_deg, 120,
-                "Field of view along the shorter side, in degrees, 0 to 120; 0: parallel rays."));
+                "Field of view along the shorter side, in degrees, 0 to 120; 0: orthographic."));
     add(list, picture,
         number("--samples", options.samples, 4,
-               "Points that are looked at along each side of a pixel: 1 to 4. 1: its centre alone, so that colours are "
-               "exact."));
+               "Samples along each side of a pixel: 1 to 4. 1: only the pixel center, so that colors are exact."));
     add(list, picture,
         number("--turntable", options.turntable, 999,
-               "Write N pictures of a turn about the vertical axis, as OUT_000.png, OUT_001.png and so on; the camera "
+               "Write N pictures of a turntable about the vertical axis: OUT_000.png, OUT_001.png, ...; the camera "
                "keeps its distance."));
+    add(list, picture, setting("--no-legend", options.legend, false, "Omit the legend below the picture."));
     add(list, picture,
-        setting("--no-legend", options.legend, false,
-                "Leave out what stands under the picture: what its colours mean, and whose tangents it shows."));
-    add(list, picture,
-        setting("--no-pose", options.pose, false, "Leave out bones and morph targets: the model as it was bound."));
+        setting("--no-pose", options.pose, false, "Ignore bones and morph targets: draw the model in its bind pose."));
     const char* frames = "Frames";
     add(list, frames,
         choice("--frames", "WHOSE", kShownFrames, options.frames,
-               "Whose tangents are shown. auto: those of the file, and those of --method where it has none; stored, "
-               "computed: only those. error always compares the two."));
+               "Source of the tangents shown. auto: those of the file, or those of --method where the file has none; "
+               "stored, computed: only those. error always compares the two."));
     add(list, frames,
-        choice("--method", "NAME", kMethods, options.method, "Which tangents are computed, as for generate."));
+        choice("--method", "NAME", kMethods, options.method, "Method of the computed tangents, as in generate."));
     add(list, frames, readingOption(options));
-    add(list, frames, setting("--no-textures", options.textures, false, "Leave out base colours and normal maps."));
-    addRunning(list, options.execution,
-               "Number of threads; 0: as many as there are cores. Changes no byte of the picture.", options.file);
+    add(list, frames, setting("--no-textures", options.textures, false, "Ignore base colors and normal maps."));
+    addRunning(list, options.execution, "Number of threads; 0: one per core. Every number gives an identical picture.",
+               options.file);
     return list;
 }
 

@@ -10,7 +10,7 @@ namespace tspace::report {
 std::string renderText(const Outcome<RenderReport>& outcome, Method method) {
     const RenderReport& done = *outcome.result;
     Table table;
-    const std::string turn = done.picture_count > 1 ? fmt::format(", {} of a turn", done.picture_count) : "";
+    const std::string turn = done.picture_count > 1 ? fmt::format(", {} in a turntable", done.picture_count) : "";
     table.addRow({"picture", fmt::format("{}, {} x {}{}, {}", renderShowName(done.show), done.width, done.height, turn,
                                          counted(done.triangle_count, "triangle"))});
     if (done.computed_count > 0 && done.show != RenderShow::error) {
@@ -20,7 +20,7 @@ std::string renderText(const Outcome<RenderReport>& outcome, Method method) {
     if (done.without_tangents_count > 0)
         table.addRow({"grey", counted(done.without_tangents_count, "primitive") + " without tangents"});
     if (done.error_sample_count > 0) {
-        table.addRow({"error", fmt::format("mean {:.4g}, at most {:.4g} degrees from {}", done.mean_error_deg,
+        table.addRow({"error", fmt::format("mean {:.4g}, maximum {:.4g} degrees from {}", done.mean_error_deg,
                                            done.max_error_deg, methodName(method))});
     }
     for (const std::string& warning : done.warnings) table.addRow({"warning", printable(warning)});

@@ -45,14 +45,14 @@ std::optional<MapAxes> axesOf(std::string_view text) {
 Option axesOption(std::function<void(const MapAxes&)> give) {
     const auto take = [give = std::move(give)](const std::string& text) -> std::string {
         const std::optional<MapAxes> taken = axesOf(text);
-        if (!taken) return "must be y-up, z-up, or the axes that x, y and z of the map point along, as x,-z,y";
+        if (!taken)
+            return "must be y-up, z-up, or the model axes that x, y and z of the map point along, such as x,-z,y";
         give(*taken);
         return {};
     };
     return option("--axes", "AXES", take,
-                  "Of a map in object or world space: what its x, y and z point along in the model. y-up: the "
-                  "model's own axes, as glTF has them; z-up: those of Blender and 3ds Max, which are x,-z,y; or "
-                  "three axes with a sign each.");
+                  "Axes of a map in object or world space: the model axes that its x, y and z point along. y-up: the "
+                  "axes of glTF; z-up: those of Blender and 3ds Max, which are x,-z,y; or three signed axes.");
 }
 
 }  // namespace tspace::options

@@ -38,19 +38,17 @@ Option readingOption(const char* names, MapReading& target, HelpText help) {
 
 void addAllowExternal(OptionList& list, FileOptions& file) {
     add(list, kInputAndOutput,
-        flag(
-            "--allow-external", file.allow_external,
-            "Also follow paths in a model that lead outside its own folder. By default absolute paths, paths with '..' "
-            "and URLs are refused."));
+        flag("--allow-external", file.allow_external,
+             "Also follow paths in a model that lead outside its own folder. By default absolute paths, paths with "
+             "'..' and URLs are rejected."));
 }
 
 void addKeepCoordinates(OptionList& list, FileOptions& file) {
     add(list, kInputAndOutput,
         flag("--keep-coordinates", file.keep_coordinates,
-             "For OBJ, PLY and STL: write coordinates as they are. By default an offset is taken out of "
-             "those that are too far from the origin for the 32-bit floats of glTF, such as metres of a map, and "
-             "becomes "
-             "the translation of the nodes."));
+             "Write the coordinates of OBJ, PLY and STL files unchanged. By default an offset is subtracted from "
+             "coordinates that are too far from the origin for the 32-bit floats of glTF, such as map coordinates in "
+             "meters, and becomes the translation of the nodes."));
 }
 
 void addThreads(OptionList& list, Execution& execution, HelpText help) {
@@ -63,45 +61,42 @@ void addThreads(OptionList& list, Execution& execution, HelpText help) {
 
 void addMemoryLimit(OptionList& list, std::uint64_t& memory_limit_bytes) {
     const auto take = [&memory_limit_bytes](const std::string& text) -> std::string {
-        return parseMemory(text, memory_limit_bytes) ? "" : "must be a number with M or G, 64M or more, or none";
+        return parseMemory(text, memory_limit_bytes) ? ""
+                                                     : "must be a number with the unit M or G, at least 64M, or none";
     };
     add(list, kRunning,
-        option(
-            "--memory-limit", "SIZE", take,
-            "What working on one file may take of memory, about: a number with M or G (64M or more), or none. What it "
-            "would take is estimated first, and more is refused. Default: 64M, and 16 times the bytes of the file and "
-            "of those it names, so that a small file that claims to be huge does no harm."));
+        option("--memory-limit", "SIZE", take,
+               "Approximate memory limit per file, e.g. 512M or 4G (at least 64M), or none. Memory use is estimated "
+               "first, and a file that would exceed the limit is rejected. Default: 64M plus 16 times the size of the "
+               "file and the files it references, so that a small file that claims huge sizes does no harm."));
 }
 
 void addLimits(OptionList& list, FileOptions& file) {
     addMemoryLimit(list, file.memory_limit_bytes);
     constexpr unsigned kMostSeconds = 1000000;
     add(list, kRunning,
-        number(
-            "--import-seconds", file.import_max_seconds, kMostSeconds,
-            "Time for reading one file of another format (FBX, PLY, DAE, ...); 0: 2 seconds of processor time, and one "
-            "more for each MiB of the file."));
+        number("--import-seconds", file.import_max_seconds, kMostSeconds,
+               "CPU time limit in seconds for reading one file of an imported format (FBX, PLY, DAE, ...); 0: 2 "
+               "seconds plus 1 second per MiB of the file."));
 }
 
 void addLengths(OptionList& list, const char* group, TexelLengths& lengths) {
     static constexpr Named<TexelLengths> kLengths[] = {{"even", TexelLengths::even}, {"free", TexelLengths::free}};
     add(list, group,
-        choice(
-            "--lengths", "HOW", kLengths, lengths,
-            "Lengths of vectors in maps of 8 bits. even: 0.9 to 1, for textures whose smaller levels are made of the "
-            "map, as engines do; free: 0.7 to 1.1, which errs less close up, and more in smaller levels."));
+        choice("--lengths", "HOW", kLengths, lengths,
+               "Range of vector lengths in 8-bit maps. even: 0.9 to 1, for textures whose mip levels are computed from "
+               "the map, as engines do; free: 0.7 to 1.1, which is more accurate close up and less accurate in mip "
+               "levels."));
 }
 
 void addAlpha(OptionList& list, const char* group, MapAlpha& alpha) {
     static constexpr Named<MapAlpha> kAlphas[] = {
         {"auto", MapAlpha::automatic}, {"coverage", MapAlpha::coverage}, {"data", MapAlpha::data}};
     add(list, group,
-        choice(
-            "--alpha", "MEANING", kAlphas, alpha,
-            "Meaning of alpha. coverage: how much of a texel is surface, as in sprites and foliage; smaller levels are "
-            "means weighted by it. data: anything else; it is left out. auto: coverage where texels with alpha 0 hold "
-            "no "
-            "unit vectors and the others do."));
+        choice("--alpha", "MEANING", kAlphas, alpha,
+               "Meaning of the alpha channel. coverage: fraction of the texel that is surface, as in sprites and "
+               "foliage; mip levels are alpha-weighted means. data: anything else; alpha is ignored. auto: coverage if "
+               "texels with alpha 0 hold no unit vectors and the others do."));
 }
 
 void addDdsHeader(OptionList& list, const char* group, DdsHeader& header) {
@@ -109,29 +104,28 @@ void addDdsHeader(OptionList& list, const char* group, DdsHeader& header) {
         {"dx10", DdsHeader::dx10}, {"legacy", DdsHeader::legacy}, {"bc5u", DdsHeader::bc5u}};
     add(list, group,
         choice("--dds-header", "HEADER", kHeaders, header,
-               "Header of a .dds. dx10: that of Direct3D 10. legacy: that of Direct3D 9 for older readers, BC5 as "
-               "FourCC ATI2, "
-               "or BC5S with a sign. bc5u: as legacy, with BC5U in place of ATI2."));
+               "Header of a .dds. dx10: Direct3D 10. legacy: Direct3D 9, for older readers; BC5 has the FourCC ATI2, "
+               "signed BC5 has BC5S. bc5u: like legacy, with BC5U instead of ATI2."));
 }
 
 void addMaterialOfMap(OptionList& list, std::string& material) {
     add(list, kInputAndOutput,
         text("--material", "NAME", material,
-             "Takes the primitives with the material of this name. Default: those whose material names an image of "
-             "the map's name; where there are none, all that have UVs."));
+             "Use only the primitives with the material of this name. Default: those whose material references an "
+             "image with the name of the map; if there are none, all that have UVs."));
 }
 
 void addMakingAnImage(OptionList& list, const char* group, Method& method, Execution& execution, FileOptions& file) {
-    add(list, group, choice("--method", "NAME", kMethods, method, "How tangents are made for a model that has none."));
-    addRunning(list, execution, "Threads; 0: as many as there are cores. The output is the same for any number.", file);
+    add(list, group, choice("--method", "NAME", kMethods, method, "Tangent method for a model without tangents."));
+    addRunning(list, execution, "Number of threads; 0: one per core. Every number gives identical output.", file);
 }
 
 void addSync(OptionList& list, bool& sync) {
     add(list, kRunning,
-        setting(
-            "--no-sync", sync, false,
-            "Do not wait until outputs are on the disk. By default they are there before they take the places of old "
-            "files, so that a power cut leaves one or the other whole; many small files take longer for it."));
+        setting("--no-sync", sync, false,
+                "Do not wait until outputs are flushed to disk. By default they are flushed before they replace old "
+                "files, so that a power failure leaves either the old or the new file complete; this makes many small "
+                "files slower."));
 }
 
 void addRunning(OptionList& list, Execution& execution, HelpText threads_help, FileOptions& file) {

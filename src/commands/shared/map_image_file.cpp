@@ -103,9 +103,10 @@ double scaleOf(std::span<const ChosenPrimitive> chosen) {
         const std::string material = "the material " + inQuotes(one.primitive->material_name);
         const auto scale = static_cast<float>(scale_of(one));
         if (scale == 0 || !std::isfinite(scale))
-            failFile(ErrorCode::invalidFile, material + " gives its normal map a scale that shows nothing of it");
+            failFile(ErrorCode::invalidFile,
+                     material + " sets the scale of its normal map to 0, so the map has no effect");
         if (scale_of(one) != scale_of(first)) {
-            failFile(ErrorCode::invalidFile, material + " gives the map another scale than " +
+            failFile(ErrorCode::invalidFile, material + " sets a different scale for the map than " +
                                                  inQuotes(first.primitive->material_name) + "; choose one of them");
         }
     }
@@ -137,8 +138,8 @@ void checkMaterials(std::span<const ChosenPrimitive> chosen) {
             if (kOneOf * shared <= std::min(a, b)) continue;
             failFile(ErrorCode::invalidFile, "the UVs of the materials " + inQuotes(one->first) + " and " +
                                                  inQuotes(other->first) +
-                                                 " lie over each other, and none names an image of the map's name; "
-                                                 "--material says which one shows the map: " +
+                                                 " overlap, and no material references an image with the name of the "
+                                                 "map; select one with --material: " +
                                                  names);
         }
     }
@@ -161,9 +162,9 @@ std::optional<Affine> placeOf(const DrawnScene& drawn, const ChosenPrimitive& ch
         if (placement.primitive != chosen.number) continue;
         if (!place) place = placement.to_world;
         if (turnsAlike(*place, placement.to_world)) continue;
-        failFile(ErrorCode::invalidFile, "several nodes show the mesh " + inQuotes(chosen.primitive->mesh_name) +
-                                             ", turned or squeezed in different ways, and a map in world space "
-                                             "fits one of them only");
+        failFile(ErrorCode::invalidFile,
+                 "several nodes use the mesh " + inQuotes(chosen.primitive->mesh_name) +
+                     ", with different rotations or scales, and a map in world space fits only one of them");
     }
     return place;
 }
@@ -264,9 +265,9 @@ MapMesh readMapMesh(const std::string& model, const MapMeshChoice& choice, const
         if (place) placeCorners(*place, first, mesh);
     }
     if (mesh.corners.uvs.empty() && choice.tile != 0)
-        failFile(ErrorCode::invalidFile, "no triangles lie in the tile " + std::to_string(choice.tile));
+        failFile(ErrorCode::invalidFile, "no triangles lie in the UDIM tile " + std::to_string(choice.tile));
     if (mesh.corners.uvs.empty())
-        failFile(ErrorCode::invalidFile, "no node of the scene shows the mesh, so it has no world space");
+        failFile(ErrorCode::invalidFile, "no node of the scene uses the mesh, so it has no world space");
     return mesh;
 }
 
@@ -311,7 +312,7 @@ bool isTgaName(const std::string& path) { return lowerExtension(path) == ".tga";
 namespace {
 
 std::vector<std::uint8_t> tgaOf(std::optional<std::vector<std::uint8_t>>&& file) {
-    if (!file) failFile(ErrorCode::tooLarge, "a TGA has 65535 pixels along a side at most");
+    if (!file) failFile(ErrorCode::tooLarge, "a TGA has at most 65535 pixels per side");
     return *std::move(file);
 }
 
@@ -329,7 +330,7 @@ void writeMapImage(const FloatImage& image, ImageFormat format, unsigned bits, c
                    const OutputWay& way) {
     const std::optional<std::vector<std::uint8_t>> file =
         format == ImageFormat::exr ? encodeExr(image, bits) : encodeByName(way.sink ? "" : output, image, bits);
-    if (!file) failFile(ErrorCode::outOfMemory, "the image cannot be packed");
+    if (!file) failFile(ErrorCode::outOfMemory, "the image cannot be encoded");
     AtomicOutput files(way);
     files.add(output, std::span<const std::uint8_t>(*file));
     files.commit();

@@ -22,7 +22,8 @@ struct MapMesh {
     OwnedMesh corners = {};  ///< a vertex for each corner; UVs as the texture is read with them
     /// In world space: one per triangle, where the axes of its mesh point, for directions of normals.
     std::vector<MapAxes> axes = {};
-    TextureWrap wrap_u = TextureWrap::repeat, wrap_v = TextureWrap::repeat;  ///< of the first primitive's texture
+    TextureWrap wrap_u = TextureWrap::repeat,
+                wrap_v = TextureWrap::repeat;  ///< wrap modes of the first primitive's texture
     MapMeshReport report = {};
 };
 

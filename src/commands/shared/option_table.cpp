@@ -105,23 +105,30 @@ std::string checkTogether(const OptionList& list, const Given& given) {
             continue;
         }
         for (const std::string& other : option.excludes) {
-            if (given.has(other)) return option.name() + " and " + other + " exclude each other";
+            if (given.has(other)) return option.name() + " and " + other + " cannot be used together";
         }
         if (!option.needs.empty() && !given.has(option.needs)) return option.name() + " needs " + option.needs;
     }
     return {};
 }
 
+bool Option::isNamed(const std::string& given) const {
+    const auto has = [&](const std::vector<std::string>& list) {
+        return std::find(list.begin(), list.end(), given) != list.end();
+    };
+    return has(names) || has(old_names);
+}
+
 const Option* findOption(const OptionList& list, const std::string& name) {
     const auto found =
-        std::find_if(list.begin(), list.end(), [&](const Option& option) { return option.name() == name; });
+        std::find_if(list.begin(), list.end(), [&](const Option& option) { return option.isNamed(name); });
     return found != list.end() ? &*found : nullptr;
 }
 
 std::string unknownOption(const OptionList& list, const std::string& name) {
     std::vector<std::string> names;
     for (const Option& option : list) names.insert(names.end(), option.names.rbegin(), option.names.rend());
-    return "there is no option '" + name + "'" + didYouMean(name, names);
+    return "unknown option '" + name + "'" + didYouMean(name, names);
 }
 
 Option option(const char* names, const char* value_name, Take take, HelpText help) {

@@ -27,7 +27,9 @@ using HelpText = std::string;
 
 /// An option, or an operand of a command line (what stands there without a name, such as input files).
 struct Option {
-    std::vector<std::string> names = {};    ///< {"-o", "--output"}; none: an operand
+    std::vector<std::string> names = {};  ///< {"-o", "--output"}; none: an operand
+    std::vector<std::string> old_names =
+        {};                                 ///< names before a rename: accepted, but in no help, completion or man page
     std::string value = {};                 ///< what stands for the value in help, "DEG"; empty: a flag
     HelpText help = {};                     ///< a sentence or more
     std::string default_text = {};          ///< printed behind the help; empty: the help says it, or there is none
@@ -43,6 +45,8 @@ struct Option {
 
     /// The name that stands in messages: the last, which is the long one; that of an operand is its value's.
     [[nodiscard]] const std::string& name() const { return names.empty() ? value : names.back(); }
+    /// Whether `given` is one of its names, old ones included.
+    [[nodiscard]] bool isNamed(const std::string& given) const;
 };
 
 /// The options that were given, in their order, with their values (empty for flags).

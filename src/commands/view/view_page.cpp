@@ -38,7 +38,8 @@ struct EmbeddedFile {
 std::vector<EmbeddedFile> filesOf(const Path& input, const FileOptions& options, InputFiles& inputs) {
     if (!isGltfName(input) && lowerExtension(input) != ".obj") {
         failFile(ErrorCode::unsupportedFile,
-                 "the page shows .glb, .vrm, .gltf and .obj; make a GLB of it first, by tspace generate IN -o OUT.glb");
+                 "the page supports .glb, .vrm, .gltf and .obj; convert the model first, with tspace generate IN -o "
+                 "OUT.glb");
     }
     const std::string& path = input.string();
     const fs::path folder = fs::path(folderOf(input)).lexically_normal();

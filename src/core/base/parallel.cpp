@@ -108,8 +108,9 @@ class Parallel::Pool {
     void* context_ = nullptr;
     std::size_t count_ = 0;
     std::atomic<bool> is_ending_{false};
-    std::atomic<std::uint32_t> calls_{0};         ///< how often helpers were called
-    std::atomic<std::uint32_t> inside_{kClosed};  ///< how many helpers look at the loop, and whether it is closed
+    std::atomic<std::uint32_t> calls_{0};  ///< how often helpers were called
+    std::atomic<std::uint32_t> inside_{
+        kClosed};  ///< number of helpers that look at the loop, and a bit that tells whether it is closed
     std::atomic<std::size_t> next_{0};
 };
 

@@ -273,7 +273,8 @@ class Sanitizer {
     void detect(std::size_t first, std::uint32_t size, Counts& counts) {
         bool all_sound = true;
         for (std::size_t c = first; c < first + size; ++c) {
-            if (SurelySound::of(tangents_[c], mesh_.normals[mesh_.indices[c]])) continue;  // as causes_ begins
+            if (SurelySound::of(tangents_[c], mesh_.normals[mesh_.indices[c]]))
+                continue;  // causes_ is initialized to this
             const DVec3 n = normalAt(c);
             if (isZero(n)) counts.count(Counted::badNormal);
             causes_[c] = causeOf(tangents_[c], n);

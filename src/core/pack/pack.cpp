@@ -232,7 +232,8 @@ void unpack(const Format& format, SimdTarget wish, const std::byte* bytes, const
     for (std::size_t begin = 0; begin < normals.count; begin += kBlockFrames) {
         const std::size_t count = std::min(normals.count - begin, kBlockFrames);
         format.read(bytes + begin * format.bytes, count, words);
-        if (is_dense && begin + kBlockFrames < normals.count) {  // what is written beyond is written again
+        if (is_dense &&
+            begin + kBlockFrames < normals.count) {  // bytes written past the block are overwritten by the next block
             kernel.decode(words, count, {&normals[begin].x, &tangents[begin].x});
             continue;
         }

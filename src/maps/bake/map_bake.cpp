@@ -53,14 +53,14 @@ class Baking {
                                padding, parallel_, allocator_);
         if (!triangles)
             return makeError(ErrorCode::tooLarge, kNoElement,
-                             "the triangles of the low poly cover the image too often");
+                             "the triangles of the low poly cover the image too many times");
         if (triangles->counts.inside == 0)
             return makeError(ErrorCode::missingAttribute, kNoElement, "the UVs of the low poly cover no texel");
         traceTexels(*surfaces, *triangles, options_, work_, traced_);
         tell("tracing");
         countOrigins(*triangles);
         if (map_.hit_count == 0 && shared_ == nullptr)
-            return makeError(ErrorCode::missingAttribute, kNoElement, "no line from the low poly meets the high poly");
+            return makeError(ErrorCode::missingAttribute, kNoElement, "no ray from the low poly hits the high poly");
         std::vector<BakedLayer> made;
         if (map_.hit_count > 0) made = traceLayers(*surfaces, *triangles, options_, layers_, work_);
         if (map_.hit_count == 0 || !layers_.has_normal) return BakedMaps{withoutTexels(*surfaces), std::move(made)};

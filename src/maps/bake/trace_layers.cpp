@@ -452,11 +452,11 @@ Error checkLayers(const LayerOptions& layers, const BakeOptions& options, std::s
     std::array<bool, kMapLayerCount> is_asked{};
     for (const MapLayer layer : layers.layers) {
         const auto number = static_cast<std::size_t>(layer);
-        if (number >= kMapLayerCount) return wrong("there is no such layer");
-        if (std::exchange(is_asked[number], true)) return wrong("a layer is asked for twice");
-        if (isMaterial(layer) && !layers.material) return wrong("colours need a material");
+        if (number >= kMapLayerCount) return wrong("unknown layer");
+        if (std::exchange(is_asked[number], true)) return wrong("a layer is requested twice");
+        if (isMaterial(layer) && !layers.material) return wrong("color layers need the materials of the high poly");
     }
-    if (layers.layers.empty() && !layers.has_normal) return wrong("no map is asked for");
+    if (layers.layers.empty() && !layers.has_normal) return wrong("no map is requested");
     if (layers.ray_count == 0 || layers.ray_count > kMostLayerRays) return wrong("a point has 1 to 4096 rays");
     for (const double length :
          {layers.sky_distance, layers.height_range, layers.curvature_range, layers.thickness_range}) {

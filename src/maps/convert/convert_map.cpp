@@ -166,7 +166,7 @@ class Conversion {
     Result<ConvertMapReport> run(const Progress& progress) {
         if (!main_.uvs.empty()) {
             if (!findPlaces()) {
-                return makeError(ErrorCode::tooLarge, kNoElement, "the UVs show the image far too often");
+                return makeError(ErrorCode::tooLarge, kNoElement, "the UVs repeat the image too many times");
             }
         }
         const std::size_t texels = map_.texels.size(), tasks = (texels + kTexelsOfTask - 1) / kTexelsOfTask;

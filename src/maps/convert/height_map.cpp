@@ -66,7 +66,7 @@ class Heights {
         if (!mesh_.uvs.empty()) {
             // Filtering reads texels up to two away from a triangle.
             auto places = findTexelTriangles(triangles, map_.width, map_.height, 2, parallel_, allocator_);
-            if (!places) return makeError(ErrorCode::tooLarge, kNoElement, "uvs: they show the image far too often");
+            if (!places) return makeError(ErrorCode::tooLarge, kNoElement, "uvs: they repeat the image too many times");
             places_ = std::move(*places);
             findTexelSize();
         }

@@ -91,9 +91,8 @@ namespace {
 
 Error apartError(const PositionBox& low, const PositionBox& high) {
     const std::string why = misplacement(low, high);
-    return makeError(ErrorCode::missingAttribute, kNoElement,
-                     "the low poly and the high poly are nowhere near each other%s%s", why.empty() ? "" : "; ",
-                     why.c_str());
+    return makeError(ErrorCode::missingAttribute, kNoElement, "the low poly and the high poly do not overlap%s%s",
+                     why.empty() ? "" : "; ", why.c_str());
 }
 
 }  // namespace

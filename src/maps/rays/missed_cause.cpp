@@ -167,18 +167,18 @@ std::string otherPlace(const Trial& trial, double size, double high_size, double
             if (scale != 1) best += (best.empty() ? "scale it by " : " and scale it by ") + shortNumber(scale);
         }
     }
-    return best.empty() ? best : "it stands in other axes or units: " + best + ", and it lies on the low poly";
+    return best.empty() ? best : "its axes or units differ: " + best + ", and it lies on the low poly";
 }
 
 }  // namespace
 
 std::string causeOfMisses(const LowPoly& low, const HighPoly& high, const RaySurface& surface, double reach) {
     const Trial trial(surface, samplesOf(low));
-    if (trial.metBacksAlone(reach) >= 0.5) return "its faces point inwards: rays met only their backs";
+    if (trial.metBacksAlone(reach) >= 0.5) return "its faces point inwards: rays hit only back faces";
     const double size = PositionBox(low.positions).diagonal(), high_size = PositionBox(high.positions).diagonal();
     const double usual = std::max(reach, kUsualReach * size);
     const auto furtherAway = [&](double other) {
-        return "it lies further away than the rays go: --reach " + shortNumber(other) + " meets it";
+        return "it lies beyond the ray distance: --reach " + shortNumber(other) + " meets it";
     };
     if (usual > reach && trial.met(usual) >= kMeets) return furtherAway(usual);
     const std::string moved = otherPlace(trial, size, high_size, usual, kMeets);
@@ -186,7 +186,7 @@ std::string causeOfMisses(const LowPoly& low, const HighPoly& high, const RaySur
     for (const double factor : {2.0, 4.0, 8.0}) {
         if (trial.met(factor * usual) >= kMeets) return furtherAway(factor * usual);
     }
-    if (trial.metBacksAlone(usual) >= 0.5) return "its faces point inwards: rays met only their backs";
+    if (trial.metBacksAlone(usual) >= 0.5) return "its faces point inwards: rays hit only back faces";
     return {};
 }
 

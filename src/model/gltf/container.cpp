@@ -51,7 +51,7 @@ std::size_t paddingOf(std::size_t length) { return (4 - length % 4) % 4; }
 bool isGlb(std::span<const std::uint8_t> file) { return file.size() >= 4 && word(file, 0) == kMagic; }
 
 GlbChunks readGlb(std::span<const std::uint8_t> file) {
-    if (file.size() < kHeaderBytes) failGlb("the GLB header is cut short", file.size());
+    if (file.size() < kHeaderBytes) failGlb("the GLB header is truncated", file.size());
     if (word(file, 4) != 2) {
         failFile(ErrorCode::unsupportedFile,
                  "the GLB container has version " + std::to_string(word(file, 4)) + ", not 2", "byte 4");
@@ -71,7 +71,7 @@ GlbChunks readGlb(std::span<const std::uint8_t> file) {
     file = file.first(stated);
     std::size_t at = kHeaderBytes;
     for (std::size_t number = 0; at < file.size(); ++number) {
-        if (whole.size() - at < kChunkHeadBytes) failGlb("the head of a GLB chunk is cut short", at);
+        if (whole.size() - at < kChunkHeadBytes) failGlb("the header of a GLB chunk is truncated", at);
         const std::size_t length = word(whole, at);
         const std::uint32_t type = word(whole, at + 4);
         if (file.size() - at < kChunkHeadBytes || length > file.size() - at - kChunkHeadBytes)
@@ -396,7 +396,7 @@ void convertContainer(Document& document, const OutputTarget& target, bool will_
     const bool from_glb = document.container == Container::glb;
     document.container = Container::gltf;
     if (from_glb && !document.extra_chunks.empty()) {
-        warnings.push_back("the GLB has chunks that .gltf cannot hold; they were left out");
+        warnings.push_back("the GLB has chunks that .gltf cannot hold; they were dropped");
         document.extra_chunks.clear();
     }
     const std::string own_name = stemOf(target.path) + kNewBufferEnding;

@@ -245,7 +245,7 @@ class Decoder {
         const Accessor indices = readAccessor(document_, *packed.indices);
         const std::size_t width = bytesOf(indices.component);
         if (indices.component_count != 1 || indices.component == ComponentType::f32)
-            failFile(ErrorCode::invalidFile, "the indices are no unsigned scalars", indices.place());
+            failFile(ErrorCode::invalidFile, "the indices are not unsigned scalars", indices.place());
         if (width < 4 && mesh.point_count > std::size_t{1} << (8 * width))
             failFile(ErrorCode::invalidFile,
                      "the points of the Draco data have no room in indices of " + std::to_string(width) + " bytes",

@@ -220,13 +220,13 @@ Document parseDocument(Bytes file_bytes, const Path& path, const FileOptions& op
         document.extra_chunks = std::move(glb.extra);
         if (glb.ignored_bytes > 0) {
             document.warnings.push_back("the file has " + std::to_string(glb.ignored_bytes) +
-                                        " bytes behind the length that its GLB header states; they mean "
-                                        "nothing, and are left out when the file is written anew");
+                                        " bytes after the length that its GLB header states; they have no "
+                                        "meaning and are dropped when the file is rewritten");
         }
     } else {
         constexpr std::size_t kGlbHeaderBytes = 12;
         if (isGlbName(path) && !text.empty() && text.size() < kGlbHeaderBytes)
-            failFile(ErrorCode::invalidFile, "the GLB header is cut short", "byte " + std::to_string(text.size()));
+            failFile(ErrorCode::invalidFile, "the GLB header is truncated", "byte " + std::to_string(text.size()));
         checkLooksLikeJson(text);
     }
     document.memory->allow(document.file_bytes.size());
@@ -264,7 +264,7 @@ void checkRequiredExtensions(Document& document) {
         }
         if (std::find(kHarmless.begin(), kHarmless.end(), name) == kHarmless.end()) {
             document.warnings.push_back("the file requires the extension " + inQuotes(name) +
-                                        ", which tspace does not know; its data is kept as it is");
+                                        ", which tspace does not know; its data is preserved");
         }
     }
 }

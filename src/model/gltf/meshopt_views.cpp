@@ -178,7 +178,8 @@ Bytes gatherUnfiltered(const Document& document, const Accessor& accessor, std::
     const bool can_cut = filter == MeshoptFilter::exponential
                              ? accessor.component == ComponentType::f32 && accessor.byte_offset % 4 == 0
                              : row == accessor.stride && accessor.byte_offset == 0;
-    const std::size_t total = readBufferView(document, *accessor.view).byte_count;  // as readMeshoptView asks for
+    const std::size_t total =
+        readBufferView(document, *accessor.view).byte_count;  // the size that readMeshoptView requires
     if (!can_cut || accessor.byte_offset + (accessor.count - 1) * accessor.stride + row > total) return {};
     Bytes all(total);
     decodeInto(document, *accessor.view, view, all);

@@ -47,7 +47,7 @@ std::string whyUnreadable(const Accessor& accessor, bool is_base, std::size_t ve
         return "they do not have " + std::to_string(wanted) + " components";
     const bool is_signed = accessor.component == ComponentType::i8 || accessor.component == ComponentType::i16;
     if (accessor.component != ComponentType::f32 && !(is_signed && (accessor.normalized || !is_base)))
-        return "they are " + formatName(accessor) + ", and must be floats or normalised signed integers";
+        return "they are " + formatName(accessor) + ", and must be floats or normalized signed integers";
     if (accessor.count == vertex_count) return {};
     return "there are " + std::to_string(accessor.count) + " of them for " + std::to_string(vertex_count) + " vertices";
 }

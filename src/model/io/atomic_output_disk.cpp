@@ -376,7 +376,7 @@ AtomicOutput::File AtomicOutput::planFile(const Path& requested) {
     // A link stays a link: the file that it points at is replaced.
     std::error_code error;
     if (isForeignLink(requested))
-        failToWrite(requested, "it is a link that another user made in a folder where everybody may write");
+        failToWrite(requested, "it is a symbolic link that another user created in a world-writable folder");
     // A stream keeps its name: /dev/stdout links into /proc, where a pipe has no path.
     const PathKind kind = kindOf(requested);
     const std::uint64_t call = way_.inputs != nullptr ? way_.inputs->call() : 0;
@@ -386,7 +386,7 @@ AtomicOutput::File AtomicOutput::planFile(const Path& requested) {
     const bool is_link = fs::is_symlink(fs::path(requested), error);
     const Path target = is_link ? canonicalPath(requested) : requested;
     if (is_link && (fs::is_symlink(fs::path(target), error) || !fs::exists(fs::path(target), error)))
-        failToWrite(requested, "it is a link to what is not there");
+        failToWrite(requested, "it is a dangling symbolic link");
     if (way_.inputs != nullptr && !way_.replaces_inputs && way_.inputs->has(target))
         failToWrite(requested, "it is an input");
     const std::string identity = identityOf(target);

@@ -60,7 +60,7 @@ Json::~Json() {
     if (is_structured()) delete value_.children;
 }
 
-void Json::failKind() { throw JsonError("a JSON value is not of the kind that is asked for"); }
+void Json::failKind() { throw JsonError("a JSON value does not have the requested type"); }
 
 void Json::become(Kind structured) {
     if (is_null()) *this = Json(structured);

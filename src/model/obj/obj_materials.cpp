@@ -268,7 +268,7 @@ bool readLibrary(const std::string& name, Model& model, std::vector<Material>& m
                                  kNotUtf8);
     if (completeTextureOptions(text) != 0) {
         model.warnings.push_back("the material library '" + Path(fs::path(path).filename()).string() +
-                                 "' moves or scales textures (-o, -s, -t), which is not carried over");
+                                 "' moves or scales textures (-o, -s, -t), which is ignored");
     }
 
     // Charged before the parser makes a large object of each material.
@@ -299,7 +299,7 @@ std::vector<Material> readMaterials(const std::vector<std::string>& names, Model
     const auto read = [&](const std::string& name) {
         bool is_there = true;
         const std::optional<Error> failure = tryFile([&] { is_there = readLibrary(name, model, materials); });
-        if (failure) model.warnings.push_back("material library left out: " + failure->message);
+        if (failure) model.warnings.push_back("material library ignored: " + failure->message);
         return is_there;
     };
     std::vector<std::string> seen;

@@ -180,8 +180,8 @@ void warnOfOffset(const FloatLoss& loss, Model& model) {
 void warnOfLoss(const FloatLoss& loss, bool could_be_mended, Model& model) {
     model.warnings.push_back(
         "the coordinates are too large for 32-bit floats, which glTF has: rounding changes " + changedEdges(loss) +
-        (could_be_mended ? "; without --keep-coordinates an offset would be taken out of them"
-                         : ", and no common offset mends that; split the model, and move each part to its own origin"));
+        (could_be_mended ? "; without --keep-coordinates an offset would be subtracted from them"
+                         : ", and no common offset fixes that; split the model, and move each part to its own origin"));
 }
 
 }  // namespace
@@ -450,7 +450,7 @@ void addWarnings(const Build& build, Model& model) {
         if (count != 0) warn(text + (": " + std::to_string(count)));
     };
     if (notes.unreadable_number_count != 0) {
-        warn("numbers that cannot be read and were taken as 0: " + std::to_string(notes.unreadable_number_count) +
+        warn("invalid numbers, which were read as 0: " + std::to_string(notes.unreadable_number_count) +
              ", the first in line " + std::to_string(notes.unreadable_number_line));
     }
     if (!notes.is_utf8) warn(kNotUtf8);
@@ -464,10 +464,10 @@ void addWarnings(const Build& build, Model& model) {
     };
     warnDead(build.dead_uvs, "texture coordinates", "the faces that use them are taken to have none");
     warnDead(build.dead_normals, "normals", "the faces that use them get new ones");
-    warnCount(build.small_face_count, "faces with fewer than 3 corners, left out");
-    if (notes.has_vertex_colors) warn("vertex colours are not carried over");
-    if (notes.has_lines_or_points) warn("lines and points are not carried over");
-    if (notes.has_free_form) warn("free-form curves and surfaces are not carried over");
+    warnCount(build.small_face_count, "faces with fewer than 3 corners, ignored");
+    if (notes.has_vertex_colors) warn("vertex colors are ignored");
+    if (notes.has_lines_or_points) warn("lines and points are ignored");
+    if (notes.has_free_form) warn("free-form curves and surfaces are ignored");
 }
 
 /// Fills the materials that faces use from the MTL files.

@@ -110,19 +110,19 @@ class ImageBuilder {
             // Told by content, because names can be wrong. Core glTF allows no other formats.
             const ImageFormat format = imageFormat(bytes);
             if (format != ImageFormat::png && format != ImageFormat::jpeg) {
-                warnings_.push_back("the texture '" + texture.file + "' was left out: it is neither PNG nor JPEG");
+                warnings_.push_back("the texture '" + texture.file + "' was ignored: it is neither PNG nor JPEG");
                 return;
             }
             // Viewers may show a damaged image, but not one without a valid size.
             const ImageClaim claim = format == ImageFormat::png ? claimOfPng(bytes) : claimOfJpeg(bytes);
             if (claim.size.pixels() == 0) {
-                warnings_.push_back("the texture '" + texture.file + "' was left out: its head is broken");
+                warnings_.push_back("the texture '" + texture.file + "' was ignored: its header is invalid");
                 return;
             }
             number =
                 static_cast<int>(append(imageJson(path, bytes, mimeType(format), names_by_uri_ && flipped == nullptr)));
         });
-        if (failure) warnings_.push_back("a texture was left out: " + failure->message);
+        if (failure) warnings_.push_back("a texture was ignored: " + failure->message);
         return number;
     }
 

@@ -147,8 +147,8 @@ TEST(CheckPacked, FindsFramesAndSignsOfOthers) {
     EXPECT_EQ(finding->total, 25u);
     EXPECT_EQ(finding->vertices, (std::vector<std::uint32_t>{7, 9}));
     EXPECT_NEAR(finding->worst_deg, 90, 0.14);
-    EXPECT_NE(finding->message.find("the sign is another at 2"), std::string::npos) << finding->message;
-    EXPECT_EQ(finding->remedy, "Pack them anew: tspace generate --pack frame32.");
+    EXPECT_NE(finding->message.find("the sign differs at 2"), std::string::npos) << finding->message;
+    EXPECT_EQ(finding->remedy, "Pack them again: tspace generate --pack frame32.");
     ASSERT_EQ(report.packed_frames.size(), 1u);
     EXPECT_EQ(report.packed_frames[0].differing_sign_count, 2u);
     EXPECT_EQ(report.packed_frames[0].worst_normal_deg, 0);
@@ -200,7 +200,7 @@ TEST(CheckPacked, FindsAccessorsThatAreNoPackedFramesAndTheAdviceMendsThem) {
         EXPECT_EQ(finding->severity, Severity::warning);
         EXPECT_EQ(finding->place, "/meshes/0/primitives/0/attributes/_FRAME32");
         EXPECT_EQ(finding->message, "_FRAME32 " + broken.fault);
-        EXPECT_EQ(finding->remedy, "Pack them anew: tspace generate --pack frame32.");
+        EXPECT_EQ(finding->remedy, "Pack them again: tspace generate --pack frame32.");
         ASSERT_EQ(report.packed_frames.size(), 1u);
         EXPECT_FALSE(report.packed_frames[0].is_readable);
         pack(grid.file(), grid.output(), FrameFormat::frame32);

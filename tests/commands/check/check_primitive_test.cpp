@@ -404,7 +404,7 @@ TEST(Check, FindsTangentsAlongAnotherUvSet) {
     });
     patch.uv_sets.insert(patch.uv_sets.begin(), other);
     EXPECT_EQ(codesOf(patch), Codes{"error uvSetWrong"});
-    EXPECT_NE(findingsOf(patch)[0].message.find("follow TEXCOORD_1, but the texture is read with TEXCOORD_0"),
+    EXPECT_NE(findingsOf(patch)[0].message.find("follow TEXCOORD_1, but the texture uses TEXCOORD_0"),
               std::string::npos);
     patch.uses[0].uv_set = 1;
     EXPECT_EQ(codesOf(patch), Codes{});

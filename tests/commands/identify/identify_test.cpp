@@ -157,7 +157,7 @@ TEST(Identify, FindsTheUvSetThatWasFollowed) {
     EXPECT_EQ(best.uv_set, 1);
     EXPECT_FALSE(best.is_textures_set);
     EXPECT_EQ(best.near_count, best.corner_count);
-    EXPECT_NE(result.verdict.find("another UV set"), std::string::npos) << result.verdict;
+    EXPECT_NE(result.verdict.find("different UV set"), std::string::npos) << result.verdict;
 }
 
 TEST(Identify, NamesQuadsWhereTangentsWereMadeOnThem) {
@@ -219,7 +219,7 @@ TEST(Identify, FollowsNoUvSetThatHasNoArea) {
     for (Vec4& tangent : data.tangents) tangent = {-tangent.x, -tangent.y, -tangent.z, tangent.w};
     const Identification result = identityOf({data});
     for (const Explanation& entry : result.primitives[0].explanations) EXPECT_EQ(entry.uv_set, 0);
-    EXPECT_EQ(result.verdict.find("another UV set"), std::string::npos) << result.verdict;
+    EXPECT_EQ(result.verdict.find("different UV set"), std::string::npos) << result.verdict;
     data.uvs = data.other_uvs;
     EXPECT_EQ(identityOf({data}).primitives[0].skipped, "its UVs have no area");
 }

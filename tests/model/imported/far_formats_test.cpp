@@ -86,7 +86,7 @@ TEST_P(FarFormats, AScanHasTheNormalsThatItHasNearTheOrigin) {
     for (const DVec3& place : {kFar, kNegative}) {
         const Made far = make(GetParam(), {sheet(kSide, place)});
         EXPECT_TRUE(far.hasOffset());
-        EXPECT_TRUE(far.warns("was taken out"));
+        EXPECT_TRUE(far.warns("was subtracted"));
         EXPECT_EQ(far.report.warnings.size(), 1U);
         EXPECT_LT(worstAngle(far.normals(), near.normals()), kLeastDegrees);
         EXPECT_LT(length(far.at(0, 0) - near.at(0, 0) - place), 1e-4);

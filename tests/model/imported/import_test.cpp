@@ -260,7 +260,7 @@ TEST(Import, PlyFarFromTheOriginKeepsItsShape) {
         const Result<GenerateReport> report = generate(path, folder.path("out.glb").string());
         ASSERT_TRUE(report) << report.error().message;
         ASSERT_EQ(report->warnings.size(), 1U) << format;
-        EXPECT_NE(report->warnings[0].find("was taken out"), std::string::npos);
+        EXPECT_NE(report->warnings[0].find("was subtracted"), std::string::npos);
         const DrawnScene drawn = readable([&] { return readDrawnScene(folder.path("out.glb").string(), {}, false); });
         const Affine& place = drawn.placements[0].to_world;
         EXPECT_EQ(place.origin.y, report->coordinate_offset[1]);

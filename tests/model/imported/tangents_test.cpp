@@ -151,7 +151,7 @@ std::string verdictOn(const std::string& path) {
 TEST(ImportTangents, NobodySaysThatThereAreNoneWhereTheyWereNotRead) {
     const TempFolder folder;
     const std::string not_read =
-        "The tangents of this file, if it has any, were not read: the importer cannot give them.";
+        "The tangents of this file, if any, were not read: the importer cannot read them from this format.";
     EXPECT_EQ(verdictOn(writePly(folder)), not_read);
     EXPECT_EQ(verdictOn(writeSquares(folder, {.bitangents = ""})), not_read);
     EXPECT_EQ(verdictOn(writeSquares(folder, {.tangents = "", .bitangents = ""})),
@@ -175,7 +175,8 @@ TEST(ImportTangents, ThatWereNotReadAreNotComparedAndDiffSaysSo) {
     for (const char* files : {"a.ply a.ply", "a.ply a.glb", "a.glb a.ply"}) {
         const ToolRun run = runTool(folder, std::string("diff ") + files);
         EXPECT_LE(run.exit_code, 1) << run.err;
-        EXPECT_NE(run.out.find("were not read: the importer cannot give them"), std::string::npos) << run.out;
+        EXPECT_NE(run.out.find("were not read: the importer cannot read them from this format"), std::string::npos)
+            << run.out;
         EXPECT_EQ(run.out.find("in both"), std::string::npos) << run.out;
     }
     EXPECT_NE(runTool(folder, "diff a.glb a.glb").out.find("no primitive has tangents in both"), std::string::npos);

@@ -301,7 +301,7 @@ TEST(Obj, ABrokenHeightMapIsLeftOutWithAWarning) {
     folder.write("in/n.png", kPng);
     const ObjModel made = make(folder, "mtllib m.mtl\n" + std::string(kQuad) + "usemtl a\nf 1/1 2/2 3/3\n", {});
     EXPECT_FALSE(made.document.json["materials"][0].contains("normalTexture"));
-    EXPECT_TRUE(mentions(made.report.warnings, "'n.png' was left out, and no normal map was made of it"));
+    EXPECT_TRUE(mentions(made.report.warnings, "'n.png' was skipped, and no normal map was made from it"));
 }
 
 TEST(Obj, ImagesWithoutASizeAreLeftOut) {
@@ -311,7 +311,7 @@ TEST(Obj, ImagesWithoutASizeAreLeftOut) {
         folder.write("in/n.png", bytes);
         const ObjModel made = make(folder, "mtllib m.mtl\n" + std::string(kQuad) + "usemtl a\nf 1/1 2/2 3/3\n", {});
         EXPECT_FALSE(made.document.json.contains("images"));
-        EXPECT_TRUE(mentions(made.report.warnings, "its head is broken"));
+        EXPECT_TRUE(mentions(made.report.warnings, "its header is invalid"));
     }
 }
 
@@ -324,7 +324,7 @@ TEST(Obj, TexturesThatAreMovedGiveAWarning) {
         const auto& warnings = made.report.warnings;
         EXPECT_EQ(
             std::any_of(warnings.begin(), warnings.end(),
-                        [](const std::string& text) { return text.find("not carried over") != std::string::npos; }),
+                        [](const std::string& text) { return text.find("which is ignored") != std::string::npos; }),
             moves);
     }
 }
@@ -415,7 +415,7 @@ TEST(Obj, MaterialLibrariesOutsideTheFolderAreNotRead) {
     folder.write("m.mtl", "newmtl a\nnorm n.png\n");
     const std::string obj = "mtllib ../m.mtl\n" + std::string(kQuad) + "usemtl a\nf 1/1 2/2 3/3\n";
     ObjModel made = make(folder, obj, {});
-    EXPECT_TRUE(mentions(made.report.warnings, "material library left out"));
+    EXPECT_TRUE(mentions(made.report.warnings, "material library ignored"));
     EXPECT_EQ(made.report.primitives[0].action, PrimitiveAction::notNeeded);
     GenerateOptions options;
     options.file.allow_external = true;

@@ -28,7 +28,9 @@ std::string taken(const Option& option) {
 }
 
 std::string optionJson(const Option& option) {
-    return "{\"name\": " + quoted(option.name().substr(2)) + ", \"value\": " + quoted(option.value) +
+    // Members of the bindings keep the name before a rename, which the C API accepts.
+    const std::string& name = option.old_names.empty() ? option.name() : option.old_names.front();
+    return "{\"name\": " + quoted(name.substr(2)) + ", \"value\": " + quoted(option.value) +
            ", \"choices\": " + list(option.choices) + ", \"takes\": " + taken(option) +
            ", \"file\": " + (option.is_file ? "true" : "false") + ", \"list\": " + (option.is_list ? "true" : "false") +
            ", \"default\": " + quoted(option.default_text) + ",\n   \"help\": " + quoted(option.help) + "}";

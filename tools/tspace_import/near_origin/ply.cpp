@@ -20,8 +20,9 @@ struct Header {
     Format format = Format::ascii;
     std::size_t end = 0;  ///< of the header, in bytes
     std::size_t vertex_count = 0;
-    std::array<std::size_t, 3> places = {};  ///< of x, y and z in a vertex: numbers before it, or bytes
-    std::size_t vertex_size = 0;             ///< numbers, or bytes
+    std::array<std::size_t, 3> places =
+        {};                       ///< positions of x, y and z in a vertex: number of values, or bytes, before them
+    std::size_t vertex_size = 0;  ///< numbers, or bytes
 };
 
 std::size_t sizeOfType(const std::string& type) {

@@ -31,7 +31,7 @@ export function remedyOptions({ code, commands }: Finding): Remedy | null {
   if (!command) return null;
   const remedy: Remedy = command.options.length === 0 ? { tangents: "repair" } : {};
   for (const { name, value } of command.options) {
-    const option = camel(name);
+    const option = camel(name).replace(/^fix(?=Maps|Winding)/, "mend"); // options renamed since the members were named
     if (option === "repair" || option === "overwrite") remedy.tangents = option;
     else if (flags.has(option)) Object.assign(remedy, { [option]: true });
     else if (option === "denoise" && value === "auto") remedy.denoise = true;

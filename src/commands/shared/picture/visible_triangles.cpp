@@ -173,9 +173,8 @@ FixedCorner fixedCorner(const SeenPoint& p) {
 
 void Effort::spend(std::uint64_t steps) {
     if (steps > left_) {
-        failFile(
-            ErrorCode::tooLarge,
-            "drawing it takes too long: its triangles are drawn too often, or cover the picture too many times over");
+        failFile(ErrorCode::tooLarge,
+                 "drawing it takes too long: its triangles are drawn too often, or cover the picture too many times");
     }
     left_ -= steps;
 }

@@ -300,8 +300,9 @@ class Fitter {
     const QuadCandidates& candidates_;
     const Execution& execution_;
     std::vector<std::uint8_t> votes_;
-    std::vector<float> alone_, paired_;  ///< what was explained, when last computed, at a triangle and at a pair
-    QuadPairs best_kinds_;               ///< how the pair was begun when it explained more
+    std::vector<float> alone_,
+        paired_;            ///< corners explained, in the last computation, by a triangle alone and by a pair
+    QuadPairs best_kinds_;  ///< how the pair was begun when it explained more
     QuadFit fit_ = {};
 };
 

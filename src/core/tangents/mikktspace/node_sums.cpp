@@ -112,7 +112,8 @@ class Summer {
             }
             const std::uint32_t a = n[0], b = n[1], c = n[2];
             const auto addCorner = [&](std::size_t k, std::uint32_t node, std::uint32_t next, std::uint32_t previous) {
-                if constexpr (kSums != Sums::none) addRow(to.nodes[node].s, terms_.s[3 * t + k]);  // and the weight
+                if constexpr (kSums != Sums::none)
+                    addRow(to.nodes[node].s, terms_.s[3 * t + k]);  // includes the weight
                 if constexpr (kSums == Sums::all) addRest(sums_.rest[node], terms_, t, k);
                 to.marks[node] = static_cast<std::uint16_t>(to.marks[node] & terms_.marks[k][t]);
                 to.nodes[node].fan.add(next, previous, fan_room_);

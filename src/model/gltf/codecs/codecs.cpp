@@ -22,12 +22,12 @@ std::string dracoHeaderFault(std::span<const std::uint8_t> data) {
     const bool is_draco = data.size() >= kHeadBytes &&
                           std::equal(kMark.begin(), kMark.end(), data.begin(),
                                      [](char a, std::uint8_t b) { return static_cast<std::uint8_t>(a) == b; });
-    if (!is_draco) return "these are no Draco data";
+    if (!is_draco) return "the bytes are not Draco data";
     const std::uint8_t major = data[kVersionAt], minor = data[kVersionAt + 1];
     if (major != 2 || minor != 2) {
         return "the Draco data have version " + std::to_string(major) + "." + std::to_string(minor) + ", not 2.2";
     }
-    if (data[kGeometryAt] != kTriangularMesh) return "the Draco data are no mesh";
+    if (data[kGeometryAt] != kTriangularMesh) return "the Draco data are not a mesh";
     if (data[kMethodAt] != kSequential && data[kMethodAt] != kEdgebreaker)
         return "the Draco data have an unknown method";
     return {};
@@ -70,7 +70,7 @@ std::string indexFault(const MeshoptCoding& coding) {
         return "compressed indices have 2 or 4 bytes, not " + std::to_string(coding.stride);
     if (coding.filter != MeshoptFilter::none) return "indices have no filter";
     if (coding.mode == MeshoptMode::triangles && coding.count % 3 != 0)
-        return "the number of triangle indices, " + std::to_string(coding.count) + ", is no multiple of 3";
+        return "the number of triangle indices, " + std::to_string(coding.count) + ", is not a multiple of 3";
     return {};
 }
 
