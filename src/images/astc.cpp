@@ -49,7 +49,7 @@ float effortOf(AstcEffort effort) {
                                         : ASTCENC_PRE_MEDIUM;
 }
 
-/// What the blocks hold, as the library decodes them.
+/// Decodes the blocks with the library.
 bool decodeTwoChannels(std::uint32_t width, std::uint32_t height, ByteSpan blocks, std::span<Vec2> texels) {
     TextureFile texture{.size = {width, height}, .format = texelFormat(TexelKind::astc)};
     std::vector<std::uint8_t> decoded(sizeof(Rgba) * texels.size());

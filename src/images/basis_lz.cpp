@@ -90,7 +90,7 @@ class HuffmanCode {
   private:
     static constexpr std::size_t kMost = 16;
     std::array<std::uint32_t, kMost + 1> counts_ = {};
-    std::vector<std::uint16_t> symbols_ = {};  ///< by code
+    std::vector<std::uint16_t> symbols_ = {};  ///< symbols in code order
 };
 
 /// A code whose lengths are packed by another one.

@@ -52,7 +52,7 @@ constexpr std::uint8_t kThirdOfThree[64] = {15, 8, 8,  3,  15, 15, 3,  8,  15, 1
                                             15, 3, 15, 10, 10, 8,  9,  10, 6,  15, 8,  15, 3,  6,  6,  8,
                                             15, 3, 15, 15, 15, 15, 15, 15, 15, 15, 15, 15, 3,  15, 15, 8};
 
-/// By the number of bits of an index, in 64ths.
+/// Weights by the number of index bits, in 64ths.
 constexpr std::uint8_t kBc7Weights[5][16] = {{},
                                              {},
                                              {0, 21, 43, 64},
@@ -62,7 +62,7 @@ constexpr std::uint8_t kBc7Weights[5][16] = {{},
 struct Bc7Block {
     Bc7Mode mode = {};
     std::uint32_t partition = 0, rotation = 0, selection = 0;
-    /// Of 8 bits: [subset * 2 + end][channel].
+    /// Endpoints of 8 bits: [subset * 2 + end][channel].
     std::array<std::array<std::uint8_t, 4>, 6> ends = {};
     std::array<std::uint8_t, kBc7Texels> first = {}, second = {};  ///< indices
 

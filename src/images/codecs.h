@@ -48,7 +48,7 @@ std::optional<FloatImage> decodeFloatTexture(ByteSpan bytes, std::uint64_t most_
 /// One byte a pixel; nothing where it is broken or has no alpha.
 std::vector<std::uint8_t> decodeTextureAlpha(ByteSpan bytes);
 
-/// By the head alone, which must be right in every field, and the file not too short for it.
+/// Decides by the header alone: every field must be valid, and the file long enough for it.
 bool isTga(ByteSpan bytes);
 ImageClaim claimOfTga(ByteSpan bytes);
 std::optional<RgbImage> decodeTga(ByteSpan bytes, std::uint64_t most_pixels, std::string& why);

@@ -34,9 +34,9 @@ class ExrHeadReader {
   public:
     explicit ExrHeadReader(ByteSpan bytes) : bytes_(bytes) {}
 
-    /// Nothing for a broken head.
+    /// Returns nothing for an invalid header.
     std::optional<ExrHead> read() {
-        at_ = 4;  // behind the magic number
+        at_ = 4;  // after the magic number
         ExrHead head;
         constexpr std::uint32_t kDeepOrParts = 0x1800;
         head.has_more = (number() & kDeepOrParts) != 0;
@@ -52,7 +52,7 @@ class ExrHeadReader {
             at_ = begin + size;
         }
         if (failed_ || head.size.pixels() == 0) return {};
-        constexpr std::uint64_t kMostRows = 256;  // of a chunk, with any compression
+        constexpr std::uint64_t kMostRows = 256;  // maximum rows of a chunk, with any compression
         const std::uint64_t rows = head.size.width * std::min<std::uint64_t>(kMostRows, head.size.height);
         head.chunk_pixels = tile_pixels != 0 ? std::min(tile_pixels, head.size.pixels()) : rows;
         return head;
@@ -178,7 +178,7 @@ std::int64_t exrByteCount(exr_const_context_t, void* data) {
 
 /// The channels of a file that are read.
 struct ExrChannels {
-    /// Of red, green and blue. The second is empty where there is one channel, the third where there are x and y alone.
+    /// Channels of red, green and blue. The second is empty if there is one channel, the third if there are only x and y.
     std::array<std::string, 3> colors = {};
     std::string alpha = {};  ///< empty: opaque
 
@@ -231,8 +231,8 @@ struct ExrLayer {
     }
 };
 
-/// Those of no layer come first, then those of the layer whose name has "normal" in it, or of the only one that has vectors; last
-/// a single channel.
+/// Channels without a layer come first, then those of the layer whose name contains "normal", or of the only layer with
+/// vectors; finally a single channel.
 std::optional<ExrChannels> chooseExrChannels(std::span<const std::string_view> names, std::string& why) {
     std::vector<ExrLayer> layers;
     for (const std::string_view name : names) {
@@ -514,7 +514,7 @@ std::optional<FloatImage> decodeExr(ByteSpan bytes, std::uint64_t most_pixels, s
 }
 
 std::optional<std::vector<std::uint8_t>> encodeExr(const FloatImage& image, unsigned bits) {
-    constexpr std::uint32_t kRowsOfChunk = 16;  // of EXR_COMPRESSION_ZIP
+    constexpr std::uint32_t kRowsOfChunk = 16;  // rows of a chunk of EXR_COMPRESSION_ZIP
     std::vector<std::uint8_t> bytes;
     ExrContext file;
     exr_context_initializer_t setup = EXR_DEFAULT_CONTEXT_INITIALIZER;

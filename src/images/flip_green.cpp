@@ -154,7 +154,7 @@ std::uint64_t flipUnpackedBytes(ByteSpan bytes) {
     if (imageFormat(bytes) != ImageFormat::png || bytes.size() <= kColorAt) return 0;
     const ImageSize size = claimOf(bytes).size;
     constexpr std::uint64_t kChannels[] = {1, 1, 3, 1, 2, 1, 4, 1};
-    constexpr std::uint64_t kOfRow = 16;  // what a row takes beside its bytes
+    constexpr std::uint64_t kOfRow = 16;  // bookkeeping bytes per row
     const std::uint64_t pixel_bits = kChannels[bytes[kColorAt] & 7] * std::min<std::uint64_t>(bytes[kBitsAt], 16);
     return (size.width * pixel_bits / 8 + kOfRow) * size.height;
 }

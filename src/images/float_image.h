@@ -17,7 +17,7 @@ inline constexpr std::uint64_t kMostModelMapPixels = std::uint64_t{1} << 26;
 /// Whether it is a WebP that was packed as photographs are.
 bool isLossyWebp(ByteSpan bytes);
 
-/// By the head alone, so that nothing is guessed; nothing for other files and for what is not read.
+/// Reads only the header, so nothing is guessed; returns nothing for other files and unsupported formats.
 std::optional<TextureFacts> textureFacts(ByteSpan bytes);
 
 /// decodeImage with all bits of the file. Memory: 16 bytes a pixel, or 12 without alpha, and the decoder's.

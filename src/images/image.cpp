@@ -32,7 +32,7 @@ void appendMetadata(ByteSpan jpeg, std::vector<std::uint8_t>& out) {
 }  // namespace
 
 ImageClaim claimOfPng(ByteSpan bytes) {
-    constexpr std::size_t kWidthAt = 16, kHeightAt = 20;  // of the header chunk, which is the first
+    constexpr std::size_t kWidthAt = 16, kHeightAt = 20;  // offsets in the header chunk, which is the first chunk
     if (bytes.size() < kHeightAt + 4) return {};
     const auto number = [&](std::size_t at) {
         std::uint32_t value = 0;
@@ -71,7 +71,7 @@ ImageClaim claimOfJpeg(ByteSpan bytes) {
 }
 
 std::vector<std::uint8_t> joinJpeg(ByteSpan packed, ByteSpan like) {
-    // Behind the mark of the beginning and the segment that says JFIF.
+    // The size follows the start marker and the JFIF segment.
     constexpr std::size_t kMark = 2, kSizeAt = 4;
     const bool has_jfif = packed.size() > kSizeAt + 1 && packed[kMark] == 0xff && packed[kMark + 1] == 0xe0;
     const std::size_t count = has_jfif ? kMark + (std::size_t{packed[kSizeAt]} << 8 | packed[kSizeAt + 1]) : 0;

@@ -35,7 +35,7 @@ constexpr VulkanFormat kVulkanFormats[] = {
     {145, TexelKind::bc7},        {146, TexelKind::bc7, true},  {153, TexelKind::eacR},
     {154, TexelKind::eacRs},      {155, TexelKind::eacRg},      {156, TexelKind::eacRgs}};
 
-/// What the file says of its texels beside Vulkan's number.
+/// Data format descriptor: describes the texels beyond Vulkan's format number.
 struct Description {
     std::uint32_t model = 0, transfer = 0;
     std::uint32_t samples = 0, channel = 0,
@@ -122,7 +122,7 @@ class Ktx2Reader {
         return false;
     }
 
-    /// Of each size of blocks one format without and one with the sRGB curve, one after the other.
+    /// Each block size has a linear and an sRGB format, in this order.
     bool findAstc(std::uint32_t vulkan) {
         constexpr std::uint32_t kFirst = 157;
         constexpr std::uint8_t kSizes[][2] = {{4, 4}, {5, 4},  {5, 5},  {6, 5},  {6, 6},   {8, 5},   {8, 6},

@@ -18,7 +18,7 @@ inline std::array<std::uint8_t, 8> packBc4Block(int first, int second, const std
     return block;
 }
 
-/// What the codes of EAC stand for, times the multiplier of the block.
+/// Modifiers of EAC codes; the block's multiplier scales them.
 inline constexpr std::int8_t kEacModifiers[16][8] = {
     {-3, -6, -9, -15, 2, 5, 8, 14}, {-3, -7, -10, -13, 2, 6, 9, 12}, {-2, -5, -8, -13, 1, 4, 7, 12},
     {-2, -4, -6, -13, 1, 3, 5, 12}, {-3, -6, -8, -12, 2, 5, 7, 11},  {-3, -7, -9, -11, 2, 6, 8, 10},

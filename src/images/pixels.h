@@ -28,13 +28,13 @@ struct ImageSize {
     [[nodiscard]] std::uint64_t pixels() const { return std::uint64_t{width} * height; }
 };
 
-/// What an image is read for. Files of floats do not say whether they hold vectors from -1 to 1 or numbers from 0 to 1.
+/// Intended use of an image. Float files do not declare whether they hold vectors from -1 to 1 or numbers from 0 to 1.
 enum class ImageUse {
     vectors,  ///< a normal map: floats from -1 to 1 become (v + 1) / 2, as all other files hold them
     numbers   ///< heights, colors, roughness: floats as stored
 };
 
-/// What a file with its own layout of channels (KTX2, DDS, EXR) says of its pixels.
+/// Pixel information from a file with its own channel layout (KTX2, DDS, EXR).
 struct TextureFacts {
     std::string name = {};  ///< "BC5 in a DDS"
     MapLayout layout =
@@ -49,12 +49,12 @@ struct TextureFacts {
 /// they are, but for vectors from -1 to 1 (ImageUse). Of textures see Rgba in texel_format.h. The first row is the top one. An integer n of up to 16 bits comes back as n when it is written with as many bits.
 struct FloatImage {
     std::uint32_t width = 0, height = 0;
-    unsigned bits = 8;              ///< of a channel in the file: 8 or 16; of floats: 16 or 32. Of BC4, BC5 and EAC 16
+    unsigned bits = 8;              ///< bits per channel in the file: 8 or 16; floats: 16 or 32. BC4, BC5 and EAC: 16
     std::vector<Vec3> texels = {};  ///< width * height; of grey images all three are equal
-    std::vector<float> alpha = {};  ///< as many, or empty: opaque
+    std::vector<float> alpha = {};  ///< one per texel, or empty: opaque
     std::uint64_t not_finite = 0;   ///< texels of an EXR or texture that were not finite, and are grey now
     TextureFacts texture = {};      ///< with an empty name for other files
-    /// Where numbers of the file were moved to 0 to 1: one sentence that says why, and how sure that is. Else empty.
+    /// If the values of the file were mapped to 0 to 1: one sentence with the reason and its certainty. Otherwise empty.
     std::string range_text = {};
 };
 

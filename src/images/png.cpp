@@ -166,7 +166,7 @@ class RowPacker {
 std::vector<std::uint8_t> packRows(ByteSpan bytes, const PngHeader& header) {
     const PngContext decoder = decoderOf(bytes);
     spng_ihdr parsed{};
-    check(spng_get_ihdr(decoder.get(), &parsed));  // which refuses heads that make no sense
+    check(spng_get_ihdr(decoder.get(), &parsed));  // rejects invalid headers
     RowPacker packer(header.width, header.height, header.bits, header.color);
     const std::size_t row_bytes = header.rowBytes(), sample_bytes = header.bits / 8;
     std::vector<std::uint8_t> rows(header.is_interlaced ? row_bytes * header.height : row_bytes);

@@ -23,7 +23,7 @@ struct TgaHead {
     std::size_t palette_at = 0, pixels_at = 0;
 
     [[nodiscard]] std::size_t pixelBytes() const { return pixel_bits / 8; }
-    /// Of a pixel, or of an entry of the palette, which are stored alike.
+    /// Bits of a pixel, or of a palette entry, which are stored alike.
     [[nodiscard]] unsigned storedBits() const { return kind == TgaKind::palette ? entry_bits : pixel_bits; }
     [[nodiscard]] bool hasAlpha() const {
         const bool is_bit = kind != TgaKind::grey && storedBits() == 16;
@@ -54,7 +54,7 @@ std::uint64_t leastBytes(const TgaHead& head) {
     return (pixels + kMostOfPacket - 1) / kMostOfPacket * (1 + head.pixelBytes());
 }
 
-/// Nothing where it is no TGA that is read, or has too few bytes for its pixels.
+/// Returns nothing if it is no supported TGA, or has too few bytes for its pixels.
 std::optional<TgaHead> readTgaHead(ByteSpan bytes) {
     constexpr std::uint8_t kPacked = 8, kFromTheRight = 0x10, kFromTheTop = 0x20, kReserved = 0xc0, kAlphaBits = 0x0f;
     if (bytes.size() < kHeadBytes) return {};
@@ -161,7 +161,7 @@ class TgaReader {
     ByteSpan bytes_;
     const TgaHead& head_;
     std::array<Texel, 256> palette_ = {};
-    std::size_t column_ = 0, row_ = 0;  ///< of the next pixel, from the corner where the file begins
+    std::size_t column_ = 0, row_ = 0;  ///< position of the next pixel, from the corner where the file starts
 };
 
 }  // namespace

@@ -56,9 +56,9 @@ enum class TexelKind : std::uint8_t {
     eacRg,
     eacRgs,
     uastc,
-    etc1s,       ///< as unpackBasisLz gives it
+    etc1s,       ///< as decoded by unpackBasisLz
     etc1sAlpha,  ///< with a second slice, whose green is alpha
-    astc,        ///< of 4 x 4 texels; other sizes are to be set
+    astc,        ///< 4 x 4 texels; other block sizes must be set
     none
 };
 
@@ -70,14 +70,14 @@ using InvertChannel = void (*)(const TexelFormat&, std::uint8_t* block, unsigned
 struct TexelFormat {
     const char* name = "";
     std::uint8_t width = 1, height = 1;  ///< texels of a block
-    std::uint8_t block_bytes = 0;        ///< of a block
+    std::uint8_t block_bytes = 0;        ///< bytes per block
     std::uint8_t channels = 4;
-    std::uint8_t bits = 8;  ///< what a channel resolves: 8, 16 or 32 (floats)
+    std::uint8_t bits = 8;  ///< effective bits per channel: 8, 16 or 32 (floats)
     bool is_signed = false, is_float = false;
     /// Writes width * height texels, row by row. Any bytes may come. Null: whole levels are decoded at once (ASTC).
     void (*decode)(const TexelFormat&, const std::uint8_t* block, Rgba* texels) = nullptr;
     InvertChannel invert = nullptr;           ///< null where the format cannot hold the result exactly
-    std::array<std::uint32_t, 4> masks = {};  ///< of `masked`
+    std::array<std::uint32_t, 4> masks = {};  ///< channel masks of `masked`
 
     [[nodiscard]] std::uint64_t blocksAcross(std::uint32_t texels) const {
         return (std::uint64_t{texels} + width - 1) / width;
@@ -94,7 +94,7 @@ struct TexelFormat {
 /// With block_bytes 0 for `none`; those of `masked` are to be set.
 TexelFormat texelFormat(TexelKind kind);
 
-// Of 16 texels each. BC7 and UASTC are defined in integers of 8 bits.
+// Decoders of blocks of 16 texels. BC7 and UASTC are defined in 8-bit integers.
 
 void decodeBc1(const TexelFormat& format, const std::uint8_t* block, Rgba* texels);
 void decodeBc2(const TexelFormat& format, const std::uint8_t* block, Rgba* texels);

@@ -82,7 +82,7 @@ class TextureLevel {
     }
 
     const TextureFile& texture_;
-    TexelFormat format_;  ///< of blocks_
+    TexelFormat format_;  ///< format of blocks_
     ByteSpan blocks_;
     std::vector<std::uint8_t> unpacked_ = {};
 };

@@ -89,19 +89,19 @@ struct TextureFile {
     Repacking repacking = Repacking::none;
     /// The first, which is the largest, as it lies in the file. Of a KTX2 that is packed once more any number of bytes.
     ByteSpan level = {};
-    std::size_t level_number = 0;  ///< which one `level` and `size` are of: 0, but where another was asked for
+    std::size_t level_number = 0;  ///< index of the level in `level` and `size`: 0 unless another one was requested
     struct Place {
         std::size_t at = 0, bytes = 0;
     };
-    std::vector<Place> levels = {};                  ///< where all of them are in the file
+    std::vector<Place> levels = {};                  ///< positions of all levels in the file
     std::uint32_t cut_count = 0;                     ///< levels of which the head speaks, and that the file ends before
     ByteSpan global = {};                            ///< code books of BasisLZ
     bool is_srgb = false;                            ///< the file says that its numbers have the sRGB curve
     bool turns_columns = false, turns_rows = false;  ///< the first texel is not the top left one
-    /// Of each colour that is shown: the channel of the format, or one of these.
+    /// For each output color: a channel of the format, or one of these constants.
     static constexpr std::uint8_t kZero = 4, kOne = 5;
     std::array<std::uint8_t, 4> swizzle = {0, 1, 2, 3};
-    /// Where x, y and z are among the colours that are shown, where the format says so; else as glTF has it.
+    /// Channels of x, y and z among the output colors if the format defines them; otherwise as in glTF.
     MapLayout layout = {};
 
     /// Bytes of the first level, unpacked.
@@ -115,7 +115,8 @@ struct TextureFile {
     }
 };
 
-/// Nothing, with the reason in `why`, for what is broken, is no picture (cubes, volumes, arrays) or has a format that is not read.
+/// Returns nothing, with the reason in `why`, for a broken file, for cube maps, volumes and arrays, and for unsupported
+/// formats.
 std::optional<TextureFile> readTextureHead(ByteSpan bytes, std::string& why);
 std::optional<TextureFile> readKtx2Head(ByteSpan bytes, std::string& why);
 std::optional<TextureFile> readDdsHead(ByteSpan bytes, std::string& why);

@@ -16,9 +16,9 @@ constexpr std::size_t kUastcTexels = 16, kSolid = 8;
 struct UastcMode {
     std::uint8_t code, code_bits;
     std::uint8_t hint_bits;       ///< between the code and the pattern, for other formats
-    std::uint8_t pattern_bits;    ///< of subsets
+    std::uint8_t pattern_bits;    ///< bits of the subset pattern
     std::uint8_t subsets, parts;  ///< parts: 2 luminance and alpha, 3 or 4 channels
-    std::uint8_t base;            ///< of the digits beside the bits of an endpoint: 1 (none), 3 or 5
+    std::uint8_t base;            ///< base of the digits beside the bits of an endpoint: 1 (none), 3 or 5
     std::uint8_t end_bits, weight_bits;
     bool has_planes, has_selector;  ///< two planes of weights, and a field that says for which channel
 };

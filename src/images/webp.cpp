@@ -76,7 +76,7 @@ Result<ChannelImage> readWebpPixels(ByteSpan bytes) {
 }
 
 Result<std::vector<std::uint8_t>> writeWebp(const ChannelImage& image) {
-    constexpr int kLevel = 3;  // of 0 (fast) to 9 (small)
+    constexpr int kLevel = 3;  // compression level from 0 (fast) to 9 (small)
     WebPConfig config;
     WebPPicture picture;
     if (WebPConfigInit(&config) == 0 || WebPConfigLosslessPreset(&config, kLevel) == 0 ||

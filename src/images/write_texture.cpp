@@ -15,7 +15,8 @@ namespace tspace {
 
 namespace {
 
-/// What the containers say of a format. Numbers: Vulkan's formats, Direct3D's (DXGI), and the models of the Khronos Data Format.
+/// Properties of a format in the containers. Numbers: Vulkan's formats, Direct3D's (DXGI), and the models of the Khronos Data
+/// Format.
 struct WrittenFormat {
     TexelKind kind;
     std::uint32_t vulkan, dxgi;  ///< 0: there is none
@@ -184,7 +185,7 @@ std::optional<std::vector<std::uint8_t>> writeKtx2(const Texture& texture, int z
         packed.push_back(*std::move(level));
     }
     const std::vector<std::vector<std::uint8_t>>& stored = packed.empty() ? texture.levels : packed;
-    // What is packed lies anywhere.
+    // Supercompressed levels need no alignment.
     const std::size_t aligned =
         packed.empty() ? std::lcm(std::size_t{texelFormat(texture.kind).block_bytes}, std::size_t{4}) : 1;
     const auto levels = static_cast<std::uint32_t>(texture.levels.size());

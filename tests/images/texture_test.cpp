@@ -56,7 +56,7 @@ double channelOf(const std::string& block, std::size_t at, std::size_t texel, bo
     return ((6 - code) * a + (code - 1) * b) / 5;
 }
 
-/// Where a texel of row-by-row blocks is: the block, and the texel in it.
+/// Position of a texel in row-by-row blocks: the block, and the texel in it.
 std::pair<std::size_t, std::size_t> placeOf(std::size_t x, std::size_t y, std::size_t width) {
     return {y / 4 * ((width + 3) / 4) + x / 4, y % 4 * 4 + x % 4};
 }
@@ -274,7 +274,7 @@ TEST(Texture, UnpacksZstandardAndZlib) {
         ASSERT_TRUE(image);
         EXPECT_EQ(image->texels, wanted->texels);
         EXPECT_GE(imageWorkBytes(bytesOf(ktx2File(parts))), plain.size());
-        // What unpacks to more or fewer bytes than the picture has is broken, whatever the file says.
+        // Data that unpack to more or fewer bytes than the image has are broken, whatever the file declares.
         for (const std::string& other : {plain + plain, plain.substr(2)}) {
             parts.levels = {scheme == 2 ? zstdOf(other) : zlibOf(other)};
             EXPECT_EQ(whyNot(ktx2File(parts)), "it is a broken KTX2");

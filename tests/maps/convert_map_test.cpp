@@ -112,7 +112,7 @@ std::vector<Vec3> converted(const std::vector<Vec3>& texels, const MapSide& from
     return out;
 }
 
-/// What a side shows at each texel's centre; zero where it has no triangle.
+/// Direction at each texel's center; zero where there is no triangle.
 std::vector<DVec3> shown(const std::vector<Vec3>& texels, const Corners& side) {
     std::vector<std::uint32_t> corners(side.uvs.size());
     for (std::size_t i = 0; i < corners.size(); ++i) corners[i] = static_cast<std::uint32_t>(i);

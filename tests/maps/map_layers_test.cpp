@@ -339,7 +339,7 @@ TEST_F(MapLayers, CurvatureIsBrightWhereTheSurfaceIsConvexAndGreyWhereItIsFlat) 
     EXPECT_NEAR(fixed.values[16 * 32 + 16] - 0.5F, 0.5F * (layer.values[16 * 32 + 16] - 0.5F), 0.03);
 }
 
-/// What a square of -1 to 1 shows that has these texels.
+/// Picture of a square from -1 to 1 with these texels.
 struct Picture {
     std::uint32_t size = 0;
     std::vector<Vec3> texels = {};

@@ -45,7 +45,7 @@ RgbImage flatImage(std::uint32_t size) {
     return {size, size, std::vector<std::uint8_t>(std::size_t{3} * size * size, 128)};
 }
 
-/// The same file with another size in its head.
+/// Changes the size in the file's header.
 std::string claiming(std::string file, std::size_t width_at, std::size_t bytes_each, std::uint32_t width,
                      std::uint32_t height) {
     for (std::size_t i = 0; i < bytes_each; ++i) {

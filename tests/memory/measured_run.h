@@ -23,7 +23,7 @@ struct MeasuredRun {
     double processor_seconds = 0;
 };
 
-/// So that a tool that has lost its limits does not take the machine with it.
+/// Protects the machine from a tool that ignores its limits.
 inline void limitAddressSpace() {
     rlimit limit{};
     getrlimit(RLIMIT_AS, &limit);

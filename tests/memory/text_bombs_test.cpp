@@ -31,7 +31,7 @@ std::string gltfWith(const std::string& member, const std::string& entry, std::s
 TEST(MemoryCeiling, HoldsForJsonOfManySmallValues) {
     for (const char* value : {"0", "[]", "{}", "\"\"", "[[]]", "{\"\":0}", "[[[]]]", "0.5", "null", "[0]"}) {
         SCOPED_TRACE(value);
-        // Where the estimate is a little below its limit it must not be too low.
+        // Estimates just below the limit must not be too low.
         for (const std::size_t bytes : {3'000'000, 5'000'000, 8'000'000}) {
             expectTextBounded("model.gltf", gltfWith("\"extras\":", value, bytes));
         }

@@ -71,7 +71,7 @@ inline GltfBuilder gridModel(const Grid& grid, int index_type = kU16) {
     return builder;
 }
 
-/// The same with tangents that are all wrong, in accessor 4.
+/// Adds tangents that are all wrong, in accessor 4.
 inline GltfBuilder withTangents(const Grid& grid) {
     GltfBuilder builder = gridModel(grid);
     const std::size_t tangent = builder.addFloats(std::vector<float>(grid.vertexCount() * 4, 0.5f), 4);

@@ -117,7 +117,7 @@ class Comparison {
                 expect(withoutCompression(removed ? withoutTangents(old_json) : old_json) ==
                            withoutCompression(withoutNewDeltas(new_json, old_json)),
                        a.place() + " changed");
-                // What is still used is untouched.
+                // Accessors that are still used must be untouched.
                 const Primitive& kept = removed ? b : a;
                 for (const auto& [name, accessor] : kept.attributes) untouched_.insert(accessor);
                 for (const AttributeList& target : kept.targets) {

@@ -81,7 +81,7 @@ Json& addPart(GltfBuilder& builder, const ModelData& data, bool with_normals = f
     return primitive;
 }
 
-/// What was generated, read back.
+/// Result of a run, read back.
 struct Made {
     GenerateReport report;
     gltf::Document document;

@@ -42,7 +42,7 @@ Frames unpacked(const gltf::Document& document, const Primitive& primitive, Fram
     return frames;
 }
 
-/// What was packed is NORMAL and TANGENT as they are stored, within what the format promises.
+/// Packed frames match NORMAL and TANGENT as stored, within the error bound of the format.
 void expectPacked(const gltf::Document& document, const Primitive& primitive, FrameFormat format) {
     ASSERT_TRUE(primitive.find("NORMAL") && primitive.find("TANGENT"));
     const Frames frames = unpacked(document, primitive, format);

@@ -18,10 +18,10 @@ struct FaultyAttribute {
     int component_count;
     std::size_t vertex_count;
     const char* why;
-    const char* option;  ///< of generate, as the remedy names it; empty: no command mends it
+    const char* option;  ///< option of generate that the remedy names; empty: no command repairs it
 };
 
-/// What the remedies of `check` ask for, executed.
+/// Runs the remedies of `check`.
 TEST(Repair, MendsAttributesOfAWrongTypeOrNumber) {
     const Grid grid(4, false);
     const std::size_t count = grid.vertexCount();

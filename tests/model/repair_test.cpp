@@ -72,7 +72,7 @@ class Model {
 
 TEST(Repair, KeepsGoodTangentsWhateverMethodMadeThem) {
     for (const Method method : {Method::mikktspace, Method::lengyel, Method::angle, Method::area, Method::flat}) {
-        const bool splits = method != Method::lengyel;  // which cannot serve a mirrored seam
+        const bool splits = method != Method::lengyel;  // lengyel cannot represent a mirrored seam
         Model model(gridModel(Grid(6, splits)), method);
         const GenerateReport report = model.repair([](std::size_t, Vec4&) {});
         EXPECT_EQ(report.primitives.at(0).action, PrimitiveAction::kept);
@@ -347,7 +347,7 @@ TEST(Repair, LeavesWhatIsNoError) {
     }
 }
 
-/// What a target adds to tangents that stay, stays; what it adds to new ones is new.
+/// Deltas on kept tangents are kept; deltas on new tangents are recomputed.
 TEST(Repair, KeepsWhatTargetsAddToGoodTangents) {
     const Grid grid(4, false);
     GltfBuilder builder = gridModel(grid);
@@ -375,7 +375,7 @@ TEST(Repair, KeepsWhatTargetsAddToGoodTangents) {
     EXPECT_EQ(readTangents(document, after)[12], (Vec4{1, 0, 0, 1}));
 }
 
-/// What the output of a run holds.
+/// Reads the output of a run.
 std::vector<Vec4> tangentsAfter(const GltfBuilder& builder, const GenerateOptions& options, GenerateReport& report) {
     const TempFolder folder;
     const std::string output = folder.path("out.glb").string();

@@ -11,7 +11,7 @@ namespace {
 
 using namespace test;
 
-constexpr double kQuarter = 1.5707963705062866;  // as files write it: a float
+constexpr double kQuarter = 1.5707963705062866;  // a quarter turn as a float, which is what files store
 
 GltfBuilder transformed(const Json& transform, bool mirrored_grid = false) {
     GltfBuilder builder = gridModel(Grid(4, mirrored_grid));

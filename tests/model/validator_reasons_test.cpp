@@ -80,7 +80,7 @@ bool isSamePlace(const std::string& ours, const std::string& theirs) {
     return is_stride || isWithin(ours, theirs) || isWithin(theirs, ours);
 }
 
-/// What is wrong with our reason; empty: nothing.
+/// Fault of our reason; empty: none.
 std::string faultOf(const Error& error, const nlohmann::json& report) {
     std::string seen;
     for (const nlohmann::json& message : report["issues"]["messages"]) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// generate --mend-winding: on files of every kind, and check afterwards.
+// generate --fix-winding: on files of every kind, and check afterwards.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -95,7 +95,7 @@ struct PairOutputs {
 
 /// A sentence where two lines write the same file, or nothing.
 std::string sharedOutput(const std::vector<PairOutputs>& pairs) {
-    std::map<std::string, std::size_t> lines;  // by identity
+    std::map<std::string, std::size_t> lines;  // lines of the table, by file identity
     for (const PairOutputs& pair : pairs) {
         for (const std::string& file : pair.files) {
             const auto [first, is_new] = lines.emplace(identityOf(file), pair.line);
@@ -130,7 +130,7 @@ void addWords(const BakePairsArguments& arguments, const std::vector<Pair>& pair
     }
     for (const std::size_t i : asked) {
         const Pair& pair = pairs[i];
-        // Where a low poly cannot be read, its own bake says so.
+        // If a low poly cannot be read, its own bake reports it.
         (void)tryFile([&] {
             outputs[i].files = outputsFor(pair.job.input, {pair.job.output, {}}, optionsOf(arguments, pair));
         });
@@ -203,7 +203,7 @@ class PairsRun {
         done.outcome.input = pair.job.input;
         done.outcome.output = pair.job.output;
         std::vector<std::string> read = {pair.job.input, pair.high};
-        // What is baked from another high poly, or written elsewhere, is another result.
+        // Another high poly or another destination gives another result.
         const std::string options =
             arguments_.option_text + " high=" + pair.high + (pair.model.empty() ? "" : " model=" + pair.model);
         const auto make = [&]() -> Result<BakeFileReport> {
@@ -271,7 +271,7 @@ class PairsRun {
     const Clock::time_point start_ = Clock::now();
     std::vector<Pair> pairs_;
     std::vector<report::BakedPair> done_;
-    std::vector<std::string> texts_;  ///< what is printed about each
+    std::vector<std::string> texts_;  ///< printed text for each
     unsigned workers_;
     BatchRecord record_ = {};
     std::mutex mutex_;  ///< for the next one

@@ -16,7 +16,7 @@ struct BakePairsArguments {
     std::string report = {};  ///< a file for the JSON; empty: none
     /// `out_mesh`: a folder, or empty.
     BakeFileOptions options = {};
-    std::string option_text = {};  ///< those of them that decide about results
+    std::string option_text = {};  ///< the options that affect results
     BatchArguments batch = {};
     bool json = false;
     bool quiet = false;

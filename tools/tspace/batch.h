@@ -17,7 +17,7 @@ struct Shard {
     unsigned count = 1;
 };
 
-/// How many files are worked on, and which.
+/// Number of files processed in parallel, and their selection.
 struct BatchArguments {
     unsigned jobs = 1;  ///< files at one time; 0: as many as there are cores
     Shard shard = {};
@@ -31,7 +31,7 @@ bool isInShard(const Job& job, const Shard& shard);
 /// Keeps the jobs of the shard.
 void takeShard(std::vector<Job>& jobs, const Shard& shard);
 
-/// How many files are worked on at one time.
+/// Number of files processed in parallel.
 unsigned workerCount(const BatchArguments& batch, std::size_t job_count);
 
 /// Threads for each file when the user did not say: the cores, shared by those files.

@@ -18,7 +18,7 @@ namespace tspace::tool {
 
 using namespace tspace::options;  // NOLINT: the words of the table
 
-/// What the first operand of a command must be, as far as its name tells.
+/// Kind of file that the first operand of a command must be, judging by its name.
 enum class Reads { anything, models, images };
 
 /// A command owns its arguments, and its copies share them: options write them, and `run` reads them.
@@ -52,7 +52,7 @@ bool hasViewPage();
 /// The whole tool.
 struct ToolTable {
     std::vector<Command> commands = {};
-    std::vector<Option> options = {};  ///< those in the place of a command: --help, --version
+    std::vector<Option> options = {};  ///< options that can replace a command: --help, --version
 };
 
 // Each is in NAME_command.cpp.

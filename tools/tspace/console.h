@@ -35,7 +35,7 @@ void printPlain(std::string_view text) noexcept;
 /// Prints "tspace: FILE: message (at PLACE)" on stderr as exactly one line, and returns the exit code it
 /// stands for.
 ExitCode printError(const std::string& file, const Error& error);
-/// As printError, for a call on several files: the error's element is the number of the file, or the first file is named.
+/// Like printError, for a call on several files: the error's element is the index of the file, or the first file is named.
 ExitCode printErrorOfFiles(const std::vector<std::string>& files, const Error& error);
 /// Prints "tspace: message" for a wrong command line, and returns the exit code for that.
 ExitCode printUsageError(const std::string& message);
@@ -50,7 +50,7 @@ bool printResult(std::string_view text, std::FILE* to = stdout);
 /// A text for people, fitted to terminalWidth(). Lines stay whole where that is not known, for programs that search them.
 std::string fitted(std::string_view text, std::FILE* to = stdout);
 bool printText(std::string_view text, std::FILE* to = stdout);
-/// As printText(), for a page of help.
+/// Like printText(), for a help page.
 ExitCode printPage(std::string_view page);
 
 /// Whether stdout gets colours. automatic: it is a terminal that shows them, and the user did not say no by NO_COLOR.

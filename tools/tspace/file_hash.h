@@ -16,10 +16,10 @@ struct FileHash {
     bool operator==(const FileHash&) const = default;
 };
 
-/// Nothing where the file cannot be read.
+/// Returns nothing if the file cannot be read.
 std::optional<FileHash> hashFile(const std::string& path);
 
-/// The same number for the same text on every machine.
+/// Hash of a text, equal on all machines.
 std::uint64_t hashText(std::string_view text);
 
 }  // namespace tspace::tool

@@ -37,7 +37,7 @@ auto callWithOutput(const std::string& output, Options options, const Call& call
     return report;
 }
 
-/// As callWithOutput, with an image from stdin where `input` is "-".
+/// Like callWithOutput, with an image from stdin if `input` is "-".
 template <class Options, class Call>
 auto callOnImage(const std::string& input, const std::string& output, std::uint64_t memory_limit_bytes, Options options,
                  const Call& call) -> decltype(call(options)) {

@@ -29,7 +29,7 @@ std::string canonicalName(const fs::path& path) try {
 
 struct Found {
     Job job;
-    fs::path relative;  // where it lies below its folder; for files that were named: the file name
+    fs::path relative;  // path below its folder; for files named on the command line: the file name
 };
 
 /// Lists files that `is_wanted` accepts in `folder` and below, but for those in `skipped_folder` (where outputs go). Only the

@@ -40,7 +40,7 @@ std::string importerPath();
 /// is there. (Files that are named may be of any format that it reads.)
 bool isModelFile(const std::string& path);
 
-/// What folders and patterns are searched for.
+/// Kinds of files that folders and patterns are searched for.
 enum class SearchedFiles {
     models,
     modelsOrImages  ///< for images where a folder or a pattern has no model
@@ -50,8 +50,8 @@ enum class SearchedFiles {
 /// that match a pattern (glob.h) that is not itself a file.
 std::vector<Job> inputJobs(const std::vector<std::string>& inputs, SearchedFiles searched = SearchedFiles::models);
 
-/// As inputJobs(), with outputs. Makes no folder: that happens when there is something to write. An Error of code
-/// invalidOption says what is wrong with the command line.
+/// Like inputJobs(), with outputs. Creates no folder; folders are created when something is written. An Error with code
+/// invalidOption describes a fault of the command line.
 Result<std::vector<Job>> generateJobs(const JobRequest& request);
 
 /// The folders that the jobs write into, without those that lie in another one of them.

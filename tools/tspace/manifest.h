@@ -24,8 +24,8 @@ struct HashedFile {
 };
 
 struct ManifestEntry {
-    std::string version = {};  ///< of the tool
-    std::string options = {};  ///< those that decide about the result
+    std::string version = {};  ///< version of the tool
+    std::string options = {};  ///< options that affect the result
     Job job = {};              ///< input, output, and the error if there was one
     bool changed = false;
     double seconds = 0;
@@ -33,7 +33,7 @@ struct ManifestEntry {
     std::vector<HashedFile> outputs = {};  ///< everything that was written
 };
 
-/// What earlier runs recorded. Of several lines about one input and output the last counts.
+/// Records of earlier runs. If several lines have the same input and output, the last one counts.
 class ManifestRecord {
   public:
     /// A file that is not there is an empty record. Lines that are not whole (a run that was killed) or of another

@@ -64,7 +64,7 @@ ExitCode runMapError(const MapErrorArguments& arguments) {
     });
 }
 
-/// What a comparison with a source does not look at, which stands among the options of a comparison with a high poly.
+/// Options of a comparison with a high poly that do not apply to a comparison with a source.
 std::vector<std::string> onlyWithHigh(const OptionList& of_high) {
     const std::set<std::string> shared = {"--two-channels", "--threads", "--no-sync", "--memory-limit",
                                           "--import-seconds"};

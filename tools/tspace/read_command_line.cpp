@@ -62,7 +62,7 @@ class Reader {
         return {};
     }
 
-    /// Where the name of another option follows, the value was forgotten.
+    /// If the next argument is the name of another option, the value is missing.
     std::string takeNext(const Option& option) {
         const std::string_view next = next_ < arguments_.size() ? arguments_[next_] : "--";
         if (next == "--" || find(std::string(next.substr(0, next.find('=')))) != nullptr)

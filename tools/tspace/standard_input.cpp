@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::uint64_t kMostBytes = std::uint64_t{4} << 30;  // a GLB cannot be larger
 
-/// By the first bytes. A JSON text may begin with a mark of UTF-8 and spaces.
+/// Decides by the first bytes. JSON may begin with a UTF-8 byte order mark and whitespace.
 bool looksLikeModel(std::string_view text) {
     if (text.starts_with("glTF")) return true;
     if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);

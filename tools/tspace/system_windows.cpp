@@ -72,7 +72,7 @@ std::vector<char*> commandLine(int argc, char** argv) {
 }
 
 bool isTerminal(std::FILE* file) {
-    // Of all character devices only a console has a mode: NUL has none.
+    // Only consoles have a mode; other character devices such as NUL do not.
     DWORD mode = 0;
     return GetConsoleMode(reinterpret_cast<HANDLE>(_get_osfhandle(_fileno(file))), &mode) != 0;
 }
@@ -93,7 +93,7 @@ bool terminalHasColors() {
 bool matchesName(const std::string& pattern_text, const std::string& name_text) {
     std::string_view pattern = pattern_text, name = name_text;
     if (name.starts_with('.') && !pattern.starts_with('.')) return false;
-    // Where the last * stands, and what it has not taken: it takes more where the rest does not fit.
+    // Position of the last *, and the text that it has not matched yet: it matches more if the rest fails.
     std::string_view behind_star, left;
     bool has_star = false;
     while (!name.empty() || !pattern.empty()) {

@@ -27,7 +27,7 @@ struct ViewArguments {
 
 namespace fs = std::filesystem;
 
-/// Beside an installed tool, or in the build folder; empty: it was not built.
+/// Path next to an installed tool, or in the build folder; empty: it was not built.
 std::string pagePath() {
     const Path own = ownProgram();
     if (own.empty()) return {};

@@ -317,7 +317,7 @@ std::string readNearOrigin(const Reading& reading, const aiScene& scene, Importe
         ", and no common offset fixes that; split the model, and move each part to its own origin";
     if (moved->bytes.empty()) return no_common;
     const std::vector<aiVector3D> first_vertices = firstVertices(scene);
-    std::vector<std::string> refused;  // the same as before
+    std::vector<std::string> refused;  // already recorded by the first reading
     reading.importer.SetIOHandler(new ModelFiles(reading.path, reading.rules.anywhere, refused, &moved->bytes));
     const aiScene* const near = reading.importer.ReadFile(reading.path, 0);
     if (near == nullptr || near->mRootNode == nullptr) return "; reading it near the origin failed";
@@ -363,7 +363,7 @@ void mendCoarse(const Reading& reading, const aiScene& scene, const Mended& mend
 Imported importScene(const std::string& path, const ImportRules& rules) {
     std::vector<std::string> refused;
     Assimp::Importer importer;
-    importer.SetIOHandler(new ModelFiles(path, rules.anywhere, refused));  // which the importer owns
+    importer.SetIOHandler(new ModelFiles(path, rules.anywhere, refused));  // the importer takes ownership
     // No step after reading: seams, duplicates and polygons stay as the file has them.
     const aiScene* scene = importer.ReadFile(path, 0);
     std::vector<std::string> not_read;

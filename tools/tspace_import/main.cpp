@@ -116,7 +116,7 @@ int run(const char* input, const tspace::import::ImportRules& rules, std::FILE* 
 }  // namespace
 
 #ifdef TSPACE_SANITIZED
-/// What looks for leaks reads /proc, which a confined process may not, and ends it with an error.
+/// The leak checker reads /proc, which a confined process may not, and would end it with an error.
 extern "C" const char* __lsan_default_options() { return "detect_leaks=0"; }
 #endif
 

@@ -11,16 +11,16 @@
 
 namespace tspace::import {
 
-/// How many were mended.
+/// Counts of repaired values.
 struct Mended {
     std::size_t positions = 0, uvs = 0, normals = 0, tangents = 0, transforms = 0;
-    std::size_t edges = 0, coarse_edges = 0;  ///< of triangles; countCoarseEdges
+    std::size_t edges = 0, coarse_edges = 0;  ///< edges of triangles; see countCoarseEdges
     std::size_t coarse_places = 0;            ///< nodes whose translation floats hold less exactly than to a millimeter
-    double worst_place = 0;                   ///< how far rounding to floats may have moved one of them, in meters
+    double worst_place = 0;                   ///< largest shift of a node by rounding to floats, in meters
 
     /// Whether so many edges are coarse that it shows: one in twenty, as for OBJ.
     [[nodiscard]] bool isCoarse() const { return coarse_edges != 0 && 20 * coarse_edges >= edges; }
-    /// What isCoarse() says to people.
+    /// Human-readable description for isCoarse().
     [[nodiscard]] std::string coarseness() const;
     /// A sentence for each kind that occurred, but for coarse edges.
     [[nodiscard]] std::vector<std::string> warnings() const;

@@ -152,7 +152,7 @@ std::vector<Attribute> attributesOf(const aiMesh& mesh, const std::vector<std::u
     return attributes;
 }
 
-/// Which vertex stands for each: the first with the same bits in every attribute.
+/// Representative of each vertex: the first one with the same bits in every attribute.
 struct Joined {
     std::vector<std::uint32_t> place =
         {};                                ///< for each old vertex, the index of its representative among the kept ones

@@ -18,7 +18,7 @@ struct MovedMeshes {
     [[nodiscard]] bool isMoved(unsigned mesh) const { return mesh < is_moved.size() && is_moved[mesh]; }
 };
 
-/// Of each mesh, the first vertex that is finite.
+/// First finite vertex of each mesh.
 std::vector<aiVector3D> firstVertices(const aiScene& scene);
 
 /// Which meshes of the scene of NearFile are moved, by the first vertices of the scene of the file as it was: one geometry is

@@ -8,7 +8,7 @@ namespace tspace::import {
 
 enum class StoredTangents {
     none,            ///< the format names its tangents, and the file does not have that name
-    withBitangents,  ///< what Assimp gives is what the file has
+    withBitangents,  ///< Assimp's tangents are those of the file
     unknown,  ///< Assimp does not read them from this format, or the file lacks the bitangents: then their sign is
               ///< not known, and Assimp makes one up
 };

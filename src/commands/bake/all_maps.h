@@ -13,12 +13,12 @@ namespace tspace {
 /// The ids and materials of the triangles of a high poly. Must stay where it is while a bake looks at it.
 class HighDetail {
   public:
-    /// Of models that were read with these options, and must stay. Throws FileError.
+    /// The models must have been read with these options, and must outlive this. Throws FileError.
     HighDetail(const BakeModels& models, const std::string& path, const BakeFileOptions& options);
     HighDetail(const HighDetail&) = delete;
     HighDetail& operator=(const HighDetail&) = delete;
 
-    /// What was asked for, with ids and materials of this.
+    /// The requested layers, with the IDs and materials of this object.
     [[nodiscard]] LayerOptions layers() const;
     [[nodiscard]] std::uint64_t idCount() const { return id_count_; }
     /// The first of them.
@@ -46,7 +46,7 @@ class HighDetail {
     std::vector<std::uint32_t> ids_ = {};
     std::uint64_t id_count_ = 0;
     std::vector<BakedId> listed_ = {};
-    std::deque<std::vector<Vec2>> uvs_ = {};  ///< of the textures, one per vertex
+    std::deque<std::vector<Vec2>> uvs_ = {};  ///< UVs of the textures, one per vertex
     std::deque<Material> materials_ = {};     ///< one per primitive
     std::vector<std::string> warnings_ = {};
 };

@@ -131,7 +131,7 @@ class FileBaking {
             failFile(ErrorCode::invalidOption, "green points up in the normal maps of glTF models");
     }
 
-    /// How many triangles lie more than half a texel outside of a clamped image.
+    /// Number of triangles that extend more than half a texel beyond a clamped image.
     [[nodiscard]] std::size_t beyondEdges(const LowModel::Image& image, const LowPart& part) const {
         const auto isBeyond = [](TextureWrap wrap, float at, std::uint32_t size) {
             return wrap == TextureWrap::clamp && std::fabs(at - 0.5F) > 0.5F + 0.5F / static_cast<float>(size);
@@ -305,7 +305,7 @@ class FileBaking {
         }
     }
 
-    /// What of a glTF material shows a layer. Red of `orm` is `ao` where both are made: then one image is both.
+    /// Texture slot of a glTF material for a layer. Red of `orm` is `ao` if both are baked: then one image serves both.
     [[nodiscard]] std::optional<MapSlot> slotOf(MapLayer layer) const {
         switch (layer) {
             case MapLayer::ao:
@@ -321,7 +321,7 @@ class FileBaking {
         }
     }
 
-    /// What makes the map useless.
+    /// Adds a finding if the map is unusable, with the cause.
     void findCause(const BakedFile& file, const LowPart& part) {
         const BakedMap& map = file.map;
         const auto add = [&](const std::string& what, const std::string& why) {
@@ -346,7 +346,7 @@ class FileBaking {
         }
     }
 
-    /// What the map's own rays did not show.
+    /// Warns of surfaces that the map's own rays did not hit.
     void warnOfRays(const BakedFile& file) {
         const MapError& own = file.map.own_error;
         if (own.hidden_count == 0) return;
@@ -362,7 +362,7 @@ class FileBaking {
     BakeFileOptions options_;
     const BakeStep& step_;
     BakeModels models_ = {};
-    SharedRays shared_ = {};                 ///< of the high poly, for all images
+    SharedRays shared_ = {};                 ///< rays on the high poly, shared by all images
     std::optional<HighDetail> detail_ = {};  ///< refers to the models
     AtomicOutput& files_ = step_.map_files;
     std::vector<ModelMap> maps_ = {};

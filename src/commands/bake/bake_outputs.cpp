@@ -13,7 +13,7 @@
 namespace tspace {
 namespace {
 
-/// Where the extension of a path begins, or its end.
+/// Position of a path's extension, or the end of the path.
 std::size_t extensionOf(const std::string& path) {
     const std::size_t slash = path.find_last_of('/'), dot = path.find_last_of('.');
     const bool has_extension = dot != std::string::npos && (slash == std::string::npos || dot > slash);
@@ -31,7 +31,7 @@ std::string fileWord(const std::string& name) {
     return word.empty() ? "material" : word;
 }
 
-/// What the images of a low poly are called, and the pictures beside them.
+/// File names of the images of a low poly, and of the pictures beside them.
 std::vector<std::string> outputsOf(const BakeNames& bake, const BakeFileOptions& options,
                                    const std::vector<std::string>& words) {
     std::vector<std::string> names;

@@ -24,8 +24,8 @@ std::string tileWord(const std::string& image, std::uint32_t tile);
 
 /// From which paths the names of maps are made.
 struct BakeNames {
-    std::string output = {};         ///< of the normal map
-    std::string layers_output = {};  ///< of all other maps; empty: `output`
+    std::string output = {};         ///< path of the normal map
+    std::string layers_output = {};  ///< path from which those of all other maps are derived; empty: `output`
 };
 
 /// Everything that a bake writes for a low poly of one image and without tiles. Reads no file.

@@ -11,13 +11,13 @@
 
 namespace tspace::report {
 
-/// Of a bake that was done.
+/// Exit code of a successful bake.
 inline ExitCode exitCodeOf(const BakeFileReport& report) {
     return report.findings.empty() ? ExitCode::done : ExitCode::findings;
 }
 Json bakeDocument(const Outcome<BakeFileReport>& outcome, const std::string& high, ExitCode exit_code);
 std::string bakeJson(const Outcome<BakeFileReport>& outcome, const std::string& high, ExitCode exit_code);
-/// Of a bake that was done. `out_mesh`: as BakeFileOptions::out_mesh.
+/// Report of a successful bake as text. `out_mesh`: as BakeFileOptions::out_mesh.
 std::string bakeText(const Outcome<BakeFileReport>& outcome, const std::string& out_mesh);
 /// In one line, for one of several.
 std::string bakeLine(const Outcome<BakeFileReport>& outcome);
@@ -26,7 +26,7 @@ std::string bakeLine(const Outcome<BakeFileReport>& outcome);
 struct BakedPair {
     Outcome<BakeFileReport> outcome = {};
     std::string high = {};
-    ExitCode exit_code = ExitCode::done;  ///< of this one
+    ExitCode exit_code = ExitCode::done;  ///< exit code of this bake
 };
 std::string bakedPairsJson(const std::vector<BakedPair>& pairs, ExitCode exit_code, double seconds);
 

@@ -10,15 +10,15 @@
 
 namespace tspace {
 
-/// Where the models come from, and where the results go.
+/// Sources of the models, and destination of the results.
 struct BakeStep {
     BakeSources sources = {};
-    /// What the names of the other maps are made of: NAME_ao.png of NAME.png. Empty: of the output, as of the normal map.
+    /// Base of the names of the other maps: NAME_ao.png for NAME.png. Empty: the output, as for the normal map.
     std::string layers_output = {};
     bool notes_noise = true;  ///< warns of noisy positions of the high poly
     InputFiles& inputs;       ///< are told what is read
     AtomicOutput& map_files;
-    AtomicOutput& model_files;  ///< of BakeFileOptions::out_mesh
+    AtomicOutput& model_files;  ///< files of BakeFileOptions::out_mesh
 };
 
 /// bakeFile, but that nothing is committed. Where the report names no output files, nothing is to be. Throws FileError.

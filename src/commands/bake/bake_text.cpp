@@ -20,7 +20,7 @@ std::string raysText(const BakedFile& file) {
                        error.reach, directions);
 }
 
-/// What black and white stand for, where that is not said by the name.
+/// Values mapped to black and white, unless the name implies them.
 std::string rangeText(const BakedLayerFile& layer) {
     const auto& least = layer.least;
     const auto& most = layer.most;

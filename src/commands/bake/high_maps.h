@@ -15,7 +15,7 @@
 
 namespace tspace {
 
-/// What of a high poly's maps a bake needs. The maps refer to the images, which may be moved as a whole.
+/// The high poly's maps as needed by a bake. The maps refer to the images, which may only be moved as a whole.
 struct HighMaps {
     std::vector<FloatImage> images = {};
     std::vector<HighMap> maps = {};
@@ -40,7 +40,7 @@ class HighMapReading {
     struct Image {
         std::optional<std::size_t> number = {};  ///< in HighMaps::images; nothing: it is not used
         bool is_grey = false;
-        Green green = Green::up;  ///< as its texels show it
+        Green green = Green::up;  ///< direction of green according to its texels
         bool shows_green = false;
     };
 

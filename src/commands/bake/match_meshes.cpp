@@ -145,7 +145,7 @@ class Matching {
 
     [[nodiscard]] std::string keyOf(const std::string& name) const { return pairs_ != nullptr ? name : nameStem(name); }
 
-    /// What has one name by its nodes, or its meshes where these have none, is one.
+    /// Numbers the objects of the low poly: nodes or, if these have no names, meshes with one name are one object.
     void numberLow() {
         for (std::size_t i = 0; i < low_names_.size(); ++i) {
             const std::string key = keyOf(low_names_[i].shown());
@@ -161,7 +161,7 @@ class Matching {
         }
     }
 
-    /// Of something of the high poly.
+    /// Group of an object of the high poly.
     [[nodiscard]] std::uint32_t groupOf(const Names& names) const {
         for (const std::string& name : {names.node, names.mesh}) {
             if (name.empty()) continue;

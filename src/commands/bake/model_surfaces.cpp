@@ -117,7 +117,7 @@ DrawnScene readWithFrames(const std::string& low, const BakeFileOptions& options
     return gltf::generateModel(std::move(model), generate, false, withAttributesRepaired()).model.drawnScene(false);
 }
 
-/// Where a primitive stands first.
+/// First placement of a primitive in the scene.
 Affine firstPlace(const DrawnScene& drawn, std::size_t primitive) {
     for (const ScenePlacement& placement : drawn.placements) {
         if (placement.primitive == primitive) return placement.to_world;
@@ -125,7 +125,7 @@ Affine firstPlace(const DrawnScene& drawn, std::size_t primitive) {
     return {};
 }
 
-/// Where the models stand, if that is so far from the origin that floats would not hold their shapes there.
+/// Offset of the models if they are so far from the origin that floats would not preserve their shapes.
 DVec3 farPlace(const DrawnScene& drawn) {
     return offsetForFloats([&](const auto& visit) {
         for (const ScenePlacement& placement : drawn.placements) {
@@ -306,7 +306,7 @@ HighModel highModel(const DrawnScene& drawn, const MeshMatch* match, const std::
     HighModel model;
     std::size_t made = 0;
     double noise = 0;
-    // What glTF and OBJ leave out is flat; meshes of scanners and sculptors are meant to be smooth.
+    // Without normals, glTF and OBJ are flat; meshes of scanners and sculptors are meant to be smooth.
     const std::string extension = lowerExtension(path);
     const bool is_flat = isGltfName(path) || extension == ".obj";
     HighMapReading maps(drawn.scene, options);
@@ -321,7 +321,7 @@ HighModel highModel(const DrawnScene& drawn, const MeshMatch* match, const std::
         const TangentUse* const use = maps.find(primitive);
         std::vector<Vec3> denoised;
         if (options.denoise != 0 && use == nullptr) denoised = denoisedNormals(primitive, options, noise);
-        // Those of STL say where the triangles look, and not how they are shaded.
+        // Normals of STL give the orientation of triangles, not their shading.
         if (use != nullptr) {
             addMapped(primitive, *use, place, maps.numberOf(primitive, *use, primitive.corners.size() / 3), options,
                       model);

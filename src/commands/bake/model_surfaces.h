@@ -32,7 +32,7 @@ struct MappedPrimitive {
     UvTransform transform = {};
 };
 
-/// What of a material a map is.
+/// Texture slot of a material.
 enum class MapSlot { normal, occlusion, metal, occlusion_and_metal, color, emission };
 
 /// A baked image, and the primitives that read it.
@@ -56,7 +56,7 @@ struct ModelWithMaps {
 void addModelWithMaps(ModelWithMaps&& model, AtomicOutput& model_files, AtomicOutput& map_files,
                       std::vector<std::string>& warnings);
 
-/// What `body` returns; where it fails, the error says that it is about this file.
+/// Returns the result of `body`; if it fails, the error refers to this input.
 template <class Body>
 auto aboutInput(BakeInput input, Body&& body) {
     std::optional<std::invoke_result_t<Body>> made;
@@ -72,7 +72,7 @@ struct LowPart {
     OwnedMesh corners = {};  ///< a vertex for each
     std::vector<Vec3> cage = {};
     std::vector<std::uint32_t> groups = {};
-    std::vector<Vec3> rest_positions = {}, rest_normals = {};  ///< as LowPoly's
+    std::vector<Vec3> rest_positions = {}, rest_normals = {};  ///< like LowPoly's
 
     [[nodiscard]] LowPoly view() const {
         return {.positions = corners.positions,
@@ -90,7 +90,7 @@ struct LowPart {
     void addToRest(const LowPart& from, std::size_t triangle);
 };
 
-/// What of a low poly shares a material, and so an image.
+/// Parts of a low poly that share a material, and so an image.
 struct LowModel {
     struct Image {
         std::string material = {};
@@ -103,7 +103,7 @@ struct LowModel {
     std::vector<std::string> warnings = {};
     bool frames_made = false;
     PositionBox all_places = {};  ///< bounding box of all instances; `images` has the first instance of each primitive
-    DVec3 origin = {};            ///< of the positions, in the world: not zero where both models are far from it
+    DVec3 origin = {};            ///< origin of the positions in world space: not zero if both models are far from it
 
     [[nodiscard]] std::size_t triangleCount() const;
     [[nodiscard]] bool hasCage() const { return !images.empty() && !images.front().part.cage.empty(); }
@@ -142,14 +142,14 @@ struct HighModel {
 struct BakeModels {
     LowModel low = {};
     HighModel high = {};
-    DrawnScene high_scene = {};                 ///< where maps show its materials or names; else empty
+    DrawnScene high_scene = {};  ///< scene, if its materials or names are needed for maps; otherwise empty
     std::optional<gltf::Model> low_model = {};  ///< the low poly with its frames, where `out_mesh` asks for it
     bool matched_by_name = false;
 
     FloatImage skew = {};  ///< without texels where there is none
     /// The rays of a bake or a measure: those asked for, with the image that was read, wrapped so.
     [[nodiscard]] RayOptions rays(const RayOptions& asked, TextureWrap wrap_u, TextureWrap wrap_v) const;
-    /// How far rays go for all images alike: what was asked, or by the sizes of both models as a whole.
+    /// Ray distance for all images: as requested, or derived from the sizes of both models.
     [[nodiscard]] double reach(double asked) const;
     /// Bounding box of the low poly: of the first instances or of all, whichever is nearer to that of the high poly, which may
     /// have as many instances or only one.

@@ -16,7 +16,7 @@ bool isImageInput(const std::string& input, ByteSpan content);
 /// Throws FileError.
 CheckReport checkImageFile(const std::string& input, const CheckOptions& options);
 
-/// What a checked image (CheckReport::image) holds, in a sentence without a full stop.
+/// Describes a checked image (CheckReport::image) in a sentence without a full stop.
 std::string imageText(const CheckReport& report);
 
 }  // namespace tspace

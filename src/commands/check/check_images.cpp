@@ -40,7 +40,7 @@ struct NormalMap {
     MapLook look = {};
     std::optional<GreenTest> test = {};
     std::string why_not = {};
-    double packing_deg = 0;  ///< of images that were packed as pictures are: about how far their vectors are off
+    double packing_deg = 0;  ///< approximate error of the vectors of an image with lossy color compression
 };
 
 /// Parts with one key show the same texels.
@@ -113,7 +113,7 @@ void lookAtParts(const GreenBlocks& blocks, TexelMask&& mask, NormalMap& map) {
 /// Whether green of the file is green of the normals: then inverting the one inverts the other.
 bool hasOwnGreen(const MapLayout& layout) { return layout.y == MapLayout{}.y && layout.curve == MapCurve::none; }
 
-/// What a triangle shows at a point, and the normal there.
+/// Samples the map on a triangle, with the normal there.
 void showPoint(const ScenePrimitive& primitive, const MapPart& part, std::span<const Vec2> uvs, const RgbImage& image,
                const std::uint32_t* corners, const std::array<double, 3>& weights, double area,
                std::vector<TexelOnSurface>& surface) {
@@ -133,7 +133,7 @@ void showPoint(const ScenePrimitive& primitive, const MapPart& part, std::span<c
     surface.push_back({toFloat(normal), {rgb[0], rgb[1], rgb[2], 255}, area, uv});
 }
 
-/// What the triangles of a part show at some points, and the normals there.
+/// Samples the map on the triangles of a part, with the normals there.
 void showPoints(const MapPart& part, const RgbImage& image, std::vector<TexelOnSurface>& surface) {
     constexpr std::size_t kMostOfAPart = 4096, kMostRows = 32;
     const ScenePrimitive& primitive = *part.primitive;

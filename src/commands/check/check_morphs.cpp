@@ -40,7 +40,8 @@ struct MorphFault {
         if (whole_area > 0) far_share = std::max(far_share, far_area / whole_area);
     }
 
-    /// Nothing where no target has the fault. `what`: the sentence without the angle of these vectors ("normals", "tangents").
+    /// Adds nothing if no target has the fault. `what`: the sentence without the angle of these vectors ("normals",
+    /// "tangents").
     void report(PrimitiveFacts& facts, FindingCode code, Severity severity, const std::string& what,
                 const char* vectors) const {
         if (targets.count == 0) return;
@@ -55,7 +56,7 @@ struct MorphFault {
 
 /// The first target that has a fault, and how many more do.
 struct FaultyTargets {
-    Tally vertices = {};  ///< of the first
+    Tally vertices = {};  ///< vertices of the first faulty target
     std::size_t first = 0, count = 0;
     bool all_move = true;  ///< positions, so that the surface says how normals turn
 };
@@ -89,7 +90,7 @@ class MorphValues {
         return result;
     }
 
-    /// "what target 2 adds to the normals of 1 of 525 vertices <what>; so it is in 3 more targets"
+    /// "the offsets of morph target 2 for the normals of 1 of 525 vertices <what>; the same fault is in 3 more targets"
     void report(FindingCode code, const FaultyTargets& faulty, const char* attribute, const std::string& what) {
         if (faulty.count == 0) return;
         const std::size_t more = faulty.count - 1;
@@ -263,7 +264,7 @@ void checkMorphNormals(PrimitiveFacts& facts) {
 namespace {
 
 struct MorphedMesh {
-    OwnedMesh own = {};  ///< what a target moves
+    OwnedMesh own = {};  ///< arrays that a target changes
     TangentView view = {};
 };
 
@@ -334,7 +335,7 @@ bool isThin(const TangentView& mesh, std::size_t face, float area) {
 /// opens does not. One that is flipped collapses on the way there. Triangles that are degenerate before and after change nothing.
 void forgetCollapsed(const TangentView& mesh, const Surface& base, const TangentView& morphed_mesh,
                      const Surface& morphed, const EqualVertices& equal, std::vector<bool>& good) {
-    constexpr float kCollapsed = 1e-4f;            // of the area: a hundredth of each side
+    constexpr float kCollapsed = 1e-4f;            // share of the area: one percent of each side
     constexpr double kFlipped = -0.8660254037844;  // cosine of 150 degrees, as in SurfaceTurns
     std::vector<bool> is_out(equal.class_count, false);
     for (std::size_t f = 0; f < base.faces.size(); ++f) {

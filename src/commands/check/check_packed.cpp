@@ -128,7 +128,7 @@ Finding differingPacking(const ScenePacked& packed, const PackedErrors& errors) 
 struct PackedEntry {
     const ScenePrimitive* primitive = nullptr;
     const ScenePacked* packed = nullptr;
-    std::size_t comparison = 0;  ///< which of them is about it, where it is compared
+    std::size_t comparison = 0;  ///< index of the comparison for it, if it was compared
 
     [[nodiscard]] bool isCompared() const {
         return packed->fault.empty() && !primitive->normals.empty() && !primitive->tangents.empty();

@@ -12,10 +12,10 @@ namespace tspace::report {
 
 using CheckOutcome = Outcome<CheckReport>;
 
-/// What the document says of one file.
+/// JSON of one file in the report.
 Json checkedFileJson(const CheckOutcome& outcome);
 std::string checkJson(const std::vector<CheckOutcome>& outcomes, ExitCode exit_code, Severity fail_on);
-/// As SARIF 2.1.0, for CI systems. `docs_url`: where docs/ is, which each rule names.
+/// Report as SARIF 2.1.0, for CI systems. `docs_url`: location of docs/, which each rule links to.
 std::string checkSarif(const std::vector<CheckOutcome>& outcomes, ExitCode exit_code, const std::string& docs_url);
 
 std::string checkText(const CheckOutcome& outcome, bool in_color);

@@ -17,7 +17,7 @@
 namespace tspace {
 namespace {
 
-/// Whether there are findings that another cut of quads could explain.
+/// Whether there are findings that another pairing of quads could explain.
 bool hasFaults(const FrameHealth& health) {
     for (const Tally* tally : {&health.signs_mixed, &health.signs_wrong, &health.mirrored_seams, &health.uv_seams,
                                &health.directions_wrong, &health.frames_differ}) {
@@ -155,7 +155,7 @@ struct OtherReading {
     UvReading reading = {};
     Surface surface = {};
     FrameHealth health = {};
-    /// Which of the primitive's uses reads its texture like this, if any: then tangents along these UVs are a choice.
+    /// A use of the primitive that reads its texture like this, if any: then tangents along these UVs are a choice.
     std::optional<std::size_t> use = {};
 };
 
@@ -181,7 +181,7 @@ Faults faultsOf(const FrameHealth& health, const Surface& surface) {
             health.wrong_sign_share};
 }
 
-/// How much of the surface on which `own` has UV area `other` has, too.
+/// Share of the surface with UV area in `own` that also has UV area in `other`.
 double coverage(const Surface& own, const Surface& other) {
     double covered = 0;
     for (std::size_t f = 0; f < own.faces.size(); ++f) {
@@ -303,7 +303,7 @@ bool isUnreadable(const ScenePrimitive& primitive) {
 }
 
 void checkTangentsMissing(PrimitiveFacts& facts) {
-    // Where an attribute cannot be read, its own finding says what to do.
+    // If an attribute cannot be read, its own finding states the fix.
     if (facts.primitive.uses.empty() || isUnreadable(facts.primitive) || !facts.primitive.attribute_faults.empty())
         return;
     Tally all{.count = facts.mesh.positions.size(), .total = facts.mesh.positions.size()};

@@ -20,7 +20,7 @@ std::string countsText(std::uint64_t errors, std::uint64_t warnings, std::uint64
     return fmt::format("{}, {}, {}", counted(errors, "error"), counted(warnings, "warning"), counted(notes, "note"));
 }
 
-/// Which tests the normal maps went through. Flat maps have no relief that shows which way green points.
+/// Lists the tests that the normal maps were examined with. Flat maps have no relief that shows the direction of green.
 std::string lookedText(const CheckReport& report) {
     if (report.image_count == 0) return {};
     std::string text = fmt::format("; examined {}: channel contents", counted(report.image_count, "normal map"));
@@ -117,7 +117,7 @@ std::string groupText(std::span<const Finding* const> group, bool in_color) {
 
 std::string checkText(const CheckOutcome& outcome, bool in_color) {
     std::string text = summaryLine(outcome) + packedLines(outcome.result->packed_frames);
-    // By severity, then code by code in the order in which they first occur.
+    // Sorted by severity, then by code in the order of first occurrence.
     std::vector<std::vector<const Finding*>> groups;
     for (const Finding& finding : outcome.result->findings) {
         const auto group = std::find_if(groups.begin(), groups.end(), [&](const auto& candidate) {

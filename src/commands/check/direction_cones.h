@@ -46,7 +46,7 @@ std::vector<DirectionCone> conesOfClasses(const TangentView& mesh, const Surface
 /// finite, or v is nearly parallel to N.
 double planeAngle(const Vec3& normal, const Vec3& v, bool& found);
 
-/// Which triangles use a vertex, by the orientation of their UVs. Bit 0: positive, bit 1: negative.
+/// Orientations of the UVs of the triangles at each vertex. Bit 0: positive, bit 1: negative.
 std::vector<std::uint8_t> vertexOrientations(const TangentView& mesh, const Surface& surface);
 
 }  // namespace tspace

@@ -23,7 +23,7 @@
 namespace tspace {
 namespace {
 
-// Which vertices are connected.
+// Finds connected vertices.
 
 /// Vertices that triangles connect, by their indices. Near-linear.
 class VertexPatches {
@@ -81,8 +81,8 @@ void examineMixedSigns(const TangentView& mesh, const Surface& surface, FrameHea
 void examineValues(const TangentView& mesh, const Surface& surface, const CheckOptions& options, FrameHealth& health) {
     // Vertices that no triangle uses have no pixel, but the format forbids broken values there too.
     std::vector<bool> used(mesh.positions.size(), false);
-    // Where no triangle has UV area the texture shows one texel, so a lean distorts nothing that can be seen; but there
-    // must be a frame.
+    // Where no triangle has UV area, the texture shows a single texel, so a tilt distorts nothing visible; but a valid frame is
+    // required.
     std::vector<bool> knows_direction(mesh.positions.size(), false);
     for (std::size_t c = 0; c < surface.faces.size() * 3; ++c) {
         used[mesh.corners[c]] = true;
@@ -297,7 +297,7 @@ void findUndecided(const TangentView& mesh, const Surface& surface, std::span<co
     for (std::uint32_t v = 0; v < count; ++v) {
         if (directions[v] == kUnknownDirection || health.isSettled(v)) continue;
         const std::uint32_t patch = patches.of(v);
-        // Where most are wrong, tangents outside of their cones by less than the tolerance count as wrong too.
+        // If most are wrong, tangents outside of their cones by less than the tolerance count as wrong too.
         const double least = directions[v] > kInsideDeg ? kMostly : share;
         if (wrong[patch] > 0 && wrong[patch] >= least * judged[patch])
             health.fault(v, FindingCode::directionsWrong, count);
@@ -381,7 +381,7 @@ Result<bool> settleVertices(const TangentView& mesh, const Surface& surface, con
                                    health.mirrored_seams.count + health.uv_seams.count + health.directions_wrong.count +
                                    health.frames_differ.count + (only_signs ? 0 : health.signs_wrong.count);
     if (doubtful == 0) return false;
-    // Where nearly all signs are inverted, that is said once; the others are compared with what it leaves.
+    // If nearly all signs are inverted, report it once and compare the rest with flipped signs.
     health.settled_sign = health.all_signs_wrong ? -1.0f : 1.0f;
     health.settled.assign(mesh.positions.size(), false);
     TangentOptions how{.convention = options.convention};

@@ -47,11 +47,11 @@ struct FrameHealth {
     // Values on their own. Counted: all vertices, and for directions those that triangles use. Flags: of the latter.
     Tally not_finite;             ///< tangent or w
     bool has_not_finite = false;  ///< some
-    Tally not_unit;               ///< and finite
+    Tally not_unit;               ///< not unit, but finite
     double far_from_unit = 0;     ///< share of the surface with lengths below 0.9 or above 1.1
     bool has_zero = false;        ///< some have no length at all
     Tally not_orthogonal;         ///< finite, not zero, with a usable N
-    Tally parallel;               ///< not among these: within 5 degrees of N or its opposite, so that there is no frame
+    Tally parallel;  ///< within 5 degrees of N or its opposite, so that there is no frame; not counted in the others
     /// Their surface is so small that other leaning tangents are a warning of their own: only these have the bit of
     /// tangentsNotOrthogonal.
     bool has_no_frame = false;  ///< some are within 1 degree of N or its opposite
@@ -62,7 +62,7 @@ struct FrameHealth {
 
     // Against the UVs. All zero where there are none.
     Tally signs_wrong;             ///< vertices whose triangles agree with each other, but not with w
-    double wrong_sign_share = 0;   ///< of the surface whose signs were judged
+    double wrong_sign_share = 0;   ///< share of the surface whose signs were examined
     bool all_signs_wrong = false;  ///< on nearly all of it
     Tally mirrored_seams;          ///< vertices where mirrored and other triangles share a tangent
     Tally uv_seams;                ///< vertices with the mean tangent of both sides of a UV seam
@@ -76,7 +76,7 @@ struct FrameHealth {
 /// Expected near-linear time. Fails where generateTangents does, which is for lack of memory.
 Result<FrameHealth> examineTangents(const TangentView& mesh, const CheckOptions& options);
 
-/// As above, with the surface of the mesh that the caller has measured already.
+/// Like the overload above, with a surface of the mesh that the caller has already computed.
 Result<FrameHealth> examineTangents(const TangentView& mesh, const Surface& surface, const CheckOptions& options);
 
 }  // namespace tspace

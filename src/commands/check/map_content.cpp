@@ -13,14 +13,14 @@
 namespace tspace {
 namespace {
 
-/// How far from 1 a vector of 8 bits may be, compressed and filtered.
+/// Maximum deviation from 1 of an 8-bit vector's length after compression and filtering.
 constexpr double kLengthSlack = 0.1;
 /// A channel that varies less (root of the mean square, of 255) is constant: compression adds as much.
 constexpr double kConstant = 2.5;
 /// x^2 + y^2 of texels that lean: by 11 degrees or more.
 constexpr double kLeastLean = 0.04;
 constexpr double kStep = 1.0 / 127.5;
-/// How far from 0 x and y of a map are in the mean, where nothing else is known.
+/// Maximum mean of x and y of a map, unless more is known.
 constexpr double kMostMean = 0.25;
 
 double signedValue(std::uint8_t channel) { return static_cast<double>(channel) * kStep - 1; }
@@ -80,7 +80,7 @@ class LayoutReader {
 struct Fit {
     double unit_share = 0;
     DVec3 mean = {};
-    std::array<double, 3> below_share = {};  ///< of each component: unit vectors where it is negative
+    std::array<double, 3> below_share = {};  ///< for each component, the share of unit vectors where it is negative
 };
 
 Fit fitOf(std::span<const TexelBytes> texels, const MapLayout& layout) {
@@ -417,7 +417,7 @@ Moments momentsOf(std::span<const TexelOnSurface> surface) {
 /// about 1 in object space and 0 where a map knows nothing of the mesh. Relief of the shape of the mesh (a bulge on a bulge)
 /// goes with it too; so `bent` is what is left once all that is linear in u and v is taken out.
 struct Following {
-    double spread = 0;  ///< of the normals: the mean square of their distances from the mean
+    double spread = 0;  ///< spread of the normals: mean squared distance from their mean
     double slope = 0;
     double bent_share = 0, bent_slope = 0;
 };

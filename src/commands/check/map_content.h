@@ -31,9 +31,9 @@ enum class MapContent {
 /// A texel: red, green, blue, alpha.
 using TexelBytes = std::array<std::uint8_t, 4>;
 
-/// What a triangle shows at one point.
+/// Sample of the map on a triangle.
 struct TexelOnSurface {
-    Vec3 normal = {};  ///< of the mesh, or as a node turns it; unit
+    Vec3 normal = {};  ///< normal of the mesh, possibly rotated by a node; unit
     TexelBytes texel = {};
     double weight = 0;  ///< area
     Vec2 uv = {};

@@ -63,7 +63,7 @@ bool derivatives(const RgbImage& image, const TexelMask& inside, std::uint32_t x
     return true;
 }
 
-/// How far blocks agree on one side.
+/// Agreement of the blocks on one side.
 struct Votes {
     double ab = 0, aa = 0, bb = 0;
     std::uint64_t count = 0, down_count = 0;
@@ -145,7 +145,7 @@ TexelRect GreenBlocks::rectOf(std::size_t block) const {
     return {left, top, std::min(left + kBlock, width_), std::min(top + kBlock, height_)};
 }
 
-/// Which way a block and its neighbours lean; 0 where they disagree, or have no vote.
+/// Direction that a block and its neighbors lean to; 0 if they disagree or have no vote.
 int GreenBlocks::leaningOf(std::size_t block) const {
     constexpr std::uint64_t kLeastAround = 3;
     const auto column = static_cast<std::uint32_t>(block % columns_),

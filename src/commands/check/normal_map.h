@@ -23,7 +23,7 @@ struct GreenTest {
     /// In a mixed map: the blocks of the largest part where green points down, and where that part lies.
     std::uint64_t down_part_blocks = 0;
     TexelRect down_part = {};
-    std::uint64_t up_part_blocks = 0;  ///< the same of the largest part where it points up
+    std::uint64_t up_part_blocks = 0;  ///< blocks of the largest part where green points up
     TexelRect up_part = {};
 
     /// Confidence of the verdict: how many of the blocks agree beyond an even split, 0 to 1.
@@ -59,7 +59,7 @@ class GreenBlocks {
     struct Block {
         float ab = 0, aa = 0, bb = 0;  ///< sums of products of the derivatives a = dq/dx, b = dp/drow
         bool votes = false;
-        std::int8_t side = 0;    ///< of its part: -1 up, +1 down
+        std::int8_t side = 0;    ///< side of its part: -1 up, +1 down
         std::uint32_t part = 0;  ///< from 1; 0: none
     };
     /// isChosen(block): whether it counts.
@@ -81,7 +81,7 @@ class GreenBlocks {
     std::uint32_t part_count_ = 0;
 };
 
-// Which axes of a map are those of a mesh: the rotation or exchange of channels that brings directions to normals.
+// Finds the axes of a map relative to those of a mesh: the rotation or exchange of channels that maps directions to normals.
 
 /// The mean of n v^T over the surface; n is the mesh's normal, v the direction in the map.
 struct Moments {
@@ -92,7 +92,7 @@ struct Moments {
 /// The largest mean cosine that any rotation or reflection of the map's axes gives: the sum of the singular values.
 double bestAgreement(const Moments& moments);
 
-/// Which signed channels the mesh's x, y and z are in, and the mean cosine between its normals and the map's then.
+/// Signed channels that hold the mesh's x, y and z, and the resulting mean cosine between its normals and the map's.
 struct Axes {
     MapLayout layout = {};
     double agreement = -1;

@@ -53,7 +53,7 @@ void checkNormalValues(PrimitiveFacts& facts) {
             not_finite.add(v, facts.surface.vertex_areas[v]);
             continue;
         }
-        // As stored: the mesh has those that were scaled.
+        // Uses the stored length: the mesh has the scaled normals.
         const double size = scales != nullptr && scales->of_vertices[v] != 1 ? 1 / scales->of_vertices[v]
                                                                              : length(toDouble(mesh.normals[v]));
         if (std::fabs(size - 1) > facts.options.unit_tolerance) not_unit.add(v, facts.surface.vertex_areas[v]);
@@ -141,7 +141,7 @@ bool haveSoundNeighbours(const PrimitiveFacts& facts, const Directions& directio
     });
 }
 
-/// Whether turning triangles as `generate --mend-winding` does would leave no normal on the back of its own.
+/// Whether turning triangles as `generate --fix-winding` does would leave no normal on the back of its own.
 bool areTrianglesToBlame(const PrimitiveFacts& facts, const Directions& directions,
                          std::span<const std::uint32_t> against) {
     if (haveSoundNeighbours(facts, directions, against)) return false;
@@ -303,7 +303,7 @@ void checkNormals(PrimitiveFacts& facts) {
 
 namespace {
 
-/// Shares of the surface from which triangles without UV area are more than a few slivers.
+/// Area share above which UV-degenerate triangles are reported.
 constexpr double kSomeUvs = 0.01;
 
 bool isFinite(const Vec2& uv) { return std::isfinite(uv.x) && std::isfinite(uv.y); }
@@ -503,7 +503,7 @@ Result<PrimitiveVerdict> judgePrimitive(const ScenePrimitive& primitive, const C
     checkNormals(facts);
     checkNoise(facts);
     checkMorphValues(facts);
-    // What a target lacks because it cannot be read is that other finding.
+    // If a target's array cannot be read, another finding reports it.
     const bool are_targets_read = std::none_of(primitive.attribute_faults.begin(), primitive.attribute_faults.end(),
                                                [](const SceneAttributeFault& fault) { return fault.target >= 0; });
     if (are_targets_read) checkMorphNormals(facts);

@@ -18,7 +18,7 @@ namespace tspace {
 
 struct QuadReading {
     std::vector<std::uint32_t> corners = {};  ///< three per triangle, as TangentView::corners
-    Surface surface = {};                     ///< of these; the two halves of a quad have one orientation
+    Surface surface = {};                     ///< surface of these faces; the two halves of a quad have one orientation
 };
 
 /// The quads that CheckOptions::faces means, cut as MikkTSpace cuts them. Nothing: the mesh's own triangles are meant,
@@ -27,19 +27,19 @@ struct QuadReading {
 Result<std::optional<QuadReading>> findQuads(const TangentView& mesh, const FrameHealth& health,
                                              const CheckOptions& options);
 
-/// What the checks of one primitive share.
+/// Data shared by the checks of one primitive.
 struct PrimitiveFacts {
     const ScenePrimitive& primitive;
     const CheckOptions& options;
     bool is_gltf = true;          ///< others are seldom expected to hold tangents, and many cannot
-    UvReading reading = {};       ///< what the tangents should follow
+    UvReading reading = {};       ///< UVs that the tangents should follow
     TangentView mesh = {};        ///< over `reading`; without UVs where these are no authority
-    Surface surface = {};         ///< of `mesh`
+    Surface surface = {};         ///< surface of `mesh`
     std::vector<bool> used = {};  ///< vertices that triangles have
     QuadReading quads = {};       ///< holds the corners of `mesh` where its tangents were made on quads
     std::vector<Finding> findings = {};
-    std::vector<std::uint32_t> faults = {};    ///< of the tangents, as FrameHealth::faults; empty: none
-    double wrong_sign_share = 0;               ///< as FrameHealth::wrong_sign_share
+    std::vector<std::uint32_t> faults = {};    ///< faults of the tangents, as in FrameHealth::faults; empty: none
+    double wrong_sign_share = 0;               ///< as in FrameHealth::wrong_sign_share
     std::span<const ScenePrimitive> all = {};  ///< primitives of the scene, or nothing
     bool looked_at_values = false;             ///< there are tangents, and they were examined
 
@@ -53,7 +53,7 @@ struct PrimitiveFacts {
 /// The findings of a primitive, and which of its vertices have them.
 struct PrimitiveVerdict {
     std::vector<Finding> findings = {};
-    std::vector<std::uint32_t> faults = {};  ///< as PrimitiveFacts::faults; empty: none
+    std::vector<std::uint32_t> faults = {};  ///< as in PrimitiveFacts::faults; empty: none
     double wrong_sign_share = 0;
     /// Share of the surface where tangents were compared with UVs; 0 where their values alone were looked at.
     double compared_share = 0;

@@ -35,7 +35,7 @@ struct ImageFindings {
     /// that the primitive shows.
     std::vector<GreenSide> primitive_green = {};
     std::uint64_t looked_at = 0;           ///< images that could be decoded
-    std::uint64_t green_told = 0;          ///< of those: which way green points shows
+    std::uint64_t green_told = 0;          ///< maps of these whose direction of green is known
     std::vector<MapLook> looks = {};       ///< per image of the scene: what its channels hold
     std::vector<bool> is_y_inverted = {};  ///< per image: y is, and no finding on green says so, since it is elsewhere
     std::vector<bool> is_declared = {};    ///< per image: the file says that green points down (TangentUse)
@@ -48,7 +48,7 @@ ImageFindings checkImages(const Scene& scene, const CheckOptions& options);
 struct LoneMap {
     MapLook look = {};
     GreenTest test = {};
-    RgbImage pixels = {};  ///< as stored, of 8 bits
+    RgbImage pixels = {};  ///< pixels as stored, 8 bits
     std::vector<Finding> findings = {};
 };
 LoneMap checkLoneMap(const Scene& scene, const CheckOptions& options);

@@ -71,7 +71,7 @@ class PrimitiveKey {
     std::vector<std::uint64_t> numbers_ = {};
 };
 
-/// Which primitives are checked, and whose findings each primitive gets.
+/// Primitives that are checked, and whose findings each primitive gets.
 struct Work {
     std::vector<std::size_t> primitives = {};  ///< the first of each key
     std::vector<std::size_t> result_of = {};   ///< per primitive of the scene: index into `primitives`
@@ -90,7 +90,7 @@ Work collectWork(const Scene& scene) {
 
 using SharedFaults = std::shared_ptr<const std::vector<VertexFaults>>;
 
-/// Of one geometry.
+/// Result for one geometry.
 struct Judged {
     std::vector<Finding> findings = {};
     SharedFaults faults = {};
@@ -308,7 +308,7 @@ bool waitForImages(std::span<const PrimitiveJudgement> judgements) {
 void weighImages(const Scene& scene, const CheckOptions& options, ImageFindings& images,
                  std::span<PrimitiveJudgement> judgements) {
     const Maps maps(images, options);
-    std::vector<bool> is_needed(scene.images.size(), false);  // by a primitive whose signs are right
+    std::vector<bool> is_needed(scene.images.size(), false);  // images used by a primitive whose signs are right
     std::vector<bool> is_cancelled(scene.images.size(), false);
     for (std::size_t i = 0; i < judgements.size(); ++i) {
         const bool is_inverted = judgements[i].find(FindingCode::signsInverted) != nullptr;
@@ -340,7 +340,7 @@ void weighImages(const Scene& scene, const CheckOptions& options, ImageFindings&
     }
 }
 
-// What to do about a finding, in the file where it is. A command stands there only where running it mends the finding.
+// Remedy for a finding in the file where it occurs. Commands are given only if running them fixes the finding.
 
 namespace {
 
@@ -403,7 +403,7 @@ class Advice {
         const bool is_of_signs = finding.code == FindingCode::signsInverted || finding.code == FindingCode::signsWrong;
         const bool is_error = finding.severity == Severity::error;
         if (isOfValues(finding.code) || (finding.code == FindingCode::tangentsNotOrthogonal && is_error)) {
-            // As the remedy says.
+            // Keeps the usual remedy.
         } else if (primitive.hasFreeTangents()) {
             setRemedy(finding, kDrawnTangents);
         } else if (!can_compute) {

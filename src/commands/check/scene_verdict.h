@@ -15,22 +15,22 @@ namespace tspace {
 
 struct VertexFaults {
     std::uint32_t vertex = 0;
-    std::uint32_t bits = 0;  ///< as FrameHealth::faults
+    std::uint32_t bits = 0;  ///< faults, as in FrameHealth::faults
 };
 
 /// Whether the normal maps of a primitive cancel its wrong signs.
 enum class SignVerdict {
-    plain,      ///< nothing: they are wrong, if there are any
+    plain,      ///< no: the signs are wrong, if any finding says so
     cancelled,  ///< green points the other way too
     open,       ///< perhaps it does: a map could not be looked at
 };
 
-/// What was found in one primitive of a scene.
+/// Findings on one primitive of a scene.
 struct PrimitiveJudgement {
     std::vector<Finding> findings = {};  ///< with place and names
     /// The vertices that findings above count, ascending; null: none, or not asked for.
     std::shared_ptr<const std::vector<VertexFaults>> faults = {};
-    double wrong_sign_share = 0;  ///< of the surface whose signs were judged
+    double wrong_sign_share = 0;  ///< share of the surface whose signs were examined
     double compared_share = 0;    ///< share of the surface where tangents were compared with UVs
     SignVerdict signs = SignVerdict::plain;
     /// Most signs are inverted and stay so: a normal map whose green points the other way makes that right, or may.

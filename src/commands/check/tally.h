@@ -15,9 +15,9 @@ struct Tally {
     static constexpr std::size_t kMostVertices = 8;
 
     std::uint64_t count = 0;
-    std::uint64_t total = 0;  ///< of how many
+    std::uint64_t total = 0;  ///< number of candidates
     double area = 0;
-    double surface_share = 0;  ///< of the mesh's area, once finish() was called
+    double surface_share = 0;  ///< share of the mesh's area, after finish()
     double worst_deg = 0;
     std::vector<std::uint32_t> vertices = {};  ///< the first, each once
 

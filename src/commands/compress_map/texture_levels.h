@@ -23,7 +23,7 @@ struct PackedLevel {
     std::vector<Vec3> texels = {};
 };
 
-/// Nothing where the library astcenc fails.
+/// Returns nothing if the library astcenc fails.
 std::optional<PackedLevel> packLevel(const NormalLevel& level, const CompressMapFileOptions& options,
                                      Parallel& parallel);
 

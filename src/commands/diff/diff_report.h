@@ -10,7 +10,7 @@
 
 namespace tspace::report {
 
-/// Of the models `a` and `b`.
+/// Report on the models `a` and `b`.
 std::string diffJson(const std::string& a, const std::string& b, double tolerance_deg, const Result<FrameDiff>& diff,
                      ExitCode exit_code);
 std::string diffText(const std::string& a, const std::string& b, const FrameDiff& diff);
@@ -24,7 +24,7 @@ using TextTable = std::vector<std::vector<std::string>>;
 struct DiffWords {
     std::string summary = {};               ///< "A against B: ..."
     std::vector<std::string> remarks = {};  ///< further sentences
-    TextTable angles = {};                  ///< of the whole file
+    TextTable angles = {};                  ///< angles over the whole file
     TextTable primitives = {};
     TextTable worst = {};
 };

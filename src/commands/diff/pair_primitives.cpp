@@ -230,7 +230,7 @@ class Pairer {
         for (const ScenePrimitive& primitive : b.primitives) taken_.push_back(primitive.corners.empty());
     }
 
-    /// Of several with one key the first of A gets the first of B.
+    /// If several have one key, they are paired in order.
     void pairBy(const char* how, const KeyOf& key_of) {
         std::map<std::string, std::vector<std::size_t>> free_by_key;
         for (std::size_t k = b_.primitives.size(); k-- > 0;) {

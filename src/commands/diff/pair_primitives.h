@@ -11,7 +11,7 @@
 
 namespace tspace {
 
-// Which triangle of one mesh is which of another that shows the same surface.
+// Matches the triangles of two meshes that show the same surface.
 
 /// Triangle `a` of A is triangle `b` of B; corner k of it is corner (k + rotation) % 3 there.
 struct TrianglePair {

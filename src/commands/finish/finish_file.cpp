@@ -49,7 +49,7 @@ bool asksForMorphNormals(const Finding& finding) {
     return finding.code == FindingCode::morphNormalsWrong && finding.severity == Severity::error;
 }
 
-/// What checkFile says of the bytes, or of the file where there are none.
+/// Runs check on the bytes, or on the file if there are none.
 CheckReport checked(const std::string& name, ByteSpan content, const FinishOptions& options) {
     CheckOptions check;
     check.file = options.file;
@@ -140,7 +140,7 @@ class ModelInWork {
             return primitive != nullptr && primitive->normals_generated;
         };
         const auto sharesOf = [&](const CheckReport& report) {
-            std::map<std::uint32_t, double> shares;  // of surfaces, by mesh
+            std::map<std::uint32_t, double> shares;  // share of the surface, by mesh
             for (const Finding& finding : report.findings) {
                 if (finding.code == FindingCode::normalsAgainstWinding && !wasMade(finding))
                     shares[finding.mesh] += finding.surface_share;
@@ -188,11 +188,11 @@ class ModelInWork {
         return valueOrThrow(generateStep(name, output_, generate, step));
     }
 
-    /// Which normals are made once triangles are wound as they should be.
+    /// Normals to recompute after fixing the winding.
     [[nodiscard]] gltf::NormalWishes wishesOf() const {
         if (options_.normals == FinishNormals::none) return {};
         const std::vector<PrimitiveReport>& primitives = report_.made.primitives;
-        // Those of STL say where triangles look, and not how they are shaded.
+        // Normals of STL give the orientation of triangles, not their shading.
         const bool all = options_.normals == FinishNormals::all || lowerExtension(path_) == ".stl";
         gltf::NormalWishes wishes{.anew = std::vector<bool>(primitives.size(), all),
                                   .morphs = std::vector<bool>(primitives.size(), false)};
@@ -244,7 +244,7 @@ class ModelInWork {
     const FinishOptions& options_;
     FinishedModel& report_;
     Bytes bytes_ = {};
-    CheckReport check_ = {};  ///< of the bytes
+    CheckReport check_ = {};  ///< check of the bytes
 };
 
 BakeNames namesOf(const std::string& output) {
@@ -384,7 +384,7 @@ Result<FinishReport> finishFile(const std::string& input, const std::string& out
 
 namespace tspace::report {
 
-// What was finished, as JSON and in sentences.
+// Report of finish as JSON and as sentences.
 
 std::string findingCounts(const CheckReport& report) {
     return counted(report.error_count, "error") + ", " + counted(report.warning_count, "warning") + ", " +

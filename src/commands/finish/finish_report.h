@@ -26,7 +26,7 @@ std::vector<std::string> finishOutputs(const std::vector<std::string>& others, c
 
 namespace tspace::report {
 
-/// Of a model that was finished.
+/// Exit code of a finished model.
 inline ExitCode exitCodeOf(const FinishReport& report) {
     const bool has_findings = report.check.error_count != 0 || (report.bake && !report.bake->findings.empty());
     return has_findings ? ExitCode::findings : ExitCode::done;
@@ -36,7 +36,7 @@ std::string finishText(const Outcome<FinishReport>& outcome);
 
 /// "2 errors, 1 warning, 3 notes".
 std::string findingCounts(const CheckReport& report);
-/// What was made of a model, in sentences without a full stop.
+/// Lists the changes to a model, in sentences without a full stop.
 std::vector<std::string> doneTo(const FinishedModel& model);
 
 }  // namespace tspace::report

@@ -121,8 +121,8 @@ struct DecodedVertices {
     SharedArray<Vec4> kept_tangents = {}, old_tangents = {};
 };
 
-/// What the tangents of a pool are computed from, without copies where that is possible. `decoded` must outlive the
-/// result, and gets what cannot be lent. `first`: any primitive of the pool.
+/// Input arrays for the tangents of a pool, without copies if possible. `decoded` must outlive the result, and receives the
+/// arrays that cannot be borrowed. `first`: any primitive of the pool.
 PoolView lendVertices(const Document& document, DecodedArrays& arrays, const Primitive& first, const PoolPlan& pool,
                       DecodedVertices& decoded) {
     const auto vec3 = [&](const char* attribute, SharedArray<Vec3>& array) {
@@ -145,7 +145,7 @@ PoolView lendVertices(const Document& document, DecodedArrays& arrays, const Pri
     return vertices;
 }
 
-/// Where frames are made from positions that rounding has moved too far. Half a sentence; empty: they are fine enough.
+/// Warning, half a sentence, if frames are computed from positions that rounding has moved too far; otherwise empty.
 std::string warnOfRounding(const PoolView& vertices, std::span<const PrimitiveGeometry> geometries,
                            const Allocator* allocator) {
     constexpr double kLimit = 10;
@@ -189,7 +189,7 @@ void weld(const WeldedVertices& welded, std::vector<PrimitiveGeometry>& geometri
     };
 }
 
-/// What targets add to normals that stay, computed when it is first asked for.
+/// Computes normal deltas for normals that are kept, on first use.
 class NewMorphNormals {
   public:
     /// `vertices` and `geometries` must outlive this; its targets then have the new offsets. `keeps_finite`: only those
@@ -262,7 +262,7 @@ std::vector<PrimitiveGeometry> readGeometries(DecodedArrays& arrays, std::span<c
 
 }  // namespace
 
-/// As many arenas as pools are computed at one time.
+/// One arena for each pool that is computed at the same time.
 class PoolComputer::Arenas {
   public:
     std::unique_ptr<Arena> take() {

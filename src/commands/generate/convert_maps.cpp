@@ -60,7 +60,7 @@ std::vector<MapGroup> groupsOf(std::span<const ShownMap> shown) {
     return groups;
 }
 
-/// Those of a group, the same triangles once.
+/// Joins the meshes of a group, each triangle once.
 OwnedMesh joinedSide(const MapGroup& group, OwnedMesh ShownMap::*side) {
     OwnedMesh mesh;
     for (auto one = group.begin(); one != group.end(); ++one) {
@@ -211,13 +211,13 @@ class OneMap {
         std::optional<FloatImage> image = decodeFloatImage(file_, kMostModelMapPixels, why);
         if (!image) return {};
         readTextureVectors(*image);
-        constexpr unsigned kMostBits = 16;  // of a PNG
+        constexpr unsigned kMostBits = 16;  // maximum bits of a PNG
         image->bits = std::min(image->bits, kMostBits);
         return image;
     }
 
     void prepare(ShownMap& one, const Source& source, const FloatImage& image) const {
-        // What viewers make of a file without tangents.
+        // Tangents that viewers compute for a file without tangents.
         const TangentOptions viewers{.convention = conventions::gltf};
         const TangentUse& use = *one.user.use;
         addMapCorners(*source.before, &use, viewers, options_.execution, one.from);

@@ -60,7 +60,7 @@ bool setAttribute(Editor& editor, const Document& document, const SharedAttribut
     // be integers.
     if (data.normalized && !isPackedAttribute(attribute.name)) editor.require("KHR_mesh_quantization");
     if (attribute.target != kBase) makeSparseWhereSmaller(data);
-    // Of a target, as what moves its vertices: Draco holds no targets.
+    // Morph targets compress like their positions; Draco has none.
     const Json& attributes = attributesOf(editor, first, attribute.target);
     data.like = (attribute.target == kBase ? attributes["POSITION"] : attributes.front()).get<std::size_t>();
     if (current && alone && !data.places && editor.canOverwrite(*current)) {
@@ -228,7 +228,7 @@ struct NewList {
 void turnTriangles(Document& document, const std::string& new_file, std::span<const Primitive> primitives,
                    std::span<const std::vector<std::uint8_t>> turned) {
     const std::optional<std::size_t> none;
-    // By old list and vertices, which also decide how a list is stored.
+    // Keyed by the old list and the vertices, which also decide how a list is stored.
     std::map<std::pair<std::optional<std::size_t>, std::optional<std::size_t>>, std::vector<NewList>> lists;
     for (std::size_t i = 0; i < primitives.size(); ++i) {
         if (std::find(turned[i].begin(), turned[i].end(), 1) == turned[i].end()) continue;
@@ -296,7 +296,7 @@ ElementData unitNormals(const Document& document, const Primitive& primitive, st
 }  // namespace
 
 void writeUnitNormals(Document& document, const std::string& new_file, std::span<const Primitive> primitives) {
-    // By target, by the accessor there and by that of the base.
+    // Keyed by target, the accessor there, and that of the base.
     std::map<std::tuple<std::ptrdiff_t, std::size_t, std::size_t>, std::vector<std::size_t>> sharing;
     for (std::size_t i = 0; i < primitives.size(); ++i) {
         const Primitive& primitive = primitives[i];

@@ -28,7 +28,7 @@ namespace tspace::gltf {
 
 namespace {
 
-/// What a finding asks to mend at the vertices that it counts; 0: it is not about tangents.
+/// Parts of the tangent to repair at the vertices of a finding; 0: it is not about tangents.
 std::uint8_t partsOf(FindingCode code) {
     switch (code) {
         case FindingCode::tangentsNotFinite:
@@ -54,11 +54,11 @@ std::uint8_t partsOf(FindingCode code) {
     }
 }
 
-/// What is wrong with one primitive.
+/// Faults of one primitive.
 struct Verdict {
     Mends mends = {};
     std::string why = {};   ///< empty: nothing
-    std::string kept = {};  ///< what was looked at, where nothing is wrong
+    std::string kept = {};  ///< description of the checks, if nothing is wrong
     bool is_free = false;   ///< no texture is read with its tangents
 };
 
@@ -100,11 +100,11 @@ Verdict verdictOf(const PrimitiveJudgement& judgement, bool is_free) {
         const bool is_inverted = finding.code == FindingCode::signsInverted;
         rules.emplace_back(is_inverted ? faultBit(FindingCode::signsWrong) | kUndecidedSign : faultBit(finding.code),
                            partsOf(finding.code));
-        // Where signs are turned no seam between them may be left, however short.
+        // If signs are flipped, no seam between them may remain, however short.
         if (is_inverted) rules.emplace_back(faultBit(FindingCode::mirroredSeamAveraged), mend::kSides);
         verdict.why += (verdict.why.empty() ? "" : "; and ") + finding.message;
     }
-    // What was drawn is not computed anew: its values are mended on their own.
+    // Authored tangents are not recomputed: only their invalid values are repaired.
     if (rules.empty() || !judgement.faults || is_free) return verdict;
     for (const VertexFaults& faults : *judgement.faults) {
         std::uint8_t parts = 0;
@@ -114,10 +114,10 @@ Verdict verdictOf(const PrimitiveJudgement& judgement, bool is_free) {
     return verdict;
 }
 
-/// As `generate` was asked to read them.
+/// Reads them as requested in the options.
 void readAsAsked(const GenerateOptions& options, Scene& scene) {
     for (ScenePrimitive& primitive : scene.primitives) {
-        // As if something read these tangents.
+        // Pretends that a texture reads these tangents.
         if (primitive.uses.empty() && options.all) {
             primitive.uses.push_back({.needed_by = "the option 'all'", .has_texture = primitive.other_reader.empty()});
         }
@@ -239,7 +239,7 @@ void planRepair(Model& model, const GenerateOptions& options, GeneratePlan& plan
 
 namespace {
 
-/// By some triangles: whether most signs are the opposite of what the UVs ask for.
+/// Decides on a sample of triangles whether most signs are the opposite of what the UVs require.
 bool looksInverted(const ScenePrimitive& primitive, const Convention& convention) {
     constexpr std::size_t kTriangles = 1024;
     if (primitive.tangents.empty() || primitive.uses.empty()) return false;
@@ -330,7 +330,7 @@ std::size_t judgeOf(const Document& document, std::span<const Primitive> primiti
     return read == numbers.end() ? numbers.front() : *read;
 }
 
-/// What of a primitive mending looks at.
+/// Attributes of a primitive that the repair needs.
 OwnedMesh readStored(const Document& document, const Primitive& primitive) {
     OwnedMesh stored{.tangents = readTangents(document, primitive)};
     if (primitive.find("NORMAL")) stored.normals = readVec3(document, primitive, "NORMAL");

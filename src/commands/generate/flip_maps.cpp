@@ -155,7 +155,7 @@ class TextureUses {
         const std::vector<std::size_t>& all = textures_of_[image];
         return std::any_of(all.begin(), all.end(), [&](std::size_t texture) { return uses_[texture].is_other; });
     }
-    /// What the normal maps which show this image may show instead.
+    /// Images that the normal maps using this image may show instead.
     [[nodiscard]] std::set<std::size_t> alternatives(std::size_t image) {
         std::set<std::size_t> others;
         for (const std::size_t texture : textures_of_[image]) {

@@ -17,13 +17,13 @@
 
 namespace tspace {
 
-// Which normal maps get their green channel inverted, and their files afterwards.
+// Decides which normal maps get their green channel inverted, and rewrites their files.
 
 /// One image that is a normal map.
 struct JudgedMap {
     std::size_t image = 0;
     Bytes flipped = {};          ///< the image file with green inverted; empty: it stays as it is
-    MapLook look = {};           ///< what it holds
+    MapLook look = {};           ///< content of the image
     bool is_y_inverted = false;  ///< y is, which is not in green
     NormalMapReport report = {};
 };
@@ -66,7 +66,7 @@ namespace tspace::gltf {
 
 struct MapFlips {
     std::map<std::size_t, Bytes> images = {};  ///< image files with green inverted, by number of their image
-    std::map<std::size_t, Bytes> mended = {};  ///< the same of images that are written anew, green inverted or not
+    std::map<std::size_t, Bytes> mended = {};  ///< images that are rewritten, with or without inverted green
     std::vector<NormalMapReport> reports = {};
 };
 

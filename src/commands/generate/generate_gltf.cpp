@@ -64,7 +64,7 @@ void noteMissingBitangents(std::span<const Primitive> primitives, std::span<Prim
 struct Input {
     Model model;
     OutputTarget target = {};
-    GenerateOptions options = {};  ///< as this model lets them be followed
+    GenerateOptions options = {};  ///< options, adapted to this model
     bool is_converted = false;     ///< the output is of another container or format, whatever is edited
 };
 
@@ -99,7 +99,7 @@ Storage prepareStorage(Input& input, std::vector<std::string>& warnings) {
     return storage;
 }
 
-/// What is to become of a model: all that is decided before anything of it is computed or changed.
+/// All decisions on a model, made before anything is computed or changed.
 struct Decisions {
     GeneratePlan plan = {};
     MapFlips flips = {};
@@ -157,7 +157,8 @@ void computeAndApply(Input& input, Decisions& decisions, Editor& editor, std::ve
         }
     }
     tell(input.options, "computing tangents", total, total);
-    // Behind the new frames, whose accessors it does not touch, and before tangents go: their notes come in this order.
+    // Runs after the new frames, whose accessors it does not touch, and before tangents are removed: notes appear in this
+    // order.
     mendBrokenValues(editor, document, primitives, decisions.broken, plan.reports);
     for (std::string& warning : numbers.warnings()) warnings.push_back(std::move(warning));
 }
@@ -176,7 +177,7 @@ WorkedOn edit(Input& input, const Storage& storage, Decisions&& decisions, Gener
     if (options.bitangents) noteMissingBitangents(primitives, reports);
     noteStalePackedFrames(document, primitives, options, reports);
     stripTangents(editor, primitives, reports);
-    // What follows looks at the new tangents.
+    // The following steps read the new tangents.
     input.model.wasEdited();
     tell(options, "writing", 0, 1);
     if (decisions.maps) report.converted_maps = decisions.maps->run(editor, input.target, reports);
@@ -278,7 +279,7 @@ WorkedOn generate(Input& input, bool with_images, const GenerateStep& step, Gene
         const bool will_edit = decisions.changeGeometryOrMaps() || input.options.pack.has_value();
         convertContainer(document, input.target, will_edit, report.warnings);
     }
-    // Behind the decisions on maps, which find images by their names.
+    // Runs after the decisions on maps, which find images by their names.
     if (with_images) takeImagesIn(document, input.target, report.warnings);
     tell(input.options, "reading", 1, 1);
     const WorkedOn worked_on = edit(input, storage, std::move(decisions), report);
@@ -336,7 +337,7 @@ void writeGenerated(const std::string& input, Document& document, const OutputTa
     tellFiles(input, document, files, report);
     addWarnings(options, worked_on, is_step, report);
     tell(options, "writing", 1, 1);
-    // Nothing that can fail comes after it.
+    // Nothing that can fail may follow.
     files.commit();
 }
 

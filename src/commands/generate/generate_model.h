@@ -15,7 +15,7 @@ namespace tspace {
 
 /// Generating as a step of another command: of its options none is said to have had no effect.
 struct GenerateStep {
-    gltf::NormalWishes normals = {};  ///< not for OBJ
+    gltf::NormalWishes normals = {};  ///< normals to recompute; not for OBJ
     std::vector<std::uint32_t> wound_meshes =
         {};  ///< meshes that GenerateOptions::mend_winding leaves alone; not for OBJ
     /// Attributes of a wrong type or number are repaired, which generate does for some options alone.
@@ -45,7 +45,7 @@ Result<GenerateReport> generateGltf(const std::string& input, const std::string&
 
 namespace tspace {
 
-/// The same for a model file of any format.
+/// Like the overload above, for a model file of any format.
 gltf::GeneratedModel generateModel(const std::string& input, const GenerateOptions& options, bool with_images,
                                    const GenerateStep& step = {});
 

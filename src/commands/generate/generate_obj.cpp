@@ -242,7 +242,7 @@ FinishedPrimitive finish(const Model& model, const ObjPrimitive& primitive, bool
     return finished;
 }
 
-/// What is made of an OBJ file, and what only the writer needs of how.
+/// glTF document made from an OBJ file, and the data that only the writer needs.
 struct Made {
     gltf::Document document = {};
     WorkedOn worked_on = {};

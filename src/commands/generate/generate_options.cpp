@@ -68,7 +68,7 @@ void addOutput(OptionList& list, GenerateOptions& options) {
     addAllowExternal(list, options.file);
 }
 
-/// Which primitives get tangents, and what becomes of those that are there.
+/// Options that select the primitives that get tangents, and the treatment of existing tangents.
 void addSelection(OptionList& list, GenerateOptions& options) {
     const char* group = "Tangents";
     add(list, group, flag("--all", options.all, "Also process primitives whose material needs no tangents."));

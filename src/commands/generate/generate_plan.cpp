@@ -83,7 +83,7 @@ std::vector<bool> morphNormals(const Document& document, const Primitive& primit
     return targets;
 }
 
-/// What is computed but for tangents.
+/// Computations other than tangents.
 struct NormalsPlan {
     bool anew = false;
     std::vector<bool> morphs = {};
@@ -129,7 +129,7 @@ bool decide(PrimitiveReport& report, const Document& document, const Primitive& 
         return false;
     };
     if (isLeftAlone(report, document, primitive, uses, options, normals)) return false;
-    // What would be made in their place is less than what they were packed from.
+    // Recomputed frames would be less exact than the packed ones, so these stay.
     const bool can_overwrite = primitive.find("NORMAL") && options.existing == ExistingTangents::replace;
     if (const std::string packed = can_overwrite ? "" : packedAlone(document, primitive); !packed.empty())
         return leave(PrimitiveAction::kept, "its frames are packed in " + packed);
@@ -286,7 +286,7 @@ GeneratePlan planGenerate(const Document& document, std::span<const Primitive> p
 
 namespace {
 
-/// What reading and joining take for a while, about.
+/// Approximate temporary memory of reading and joining.
 constexpr std::uint64_t kBytesPerVertex = 48, kBytesPerCorner = 40;
 
 /// A vertex around a geometry: whose it is, and which.
@@ -349,7 +349,7 @@ class MeshPieces {
 
     [[nodiscard]] std::size_t othersOf(std::uint32_t piece) const { return joined_->othersOf(piece); }
     struct OtherMesh {
-        std::size_t primitive = 0;  ///< of that mesh, the first at the border
+        std::size_t primitive = 0;  ///< index of the primitive in that mesh, the first at the border
         std::set<std::uint32_t> points = {};
     };
     /// The other meshes that a piece forms one surface with, and the points that both have: by piece and mesh.
@@ -382,7 +382,7 @@ class MeshPieces {
 
     void takeNormals(const std::vector<NearVertex>& sources, const std::vector<bool>& makes_normals,
                      std::vector<Vec3>& result) const {
-        std::map<std::uint32_t, SharedArray<Vec3>> normals;  // of pieces that keep theirs
+        std::map<std::uint32_t, SharedArray<Vec3>> normals;  // normals of pieces that keep theirs
         for (std::size_t i = 0; i < sources.size(); ++i) {
             const auto [piece, vertex] = sources[i];
             if (!keeps(piece, makes_normals)) continue;
@@ -393,7 +393,7 @@ class MeshPieces {
         }
     }
 
-    /// What targets add to these vertices. The result does not need this.
+    /// Offsets of targets for these vertices. The result does not depend on this object.
     [[nodiscard]] std::function<Result<MorphOffsets>(std::size_t)> offsetsOf(std::vector<NearVertex> sources) const {
         std::vector<const Primitive*> of_pieces;
         bool any = false;
@@ -430,7 +430,7 @@ class MeshPieces {
     const Document& document_;
     DecodedArrays& arrays_;
     std::span<const Primitive> primitives_;
-    std::vector<std::size_t> numbers_;  ///< of the primitives
+    std::vector<std::size_t> numbers_;  ///< numbers of the primitives
     std::vector<SharedArray<Vec3>> vertices_ = {};
     std::vector<std::span<const Vec3>> vertex_spans_ = {};
     std::vector<std::size_t> lists_ = {};  ///< per piece

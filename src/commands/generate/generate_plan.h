@@ -26,7 +26,7 @@ namespace tspace::gltf {
 /// Primitives that draw the same triangles of one pool: computed once.
 struct GeometryPlan {
     std::vector<std::size_t> primitives = {};         ///< numbers into the list of primitives; never empty
-    Mends mends = {};                                 ///< where the tangents that are there are wrong
+    Mends mends = {};                                 ///< faults of the existing tangents
     std::shared_ptr<const Surroundings> around = {};  ///< see PrimitiveGeometry::around
 };
 
@@ -55,7 +55,7 @@ struct PoolPlan {
         return !geometries.empty() && !geometries.front().mends.vertices.empty();
     }
 
-    /// What computing takes of memory, about. Most is the lists of the corners' neighbours and tangents.
+    /// Approximate memory of the computation, most of it for lists of the corners' neighbors and tangents.
     [[nodiscard]] std::uint64_t workBytes() const {
         const std::uint64_t of_corner = (has_normals ? 96U : 128U) + (mendsTangents() ? 24U : 0U);
         return of_corner * corner_count + std::uint64_t{64} * vertex_count;
@@ -74,14 +74,14 @@ bool lacksDeltas(const Primitive& primitive);
 
 /// Normals that are made whatever the options say: one per primitive in file order, or none.
 struct NormalWishes {
-    std::vector<bool> anew = {};    ///< as GenerateOptions::overwrite_normals, of these alone
-    std::vector<bool> morphs = {};  ///< as MorphNormals::all, of these alone
+    std::vector<bool> anew = {};    ///< like GenerateOptions::overwrite_normals, per primitive
+    std::vector<bool> morphs = {};  ///< like MorphNormals::all, per primitive
 };
 
 GeneratePlan planGenerate(const Document& document, std::span<const Primitive> primitives,
                           const GenerateOptions& options, const NormalWishes& wishes = {});
 
-// Which primitives of a mesh are one surface where normals are made.
+// Finds the primitives of a mesh that form one surface for computing normals.
 
 /// Gives the geometries whose normals are made the triangles of other primitives of their mesh that they are one surface
 /// with, and notes it in the reports. A geometry that several meshes draw gets those of the first. Nothing for flat normals,

@@ -18,7 +18,7 @@ using GenerateOutcome = Outcome<GenerateReport>;
 
 std::string generateJson(const std::vector<GenerateOutcome>& outcomes, ExitCode exit_code, double seconds);
 
-/// What the document says of one file.
+/// JSON of one file in the report.
 Json generatedFileJson(const GenerateOutcome& outcome);
 
 std::string generateText(const GenerateOutcome& outcome);
@@ -27,7 +27,7 @@ std::string generateLine(const GenerateOutcome& outcome);
 /// Totals over several files.
 std::string generateSummary(const std::vector<GenerateOutcome>& outcomes, double seconds);
 
-// What was done to all primitives of a file together.
+// Totals over all primitives of a file.
 
 struct NamedCount {
     const char* json_name;

@@ -24,7 +24,7 @@ namespace tspace {
 
 struct WindingPlan {
     std::vector<MendedWindingReport> reports = {};
-    /// Of each primitive: one per triangle, 1 to turn it; or empty: none.
+    /// For each primitive: one entry per triangle, 1 to turn it; or empty: none.
     std::vector<std::vector<std::uint8_t>> turned = {};
 
     [[nodiscard]] bool turnsAny() const;
@@ -97,19 +97,20 @@ class MapConversion {
 
 namespace tspace {
 
-// What a report says about the file as a whole.
+// Warnings about the file as a whole.
 
-/// What options had to work on, where the report does not tell it.
+/// Whether options had an effect, as far as the report does not contain it.
 struct WorkedOn {
     bool far_coordinates = false;     ///< an offset that was left in them
-    bool texture_transforms = false;  ///< of textures that computed or judged tangents follow
+    bool texture_transforms = false;  ///< computed or examined tangents follow such textures
     bool compression = false;         ///< geometry that was packed or unpacked
 };
 
 /// Adds to the warnings: triangles that are wound against their neighbours, and new normals that point behind their triangles.
 void warnOfWinding(const GenerateOptions& options, GenerateReport& report);
 
-/// The same; and options that are not the default and had nothing to work on. Of a step neither: it may be one of several.
+/// Adds the warnings of warnOfWinding, and one for each option without effect. For a step it adds nothing: it may be one of
+/// several.
 void addWarnings(const GenerateOptions& options, const WorkedOn& worked_on, bool is_step, GenerateReport& report);
 
 namespace gltf {

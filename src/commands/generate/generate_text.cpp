@@ -211,7 +211,7 @@ std::string notesText(const GenerateReport& report) {
     return text.empty() ? text : "\n" + text;
 }
 
-/// How many there are, and how many quads they were paired to.
+/// Number of triangles, and of the quads they were paired to.
 std::string trianglesText(const PrimitiveReport& primitive) {
     const std::string count = std::to_string(primitive.triangle_count);
     return primitive.faces == Faces::quads ? fmt::format("{} ({} quads)", count, primitive.quad_count) : count;

@@ -69,7 +69,7 @@ bool any(const GenerateReport& report, const Test& test) {
     return std::any_of(report.primitives.begin(), report.primitives.end(), test);
 }
 
-/// What was found where the options leave it to the mesh.
+/// Notes the values that were chosen per mesh.
 void noteFoundValues(const NormalOptions& options, GenerateReport& report) {
     for (PrimitiveReport& primitive : report.primitives) {
         if (!primitive.normals_generated) continue;

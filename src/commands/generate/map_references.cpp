@@ -16,7 +16,7 @@ namespace tspace::gltf {
 MapReferences::Slot MapReferences::slotOf(const MapUser& user) const {
     const bool is_coat = user.use->needed_by == "clearcoatNormalTexture";
     if (user.use->only_in_variant) return {user.use->material, is_coat};
-    // As it is now: an earlier map may have given the primitive a copy of its material.
+    // Reads the current material: an earlier map may have given the primitive a copy.
     return {jsonOf(*user.primitive)["material"].get<std::size_t>(), is_coat};
 }
 
@@ -108,7 +108,7 @@ std::string MapReferences::whyNotApart(std::span<const MapUser> users) const {
 }
 
 void MapReferences::redirect(std::span<const MapUser> users, std::size_t to_image) {
-    std::map<std::size_t, std::size_t> copies;    // of materials
+    std::map<std::size_t, std::size_t> copies;    // copies of materials
     std::map<std::size_t, std::size_t> textures;  // from old ones to those of the image
     const auto ownTexture = [&](std::size_t from) {
         const auto [own, is_new] = textures.try_emplace(from, document_.json["textures"].size());
@@ -194,7 +194,7 @@ void ImagePlacer::putInView(std::size_t image, Bytes&& bytes, bool keeps_old, bo
     const std::size_t stored =
         known != views_.end() && is_of_all ? known->second : editor_.storeBlob(std::move(bytes), std::nullopt);
     if (is_of_all) views_[view] = stored;
-    // Not through a reference from before: storing may move the members of the root.
+    // Looked up again: storing may move the members of the root.
     document_.json["images"][image]["bufferView"] = stored;
 }
 
@@ -210,7 +210,7 @@ void ImagePlacer::putInFile(std::size_t image, const std::string& uri, Bytes&& b
 std::string ImagePlacer::freeName(const std::string& uri, const Bytes& bytes) {
     namespace fs = std::filesystem;
     fs::path old = Path(pathOfUri(uri));
-    // What lies outside of the model's folder gets its new file inside.
+    // Images outside the model's folder get their new file inside.
     if (leadsAway(old) != nullptr) old = old.filename();
     const bool becomes_png = imageFormat(bytes) == ImageFormat::png && lowerExtension(Path(old)) != ".png";
     for (int number = 1;; ++number) {

@@ -113,7 +113,7 @@ class ImagePlacer {
     /// Images that have their bytes from one place get one new place. `keeps_old`: somebody else still needs what the image
     /// had.
     void place(std::size_t image, Bytes&& bytes, bool keeps_old);
-    /// The same for this image alone.
+    /// Replaces only this image.
     void placeOwn(std::size_t image, Bytes&& bytes) { put(image, std::move(bytes), false, false); }
     /// A new entry of /images, otherwise like entry `like`. Returns its index.
     std::size_t add(std::size_t like, Bytes&& bytes);

@@ -115,7 +115,7 @@ Bytes mendMap(const Scene& scene, ByteSpan bytes, const GenerateOptions& options
         image->texels[i] = readTexel(image->texels[i], image->alpha.empty() ? 1 : image->alpha[i], layout);
     if (layout.x.channel == MapChannel::alpha) image->alpha.clear();
     if (map.look.content == MapContent::objectSpace) toTangentSpace(scene, map.image, options, *image);
-    constexpr unsigned kMostBits = 16;  // of a PNG
+    constexpr unsigned kMostBits = 16;  // maximum bits of a PNG
     const auto file = encodePng(*image, std::min(image->bits, kMostBits));
     if (!file) {
         map.report.reason = "the new map cannot be encoded as PNG";
@@ -129,7 +129,7 @@ Bytes mendMap(const Scene& scene, ByteSpan bytes, const GenerateOptions& options
 MadeOfHeights makeOfHeights(const Scene& scene, std::size_t material, std::size_t image, double strength,
                             const GenerateOptions& options) {
     const ByteSpan bytes = scene.images[image].bytes;
-    // What is missing, or of a format that nobody reads here, is left out or kept as any texture is.
+    // Missing images and unsupported formats are skipped or kept like any texture.
     if (bytes.empty() || whyNotRead(imageFormat(bytes)) != nullptr) return {};
     MadeOfHeights made{.is_height_map = true};
     if (!scene.memory->has(kMapPixelBytes * claimedSize(bytes).pixels())) {

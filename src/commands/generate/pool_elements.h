@@ -44,13 +44,13 @@ struct PoolElements {
     std::vector<std::vector<std::uint32_t>> corners = {};
     ElementData normals = {}, tangents = {}, bitangents = {};
     bool has_tangent_deltas = false;       ///< `morphs` has those of tangents
-    std::vector<MorphFrames> morphs = {};  ///< as in PoolFrames, like the next one
+    std::vector<MorphFrames> morphs = {};  ///< as in PoolFrames
     std::uint64_t differing_count = 0;
 };
 
 struct PackingRule {
     VectorFormat format = VectorFormat::float32;
-    bool is_welded = false;  ///< not all old vertices are there, or not in their order
+    bool is_welded = false;  ///< old vertices are missing or reordered
 };
 
 PoolElements packFrames(const Document& document, std::span<const Primitive> primitives, const PoolPlan& pool,

@@ -246,7 +246,7 @@ namespace {
 constexpr double kSureShare = 0.95;
 /// A method that explains this share is the likely one.
 constexpr double kLikelyShare = 0.5;
-/// By this much another UV set, or another method in a part of the file, must explain more to be named.
+/// Minimum share by which another UV set, or another method in a part of the file, must be better to be named.
 constexpr double kClearlyMore = 0.25;
 
 std::string percent(double share) {
@@ -421,7 +421,7 @@ std::string uvSetSentence(const std::vector<PrimitiveIdentity>& primitives) {
     return " In " + primitivesText(count) + " the tangents follow a different UV set than the texture uses.";
 }
 
-/// Which reading of texture transforms the tangents follow.
+/// Names the reading of texture transforms that the tangents follow.
 std::string transformSentence(const std::vector<PrimitiveIdentity>& primitives) {
     std::size_t after = 0, before = 0;
     for (const PrimitiveIdentity& primitive : primitives) {

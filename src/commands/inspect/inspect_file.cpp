@@ -55,7 +55,7 @@ void describeUvMap(std::span<const std::uint32_t> corners, std::span<const Vec3>
 
 namespace {
 
-// What is in a glTF file.
+// Contents of a glTF file.
 
 using namespace gltf;
 
@@ -190,7 +190,7 @@ PrimitiveInfo describePrimitive(const Document& document, const Primitive& primi
     return info;
 }
 
-/// How many nodes draw each mesh, and how often.
+/// Number of nodes that draw each mesh, and number of times they draw it.
 struct MeshDraws {
     std::uint32_t node_count = 0;
     std::uint64_t instance_count = 0;
@@ -266,7 +266,7 @@ Inspection inspectGltf(const std::string& input, const FileOptions& options) {
     return result;
 }
 
-// What is in an OBJ file, as it would be in a glTF made from it.
+// Contents of an OBJ file, described like the glTF made from it.
 
 using namespace obj;
 
@@ -298,7 +298,7 @@ PrimitiveInfo describePrimitive(const obj::Model& model, const ObjPrimitive& pri
     const std::vector<std::uint32_t> corners = triangleCorners(mesh);
     info.triangle_count = corners.size() / 3;
     describeUvMap(corners, mesh.positions, mesh.uvs, true, info);
-    MeshView cut;  // as check measures it
+    MeshView cut;  // triangulated like in check
     cut.positions = std::span(mesh.positions);
     cut.indices = IndexView(std::span(corners));
     if (model.memory->has(noteMemory(cut))) info.position_noise = notedNoise(cut, 0);

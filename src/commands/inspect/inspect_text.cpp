@@ -28,7 +28,7 @@ std::string needText(const PrimitiveInfo& primitive) {
                        primitive.needed_by, primitive.tangent_uses[0].only_in_variant ? " of a variant" : "");
 }
 
-/// What a texture transform does besides shifting; empty: nothing.
+/// Describes a texture transform except for its offset; empty: identity.
 std::string transformText(const TangentUseInfo& use) {
     std::string text;
     if (use.uv_rotation_rad != 0) text += fmt::format(", turned by {:.6g} degrees", use.uv_rotation_rad * 180 / kPi);

@@ -179,7 +179,7 @@ class FileMeasuring {
             }
         }
         for (const Green green : {Green::up, Green::down}) {
-            // Where nearly all texels say the same either way, there is nothing to tell apart.
+            // If nearly all texels agree either way, the two readings cannot be distinguished.
             if (in_object || !blueMatters()) break;
             MapReading reading = asked;
             reading.green = green;
@@ -250,7 +250,7 @@ class FileMeasuring {
     void listRays(const RayOptions& asked) {
         const double reach = options_.map.reach;
         tried_.push_back({asked, reach});
-        // Of rays that meet the same the first is named.
+        // Of rays with the same hits, the first is named.
         for (const double factor : {1.0, 0.25, 3.0}) {
             for (const RayTarget target : {RayTarget::outermost, RayTarget::nearest}) {
                 for (const RayDirections directions :
@@ -343,7 +343,7 @@ class FileMeasuring {
         return "rays along the stored normals" + which;
     }
 
-    /// What the map was made for, and this model is not.
+    /// Describes what the map was made for, if it differs from this model.
     static std::string difference(const ExplainedReading& asked, const ExplainedReading& best) {
         if (best.frames == "object")
             return best.axes == kMapAxesZUp ? "object space with z up, as in Blender (convert-map --from object --axes "

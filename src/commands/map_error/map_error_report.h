@@ -10,12 +10,12 @@
 
 namespace tspace::report {
 
-/// Of the map `outcome`.input.
+/// Report on the map `outcome`.input.
 std::string mapErrorJson(const Outcome<MapErrorFileReport>& outcome, const std::string& low, const std::string& high,
                          ExitCode exit_code);
 std::string mapErrorText(const Outcome<MapErrorFileReport>& outcome);
 
-/// Of the texture `outcome`.input.
+/// Report on the texture `outcome`.input.
 std::string textureErrorJson(const Outcome<TextureErrorReport>& outcome, const std::string& source, ExitCode exit_code);
 std::string textureErrorText(const Outcome<TextureErrorReport>& outcome);
 

@@ -27,7 +27,7 @@ std::string sizeText(const FloatImage& image) {
     return std::to_string(image.width) + " x " + std::to_string(image.height);
 }
 
-/// What the figure does not say of the texture.
+/// Adds warnings about the texture that the error figures do not show.
 void addWarnings(const FloatImage& packed, std::vector<std::string>& warnings) {
     if (packed.texture.is_srgb)
         warnings.emplace_back(

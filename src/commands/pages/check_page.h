@@ -19,12 +19,12 @@
 
 namespace tspace {
 
-// What a remedy gives: its command, run in memory.
+// Runs the command of a remedy in memory.
 
-/// What a command of the verb generate asks for; nothing where it leaves something open.
+/// Options of a generate command; nothing if it leaves a choice open.
 std::optional<GenerateOptions> optionsOf(const RemedyCommand& command);
 
-/// What a command makes of a model, with its images, as a picture shows it. `file`: how `input` is opened. Throws FileError.
+/// Result of a command on a model, with its images, as a scene to draw. `file`: how `input` is opened. Throws FileError.
 DrawnScene mendedScene(const std::string& input, const FileOptions& file, GenerateOptions options);
 
 // Pictures of the places that findings are about.
@@ -36,8 +36,8 @@ struct FindingPicture {
         {};  ///< a PNG of that place after the remedy's command, where it shows a difference
     std::vector<std::uint8_t> difference = {};  ///< a PNG of the difference; `caption` says how it is to be read
     std::string caption = {};
-    std::string command = {};       ///< that command; empty: the remedy names none
-    std::string why_no_after = {};  ///< where there is a command: a sentence
+    std::string command = {};       ///< the remedy's command; empty: it names none
+    std::string why_no_after = {};  ///< if there is a command without a picture: the reason, a sentence
     bool is_clay = false;           ///< base colors are left out, because they would hide the difference
 };
 

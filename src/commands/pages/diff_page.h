@@ -39,7 +39,7 @@ class DiffPictures {
 
     PicturedModel a_, b_;
     std::vector<PrimitivePair> pairs_;
-    std::vector<OtherFrames> others_;  ///< of B at the corners of A
+    std::vector<OtherFrames> others_;  ///< frames of B at the corners of A
     std::unique_ptr<ModelPicture> heat_ = {};
 };
 

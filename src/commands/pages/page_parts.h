@@ -12,7 +12,7 @@ namespace tspace {
 
 /// Pictures of one model take no more than this, as they stand in the page, and those of a page no more than that.
 inline constexpr std::size_t kMostModelBytes = 1500000, kMostPageBytes = 12000000;
-/// Of a place, in pixels.
+/// Size in pixels of a picture of a place.
 inline constexpr std::uint32_t kPlaceWidth = 320, kPlaceHeight = 240;
 
 /// The page up to the contents of <main>. `title`: not escaped, so no text from files.

@@ -22,7 +22,7 @@ constexpr int kSeenStep = 12;
 /// One side of a comparison: all meshes of its model, or the primitive's alone.
 struct Side {
     const ModelPicture& model;
-    std::size_t number = 0;  ///< of the primitive's mesh
+    std::size_t number = 0;  ///< index in the primitive's mesh
 
     [[nodiscard]] RgbImage draw(RenderShow show, const PlaceView& view, const PictureSize& size, const DVec3& to_light,
                                 std::span<const ShownSurface* const> surfaces) const {
@@ -141,7 +141,7 @@ class PairSearch {
         return pixel;
     }
 
-    /// Those within a seventh of the size of the mesh.
+    /// Triangles within a seventh of the size of the mesh.
     static std::vector<std::size_t> trianglesNear(const DrawnMesh& mesh, std::size_t triangle) {
         const auto centre = [&](std::size_t i) {
             DVec3 sum;

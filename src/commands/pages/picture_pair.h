@@ -16,7 +16,7 @@ struct PicturePair {
     std::vector<std::uint8_t> before = {}, after = {};
     std::vector<std::uint8_t> difference = {};  ///< brightness: the largest difference of a channel, times `gain`
     unsigned gain = 1;
-    double differing_share = 0;  ///< of the pixels
+    double differing_share = 0;  ///< share of the pixels that differ
     bool is_clay = false;        ///< without base colors, which would hide the difference
 };
 

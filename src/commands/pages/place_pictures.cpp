@@ -59,7 +59,7 @@ PlaceView viewOver(std::span<const DrawnMesh> meshes, std::size_t mesh, std::spa
     constexpr ViewAngles kTurns[] = {{12, 8}, {-30, 8}, {40, 8}, {12, 40}, {12, -40}, {-65, 8}, {70, 8}};
     constexpr PictureSize kGlance{80, 60, 1};
     constexpr std::size_t kEnoughSamples = 60;
-    constexpr std::size_t kMostTriangles = 2000000;  // of more, no small pictures are drawn first
+    constexpr std::size_t kMostTriangles = 2000000;  // meshes with more triangles get no small preview pictures
     PlaceView best{.points = PlacePoints(meshes[mesh], triangles), .around = 2.5, .is_alone = true, .is_place = true};
     const ViewAngles over = anglesOf(best.points.normal);
     PlaceView view = best;

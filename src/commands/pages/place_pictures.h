@@ -58,7 +58,7 @@ struct PlaceView {
     ViewAngles angles = {35, 20};
     double around = 1;  ///< scales the points about their center, so that some of what surrounds them is in the picture
     bool is_alone = false;  ///< without other meshes, which hide it from every side
-    bool is_place = false;  ///< not all of a primitive
+    bool is_place = false;  ///< a part of a primitive
 
     [[nodiscard]] Camera camera(const PictureSize& size) const;
 };

@@ -52,7 +52,7 @@ std::vector<T> unrolled(std::span<const T> values, std::span<const std::uint32_t
     return result;
 }
 
-/// Which triangles show their texture mirrored: v runs down, so that a plain one has a negative determinant.
+/// Finds triangles with a mirrored texture: v runs down, so unmirrored ones have a negative determinant.
 std::vector<UvSide> sidesOf(const ScenePrimitive& primitive, const CornerValues<Vec3>& normals,
                             std::span<const Vec2> uvs) {
     const Surface surface =

@@ -25,12 +25,12 @@ struct OtherFrames {
     std::vector<Vec4> tangents = {};
 };
 
-/// Which tangents a picture needs, and where from.
+/// Tangents that a picture needs, and their source.
 struct FrameChoice {
     RenderFrames frames = RenderFrames::automatic;
     Method method = Method::mikktspace;
     bool always = false;   ///< also where no normal map is read with them
-    bool compare = false;  ///< those of the method too
+    bool compare = false;  ///< also use those of the method
     /// One per primitive, or none. What `error` compares with, in place of those of the method.
     std::span<const OtherFrames> others = {};
     Execution execution = {};
@@ -60,8 +60,8 @@ class ModelTextures {
     };
     /// Null where it cannot be shown; a warning then says why.
     const PictureTexture* read(const Wanted& wanted);
-    /// That of a material, without its UVs, which follow from its transform (textureUvs). No image: there is none, or the
-    /// primitive lacks its UV set.
+    /// Returns the texture of a material without its UVs, which follow from its transform (textureUvs). It has no image if
+    /// there is none, or if the primitive lacks its UV set.
     PlacedTexture find(const ScenePrimitive& primitive, const std::optional<TextureReading>& texture, Use use,
                        bool alpha);
 
@@ -90,7 +90,7 @@ struct ModelSurface {
 struct PosedSurface {
     std::vector<Vec3> positions = {};
     std::vector<Vec3> normals = {};                  ///< one per vertex, or per corner where the file has none
-    std::vector<Vec4> tangents = {}, expected = {};  ///< as those at rest
+    std::vector<Vec4> tangents = {}, expected = {};  ///< as in the rest pose
     ShownSurface shown = {};
 };
 
@@ -104,7 +104,7 @@ class ModelPicture {
     [[nodiscard]] std::span<const DrawnMesh> meshes() const { return meshes_; }
     /// One per mesh.
     [[nodiscard]] std::span<const ShownSurface* const> surfaces() const { return shown_; }
-    /// Of the file, each primitive once.
+    /// Corners in the file, each primitive once.
     [[nodiscard]] std::uint64_t cornerCount() const;
     [[nodiscard]] const ModelSurface& surfaceOf(std::size_t primitive) const { return surfaces_[primitive]; }
     [[nodiscard]] TangentSources tangentSources() const;

@@ -54,7 +54,7 @@ void addLengths(OptionList& list, const char* group, TexelLengths& lengths);
 void addAlpha(OptionList& list, const char* group, MapAlpha& alpha);
 /// --dds-header, of outputs in DDS.
 void addDdsHeader(OptionList& list, const char* group, DdsHeader& header);
-/// Which primitives of a model show a map.
+/// Selects the primitives of a model that use a map.
 void addMaterialOfMap(OptionList& list, std::string& material);
 /// The last options of calls that make an image by a model: how tangents are made where it has none (in `group`), and how
 /// the call runs.

@@ -14,7 +14,7 @@ namespace {
 
 constexpr const char* kDigits = "0123456789";
 
-/// As few digits as a person would write.
+/// Formats a number with as few digits as necessary.
 std::string plainText(double number) {
     const std::string text = Json(number).dump();
     return text.ends_with(".0") ? text.substr(0, text.size() - 2) : text;
@@ -68,7 +68,7 @@ bool parseReal(const std::string& text, double& number) {
 }
 
 bool parseNumber(const std::string& text, std::uint64_t& number) {
-    constexpr std::size_t kMostDigits = 19;  // of any number below 2^63
+    constexpr std::size_t kMostDigits = 19;  // maximum digits of a number below 2^63
     if (text.empty() || text.size() > kMostDigits || text.find_first_not_of(kDigits) != std::string::npos) return false;
     number = std::strtoull(text.c_str(), nullptr, 10);
     return true;

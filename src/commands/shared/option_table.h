@@ -11,7 +11,7 @@
 
 namespace tspace::options {
 
-/// What takes a value: stores it, and returns what is wrong with it ("must be ..."), or nothing.
+/// Receives a value: stores it, and returns an error message ("must be ..."), or nothing.
 using Take = std::function<std::string(const std::string& value)>;
 
 #ifdef TSPACE_SMALL
@@ -145,7 +145,7 @@ Option choice(const char* names, const char* value_name, const Named<Value> (&ta
 
 /// The whole text as a whole number. false: it is none, or too large.
 bool parseNumber(const std::string& text, std::uint64_t& number);
-/// As parseNumber, for any finite number.
+/// Like parseNumber, for any finite number.
 bool parseReal(const std::string& text, double& number);
 
 /// The name that `word` becomes by the fewest letters added, left out, changed or swapped with their neighbour, or that

@@ -21,7 +21,7 @@ struct Outcome {
     std::string output = {};  ///< empty for calls that write nothing
     Result<Value> result = Error{};
     double seconds = 0;
-    bool is_dry_run = false;       ///< nothing was written
+    bool is_dry_run = false;       ///< dry run: nothing was written
     bool was_done_before = false;  ///< the manifest says so, and no file has changed since; the value is empty
 };
 

@@ -48,7 +48,7 @@ std::string finish(const Given& given, ConvertMapFileOptions& options);
 
 /// Removes the findings that the request leaves out, and counts anew.
 void leaveOut(const CheckRequest& request, CheckReport& report);
-/// Whether there is a finding that makes the check fail.
+/// Whether a finding makes the check fail.
 bool failsBy(const CheckRequest& request, const CheckReport& report);
 
 }  // namespace tspace::options

@@ -121,7 +121,7 @@ void keepCommandsWhole(std::string& line) {
     }
 }
 
-/// How far the rest of a line is indented.
+/// Indentation of the continuation lines.
 std::size_t hangOf(std::string_view line, std::size_t width, std::size_t hang) {
     const std::size_t start = std::min(line.find_first_not_of(' '), line.size()), gap = line.find("  ", start);
     if (gap == std::string_view::npos) return start + hang;

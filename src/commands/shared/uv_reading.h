@@ -13,7 +13,7 @@ namespace tspace {
 
 struct UvReading {
     std::size_t uv_set = 0;
-    bool transformed = false;        ///< by the use's texture transform, which changes frames
+    bool transformed = false;        ///< changed by the use's texture transform, which changes frames
     std::vector<Vec2> own = {};      ///< the transformed ones
     std::span<const Vec2> uvs = {};  ///< empty: the primitive has no such set
 };
@@ -23,7 +23,7 @@ UvReading readingOf(const ScenePrimitive& primitive, const TangentUse& use);
 /// A set as it is in the file.
 UvReading plainReading(const ScenePrimitive& primitive, std::size_t uv_set);
 
-/// Where a texture is read, with scales and offsets that no direction depends on.
+/// UVs that a texture is sampled with, including scales and offsets, which directions do not depend on.
 std::vector<Vec2> textureUvs(std::span<const Vec2> uvs, const UvTransform& transform);
 
 }  // namespace tspace

@@ -86,7 +86,7 @@ std::string stillHtml(const Path& input, const FileOptions& options, const PageO
            "</div></noscript>\n";
 }
 
-/// The same for the page's scripts.
+/// Origin of the page, for its scripts.
 std::string originBlock(const PageOrigin& origin) {
     const Json json = {{"version", TSPACE_VERSION_STRING}, {"date", origin.date}, {"command", origin.command}};
     std::string html = "<script type=\"application/json\" id=\"origin\">";

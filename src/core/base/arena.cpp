@@ -81,8 +81,7 @@ void endSpace(std::byte*, std::size_t) {}
 class Arena::Impl {
   public:
     Impl() {
-        // Where address space is limited (ulimit -v), a quarter of what can be reserved is taken, and the rest is left
-        // to others.
+        // Where address space is limited (ulimit -v), reserves a quarter of the available space and leaves the rest to others.
         std::size_t bytes = kReserved;
         std::byte* space = nullptr;
         while (bytes >= kLeastReserved && (space = reserveSpace(bytes)) == nullptr) bytes /= 4;
@@ -179,7 +178,7 @@ class Arena::Impl {
         blocks_.erase(block + 1);
     }
 
-    /// Behind the last block in use.
+    /// Address just past the last block in use.
     [[nodiscard]] std::size_t end() const { return blocks_.empty() ? 0 : blocks_.back().begin + blocks_.back().bytes; }
 
     bool holdUpTo(std::size_t begin, std::size_t bytes) {

@@ -165,7 +165,7 @@ Error checkBelow(const IndexView& indices, std::size_t count, Parallel* parallel
     const auto limit = static_cast<std::uint32_t>(std::min(count, kMaxCorners + 1));
     std::atomic<bool> all{true};
     const auto check = [&](std::size_t begin, std::size_t end) {
-        constexpr std::size_t kPart = 1024;  // that are widened at a time; 32-bit numbers are looked at where they are
+        constexpr std::size_t kPart = 1024;  // elements widened per step; 32-bit numbers are read in place
         std::uint32_t buffer[kPart];
         const std::size_t step = indices.type == IndexType::u32 ? end - begin : kPart;
         for (; begin < end; begin += step) {

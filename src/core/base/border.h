@@ -36,8 +36,8 @@ auto atBorder(Body&& body) -> std::invoke_result_t<Body> {
 #endif
 }
 
-/// What `body` returns, and 0 or null where there was no memory for it. Other exceptions pass through. Without exceptions
-/// the program ends there.
+/// Returns the result of `body`, or 0 or null if it runs out of memory. Other exceptions pass through. Without exceptions the
+/// program terminates there.
 template <class Body>
 auto withMemory(Body&& body) -> std::invoke_result_t<Body> {
 #ifdef __cpp_exceptions

@@ -197,7 +197,7 @@ inline void prefetchLines(const void* place, std::size_t bytes, std::size_t ahea
 /// Whether rows at `to`, so many bytes in all, should be streamed. They must lie one behind the other.
 inline bool areStreamed([[maybe_unused]] const void* to, [[maybe_unused]] std::size_t bytes) {
 #if defined(TSPACE_SIMD_X86)
-    constexpr std::size_t kLarge = std::size_t{32} << 20;  // what many processors have as their last cache
+    constexpr std::size_t kLarge = std::size_t{32} << 20;  // typical size of the last-level cache
     return bytes >= kLarge && reinterpret_cast<std::uintptr_t>(to) % 16 == 0;
 #else
     return false;

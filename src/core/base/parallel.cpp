@@ -86,7 +86,7 @@ class Parallel::Pool {
         }
     }
 
-    /// Returns the first value that does not mean to wait.
+    /// Waits while condition(value) holds; returns the value that ended the wait.
     template <class Condition>
     std::uint32_t waitWhile(const std::atomic<std::uint32_t>& number, Condition&& condition) const {
         const auto end = std::chrono::steady_clock::now() + look_out_;

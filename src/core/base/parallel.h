@@ -35,7 +35,7 @@ class Parallel {
     Parallel(const Parallel&) = delete;
     Parallel& operator=(const Parallel&) = delete;
 
-    /// How many tasks can run at the same time; 1 means serial.
+    /// Number of tasks that can run at the same time; 1 means serial.
 #ifdef TSPACE_SERIAL
     [[nodiscard]] static constexpr unsigned width() { return 1; }
 #else

@@ -233,7 +233,7 @@ class RangeOfRound {
     template <std::size_t kRows, bool kMaxima = false>
     void addRows() {
         constexpr std::size_t kSums = 4 * (kMaxima ? kRows - 1 : kRows);
-        // In variables of their own, which no store can change.
+        // Local copies, so that the compiler need not assume aliasing.
         const GroupRange range = range_;
         std::uint32_t* const vertices_of = vertices_of_;
         float* const all_sums = sums_;

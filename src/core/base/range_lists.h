@@ -58,9 +58,9 @@ struct TriangleBatch {
 
     std::size_t count = 0;
     bool is_block = false;  ///< the triangles follow one another
-    bool is_whole = false;  ///< and all their groups are in the range (or no groups)
+    bool is_whole = false;  ///< they follow one another, and all their groups are in the range (or there are no groups)
     const std::uint32_t *vertices = own_vertices, *groups = own_groups;
-    std::uint32_t numbers[kMost];  ///< of a block only the first number
+    std::uint32_t numbers[kMost];  ///< triangle numbers; of a block only the first one
     std::uint32_t own_vertices[3 * kMost], own_groups[3 * kMost];
 
     [[nodiscard]] std::uint32_t number(std::size_t t) const {
@@ -103,7 +103,7 @@ class RangeLists {
         const std::size_t end = std::min((index + 1) * range_size_, group_count_);
         return {static_cast<std::uint32_t>(index * range_size_), static_cast<std::uint32_t>(end)};
     }
-    /// How many triangles a range has at most.
+    /// Maximum number of triangles of a range.
     [[nodiscard]] std::size_t mostTriangles(std::size_t all) const;
 
     [[nodiscard]] std::size_t blockCount(std::size_t triangle_count) const {
@@ -148,7 +148,7 @@ class RangeLists {
 /// One round: rows that triangles add to groups, and what a group makes of its sums. Works on blocks, for kernels.
 class SumRound {
   public:
-    static constexpr std::size_t kTriangles = 32;  ///< of one block; their rows stay in the first cache
+    static constexpr std::size_t kTriangles = 32;  ///< triangles per block; their rows fit in the first-level cache
     static constexpr std::size_t kGroups = 16;     ///< the most lanes; kernels work on whole groups of so many
     static constexpr std::uint32_t kNoVertex = 0xffffffffu;
 
@@ -188,8 +188,8 @@ class SumRounds {
     RangeLists lists_;
     std::size_t tasks_;
     Parallel& parallel_;
-    Buffer<float> sums_;              ///< of one range for each task
-    Buffer<std::uint32_t> vertices_;  ///< of each group there
+    Buffer<float> sums_;              ///< sums of one range for each task
+    Buffer<std::uint32_t> vertices_;  ///< vertices of each group of the range
 };
 
 // Powers of four that bring coordinates near 1, so that fourth powers of small UVs do not vanish. Multiplying

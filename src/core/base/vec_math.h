@@ -50,7 +50,8 @@ inline DVec3 cross(const DVec3& a, const DVec3& b) {
 }
 inline double length(const DVec3& v) { return std::sqrt(dot(v, v)); }
 
-// Which vectors have a direction, scaling to length 1 that no finite vector defeats, and a basis around a unit vector.
+// Tests whether a vector has a direction, scaling to length 1 that works for every finite vector, and a basis around a unit
+// vector.
 
 inline bool isZero(const Vec3& v) { return v.x == 0 && v.y == 0 && v.z == 0; }
 inline bool isDirection(const Vec3& v) { return isFinite(v) && !isZero(v); }
@@ -66,7 +67,7 @@ inline bool normalize(DVec3& v) {
     return true;
 }
 
-/// As normalize, to rounding, with one division in place of four where the square of the length is an ordinary number.
+/// Like normalize up to rounding, but with one division instead of four if the squared length is a normal number.
 inline bool normalizeOrdinary(DVec3& v) {
     const double squared = dot(v, v);
     if (!(squared > 1e-280 && squared < 1e280)) return normalize(v);
@@ -76,7 +77,7 @@ inline bool normalizeOrdinary(DVec3& v) {
 
 /// Lengths of normals and tangents below cannot be told from zero.
 inline constexpr double kLeastLength = 1e-6;
-/// How far the length of a unit vector may be from 1: what rounding to 8 bits explains, and the glTF validator allows.
+/// Maximum deviation of a unit vector's length from 1: rounding to 8 bits explains it, and the glTF validator allows it.
 inline constexpr double kMostFromUnit = 0.00674;
 
 /// The factor that gives a normal the length 1. It is 1 for normals within kMostFromUnit of that length, and for those

@@ -27,9 +27,9 @@ constexpr std::size_t kGrain = 16384;  // vertices per task: below, starting thr
 /// hashes' upper bits occurs, never, once, or more often. Two bits a place: bit 0 says at least once, bit 1 more often.
 class RepeatedHashes {
   public:
-    static constexpr unsigned kMostRanges = 4;  ///< of vertices, counted at the same time, each in a table of its own
+    static constexpr unsigned kMostRanges = 4;  ///< vertex ranges counted at the same time, each in its own table
 
-    /// How many ranges to count in: at most one per thread, and vertices enough to be worth it.
+    /// Number of ranges to count in: at most one per thread, with enough vertices each.
     static std::size_t rangesFor(std::size_t vertex_count, const Parallel& parallel) {
         return std::clamp<std::size_t>(vertex_count / kGrain, 1, std::min(parallel.width(), kMostRanges));
     }
@@ -98,7 +98,7 @@ class RepeatedHashes {
     static constexpr std::size_t kPlacesPerVertex = 4;
     static constexpr std::size_t kPlacesPerByte = 4, kPlacesPerWord = 32;
 
-    /// How many of the bits 0, 2, 4, ... are set. (std::popcount is a call where the target is plain x86-64.)
+    /// Counts the set bits among the bits 0, 2, 4, ... (std::popcount is a call on plain x86-64.)
     static std::uint64_t pairsSet(std::uint64_t x) {
         x = (x & 0x3333333333333333u) + (x >> 2 & 0x3333333333333333u);
         x = (x + (x >> 4)) & 0x0f0f0f0f0f0f0f0fu;
@@ -106,7 +106,7 @@ class RepeatedHashes {
     }
 
     unsigned log2_;
-    std::size_t words_, ranges_;  ///< of one range
+    std::size_t words_, ranges_;  ///< words per range, and number of ranges
     Buffer<std::uint64_t> table_;
 };
 
@@ -285,8 +285,8 @@ class Welder {
     const Allocator *allocator_, *transient_;
     Parallel& parallel_;
     Buffer<std::uint32_t> hashes_;
-    Buffer<std::uint32_t> list_;   // those vertices, ascending; empty: all
-    Buffer<std::uint32_t> roots_;  // of those
+    Buffer<std::uint32_t> list_;   // the vertices to weld, ascending; empty: all
+    Buffer<std::uint32_t> roots_;  // roots of these vertices
 };
 
 std::uint32_t bitsOf(float f) { return std::bit_cast<std::uint32_t>(f + 0.0f); }  // -0 as +0

@@ -76,7 +76,7 @@ Error checkSized(const Struct* sized, const char* name) {
     return checkStructSize(sized->struct_size, kSizes<Struct>, name);
 }
 
-/// As checkSized, for a struct that must not be null.
+/// Like checkSized, for a struct that must not be null.
 template <class Struct>
 Error checkNeeded(const Struct* sized, const char* name) {
     if (sized == nullptr) return makeError(ErrorCode::nullData, kNoElement, "%s is null", name);

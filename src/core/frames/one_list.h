@@ -19,8 +19,8 @@ namespace tspace {
 struct OneListMesh {
     OwnedMesh own = {};                               ///< normals are zero where no corner uses the vertex
     std::vector<std::uint32_t> source_vertices = {};  ///< one per vertex here: the given mesh's
-    std::vector<std::uint32_t> source_normals = {};   ///< which of its normals, or kNoCorner where no corner says so
-    MeshView view = {};  ///< of the arrays above, with the faces of the given mesh: the struct must not move
+    std::vector<std::uint32_t> source_normals = {};  ///< index of the source normal, or kNoCorner if no corner uses one
+    MeshView view = {};  ///< view of the arrays above, with the faces of the given mesh; the struct must not be moved
 
     OneListMesh() = default;
     OneListMesh(const OneListMesh&) = delete;

@@ -117,7 +117,7 @@ bool isOrthonormal(const Vec3& tangent, const DVec3& n) {
 /// the exact ones by far more than floats round.
 struct SurelySound {
     static constexpr float kSquareTolerance = 9.9e-4f;      // below 2 * kUnitTolerance
-    static constexpr float kSquareCosine = 0.99f;           // of 5.7 degrees
+    static constexpr float kSquareCosine = 0.99f;           // squared cosine of 5.7 degrees
     static constexpr float kSquareLean = 1e-13f;            // below kOrthogonalTolerance^2
     static constexpr float kLeast = 1e-20f, kMost = 1e20f;  // squares of components neither vanish nor overflow
 
@@ -363,8 +363,8 @@ class Sanitizer {
         }
     }
 
-    /// Where N has no direction, all corners at a position with one sign share the first substituted tangent, so that
-    /// no vertex has to be split.
+    /// Where N has no direction, all corners at a position with the same sign share the first substituted tangent, so that no
+    /// vertex has to be split.
     void alignWithoutNormals() {
         if (points_.empty()) points_ = weldPositions(mesh_, allocator_, parallel_);
         Buffer<Vec4> made(allocator_, 2 * mesh_.vertexCount(), Vec4{});

@@ -52,7 +52,7 @@ constexpr std::uint32_t kScannedVariants = 8;
 /// equal within the tolerance never lie two cells apart.
 constexpr double kCellMargin = 1.0 + 1.0 / (1 << 20);
 
-constexpr std::uint32_t kNoVariant = 0xffffffffu;  ///< and no number of a node
+constexpr std::uint32_t kNoVariant = 0xffffffffu;  ///< larger than any node number
 
 /// Further than this many cells from 0, floats lie more than 100 tolerances apart: only equal values match.
 constexpr double kMostCells = 4294967296.0;
@@ -164,12 +164,12 @@ class Variants {
     }
 
     AttributeSpan attributes_;
-    std::vector<std::uint32_t>& corners_;  ///< of each variant
+    std::vector<std::uint32_t>& corners_;  ///< corners of each variant
     /// The vertex's next variant among the scanned ones; the leaf's next one among the indexed ones.
     std::vector<std::uint32_t>& next_;
     UniqueIndex<std::uint64_t> nodes_;
-    std::vector<std::uint32_t> firsts_;  ///< of each node, if it is a leaf, the variant that its list starts with
-    std::uint64_t root_ = 0;             ///< of the corner that is looked up
+    std::vector<std::uint32_t> firsts_;  ///< for each leaf node, the first variant of its list
+    std::uint64_t root_ = 0;             ///< root of the corner being looked up
     std::vector<std::uint64_t> cells_, reached_, further_;
 };
 

@@ -70,7 +70,7 @@ class FramesMaker {
     Result<Done> makeTangents() {
         tangents_.resize(mesh_.cornerCount());
         TangentOptions options = options_.tangents;
-        options.normalize_normals = false;  // those of mesh_ are normalized already
+        options.normalize_normals = false;  // the normals of mesh_ are already normalized
         Result<TangentReport> made = generateTangents(mesh_, options, {.tangents = tangents_}, execution_);
         if (!made) return std::move(made).error();
         frames_.report.tangents = *made;
@@ -130,7 +130,7 @@ class FramesMaker {
         return {t.x, t.y, t.z, signFactor(options_.tangents.convention)};
     }
 
-    MeshView mesh_;  ///< as it was given, then with the normals that were made, then with one index list
+    MeshView mesh_;  ///< the given mesh, later with generated normals, later with one index list
     const IndexedFramesOptions& options_;
     const Execution& execution_;
     std::vector<Vec3> corner_normals_;

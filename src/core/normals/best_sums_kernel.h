@@ -25,7 +25,7 @@ namespace {
 
 // The value of each doubt at which the blend is half and half, found by trying values on analytic surfaces with and
 // without noise and on bevels (docs/evidence/accuracy.md).
-constexpr double kNoise = 0.45;  // of the bend of the edges, what no normal explains
+constexpr double kNoise = 0.45;  // share of the edge bend that no normal explains
 constexpr double kKink = 1.5;    // misfit of the sharp normals, in that of the robust ones: of the large faces
 constexpr double kFillet =
     1.3;                        // like kNoise, for short edges. A flat cap that is a fan from one vertex of its rim has
@@ -42,12 +42,12 @@ constexpr double kSpread = 0.42;  // sine between fit and robust mean
 // (tangents/estimators/quadratic_recovery_kernel.h).
 constexpr double kFitRidge = 3e-4, kFitRidgeShare = 0.3;
 
-constexpr double kNoTrust = 1e12;  // so large that a blend has the bits of one side
+constexpr double kNoTrust = 1e12;  // large enough that a blend has exactly the bits of one side
 
 constexpr std::size_t kFitStep = 12 * kFitRows;  // floats from triangle to triangle
 
 // The values at which the trust in a step is half, found by the same trials.
-constexpr double kStepLeft = 0.5;          // of what the step explains, what it does not
+constexpr double kStepLeft = 0.5;          // unexplained / explained change at which trust is one half
 constexpr double kStepNoise = 1.0 / 30.0;  // of the turn over the edges, what the step does not explain
 
 constexpr std::size_t kStepStride = 12 * kStepRows;  // floats from triangle to triangle
@@ -114,7 +114,7 @@ void finishSharp(float* rows, const float*, const float*, std::size_t count) {
 
 /// Terms of an edge that are equal at both its ends. The edge counts where both ends have a `max` normal.
 struct EdgeDoubt {
-    Floats misfit;  ///< of the sharp normals, as seen along the edge
+    Floats misfit;  ///< misfit of the sharp normals along the edge
     Floats bend, count, sharp_misfit, robust_misfit, sharp_bend, robust_bend, square;
     Mask counts;
 

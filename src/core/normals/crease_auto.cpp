@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::uint32_t kNoPair = ~std::uint32_t{0};
 
-/// Which corner's edge is the other side of a corner's edge, where an edge has two faces.
+/// Pairs each corner's edge with the corner on its other side, where an edge has two faces.
 class EdgePairs {
   public:
     explicit EdgePairs(const NormalsCall& call)
@@ -184,7 +184,7 @@ class CreaseFinder {
             filterFaces(nearOf, per_turn, passes);
     }
 
-    /// As OBJ files are, too, whose faces each have a size.
+    /// Also true for OBJ files, whose faces each have a size.
     [[nodiscard]] bool areAllTriangles() const {
         const auto& sizes = call_.mesh.face_sizes;
         return call_.are_triangles || (!sizes.empty() && std::all_of(sizes.begin(), sizes.end(),
@@ -194,7 +194,7 @@ class CreaseFinder {
     /// The face across an edge.
     struct Near {
         std::uint32_t face;
-        float weight;  ///< by its area, and by how near it is
+        float weight;  ///< weight by the area and the proximity
     };
 
     template <class NearOf>
@@ -220,8 +220,8 @@ class CreaseFinder {
         }
     }
 
-    /// The same for four triangles at a time, each in a lane of its own, with the bits that filterFaces has: 149 instructions
-    /// for a triangle and pass become 62 (callgrind, a torus of 32,000 triangles).
+    /// Like filterFaces, for four triangles at a time, one per lane, with identical bits: 62 instead of 149 instructions per
+    /// triangle and pass (callgrind, a torus of 32,000 triangles).
     template <class NearOf>
     void filterTriangles(const NearOf& nearOf, float per_turn, int passes) {
         struct Around {
@@ -368,7 +368,7 @@ class CreaseFinder {
         const std::size_t corners = call_.mesh.cornerCount();
         creases.edges = Buffer<EdgeKind>(call_.allocator, corners, EdgeKind::byAngle);
         Buffer<std::uint8_t> counts(call_.allocator, call_.mesh.vertexCount(),
-                                    std::uint8_t{0});  // of hard edges, 2 is many
+                                    std::uint8_t{0});  // number of hard edges; 2 means two or more
         const auto forPairs = [&](const auto& body) {
             for (std::uint32_t c = 0; c < corners; ++c) {
                 if (angles_[c] >= 0 && pairs_.other(c) > c) body(c);

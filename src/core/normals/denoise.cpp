@@ -42,7 +42,7 @@ double smoothStep(double low, double high, double value) {
     return u * u * (3 - 2 * u);
 }
 
-/// Of the edges of some of the first `all` groups.
+/// Dihedral angles at the edges of up to 1,024 sampled groups.
 Dihedrals sampleDihedrals(const NormalGroups& groups, std::size_t all, const Allocator* allocator) {
     constexpr std::size_t kVertices = 1024;
     struct Edge {
@@ -89,9 +89,9 @@ constexpr double kTurnOfNoise = 126, kLeastTurnOfNoise = 90;
 }  // namespace
 
 double noisePart(double sigma, double kink_share, const Dihedrals& dihedrals) {
-    constexpr double kLeast = 1e-3;  // of an edge: what a fit would gain is below what it costs
+    constexpr double kLeast = 1e-3;  // in edge lengths: below this, the gain of a fit is less than its cost
     if (!(sigma > 0) || !(dihedrals.median > 0)) return 0;
-    // What a clean mesh shows of its shape as kinks, and as sigma, grow together.
+    // On a clean mesh the share of kinks and sigma both grow with curvature.
     const double high = std::min(0.4, kNoisyShare + 3 * sigma);
     const double turn = dihedrals.median / (kTurnOfNoise * sigma);
     // Noise leaves no edge flat: a quarter of the length turns by less than .36 to .49 of the median then. What is decimated
@@ -154,7 +154,7 @@ Roughness measureRoughness(const NormalGroups& groups, std::size_t all, const Al
         });
     float* const end = std::remove_if(distances.begin(), distances.end(), [](float d) { return !(d >= 0); });
     if (end - distances.begin() < static_cast<std::ptrdiff_t>(kLeastFits)) return {};
-    constexpr double kMedianOfNormal = 0.6745;  // of |x| for a normal distribution
+    constexpr double kMedianOfNormal = 0.6745;  // median of |x| for a normal distribution
     return {medianOf(distances.begin(), end) / kMedianOfNormal, sampleDihedrals(groups, all, allocator), true};
 }
 
@@ -213,7 +213,7 @@ namespace {
 // too little to compare with.
 constexpr double kRoughNoise = 0.15, kLoudNoise = 0.12;
 constexpr int kBiasPasses = 8;
-constexpr double kFirstVariance = 1.15;  // of `best` by that of the mean by area, measured
+constexpr double kFirstVariance = 1.15;  // variance of `best` relative to the area-weighted mean, measured
 
 Float4 toFloat4(const Vec3& v) { return Float4{v.x, v.y, v.z, 0}; }
 Float4 unitOr(Float4 v, Float4 other) {

@@ -106,11 +106,11 @@ class NormalGroups {
 
     const NormalsCall& call_;
     std::size_t count_;
-    std::size_t most_corners_ = 0;  ///< of any group
+    std::size_t most_corners_ = 0;  ///< maximum corners of any group
     Buffer<float> positions_, normals_, variances_;
     Buffer<Ends> corners_;
     Buffer<std::uint32_t> begins_, counts_, neighbours_;  ///< room for two neighbours per corner
-    mutable Buffer<std::uint32_t> marks_;                 ///< of each task
+    mutable Buffer<std::uint32_t> marks_;                 ///< marks for each task
 };
 
 /// The groups around one, ring by ring. Bounded, so that a point with any number of neighbours takes no more time than
@@ -119,7 +119,7 @@ class RingWalk {
   public:
     static constexpr std::size_t kMost = 256, kFan = 32;
 
-    /// marks: those of NormalGroups::forSome.
+    /// `marks`: the per-thread array that forSome hands out.
     RingWalk(const NormalGroups& groups, std::uint32_t* marks, std::uint32_t centre)
         : groups_(groups), marks_(marks), centre_(centre) {
         add(centre);
@@ -174,7 +174,7 @@ class RingSums {
         const std::size_t end = walk.size();
         const Float4 origin = groups.position(list[0]);
         count_ += end - begin;
-        for (std::size_t i = end; i < end + 3; ++i) list[i] = list[0];  // which adds zeros
+        for (std::size_t i = end; i < end + 3; ++i) list[i] = list[0];  // the padding adds zeros
         for (std::size_t i = begin; i < end; i += 4) {
             const Float4 a = groups.position(list[i]) - origin, b = groups.position(list[i + 1]) - origin;
             const Float4 c = groups.position(list[i + 2]) - origin, d = groups.position(list[i + 3]) - origin;
@@ -191,7 +191,7 @@ class RingSums {
         }
     }
 
-    /// What elimination leaves of the equations for the last unknowns.
+    /// Remaining equations of the last unknowns after elimination.
     struct Rest {
         double matrix[2][2], right[2];
         bool is_sound = false;
@@ -296,8 +296,8 @@ RingSums::Rest RingSums::eliminate() const {
 
 // NormalOptions::denoise: what noise there is, and normals without it.
 
-/// By some thousand edges and the normals of `best` at their ends, which call.out has. mean_edge is 0 where no edge has a
-/// finite length; a call without results gives that alone. Takes 64 KB.
+/// Samples some thousand edges, using the normals of `best` at their ends (call.out). mean_edge is 0 if no edge has a finite
+/// length; a call without results returns only mean_edge. Takes 64 KB.
 PositionNoise sampleEdges(const NormalsCall& call);
 
 /// The share of kinks from which on all roughness is noise, where positions hardly differ from a smooth surface; up to half
@@ -311,10 +311,10 @@ double measureNoise(const NormalGroups& groups, const Allocator* allocator, Posi
 /// In units of the mean edge as it were without the noise.
 PositionNoise withoutGrowth(PositionNoise noise);
 
-/// As measureNoise, of a call without normals: of the mesh, which its hard edges will be found on.
+/// Like measureNoise, for a call without normals: measures the mesh that decides which edges are hard.
 double roughnessOf(const NormalsCall& call);
 
-/// Of angles at edges, in degrees: that below which a quarter, and a half, of their length lies.
+/// Dihedral angles in degrees, weighted by edge length: first quartile and median.
 struct Dihedrals {
     double quarter = 0, median = 0;
 };
@@ -324,10 +324,10 @@ struct Roughness {
     Dihedrals dihedrals = {};
     bool is_known = false;
 };
-/// Of the first `all` groups, some thousand of them. groups: in units of the mean edge
+/// Measures some thousand of the first `all` groups. groups: in units of the mean edge
 Roughness measureRoughness(const NormalGroups& groups, std::size_t all, const Allocator* allocator);
 
-/// What of sigma is noise.
+/// The part of sigma that is noise rather than shape.
 double noisePart(double sigma, double kink_share, const Dihedrals& dihedrals);
 
 /// Of the edge between two points with unit normals m and n. On a circle e . (m + n) is 0, and nearly so on everything that is
@@ -349,10 +349,10 @@ inline constexpr double kFewKinks = 0.2;
 /// more memory than that and 64 KB. O(corners), a tenth of the time of `best`. Throws OutOfMemory.
 bool mayHaveNoise(const MeshView& mesh, double noise, const Execution& execution, Parallel& parallel);
 
-/// As measurePositionNoise, or all 0 where mayHaveNoise(least) says no.
+/// Like measurePositionNoise, or all 0 if mayHaveNoise(least) is false.
 Result<PositionNoise> measureSureNoise(const MeshView& mesh, double least, const Execution& execution);
 
-/// Of a mesh, without hard edges. Where its share of kinks is no more than `fewest_kinks`, sigma and noise stay 0.
+/// Measures a mesh without hard edges. If its share of kinks is at most `fewest_kinks`, sigma and noise stay 0.
 PositionNoise noiseOf(const MeshView& mesh, const Execution& execution, Parallel& parallel, double fewest_kinks);
 
 /// averageNormals by `best`, then without noise. That of the mesh: in a pose it is no other, so that what does not move near

@@ -22,7 +22,7 @@ struct FaceSource {
     bool by_angle = false, by_area = false;
 };
 
-inline constexpr std::size_t kTermTriangles = 64;  ///< of one block; its arrays stay in the first cache
+inline constexpr std::size_t kTermTriangles = 64;  ///< triangles per block; its arrays fit in the first-level cache
 inline constexpr std::size_t kTermGroup = 16;      ///< triangles; vertices are read by whole groups
 
 // Below the first fraction of the weights a sum is what rounding left of normals that cancel. Below the second it shows
@@ -32,7 +32,7 @@ inline constexpr double kVanished = 1e-10, kDoubtful = 1e-2;
 struct FaceTerms {
     /// The unit normal times `size`, and `size`: the area's double if that is a weight, else 1. Zeros if degenerate.
     alignas(64) double normal[kTermTriangles][4];
-    alignas(64) double angle[3][kTermTriangles];  ///< of each corner, or 1 if that is no weight
+    alignas(64) double angle[3][kTermTriangles];  ///< angle at each corner, or 1 if it is not used as a weight
 };
 
 /// The functions for one CPU.
@@ -61,20 +61,20 @@ inline FaceKernel faceKernelFor(SimdTarget wish) { return simd::choose(wish, TSP
 /// Points have a normal of each kind, or zero.
 struct BestSource {
     FaceSource faces;  ///< without weights
-    float scale = 1;   ///< of positions: a power of four that brings them near 1
+    float scale = 1;   ///< scale of positions: a power of four that brings them near 1
     /// Means by angle * area, and by `max`; four bytes behind each are read too. A step reads the normals of the round
     /// before as `robust`; those that are zero stay so, and edges to them do not count.
     const Vec3 *robust = nullptr, *sharp = nullptr;
 };
 
-inline constexpr std::size_t kBestTriangles = 32;  ///< of one block
+inline constexpr std::size_t kBestTriangles = 32;  ///< triangles per block
 inline constexpr std::size_t kBestGroup = 16;      ///< lanes; vertices and points are read by whole groups
-inline constexpr std::size_t kFitRows = 8;         ///< of four floats; the last one has maxima in the place of sums
-inline constexpr std::size_t kStepRows = 2;        ///< of four floats
+inline constexpr std::size_t kFitRows = 8;         ///< rows of four floats; the last one has maxima instead of sums
+inline constexpr std::size_t kStepRows = 2;        ///< rows of four floats
 
 /// One round, for one CPU.
 struct BestKernel {
-    std::size_t row_count;  ///< of four floats, per corner and point
+    std::size_t row_count;  ///< rows of four floats per corner and point
     /// `vertices` and `points`: three per triangle, and valid ones up to the end of the last group. Corner k of
     /// triangle t writes to rows + 4 * row_count * (3 * t + k). Triangles without area, or with values that are not
     /// finite, write zeros.

@@ -68,8 +68,8 @@ inline unsigned faceNormals(DoubleVectors o, DoubleVectors p1, DoubleVectors p2,
 /// Intermediate results of a block. Each step is a loop of its own: one long loop body would be one chain of dependent
 /// operations, while of short loops a processor overlaps several rounds.
 struct Steps {
-    alignas(64) float position[3][3][kTermTriangles];  ///< of each corner: x, y, z
-    alignas(64) float angle[3][kTermTriangles];        ///< of each corner; first its cotangent
+    alignas(64) float position[3][3][kTermTriangles];  ///< position of each corner: x, y, z
+    alignas(64) float angle[3][kTermTriangles];        ///< angle at each corner; initially its cotangent
 };
 
 inline void readPositions(const FaceSource& source, const std::uint32_t* vertices, std::size_t t, Steps& steps) {

@@ -22,7 +22,7 @@ constexpr std::size_t kMostPoints = 32768;
 /// Bounds of what all vertices will give. Of sigma: three standard errors, each 5.3 % of the median of 480 distances that are
 /// noise and 1.8 % of one of 4096.
 constexpr double kSigmaError = 1.17, kDihedralError = 1.25, kKinkError = 1.1;
-constexpr double kMostGrowth = 1.2;  // by withoutGrowth
+constexpr double kMostGrowth = 1.2;  // growth that withoutGrowth may cause
 
 bool areEqual(const Vec3& a, const Vec3& b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
 
@@ -96,12 +96,12 @@ class NoiseScreen {
     bool mayHave(double noise) {
         sampleEdges();
         if (edge_count_ == 0) return false;
-        // By these normals there are more kinks than by `best` (measured over 235 primitives); the median's error is .02.
+        // These normals show more kinks than those of `best` (measured on 235 primitives); the error of the median is 0.02.
         const double kinks = kinkShareOfEdges(noise);
         if (kinks <= kFewKinks) return false;
         const std::optional<Roughness> roughness = roughnessAroundEdges();
         if (!roughness || !roughness->is_known) return true;
-        // Which share of the edges is flat, a sample does not tell.
+        // A sample cannot estimate the share of flat edges.
         const double turned = kDihedralError * roughness->dihedrals.median;
         for (const double error : {1 / kSigmaError, 1.0, kSigmaError})
             if (kMostGrowth * noisePart(error * roughness->sigma, kKinkError * kinks, {turned, turned}) >= noise)
@@ -161,7 +161,7 @@ class NoiseScreen {
         });
         for (DVec3& normal : std::span(normals.data(), normals.size())) normalize(normal);
         Buffer<float> shares(execution_.allocator, edge_count_);
-        // What turns by less than that is no noise. Shares that noise leaves become smaller by 5 % at most (measured on scans).
+        // Smaller turns are not noise. Shares that noise leaves become at most 5 % smaller (measured on scans).
         const double flat = noise * noise / 16;
         std::size_t count = 0;
         for (const Edge& edge : edges()) {
@@ -171,7 +171,7 @@ class NoiseScreen {
         return count == 0 ? 0 : medianOf(shares.begin(), shares.begin() + count);
     }
 
-    /// Nothing where a sample does not tell.
+    /// Returns nothing if a sample cannot decide.
     std::optional<Roughness> roughnessAroundEdges() {
         double lengths = 0;
         points_.clear();

@@ -15,7 +15,7 @@ CornerGroups::CornerGroups(const NormalsCall& call, Buffer<std::uint32_t> compon
     if (numbers_.empty()) return;
     std::uint32_t count = 0;
     for (std::uint32_t c = 0; c < numbers_.size(); ++c) {
-        const std::uint32_t lowest = numbers_[c];  // which has its number already, unless it is this corner
+        const std::uint32_t lowest = numbers_[c];  // already numbered, unless it is this corner
         numbers_[c] = lowest == c ? count++ : numbers_[lowest];
     }
     count_ = count;
@@ -77,7 +77,7 @@ void NormalGroups::sortCorners(const CornerGroups& corner_groups, double length)
 
 void NormalGroups::findNeighbours() {
     neighbours_ = Buffer<std::uint32_t>(call_.allocator, 2 * corners_.size());
-    // begins_ holds numbers of corners; neighbours have two places for each.
+    // begins_ counts corners; a corner adds up to two neighbors.
     const std::size_t turns_each = 4 * 2 * most_corners_, tasks = count_ == 0 ? 0 : marks_.size() / count_;
     Buffer<float> turns(call_.allocator, tasks * turns_each);
     forAll([&](std::uint32_t group, std::uint32_t* places) {

@@ -20,7 +20,7 @@ namespace tspace {
 
 // NormalOptions::crease_auto: which edges are hard, by the mesh.
 
-/// Of the edge from a corner to the next one on its face.
+/// Kind of the edge from a corner to the next one on its face.
 enum class EdgeKind : std::uint8_t {
     byAngle,  ///< it has other than two faces
     soft,
@@ -30,7 +30,7 @@ enum class EdgeKind : std::uint8_t {
 struct Creases {
     float angle_deg = 180;
     bool are_all_soft = true;     ///< no edge is hard, nor has more than two faces
-    Buffer<EdgeKind> edges = {};  ///< of each corner
+    Buffer<EdgeKind> edges = {};  ///< edge kind of each corner
 };
 
 /// By the histogram of the angles of edges: in the widest gap between those that most have and those that few have. Where
@@ -69,7 +69,7 @@ class MeshFaces {
     [[nodiscard]] std::uint64_t usedCount() const { return used_count_; }
 
   private:
-    std::uint32_t size_ = 0;  ///< of every face; 0: they differ
+    std::uint32_t size_ = 0;  ///< size of every face; 0: sizes differ
     std::uint64_t used_count_ = 0;
     Buffer<std::uint32_t> first_corners_, corner_faces_;
 };
@@ -104,8 +104,8 @@ class PointItems final : public TriangleGroups {
     const MeshFaces& faces_;
     const Buffer<std::uint32_t>& points_;
     const std::uint32_t* in_place_;  ///< the indices; null where they are not triangles of 32-bit numbers
-    /// What was found of each block by inPlace. Nearly all are `own` where triangles lie close together, and comparing
-    /// once is cheaper than looking points up in each pass.
+    /// Result of inPlace for each block. Nearly all are `own` if triangles are stored close together, and comparing once is
+    /// cheaper than looking points up in each pass.
     mutable Buffer<std::uint8_t> blocks_;
 };
 
@@ -152,7 +152,7 @@ struct NormalsCall {
                 areas};
     }
 
-    const MeshView &mesh, &posed;  ///< what is one point and what is hard is decided by the mesh, all else by the pose
+    const MeshView &mesh, &posed;  ///< the mesh decides equal points and hard edges, the pose everything else
     const Call<NormalOptions>& options;
     StridedSpan<Vec3> out;
     const Allocator* allocator;
@@ -163,9 +163,9 @@ struct NormalsCall {
     smooth::FaceKernel kernel;
     double factor;
     bool are_triangles, is_best;
-    NormalWeighting weighting;  ///< of the means
+    NormalWeighting weighting;  ///< weighting of the means
     bool by_area, by_angle;
-    /// Where smoothFaces leaves, for `best`, the lowest corner of each corner's component. Null: not wanted.
+    /// Output of smoothFaces for `best`: the lowest corner of each corner's component. Null: not requested.
     Buffer<std::uint32_t>* components = nullptr;
     /// Where smoothFaces writes the lowest corner that shares the normal of each corner. Null: not needed.
     std::uint32_t* shared = nullptr;
@@ -193,7 +193,7 @@ NormalReport writeFaceNormals(const NormalsCall& call);
 
 namespace smooth {
 
-/// Vectors that are read behind those of all groups: one, and a part of another.
+/// Padding: kernels read up to two vectors past the last group.
 inline constexpr std::size_t kBehind = 2;
 
 /// From the means by angle * area to the normals of `best`, in place; then options.refine steps.
@@ -209,13 +209,13 @@ void refine(const NormalsCall& call, const TriangleGroups& triangles, std::size_
 
 }  // namespace smooth
 
-// Which corners around a point share one normal.
+// Finds the corners around a point that share one normal.
 
 /// A triangle at hand; or, of another face, one of its corners with its neighbours, which has one entry.
 struct LocalTriangle {
-    std::uint32_t points[5];  ///< of the corners, and of the first two again. Named by their lowest vertices.
-    std::uint32_t corner;     ///< of the mesh: the first one's number
-    double weights[3];        ///< of the face's row
+    std::uint32_t points[5];  ///< points of the corners, then the first two again, named by their lowest vertices
+    std::uint32_t corner;     ///< number of the first corner in the mesh
+    double weights[3];        ///< weights of the face's row
 };
 
 /// The corners at a point, ascending: entries, four times a triangle plus a corner of it.
@@ -233,7 +233,7 @@ struct PointCorners {
     [[nodiscard]] double weight(std::uint32_t slot) const { return at(slot).weights[entries[slot] & 3]; }
 };
 
-/// Which faces may be smoothed together: creases and smoothing groups.
+/// Decides which faces may be smoothed together: creases and smoothing groups.
 struct SmoothingRule {
     explicit SmoothingRule(const NormalsCall& c);
 

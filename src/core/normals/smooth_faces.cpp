@@ -39,7 +39,7 @@ class ComponentCorners final : public TriangleGroups {
     void read(std::size_t first, std::size_t size, std::uint32_t* vertices, std::uint32_t* groups) const override {
         for (std::size_t i = 0; i < size; ++i) {
             const auto corner = static_cast<std::uint32_t>(first + i);
-            // The number behind all is no component, but there is something to be read for it.
+            // Corners set aside use index `count`, which has a dummy entry.
             const auto own =
                 (components_[corner] & kAside) != 0 ? static_cast<std::uint32_t>(count) : components_[corner];
             std::fill_n(groups + 3 * i, 3, own);
@@ -60,7 +60,7 @@ class ComponentCorners final : public TriangleGroups {
 
 /// A sum of normals times weights.
 struct Sum {
-    static constexpr double kLeastExact = 1e-140;  ///< of lengths: the square of a shorter one is rounded coarsely
+    static constexpr double kLeastExact = 1e-140;  ///< shorter lengths have squares that are rounded coarsely
     using Pair = double __attribute__((vector_size(16)));
     Pair xy = {}, z_weights = {};
 
@@ -123,8 +123,8 @@ struct Setting {
 
 /// Memory for one range.
 struct Room {
-    FaceRow* rows;      ///< of each triangle, by the pose
-    FaceRow* deciding;  ///< by the mesh, which says what is hard; may be `rows`
+    FaceRow* rows;      ///< row of each triangle, from the pose
+    FaceRow* deciding;  ///< rows from the mesh, which decides what is hard; may be `rows`
     LocalTriangle* triangles;
     Link* links;
     std::uint32_t *entries, *parents, *begins;  ///< entries of PointCorners by point, and where those of each begin
@@ -192,7 +192,7 @@ class RangeWork {
         size_ += static_cast<std::uint32_t>(count);
     }
 
-    /// What the kernel leaves open: degenerate triangles, weights of `max`, and rows of the mesh beside those of the
+    /// Handles cases that the kernel skips: degenerate triangles, weights of `max`, and rows of the mesh beside those of the
     /// pose.
     void mend() {
         for (std::size_t t = size_; t < size_ + batch_.count; ++t) {

@@ -30,7 +30,7 @@ constexpr std::size_t kRangesPerThread = 4;  ///< at least
 /// The weighted sum of the unit normals at a point. Later its place holds four floats: the normal, and a mark
 /// whose sign is set when there is none.
 struct PointSum {
-    double x, y, z, weights;  ///< of a sum that is taken again: minus the weights
+    double x, y, z, weights;  ///< `weights` is negative if the sum has to be computed again
 
     // For the functions of Float4.
     [[nodiscard]] float* floats() { return reinterpret_cast<float*>(this); }
@@ -56,7 +56,7 @@ struct PointSum {
 /// The places of a range of points.
 struct RangeSums {
     GroupRange range;
-    PointSum* rows;  ///< of the points from range.begin on, and up to the end of a group
+    PointSum* rows;  ///< rows of the points from range.begin to the end of a group
 
     [[nodiscard]] PointSum& at(std::uint32_t point) const { return rows[point - range.begin]; }
 };
@@ -180,7 +180,7 @@ class TriangleSmoother {
     /// False where a normal has the mark.
     bool writeBlock(const TriangleBatch& batch, const RangeSums& place) const {
         auto* to = reinterpret_cast<std::byte*>(&call_.out[std::size_t{3} * batch.numbers[0]]);
-        // In variables of their own, which no store can change.
+        // Local copies, so that the compiler need not assume aliasing.
         const RangeSums sums = place;
         const std::uint32_t* const points = batch.groups;
         const auto normalAt = [&](std::size_t i) __attribute__((always_inline)) {
@@ -239,7 +239,7 @@ class TriangleSmoother {
     const NormalsCall& call_;
     bool is_near_ = false;
     RangeLists lists_;
-    Buffer<PointSum> sums_;  ///< of one range for each task; for `best` of all points
+    Buffer<PointSum> sums_;  ///< sums of one range for each task; for `best` of all points
 };
 
 }  // namespace

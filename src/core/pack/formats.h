@@ -10,7 +10,7 @@
 namespace tspace::pack {
 
 struct Format {
-    std::size_t bytes;  ///< of a frame
+    std::size_t bytes;  ///< bytes per frame
     FrameErrorBound bound;
     FrameKernel (*kernel)(SimdTarget wish);
     /// Bytes of `count` frames to words, and back; count <= kBlockFrames.

@@ -76,8 +76,8 @@ inline Frames framesOf(Floats x, Floats y, Floats z, Floats w) {
             {one - k * (y * y + z * z), k * (x * y + w * z), k * (z * x - w * y)}};
 }
 
-/// By how much a small turn about the frame's own axes moves N or T, squared, whichever moves farther: x and y turn N,
-/// y and z turn T.
+/// Squared distance that a small rotation about the frame's own axes moves N or T, whichever moves farther: x and y move N, y
+/// and z move T.
 inline Floats squaredReach(Vectors turn) { return turn.y * turn.y + larger(turn.x * turn.x, turn.z * turn.z); }
 
 /// `signs`: the sign bit set where the frame is mirrored.

@@ -71,7 +71,7 @@ constexpr Format formatWith(FrameErrorBound bound, FrameKernel (*kernel)(SimdTar
 
 #define TSPACE_KERNEL_FOR(kernel) [](SimdTarget wish) { return simd::choose(wish, TSPACE_KERNEL_TABLE(kernel))(); }
 
-/// By the enumerators' values.
+/// Indexed by enumerator value.
 constexpr Format kFormats[] = {
     formatWith<4>({0.135, 0.135}, TSPACE_KERNEL_FOR(frame32Kernel)),
     formatWith<6>({0.0037, 0.0042}, TSPACE_KERNEL_FOR(frame48Kernel)),

@@ -18,14 +18,14 @@ struct TriangleSource {
     std::uint32_t last_vertex = 0;  ///< right after its position nothing may be read
 };
 
-inline constexpr std::size_t kTermTriangles = 64;  ///< of one block, as many as a mask has bits
+inline constexpr std::size_t kTermTriangles = 64;  ///< triangles per block, one per bit of a mask
 inline constexpr std::size_t kTermGroup = 16;      ///< triangles and vertices are read by whole groups
 
 /// Six floats per triangle and vertex, in two arrays for vertices.
 struct DerivativeTerms {
     alignas(64) float rows[kTermTriangles][8];  ///< s.x s.y s.z t.x t.y t.z, s = dP/du, t = dP/dv; s.x is never -0
     std::uint64_t safe = 0;                     ///< bits of the triangles for which all this holds
-    std::uint64_t mirrored = 0;                 ///< of the safe ones those with negative UV area
+    std::uint64_t mirrored = 0;                 ///< safe triangles with negative UV area
 };
 
 /// The arrays of sums.
@@ -43,7 +43,7 @@ struct DerivativeKernel {
     /// Adds the rows of triangles `begin` to before `end` to the sums of their vertices.
     void (*add)(const DerivativeTerms& terms, const std::uint32_t* vertices, std::size_t begin, std::size_t end,
                 SumArrays sums);
-    /// As `add`, for the vertices from `first` to before `past` only.
+    /// Like `add`, only for the vertices from `first` up to, but not including, `past`.
     void (*add_some)(const DerivativeTerms& terms, const std::uint32_t* vertices, std::size_t begin, std::size_t end,
                      SumArrays sums, std::uint32_t first, std::uint32_t past);
     /// Finishes `count` vertices, a multiple of kTermGroup and at most 64: turns heads into tangents with the sign

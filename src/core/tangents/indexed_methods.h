@@ -26,10 +26,10 @@ struct IndexedPlan {
     StridedSpan<const Vec2> uvs;        ///< one per vertex; empty for basis
     Buffer<std::uint32_t> face_begins;  ///< first corner of each face and one past the last; empty: all are triangles
     Buffer<std::uint8_t> corner_used;   ///< one per corner: 1 when its face is used, else outputs are 0; empty: all are
-    Buffer<std::uint32_t> cut_triangles;  ///< behind triangle_vertices when there are other faces than triangles
-    Buffer<std::uint32_t> kept_vertices;  ///< behind corner_vertices when the plan is kept
-    Buffer<Vec2> kept_uvs;                ///< behind uvs when the plan is kept
-    TangentReport report;                 ///< what can be counted without a pose
+    Buffer<std::uint32_t> cut_triangles;  ///< corner triangles after cutting, if faces are not all triangles
+    Buffer<std::uint32_t> kept_vertices;  ///< storage of corner_vertices if the plan is kept
+    Buffer<Vec2> kept_uvs;                ///< storage of uvs if the plan is kept
+    TangentReport report;                 ///< counts that need no pose
 
     [[nodiscard]] std::size_t cornerCount() const { return corner_vertices.count; }
     [[nodiscard]] std::size_t triangleCount() const { return triangle_vertices.count / 3; }

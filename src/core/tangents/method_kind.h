@@ -19,9 +19,9 @@ constexpr bool isGrouped(Method) { return true; }
 inline constexpr Method kLastMethod = Method::best;
 inline constexpr bool kHasOnePass = true;
 constexpr bool isMikktspace(Method method) { return method == Method::mikktspace; }
-/// By tangents/estimators, not by sums.
+/// Methods computed by tangents/estimators instead of sums.
 constexpr bool isEstimated(Method method) { return method == Method::fast || method == Method::best; }
-/// By tangents/mikktspace; the others have one result per vertex or face.
+/// Methods of tangents/mikktspace; the others have one result per vertex or face.
 constexpr bool isGrouped(Method method) {
     return isMikktspace(method) || isEstimated(method) || method == Method::uniform || method == Method::angle ||
            method == Method::area;

@@ -179,7 +179,7 @@ struct TangentPlan::State {
     bool normalizes_normals = false;
     bool positive_is_mirrored = false;
     Buffer<std::uint32_t> corner_vertices;  ///< for a symmetric frame, one per corner; empty: outputs are per vertex
-    std::size_t normal_count = 0;           ///< of a pose
+    std::size_t normal_count = 0;           ///< number of normals of a pose
     /// For a mesh with several index lists: the pose's position and normal of each vertex that the plan works on.
     std::vector<std::uint32_t> source_vertices, source_normals;
 

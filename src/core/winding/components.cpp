@@ -44,7 +44,7 @@ class Pairing {
 
   private:
     static constexpr std::uint32_t kForward =
-        0x80000000u;  // of a half-edge that runs from its lower point to the higher one
+        0x80000000u;  // marks a half-edge that runs from its lower point to the higher one
 
     /// body(low, high, corner) for the edges of all faces that count; the corner with kForward.
     template <class Body>
@@ -81,7 +81,7 @@ class Pairing {
         pairs_.sure[a] = b | mark;
         pairs_.sure[b] = a | mark;
     }
-    /// Of faces that do not lie on one another.
+    /// Pairs faces that are not coincident.
     void pairDoubtfully(std::uint32_t a, std::uint32_t b, std::uint32_t mark) {
         if (pairs_.doubtful.empty())
             pairs_.doubtful = Buffer<std::uint32_t>(allocator_, pairs_.sure.size(), kNoPartner);
@@ -103,7 +103,7 @@ class Pairing {
         std::span<FaceAtEdge> rest{faces.data(), faces.size()};
         rest = pairTwos(rest, [](const FaceAtEdge& f) { return std::pair(f.low, f.high); });
         rest = pairTwos(rest, [](const FaceAtEdge& f) { return std::pair(f.apex, 0u); });
-        // More than two that lie on one another, and faces without area, are nobody's neighbours.
+        // Faces without area, and three or more coincident ones, get no neighbor.
         std::size_t kept = 0;
         for (std::size_t i = 0, past = 0; i < rest.size(); i = past) {
             while (past < rest.size() && rest[past].apex == rest[i].apex) ++past;
@@ -144,7 +144,7 @@ class Pairing {
             return a.turn != b.turn ? a.turn < b.turn : a.corner < b.corner;
         });
         if (count % 2 != 0) return pairStraightest(faces);
-        double inner = 0;  // of the gaps between faces 0 and 1, 2 and 3, ...
+        double inner = 0;  // sum of the gaps between faces 0 and 1, 2 and 3, ...
         for (std::size_t i = 0; i < count; i += 2) inner += faces[i + 1].turn - faces[i].turn;
         const std::size_t start = inner <= kPi ? 0 : 1;
         for (std::size_t i = start; i < count + start; i += 2)
@@ -171,7 +171,7 @@ class Pairing {
         }
     }
 
-    /// Of those that are sorted by their turn.
+    /// `faces` must be sorted by turn.
     void pairStraightest(std::span<const FaceAtEdge> faces) {
         std::size_t a = 0, b = 1;
         double least = 4 * kPi;
@@ -221,7 +221,7 @@ DVec3 normalSum(const Surface& surface, std::uint32_t face) {
     return sum;
 }
 
-/// Of a triangle, as seen from the origin.
+/// Solid angle of a triangle as seen from the origin.
 double solidAngle(const DVec3& a, const DVec3& b, const DVec3& c) {
     const double volume = dot(a, cross(b, c)), la = length(a), lb = length(b), lc = length(c);
     const double along = la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb;
@@ -258,7 +258,7 @@ struct OwnAngles {
     }
 
   private:
-    /// Of those from the first corner, squared.
+    /// Squared length of the longest edge at the first corner.
     [[nodiscard]] double longestEdge(std::uint32_t face) const {
         const MeshFaces& faces = call.surface.faces;
         const DVec3 origin = call.surface.position(faces.first(face));
@@ -344,7 +344,7 @@ class Flood {
     [[nodiscard]] bool runsForward(std::uint32_t corner) const {
         return call_.surface.pointOf(corner) < call_.surface.pointOf(faces_.next(corner));
     }
-    /// Of a doubtful pair: whether both faces run through their edge in the same direction.
+    /// For a doubtful pair: whether both faces traverse their edge in the same direction.
     [[nodiscard]] bool areAgainst(std::uint32_t corner, std::uint32_t partner) const {
         return runsForward(corner) == runsForward(partner);
     }
@@ -431,8 +431,8 @@ class Flood {
     Buffer<std::uint32_t>& order_;
     Buffer<std::uint8_t>& reached_;
     const Buffer<std::uint8_t>& at_border_;
-    std::uint32_t end_;                ///< of what was reached, in the order
-    std::uint32_t late_, even_, odd_;  ///< where pairs that are late, and doubtful ones, were looked at up to
+    std::uint32_t end_;                ///< end of the reached part of the order
+    std::uint32_t late_, even_, odd_;  ///< positions up to which late, even and odd pairs were examined
     std::uint32_t late_corners_ = 0;
 };
 

@@ -14,13 +14,13 @@
 
 namespace tspace::winding {
 
-// Which faces go on into one another over the edges that they share.
+// Finds faces that are connected by shared edges.
 
 /// The faces of a call and the points that they share.
 struct Surface {
     const MeshView& mesh;
     const MeshFaces& faces;
-    const Buffer<std::uint32_t>& points;  ///< of each corner
+    const Buffer<std::uint32_t>& points;  ///< point of each corner
 
     [[nodiscard]] std::uint32_t pointOf(std::uint32_t corner) const { return points[corner]; }
     [[nodiscard]] DVec3 position(std::uint32_t corner) const { return toDouble(mesh.positions[mesh.indices[corner]]); }
@@ -49,7 +49,7 @@ struct Surface {
 };
 
 inline constexpr std::uint32_t kNoPartner = 0xffffffffu;
-/// Of a pair in conflict. One that lies on one another has none: neither is turned against the other.
+/// Mark of a pair in conflict. A pair of coincident faces has none: neither is turned against the other.
 inline constexpr std::uint32_t kAgainst = 0x80000000u;
 
 /// For each corner c: the corner whose edge, from it to the next one of its face, is the other half of c's edge.
@@ -131,7 +131,7 @@ class BoxTree {
 
 /// Faces in the order in which they were reached; those of a component lie together.
 struct Component {
-    std::uint32_t begin = 0, end = 0;  ///< in that order
+    std::uint32_t begin = 0, end = 0;  ///< range in that order
     Box box = {};
     bool is_closed = true;
     std::uint64_t conflicts_before = 0, conflicts_after = 0;
@@ -146,7 +146,7 @@ struct Component {
     [[nodiscard]] std::uint32_t size() const { return end - begin; }
 };
 
-/// What all steps look at.
+/// Input shared by all steps.
 struct WindingCall {
     const Surface& surface;
     const Call<WindingOptions>& options;
@@ -156,7 +156,7 @@ struct WindingCall {
     double outward = 1;  ///< normalFactor(convention)
 
     [[nodiscard]] const Allocator* allocator() const { return options.execution.allocator; }
-    /// As the face is wound now.
+    /// Area vector with the current winding of the face.
     [[nodiscard]] DVec3 areaVector(std::uint32_t face) const {
         return (turned[face] != 0 ? -outward : outward) * surface.areaVector(face);
     }
@@ -164,8 +164,8 @@ struct WindingCall {
 
 struct FloodMemory {
     Buffer<std::uint32_t> order;
-    Buffer<std::uint8_t> reached;    ///< of faces
-    Buffer<std::uint8_t> at_border;  ///< of points; empty until it is asked for
+    Buffer<std::uint8_t> reached;    ///< whether a face was reached
+    Buffer<std::uint8_t> at_border;  ///< whether a point is at the border; empty until needed
 
     FloodMemory(const Allocator* allocator, std::size_t face_count)
         : order(allocator, face_count), reached(allocator, face_count, 0) {}
@@ -186,7 +186,7 @@ void measure(const WindingCall& call, const Buffer<std::uint32_t>& order, Compon
 /// it is inside out; 0 where no side is inside.
 double ownWindingNumber(const WindingCall& call, const Buffer<std::uint32_t>& order, const Component& component);
 
-/// Of closed components those that lie in another one: for an odd number of others around it `inside` becomes 1.
+/// Finds closed components inside other ones: for an odd number of enclosing components `inside` becomes 1.
 void findNested(const WindingCall& call, const Buffer<std::uint32_t>& order, const Buffer<Component>& closed,
                 std::size_t count, Buffer<std::uint8_t>& inside);
 

@@ -54,7 +54,8 @@ BoxTree::Range BoxTree::rangeOf(std::size_t node) const {
     return range;
 }
 
-// Which closed components lie in others: rays from points of their faces, counted through the faces of all others.
+// Finds closed components inside other ones: casts rays from points of their faces and counts the faces of all others that they
+// cross.
 
 namespace {
 
@@ -138,7 +139,7 @@ void findNested(const WindingCall& call, const Buffer<std::uint32_t>& order, con
         }
     }
     const BoxTree tree(boxes, face_count, call.allocator());
-    // In no plane that a modeller draws.
+    // Directions that lie in no axis or diagonal plane, to miss edges.
     constexpr DVec3 kDirections[] = {{0.8129, 0.3571, 0.4603}, {-0.2887, 0.9013, -0.3233}, {0.1733, -0.4441, 0.8791}};
     constexpr std::uint32_t kRays = 16;  // in each direction
     constexpr double kClear = 0.7;
@@ -149,7 +150,7 @@ void findNested(const WindingCall& call, const Buffer<std::uint32_t>& order, con
             for (std::uint32_t p = 0; p < kRays; ++p) {
                 const std::uint64_t place = (2 * std::uint64_t{p} + 1) * own.size() / (2 * kRays);
                 const std::uint32_t face = order[own.begin + static_cast<std::uint32_t>(place)];
-                // Not the middle, which edges of faces beyond often lie behind.
+                // An off-center start: from centroids rays often hit edges.
                 const std::uint32_t c = surface.faces.first(face);
                 const DVec3 from =
                     0.46 * surface.position(c) + 0.33 * surface.position(c + 1) + 0.21 * surface.position(c + 2);
@@ -219,7 +220,7 @@ class Mending {
         if (normalsAgree(component)) {
             finish(component, component.facing < 0, report_.by_normals_count);
         } else if (component.is_closed && hasVolume(component)) {
-            // Which of them lie in others can be seen when all are known.
+            // Nesting can be decided only when all components are known.
             closed_[closed_count_++] = component;
         } else {
             decideOpen(component);
@@ -239,7 +240,7 @@ class Mending {
         finish(component, component.facing < 0, report_.by_normals_count);
     }
 
-    /// Nothing is turned.
+    /// Turns nothing.
     void leave(const Component& component, std::uint64_t& counter) {
         for (std::uint32_t i = component.begin; i < component.end; ++i) call_.turned[memory_.order[i]] = 0;
         ++counter;

@@ -120,7 +120,7 @@ class Baking {
         tell("fitting");
         if (has_integers) return;
         const std::span<Vec3> texels(traced_.wanted.data(), traced_.wanted.size());
-        // What shows nothing is rounded as it is written.
+        // Background texels are skipped here; writing rounds them.
         Buffer<bool> background(allocator_, texels.size(), false);
         for (std::size_t i = 0; i < texels.size(); ++i) background[i] = traced_.origins[i] == TexelOrigin::background;
         roundTexels(texels, options_.width,

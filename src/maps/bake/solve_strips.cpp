@@ -98,7 +98,7 @@ class Solving {
                     texels_.begin() + strip.first * width);
     }
 
-    /// What smooth cells ask is what the start says, in rows that are found too.
+    /// Adds the equations of smooth cells, whose target is the initial texels; neighboring strips solve the shared rows as well.
     void addSmooth(const Strip& strip, std::span<Vec3> texels, TexelSystem& system) {
         const std::size_t width = plan_.width, last = texels.size() - width;
         const std::vector<Vec3> top(texels.begin(), texels.begin() + kRowsStay * width),
@@ -125,7 +125,7 @@ class Solving {
     SampleBands bands_;
     PointsBetween points_;
     Buffer<Vec3> texels_;                                 ///< the start, and the result in rows that are found
-    std::vector<Vec3> first_row_ = {}, rows_above_ = {};  ///< of the start
+    std::vector<Vec3> first_row_ = {}, rows_above_ = {};  ///< rows of the initial texels
     ToldSteps steps_ = {};
 };
 

@@ -60,7 +60,7 @@ class Planning {
     /// Texels around one, from one to the left and above to two to the right and below, as the image goes on.
     struct Around {
         std::array<std::size_t, 4> columns = {}, rows = {};
-        /// Beside the edge of an image that does not repeat, half of a texel shows nothing else.
+        /// At the edge of an image that does not repeat, half of a texel has no neighbor.
         bool is_at_edge = false;
 
         [[nodiscard]] std::size_t at(std::size_t x, std::size_t y) const { return rows[y] + columns[x]; }

@@ -13,7 +13,7 @@ namespace tspace {
 /// The square between the centres of four texels, by its upper left one.
 enum class TexelCell : std::uint8_t {
     outside,  ///< shows nothing of a triangle
-    smooth,   ///< what is wanted between the centres follows from them
+    smooth,   ///< targets between the centers follow from those at the centers
     asked,    ///< smooth; rays say it all the same, for what lies beside it
     rough     ///< rays have to say what is wanted
 };
@@ -28,7 +28,7 @@ struct TexelPlan {
 struct TexelWindow {
     std::uint32_t first = 0, count = 0, height = 0;
 
-    /// Where a row of the image is in the window; `count` and more: it is not there.
+    /// Row of the image, relative to the window; `count` or more: it is outside.
     [[nodiscard]] std::uint32_t local(std::uint32_t y) const { return y >= first ? y - first : y + height - first; }
     [[nodiscard]] std::uint32_t inImage(std::uint32_t local) const { return (first + local) % height; }
     /// Whether both rows of the cells below a row are there.
@@ -36,7 +36,7 @@ struct TexelWindow {
     [[nodiscard]] bool isWhole() const { return count == height; }
 };
 
-/// How much is asked between texel centres.
+/// Density of samples between texel centers.
 struct CellSampling {
     /// A cell is smooth where the vectors of four texels in a row are that near to a parabola, in radians. A crease between
     /// two of them is then wrong by a quarter of it at most.

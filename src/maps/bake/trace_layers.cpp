@@ -34,7 +34,7 @@ std::uint32_t channelsOf(MapLayer layer) {
     }
 }
 
-/// Where no triangle is near.
+/// Background value, used where no triangle is near.
 Vec3 backgroundOf(MapLayer layer) {
     switch (layer) {
         case MapLayer::ao:
@@ -339,7 +339,7 @@ class LayerTracing {
         }
     }
 
-    /// What 99 % are not above.
+    /// The 99th percentile of the absolute values.
     static double usual(const BakedLayer& layer, const std::vector<TexelState>& states) {
         std::vector<float> sizes;
         for (std::size_t i = 0; i < states.size(); ++i) {
@@ -414,9 +414,9 @@ class LayerTracing {
     const LayerOptions& layers_;
     const MapWork& work_;
     LowUvs uvs_;
-    std::array<std::size_t, kMapLayerCount> at_ = {};  ///< of each layer in `made_`
+    std::array<std::size_t, kMapLayerCount> at_ = {};  ///< index of each layer in `made_`
     std::vector<BakedLayer> made_ = {};
-    Buffer<TexelState> met_ = {};  ///< by the rays of centres
+    Buffer<TexelState> met_ = {};  ///< texel states by the rays of centers
     bool has_material_ = false;
     Buffer<std::uint16_t> sample_count_ = {};
     Buffer<TexelRole> roles_ = {};

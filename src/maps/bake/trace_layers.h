@@ -12,7 +12,7 @@ namespace tspace {
 Error checkLayers(const LayerOptions& layers, const BakeOptions& options, std::size_t low_triangles,
                   std::size_t high_triangles);
 
-/// Of checked meshes and options. One entry per layer asked for.
+/// Meshes and options must be checked. Returns one entry per requested layer.
 std::vector<BakedLayer> traceLayers(const MapSurfaces& surfaces, const TexelTriangles& triangles,
                                     const BakeOptions& options, const LayerOptions& layers, const MapWork& work);
 

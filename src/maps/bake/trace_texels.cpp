@@ -16,7 +16,7 @@ constexpr float kAgreeing = 0.99985F;
 constexpr double kApartDeg = 2;
 /// TracedTexels::owners of a texel whose centre no triangle shows.
 constexpr std::uint32_t kNobody = 0xffffffff;
-/// How much an error of the length counts beside one of the direction.
+/// Weight of a length error relative to a direction error.
 constexpr float kAlong = 0.02F;
 
 /// The vectors wanted at points of triangles.
@@ -214,8 +214,8 @@ void traceTexels(const MapSurfaces& surfaces, const TexelTriangles& triangles, c
 
 namespace {
 
-/// Where points lie at 1/4 and 3/4 of the way from a centre to the next, the centres take part too, such that the integral of
-/// the square of any linear function over a cell is exact: a corner counts an eighth of such a point.
+/// If samples lie at 1/4 and 3/4 of the way between centers, the centers are sampled too, weighted so that the integral of the
+/// square of any linear function over a cell is exact: a corner counts an eighth of such a sample.
 constexpr float kCornerOfCell = 0.125F;
 
 void addCentres(const TracedTexels& traced, const TexelPlan& plan, const TexelWindow& window,
@@ -253,7 +253,7 @@ std::vector<std::size_t> bandsOf(const TexelWindow& window) {
 void traceBetween(const MapSurfaces& surfaces, const TracedTexels& traced, const TexelPlan& plan,
                   const TexelWindow& window, const PointsBetween& points, const BakeOptions& options,
                   const MapWork& work, ToldSteps& steps, TexelSystem& system) {
-    // What lies nearest to a texel counts as its centre does.
+    // Samples nearest to a texel count as much as its center.
     const auto counts = [&](std::uint32_t triangle, const BetweenTexels& x, const BetweenTexels& y) {
         if (traced.ranks.size() == 0) return true;
         const std::size_t column = x.part < 0.5F ? x.texel : system.right(x.texel),
@@ -296,7 +296,7 @@ void addSmoothCells(const TexelPlan& plan, const TexelWindow& window, std::span<
                     std::uint32_t points, const BakeOptions& options, Parallel& parallel, TexelSystem& system) {
     // Gauss's two points of a line, twice: the integral over the cell, since what is asked is a product of two filters.
     constexpr float kNear = 0.21132487F, kFar = 1 - kNear;
-    // As much in all as the points of a cell that rays are shot at, with its corners.
+    // Same total weight as a cell sampled by rays.
     const float weight = points == 2 ? 1 + kCornerOfCell : static_cast<float>(points * points) / 4;
     const auto addCell = [&](std::uint32_t x, std::uint32_t row) {
         const std::size_t here = std::size_t{row} * plan.width, below = std::size_t{system.below(row)} * plan.width;

@@ -15,13 +15,13 @@ namespace tspace {
 void traceTexels(const MapSurfaces& surfaces, const TexelTriangles& triangles, const BakeOptions& options,
                  const MapWork& work, TracedTexels& traced);
 
-/// Where rays are shot between texel centres.
+/// Bands with samples between texel centers.
 struct PointsBetween {
     const SampleBands& bands;
     std::uint32_t n;  ///< n x n points a texel
 };
 
-/// Which bands have points in the window.
+/// Returns the bands that have samples in the window.
 std::vector<std::size_t> bandsOf(const TexelWindow& window);
 
 /// Rays at points in the cells of the plan that are asked or rough; what they say is added to the system of the window, and what

@@ -190,7 +190,7 @@ class EacFormat {
                 palette.kind};
     }
 
-    /// Of each table the step that spans the range, and smaller ones.
+    /// For each table: tries the step that spans the range, and smaller ones.
     template <class Try>
     void forStarts(float least, float most, bool all, const Try& tryPalettes) const {
         constexpr float kScales[] = {1, 0.9F, 0.8F};
@@ -226,7 +226,7 @@ class EacFormat {
         }
     }
 
-    /// Not worth it: each start has tables of all shapes.
+    /// EAC needs no pair search: every start tries all tables.
     template <class Try>
     void forPairs(float, float, const Try&) const {}
 

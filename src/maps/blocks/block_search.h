@@ -17,7 +17,7 @@
 
 namespace tspace {
 
-/// Where texel i of a block stands among 6 x 6: the block and one texel around it.
+/// Slot of texel i of a block in a 6 x 6 grid: the block and one texel around it.
 constexpr std::size_t slotOf(std::size_t i) { return (i / 4 + 1) * 6 + i % 4 + 1; }
 /// From a slot to the nine around it, row by row.
 inline constexpr std::array<int, 9> kAround = {-7, -6, -5, -1, 0, 1, 5, 6, 7};
@@ -25,7 +25,7 @@ inline constexpr std::array<int, 9> kAround = {-7, -6, -5, -1, 0, 1, 5, 6, 7};
 using Stencil = std::array<float, 9>;
 
 struct ChannelBlock {
-    std::array<bool, 16> is_used = {};     ///< not: it lies beyond the edge of the image
+    std::array<bool, 16> is_used = {};     ///< false: the texel lies beyond the edge of the image
     std::array<float, 16> targets = {};    ///< in steps of the format, 0 to `most`
     std::array<Stencil, 16> mix = {};      ///< rows of H; those of texels that are not in the block are in `pull` alone
     std::array<float, 16> own_parts = {};  ///< sums of what a row of H has inside of the block
@@ -35,7 +35,7 @@ struct ChannelBlock {
 /// Values are origin + step * c, where c is what a code stands for.
 struct Palette {
     float origin = 0, step = 0;
-    float kind = 0;  ///< as the format has it
+    float kind = 0;  ///< block kind in the encoding of the format
 
     bool operator==(const Palette&) const = default;
 };
@@ -119,7 +119,7 @@ class BlockSearch {
         [[nodiscard]] Palette palette(std::size_t lane) const { return {origin[lane], step[lane], kind[lane]}; }
     };
 
-    /// What the texels would be if all numbers were there.
+    /// Values that the texels would have without quantization.
     std::array<float, 16> relaxed(const FittedChannel& from) const {
         constexpr int kSweeps = 2;
         std::array<float, 36> errors{};
@@ -265,7 +265,8 @@ class BlockSearch {
         }
     }
 
-    /// Where the block has few values, as beside the edge of a flat, some palettes hit all of them; no descent finds these.
+    /// Blocks with few values, such as those beside the edge of a flat area, have palettes that hit all of them; descent does
+    /// not find these.
     void tryFewValues(const std::array<float, 16>& values, float least, float most) {
         constexpr std::size_t kFew = 4;
         std::array<float, 16> sorted{};
@@ -276,7 +277,7 @@ class BlockSearch {
         std::sort(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(count));
         std::array<float, kFew> means{}, weights{};
         std::size_t groups = 0;
-        float scatter = 0;  // of values around the means of their groups
+        float scatter = 0;  // scatter of values around the means of their groups
         for (std::size_t begin = 0, end = 0; begin < count; begin = end) {
             float sum = 0;
             for (end = begin; end < count && (end == begin || sorted[end] - sorted[end - 1] < format_.stepsOfByte());

@@ -11,7 +11,7 @@ namespace tspace {
 /// In degrees.
 struct FilteredError {
     double mean_deg = 0, p99_deg = 0, max_deg = 0;
-    double max_x = 0, max_y = 0;  ///< where, in texels: centres lie at halves
+    double max_x = 0, max_y = 0;  ///< position of the maximum, in texels; centers lie at halves
 };
 
 /// What a renderer shades at 3 x 3 points a texel (of some rows, where there are more than 4 million): of `truth` bilinear, then unit; of

@@ -39,7 +39,7 @@ class FilteredForm {
     [[nodiscard]] std::size_t height() const { return height_; }
     /// x and y for which the filtered map is nearest, without blocks.
     [[nodiscard]] const std::vector<Vec2>& best() const { return best_; }
-    /// Of the square right of and below a texel: xx, xy, yy.
+    /// Metric of the square to the right of and below a texel: xx, xy, yy.
     [[nodiscard]] const Vec3& metric(std::size_t x, std::size_t y) const { return metrics_[y * width_ + x]; }
 
     /// The row of the form of a texel, of the metrics of the squares above it (left, right) and below it.
@@ -147,7 +147,7 @@ class FilteredForm {
     std::vector<Vec2> best_;
 };
 
-/// What is kept of a channel of a block between rounds; what its texels are off by is kept for all of the level.
+/// State of a channel of a block between rounds; the errors of its texels are stored for the whole level.
 struct KeptChannel {
     Palette palette = {};
     std::array<std::int8_t, 16> codes = {};

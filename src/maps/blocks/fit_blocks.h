@@ -14,7 +14,7 @@ enum class BlockFormat : std::uint8_t { bc5, eacRg11 };
 enum class BlockQuality : std::uint8_t {
     quick,  ///< each channel of a block by itself: least squares of its texels
     fast,   ///< the least error as it is filtered, one round
-    best    ///< the same, three rounds and more palettes
+    best    ///< like `fast`, with three rounds and more palettes
 };
 
 struct BlockOptions {

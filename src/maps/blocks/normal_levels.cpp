@@ -14,7 +14,7 @@ using Moments = std::array<float, 5>;
 
 struct MeanLevel {
     std::uint32_t width = 0, height = 0;
-    std::vector<Vec3> means = {};       ///< not unit; times coverage
+    std::vector<Vec3> means = {};       ///< mean normals, not normalized, multiplied by coverage
     std::vector<Moments> moments = {};  ///< times coverage
     std::vector<float> coverage = {};   ///< empty: 1
 };

@@ -13,14 +13,14 @@ namespace tspace {
 struct NormalLevel {
     std::uint32_t width = 0, height = 0;
     std::vector<Vec3> normals = {};  ///< unit
-    /// How far the normals that a texel covers spread around its own: 1 - mean (n . own)^2, the trace of their covariance across it. Empty
-    /// unless asked for.
+    /// Spread of the normals that a texel covers around its own: 1 - mean (n . own)^2, the trace of their covariance across it.
+    /// Empty unless requested.
     std::vector<float> spreads = {};
-    /// How much of each texel is surface, 0 to 1; empty: all of it.
+    /// Fraction of each texel that is surface, 0 to 1; empty: all of it.
     std::vector<float> coverage = {};
 };
 
-/// What texels of a row of `to` cover of a row of `from` texels: from `begin` on, with weights of the sum 1.
+/// Texels in a row of `from` covered by a texel in a row of `to`: from `begin` on, with weights that sum to 1.
 struct Cover {
     std::size_t begin = 0;
     std::vector<double> weights = {};

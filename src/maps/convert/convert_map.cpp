@@ -156,7 +156,7 @@ class Conversion {
           options_(options),
           allocator_(allocator),
           parallel_(parallel),
-          // Where one side alone has frames, both sides use them.
+          // If only one side has frames, both sides use them.
           one_mesh_(!(hasFrames(from) && hasFrames(to))),
           main_(from.uvs.empty() || (to.space == MapSpace::tangent && from.space == MapSpace::object) ? to : from),
           other_(&main_ == &from ? to : from),
@@ -377,11 +377,11 @@ class Conversion {
     const MapSide &main_, &other_;  ///< texels go by the triangles of the first
     CornerTriangles main_corners_, other_corners_;
     TexelTriangles places_ = {}, other_places_ = {};
-    /// Where integers are chosen together: vectors as computed, and which texels stay as they are by then.
+    /// Vectors as computed, and which texels are unchanged so far; used if integers are chosen together.
     Buffer<Vec3> vectors_ = {};
     Buffer<bool> keeps_ = {};
     std::uint64_t conflict_count_ = 0;
-    double size_ = 0;                     ///< of the mesh, where both sides have positions
+    double size_ = 0;                     ///< size of the mesh, if both sides have positions
     Buffer<std::uint32_t> matches_ = {};  ///< triangles of the other side, by those of the main one
 };
 

@@ -18,7 +18,7 @@ namespace tspace {
 struct TexelNumbers {
     unsigned bits = 16;       ///< 8, 16, or 32: no integers
     bool are_chosen = false;  ///< the integers are chosen later: what changes stays as it was computed
-    [[nodiscard]] unsigned most() const { return (1U << bits) - 1; }  ///< of 8 or 16
+    [[nodiscard]] unsigned most() const { return (1U << bits) - 1; }  ///< largest integer value for 8 or 16 bits
 };
 
 struct ConvertedTexel {
@@ -31,7 +31,7 @@ struct ConvertedTexel {
 /// The nearest channels for a vector as an image stores it.
 Vec3 channelsOf(const DVec3& stored, const TexelNumbers& numbers);
 
-/// Nothing where there is no answer: a frame that is singular or not finite, a texel without direction.
+/// Returns nothing if there is no solution: a singular or non-finite frame, or a texel without direction.
 std::optional<ConvertedTexel> convertTexel(const Vec3& texel, const ShadingFrame& from, const MapReading& from_reading,
                                            const ShadingFrame& to, const MapReading& to_reading,
                                            const TexelNumbers& numbers);

@@ -34,7 +34,7 @@ inline BetweenTexels betweenTexels(std::uint32_t at, std::uint32_t n, std::uint3
 /// A point inside of a triangle or on its edge.
 struct BandSample {
     std::uint32_t triangle = 0;
-    std::uint32_t row = 0, column = 0;  ///< of the grid, in the image
+    std::uint32_t row = 0, column = 0;  ///< row and column of the grid in the image
     double x = 0, y = 0;                ///< in texels, where the triangle is placed
     const ExactTriangle* exact = nullptr;
 
@@ -170,7 +170,7 @@ class SampleBands {
     std::uint32_t n_, shift_;
     Buffer<std::size_t> begin_;
     Buffer<std::uint32_t> entries_ = {};
-    Buffer<std::size_t> marks_;  ///< by band: the last triangle that has it
+    Buffer<std::size_t> marks_;  ///< for each band, the last triangle that is listed in it
     std::size_t mark_ = 0;
 };
 
@@ -193,7 +193,7 @@ class MeasurePoints {
   private:
     struct Point {
         std::uint32_t triangle = 0;
-        std::array<float, 2> weights = {};  ///< of the second and the third corner
+        std::array<float, 2> weights = {};  ///< weights of the second and the third corner
         bool is_hit = false, is_hidden = false, met_back = false, is_inward = false;
         Vec3 normal = {};  ///< the truth
     };

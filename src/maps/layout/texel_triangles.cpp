@@ -58,7 +58,7 @@ class TriangleSearch {
     }
 
   private:
-    // Which triangles have rows in which band.
+    // Lists the triangles with rows in each band.
 
     bool listBands() {
         const std::size_t count = triangles_.corners.size() / 3;
@@ -371,7 +371,7 @@ ExactTriangle::ExactTriangle(const std::array<Vec2, 3>& uvs, const PlacedTriangl
     double_area_ = (x[1] - x[0]) * (y[2] - y[0]) - (y[1] - y[0]) * (x[2] - x[0]);
 }
 
-/// Not finite where there is no area.
+/// The result is not finite if the triangle has no area.
 std::array<double, 3> ExactTriangle::plane(double px, double py) const {
     const double at_1 = ((px - x[0]) * (y[2] - y[0]) - (py - y[0]) * (x[2] - x[0])) / double_area_;
     const double at_2 = ((x[1] - x[0]) * (py - y[0]) - (y[1] - y[0]) * (px - x[0])) / double_area_;

@@ -43,7 +43,7 @@ struct TexelTriangles {
     Buffer<TexelCoverage> kinds = {};
     Buffer<bool> overlaps = {};  ///< whether several triangles claim the texel
     Buffer<bool> is_read =
-        {};  ///< not inside, but bilinear filtering inside of a triangle reads it; needs a padding of 2
+        {};  ///< outside of all triangles, but read by bilinear filtering inside of one; needs a padding of 2
     TexelTriangleCounts counts = {};
 };
 

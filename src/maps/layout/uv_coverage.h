@@ -60,7 +60,7 @@ class TexelMask {
     [[nodiscard]] bool isWhole() const { return height_ != 0 && whole_count_ == height_; }
     /// Whether a mask of the same size has a texel that this one has too.
     [[nodiscard]] bool meets(const TexelMask& other) const;
-    /// How many texels of the rectangle, which lies inside of the image, are in the mask.
+    /// Number of masked texels in the rectangle, which must lie inside the image.
     [[nodiscard]] std::uint64_t count(const TexelRect& rect) const;
     /// Rows that may have texels.
     [[nodiscard]] std::uint32_t firstRow() const { return first_row_; }

@@ -64,7 +64,7 @@ struct TexelRange {
 /// Whether a tile of the endless plane shows the image from its end on.
 inline bool isFlipped(std::int64_t tile, TextureWrap wrap) { return wrap == TextureWrap::mirror && tile % 2 != 0; }
 
-/// Which of the rows `first` to `last` of an image a range of rows of the endless plane shows in a tile.
+/// Returns which of the rows `first` to `last` of an image are covered, in a tile, by a range of rows of the infinite plane.
 inline TexelRange rowsOfTile(TexelRange rows, std::int64_t tile, std::uint32_t size, TextureWrap wrap,
                              std::int64_t first, std::int64_t last) {
     if (wrap == TextureWrap::clamp && tile != 0) return {};

@@ -28,7 +28,7 @@ struct PositionBox {
     void add(const DVec3& point);
     [[nodiscard]] bool isEmpty() const { return !(least.x <= most.x); }
     [[nodiscard]] double diagonal() const { return isEmpty() ? 0 : length(most - least); }
-    /// How far a side of one lies from that of the other, at most.
+    /// Largest distance between corresponding sides of the two boxes.
     [[nodiscard]] double difference(const PositionBox& other) const;
     [[nodiscard]] bool meets(const PositionBox& other, double margin) const;
 };
@@ -49,10 +49,10 @@ Error checkBakeOptions(const BakeOptions& options, std::size_t low_triangles, st
 /// Checks what says where rays go. An Error with code ok when all is well.
 Error checkRays(const RayOptions& rays, double reach);
 
-/// What lies around the place where a ray met the high poly, or about one that met nothing.
+/// Surroundings of the point where a ray hit the high poly, or of a ray without a hit.
 struct RayNeighbourhood {
     bool has_front_further_out = false, met_back = false;
-    bool normal_is_inward = false;  ///< that of the high poly, as shaded, where its front was met
+    bool normal_is_inward = false;  ///< the shaded normal of the high poly points inwards at the hit front face
 };
 
 /// A point of the low poly.
@@ -61,9 +61,9 @@ struct LowPoint {
     std::array<double, 3> weights = {};
 };
 
-/// Where the ray of a point of the low poly meets the high poly.
+/// Hit of the ray from a point of the low poly on the high poly.
 struct SurfaceHit {
-    std::uint32_t triangle = 0;  ///< of the high poly
+    std::uint32_t triangle = 0;  ///< triangle of the high poly
     std::array<double, 3> weights = {};
     double height = 0;  ///< outwards from the low poly, along the ray
     DVec3 place = {};
@@ -78,7 +78,7 @@ class MapSurfaces {
     static Result<MapSurfaces> make(const LowPoly& low, const HighPoly& high, double reach, const RayOptions& rays,
                                     Parallel& parallel, const Allocator* allocator,
                                     std::shared_ptr<const RaySurface> surface = nullptr);
-    /// The same meshes with other rays. `reach`: 0 is that of this one.
+    /// Returns these meshes with other rays. `reach`: 0 keeps the current one.
     [[nodiscard]] MapSurfaces withRays(const RayOptions& rays, double reach, Parallel& parallel,
                                        const Allocator* allocator) const;
 

@@ -21,7 +21,7 @@ constexpr double kMeets = 0.8;
 /// In parts of the low poly's size.
 constexpr double kUsualReach = 0.05;
 
-/// The rows of a turn by quarters.
+/// Rotation by multiples of 90 degrees, as matrix rows.
 using Turn = std::array<DVec3, 3>;
 constexpr Turn kNone{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
 
@@ -115,7 +115,7 @@ class Trial {
   public:
     Trial(const RaySurface& surface, std::vector<Sample> samples) : surface_(surface), samples_(std::move(samples)) {}
 
-    /// Which part meets a front.
+    /// Share of samples whose ray hits a front face.
     [[nodiscard]] double met(double reach, const Turn& turn = kNone, double scale = 1) const {
         std::size_t count = 0;
         double guess = 0;
@@ -128,7 +128,7 @@ class Trial {
         }
         return partOf(count);
     }
-    /// Which part meets backs, and no front.
+    /// Share of samples whose ray hits back faces, and no front face.
     [[nodiscard]] double metBacksAlone(double reach) const {
         std::size_t count = 0;
         for (const Sample& sample : samples_) {

@@ -62,7 +62,7 @@ class Search {
 
     /// The sides of one edge: it is hard, or its two faces are one around both of its ends.
     void joinOrPart(std::uint32_t low, std::uint32_t high, std::span<const HalfEdge> sides) {
-        constexpr double kCosine = 0.861629160441525819;  // of kHardDeg
+        constexpr double kCosine = 0.861629160441525819;  // cosine of kHardDeg
         if (sides.size() == 1) return;
         if (sides.size() == 2) {
             const DVec3 a = normalOf(cornerOf(sides[0])), b = normalOf(cornerOf(sides[1]));
@@ -142,7 +142,7 @@ class Search {
     double far_;
     std::vector<std::uint32_t> groups_;  ///< corners at one place whose faces meet smoothly: a forest
     std::vector<std::array<std::uint32_t, 2>> at_edges_ = {};  ///< corners at hard edges, and which
-    std::vector<std::array<std::uint32_t, 2>> near_ = {};      ///< of each group
+    std::vector<std::array<std::uint32_t, 2>> near_ = {};      ///< neighbors of each group
     HardEdges found_ = {};
 };
 
@@ -215,7 +215,7 @@ Buffer<Vec3> meanWays(const WholeMesh& mesh, const Allocator* allocator) {
     for (std::size_t i = 0; i < count; ++i)
         means[mesh.roots[i]] = means[mesh.roots[i]] + mesh.angleAt(i) * ownOf(mesh, i);
     for (std::size_t i = 0; i < count; ++i) means[i] = unitOr(means[i], {});
-    // How much of the mean is along the face that leans away from it most.
+    // Smallest cosine between the mean and any face normal there.
     Buffer<double> along(allocator, count, 1.0);
     for (std::size_t i = 0; i < count; ++i) {
         const std::uint32_t root = mesh.roots[i];
@@ -343,13 +343,13 @@ DVec3 RayField::bentAtEdges(std::size_t triangle, const DVec3& point, const DVec
         const DVec3 at = from + part * (to - from);
         const double away = length(point - at);
         if (!(away < bend_)) continue;
-        // At the edge the way is its own, and at its ends that of all faces there: equal seen from all faces.
+        // On an edge use the edge's direction, at its ends the vertex's, so that adjacent faces agree.
         const double size = length(to - from), near_end = std::min(bend_, size / 2);
         const double of_from = smooth(std::max(0.0, 1 - part * size / near_end)),
                      of_to = smooth(std::max(0.0, 1 - (1 - part) * size / near_end));
         DVec3 way = toDouble(edge.way);
         way = way + of_from * (toDouble(edge.way_of_from) - way) + of_to * (toDouble(edge.way_of_to) - way);
-        // Of several edges the nearer count more, and one that is met alone.
+        // If there are several edges, nearer ones count more; a single one counts fully.
         const double bent = smooth(1 - away / bend_), least = 1e-6 * bend_;
         const double weight = bent / (away * away + least * least);
         sum = sum + (weight * bent) * (way - straight);

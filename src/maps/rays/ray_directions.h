@@ -14,9 +14,9 @@
 
 namespace tspace {
 
-// How far a point is from a segment.
+// Distance of a point from a segment.
 
-/// Where on the segment from a (0) to b (1) it is nearest to the point.
+/// Returns the parameter, from 0 at a to 1 at b, of the point of the segment that is nearest to `point`.
 inline double nearestPart(const DVec3& point, const DVec3& a, const DVec3& b) {
     const DVec3 edge = b - a;
     const double squared = dot(edge, edge);
@@ -38,7 +38,7 @@ struct HardEdges {
     static constexpr std::uint32_t kNone = 0xffffffffu;
 
     struct Edge {
-        std::array<std::uint32_t, 2> corners = {};  ///< where it begins and ends
+        std::array<std::uint32_t, 2> corners = {};  ///< its two end points
         DVec3 way = {};                             ///< unit, or zero: the mean of its faces' normals
     };
     std::vector<Edge> edges = {};
@@ -53,7 +53,7 @@ struct HardEdges {
 /// the same result for any number of threads.
 HardEdges findHardEdges(StridedSpan<const Vec3> positions, std::span<const std::uint32_t> roots, double far);
 
-/// What a triangle has at a point, of three entries per triangle.
+/// Interpolates an attribute at a point of a triangle; three values per triangle.
 template <class T>
 DVec3 mixedAt(const StridedSpan<const T>& values, std::size_t triangle, const std::array<double, 3>& weights) {
     DVec3 sum{};
@@ -72,8 +72,8 @@ struct HardEdge {
 class RayField {
   public:
     RayField() = default;
-    /// Of a checked low poly, whose arrays must stay, as `rays`.skew must. `offset`: that of the cage. Time: linear, but
-    /// for a sort of the edges.
+    /// `low` must be checked; its arrays and `rays`.skew must stay valid. `offset`: cage distance. Time: linear, except for a
+    /// sort of the edges.
     RayField(const LowPoly& low, const RayOptions& rays, double offset, Parallel& parallel, const Allocator* allocator);
 
     /// The unit direction outwards at a point, and how far along it the cage is. False where there is none.
@@ -98,7 +98,7 @@ class RayField {
     LowPoly low_ = {};
     RayOptions rays_ = {};
     double offset_ = 0;
-    double bend_ = 0;  ///< how far from a hard edge ways bend towards it
+    double bend_ = 0;  ///< distance from a hard edge within which directions bend towards it
     /// From a corner to the cage, for an offset of 1: longer than 1 where faces lean away from the mean, so that the cage
     /// is as far from them.
     Buffer<Vec3> averaged_ = {};

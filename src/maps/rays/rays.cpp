@@ -127,7 +127,7 @@ struct RaySurface::State {
 
 namespace {
 
-/// Which of the fronts on a line is looked for, if one is.
+/// Front face to search for on a line, if any.
 enum class Wanted : std::uint8_t {
     nearest,  ///< to `from`, on either side
     first,    ///< in the order of the direction
@@ -272,7 +272,7 @@ bool makeDevices(RaySurface::State& state, unsigned threads) {
     return state.device != nullptr && state.second_device != nullptr;
 }
 
-/// By all threads of the call.
+/// Builds the BVH on all threads of the call.
 RTCError buildScene(const RaySurface::State& state, Parallel& parallel) {
     std::atomic<RTCError> failure = RTC_ERROR_NONE;
     parallel.forTasks(parallel.width(), [&](std::size_t) {
@@ -329,7 +329,7 @@ Result<std::unique_ptr<const RaySurface>> RaySurface::make(StridedSpan<const Vec
     api.commitGeometry(geometry);
     api.attachGeometry(state->scene, geometry);
     api.releaseGeometry(geometry);
-    RTCError error = api.getDeviceError(state->device);  // of the calls above
+    RTCError error = api.getDeviceError(state->device);  // error of the calls above
     if (error == RTC_ERROR_NONE) error = buildScene(*state, parallel);
     if (error == RTC_ERROR_INVALID_ARGUMENT || error == RTC_ERROR_INVALID_OPERATION)
         return makeError(ErrorCode::internal, kNoElement, "Embree fails with code %u", static_cast<unsigned>(error));
@@ -397,7 +397,7 @@ void shoot(Query& query) {
 #endif
 }
 
-/// The same for kLinesAtOnce lines at most, all of one surface.
+/// Shoots up to kLinesAtOnce lines that belong to one surface.
 void shootTogether(std::span<Query> queries) {
     RTCRayHit16 rays{};
     alignas(64) std::array<int, kLinesAtOnce> valid{};

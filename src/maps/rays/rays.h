@@ -17,14 +17,14 @@ namespace tspace {
 
 struct RayHit {
     std::uint32_t triangle = 0;
-    std::array<double, 3> weights = {};  ///< of its corners
+    std::array<double, 3> weights = {};  ///< barycentric weights of its corners
     double distance = 0;                 ///< along the direction; negative on the other side
 };
 
-/// How many triangles a part of a line meets.
+/// Number of triangles that a segment of a line crosses.
 struct RayCrossings {
-    std::uint32_t fronts = 0;  ///< that face outwards
-    std::uint32_t backs = 0;   ///< that face inwards
+    std::uint32_t fronts = 0;  ///< front faces
+    std::uint32_t backs = 0;   ///< back faces
 };
 
 /// A part of a line: what lies between `begin` and `end` along `outward` (unit) from a place.
@@ -69,7 +69,7 @@ class RaySurface {
     /// result: whether line i meets something, which is hits[i] then.
     [[nodiscard]] std::uint32_t outermost(std::span<const RayLine> lines, std::span<RayHit> hits) const;
 
-    /// How many triangles the line along `outward` (unit) meets from `begin` to `end`, in front and behind.
+    /// Counts the triangles, front and back faces, that the line along `outward` (unit) crosses from `begin` to `end`.
     [[nodiscard]] RayCrossings crossings(const DVec3& from, const DVec3& outward, double begin, double end,
                                          std::uint32_t group) const;
 

@@ -46,7 +46,7 @@ class Band {
     }
 
   private:
-    /// Where a row of the band begins in the map.
+    /// Offset in the map of a row of the band.
     [[nodiscard]] std::size_t inMap(std::uint32_t y) const {
         return std::size_t{(first_ + height_ + y - 1) % height_} * map_.width;
     }
@@ -91,7 +91,7 @@ class Band {
 
     /// Errors across a vector that the filter mixed, as angles.
     [[nodiscard]] FitSample sampleOf(const Vec3& mixed) const {
-        // What is mixed of vectors that cancel each other has a direction, but none that is worth much.
+        // Below this length the filtered direction is unreliable.
         constexpr float kLeastSquare = 0.05F;
         const float scale = map_.scale;
         const Vec3 read{scale * mixed.x, scale * mixed.y, mixed.z};

@@ -16,7 +16,7 @@ namespace tspace {
 IntegerChoice integerChoice(TexelLengths lengths);
 
 struct VectorMap {
-    std::span<Vec3> vectors = {};  ///< as stored: of channels c, 2 c - 1. Zero: nothing is known of it, and it stays
+    std::span<Vec3> vectors = {};      ///< vectors as stored: 2 c - 1 for channels c. Zero: unknown, and unchanged
     std::span<const bool> keeps = {};  ///< vectors that are such integers and stay
     std::uint32_t width = 0;
     TextureWrap wrap_u = TextureWrap::repeat, wrap_v = TextureWrap::repeat;

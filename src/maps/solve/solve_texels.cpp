@@ -213,7 +213,7 @@ class Gradients {
     std::span<Vec3> texels_;
     Parallel& parallel_;
     Buffer<Vec3> residual_, direction_, image_;
-    /// Of the block of each row with itself. To read rows again would take longer.
+    /// Inverse of the diagonal block of each row; recomputing it from the rows would take longer.
     Buffer<SymmetricBlock> inverse_;
     std::size_t tasks_;
     TaskSums first_, second_;
@@ -339,7 +339,7 @@ class IntegerTexel {
         return {at.x[0] * step_ - 1, at.y[0] * step_ - 1, z * step_ - 1};
     }
 
-    /// Where z follows from x and y, only errors of x and y count.
+    /// If z follows from x and y, only errors of x and y count.
     [[nodiscard]] Vec3 bestOfTwo(const Vec3& start) const {
         const float x = start_x_ + slope_x_ * start.z, y = start_y_ + slope_y_ * start.z;
         if (!isInside(x) || !isInside(y)) return start;
@@ -367,7 +367,7 @@ class IntegerTexel {
     float start_x_ = 0, slope_x_ = 0, start_y_ = 0, slope_y_ = 0;
 };
 
-/// What texels that are not chosen yet are taken to be long.
+/// Assumed length of texels that are not chosen yet.
 float usualLength(const IntegerChoice& choice) { return (choice.least_length + choice.most_length) / 2; }
 
 bool keepsLength(const IntegerChoice& choice, const Vec3& wanted) {
@@ -538,7 +538,7 @@ void roundTexels(std::span<Vec3> texels, std::uint32_t width, const TexelRoundin
             const Vec3 corners = (off[above + left] + off[above + right]) + (off[below + left] + off[below + right]);
             // The integral of two filters: 4/9 at the texel itself, 1/9 at its sides, 1/36 at its corners.
             const Vec3 others = 0.25F * sides + 0.0625F * corners;
-            // Without what an earlier round rounded off.
+            // Subtracts the rounding error of an earlier round.
             const Vec3 wanted = steps.middle() * texels[here + x] - off[here + x];
             Vec3& error = off[here + x];
             Vec3 chosen;

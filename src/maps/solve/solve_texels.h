@@ -133,14 +133,14 @@ using TellStep = std::function<void(std::uint64_t done, std::uint64_t total)>;
 void solveLeastSquares(const TexelSystem& system, std::span<Vec3> texels, Parallel& parallel,
                        const Allocator* allocator, const TellStep& tell = {});
 
-/// The same for vectors of unit length at most.
+/// Like the overload above, for vectors of at most unit length.
 void solveTexels(const TexelSystem& system, std::span<Vec3> texels, Parallel& parallel, const Allocator* allocator,
                  const TellStep& tell = {});
 
 /// The vectors that integers stand for: n from 0 to `most` is 2 n / most - 1.
 struct IntegerChoice {
     unsigned most = 255;
-    float least_length = 0.7F, most_length = 1.1F;  ///< of vectors; no component may be over 1
+    float least_length = 0.7F, most_length = 1.1F;  ///< range of vector lengths; no component may exceed 1
     bool is_two_channel = false;                    ///< z follows from x and y, whose vector is unit
     bool keeps_lengths = false;                     ///< a vector that is not unit keeps its length, within a twentieth
 };
@@ -153,7 +153,7 @@ void chooseIntegers(const TexelSystem& system, const IntegerChoice& choice, std:
 struct TexelRounding {
     unsigned most = 65535;
     bool keeps_lengths = false;  ///< else vectors may become longer or shorter by half a hundredth, and point better
-    std::span<const bool> keeps = {};  ///< which texels stay; empty: none
+    std::span<const bool> keeps = {};  ///< texels that must not change; empty: none
 };
 
 /// Makes of each component of `texels` a number that an integer from 0 to `most` stands for, such that those around make good

@@ -59,7 +59,7 @@ void setShape(Accessor& accessor, const Json& object, const std::string& place) 
         return;
     }
     if (name.empty()) failAt("the member 'type' is missing", join(place, "type"));
-    // Another type is nobody's concern until its elements are needed.
+    // Unknown types are an error only when elements are read.
     accessor.type = name;
     accessor.component_count = accessor.element_bytes = accessor.data_bytes = 0;
 }
@@ -161,7 +161,7 @@ void applySparse(const Document& document, const Accessor& accessor, std::uint8_
     }
 }
 
-/// Where the elements lie; null for those that are all zero. Fails where there are none, and for an unknown type.
+/// Returns the address of the elements; null if they are all zero. Fails if there are none, and for unknown types.
 const std::uint8_t* elementSource(const Document& document, const Accessor& accessor) {
     if (accessor.component_count == 0) {
         failAt("the accessor type " + inQuotes(accessor.type) + " does not exist", join(accessor.place(), "type"));

@@ -68,8 +68,8 @@ struct ElementView {
     std::size_t stride = 0;
 };
 
-/// Nothing when elements have to be put together: those that are zero, sparse, or not stored to the last byte of the
-/// last one. Fails as copyElements.
+/// Returns nothing if elements have to be assembled: zero or sparse elements, or an incomplete last one. Fails like
+/// copyElements.
 std::optional<ElementView> viewElements(const Document& document, const Accessor& accessor);
 
 /// All elements, tightly packed (element_bytes each), sparse values put in. Fails where a buffer has no data,

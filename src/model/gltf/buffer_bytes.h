@@ -62,7 +62,7 @@ class BufferBytes {
     void addPiece(Piece piece);
     void pad(std::size_t alignment);
 
-    std::vector<Piece> pieces_;   ///< none is empty
+    std::vector<Piece> pieces_;   ///< the pieces, none of them empty
     std::vector<Bytes> storage_;  ///< owns the bytes of all pieces but views
     std::size_t size_ = 0;
     std::size_t there_count_ = 0;  ///< leading pieces whose bytes are known to be made

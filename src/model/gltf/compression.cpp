@@ -283,7 +283,7 @@ void unpackDraco(Document& document, Editor& editor) {
 struct ViewUse {
     std::set<std::size_t> accessors = {};
     bool by_indices = false, by_vertices = false;
-    std::size_t stride = 0;      ///< of all accessors; 0 where they differ
+    std::size_t stride = 0;      ///< stride of all accessors; 0 if they differ
     std::size_t byte_count = 0;  ///< whole rows that they read
 };
 

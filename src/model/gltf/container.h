@@ -21,7 +21,7 @@ struct GlbChunks {
     std::span<const std::uint8_t> json;  ///< into the file's bytes
     std::optional<std::span<const std::uint8_t>> bin;
     std::vector<ExtraChunk> extra;
-    std::size_t ignored_bytes = 0;  ///< behind the length that the header states
+    std::size_t ignored_bytes = 0;  ///< bytes beyond the length that the header states
 };
 
 /// True when the bytes start with the magic word of GLB.
@@ -40,12 +40,12 @@ GlbFrame frameGlb(const std::string& json, std::optional<std::size_t> bin_bytes,
 
 // Changing how a document is stored (.glb or .gltf), and writing it out.
 
-/// Where the document goes.
+/// Destination of the document.
 struct OutputTarget {
     Path path = {};
     Container container = Container::glb;
     bool in_place = false;         ///< the output is the input
-    bool same_folder = false;      ///< as the input's: files that the model names need not be copied
+    bool same_folder = false;      ///< output is in the input's folder: referenced files need not be copied
     bool takes_images_in = false;  ///< .gltf to .glb
 };
 

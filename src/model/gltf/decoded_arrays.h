@@ -34,18 +34,18 @@ class DecodedArrays {
     SharedArray<Vec4> vec4(std::size_t accessor, const std::string& place);
     /// NORMAL of the primitive, or of one of its morph targets, scaled as it says.
     SharedArray<Vec3> normals(const Primitive& primitive, std::size_t accessor, const std::string& place);
-    /// As readTriangleCorners. Fails with tooLarge also where the budget has no room for looking at them.
+    /// Like readTriangleCorners. Also fails with tooLarge if the budget does not allow reading them.
     SharedArray<std::uint32_t> corners(const Primitive& primitive);
-    /// As readPackedWords.
+    /// Like readPackedWords.
     SharedArray<std::uint8_t> packedWords(const Primitive& primitive, const PackedLayout& layout);
 
-    /// What somebody has, or else an array that is decoded for the caller alone and not charged: for work that asks the
-    /// budget for all that it takes. The attribute must be there.
+    /// Returns a cached array, or one that is decoded only for the caller and not charged: for callers that reserve all their
+    /// memory in the budget. The attribute must exist.
     SharedArray<Vec2> borrowUvs(const Primitive& primitive, std::size_t uv_set);
     SharedArray<Vec3> borrowVec3(const Primitive& primitive, const char* attribute);
     SharedArray<Vec4> borrowTangents(const Primitive& primitive);
     SharedArray<std::uint32_t> borrowCorners(const Primitive& primitive);
-    /// The same as a list of the caller's own.
+    /// Like corners(), as a list that the caller owns.
     std::vector<std::uint32_t> copyCorners(const Primitive& primitive);
 
     /// The document has changed: accessors are decoded anew from now on. Arrays that somebody has stay as they are.
@@ -57,7 +57,7 @@ class DecodedArrays {
     /// Index list, vertices, mode.
     using CornerKey = std::tuple<std::size_t, std::size_t, Mode>;
 
-    /// Nothing where nobody has it.
+    /// Returns nothing if it is not cached.
     template <class T, class Key>
     std::optional<SharedArray<T>> known(const std::map<Key, Known<T>>& table, const Key& key) const;
     template <class T, class Key, class Decode>
@@ -74,9 +74,9 @@ class DecodedArrays {
     std::map<std::size_t, Known<Vec3>> vec3_ = {};
     std::map<std::size_t, Known<Vec4>> vec4_ = {};
     std::map<std::pair<std::size_t, std::size_t>, Known<Vec3>> scaled_normals_ =
-        {};  ///< by that of the base, and its own
+        {};  ///< keyed by the base's accessor and its own
     std::map<CornerKey, Known<std::uint32_t>> corners_ = {};
-    std::map<std::vector<std::size_t>, Known<std::uint8_t>> words_ = {};  ///< by the accessors that hold them
+    std::map<std::vector<std::size_t>, Known<std::uint8_t>> words_ = {};  ///< keyed by the accessors of the words
 };
 
 }  // namespace tspace::gltf

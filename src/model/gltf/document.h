@@ -35,12 +35,12 @@ struct ExtraChunk {
 
 enum class Container { glb, gltf };
 
-/// Where the bytes of a buffer came from.
+/// Source of the bytes of a buffer.
 enum class BufferSource {
     bin,  ///< the BIN chunk
     dataUri,
     file,
-    absent,   ///< none: the fallback buffer of a compression extension, or data that an extension provides
+    absent,   ///< no bytes: the fallback buffer of a compression extension, or data that an extension provides
     decoded,  ///< decoded views of a fallback buffer without data; never written
 };
 
@@ -77,7 +77,7 @@ struct Document {
     std::map<std::pair<std::size_t, std::uint32_t>, DracoRounding> draco_roundings = {};
     std::vector<ExtraChunk> extra_chunks = {};
     std::uint64_t input_bytes = 0;              ///< the model file and its buffer files
-    std::vector<std::string> input_files = {};  ///< what was read beside the model file
+    std::vector<std::string> input_files = {};  ///< files that were read beside the model file
     bool imported = false;                      ///< made from a file of another format: `file_bytes` is not that file
     bool may_hide_tangents = false;             ///< the original may have tangents that the importer did not read
     std::string source_generator = {};          ///< the program that made the original; may be empty
@@ -87,7 +87,7 @@ struct Document {
     /// Images that are written beside the output, by the path that their URIs stand for.
     std::map<std::string, Bytes> new_files = {};
     std::vector<std::string> warnings = {};                                   ///< from reading
-    std::shared_ptr<MemoryBudget> memory = std::make_shared<MemoryBudget>();  ///< what it may still take
+    std::shared_ptr<MemoryBudget> memory = std::make_shared<MemoryBudget>();  ///< remaining memory budget
 };
 
 /// "glb", "gltf", or the extension of a file of another format ("fbx"), for reports.

@@ -96,7 +96,7 @@ Json& primitiveJson(Document& document, const Packed& packed) {
     return document.json["meshes"][packed.mesh]["primitives"][packed.index];
 }
 
-/// Which data an accessor stands for: a view, and an id in it or its indices.
+/// Source of an accessor's data: a view, and an attribute id in it or its indices.
 struct Source {
     std::size_t view = 0;
     std::int64_t id = -1;

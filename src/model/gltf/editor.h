@@ -25,7 +25,7 @@ class Editor {
     /// `new_file_name` is the name of the buffer file that new data goes into when there is no better place.
     Editor(Document& document, std::string new_file_name);
 
-    /// How many places of the document refer to an accessor.
+    /// Number of references to an accessor in the document.
     [[nodiscard]] std::size_t accessorUses(std::size_t accessor) const { return accessor_uses_[accessor]; }
     /// Moves one primitive's use from `from` (if any) to `to`.
     void moveUse(std::optional<std::size_t> from, std::size_t to);
@@ -96,7 +96,7 @@ class Editor {
     std::optional<std::size_t> target_buffer_, fallback_buffer_;
     std::vector<std::size_t> accessor_uses_;
     std::vector<std::size_t> view_uses_;
-    std::vector<Extent> extents_;  ///< as the document was before any edit
+    std::vector<Extent> extents_;  ///< extents before any edit
     std::vector<ByteRange> vacated_;
     std::vector<std::size_t> spare_views_;             ///< entries that nothing uses any more
     std::map<std::size_t, MeshoptRequest> to_encode_;  ///< by view

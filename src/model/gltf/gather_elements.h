@@ -31,12 +31,12 @@ struct ElementData {
     unsigned target = kVertexTarget;
     /// The accessor whose compression the new elements get.
     std::optional<std::size_t> like = {};
-    /// The same elements before `filter` of meshopt, in rows of a multiple of 4 bytes; empty: only `bytes` are known.
     bool in_draco = false;  ///< they lie in data of a Draco primitive, which the caller stores
+    /// The elements before meshopt's `filter`, in rows of a multiple of 4 bytes; empty: only `bytes` exist.
     Bytes unfiltered = {};
     MeshoptFilter filter = MeshoptFilter::none;
-    /// Where set, `bytes` holds only the elements at these ascending places and all others of the `count` are zero: they
-    /// are stored as a sparse accessor.
+    /// If set, `bytes` holds only the elements at these ascending indices, and all others of the `count` are zero: they are
+    /// stored as a sparse accessor.
     std::optional<std::vector<std::uint32_t>> places = {};
     Json min = nullptr, max = nullptr;  ///< written unless null
 

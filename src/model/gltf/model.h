@@ -25,12 +25,12 @@ class Model {
     [[nodiscard]] Document& document() { return *document_; }
     [[nodiscard]] DecodedArrays& arrays() { return *arrays_; }
 
-    /// As readPrimitives.
+    /// Like readPrimitives, cached.
     [[nodiscard]] std::vector<Primitive>& primitives();
 
     /// All primitives as a Scene, which stays, and so do its arrays, until dropScene. Copies of it share the arrays.
     [[nodiscard]] const Scene& scene();
-    /// The same, or these primitives alone, for the caller to keep.
+    /// Returns a scene that the caller owns: all primitives, or only these.
     [[nodiscard]] Scene sceneOf();
     [[nodiscard]] Scene sceneOf(std::span<const std::size_t> numbers);
     void dropScene() { scene_.reset(); }
@@ -38,10 +38,10 @@ class Model {
     /// The scene with looks and places, and `with_images` the bytes of those images that pictures show. The model does not
     /// keep it.
     [[nodiscard]] DrawnScene drawnScene(bool with_images);
-    /// The same with all that materials show: the bytes of the images of colours, metal and emission, and the colours of
-    /// vertices.
+    /// Like scene, with everything that materials use: the image bytes of base color, metalness and emission, and vertex
+    /// colors.
     [[nodiscard]] DrawnScene materialScene(bool with_normal_maps);
-    /// The same as nodes pose it; `with_images`: with the bytes of all images and the colours of vertices.
+    /// Returns the scene as posed by its nodes; `with_images`: with the bytes of all images and the vertex colors.
     [[nodiscard]] PosedScene posedScene(bool with_images);
 
     /// Primitives and scene are made anew when they are next asked for, and their old memory is free again.
@@ -55,7 +55,7 @@ class Model {
     std::unique_ptr<Document> document_;
     std::unique_ptr<DecodedArrays> arrays_;
     std::optional<std::vector<Primitive>> primitives_ = {};
-    std::int64_t primitive_bytes_ = 0;  ///< what the budget was charged for them
+    std::int64_t primitive_bytes_ = 0;  ///< bytes charged to the budget for the primitives
     std::optional<Scene> scene_ = {};
 };
 

@@ -100,7 +100,7 @@ AttributeRepair repairOf(const std::string& name, const AttributeList& list, boo
     return is_needed ? AttributeRepair::none : AttributeRepair::remove;
 }
 
-/// Nothing: the attribute has elements that its name allows, one per vertex.
+/// Returns nothing if the attribute is valid: one element per vertex, of a type that its name allows.
 std::optional<AttributeFault> attributeFault(const Document& document, const Primitive& primitive,
                                              const AttributeList& list, std::ptrdiff_t target,
                                              const AttributeList::value_type& attribute) {
@@ -226,7 +226,7 @@ std::shared_ptr<const NormalScales> findScales(const Document& document, const A
     return scales;
 }
 
-/// What cannot be read stays as it is: reading it will say why.
+/// Unreadable normals are skipped here; reading them will report the reason.
 void findScales(const Document& document, std::vector<Primitive>& primitives) {
     std::map<std::size_t, std::shared_ptr<const NormalScales>> known;
     for (Primitive& primitive : primitives) {
@@ -242,7 +242,7 @@ void findScales(const Document& document, std::vector<Primitive>& primitives) {
     }
 }
 
-/// What a primitive costs beside its arrays: its lists, its report and its findings.
+/// Memory of a primitive besides its arrays: its lists, its report and its findings.
 void takePrimitive(const Document& document, const Json& object, std::size_t mesh, std::size_t index) {
     constexpr std::size_t kPrimitiveBytes = 1500, kTargetBytes = 100;
     const Json* targets = findMember(object, "targets");

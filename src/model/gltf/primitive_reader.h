@@ -45,7 +45,7 @@ inline bool movesFrames(const AttributeList& target) {
 
 /// A TANGENT that no reader can take for one.
 struct UnreadableTangents {
-    std::ptrdiff_t target = -1;  ///< of which morph target; -1: the primitive's own
+    std::ptrdiff_t target = -1;  ///< index of the morph target; -1: the base primitive
     std::size_t accessor = 0;
     std::string why = {};  ///< "they do not have 4 components"
 };
@@ -123,8 +123,8 @@ void warnOfScaledNormals(Document& document, std::span<const Primitive> primitiv
 std::vector<Vec2> readUvs(const Document& document, const Primitive& primitive, std::size_t uv_set);
 std::vector<Vec3> readVec3(const Document& document, const Primitive& primitive, const char* attribute);
 std::vector<Vec4> readTangents(const Document& document, const Primitive& primitive);
-/// The same without a copy: nothing where elements are no plain floats one stride apart. Valid while the document's
-/// bytes stay where they are and as they are. Nothing for normals that have to be scaled.
+/// Return an attribute without a copy, or nothing if the elements are not plain floats with one stride. Valid while the document's
+/// bytes do not move or change. They return nothing for normals that have to be scaled.
 std::optional<StridedSpan<const Vec2>> lendUvs(const Document& document, const Primitive& primitive,
                                                std::size_t uv_set);
 std::optional<StridedSpan<const Vec3>> lendVec3(const Document& document, const Primitive& primitive,

@@ -156,7 +156,7 @@ Affine readFirstBind(const Document& document, const Json& skin, const std::stri
     return {{m[0], m[1], m[2]}, {m[4], m[5], m[6]}, {m[8], m[9], m[10]}, {m[12], m[13], m[14]}};
 }
 
-/// Where the first joint of the node's skin puts a mesh; nothing: it has no skin.
+/// Transform of a mesh by the first joint of the node's skin; nothing if it has no skin.
 std::optional<Affine> boundPlace(const Document& document, const Nodes& nodes, std::size_t node) {
     const Json& skins = rootArray(document, "skins");
     const auto skin = readIndex(nodes[node], "skin", join("/nodes", node), skins.size(), "skin");
@@ -291,7 +291,7 @@ std::vector<Affine> jointMatrices(const Document& document, const Nodes& nodes, 
     return matrices;
 }
 
-/// Of each vertex the matrices of its joints by their weights; none where the primitive has no joints.
+/// Weighted joint matrices of each vertex; empty if the primitive has no joints.
 std::vector<Affine> blendedBones(DecodedArrays& arrays, const Primitive& primitive, std::span<const Affine> joints) {
     const auto joints_at = primitive.find("JOINTS_0"), weights_at = primitive.find("WEIGHTS_0");
     if (!joints_at || !weights_at || joints.empty()) return {};
@@ -549,7 +549,7 @@ void readImages(const Document& document, const std::set<std::size_t>& wanted, S
             scene.images[i].bytes.assign(bytes.begin(), bytes.end());
         });
         if (!failure) continue;
-        // The geometry is none the worse for it.
+        // A missing image is no error; only tooLarge is passed on.
         if (failure->code == ErrorCode::tooLarge) throw FileError{*failure};
         scene.images[i].why_empty = failure->message;
         scene.images[i].is_unavailable = !uri.empty() && !document.files.areNone();

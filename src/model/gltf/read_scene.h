@@ -15,9 +15,9 @@ namespace tspace::gltf {
 
 // How the primitives of a document look, and where its nodes put them.
 
-/// Of the primitive's own material. Fails with invalidFile.
+/// Reads the look of the primitive's own material. Fails with invalidFile.
 SurfaceLook readLook(const Document& document, const Primitive& primitive);
-/// What readLook leaves out: metalness, roughness and emission. Fails with invalidFile.
+/// Reads the rest of the look: metalness, roughness and emission. Fails with invalidFile.
 void readMetalAndEmission(const Document& document, const Primitive& primitive, SurfaceLook& look);
 
 /// Every primitive at each node that draws it, in the default scene, else the first scene, else all nodes. Where those
@@ -36,7 +36,7 @@ void tellPlaces(const Document& document, std::span<const Primitive> primitives,
 
 /// The images that these looks name and pictures show: base colours and normal maps.
 std::set<std::size_t> imagesOf(std::span<const SurfaceLook> looks);
-/// Those of colours, metal and emission.
+/// Images of base color, metalness and emission.
 std::set<std::size_t> materialImagesOf(std::span<const SurfaceLook> looks);
 
 /// These primitives, in their order, and what the file says of itself; names of images, but no bytes. `arrays`: of
@@ -45,7 +45,7 @@ Scene sceneOf(const Document& document, DecodedArrays& arrays, std::span<const P
 
 /// Reads the bytes of the images that the scene's primitives use for tangents. One that cannot be read stays empty.
 void readImages(const Document& document, Scene& scene);
-/// The same of these images.
+/// Reads the bytes of these images.
 void readImages(const Document& document, const std::set<std::size_t>& wanted, Scene& scene);
 
 /// The image file of entry `image` of /images; empty where it cannot be had.

@@ -101,7 +101,7 @@ std::vector<ByteRange> cutsOf(std::size_t buffer, std::span<const ByteRange> vac
     return cuts;
 }
 
-/// Where a byte offset lies after the cuts. A byte inside a cut moves to the cut's place.
+/// Maps byte offsets to their places after the cuts. A byte inside a cut maps to the cut's place.
 class Mover {
   public:
     explicit Mover(std::span<const ByteRange> cuts) : cuts_(cuts) {

@@ -155,7 +155,7 @@ class OneRun {
 
 /// How outputs are written.
 struct OutputWay {
-    /// Where set, receives the single output file in place of the disk.
+    /// If set, receives the single output file instead of the disk.
     Sink sink = {};
     bool is_dry_run = false;  ///< writes nothing
     /// Flushes files from the disk's cache before they are renamed. Costs some milliseconds per file.
@@ -239,7 +239,7 @@ class AtomicOutput {
     OutputWay way_;
     std::vector<File> files_;
     std::vector<Path> created_folders_;
-    std::set<std::string> identities_;  ///< of targets
+    std::set<std::string> identities_;  ///< file identities of the targets
     std::vector<std::string> sources_;
     std::uint64_t byte_count_ = 0;
     bool committed_ = false;

@@ -242,7 +242,7 @@ bool isKept(const std::string& identity) {
     return kept.identities.contains(identity);
 }
 
-/// What the calls of one run did to files, by resolved path.
+/// Uses of a file by the calls of one run, by resolved path.
 struct RunFile {
     std::set<std::uint64_t> readers = {};
     std::uint64_t owner = 0;  ///< the call that wrote it, or left it unchanged
@@ -528,7 +528,7 @@ void AtomicOutput::renameFiles() {
             if (kindOf(file.target) == PathKind::folder) {
                 failure = EISDIR;
             } else if (!aside[i].name.empty()) {
-                // Not every file system has hard links.
+                // Falls back to renaming on file systems without hard links.
                 failure = linkFile(file.target, aside[i].name);
                 if (failure != 0) failure = renameFile(file.target, aside[i].name);
                 aside[i].is_made = failure == 0;
@@ -538,7 +538,7 @@ void AtomicOutput::renameFiles() {
         for (std::size_t i = failed; failure != 0 && i < files_.size(); ++i) {
             if (aside[i].is_made) {
                 renameFile(aside[i].name, files_[i].target);
-                // Where both names are still one file, renaming does nothing.
+                // If both names still are one file, renaming does nothing.
                 removePath(aside[i].name);
             } else if (i != failed && files_[i].is_made) {
                 removePath(files_[i].target);

@@ -44,7 +44,7 @@ class MemoryBudget {
         left_ -= limited(bytes);
     }
 
-    /// So much of what was taken is free again.
+    /// Returns bytes to the budget.
     void release(std::uint64_t bytes) { left_ += limited(bytes); }
 
     /// The bytes that are left. giveBack(), with an earlier left(), gives back all that was charged since.
@@ -59,7 +59,7 @@ class MemoryBudget {
     }
     [[nodiscard]] bool has(std::uint64_t bytes) const { return limited(bytes) <= left_; }
 
-    /// How many of `count` tasks, at least one, fit the budget together. bytesOf(i) is the memory of task i.
+    /// Number of the `count` tasks, at least one, that fit the budget together. bytesOf(i) is the memory of task i.
     template <class BytesOf>
     [[nodiscard]] std::size_t countTogether(std::size_t count, BytesOf&& bytesOf) const {
         std::uint64_t bytes = 0;

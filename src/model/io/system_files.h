@@ -20,8 +20,8 @@ struct CloseFile {
 };
 using CFile = std::unique_ptr<std::FILE, CloseFile>;
 
-/// As fopen, for UTF-8 paths: null, with errno, on failure. Like all functions here that are not noexcept, it throws
-/// std::bad_alloc where the system is out of memory.
+/// Like fopen, for UTF-8 paths: null, with errno, on failure. Like all functions here that are not noexcept, it throws
+/// std::bad_alloc if the system is out of memory.
 CFile openFile(const Path& path, const char* mode);
 
 /// Fills `to` with the bytes of an open file from `begin` on, independently of the file's position. Thread-safe. False
@@ -41,7 +41,7 @@ PathKind kindOf(const Path& path);
 /// A file or folder in a folder.
 struct FolderEntry {
     std::string name = {};
-    PathKind kind = PathKind::nothing;  ///< as kindOf()
+    PathKind kind = PathKind::nothing;  ///< kind, as from kindOf()
     bool is_link = false;
 };
 /// Appends the entries of a folder. Returns 0, or errno where it could not be read to its end. (The increment of GCC's

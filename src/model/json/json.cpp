@@ -10,7 +10,7 @@
 
 namespace tspace {
 
-// Not inline: reports construct hundreds of members.
+// Out of line, because reports construct hundreds of members.
 Json::Json(const char* text) : Json(std::string(text)) {}
 Json::Json(std::string_view text) : Json(std::string(text)) {}
 Json::Json(std::string text) : kind_(Kind::text) { value_.text = new std::string(std::move(text)); }

@@ -28,7 +28,7 @@ class JsonError : public std::exception {
     [[nodiscard]] const char* what() const noexcept override { return message.c_str(); }
 
     std::string message = {};
-    std::optional<std::size_t> byte = {};      ///< where the text cannot be read
+    std::optional<std::size_t> byte = {};      ///< offset of a syntax error
     std::optional<std::string> repeated = {};  ///< the name of a repeated member
 };
 
@@ -41,7 +41,7 @@ class JsonMemory {
     ~JsonMemory() = default;
 };
 
-/// What the writer does with text that is not UTF-8.
+/// Handling of invalid UTF-8 by the writer.
 enum class BadUtf8 {
     refuse,   ///< throws JsonError
     replace,  ///< writes U+FFFD
@@ -190,7 +190,7 @@ class Json {
 
     /// Numbers are equal by value, objects where the order is the same too.
     friend bool operator==(const Json& a, const Json& b) { return a.isEqual(b); }
-    /// Of numbers; anything else has no order.
+    /// Orders numbers; other values are unordered.
     friend std::partial_ordering operator<=>(const Json& a, const Json& b) { return a.compare(b); }
 
   private:
@@ -200,7 +200,7 @@ class Json {
     enum class Kind : std::uint8_t { null, boolean, integer, natural, real, text, array, object };
     struct Children {
         std::vector<Json> values = {};
-        std::vector<std::string> names = {};  ///< of an object, one for each value
+        std::vector<std::string> names = {};  ///< names of an object's members, one for each value
     };
     union Value {
         bool boolean;

@@ -86,7 +86,7 @@ void noteNumbers(std::string_view rest, std::uint32_t line, bool is_position, Li
 void blankFaceComment(std::string& text, std::size_t begin, std::size_t end) {
     while (begin < end && isBlank(text[begin])) ++begin;
     if (begin + 1 >= end || text[begin] != 'f' || !isBlank(text[begin + 1])) return;
-    // Not text.find(), which would search the rest of the file for each face.
+    // Limited to the line: text.find() would search the rest of the file for each face.
     const auto first = text.begin() + static_cast<std::ptrdiff_t>(begin);
     const auto last = text.begin() + static_cast<std::ptrdiff_t>(end);
     std::fill(std::find(first, last, '#'), last, ' ');
@@ -230,7 +230,7 @@ struct DeadIndices {
 struct Build {
     Model* model = nullptr;
     const LineNotes* notes = nullptr;
-    std::vector<DVec3> positions = {};  // not finite where a float would overflow
+    std::vector<DVec3> positions = {};  // positions; not finite if a float would overflow
     std::size_t face_line = 0;          // the next of notes->faces
     std::string object = {}, group = {};
     std::map<std::pair<std::string, std::string>, std::uint32_t> shapes = {};

@@ -28,7 +28,7 @@ struct FaceLine {
 
 struct LineNotes {
     std::vector<FaceLine> faces = {};                  ///< in file order: the parser reports exactly these
-    std::vector<std::string> material_libraries = {};  ///< what follows `mtllib`, in file order
+    std::vector<std::string> material_libraries = {};  ///< arguments of `mtllib`, in file order
     bool is_utf8 = true;
     bool has_smoothing_groups = false;
     std::uint64_t unreadable_number_count = 0;  ///< in v, vt, vn lines: not a number, or NaN or infinity by name
@@ -106,9 +106,9 @@ struct Model {
     /// Replacements of normal maps in the output, by Texture::path.
     std::map<std::string, Bytes> flipped_maps = {};
     std::uint64_t input_bytes = 0;              ///< the OBJ and its MTL files
-    std::vector<std::string> input_files = {};  ///< the same
+    std::vector<std::string> input_files = {};  ///< all files that were read
     std::vector<std::string> warnings = {};
-    std::shared_ptr<MemoryBudget> memory = std::make_shared<MemoryBudget>();  ///< what it may still take
+    std::shared_ptr<MemoryBudget> memory = std::make_shared<MemoryBudget>();  ///< remaining memory budget
 };
 
 // Reads OBJ and MTL files into a Model. Functions throw FileError.

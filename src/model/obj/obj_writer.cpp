@@ -150,7 +150,7 @@ class ImageBuilder {
     DocumentBuilder& builder_;
     std::vector<std::string>& sources_;
     std::vector<std::string>& warnings_;
-    std::map<std::pair<std::string, bool>, int> textures_by_file_ = {};  ///< by path, and whether green is inverted
+    std::map<std::pair<std::string, bool>, int> textures_by_file_ = {};  ///< by path and whether green is inverted
 };
 
 Json rgb(const Vec3& color) { return {color.x, color.y, color.z}; }
@@ -222,7 +222,7 @@ class MaterialNumbers {
   private:
     static bool isDefault(const Material& material) { return material.name.empty() && !material.found; }
 
-    std::vector<int> numbers_, bare_numbers_;  ///< by Model::materials
+    std::vector<int> numbers_, bare_numbers_;  ///< by index in Model::materials
 };
 
 Json primitiveJson(const FinishedPrimitive& primitive, int material, DocumentBuilder& builder) {

@@ -32,12 +32,12 @@ namespace tspace {
 /// itself. Throws FileError.
 Scene readScene(const std::string& input, const FileOptions& options, bool with_images);
 
-/// The same with places and looks, and `with_images` the bytes of those images that pictures show. Faces of an OBJ file
-/// without normals get those that generateFile gives them.
+/// Like readScene, with placements and looks, and `with_images` the bytes of the images that pictures need. Faces of an OBJ
+/// file without normals get those that generateFile computes.
 DrawnScene readDrawnScene(const std::string& input, const FileOptions& options, bool with_images);
 
-/// The same with all that materials show: images of colours, metal and emission, and colours of vertices, as they are stored.
-/// `with_normal_maps`: those images too. OBJ has none of those, and images of colours alone.
+/// Like readDrawnScene, with everything that materials use: images of base color, metalness and emission, and vertex colors as
+/// stored. `with_normal_maps`: normal maps too. OBJ has only base color images.
 DrawnScene readMaterialScene(const std::string& input, const FileOptions& options, bool with_normal_maps);
 
 /// readDrawnScene with all that materials show, as the file poses it.

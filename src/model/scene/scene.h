@@ -57,10 +57,10 @@ struct TangentUse {
     UvTransform transform = {};
     std::optional<std::size_t> image = {};  ///< index into the file's images
     TextureWrap wrap_u = TextureWrap::repeat, wrap_v = TextureWrap::repeat;
-    double scale = 1;               ///< of a normal map: what x and y are multiplied by
+    double scale = 1;               ///< factor of x and y of a normal map
     bool is_declared_down = false;  ///< the file says that green of its normal maps points down, as its readers know
     bool may_be_heights = false;    ///< the format takes a grey image for a height map there (map_bump of OBJ)
-    bool reads_levels = true;       ///< as in TextureReading
+    bool reads_levels = true;       ///< like TextureReading::reads_levels
     std::size_t material = 0;
     std::string material_name = {};  ///< may be empty
     bool only_in_variant = false;    ///< the material is one of KHR_materials_variants, not the primitive's own
@@ -72,8 +72,8 @@ inline std::string textureName(const TangentUse& use) {
     return use.needed_by + " of material " + material + (use.only_in_variant ? " (a variant)" : "");
 }
 
-// What a model file holds that frames depend on, in one form for every format. Read-only: check, diff and identify look
-// at it; generate decides by it, and edits the file's own document (gltf/model.h).
+// Contents of a model file that frames depend on, in one form for every format. Read-only: check, diff and identify examine it;
+// generate decides by it, and edits the file's own document (gltf/model.h).
 
 /// A read-only array that its copies share: files draw one accessor in many places.
 template <class T>
@@ -106,7 +106,7 @@ struct SceneMorphTarget {
 
 /// A TANGENT that cannot be read.
 struct SceneTangentFault {
-    std::ptrdiff_t target = -1;  ///< of which morph target; -1: the primitive's own
+    std::ptrdiff_t target = -1;  ///< index of the morph target; -1: the base primitive
     std::string why = {};        ///< "they do not have 4 components"
 };
 
@@ -123,7 +123,7 @@ struct SceneAttributeFault {
     std::ptrdiff_t target = -1;  ///< morph target that has the attribute; -1: the primitive itself
     std::string why = {};        ///< "they do not have 3 components"
     AttributeRepair repair = AttributeRepair::remove;
-    std::size_t vertex_count = 0;  ///< of the primitive
+    std::size_t vertex_count = 0;  ///< vertices of the primitive
 };
 
 /// "COLOR_0", or "NORMAL of morph target 2"; `target` -1: the primitive itself.
@@ -139,12 +139,12 @@ struct ScenePacked {
     SharedArray<std::uint8_t> words = {};  ///< without padding; empty where there is a fault
 };
 
-/// What brings normals that are not unit to length 1. What morph targets add to them is multiplied by the same, so that all
-/// sums keep their directions.
+/// Factors that scale normals to length 1. Normal deltas of morph targets are multiplied by the same factors, so that all sums
+/// keep their directions.
 struct NormalScales {
     std::vector<double> of_vertices = {};  ///< 1 where the stored normal is unit within rounding, or has no direction
-    std::size_t count = 0;                 ///< of those that are not 1
-    double least_length = 0, most_length = 0;  ///< of the normals of those
+    std::size_t count = 0;                 ///< number of factors other than 1
+    double least_length = 0, most_length = 0;  ///< range of the lengths of these normals
 };
 
 /// How a warning begins that is about normals of other lengths.
@@ -160,11 +160,11 @@ struct ScenePrimitive {
     /// Three vertices per triangle, every one smaller than positions.size(). Empty for points and lines.
     SharedArray<std::uint32_t> corners = {};
     SharedArray<Vec3> positions = {};
-    double position_step = 0;        ///< where they are stored as whole numbers: between neighbours; 0: floats
+    double position_step = 0;        ///< quantization step, if positions are stored as integers; 0: floats
     SharedArray<Vec3> normals = {};  ///< one per vertex, or empty: absent. Scaled, as those of morph targets
     std::shared_ptr<const NormalScales> normal_scales = {};  ///< null: none had to be scaled
     SharedArray<Vec4> tangents = {};                         ///< one per vertex, or empty: absent
-    std::vector<SceneTangentFault> tangent_faults = {};      ///< of those that count as absent
+    std::vector<SceneTangentFault> tangent_faults = {};      ///< faults of tangents that are ignored
     std::vector<SceneAttributeFault> attribute_faults = {};
     bool tangents_not_read = false;               ///< they are empty, but the importer cannot tell that there are none
     std::vector<SharedArray<Vec2>> uv_sets = {};  ///< entry n: TEXCOORD_n, empty where absent; v runs down
@@ -175,9 +175,10 @@ struct ScenePrimitive {
     /// Everything in the primitive's materials (variants too) that needs tangents; the first decides which UV set the
     /// tangents follow.
     std::vector<TangentUse> uses = {};
-    /// Where nodes of the scene put it; empty where that was not asked for.
+    /// Transforms of the primitive by the nodes of the scene; empty if not requested.
     std::vector<Affine> places = {};
-    /// What else may read the tangents, or says that somebody made them: "the material extension EXT_hair". Empty: nothing.
+    /// Another possible reader of the tangents, or a sign that they are authored: "the material extension EXT_hair". Empty:
+    /// none.
     std::string other_reader = {};
 
     /// Its triangles, with these UVs.
@@ -213,14 +214,14 @@ struct ScenePrimitive {
     }
 };
 
-/// What checking a primitive takes of memory for a while, about: most where tangents are computed to compare.
+/// Approximate temporary memory for checking a primitive: highest if tangents are computed for comparison.
 inline std::uint64_t checkBytes(std::uint64_t corner_count, std::uint64_t vertex_count, bool has_tangents) {
     return corner_count * (has_tangents ? 96 : 24) + 48 * vertex_count;
 }
 
 struct SceneImage {
     std::string name = {};  ///< may be empty
-    std::string uri = {};   ///< as the file says; empty when embedded
+    std::string uri = {};   ///< URI in the file; empty if embedded
     /// The encoded image (PNG, JPEG, ...); empty when it was not asked for or cannot be read.
     std::vector<std::uint8_t> bytes = {};
     bool is_unavailable = false;  ///< the file that the model names is not there, or may not be read
@@ -232,14 +233,14 @@ struct Scene {
     std::string generator = {};                   ///< may be empty
     std::vector<ScenePrimitive> primitives = {};  ///< in file order
     std::vector<SceneImage> images = {};          ///< TangentUse::image points here
-    std::vector<std::string> warnings = {};       ///< what reading had to say
-    DVec3 offset = {};                            ///< what reading took out of all positions (OBJ)
-    std::shared_ptr<MemoryBudget> memory = {};    ///< what looking at it may still take
+    std::vector<std::string> warnings = {};       ///< warnings of the reader
+    DVec3 offset = {};                            ///< offset subtracted from all positions while reading (OBJ)
+    std::shared_ptr<MemoryBudget> memory = {};    ///< remaining memory budget
 };
 
 // A scene with what a picture of it needs beside frames: where its primitives stand, and how they look.
 
-/// What a primitive's own material says.
+/// Properties of a primitive's own material.
 struct SurfaceLook {
     std::array<float, 4> base_color = {1, 1, 1, 1};  ///< linear
     std::optional<TextureReading> base_texture = {};
@@ -250,18 +251,18 @@ struct SurfaceLook {
     std::array<double, 3> emission = {0, 0, 0};        ///< linear
     double emission_strength = 1;                      ///< KHR_materials_emissive_strength
     std::optional<TextureReading> emission_texture = {};
-    /// Where alpha is smaller the surface is not there; 0: it is there everywhere.
+    /// The surface is absent where alpha is smaller; 0: it is present everywhere.
     double alpha_cutoff = 0;
     bool is_double_sided = false;
     bool is_unlit = false;
-    bool is_blended = false;  ///< what lies behind shines through, by alpha
+    bool is_blended = false;  ///< transparent by alpha
 };
 
 /// A primitive at one of its places.
 struct ScenePlacement {
-    std::size_t primitive = 0;  ///< of the scene
+    std::size_t primitive = 0;  ///< index of the primitive in the scene
     Affine to_world = {};
-    std::string node_name = {};            ///< of the node that puts it there; may be empty
+    std::string node_name = {};            ///< name of the node that places it; may be empty
     std::optional<std::size_t> node = {};  ///< its index in the file (glTF)
 };
 
@@ -273,10 +274,10 @@ struct DrawnScene {
     std::vector<SharedArray<Vec4>> colors = {};
 };
 
-/// Where bones and morph weights put the vertices of a primitive at one of its places.
+/// Deformation of the vertices of a primitive by bones and morph weights, at one of its placements.
 struct ScenePose {
     std::vector<Affine> bones = {};  ///< one per vertex, into the world; empty: no skin
-    /// What morph targets add at their weights, one per vertex; empty: nothing.
+    /// Weighted offsets of morph targets, one per vertex; empty: none.
     std::vector<Vec3> positions = {}, normals = {}, tangents = {};
 
     [[nodiscard]] bool empty() const {

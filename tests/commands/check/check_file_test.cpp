@@ -181,7 +181,7 @@ TEST(CheckFile, LooksAtKtx2AndDds) {
     }
 }
 
-/// What a finding says that texels are off by.
+/// Error in degrees that a finding states for the texels.
 double degreesIn(const Finding& finding) {
     const std::size_t at = finding.message.find("about ");
     return at == std::string::npos ? 0 : std::atof(finding.message.c_str() + at + 6);
@@ -237,7 +237,7 @@ TEST(CheckFile, FindsATextureThatClaimsTheSrgbCurveOfLinearNumbers) {
     const CheckReport report = model.check();
     ASSERT_EQ(codes(report), CodeCounts{"warning normalMapIsSrgb"});
     EXPECT_NE(report.findings[0].remedy.find("linear"), std::string::npos) << report.findings[0].remedy;
-    // Where the numbers have the curve too, that is one finding, of the numbers.
+    // If the values are sRGB-encoded too, there is one finding, on the values.
     for (char& byte : parts.levels[0]) {
         const double part = static_cast<unsigned char>(byte) / 255.0;
         const double coded = part <= 0.0031308 ? 12.92 * part : 1.055 * std::pow(part, 1 / 2.4) - 0.055;
@@ -510,7 +510,7 @@ TEST(CheckFile, SaysThatAnImageWasNotLookedAt) {
 TEST(CheckFile, GivesEachPrimitiveItsOwnFindings) {
     TestModel model(false, true);
     Json& primitives = model.builder.json()["meshes"][0]["primitives"];
-    primitives.push_back(primitives[0]);  // the same arrays: checked once
+    primitives.push_back(primitives[0]);  // the same arrays, which are checked once
     addPatch(model.builder, goodPatch());
     primitives.push_back(primitives[0]);
     primitives[3].erase("material");

@@ -185,7 +185,7 @@ TEST(CheckMorphNormals, DoesNotJudgeWhereTrianglesAreFlipped) {
         mirrored.morph_targets[0].normals = std::vector<Vec3>(offsets.size(), Vec3{0.2f, 0, turn});
         EXPECT_TRUE(checkPrimitive(mirrored, {}, true)->empty()) << turn;
     }
-    // Beside what is folded over, the other normals are judged still.
+    // Normals beside folded triangles are still checked.
     ScenePrimitive folded = rolled(-1);
     edit(folded.morph_targets[0].positions, [&](auto& offsets) { offsets[40] = {0.5f, 0, 0}; });
     EXPECT_EQ(checkPrimitive(folded, {}, true)->front().code, FindingCode::morphNormalsWrong);

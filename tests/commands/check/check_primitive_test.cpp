@@ -170,7 +170,7 @@ TEST(Check, MakesANoteOfNormalsThatUnlitMaterialsDoNotUse) {
     EXPECT_EQ(codesOf(patch).count("error normalsAgainstWinding"), 1u);
 }
 
-/// As leaves have them, with the normals of the tree.
+/// Foliage often has the normals of the whole tree.
 TEST(Check, WarnsOfNormalsAgainstTheWindingWhereBothSidesAreShown) {
     ScenePrimitive patch = goodPatch();
     edit(patch.corners, [](auto& corners) {
@@ -376,7 +376,7 @@ TEST(Check, ExplainsNothingByAUvSetWithoutArea) {
     });
     patch.uv_sets.push_back(std::vector<Vec2>(patch.positions.size()));
     EXPECT_EQ(codesOf(patch), Codes{"error directionsWrong"});
-    // Nor by one that has area in a corner of the surface only, where the tangents happen to follow it.
+    // A set with UV area only in a corner of the surface, where the tangents happen to follow it, is no explanation either.
     edit(patch.uv_sets[1], [&](auto& uvs) {
         for (std::size_t v = 0; v < 2 * kSide; ++v) {
             uvs[v] = {-patch.uv_sets[0][v].x, -patch.uv_sets[0][v].y};

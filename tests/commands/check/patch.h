@@ -20,8 +20,8 @@ namespace tspace::test {
 
 /// How the UVs of the second half continue those of the first.
 enum class Seam {
-    none,      ///< as if there were no seam
-    mirrored,  ///< the same texels, mirrored
+    none,      ///< continuous, without a seam
+    mirrored,  ///< mirrored texels
     turned     ///< an island of its own, a quarter turn off
 };
 

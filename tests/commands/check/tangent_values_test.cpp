@@ -94,7 +94,7 @@ TEST(Check, LooksAtValuesAloneWhereNoTextureIsReadWithTheTangents) {
 TEST(Check, NamesTheAxesInWhichTheTangentsWereLeft) {
     ScenePrimitive patch = goodPatch();
     edit(patch.tangents, [](auto& tangents) {
-        for (Vec4& t : tangents) t = {t.x, -t.z, t.y, t.w};  // as with Z up
+        for (Vec4& t : tangents) t = {t.x, -t.z, t.y, t.w};  // converted to Z up
     });
     const std::vector<Finding> findings = findingsOf(patch);
     const std::string& message = only(findings, FindingCode::directionsWrong).message;

@@ -26,7 +26,7 @@ double degreesBetween(const Vec3& a, const Vec3& b) {
     return std::acos(std::clamp(dots / (lengthOf(a) * lengthOf(b)), -1.0, 1.0)) * 180 / std::numbers::pi;
 }
 
-/// What a file has, as its bytes say: nothing is scaled.
+/// Values of a file as stored, without scaling.
 struct Stored {
     gltf::Document document;
     std::vector<Primitive> primitives;

@@ -21,7 +21,7 @@ report::VertexTotals verticesOf(const std::string& input) {
     return report ? report::totalsOf(*report).vertices : report::VertexTotals{};
 }
 
-/// How many vertex lists inspectFile tells apart.
+/// Number of distinct vertex lists in inspectFile's report.
 std::size_t listCount(const std::string& input) {
     const auto inspection = inspectFile(input);
     EXPECT_TRUE(inspection) << inspection.error().message;

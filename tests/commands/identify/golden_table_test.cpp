@@ -109,7 +109,7 @@ TEST(GoldenTable, IsWhatDiffFinds) {
         if (!follows_set_0) continue;
         std::uint64_t corners = 0, within_1 = 0, within_10 = 0, changes = 0;
         for (const PrimitiveDiff& primitive : diff->primitives) {
-            // Those without UVs keep what they have, and are not in the table.
+            // Primitives without UVs keep their tangents, and are not in the table.
             const bool is_computed =
                 std::any_of(report->primitives.begin(), report->primitives.end(), [&](const PrimitiveReport& made) {
                     return made.mesh == primitive.mesh_a && made.primitive == primitive.primitive_a && made.uv_set == 0;

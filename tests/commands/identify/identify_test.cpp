@@ -193,7 +193,7 @@ TEST(Identify, CountsThePrimitivesOnTrianglesWithThoseOnQuads) {
 
 TEST(Identify, LetsCornersWithoutUvAreaVoteInNothing) {
     ModelData data = withTangents(bentSheet(6), Method::mikktspace);
-    // As many triangles again whose UVs are one point, with tangents and signs that mean nothing.
+    // Adds as many triangles whose UVs are one point, with meaningless tangents and signs.
     ModelData flat = unwelded(bentSheet(6));
     const auto first = static_cast<std::uint32_t>(data.positions.size());
     for (std::size_t v = 0; v < flat.positions.size(); ++v) {

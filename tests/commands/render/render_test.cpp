@@ -105,7 +105,7 @@ SquareModel mirroredPair() {
     return model;
 }
 
-/// How many pixels of a row have the colour.
+/// Number of pixels of a row with the color.
 int countOf(const Drawn& drawn, std::uint32_t begin, std::uint32_t end, bool (*is_it)(const Pixel&)) {
     int count = 0;
     for (std::uint32_t x = begin; x < end; ++x) count += is_it(drawn.at(x, drawn.image.height / 2));

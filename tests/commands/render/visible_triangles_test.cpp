@@ -47,7 +47,7 @@ RC_GTEST_PROP(VisibleTriangles, NeighboursLeaveNoGapAndNoSampleTwice, ()) {
     }
 }
 
-/// What each sample sees is what the ray through it meets first.
+/// Each sample sees the first triangle on its ray.
 RC_GTEST_PROP(VisibleTriangles, TheNearestTriangleIsSeen, ()) {
     std::vector<Vec3> points;
     const int count = *rc::gen::inRange(1, 8);
@@ -86,7 +86,7 @@ RC_GTEST_PROP(VisibleTriangles, TheNearestTriangleIsSeen, ()) {
     }
 }
 
-/// Of the angles of a triangle in the picture, the sine that is nearest to 0.
+/// Smallest sine of the angles of a triangle in the picture.
 double leastSine(const std::vector<Vec3>& points, const Camera& camera) {
     DVec3 seen[3];
     for (std::size_t k = 0; k < 3; ++k) {

@@ -274,7 +274,7 @@ TEST(BestNormals, AreNoWorseThanAngleTimesAreaOnBevels) {
     }
     EXPECT_LT(best, 1.03 * angle_area);
     EXPECT_LT(best, 1.01 * fit);
-    EXPECT_GT(max, 10 * angle_area);  // so that there was something to resist
+    EXPECT_GT(max, 10 * angle_area);  // proves that there was an error to resist
 }
 
 }  // namespace

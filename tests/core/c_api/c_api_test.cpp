@@ -105,7 +105,7 @@ TEST(CApi, DefaultsOfTangentsAreThoseOfCpp) {
     EXPECT_EQ(TangentOptions{}.refine, options.refine);
     tspace_Execution execution;
     TSPACE_INIT(execution);
-    EXPECT_EQ(0u, execution.thread_count);  // as 1, the default of C++
+    EXPECT_EQ(0u, execution.thread_count);  // like 1, the default in C++
     tspace_NormalOptions normals;
     TSPACE_INIT(normals);
     EXPECT_EQ(static_cast<std::uint32_t>(NormalOptions{}.weighting), normals.weighting);
@@ -206,7 +206,7 @@ TEST(CApi, FunctionsPrepareOptionsAsTheMacroDoes) {
     expectInitLikeTheMacro<tspace_IndexedFramesOptions>(tspace_initIndexedFramesOptions);
 }
 
-/// What a language without the macro makes of a struct: zeros, and the size.
+/// Initializes a struct like a language without the macro: zeros, and the size.
 template <class Struct>
 Struct zerosWithSize() {
     Struct zeros{};

@@ -10,7 +10,7 @@
 
 namespace tspace::test {
 
-/// The same numbers on every machine.
+/// Random numbers that are equal on every machine.
 class RandomBits {
   public:
     explicit RandomBits(std::uint64_t seed) : state_(seed) {}

@@ -25,7 +25,7 @@ std::vector<NodeCorner> around(const Corners& corners) {
     return around;
 }
 
-/// How many connected parts the links of groups.h make.
+/// Number of connected parts formed by the links of groups.h.
 std::size_t countParts(const Corners& corners) {
     const auto count = static_cast<std::uint32_t>(corners.next.size());
     std::vector<std::uint32_t> left(count), right(count), part(count, kNone);

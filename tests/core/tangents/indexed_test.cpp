@@ -59,7 +59,7 @@ SimpleMesh square() {
     return mesh;
 }
 
-/// The same with u and v flowing the other way round.
+/// A square with mirrored u and v.
 SimpleMesh mirroredSquare() {
     SimpleMesh mesh = square();
     for (Vec2& uv : mesh.uvs) uv.x = -uv.x;

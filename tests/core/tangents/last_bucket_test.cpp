@@ -21,7 +21,7 @@ namespace tspace::mikk {
 namespace {
 
 using test::SimpleMesh;
-using Links = std::map<std::uint32_t, std::uint32_t>;  // of half-edges; kNone: without a neighbour
+using Links = std::map<std::uint32_t, std::uint32_t>;  // half-edge -> neighbor; kNone: none
 
 struct Welded {
     MeshView mesh;
@@ -52,7 +52,7 @@ struct Welded {
     }
 };
 
-/// The same by the reference's rules, one after the other, from a list of all edges.
+/// Finds the same links by the reference's rules, one after the other, from a list of all edges.
 class AllEdges {
   public:
     explicit AllEdges(Welded& welded) {

@@ -46,7 +46,7 @@ bool matches(const GoldenResult& want, const Outputs& got, std::size_t c) {
            sameBits(want.magnitude_t, got.magnitudes_t[c]);
 }
 
-/// How many corners differ from the golden results.
+/// Number of corners that differ from the golden results.
 std::size_t wrongCorners(const GoldenMesh& golden, const Outputs& outputs) {
     std::size_t wrong = 0;
     for (std::size_t c = 0; c < golden.results.size(); ++c) wrong += !matches(golden.results[c], outputs, c);

@@ -19,7 +19,7 @@ struct ExpectedFrame {
 inline DVec3 unitOf(const DVec3& v) { return (1 / length(v)) * v; }
 inline DVec3 across(const DVec3& n, const DVec3& v) { return v - dot(n, v) * n; }
 
-/// What one triangle at vertex 0 (its first corner) says.
+/// Equations of one triangle at vertex 0 (its first corner).
 struct RingTriangle {
     DVec3 e1, e2, e3;
     double u1, v1, u2, v2;
@@ -115,7 +115,7 @@ inline std::array<DVec3, 5> solveFit(const std::vector<EdgeEquation>& equations,
     return c;
 }
 
-/// What is left of l after coefficients [begin, end) are applied.
+/// Residual of l after coefficients [begin, end) are applied.
 inline double unexplained(const std::vector<EdgeEquation>& equations, const std::array<DVec3, 5>& c) {
     double sum = 0;
     for (const EdgeEquation& e : equations) {

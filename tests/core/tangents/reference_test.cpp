@@ -15,7 +15,7 @@ extern "C" tbool reference_genTangSpace(const SMikkTSpaceContext* context, float
 namespace tspace::test {
 namespace {
 
-/// What the callbacks of the reference see.
+/// Data for the callbacks of the reference.
 struct Call {
     const SimpleMesh& shape;
     Outputs& outputs;
@@ -68,7 +68,7 @@ long setting(const char* name, long otherwise) {
     return text != nullptr ? std::atol(text) : otherwise;
 }
 
-/// How many of `count` meshes give other bits than the reference.
+/// Number of the `count` meshes whose bits differ from the reference.
 long countDifferent(long first, long count, Pairing pairing) {
     long different = 0;
     for (long mesh = first; mesh < first + count; ++mesh) {

@@ -42,7 +42,7 @@ SimpleMesh rolledSheet(std::uint32_t side) {
     return shape;
 }
 
-/// The same faces, every third pair of triangles as a quad.
+/// Converts every third pair of triangles to a quad.
 SimpleMesh withQuads(const SimpleMesh& from) {
     SimpleMesh shape = from;
     shape.indices.clear();
@@ -85,7 +85,7 @@ SimpleMesh foldedSheet(std::uint32_t side, std::uint32_t fold) {
     return shape;
 }
 
-/// The same faces, rows of four triangles as hexagons; some go through one vertex twice.
+/// Converts rows of four triangles to hexagons; some visit one vertex twice.
 SimpleMesh withHexagons(const SimpleMesh& from) {
     SimpleMesh shape = from;
     shape.indices.clear();

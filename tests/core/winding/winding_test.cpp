@@ -121,7 +121,7 @@ void expectMended(const NamedBodies& sound, const Bodies& damaged, const char* d
     const Mended mended = mend(damaged.view());
     EXPECT_EQ(0u, mended.report.conflict_count_after) << sound.name << ", " << damage;
     EXPECT_GE(shareRight(sound.bodies, damaged, mended), 0.99) << sound.name << ", " << damage;
-    // What was mended is sound.
+    // The fixed part is sound.
     Bodies result = damaged;
     for (std::size_t f = 0; f < result.faceCount(); ++f) {
         if (mended.turned[f] != 0) result.turn(f);
@@ -213,7 +213,7 @@ TEST(MendWinding, TakesTheMajorityWhereNoSideIsInside) {
     EXPECT_EQ(1u, mended.report.by_majority_count);
     EXPECT_EQ(0u, mended.report.conflict_count_after);
     EXPECT_EQ(1, shareRight(terrain, damaged, mended));
-    // Nothing says that this one is inside out.
+    // Nothing determines that this one is inside out.
     EXPECT_EQ(0u, mend(turnedWhole(terrain, true).view()).report.turned_count);
 }
 
@@ -280,7 +280,7 @@ TEST(MendWinding, KeepsBothSidesOfASheet) {
         EXPECT_EQ(0u, report.turned_count) << shared;
         EXPECT_EQ(0u, report.conflict_count_after) << shared;
     }
-    // Nor is one copy of a double surface turned against the other.
+    // Copies of a double surface are not turned against each other either.
     Bodies twice;
     addTorus(twice, {}, 1, 0.4);
     addTorus(twice, {}, 1, 0.4);

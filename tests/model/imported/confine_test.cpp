@@ -20,7 +20,7 @@
 namespace tspace::test {
 namespace {
 
-/// What ends a child whose kernel has neither.
+/// Exit code of a child whose kernel has neither.
 constexpr int kHasNone = 77;
 
 /// Ends the process. Before _exit a sanitizer asks for the signal stack, which a confined process may not.

@@ -15,7 +15,7 @@ namespace tspace::test {
 struct Part {
     std::vector<DVec3> positions = {};
     std::vector<std::array<int, 3>> faces = {};
-    std::optional<DVec3> translation = {};  ///< of its node, in COLLADA and FBX
+    std::optional<DVec3> translation = {};  ///< translation of its node, in COLLADA and FBX
 };
 
 /// A sheet of `side` x `side` vertices, 0.15 apart, with its corner at `place`.
@@ -23,9 +23,9 @@ Part sheet(int side, const DVec3& place);
 
 enum class FarFormat { stlText, collada, fbxText };
 
-/// What differs from file to file.
+/// Properties that differ between the files.
 struct FileStyle {
-    int decimals = 4;           ///< of numbers in text
+    int decimals = 4;           ///< decimals of numbers in text
     const char* unit = "1";     ///< COLLADA, in meters
     bool has_matrices = false;  ///< COLLADA: translations as matrices
 };

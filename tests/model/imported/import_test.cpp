@@ -41,7 +41,7 @@ Result<GenerateReport> generate(const std::string& input, const std::string& out
 
 ErrorCode codeOf(const Result<GenerateReport>& report) { return report ? ErrorCode::ok : report.error().code; }
 
-/// What the library throws inside itself, as something that a test prints.
+/// Converts exceptions of the library to a form that a test prints.
 template <class Body>
 auto readable(Body&& body) {
     try {

@@ -35,7 +35,7 @@ std::string list(const std::vector<std::string>& values) {
 
 std::vector<std::string> times(const std::string& a, const std::string& b) { return {a, a, a, a, b, b, b, b}; }
 
-/// What the text of an FBX file has of frames.
+/// Frames in the text of an FBX file.
 struct Stored {
     std::string tangents = list(times("1,0,0", "-1,0,0"));
     std::string bitangents = list(times("0,1,0", "0,1,0"));

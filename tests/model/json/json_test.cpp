@@ -25,7 +25,7 @@ std::string randomText(bool any_bytes) {
     return text;
 }
 
-/// The same random value twice.
+/// Two copies of a random value.
 struct Twin {
     Json json;
     Oracle oracle;

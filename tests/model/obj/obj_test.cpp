@@ -23,9 +23,9 @@ using gltf::Json;
 constexpr const char* kQuad =
     "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
     "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n";
-/// As far as its size: two by one.
+/// Image data up to the size, which is two by one.
 const std::string kPng("\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\0\2\0\0\0\1 not really", 35);
-/// The same as JPEG.
+/// JPEG data up to the size.
 const std::string kJpeg("\xff\xd8\xff\xc0\0\x0b\x08\0\1\0\2\3 not really", 23);
 
 /// One pixel of a flat normal map: what map_bump names is decoded, to tell it from a height map.

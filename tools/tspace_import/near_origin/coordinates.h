@@ -47,10 +47,10 @@ class TextCoordinates : public FileCoordinates {
     };
 
     std::vector<char> text_;
-    std::vector<std::vector<Place>> places_ = {};  ///< of the values of each list
+    std::vector<std::vector<Place>> places_ = {};  ///< positions of the values of each list
 };
 
-/// Nothing where the reader finds none.
+/// Null if the reader finds none.
 using Coordinates = std::unique_ptr<FileCoordinates>;
 
 Coordinates readPly(std::vector<char> bytes);

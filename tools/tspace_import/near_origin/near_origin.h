@@ -13,7 +13,7 @@ namespace tspace::import {
 
 struct NearFile {
     std::vector<char> bytes = {};  ///< the file with other coordinates
-    DVec3 offset = {};             ///< what was taken out of those that are nearer to it than to the origin
+    DVec3 offset = {};             ///< offset subtracted from coordinates that are nearer to it than to the origin
 };
 
 /// Whether nearOrigin reads such files: PLY and STL.

@@ -18,7 +18,7 @@ enum class Format { ascii, little, big };
 
 struct Header {
     Format format = Format::ascii;
-    std::size_t end = 0;  ///< of the header, in bytes
+    std::size_t end = 0;  ///< size of the header, in bytes
     std::size_t vertex_count = 0;
     std::array<std::size_t, 3> places =
         {};                       ///< positions of x, y and z in a vertex: number of values, or bytes, before them
@@ -34,7 +34,7 @@ std::size_t sizeOfType(const std::string& type) {
     return found == sizes.end() ? 0 : found->second;
 }
 
-/// Of the element that comes first, which must be the vertices.
+/// Reads a property of the first element, which must be the vertices.
 bool addProperty(std::istringstream& words, unsigned& axes, Header& header) {
     std::string type, name;
     words >> type >> name;

@@ -88,7 +88,7 @@ DVec3 plainNormal(const ShownSurface& surface, const Affine& to_world, const Sur
     return worldNormal(to_world, normal, point.is_back);
 }
 
-/// As viewers of glTF do it, tangents are unit at the vertices: relief does not grow with their length.
+/// Like viewers of glTF, normalizes tangents at the vertices: relief does not grow with their length.
 std::array<Vec4, 3> unitTangents(const CornerValues<Vec4>& tangents, const ShownTriangle& triangle) {
     std::array<Vec4, 3> values = valuesAt(tangents, triangle);
     for (Vec4& value : values) {
@@ -273,7 +273,7 @@ Vec3 shadePoint(RenderShow show, const ShownSurface& surface, const Affine& to_w
 
 namespace {
 
-/// What is seen at one sample.
+/// Surface seen at one sample.
 struct SeenSample {
     const ShownSurface* surface = nullptr;  ///< null: nothing
     SurfacePoint point = {};

@@ -65,7 +65,7 @@ struct PlacedTexture {
     std::span<const Vec2> uvs = {};         ///< one per vertex, after any transform
 };
 
-/// What a texture that has an image shows at a point of the triangle of these vertices.
+/// Samples a texture with an image at a point of the triangle of these vertices.
 Vec3 sampleAt(const PlacedTexture& texture, const std::array<std::uint32_t, 3>& vertices,
               const std::array<double, 3>& weights);
 
@@ -77,7 +77,7 @@ struct ShownSurface {
     std::span<const std::uint32_t> corners = {};
     CornerValues<Vec3> normals = {};
     CornerValues<Vec4> tangents = {};                ///< empty: none
-    CornerValues<Vec4> expected = {};                ///< those that `error` compares with; empty: none
+    CornerValues<Vec4> expected = {};                ///< tangents that `error` compares with; empty: none
     CornerValues<Vec3> expected_normals = {};        ///< likewise; empty: `normals`, which are not compared then
     std::span<const UvSide> sides = {};              ///< one per triangle; empty: all unknown
     std::span<const std::uint32_t> islands = {};     ///< one per triangle, for `uv`
@@ -87,7 +87,7 @@ struct ShownSurface {
     MapReading reading = {};
     float alpha_cutoff = 0;
     bool is_unlit = false;
-    std::span<const Vec4> colors = {};  ///< of vertices, linear; empty: none
+    std::span<const Vec4> colors = {};  ///< vertex colors, linear; empty: none
 };
 
 struct Lighting {
@@ -133,7 +133,7 @@ struct ErrorStatistics {
 
 struct SurfacePicture {
     RgbImage image = {};
-    ErrorStatistics errors = {};  ///< of RenderShow::error
+    ErrorStatistics errors = {};  ///< statistics of RenderShow::error
 };
 
 /// `surfaces`: one per mesh. `camera`: of width * samples by height * samples. Throws FileError where `effort` ends. The same

@@ -130,7 +130,7 @@ std::int64_t advanceOf(const LegendEntry& entry) {
     return (entry.color ? kLetterRows + 3 : 0) + text + kGap;
 }
 
-/// Where entries stand, in dots from the left and in lines; as many as fit in a line.
+/// Positions of the entries, in dots from the left and in lines; as many as fit in a line.
 struct Layout {
     std::vector<std::pair<std::int64_t, std::int64_t>> places = {};
     std::int64_t line_count = 0;

@@ -26,15 +26,15 @@ struct Legend {
     std::vector<LegendEntry> entries = {};
 };
 
-/// Where the tangents of a picture come from.
+/// Sources of the tangents in a picture.
 struct TangentSources {
     bool stored = false, computed = false;
-    bool missing = false;    ///< of some surfaces
+    bool missing = false;    ///< some surfaces have no tangents
     bool has_map = false;    ///< some surface has a normal map
-    bool has_other = false;  ///< what `error` compares with is another model
+    bool has_other = false;  ///< `error` compares with another model
 };
 
-/// Of all views but `both`.
+/// Legend of all views except `both`.
 Legend legendOf(RenderShow show, const TangentSources& sources, Method method);
 Legend legendOfBoth(const TangentSources& left, const TangentSources& right, Method method);
 

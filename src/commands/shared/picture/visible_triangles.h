@@ -16,7 +16,7 @@ namespace tspace {
 
 // From places in the world to samples of a picture.
 
-/// Where a camera stands: yaw 0 and pitch 0 look from +z, yaw 90 from +x, pitch 90 from +y.
+/// Position of the camera: yaw 0 and pitch 0 look from +z, yaw 90 from +x, pitch 90 from +y.
 struct ViewAngles {
     double yaw_deg = 0, pitch_deg = 0;
 };
@@ -70,8 +70,8 @@ struct DrawnMesh {
     std::function<bool(std::size_t triangle, const std::array<double, 3>& weights)> is_there = {};
 };
 
-/// How much work a picture may take; one step takes some nanoseconds. Hostile models have no end of triangles, each as
-/// large as the picture. Throws FileError (tooLarge) where it runs out.
+/// Work limit of a picture; one step takes some nanoseconds. Hostile models have endless triangles, each as large as the
+/// picture. Throws FileError (tooLarge) at the limit.
 class Effort {
   public:
     explicit Effort(std::uint64_t steps) : left_(steps) {}
@@ -127,7 +127,7 @@ class VisibleTriangles {
     struct Job {
         const DrawnMesh& mesh;
         const SeenTriangle& seen;
-        DVec3 plane;  ///< of its nearness
+        DVec3 plane;  ///< plane equation of its depth
         std::size_t triangle = 0;
         std::uint32_t number = 0;
     };

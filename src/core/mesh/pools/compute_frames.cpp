@@ -269,7 +269,7 @@ class FrameComputer {
         return frames;
     }
 
-    /// Nothing is split, and the base's tangents are only compared.
+    /// Keeps all vertices and only compares the tangents of the base.
     Result<PoolFrames> keepPool() {
         PoolFrames frames;
         frames.differing_count = countDiffering(tangents(), pool_.kept_tangents, corners_);

@@ -164,7 +164,7 @@ Result<NormalReport> BorderedNormals::pose(const StridedSpan<const Vec3>& positi
     return report;
 }
 
-/// Which normals that stay are taken at which corners.
+/// Chooses which existing normals are used at which corners.
 void BorderedNormals::choose(std::span<const Vec3> normals) {
     if (around_->mesh.normals.empty()) return;
     Parallel parallel(execution_, whole_.indices.size());

@@ -25,7 +25,7 @@ struct LocalMesh {
     std::span<const std::uint32_t> indices;
     std::span<const std::uint32_t> face_sizes;
 
-    OwnedMesh own;  ///< what of it is not the pool's
+    OwnedMesh own;  ///< arrays that are not borrowed from the pool
     /// The vertex of the pool that each vertex was when the mesh was made; empty: the same.
     std::vector<std::uint32_t> sources;
     /// For quads that were paired from triangles: the face corner of each corner of the triangles. Empty: faces are the
@@ -104,7 +104,7 @@ std::vector<T> gather(std::span<const T> values, const std::vector<std::uint32_t
     return gather(StridedSpan<const T>(values), sources);
 }
 
-/// The normals of corners; any, where no corner uses the vertex.
+/// One normal per vertex, from any of its corners; unused vertices get an arbitrary one.
 std::vector<Vec3> gatherNormals(const std::vector<Vec3>& normals, const std::vector<std::uint32_t>& corners);
 
 // Normals of a primitive that is one surface with others: their triangles at the border count too.
@@ -112,9 +112,9 @@ std::vector<Vec3> gatherNormals(const std::vector<Vec3>& normals, const std::vec
 /// Triangles of other primitives around one. They get no normals here.
 struct Surroundings {
     OwnedMesh mesh = {};  ///< its normals are those that stay, zero where there is none; it may have none at all
-    std::size_t triangles_before = 0;  ///< of them, those whose primitive is before this one in the file
+    std::size_t triangles_before = 0;  ///< triangles of primitives that precede this one in the file
     std::uint64_t point_count = 0;     ///< positions that the primitive shares with the others
-    /// As MorphTargets::read, for these vertices; no function: targets do not move them.
+    /// Like MorphTargets::read, for these vertices; no function if targets do not move them.
     std::function<Result<MorphOffsets>(std::size_t)> read = {};
 };
 
@@ -141,7 +141,7 @@ class BorderedNormals {
     const NormalOptions& options_;
     const Execution& execution_;
     OwnedMesh whole_ = {};          ///< the vertices of the mesh, then those around it; empty: nothing is around it
-    std::size_t first_corner_ = 0;  ///< of the mesh
+    std::size_t first_corner_ = 0;  ///< number of the first corner in the mesh
     std::vector<std::uint32_t> stays_ = {};  ///< per corner of the mesh: the vertex around it whose normal it takes
     std::uint64_t degenerate_around_ = 0;
 };

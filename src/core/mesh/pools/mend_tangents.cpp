@@ -57,7 +57,7 @@ Vec4 mendedAlone(const Vec4& kept, const Vec4& computed, const Vec3& normal, std
     return tangent;
 }
 
-constexpr double kUnitTolerance = 5e-4;  // that of sanitize
+constexpr double kUnitTolerance = 5e-4;  // same tolerance as in sanitize
 constexpr double kOffPlane = 0.05;       // sine; normals of few bits are not unit, and tangents lean by a degree there
 constexpr double kSameDirection = 0.99;  // cosine of 8 degrees
 // Least triple product: UVs that are sheared by 89.9 degrees have 0.0017.

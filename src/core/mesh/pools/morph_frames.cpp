@@ -81,7 +81,7 @@ bool move(const StridedSpan<const Vec3>& values, const LocalMesh& mesh, const st
     return moves;
 }
 
-/// By bits, so that a NaN is itself; both zeros are one value.
+/// Compares bit by bit, so that a NaN equals itself; both zeros are equal.
 bool areOne(const Vec3& a, const Vec3& b) {
     return weldBits(a.x) == weldBits(b.x) && weldBits(a.y) == weldBits(b.y) && weldBits(a.z) == weldBits(b.z);
 }
@@ -354,7 +354,7 @@ std::vector<VertexOffsets> MorphSplit::finish() {
 VertexOffsets spread(const VertexOffsets& offsets, std::span<const std::uint32_t> sources, std::size_t old_count) {
     VertexOffsets result = offsets;
     if (offsets.vertices.empty() || old_count == sources.size()) return result;
-    std::vector<std::uint32_t> places(sources.size(), 0);  // by vertex; 1 is the first place, 0 none
+    std::vector<std::uint32_t> places(sources.size(), 0);  // place of each vertex, counted from 1; 0: none
     for (std::size_t i = 0; i < offsets.vertices.size(); ++i) {
         places[offsets.vertices[i]] = static_cast<std::uint32_t>(i + 1);
     }

@@ -37,7 +37,7 @@ class MorphSplit {
   private:
     struct Target {
         VertexOffsets offsets = {};
-        std::size_t vertex_count = 0;  ///< how many there were
+        std::size_t vertex_count = 0;  ///< number of vertices before splitting
     };
     [[nodiscard]] bool agree(std::span<const Vec3> offsets, float tolerance) const;
     Result<Done> refine(std::span<const Vec3> offsets, float tolerance, const Execution& execution);
@@ -92,7 +92,7 @@ Vec3 offsetBetween(const Vec3& from, const Vec3& to);
 
 /// For repair: corners whose offsets stay those of the file, in targets that have offsets.
 struct KeptOffsets {
-    std::span<const std::uint32_t> vertices = {};  ///< of the pool, one per corner
+    std::span<const std::uint32_t> vertices = {};  ///< vertex of the pool for each corner
     const std::vector<bool>& is_new;               ///< one per corner
 };
 
@@ -143,7 +143,7 @@ std::uint64_t countDiffering(std::span<const Vec4> computed, std::span<const Vec
 struct PoolWithNormals {
     OwnedMesh vertices = {};
     MorphTargets targets = {};  ///< they read those of the pool it was made from, which must outlive it
-    std::vector<PrimitiveGeometry> primitives = {};   ///< the same corners
+    std::vector<PrimitiveGeometry> primitives = {};   ///< primitives with the same corners
     std::vector<std::uint32_t> source_vertices = {};  ///< new vertex -> old vertex, identity first
     std::vector<VertexOffsets> offsets = {};  ///< one per target: what it adds to the normals of the new vertices
 };

@@ -125,8 +125,8 @@ class PoolNormals {
     std::vector<NormalOptions> options_of_ = {};
     std::vector<BorderedNormals> makers_ = {};
     std::vector<std::uint32_t> indices_ = {};  ///< corners of all primitives
-    std::vector<Vec3> normals_ = {};           ///< of the base, one per corner
-    std::vector<Vec3> written_ = {};           ///< the same as in the file; where nothing moves, offsets are 0
+    std::vector<Vec3> normals_ = {};           ///< normals of the base, one per corner
+    std::vector<Vec3> written_ = {};  ///< normals of the base as stored in the file; if nothing moves, offsets are 0
     MorphPose pose_ = {};
 };
 

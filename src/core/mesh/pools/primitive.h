@@ -38,7 +38,7 @@ inline constexpr std::uint8_t kDeltas = 32;  ///< offsets of morph targets are c
 }  // namespace mend
 
 struct VertexMend {
-    std::uint32_t vertex = 0;  ///< of the pool
+    std::uint32_t vertex = 0;  ///< vertex of the pool
     std::uint8_t parts = 0;    ///< bits of namespace mend, not 0
 
     friend bool operator==(const VertexMend&, const VertexMend&) = default;
@@ -59,7 +59,7 @@ struct Mends {
 /// attribute.
 struct MorphOffsets {
     std::vector<Vec3> positions = {};
-    std::vector<Vec3> tangents = {};  ///< what the file has; looked at only where tangents are mended
+    std::vector<Vec3> tangents = {};  ///< tangents of the file; read only if tangents are repaired
     std::vector<Vec3> normals = {};   ///< added, then the sum is made unit; not looked at where normals are generated
 };
 
@@ -141,8 +141,8 @@ struct PoolView {
     StridedSpan<const Vec2> uvs = {};      ///< the set that the tangents follow; empty: none
     UvMatrix uv_matrix = {};               ///< the tangents follow uv_matrix * uvs
     MorphTargets targets = {};
-    /// Not empty: these tangents stay and no vertex is split. Only what morph targets add to them is computed; there
-    /// must be normals.
+    /// Not empty: these tangents are kept and no vertex is split. Only tangent deltas of morph targets are computed; normals
+    /// are required.
     std::span<const Vec4> kept_tangents = {};
     /// Old values of tangents that are computed anew, one per vertex, or empty: they may tell on which faces they were
     /// made.

@@ -53,7 +53,7 @@ std::uint8_t seamOf(const MeshView& mesh, const SameVertex& same, const Corners&
     for (unsigned i = 0; i < 3; ++i) {
         for (unsigned k = 0; k < 3; ++k) {
             if (!same(a[i], b[(k + 1) % 3]) || !same(a[(i + 1) % 3], b[k])) continue;
-            if (seam != 0) return 0;  // the same triangle from both sides, or one without area
+            if (seam != 0) return 0;  // both triangles have the same corners, or one has no area
             seam = static_cast<std::uint8_t>(1 + 3 * i + k);
         }
     }
@@ -179,11 +179,11 @@ namespace {
 /// The part of the corners left unexplained by triangles that quads must explain to win. Chosen pairs explain up to 6 %
 /// of them in meshes of other makers, and over 70 % where the quads are the real ones.
 constexpr double kExplainedPart = 0.4;
-/// And this share of all corners.
+/// Minimum share of all corners.
 constexpr double kExplainedShare = 0.01;
 /// Faces that explain less than half of the corners are not those that the tangents were made on.
 constexpr double kMakerShare = 0.5;
-/// Where the first two choices of pairs explain less than this share, no other will explain half.
+/// If the first two pairings explain less than this share, no other pairing will explain half.
 constexpr double kHopelessShare = 0.25;
 
 /// The corners that a pair explains depend on its neighbours, so pairs are chosen again while that explains more.
@@ -193,7 +193,7 @@ double shareOf(std::uint64_t count, std::uint64_t total) {
     return total == 0 ? 0 : static_cast<double>(count) / static_cast<double>(total);
 }
 
-/// How far each stored tangent is from the computed one, in degrees.
+/// Returns the angle between each stored tangent and the computed one, in degrees.
 std::vector<float> distances(const MeshView& triangles, std::span<const Vec4> stored, std::span<const Vec4> computed) {
     std::vector<float> degrees(computed.size(), 180);
     for (std::size_t c = 0; c < computed.size(); ++c) {

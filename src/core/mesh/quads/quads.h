@@ -15,7 +15,7 @@ namespace tspace {
 // Quads out of a list of triangles. Exporters cut a polygon into triangles that follow each other in the list, so a
 // quad can only be triangle t with triangle t + 1, across an edge that both have. Knows topology and shape, no tangents.
 
-/// Which triangles can be one quad with the next. Linear in the triangles; one byte for each.
+/// Finds triangles that can form a quad with the next one. Linear in the triangles; one byte per triangle.
 class QuadCandidates {
   public:
     /// Triangles t and t + 1 can be a quad when they share one edge, in opposite directions, and do not fold back on
@@ -32,7 +32,7 @@ class QuadCandidates {
     /// The quad of triangles t and t + 1: four corners of the triangle list, in the triangles' winding. The first and
     /// the third are the ends of the edge between the two; turned: the second and the fourth.
     void cornersOf(std::size_t t, bool is_turned, std::uint32_t quad[4]) const;
-    /// Which edge of t is which of t + 1: 0 to 8.
+    /// Pattern of the shared edge: combination of an edge of t and an edge of t + 1, 0 to 8.
     [[nodiscard]] unsigned patternOf(std::size_t t) const { return seams_[t] - 1u; }
 
   private:
@@ -46,7 +46,7 @@ class QuadCandidates {
 enum class PairKind : std::uint8_t {
     none = 0,    ///< a triangle, or the second of a quad
     quad = 1,    ///< one quad with triangle t + 1
-    turned = 2,  ///< the same, begun one corner later
+    turned = 2,  ///< one quad with triangle t + 1, starting one corner later
 };
 using QuadPairs = std::vector<PairKind>;
 
@@ -83,9 +83,9 @@ bool quadsWin(std::uint64_t corner_count, std::uint64_t near_on_triangles, std::
 
 struct QuadFit {
     QuadFaces faces = {};
-    std::vector<Vec4> tangents = {};  ///< what mikktspace gives on the faces: one per corner of the triangle list
+    std::vector<Vec4> tangents = {};  ///< mikktspace tangents on the faces, one per corner of the triangle list
     std::uint64_t corner_count = 0;   ///< corners that vote
-    std::uint64_t near_on_triangles = 0, near_on_quads = 0;  ///< those whose tangent is explained
+    std::uint64_t near_on_triangles = 0, near_on_quads = 0;  ///< corners whose tangent is explained
 
     [[nodiscard]] bool wins() const { return quadsWin(corner_count, near_on_triangles, near_on_quads); }
 };

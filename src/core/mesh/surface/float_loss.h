@@ -15,10 +15,10 @@ namespace tspace {
 /// times. Ends that are not finite are passed over.
 using VisitEdges = std::function<void(const std::function<void(const DVec3& from, const DVec3& to)>&)>;
 
-/// How many edges rounding changes, by more than a thousandth of their length along an axis: where many do, normals are
-/// off by a tenth of a degree and more.
+/// Counts the edges that rounding changes by more than a thousandth of their length along an axis. If many change, normals are
+/// off by a tenth of a degree or more.
 struct FloatLoss {
-    std::uint64_t edge_count = 0;  ///< those that have a length
+    std::uint64_t edge_count = 0;  ///< edges with a length above 0
     std::uint64_t changed_count = 0;
     std::array<std::uint64_t, 3> changed_along = {};  ///< x, y, z
 

@@ -47,7 +47,7 @@ double commonStep(std::vector<double>& distances, double slack, double least) {
 /// there is none, or it is next to that rounding. `axis`: 0 to 2. far: the largest size of a value. Linear.
 double latticeStep(StridedSpan<const Vec3> positions, std::size_t axis, double far) {
     constexpr std::size_t kFew = 256, kMostTries = 16;
-    constexpr double kSlack = 4, kLeast = 32;  // of the distance between floats
+    constexpr double kSlack = 4, kLeast = 32;  // in float spacings
     if (positions.count == 0 || far == 0) return 0;
     const double ulp = std::ldexp(1.0, std::ilogb(far) - 23), first = valueAt(positions[0], axis);
     std::vector<double> few;

@@ -137,7 +137,7 @@ constexpr double kCollapsed = 1e-4;
 /// Cosine of 150 degrees. A triangle that turns further nearly collapses on the way there, since vertices move along lines,
 /// and may have been flipped: then no sum of a base and an offset is its normal at all weights.
 constexpr double kFlipped = -0.86602540378443865;
-/// Beside the square of the longest edge: what rounding leaves of a triangle without area.
+/// Area / longest edge^2 below which the area is rounding noise.
 constexpr double kThin = 1e-6;
 
 struct Fan {
@@ -202,7 +202,7 @@ std::vector<VertexTurn> SurfaceTurns::under(std::span<const Vec3> offsets) const
         fan_of[v] = keys.indexOf({class_of_[v], weldBits(offset.x), weldBits(offset.y), weldBits(offset.z)});
     }
     std::vector<Fan> fans(keys.size());
-    std::vector<std::array<Vec3, 2>> normals;  // of each triangle, before and after
+    std::vector<std::array<Vec3, 2>> normals;  // normals of each triangle, before and after
     for (std::size_t c = 0; c + 2 < corners_.size(); c += 3) {
         const auto old = [&](std::size_t k) { return toDouble(positions_[corners_[c + k]]); };
         const auto moved = [&](std::size_t k) { return old(k) + toDouble(offsets[corners_[c + k]]); };

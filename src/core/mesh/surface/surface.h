@@ -27,9 +27,9 @@ struct TangentView {
     std::span<const Vec3> positions = {};
     std::span<const Vec3> normals = {};           ///< may be empty only where a function says so
     std::span<const Vec4> tangents = {};          ///< w: the sign
-    std::span<const Vec2> uvs = {};               ///< those that the texture is read with (after its transform)
+    std::span<const Vec2> uvs = {};               ///< UVs that the texture uses, after its transform
     std::span<const std::uint32_t> corners = {};  ///< three per triangle, all smaller than positions.size()
-    double position_step = 0;  ///< of positions stored as whole numbers, in their units; 0: they are floats
+    double position_step = 0;  ///< quantization step of positions stored as integers, in their units; 0: floats
 
     /// Its triangles, as the core takes them.
     [[nodiscard]] MeshView triangles() const {
@@ -42,7 +42,7 @@ struct TangentView {
     }
 };
 
-/// Of triangles that have indices, or of their vertices alone.
+/// Makes a view of triangles with indices, or of unindexed vertices.
 inline TangentView tangentView(const OwnedMesh& mesh) {
     return {.positions = mesh.positions,
             .normals = mesh.normals,
@@ -56,7 +56,7 @@ inline TangentView tangentView(const OwnedMesh& mesh) {
 /// A tangent within 5 degrees of N or of its opposite makes no frame: cross(N, T) is next to nothing, and a shader that
 /// normalises it gets NaN, or a direction by chance.
 inline constexpr double kParallelDeg = 5;
-inline constexpr double kParallelCosine = 0.99619469809174555;  ///< of kParallelDeg
+inline constexpr double kParallelCosine = 0.99619469809174555;  ///< cosine of kParallelDeg
 
 /// Finite, with a length, and not along N. A normal without a direction is not looked at.
 inline bool hasDirection(const Vec4& tangent, const Vec3& normal) {
@@ -71,8 +71,8 @@ inline bool hasSoundValues(const Vec4& tangent) {
            (tangent.w == 1 || tangent.w == -1);
 }
 
-// How far stored positions are from those that were meant: floats far from the origin have coarse steps, and positions may
-// have been rounded to decimals before.
+// Distance of stored positions from the intended ones: floats far from the origin have coarse steps, and positions may have
+// been rounded to decimals before.
 
 struct PositionRounding {
     double step = 0;          ///< between neighbouring numbers, along the coarsest axis; 0: nothing to speak of
@@ -93,11 +93,11 @@ PositionRounding roundingOf(StridedSpan<const Vec3> positions, StridedSpan<const
 /// Triangles that rounding turns.
 struct TurnedTriangles {
     std::uint64_t count = 0, total = 0;
-    double share = 0;  ///< of the surface: those that are turned by more than the limit
+    double share = 0;  ///< share of the surface in triangles rotated by more than the limit
     double worst_deg = 0;
     std::uint32_t first = 0;  ///< a corner of the first
 };
-/// By how much rounding turns the plane of each triangle, in the mean square. Linear.
+/// Returns how much rounding rotates the plane of each triangle (root mean square). Linear.
 TurnedTriangles turnedBy(const PositionRounding& rounding, StridedSpan<const Vec3> positions,
                          std::span<const std::uint32_t> corners, double limit_deg);
 
@@ -121,9 +121,9 @@ struct SurfaceFrame {
 struct Surface {
     std::vector<SurfaceFrame> faces = {};   ///< one per triangle
     std::vector<double> vertex_areas = {};  ///< a third of each triangle around the vertex
-    std::vector<double> known_areas = {};   ///< the same of triangles that have an orientation
+    std::vector<double> known_areas = {};   ///< area per vertex of the triangles that have an orientation
     double area = 0;
-    double known_area = 0;  ///< of triangles that have an orientation
+    double known_area = 0;  ///< area of the triangles that have an orientation
     PositionRounding rounding = {};
 };
 
@@ -138,7 +138,7 @@ SurfaceFrame describeFace(const std::array<Vec3, 3>& positions, const std::array
 /// have no area. Linear.
 Surface describeSurface(const TangentView& mesh);
 
-// Which triangles say by their UVs where a tangent points.
+// Finds triangles whose UVs determine a tangent direction.
 
 /// One byte per triangle: 1 where its UVs have an orientation; 0 where they have no area, or so little that rounding
 /// decides, or where the triangle itself has none. Normals are not looked at. Linear.
@@ -190,7 +190,8 @@ class SurfaceTurns {
     std::vector<std::uint32_t> class_of_ = {};
 };
 
-// Which pieces of a mesh are one surface: files cut one at the border of two materials, and each piece has its own vertices.
+// Finds pieces of a mesh that form one surface: files split a mesh at the border of two materials, and each piece has its own
+// vertices.
 
 struct SurfacePiece {
     std::size_t vertices = 0;                     ///< number of the list that its corners point into
@@ -256,8 +257,8 @@ class JoinedPieces {
     }
 
     std::span<const SurfacePiece> pieces_;
-    std::vector<std::size_t> first_vertex_ = {};  ///< of each list
-    std::vector<std::uint32_t> points_ = {};      ///< of the vertices of all lists
+    std::vector<std::size_t> first_vertex_ = {};  ///< first vertex of each list
+    std::vector<std::uint32_t> points_ = {};      ///< points of the vertices of all lists
     std::vector<bool> is_shared_ = {};            ///< points that several pieces have
     std::vector<std::uint32_t> group_ = {};
     std::vector<std::vector<std::uint32_t>> groups_ = {};

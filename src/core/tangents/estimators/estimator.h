@@ -24,7 +24,7 @@ struct VertexSource : VertexArrays {
 
 inline constexpr std::size_t kBlockTriangles = 32;  ///< its rows stay in the first cache
 inline constexpr std::size_t kLaneGroup = 16;       ///< kernels work on whole groups of so many lanes
-inline constexpr std::size_t kStepRows = 2;         ///< the same, of a step
+inline constexpr std::size_t kStepRows = 2;         ///< rows of four floats of a step
 /// Floats of a group that a step reads: dP/du and the robust mean's share, dP/dv and 0. Zeros: the group takes no part.
 inline constexpr std::size_t kStepFloats = 8;
 
@@ -41,8 +41,8 @@ struct Estimator {
     /// T.z, |dP/du|}, {B.x, B.y, B.z, |dP/dv|}. A direction that no triangle gives is zero, and never is anything not finite. With
     /// two rows, there are tangents only.
     void (*finish)(float* sums, const float* normals, std::size_t count) = nullptr;
-    /// As `add`, for a step; null where a method has none. groups: three per triangle; `from` has kStepFloats for each
-    /// group that is named.
+    /// Like `add`, for a step; null if the method has none. groups: three per triangle; `from` has kStepFloats for each named
+    /// group.
     void (*add_step)(const VertexSource& source, const std::uint32_t* vertices, const std::uint32_t* groups,
                      const float* from, std::size_t count, float* rows) = nullptr;
     /// from: kStepFloats per group. Where the first row becomes zero, the group stays as it is.

@@ -14,7 +14,7 @@ namespace tspace::estimators {
 struct GroupRest {
     float t[4] = {0, 0, 0, 0};  ///< bitangent, |dP/du|
     float length_t = 0;         ///< |dP/dv|
-    float weight = 0;           ///< of a sum
+    float weight = 0;           ///< weight of a sum
 };
 
 /// Output for `count` groups: three floats at tangents + g * tangent_stride for group g, bitangent and lengths in

@@ -41,7 +41,7 @@ constexpr float kLongestArc = 2.0f;  // an edge that climbs more than 60 degrees
 constexpr float kSmallestDeterminant = 1e-6f;
 constexpr float kLeftWeight = 2.0f;  // the 2 before left: found by trying values (docs/evidence/accuracy.md)
 
-/// How much longer than the edge `e` the arc is between ends with these normals; the same from either end.
+/// Excess length of the arc over the edge `e`, given the normals at its ends; symmetric in the ends.
 inline Floats arcLengthOf(Vectors a, Vectors b, Vectors e, Floats square) {
     const Floats turn = dot(b, e) - dot(a, e);
     return broadcast(1.0f) + quotient(turn * turn, square) * broadcast(1.0f / 24);
@@ -227,7 +227,7 @@ struct Reduced {
     Floats i0, i1, i2;  ///< M^-1
     Flat linear[2];     ///< M^-1 R: J of a fit without quadratic part
     Floats s[6];        ///< Q - C^T M^-1 C
-    Floats ridge;       ///< what k is multiplied with, on the diagonal of s, and twice that in its middle
+    Floats ridge;       ///< factor of k on the diagonal of s; twice that in its middle
     Flat p[3];          ///< P - C^T M^-1 R
 
     explicit Reduced(const Fit& f) {
@@ -264,7 +264,7 @@ struct Solution {
     }
 };
 
-/// How far the quadratic part is not to be trusted.
+/// Doubt about the quadratic part.
 struct Doubt {
     Floats shape;     ///< because it is large, or explains little
     Floats rounding;  ///< because it is so small that it may be rounding
@@ -428,7 +428,7 @@ void finishEdgeStep(float* sums, const float* normals, const float* from, std::s
         const Flat u = plane.flatten(ju), v = plane.flatten(jv), du = s * a0, dv = t * a1;
         const Floats turn = dot(du, du) / dot(u, u) + dot(dv, dv) / dot(v, v);
         const Floats doubt = broadcast(kLeftWeight) * (left / explained);
-        // Not a number where there is nothing to explain.
+        // NaN if there is nothing to explain.
         const Floats f = half * (one - m) / ((one + doubt * doubt) * (one + turn));
         const Flat new_u = u + f * du, new_v = v + f * dv;
         const Vectors x = unit(plane.raise(unit(new_u))), y = unit(plane.raise(unit(new_v)));

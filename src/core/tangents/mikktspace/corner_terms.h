@@ -28,7 +28,7 @@ struct CornerSource : VertexArrays {
     bool adding_only = false;
 };
 
-inline constexpr std::size_t kTermTriangles = 64;  ///< of one block, whose arrays stay in the first cache
+inline constexpr std::size_t kTermTriangles = 64;  ///< triangles per block, whose arrays fit in the first-level cache
 inline constexpr std::size_t kTermCorners = 3 * kTermTriangles;
 inline constexpr std::size_t kTermGroup = 16;  ///< triangles that a kernel reads at once at most
 

@@ -41,7 +41,7 @@ struct EvaluationPlan {
     std::size_t vertex_count = 0;
     std::size_t corner_count = 0;
     std::size_t triangle_count = 0;
-    std::uint32_t group_count = 0;  ///< those that split are counted, but no half-edge names them
+    std::uint32_t group_count = 0;  ///< split groups are counted, but no half-edge refers to them
 
     /// One per half-edge: the vertex whose data stand for its corner. A plan that is kept has the corner's own vertex,
     /// because vertices that are equal on the mesh may come apart in a pose. Some more valid vertices follow at the end, so
@@ -62,11 +62,11 @@ struct EvaluationPlan {
     Buffer<std::uint64_t> split_rows;  ///< bit b of row a: member b counts for member a
     std::uint32_t largest_split = 0;
 
-    Buffer<Conflict> conflicts;             ///< by corner, then in the order in which the reference writes them
+    Buffer<Conflict> conflicts;  ///< conflicts by corner, then in the order in which the reference writes them
     Buffer<std::uint32_t> default_corners;  ///< corners that no group reaches
     Buffer<std::uint32_t> skipped_corners;  ///< corners of faces that are ignored: all outputs are 0
     Buffer<Copy> copies;                    ///< corners of degenerate triangles
-    TangentReport report;                   ///< what can be counted without a pose
+    TangentReport report;                   ///< counts that need no pose
 
     [[nodiscard]] std::uint32_t slotOf(std::uint32_t half_edge) const {
         if (!slots.empty()) return slots[half_edge];
@@ -259,7 +259,7 @@ inline bool wantsOnlyTangents(const EvaluationPlan& plan, const TangentOutput& o
 
 /// Memory for the sums or estimates of a plan's groups.
 GroupSums roomForSums(const EvaluationPlan& plan, bool tangents_only, const Allocator* allocator);
-/// That memory as estimators write to it.
+/// Returns that memory in the form that estimators write to.
 estimators::GroupEstimates estimatesIn(GroupSums& sums);
 
 }  // namespace tspace::mikk

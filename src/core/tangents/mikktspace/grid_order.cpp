@@ -182,7 +182,7 @@ struct GridOrder {
     bool findIn(const Box& box, bool if_listed, Buffer<std::uint32_t>& found) {
         const int axis = box.longestAxis();
         const Float4 low = splat(box.low[axis]), high = splat(box.high[axis]);
-        // As the float-to-int conversion of x86: values that do not fit become the smallest int, which lands in cell 0.
+        // Like the float-to-int conversion of x86: values that do not fit become the smallest int, which maps to cell 0.
         const auto cellsOf = [=](Float4 x) {
             const Float4 q = splat(kCells) * ((x - low) / (high - low));
             const Float4 fitting = select4(q < splat(2147483648.0f), max4(q, Float4{}), Float4{});

@@ -191,7 +191,7 @@ class BucketFinder {
         return least;
     }
 
-    /// Where the last `length` triangles begin, or a few earlier, so that no face is cut in two.
+    /// Start of the last `length` triangles, or a few earlier, so that no face is cut in two.
     [[nodiscard]] std::size_t beginOfLast(std::size_t length) const {
         std::size_t begin = length < in_.triangles.count ? in_.triangles.count - length : 0;
         while (begin > 0 && in_.triangles.face(begin) == in_.triangles.face(begin - 1)) --begin;

@@ -53,7 +53,7 @@ class FanRoom {
 
   private:
     ManyPaths* places_;
-    std::uint32_t used_ = 0;  // how many were ever taken
+    std::uint32_t used_ = 0;  // number of entries ever taken
     std::uint32_t free_ = 0;  // head of the list of those given back, linked through paths[0].leaves
 };
 

@@ -193,7 +193,7 @@ class Welding {
         for (std::ptrdiff_t i = 1; i < count; ++i) box.add(entries[i].position);
         const int axis = box.longestAxis();
         const float low = component(box.low, axis), high = component(box.high, axis), center = 0.5f * (high + low);
-        if (!std::isfinite(center)) return;  // nothing in this range is welded
+        if (!std::isfinite(center)) return;  // nothing in this range can be welded
         if (!(center < high && center > low)) return weldEqual(entries, count);
         const auto isLeft = [&](std::ptrdiff_t i) { return component(entries[i].position, axis) < center; };
         std::ptrdiff_t left = 0, right = count - 1;
@@ -492,7 +492,7 @@ float thresholdCosine(float degrees) {
 /// half has one corner that its other half lacks: that corner copies the corner of the other half at the same position.
 void copyToDegenerate(const Corners& data, const std::vector<Triangle>& triangles,
                       const std::vector<Triangle>& degenerate, std::vector<Frame>& frames) {
-    std::unordered_map<std::uint32_t, std::uint32_t> first_corners;  // of each node
+    std::unordered_map<std::uint32_t, std::uint32_t> first_corners;  // first corner of each node
     for (const Triangle& triangle : triangles) {
         for (int k = 0; k < 3; ++k) first_corners.try_emplace(triangle.nodes[k], triangle.corners[k]);
     }

@@ -148,7 +148,7 @@ class Planner {
     /// Returns whether any group of the node splits.
     bool splitGroups(std::size_t place, const NodeGroups& groups) {
         if (groups.group == nullptr) return splitGroup(place, groups.corners);
-        // By groups, and ascending within each, as a counting sort leaves them.
+        // Sorted by group, ascending within each group, as a counting sort leaves them.
         ends_.drop(ends_.size());
         std::fill_n(ends_.extend(groups.count + 1), groups.count + 1, 0u);
         for (std::size_t i = 0; i < groups.corners.size(); ++i)
@@ -241,7 +241,7 @@ class Planner {
     EvaluationPlan to_;
     SplitFinder splits_;
     // Scratch, used again for each node.
-    Growing<std::uint32_t> ends_;  // where each group ends in members_
+    Growing<std::uint32_t> ends_;  // end of each group in members_
     Growing<NodeCorner> members_;  // the node's corners, group by group
     Growing<Repeat> repeats_;
     // Lists of the plan while they grow.

@@ -171,7 +171,7 @@ class SmallMesh {
         });
     }
 
-    /// By marks where these are sure, else by directions.
+    /// Decides by marks if these are certain, otherwise by directions.
     [[nodiscard]] bool areAveraged(unsigned a, unsigned b) {
         if (areNear(marksOf(a) & marksOf(b))) return true;
         if (!has_directions_) computeTerms(Weighting::one, false, directions_);
@@ -270,12 +270,12 @@ class SmallMesh {
     float cosine_;
     TangentReport report_;
     std::uint64_t good_ = 0;              // triangles that are not degenerate
-    std::uint64_t adding_ = 0;            // those with UV area
-    std::uint64_t up_ = 0;                // those that face up
+    std::uint64_t adding_ = 0;            // triangles with UV area
+    std::uint64_t up_ = 0;                // triangles that face up
     std::uint64_t around_[kTermCorners];  // one per node: its triangles
     std::uint32_t vertices_[kTermCorners], nodes_[kTermCorners];
     PackedEdge neighbors_[4 * kTermTriangles];
-    std::uint8_t corner_of_[kTermTriangles];   // of members of the group that is being made: their corner at its node
+    std::uint8_t corner_of_[kTermTriangles];   // for members of the current group: their corner at its node
     std::uint8_t mean_of_[kTermCorners] = {};  // one per corner
     // One per mean.
     unsigned means_ = 1;

@@ -73,7 +73,7 @@ struct VertexCorners {
 
     Buffer<NodeCorner> corners;  ///< node by node, ascending by triangle
     // One per chosen node.
-    Buffer<std::uint32_t> begin;  ///< where its corners begin in `corners`; they end where the next node's begin
+    Buffer<std::uint32_t> begin;  ///< start of its corners in `corners`; they end where the next node's begin
     /// The orientations of the triangles that add to it: kFacesUp, kFacesDown, or both. One more entry, 0, stands for nodes
     /// that are not chosen.
     Marks facing;

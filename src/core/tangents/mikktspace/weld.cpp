@@ -240,7 +240,7 @@ void numberNodes(Buffer<std::uint32_t> root_of, Nodes& nodes) {
     nodes.of_vertex = std::move(root_of);
 }
 
-/// Where nodes mix -0 and +0, takes the data of the reference's representative, whose bits count.
+/// If nodes mix -0 and +0, takes the data of the reference's representative, whose bits matter.
 [[gnu::cold]] void resolveMixed(const MeshView& mesh, const TriangleList& triangles, Nodes& nodes,
                                 const Allocator* allocator, Parallel& parallel) {
     listVertices(nodes, allocator);

@@ -90,7 +90,7 @@ struct WeldedMesh {
 // Collects the triangles that have a marked vertex or node, with several threads.
 
 inline constexpr std::size_t kCollectBlock = 64;                 ///< triangles, a bit each
-inline constexpr std::size_t kBlockCorners = 3 * kCollectBlock;  ///< of the mesh
+inline constexpr std::size_t kBlockCorners = 3 * kCollectBlock;  ///< corners of the mesh per block
 
 /// 0, 1, 2, ...
 inline Buffer<std::uint32_t> numbersBelow(std::size_t count, const Allocator* allocator) {

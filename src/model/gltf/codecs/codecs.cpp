@@ -11,7 +11,7 @@ namespace tspace::gltf {
 
 namespace {
 
-/// Of the head: "DRACO", major and minor version, kind of geometry, method, and two bytes of flags.
+/// Header layout: "DRACO", major and minor version, geometry kind, method, and two bytes of flags.
 constexpr std::size_t kVersionAt = 5, kGeometryAt = 7, kMethodAt = 8, kHeadBytes = 11;
 constexpr std::uint8_t kTriangularMesh = 1, kSequential = 0, kEdgebreaker = 1;
 

@@ -31,7 +31,7 @@ struct DracoRounding {
     float range = 0;
 };
 
-/// What Draco takes an attribute for; decides how its values are predicted.
+/// Attribute kind for Draco; decides how its values are predicted.
 enum class DracoKind { position, normal, color, uv, other };
 
 struct DracoAttribute {
@@ -81,7 +81,7 @@ bool encodeDracoAsItIs(DracoMesh& mesh, Bytes& data);
 
 // The codec of EXT_meshopt_compression and KHR_meshopt_compression, by the library meshoptimizer. Knows no JSON.
 
-/// What the elements are: rows of vertex data, three indices per triangle, or any row of indices.
+/// Kind of the elements: rows of vertex data, three indices per triangle, or a sequence of indices.
 enum class MeshoptMode { attributes, triangles, indices };
 
 /// A transform after decoding: expands vectors that are stored with fewer bits.
