@@ -70,7 +70,7 @@ class FileBaking {
         report_.high_maps = models_.high.shown.reports;
         if (options_.denoise == 0 && step_.notes_noise) noteNoise();
         options_.map.reach = models_.reach(options_.map.reach);
-        aboutInput(BakeInput::high, [&] { return &detail_.emplace(models_, high, options_); });
+        tagInput(BakeInput::high, [&] { return &detail_.emplace(models_, high, options_); });
         const std::vector<std::string>& seen = detail_->warnings();
         report_.warnings.insert(report_.warnings.end(), seen.begin(), seen.end());
         const std::vector<std::string> words = imageWords(models_.low);
@@ -240,7 +240,7 @@ class FileBaking {
             options.wrap_v = image.wrap_v;
         }
         options.rays = models_.rays(options.rays, options.wrap_u, options.wrap_v);
-        BakedMaps maps = aboutInput(BakeInput::low, [&] {
+        BakedMaps maps = tagInput(BakeInput::low, [&] {
             return valueOrThrow(bakeEvenIfMissed(part.view(), models_.high.view(), options, detail_->layers(),
                                                  options_.execution, options_.progress, shared_));
         });

@@ -37,13 +37,13 @@ const HighMapReading::Image& HighMapReading::imageOf(std::size_t number) {
     const auto [known, is_new] = images_.try_emplace(number);
     Image& image = known->second;
     if (!is_new) return image;
-    const auto leaveOut = [&](const std::string& why) {
+    const auto warnSkipped = [&](const std::string& why) {
         made_.warnings.push_back("the high poly's normal map " + inQuotes(nameOf(number)) +
                                  " is not baked through: " + why);
     };
     const std::vector<std::uint8_t>& bytes = scene_.images[number].bytes;
     if (bytes.empty()) {
-        leaveOut(scene_.images[number].why_empty);
+        warnSkipped(scene_.images[number].why_empty);
         return image;
     }
     FloatImage read;
@@ -51,7 +51,7 @@ const HighMapReading::Image& HighMapReading::imageOf(std::size_t number) {
     if (failure && (failure->code == ErrorCode::tooLarge || failure->code == ErrorCode::outOfMemory))
         throw FileError{*failure};
     if (failure) {
-        leaveOut(failure->message);
+        warnSkipped(failure->message);
         return image;
     }
     const std::string how_read = readTextureVectors(read);

@@ -452,7 +452,7 @@ BakeModels readBakeModels(const std::string& low_path, const std::string& high_p
     const auto tell = [&] {
         if (options.progress) options.progress("reading", 0, 1);
     };
-    DrawnScene low_scene = aboutInput(BakeInput::low, [&] {
+    DrawnScene low_scene = tagInput(BakeInput::low, [&] {
         BakeFileOptions of_low = options;
         of_low.file = low.file;
         return readWithFrames(low.name, of_low, models);
@@ -461,14 +461,14 @@ BakeModels readBakeModels(const std::string& low_path, const std::string& high_p
     const std::vector<std::string> warnings = std::move(models.low.warnings);
     DrawnScene cage_scene;
     if (!options.cage.empty()) {
-        cage_scene = aboutInput(BakeInput::cage, [&] {
+        cage_scene = tagInput(BakeInput::cage, [&] {
             DrawnScene read = readDrawnScene(options.cage, options.file, false);
             checkCage(low_scene.scene, read.scene);
             return read;
         });
     }
     tell();
-    DrawnScene high_scene = aboutInput(BakeInput::high, [&] {
+    DrawnScene high_scene = tagInput(BakeInput::high, [&] {
         return showsMaterials(options.layers) ? readMaterialScene(high.name, high.file, !options.ignore_high_maps)
                                               : readDrawnScene(high.name, high.file, !options.ignore_high_maps);
     });
@@ -479,18 +479,18 @@ BakeModels readBakeModels(const std::string& low_path, const std::string& high_p
     const MeshMatch match = matchMeshes(low_scene, high_scene, options.match, options.file);
     models.matched_by_name = match.is_used;
     const MeshMatch* const used = match.is_used ? &match : nullptr;
-    models.low = aboutInput(BakeInput::low,
-                            [&] { return lowModel(low_scene, options.cage.empty() ? nullptr : &cage_scene, used); });
+    models.low = tagInput(BakeInput::low,
+                          [&] { return lowModel(low_scene, options.cage.empty() ? nullptr : &cage_scene, used); });
     models.low.frames_made = frames_made;
     models.low.warnings.insert(models.low.warnings.begin(), warnings.begin(), warnings.end());
     models.low.origin = origin;
     tell();
-    models.high = aboutInput(BakeInput::high, [&] { return highModel(high_scene, used, high.name, options); });
+    models.high = tagInput(BakeInput::high, [&] { return highModel(high_scene, used, high.name, options); });
     if (showsMaterials(options.layers) || shows(options.layers, MapLayer::id))
         models.high_scene = std::move(high_scene);
     if (!options.skew.empty())
         models.skew =
-            aboutInput(BakeInput::skew, [&] { return readFloatImage(options.skew, options.file, ImageUse::numbers); });
+            tagInput(BakeInput::skew, [&] { return readFloatImage(options.skew, options.file, ImageUse::numbers); });
     tell();
     models.high.warnings.insert(models.high.warnings.end(), match.warnings.begin(), match.warnings.end());
     const std::string why = misplacement(models.lowBox(), PositionBox(models.high.view().positions));

@@ -58,7 +58,7 @@ void addModelWithMaps(ModelWithMaps&& model, AtomicOutput& model_files, AtomicOu
 
 /// Returns the result of `body`; if it fails, the error refers to this input.
 template <class Body>
-auto aboutInput(BakeInput input, Body&& body) {
+auto tagInput(BakeInput input, Body&& body) {
     std::optional<std::invoke_result_t<Body>> made;
     if (std::optional<Error> error = tryFile([&] { made.emplace(body()); })) {
         error->element = static_cast<std::uint64_t>(input);

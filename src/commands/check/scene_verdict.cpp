@@ -176,7 +176,7 @@ void addConvention(const CheckOptions& options, Finding& finding) {
 }
 
 /// Has commands that make tangents make them as `name` says: "repair" or "overwrite".
-void setHow(Finding& finding, const char* name, bool flips_green = false) {
+void setCommandOption(Finding& finding, const char* name, bool flips_green = false) {
     changeCommands(finding, [&](RemedyCommand& command) {
         if (!makesTangents(command)) return;
         command.options.front().name = name;
@@ -414,11 +414,11 @@ class Advice {
                                : inverts_green_ ? bothOrNeither()
                                                 : Remedy{kBothByHand});
         } else if (is_error) {
-            setHow(finding, "repair");
+            setCommandOption(finding, "repair");
         } else if (any_open_ || (any_cancelled_ && !inverts_green_)) {
             setRemedy(finding, kOtherTool);
         } else {
-            setHow(finding, "overwrite", any_cancelled_);
+            setCommandOption(finding, "overwrite", any_cancelled_);
         }
         addConvention(options_, finding);
     }

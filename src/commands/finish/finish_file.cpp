@@ -261,21 +261,21 @@ class Finishing {
         // The low poly first: it is small, and what is wrong with it is known soon.
         ModelInWork model(input, output, false, options_, report_.model);
         if (options_.low.empty()) {
-            aboutInput(BakeInput::high, [&] { return model.finish(), true; });
-            sayWhatIsLeft(report_.model);
+            tagInput(BakeInput::high, [&] { return model.finish(), true; });
+            addRemarks(report_.model);
             report_.check = model.checked();
             write(output, model.bytes());
             return std::move(report_);
         }
         ModelInWork low(options_.low, output, true, options_, report_.low.emplace());
-        aboutInput(BakeInput::low, [&] { return low.finish(), true; });
+        tagInput(BakeInput::low, [&] { return low.finish(), true; });
         checkLow();
-        aboutInput(BakeInput::high, [&] { return model.finish(), true; });
+        tagInput(BakeInput::high, [&] { return model.finish(), true; });
         noteNoise();
         const Bytes baked = bake(input, output, low.bytes(), model.bytes());
         if (report_.bake->output_files.empty()) return std::move(report_);
         report_.check = checked(output, baked, options_);
-        sayWhatIsLeft(*report_.low);
+        addRemarks(*report_.low);
         write(output, baked);
         return std::move(report_);
     }
@@ -289,7 +289,7 @@ class Finishing {
                          .element = static_cast<std::uint64_t>(BakeInput::low)}};
     }
 
-    void sayWhatIsLeft(const FinishedModel& model) {
+    void addRemarks(const FinishedModel& model) {
         if (model.left_winding_count != 0)
             report_.remarks.push_back(
                 report::counted(model.left_winding_count, "triangle") +

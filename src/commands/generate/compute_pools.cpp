@@ -242,7 +242,7 @@ bool haveInvertedSigns(std::span<const Vec4> old, const PoolFrames& frames) {
 }
 
 /// The vertices as they are.
-PoolFrames asTheyAre(const PoolView& vertices) {
+PoolFrames unchangedFrames(const PoolView& vertices) {
     PoolFrames frames;
     frames.source_vertices.resize(vertices.positions.count);
     std::iota(frames.source_vertices.begin(), frames.source_vertices.end(), 0u);
@@ -332,7 +332,7 @@ PoolElements PoolComputer::computeOne(const PoolPlan& pool, const Execution& exe
     const bool computes = pool.makes_tangents || !pool.has_normals;
     tell(progress);
     PoolFrames frames =
-        computes ? valueOrThrow(computeFrames(vertices, geometries, options, computed)) : asTheyAre(vertices);
+        computes ? valueOrThrow(computeFrames(vertices, geometries, options, computed)) : unchangedFrames(vertices);
     if (pool.makes_tangents && frames.tangents.size() != frames.source_vertices.size()) {
         failFile(ErrorCode::internal, "no tangents were computed", first.place());
     }

@@ -83,7 +83,7 @@ struct NewMap {
     Bytes file = {};
 };
 
-void tellWhatIsLeft(const ConvertMapReport& texels, ConvertedMapReport& report) {
+void addConversionNotes(const ConvertMapReport& texels, ConvertedMapReport& report) {
     const std::string bits = std::to_string(report.bits) + " bits";
     if (texels.is_below_half_step) {
         report.notes.push_back("The mean change is " + degreesText(texels.mean_change_deg) +
@@ -150,7 +150,7 @@ NewMap convertFor(const MapGroup& group, const FloatImage& image, const Generate
     report.bits = image.bits;
     report.converted = true;
     made.file.assign(file->begin(), file->end());
-    tellWhatIsLeft(texels, report);
+    addConversionNotes(texels, report);
     return made;
 }
 

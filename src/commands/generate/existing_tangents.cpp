@@ -115,7 +115,7 @@ Verdict verdictOf(const PrimitiveJudgement& judgement, bool is_free) {
 }
 
 /// Reads them as requested in the options.
-void readAsAsked(const GenerateOptions& options, Scene& scene) {
+void applyReadingOptions(const GenerateOptions& options, Scene& scene) {
     for (ScenePrimitive& primitive : scene.primitives) {
         // Pretends that a texture reads these tangents.
         if (primitive.uses.empty() && options.all) {
@@ -135,7 +135,7 @@ std::vector<Verdict> judge(Model& model, const GenerateOptions& options) {
     check.convention = options.tangents.convention;
     check.execution = options.execution;
     check.execution.allocator = nullptr;
-    readAsAsked(options, scene);
+    applyReadingOptions(options, scene);
     std::vector<PrimitiveJudgement> judgements = judgePrimitives(scene, check, true);
     if (waitForImages(judgements)) {
         ImageFindings images;

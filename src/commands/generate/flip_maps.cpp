@@ -42,7 +42,7 @@ std::vector<bool> findCancelled(const Scene& scene, ImageFindings& found, const 
 }
 
 /// Why a map stays as it is, where FlipGreen::down is asked for; empty: it does not.
-std::string whyItStays(GreenSide side, bool is_cancelled, bool is_declared, const Convention& convention) {
+std::string whyUnchanged(GreenSide side, bool is_cancelled, bool is_declared, const Convention& convention) {
     if (is_declared) return "the file declares that green points down, so its readers invert it";
     switch (side) {
         case GreenSide::up:
@@ -119,7 +119,7 @@ std::vector<JudgedMap> judgeMaps(const Scene& scene, const std::vector<bool>& ke
         map.is_y_inverted = found.is_y_inverted[i];
         if (options.flip_green == FlipGreen::none) continue;
         if (options.flip_green == FlipGreen::down)
-            why = whyItStays(found.image_green[i], cancelled[i], found.is_declared[i], options.tangents.convention);
+            why = whyUnchanged(found.image_green[i], cancelled[i], found.is_declared[i], options.tangents.convention);
         if (why.empty()) map.flipped = flipSceneImage(scene, i, why);
         map.report.flipped = !map.flipped.empty();
     }
@@ -242,7 +242,7 @@ class Alternatives {
     void settle(const std::vector<std::size_t>& images) {
         std::string why;
         for (const std::size_t image : images) {
-            if (why.empty()) why = whyItStays(image);
+            if (why.empty()) why = whyUnchanged(image);
         }
         if (why.empty()) return;
         for (const std::size_t image : images) {
@@ -255,7 +255,7 @@ class Alternatives {
     }
 
     /// Empty where it is to be inverted, and can be; an image that was not judged is inverted here.
-    std::string whyItStays(std::size_t image) {
+    std::string whyUnchanged(std::size_t image) {
         const std::string start = "image " + std::to_string(image) + " is the same map in another format, and ";
         const auto judged = judged_.find(image);
         if (judged != judged_.end()) return judged->second->flipped ? "" : start + "stays";

@@ -17,7 +17,7 @@ namespace tspace {
 namespace {
 
 /// Why maps are not converted with these options; empty: they are, or are not to be.
-std::string whyMapsStay(const std::string& input, const GenerateOptions& options) {
+std::string whyMapsUnchanged(const std::string& input, const GenerateOptions& options) {
     if (!options.convert_maps) return {};
     if (options.overwrite_normals)
         return "normal maps cannot be converted together with new normals, only for new tangents";
@@ -48,7 +48,7 @@ void checkOptions(const std::string& input, const GenerateOptions& options) {
         refuse("normals and tangents can be removed only where frames are packed");
     if (!options.images && (options.flip_green != FlipGreen::none || options.mend_maps || options.convert_maps))
         refuse("changing normal maps requires reading their pixels, which is disabled");
-    if (const std::string why = whyMapsStay(input, options); !why.empty()) refuse(why);
+    if (const std::string why = whyMapsUnchanged(input, options); !why.empty()) refuse(why);
 }
 
 /// An OBJ file has no magic word, so only its name tells it; everything else is read as glTF and refused there.

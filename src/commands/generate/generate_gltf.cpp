@@ -244,7 +244,7 @@ bool mendNormalLengths(Input& input, const Storage& storage, std::vector<std::st
 }
 
 /// The warning about normals of other lengths says that the output has none, where that is so.
-void sayThatNormalsAreUnit(std::span<const std::size_t> scaled, bool were_mended, GenerateReport& report) {
+void noteUnitNormals(std::span<const std::size_t> scaled, bool were_mended, GenerateReport& report) {
     const bool are_unit = were_mended || std::all_of(scaled.begin(), scaled.end(), [&](std::size_t number) {
                               return report.primitives[number].normals_generated;
                           });
@@ -284,7 +284,7 @@ WorkedOn generate(Input& input, bool with_images, const GenerateStep& step, Gene
     tell(input.options, "reading", 1, 1);
     const WorkedOn worked_on = edit(input, storage, std::move(decisions), report);
     report.changed = report.changed || was_turned || were_mended || was_repaired;
-    sayThatNormalsAreUnit(scaled, were_mended, report);
+    noteUnitNormals(scaled, were_mended, report);
     countTurned(winding, report.primitives);
     return worked_on;
 }

@@ -31,7 +31,7 @@ namespace {
 
 // Normal maps of an OBJ file on their way into glTF: height maps, mended and inverted ones.
 
-void leaveOut(Material& material, const std::string& why, Model& model) {
+void skipHeightMap(Material& material, const std::string& why, Model& model) {
     model.warnings.push_back("the height map '" + material.normal_texture.file +
                              "' was skipped, and no normal map was made from it: " + why);
     material.normal_texture = {};
@@ -45,7 +45,7 @@ void convertHeightMap(const Scene& scene, std::size_t image, const GenerateOptio
     const auto strength = static_cast<double>(material.normal_scale);
     MadeOfHeights made = makeOfHeights(scene, number, image, strength, options);
     if (!made.is_height_map) return;
-    if (made.file.empty()) return leaveOut(material, made.why_not, model);
+    if (made.file.empty()) return skipHeightMap(material, made.why_not, model);
     model.memory->take(made.file.size(), "material");
     material.made_normal_map = std::make_shared<const Bytes>(std::move(made.file));
     material.normal_scale = 1;

@@ -38,7 +38,8 @@ std::string needWords(const TangentUse& use) {
            use.needed_by;
 }
 
-bool tangentsGo(const Primitive& primitive, const std::vector<TangentUse>& uses, const GenerateOptions& options) {
+bool shouldStripTangents(const Primitive& primitive, const std::vector<TangentUse>& uses,
+                         const GenerateOptions& options) {
     return options.strip && uses.empty() && canStripTangents(primitive);
 }
 
@@ -49,13 +50,13 @@ bool hasSurface(const Primitive& primitive) {
 }
 
 /// Whether its normals are made anew, and so are the tangents that it has: they would not fit.
-bool makesNormalsAnew(PrimitiveReport& report, const Document& document, const Primitive& primitive,
-                      const std::vector<TangentUse>& uses, const GenerateOptions& options, bool is_wished) {
-    if (!options.overwrite_normals && !is_wished) return false;
+bool regeneratesNormals(PrimitiveReport& report, const Document& document, const Primitive& primitive,
+                        const std::vector<TangentUse>& uses, const GenerateOptions& options, bool is_requested) {
+    if (!options.overwrite_normals && !is_requested) return false;
     if (!hasSurface(primitive) || surfaceKind(document, primitive).is_unlit) return false;
     if (!packedAlone(document, primitive).empty()) return false;
     const bool can_follow = options.tangents.method == Method::basis || primitive.find(uvsOf(uses));
-    if (!primitive.find("TANGENT") || tangentsGo(primitive, uses, options) || can_follow) return true;
+    if (!primitive.find("TANGENT") || shouldStripTangents(primitive, uses, options) || can_follow) return true;
     report.notes.push_back(
         "its normals are kept: its tangents would not fit new ones and cannot be computed, because it has no " +
         uvsOf(uses));
@@ -90,9 +91,9 @@ struct NormalsPlan {
 };
 
 /// Whether nothing is to be computed because nobody asks for it. Fills action and reason then.
-bool isLeftAlone(PrimitiveReport& report, const Document& document, const Primitive& primitive,
-                 const std::vector<TangentUse>& uses, const GenerateOptions& options, const NormalsPlan& normals) {
-    const bool follows = normals.anew && primitive.find("TANGENT") && !tangentsGo(primitive, uses, options);
+bool isSkipped(PrimitiveReport& report, const Document& document, const Primitive& primitive,
+               const std::vector<TangentUse>& uses, const GenerateOptions& options, const NormalsPlan& normals) {
+    const bool follows = normals.anew && primitive.find("TANGENT") && !shouldStripTangents(primitive, uses, options);
     std::string why;
     if (!hasTriangles(primitive.mode)) {
         report.action = PrimitiveAction::notTriangles;
@@ -107,7 +108,7 @@ bool isLeftAlone(PrimitiveReport& report, const Document& document, const Primit
         primitive.find("TANGENT") && uses.empty() ? otherTangentReader(document, primitive) : std::string();
     if (!reader.empty()) {
         why += "; " + reader + " may refer to its tangents";
-    } else if (tangentsGo(primitive, uses, options)) {
+    } else if (shouldStripTangents(primitive, uses, options)) {
         report.action = PrimitiveAction::removed;
         why = "nothing needs its tangents: " + why;
     } else if (options.strip && uses.empty() && primitive.find("TANGENT")) {
@@ -128,7 +129,7 @@ bool decide(PrimitiveReport& report, const Document& document, const Primitive& 
         report.reason = std::move(reason);
         return false;
     };
-    if (isLeftAlone(report, document, primitive, uses, options, normals)) return false;
+    if (isSkipped(report, document, primitive, uses, options, normals)) return false;
     // Recomputed frames would be less exact than the packed ones, so these stay.
     const bool can_overwrite = primitive.find("NORMAL") && options.existing == ExistingTangents::replace;
     if (const std::string packed = can_overwrite ? "" : packedAlone(document, primitive); !packed.empty())
@@ -222,7 +223,8 @@ GeneratePlan planGenerate(const Document& document, std::span<const Primitive> p
         report.vertices_before = report.vertices_after = primitive.vertex_count;
         report.source_list = report.split_list = lists.numberOf(primitive);
         const std::vector<TangentUse> uses = tangentUses(document, primitive);
-        NormalsPlan normals{.anew = makesNormalsAnew(report, document, primitive, uses, options, isIn(wishes.anew, i))};
+        NormalsPlan normals{.anew =
+                                regeneratesNormals(report, document, primitive, uses, options, isIn(wishes.anew, i))};
         if (!normals.anew)
             normals.morphs =
                 morphNormals(document, primitive, isIn(wishes.morphs, i) ? MorphNormals::all : options.morph_normals);

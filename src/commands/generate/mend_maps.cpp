@@ -38,7 +38,7 @@ const char* whatItHeld(MapContent content) {
 }
 
 /// Empty, or why an image with such a content stays. `claims_srgb`: what the file says of the numbers.
-std::string whyItStays(const JudgedMap& map, bool claims_srgb) {
+std::string whyUnchanged(const JudgedMap& map, bool claims_srgb) {
     const MapLook& look = map.look;
     if (look.content == MapContent::normals && !claims_srgb) return "it is encoded as in glTF";
     if (look.content == MapContent::height)
@@ -101,7 +101,7 @@ void toTangentSpace(const Scene& scene, std::size_t image_number, const Generate
 
 Bytes mendMap(const Scene& scene, ByteSpan bytes, const GenerateOptions& options, JudgedMap& map) {
     const std::optional<TextureFacts> facts = textureFacts(bytes);
-    map.report.reason = whyItStays(map, facts && facts->is_srgb);
+    map.report.reason = whyUnchanged(map, facts && facts->is_srgb);
     if (!map.report.reason.empty()) return {};
     if (!scene.memory->has(kMapPixelBytes * claimedSize(bytes).pixels())) {
         map.report.reason = "converting it would exceed the memory limit";

@@ -86,7 +86,7 @@ class FileMeasuring {
 
     MapErrorFileReport run(const std::string& map, const std::string& low, const std::string& high) {
         inputs_.add(map);
-        image_ = aboutInput(BakeInput::map, [&] { return readFloatImage(map, bake_.file); });
+        image_ = tagInput(BakeInput::map, [&] { return readFloatImage(map, bake_.file); });
         const std::string how_read = readTextureVectors(image_);
         report_.width = image_.width;
         report_.height = image_.height;
@@ -98,7 +98,7 @@ class FileMeasuring {
         report_.warnings = models.low.warnings;
         report_.warnings.insert(report_.warnings.end(), models.high.warnings.begin(), models.high.warnings.end());
         if (!how_read.empty()) report_.warnings.push_back(how_read);
-        const LowModel::Image shown = aboutInput(BakeInput::low, [&] { return shownPart(models.low, options_); });
+        const LowModel::Image shown = tagInput(BakeInput::low, [&] { return shownPart(models.low, options_); });
         const LowPart& part = shown.part;
         options_.map.reach = models.reach(options_.map.reach);
         options_.map.rays = models.rays(options_.map.rays, options_.tile == 0 ? shown.wrap_u : TextureWrap::repeat,
@@ -111,7 +111,7 @@ class FileMeasuring {
                             .wrap_v = options_.tile == 0 ? shown.wrap_v : TextureWrap::repeat};
         listReadings();
         const auto measure = [&](const std::vector<MapCandidate>& candidates, const MapErrorOptions& how) {
-            return aboutInput(BakeInput::low, [&] {
+            return tagInput(BakeInput::low, [&] {
                 return valueOrThrow(measureReadings(view, part.view(), models.high.view(), candidates, how,
                                                     options_.execution, options_.progress));
             });
