@@ -180,7 +180,7 @@ void decodeBytes(const TexelFormat& format, const std::uint8_t* block, Rgba* tex
     });
 }
 
-/// Blue first.
+/// Decodes texels with blue first.
 void decodeTurnedBytes(const TexelFormat& format, const std::uint8_t* block, Rgba* texels) {
     decodeBytes(format, block, texels);
     const float blue = (*texels)[0];

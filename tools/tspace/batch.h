@@ -34,7 +34,7 @@ void takeShard(std::vector<Job>& jobs, const Shard& shard);
 /// Number of files processed in parallel.
 unsigned workerCount(const BatchArguments& batch, std::size_t job_count);
 
-/// Threads for each file when the user did not say: the cores, shared by those files.
+/// Default number of threads per file: the cores, divided among the files in progress.
 unsigned threadsPerFile(unsigned asked, unsigned workers);
 
 /// Calls work(i) for every i below `count` on `workers` threads, or as many of them as the system gives, and finished(i) for

@@ -58,7 +58,7 @@ bool printResult(std::string_view text, std::FILE* to) {
 
 namespace {
 
-/// Columns where the width of a terminal is not known.
+/// Assumed width of a terminal, in columns, if it is unknown.
 constexpr std::size_t kUsualWidth = 80;
 
 }  // namespace

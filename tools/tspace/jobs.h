@@ -9,7 +9,7 @@
 
 namespace tspace::tool {
 
-/// The file format of outputs whose name does not say it.
+/// File format of outputs whose name does not determine it.
 enum class Container { sameAsInput, glb, gltf };
 
 /// The inputs and where results go, as the command line says.

@@ -77,7 +77,7 @@ class BatchRecord {
     std::optional<ManifestRecord> record_ = {};
     std::optional<KeptFiles> kept_ = {};
     OneRun one_run_ = {};
-    std::mutex mutex_ = {};  ///< for the writer
+    std::mutex mutex_ = {};  ///< protects the writer
     std::optional<ManifestWriter> writer_ = {};
 };
 

@@ -11,7 +11,7 @@
 
 namespace tspace {
 
-/// Numbers as LowPoly::groups and HighPoly::groups have them.
+/// Object groups of both models, for LowPoly::groups and HighPoly::groups.
 struct MeshMatch {
     bool is_used = false;                    ///< else all look at all
     std::vector<std::uint32_t> low = {};     ///< one per primitive

@@ -67,7 +67,7 @@ Json& holderOf(Json& material, const SlotReference& reference) {
     return pbr;
 }
 
-/// The map has all that factors said of the high poly.
+/// The map already contains the factors of the high poly.
 void setFactors(Json& material, MapSlot slot) {
     switch (slot) {
         case MapSlot::color: {

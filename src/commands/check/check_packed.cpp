@@ -27,7 +27,7 @@ constexpr std::size_t kChunk = 256;
 constexpr double kVisible_deg = 1;
 
 struct PackedErrors {
-    Tally beyond;  ///< vertices beyond what the format promises, or of the other sign
+    Tally beyond;  ///< vertices outside the format's error bound, or with a different sign
     double normal_deg = 0, tangent_deg = 0;
     std::uint64_t sign_count = 0;
 };

@@ -15,7 +15,7 @@ namespace {
 constexpr double kTurn = 2 * kPi;
 constexpr double kDegrees = 180 / kPi;
 
-/// A tangent that lies within 6 degrees of N has no direction to speak of in the plane.
+/// A tangent within 6 degrees of N has no reliable direction in the plane.
 constexpr double kLeastInPlane = 0.1;
 /// Methods weight the directions of triangles regardless of this length, so nearly all of them count. Shorter ones are
 /// rounding.
@@ -213,7 +213,7 @@ std::vector<DirectionCone> conesOfClasses(const TangentView& mesh, const Surface
         const auto add = [&](double at) {
             entries.push_back({class_of_vertex[vertex], at});
             if (off == 0) return;
-            // A direction that can point anywhere opens the whole circle.
+            // If a direction is undetermined, the cone is the whole circle.
             for (const double part : {-1.0, -0.5, 0.5, 1.0})
                 entries.push_back({class_of_vertex[vertex], withinTurn(at + part * off)});
         };

@@ -131,7 +131,7 @@ void examineValues(const TangentView& mesh, const Surface& surface, const CheckO
 
 // Signs against the orientation of the UVs.
 
-/// Share of the surface from which wrong signs are a wrong convention and no accident.
+/// Share of the surface above which wrong signs mean a wrong convention rather than single faults.
 constexpr double kEverySign = 0.95;
 
 /// Areas of the triangles around each vertex, by the sign that their UVs ask for.

@@ -11,7 +11,7 @@ namespace tspace {
 namespace {
 
 constexpr std::uint32_t kNoPoint = 0xffffffffu;
-/// Triangles of a polygon, and directions around a point, that are looked at: so time stays linear.
+/// Maximum triangles of a polygon, and directions around a point, that are examined, so that the time stays linear.
 constexpr std::size_t kMostOfPolygon = 64, kMostFaces = 64;
 
 /// A primitive under one of its targets.

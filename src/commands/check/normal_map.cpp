@@ -17,7 +17,7 @@ constexpr float kMostDerivative = 0.25f;
 /// Mean square of a derivative in a block below which it is rounding to 8 bits (2.6e-6) and what compression adds.
 constexpr float kLeastRelief = 4e-5f;
 
-/// Slopes p and q of a texel; false where it holds no normal that stands up.
+/// Slopes p and q of a texel; false if its normal does not point out of the surface.
 bool slopes(const std::uint8_t* texel, float& p, float& q) {
     const float nz = static_cast<float>(texel[2]) / 127.5f - 1;
     if (nz < kLeastUp) return false;

@@ -195,7 +195,7 @@ Remedy bothOrNeither() {
 /// The convention that is asked for has green so.
 constexpr const char* kNothingToDo = "No action is needed; readers of plain glTF expect green to point up.";
 
-/// The signs of some meshes, but not of all, are made for that.
+/// Remedy if the signs of some meshes, but not of all, are made for green that points down.
 Remedy signsFirst() {
     return {"Correct the green channel and the inverted signs together: {}.",
             {toCommand("generate --overwrite --flip-green")}};
@@ -231,7 +231,7 @@ class Maps {
     }
 
   private:
-    /// Images may not have been looked at at all.
+    /// Images may not have been examined.
     static GreenSide at(const std::vector<GreenSide>& sides, std::size_t i) {
         return i < sides.size() ? sides[i] : GreenSide::unread;
     }

@@ -44,7 +44,7 @@ FlippedImage flip(ByteSpan bytes, const FlipGreenOptions& options) {
     return valueOrThrow(flipImage(bytes, options));
 }
 
-/// The format that the extension of the output's name says.
+/// Format according to the extension of the output's name.
 ImageFileFormat namedFormat(const std::string& output) {
     const std::string extension = lowerExtension(output);
     if (extension == ".png") return ImageFileFormat::png;

@@ -12,7 +12,7 @@ namespace tspace::report {
 std::string flipGreenJson(const Outcome<FlipGreenReport>& outcome, ExitCode exit_code);
 std::string flipGreenText(const Outcome<FlipGreenReport>& outcome);
 
-/// "PNG", "JPEG" or "WebP".
+/// Format name: "PNG", "JPEG" or "WebP".
 const char* imageFormatName(ImageFileFormat format);
 
 }  // namespace tspace::report

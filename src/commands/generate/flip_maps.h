@@ -53,7 +53,7 @@ struct MadeOfHeights {
     bool is_height_map = false;
     Bytes file = {};           ///< a PNG; empty where there is none
     std::string why_not = {};  ///< half a sentence
-    double mean_lean_deg = 0;  ///< HeightToNormalReport
+    double mean_lean_deg = 0;  ///< like HeightToNormalReport::mean_lean_deg
 };
 
 /// A normal map of image `image`, on all primitives of the material, white being `strength` units high. Throws FileError.

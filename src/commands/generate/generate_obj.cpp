@@ -310,7 +310,7 @@ GenerateReport generateToFile(const std::string& input, const std::string& outpu
     GenerateOptions options = requested;
     inputs.watch(options.file);
     Made made = generate(input, output, options, report);
-    // All files that it names lie where it goes to, and none is copied.
+    // All files that it references are in the destination folder, so none is copied.
     const gltf::OutputTarget target{.path = output, .container = made.document.container, .same_folder = true};
     gltf::writeGenerated(input, made.document, target, requested, made.worked_on, inputs, is_step, report);
     return report;

@@ -206,7 +206,7 @@ void ImagePlacer::putInFile(std::size_t image, const std::string& uri, Bytes&& b
     document_.new_files[name] = std::move(bytes);
 }
 
-/// A name beside the old one that no other file has, or one with these bytes.
+/// Returns a name derived from the old one that no other file has, or that of a file with the same bytes.
 std::string ImagePlacer::freeName(const std::string& uri, const Bytes& bytes) {
     namespace fs = std::filesystem;
     fs::path old = Path(pathOfUri(uri));

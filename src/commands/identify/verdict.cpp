@@ -19,7 +19,7 @@ namespace tspace {
 
 namespace {
 
-/// The set that the first use reads; the first there is when no texture asks.
+/// UV set of the first texture; the first existing set if there is no texture.
 std::size_t texturesSet(const ScenePrimitive& primitive) {
     if (!primitive.uses.empty()) return primitive.uses.front().uv_set;
     std::size_t set = 0;

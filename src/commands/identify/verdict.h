@@ -38,7 +38,7 @@ const Explanation* bestReading(const PrimitiveIdentity& primitive, bool is_trans
 /// and leave every direction in place.
 bool followsTransform(const PrimitiveIdentity& primitive);
 
-/// PrimitiveIdentity::skipped where an importer cannot give all that a file has.
+/// Value of PrimitiveIdentity::skipped for data that an importer cannot read.
 inline constexpr const char* kNotRead = "its tangents were not read";
 
 /// All other members of `result` must be filled.

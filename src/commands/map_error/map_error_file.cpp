@@ -35,7 +35,7 @@ struct TriedRays {
     MapError error = {};
 };
 
-/// All images of a model, or the part that the options ask for, as one.
+/// All images of a model, or the part that the options select, as one.
 LowModel::Image shownPart(const LowModel& model, const MapErrorFileOptions& options) {
     LowModel::Image shown;
     for (const LowModel::Image& image : model.images) {
@@ -117,7 +117,7 @@ class FileMeasuring {
             });
         };
         takeErrors(measure(candidates_, options_.map));
-        // The first is what was asked for.
+        // The first reading is the requested one.
         report_.error = report_.readings.front().error;
         tryRays(measure);
         if (other_rays_) {
@@ -195,7 +195,7 @@ class FileMeasuring {
         for (std::size_t i = 0; i < errors.size(); ++i) report_.readings[i].error = errors[i];
     }
 
-    /// Whether z of the texels is another than that which follows from x and y, in more than a few of those that lean.
+    /// Whether z of the texels differs from the z that follows from x and y, in more than a few of the tilted ones.
     [[nodiscard]] bool blueMatters() const {
         constexpr double kLeanDeg = 5, kOtherDeg = 2;
         constexpr std::size_t kOneOf = 20;
@@ -278,7 +278,7 @@ class FileMeasuring {
                    (reading.reading.bitangent != asked.reading.bitangent ? 1 : 0) +
                    (reading.reading.two_channels != asked.reading.two_channels ? 1 : 0);
         };
-        // All readings miss at the same points, which tell nothing about them.
+        // All readings miss at the same samples, so misses do not distinguish them.
         std::stable_sort(report_.readings.begin(), report_.readings.end(),
                          [](const auto& a, const auto& b) { return a.error.met_mean_deg < b.error.met_mean_deg; });
         const double tie = kTie * report_.readings.front().error.met_mean_deg;

@@ -65,7 +65,7 @@ class ModelPictures {
         }
     }
 
-    /// The one whose frames the report counts.
+    /// The model whose frames the report counts.
     [[nodiscard]] const ModelPicture& counted() const { return models_.back(); }
 
     /// The picture of a turn by `yaw_deg`.

@@ -48,7 +48,7 @@ void addLimits(OptionList& list, FileOptions& file);
 void addSync(OptionList& list, bool& sync);
 /// The three: threads, limits, and whether outputs are waited for.
 void addRunning(OptionList& list, Execution& execution, HelpText threads_help, FileOptions& file);
-/// --lengths, of maps of 8 bits.
+/// Adds --lengths, for 8-bit maps.
 void addLengths(OptionList& list, const char* group, TexelLengths& lengths);
 /// --alpha, of normal maps that get levels.
 void addAlpha(OptionList& list, const char* group, MapAlpha& alpha);

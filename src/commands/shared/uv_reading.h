@@ -14,7 +14,7 @@ namespace tspace {
 struct UvReading {
     std::size_t uv_set = 0;
     bool transformed = false;        ///< changed by the use's texture transform, which changes frames
-    std::vector<Vec2> own = {};      ///< the transformed ones
+    std::vector<Vec2> own = {};      ///< storage of the transformed UVs
     std::span<const Vec2> uvs = {};  ///< empty: the primitive has no such set
 };
 

@@ -111,7 +111,7 @@ Error caughtError() {
 
 #else
 
-// The program's own: bindings without exceptions end the call from here.
+// Defined by the program: bindings without exceptions end the call from here.
 extern "C" [[noreturn]] void tspace_endCallOutOfMemory(void);
 void throwOutOfMemory() { tspace_endCallOutOfMemory(); }
 

@@ -125,7 +125,7 @@ class RangeLists {
         std::size_t block_size_;
         const std::uint32_t* entries_ = nullptr;  ///< null: all blocks
         bool are_whole_ = true;                   ///< the blocks
-        std::size_t next_, end_;                  ///< entries or blocks
+        std::size_t next_, end_;                  ///< positions in entries or blocks
     };
 
     /// The list of a range, ascending: blocks that add to this range alone, with kBlock; single triangles of other

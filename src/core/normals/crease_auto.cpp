@@ -277,7 +277,7 @@ class CreaseFinder {
     /// Rows of faces come in fours; those behind the last face are zero.
     [[nodiscard]] std::size_t paddedCount() const { return (call_.mesh.faceCount() + 3) / 4 * 4; }
 
-    /// In degrees, at both corners of each pair; -1 where there is none.
+    /// Computes the angle in degrees at both corners of each pair; -1 without a pair.
     void measureAngles() {
         angles_ = Buffer<float>(call_.allocator, call_.mesh.cornerCount(), -1.0f);
         forCorners([&](std::uint32_t c) {

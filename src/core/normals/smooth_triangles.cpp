@@ -32,7 +32,7 @@ constexpr std::size_t kRangesPerThread = 4;  ///< at least
 struct PointSum {
     double x, y, z, weights;  ///< `weights` is negative if the sum has to be computed again
 
-    // For the functions of Float4.
+    // Accessors for the functions of Float4.
     [[nodiscard]] float* floats() { return reinterpret_cast<float*>(this); }
     [[nodiscard]] const float* floats() const { return reinterpret_cast<const float*>(this); }
 
@@ -137,7 +137,7 @@ class TriangleSmoother {
         return degenerate;
     }
 
-    /// Takes the sums again that are marked, with angles in double.
+    /// Computes the marked sums again, with angles in double precision.
     void sumDoubtful(std::size_t index, const RangeSums& place) const {
         PointSum* const end = place.rows + place.range.size();
         for (PointSum* row = place.rows; row != end; ++row) {
@@ -177,7 +177,7 @@ class TriangleSmoother {
         return substitutes;
     }
 
-    /// False where a normal has the mark.
+    /// Returns false if a normal has the mark.
     bool writeBlock(const TriangleBatch& batch, const RangeSums& place) const {
         auto* to = reinterpret_cast<std::byte*>(&call_.out[std::size_t{3} * batch.numbers[0]]);
         // Local copies, so that the compiler need not assume aliasing.

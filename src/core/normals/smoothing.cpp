@@ -16,7 +16,7 @@ namespace {
 constexpr std::uint32_t kNoSlot = ~std::uint32_t{0};
 constexpr std::uint32_t kFew = 8;  ///< corners at a point: enough nearly everywhere
 
-// Positions are floats: an edge of 90 degrees by intent is up to some 1e-7 rad more by its numbers.
+// Slack for float positions: an intended right angle may exceed 90 degrees by some 1e-7 rad.
 constexpr double kCreaseSlackRad = 1e-6;
 
 /// The position of a normal on its turn about an edge: monotonic in the angle, in [0, 4), without trigonometry.

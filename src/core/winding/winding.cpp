@@ -141,7 +141,7 @@ void findNested(const WindingCall& call, const Buffer<std::uint32_t>& order, con
     const BoxTree tree(boxes, face_count, call.allocator());
     // Directions that lie in no axis or diagonal plane, to miss edges.
     constexpr DVec3 kDirections[] = {{0.8129, 0.3571, 0.4603}, {-0.2887, 0.9013, -0.3233}, {0.1733, -0.4441, 0.8791}};
-    constexpr std::uint32_t kRays = 16;  // in each direction
+    constexpr std::uint32_t kRays = 16;  // rays in each direction
     constexpr double kClear = 0.7;
     call.parallel.forRanges(held_count, 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t h = begin; h < end; ++h) {

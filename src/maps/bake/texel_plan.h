@@ -12,10 +12,10 @@ namespace tspace {
 
 /// The square between the centres of four texels, by its upper left one.
 enum class TexelCell : std::uint8_t {
-    outside,  ///< shows nothing of a triangle
+    outside,  ///< contains no part of a triangle
     smooth,   ///< targets between the centers follow from those at the centers
-    asked,    ///< smooth; rays say it all the same, for what lies beside it
-    rough     ///< rays have to say what is wanted
+    asked,    ///< smooth, but sampled by rays too, for the cells beside it
+    rough     ///< rays determine the targets
 };
 
 struct TexelPlan {

@@ -278,7 +278,7 @@ class LayerTracing {
         }
     }
 
-    /// The states of a layer's texels: means know texels whose centre met nothing.
+    /// The states of a layer's texels; means can include texels whose center ray hit nothing.
     [[nodiscard]] std::vector<TexelState> statesOf(const BakedLayer& layer) const {
         std::vector<TexelState> states(met_.begin(), met_.end());
         for (std::size_t i = 0; i < states.size(); ++i) {

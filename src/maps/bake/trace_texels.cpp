@@ -338,7 +338,7 @@ void fillFromNeighbours(TracedTexels& traced, const TextureShape& shape) {
             for (const int dx : {-1, 0, 1}) {
                 const DVec3 near = at(dx, dy), far = at(2 * dx, 2 * dy);
                 sum = sum + near;
-                // A jump is no slope.
+                // A jump is not a slope.
                 if (dot(near, far) > 0.9) ahead = ahead + (2.0 * near - far);
             }
         }

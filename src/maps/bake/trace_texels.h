@@ -11,7 +11,7 @@
 
 namespace tspace {
 
-/// A ray at the centre of each texel that a triangle shows or that continues one.
+/// Shoots a ray from the center of each texel inside a triangle or its padding.
 void traceTexels(const MapSurfaces& surfaces, const TexelTriangles& triangles, const BakeOptions& options,
                  const MapWork& work, TracedTexels& traced);
 

@@ -12,7 +12,7 @@ namespace tspace {
 
 struct NormalLevel {
     std::uint32_t width = 0, height = 0;
-    std::vector<Vec3> normals = {};  ///< unit
+    std::vector<Vec3> normals = {};  ///< unit vectors
     /// Spread of the normals that a texel covers around its own: 1 - mean (n . own)^2, the trace of their covariance across it.
     /// Empty unless requested.
     std::vector<float> spreads = {};

@@ -210,7 +210,7 @@ class MeasurePoints {
 DVec3 shadedAt(const MapImage& map, const MapCandidate& candidate, const CornerFrames& corners,
                const std::array<double, 3>& weights, const Vec2& uv);
 
-/// Degrees per texel: the mean of four points of it, -1 where none is in a triangle or meets the high poly.
+/// Error in degrees per texel: the mean of four samples; -1 if none is in a triangle or hits the high poly.
 std::vector<float> heatOf(const MapImage& map, const MapSurfaces& surfaces, const MapCandidate& candidate,
                           const MapWork& work);
 

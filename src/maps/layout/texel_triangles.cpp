@@ -418,7 +418,7 @@ bool ExactTriangle::isReadAt(double px, double py) const {
     for (std::size_t a = 0; a < 3; ++a) {
         const std::size_t b = (a + 1) % 3;
         const double from_x = x[a] - px, from_y = y[a] - py, dx = x[b] - x[a], dy = y[b] - y[a];
-        // The larger of both distances is least at an end, or where they are equal.
+        // The larger of the two distances is smallest at an end, or where they are equal.
         for (const double part : {0.0, 1.0, (from_y - from_x) / (dx - dy), -(from_x + from_y) / (dx + dy)}) {
             if (!(part >= 0 && part <= 1)) continue;
             if (std::fabs(from_x + part * dx) < 1 && std::fabs(from_y + part * dy) < 1) return true;

@@ -183,7 +183,7 @@ class Gradients {
         });
     }
 
-    /// image = system times direction
+    /// image = system * direction
     void multiply() {
         forUnknowns(first_, [&](std::size_t row) {
             const Vec3& own = direction_[row];

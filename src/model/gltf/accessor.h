@@ -56,7 +56,7 @@ struct Accessor {
 /// elements.
 Accessor readAccessor(const Document& document, std::size_t index);
 
-/// Between neighbouring numbers of an accessor of whole numbers; 0 for floats.
+/// Quantization step of an integer accessor; 0 for floats.
 double stepOf(const Accessor& accessor);
 
 /// True when copyElements finds the data that it needs.

@@ -20,7 +20,7 @@ namespace tspace {
 /// file. Thread-safe.
 class MemoryBudget {
   public:
-    /// The program itself, and what estimates miss.
+    /// Memory of the program itself, and slack for the estimates.
     static constexpr std::int64_t kProgram = std::int64_t{24} << 20;
     static constexpr std::int64_t kAnyFile = std::int64_t{64} << 20;
     static constexpr std::int64_t kPerByte = 16;

@@ -96,7 +96,7 @@ struct Model {
     std::vector<Vec3> positions = {};  ///< all finite; without `offset`
     DVec3 offset = {};                 ///< subtracted from the file's coordinates; zero near the origin
     bool keeps_offset = false;         ///< one would have been subtracted but for FileOptions::keep_coordinates
-    std::vector<Vec2> uvs = {};        ///< v runs down, as in glTF
+    std::vector<Vec2> uvs = {};        ///< with v running down, as in glTF
     std::vector<Vec3> normals = {};    ///< unit or zero; corners never refer to zero ones
     std::vector<Corner> corners = {};  ///< every index is in range
     std::vector<Face> faces = {};      ///< in file order, at least 3 corners each; never empty

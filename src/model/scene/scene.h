@@ -147,21 +147,21 @@ struct NormalScales {
     double least_length = 0, most_length = 0;  ///< range of the lengths of these normals
 };
 
-/// How a warning begins that is about normals of other lengths.
+/// Prefix of warnings about normals of other lengths.
 inline constexpr const char* kNormalLengths = "normals that do not have length 1";
 
 struct ScenePrimitive {
     std::string place = {};  ///< JSON pointer (glTF), or "usemtl NAME" (OBJ)
     std::uint32_t mesh = 0;
     std::uint32_t primitive = 0;     ///< in its mesh
-    std::string mesh_name = {};      ///< may be empty
-    std::string material_name = {};  ///< may be empty
+    std::string mesh_name = {};      ///< name of the mesh; may be empty
+    std::string material_name = {};  ///< name of the material; may be empty
     std::string mode = {};           ///< "triangles", "triangle strip", "points", ...; OBJ: "triangles" or "polygons"
     /// Three vertices per triangle, every one smaller than positions.size(). Empty for points and lines.
     SharedArray<std::uint32_t> corners = {};
     SharedArray<Vec3> positions = {};
     double position_step = 0;        ///< quantization step, if positions are stored as integers; 0: floats
-    SharedArray<Vec3> normals = {};  ///< one per vertex, or empty: absent. Scaled, as those of morph targets
+    SharedArray<Vec3> normals = {};  ///< one per vertex, scaled to length 1; empty: absent
     std::shared_ptr<const NormalScales> normal_scales = {};  ///< null: none had to be scaled
     SharedArray<Vec4> tangents = {};                         ///< one per vertex, or empty: absent
     std::vector<SceneTangentFault> tangent_faults = {};      ///< faults of tangents that are ignored
@@ -242,7 +242,7 @@ struct Scene {
 
 /// Properties of a primitive's own material.
 struct SurfaceLook {
-    std::array<float, 4> base_color = {1, 1, 1, 1};  ///< linear
+    std::array<float, 4> base_color = {1, 1, 1, 1};  ///< linear color
     std::optional<TextureReading> base_texture = {};
     std::optional<TextureReading> normal_texture = {};
     double normal_scale = 1;

@@ -38,7 +38,7 @@ struct TangentSources {
 Legend legendOf(RenderShow show, const TangentSources& sources, Method method);
 Legend legendOfBoth(const TangentSources& left, const TangentSources& right, Method method);
 
-/// Rows that a legend takes of a picture: at most a third. 0: there is no room for it, or nothing to say.
+/// Height of a legend in rows of the picture: at most a third. 0: there is no room, or the legend is empty.
 std::uint32_t legendRows(const Legend& legend, std::uint32_t width, std::uint32_t height);
 /// Adds these rows below a picture, with the legend in them.
 void addLegend(const Legend& legend, std::uint32_t rows, RgbImage& image);

@@ -63,7 +63,7 @@ constexpr double kSameDirection = 0.99;  // cosine of 8 degrees
 // Least triple product: UVs that are sheared by 89.9 degrees have 0.0017.
 constexpr double kSide = 1e-4;
 
-/// Zero where it has no direction.
+/// Returns the unit vector, or zero if v has no direction.
 DVec3 unitOrZero(const DVec3& v) {
     const double size = length(v);
     return size > 0 && std::isfinite(size) ? (1 / size) * v : DVec3{};

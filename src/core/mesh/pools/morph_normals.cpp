@@ -41,7 +41,7 @@ class PoolNormals {
   private:
     Result<Done> computeBase() {
         LocalMeshes local(pool_, primitives_.size());
-        meshes_.reserve(primitives_.size());  // the makers refer to them, and to their options
+        meshes_.reserve(primitives_.size());  // the makers keep references to the elements and their options
         for (std::size_t p = 0; p < primitives_.size(); ++p) options_of_.push_back(optionsOf(p));
         for (std::size_t p = 0; p < primitives_.size(); ++p) {
             const std::vector<std::uint32_t>& corners = primitives_[p].indices;

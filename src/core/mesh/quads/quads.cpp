@@ -372,7 +372,7 @@ Result<QuadFit> fitQuads(const MeshView& triangles, std::span<const Vec4> stored
     return std::move(fitter.fit());
 }
 
-// Evidence first: tangents, then who wrote the file.
+// Evidence, in this order: the tangents, then the program that wrote the file.
 
 namespace {
 

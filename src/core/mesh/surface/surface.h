@@ -95,13 +95,13 @@ struct TurnedTriangles {
     std::uint64_t count = 0, total = 0;
     double share = 0;  ///< share of the surface in triangles rotated by more than the limit
     double worst_deg = 0;
-    std::uint32_t first = 0;  ///< a corner of the first
+    std::uint32_t first = 0;  ///< one corner of the first such triangle
 };
 /// Returns how much rounding rotates the plane of each triangle (root mean square). Linear.
 TurnedTriangles turnedBy(const PositionRounding& rounding, StridedSpan<const Vec3> positions,
                          std::span<const std::uint32_t> corners, double limit_deg);
 
-/// From this share of the surface on it is more than a few slivers.
+/// Minimum share of the surface that is more than a few slivers.
 inline constexpr double kSomeTurned = 0.01;
 
 // Properties of single triangles: normal and area, where u grows on it, and on which side v lies.

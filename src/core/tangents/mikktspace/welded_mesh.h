@@ -121,7 +121,7 @@ Buffer<std::uint32_t> collectTriangles(const MeshView& mesh, const TriangleList&
         for (auto t = (some & mask) != 0 ? count : 0; t-- > 0;) bits = 2 * bits + ((marked[t] & mask) != 0 ? 1 : 0);
         return bits;
     };
-    constexpr std::size_t kGrain = 256;  // blocks
+    constexpr std::size_t kGrain = 256;  // blocks per task
     const std::size_t block_count = (triangles.count + kCollectBlock - 1) / kCollectBlock;
     if (block_count == 0) return {};
     Buffer<std::uint64_t> passed(allocator, block_count);
