@@ -28,7 +28,7 @@ enum class BakeInput : std::uint32_t { low = 0, high = 1, cage = 2, map = 3, ske
 
 /// How it is known which way green of a high poly's normal map points.
 enum class GreenSource : std::uint32_t {
-    assumed = 0,   ///< as its format says: up in glTF
+    assumed = 0,   ///< default of the format: up in glTF
     told = 1,      ///< BakeFileOptions::high_green
     declared = 2,  ///< the file says so
     seen = 3,      ///< the slopes of the map say so
@@ -37,18 +37,18 @@ enum class GreenSource : std::uint32_t {
 /// A normal map that the high poly shows itself, and that is baked through.
 struct BakedHighMap {
     std::string image = {};     ///< its URI or name
-    std::string material = {};  ///< of the first primitive that shows it; may be empty
-    double scale = 1;           ///< of x and y
+    std::string material = {};  ///< material of the first primitive that uses it; may be empty
+    double scale = 1;           ///< factor of x and y
     Green green = Green::up;
     GreenSource green_is = GreenSource::assumed;
     std::uint64_t triangle_count = 0;
 };
 
-/// What has a number of its own in MapLayer::id.
+/// Items that get a number of their own in MapLayer::id.
 enum class BakeIds : std::uint32_t {
     material = 0,  ///< materials by their names
     object = 1,    ///< nodes of the high poly by their names, or meshes where nodes have none
-    shell = 2      ///< what hangs together by its positions
+    shell = 2      ///< connected components by position
 };
 
 struct BakeFileOptions {
@@ -68,10 +68,10 @@ struct BakeFileOptions {
     std::string match = "names";
     /// Without the normal maps that materials of the high poly have: its own normals alone are what is seen.
     bool ignore_high_maps = false;
-    /// Which way green of these maps points. Nothing: as the file declares, or as their slopes show, or up.
+    /// Direction of green in these maps. Nothing: as the file declares, or as their slopes show, or up.
     std::optional<Green> high_green = {};
-    std::string misses = {};  ///< where to write a picture of what each texel is; empty: nowhere
-    std::string heat = {};    ///< where to write a picture of the error; empty: nowhere
+    std::string misses = {};  ///< path of a picture of the texel states; empty: none
+    std::string heat = {};    ///< path of a heat map of the error; empty: none
     /// Where to write the low poly with the frames that were used and the maps as its normal textures: .glb (holds them) or
     /// .gltf (names them). As a part of the same whole: all files appear, or none. Not with `udim`, object space or green
     /// down, which glTF does not have (invalidOption). Empty: nowhere.
@@ -100,9 +100,9 @@ struct UsedRays {
     bool has_cage = false;  ///< a cage of the low poly's own said all of it
 };
 
-/// What a colour of MapLayer::id stands for.
+/// Meaning of a color of MapLayer::id.
 struct BakedId {
-    std::string name = {};  ///< of the material or object; may be empty; shells have none
+    std::string name = {};  ///< name of the material or object; may be empty; shells have none
     std::array<std::uint8_t, 3> color = {};
 };
 
@@ -110,30 +110,30 @@ struct BakedId {
 struct BakedLayerFile {
     MapLayer layer = MapLayer::ao;
     std::string path = {};
-    unsigned bits = 8;     ///< of a channel
+    unsigned bits = 8;     ///< bits per channel
     bool is_srgb = false;  ///< its numbers have the sRGB curve
-    /// What black and white of each channel stand for, in units of the models.
+    /// Values of black and white for each channel, in model units.
     std::array<double, 3> least = {0, 0, 0}, most = {1, 1, 1};
-    std::uint64_t id_count = 0;     ///< of MapLayer::id: how many the high poly has
+    std::uint64_t id_count = 0;     ///< for MapLayer::id: number of items of the high poly
     std::vector<BakedId> ids = {};  ///< the first 256 of them
 };
 
 /// One image, and those beside it.
 struct BakedFile {
-    std::string path = {};      ///< of the normal map; empty where none was asked for
+    std::string path = {};      ///< path of the normal map; empty if it was not requested
     std::string material = {};  ///< its name; may be empty
     std::uint32_t tile = 0;     ///< 1001 and on with `udim`, else 0
     std::uint64_t triangle_count = 0;
     std::uint64_t outside_count = 0;  ///< triangles of the material that have no say: see BakeFileOptions::wrap
     UsedRays rays = {};
     BakedMap map = {};        ///< without texels
-    double heat_top_deg = 0;  ///< what the brightest colour of the heat map stands for
+    double heat_top_deg = 0;  ///< value of the brightest color of the heat map
     std::vector<BakedLayerFile> layers = {};
 };
 
 struct BakeFileReport {
     std::vector<BakedFile> files = {};
-    std::vector<BakedHighMap> high_maps = {};  ///< what was baked through
+    std::vector<BakedHighMap> high_maps = {};  ///< normal maps that were baked through
     bool frames_made = false;                  ///< the low poly had no tangents, or no normals, in part at least
     bool matched_by_name = false;              ///< objects of the low poly saw their own of the high poly alone
     std::uint64_t low_triangle_count = 0, high_triangle_count = 0;
@@ -152,17 +152,17 @@ Result<BakeFileReport> bakeFile(const std::string& low, const std::string& high,
                                 const BakeFileOptions& options = {});
 
 struct MapErrorFileOptions {
-    MapErrorOptions map = {};                                  ///< what the map is taken for, and how it is measured
-    TangentOptions tangents{.convention = conventions::gltf};  ///< as BakeFileOptions
+    MapErrorOptions map = {};                                  ///< how the map is interpreted and measured
+    TangentOptions tangents{.convention = conventions::gltf};  ///< as in BakeFileOptions
     NormalOptions normals{.weighting = NormalWeighting::flat};
     FileOptions file = {};
-    std::string cage = {}, skew = {}, match = "names";  ///< as BakeFileOptions
+    std::string cage = {}, skew = {}, match = "names";  ///< as in BakeFileOptions
     bool ignore_high_maps = false;                      ///< likewise
     std::optional<Green> high_green = {};               ///< likewise
     bool two_channels = false;  ///< z is made from x and y: `map.reading.two_channels`, whatever the reading
     std::string material = {};  ///< only triangles of the material with this name; empty: all
     std::uint32_t tile = 0;     ///< only triangles of this UDIM tile, 1001 and on; 0: all
-    std::string heat = {};      ///< where to write a picture of the error; empty: nowhere
+    std::string heat = {};      ///< path of a heat map of the error; empty: none
     Execution execution = {};
     Progress progress = {};
 };
@@ -171,7 +171,7 @@ struct MapErrorFileOptions {
 struct ExplainedReading {
     std::string frames =
         {};             ///< "file", a method, "quads" (mikktspace on quads), or "object" (no frames: object space)
-    MapAxes axes = {};  ///< of object space
+    MapAxes axes = {};  ///< axes of object space
     MapReading reading = {};
     MapError error = {};
 };
@@ -185,7 +185,7 @@ struct ExplainedRays {
 struct MapErrorFileReport {
     std::uint32_t width = 0, height = 0;
     unsigned bits = 8;
-    MapError error = {};  ///< as asked for, without heat
+    MapError error = {};  ///< error as requested, without heat
     /// All that were tried, the best first. The first is how the map was baked, if any of them is. At 20,000 points, read as
     /// the best of the readings under the rays that were asked for. With a cage of the low poly's own nothing else is tried.
     std::vector<ExplainedRays> rays = {};
@@ -207,11 +207,11 @@ Result<MapErrorFileReport> mapErrorFile(const std::string& map, const std::strin
 // A mesh of a generator or a scanner made ready for use: winding, normals, tangents, and with a low poly all maps baked onto it.
 // CMake target tspace::asset. What generateFile, bakeFile and checkFile do, in one call: nothing is done that is right already.
 
-/// Which normals are made.
+/// Normals that are recomputed.
 enum class FinishNormals : std::uint32_t {
-    missing = 0,  ///< where there are none, and where checkFile calls those that are there an error
+    missing = 0,  ///< missing normals, and those that checkFile reports as errors
     all = 1,      ///< everywhere
-    none = 2,     ///< none, but those that tangents need
+    none = 2,     ///< only those that tangents need
 };
 
 /// BakeFileOptions with all maps.
@@ -223,18 +223,18 @@ struct FinishOptions {
     /// seams of UVs.
     float crease_angle_deg = NormalOptions::crease_auto;
     float denoise = NormalOptions::denoise_auto;
-    /// Which positions are one where normals are made and triangles turned: as NormalOptions has it.
+    /// Weld distance for computing normals and turning triangles: as NormalOptions::weld_distance.
     float weld_distance = NormalOptions::weld_auto;
     /// As GenerateOptions. A mesh stays as it is wound where check then finds more normals against their triangles than before:
     /// its normals fit its triangles as they are, and it renders right.
     bool mend_winding = true;
-    bool images = true;  ///< as CheckOptions and GenerateOptions; maps are baked in any case
+    bool images = true;  ///< as CheckOptions::images and GenerateOptions::images; maps are baked in any case
     /// A model with UVs in the place of the input, of which it is the high poly: the output is this one, with all maps. Empty:
     /// the output is the input.
     std::string low = {};
     /// How maps are baked. Its models, `out_mesh`, file, execution and progress are set by the call.
     BakeFileOptions bake = allMaps();
-    std::string page = {};  ///< where to write a page for people, with pictures before and after; empty: nowhere
+    std::string page = {};  ///< path of an HTML report with pictures before and after; empty: none
     std::string page_date = {},
                 page_command = {};  ///< of the run, as the page says them: any text; empty: only the version
     FileOptions file = {};          ///< without `content`
@@ -242,7 +242,7 @@ struct FinishOptions {
     Progress progress = {};
 };
 
-/// What was done to a model.
+/// Changes to a model.
 struct FinishedModel {
     std::string path = {};
     GenerateReport made = {};  ///< winding, normals and tangents; names no output
@@ -256,10 +256,11 @@ struct FinishReport {
     FinishedModel model = {};
     std::optional<FinishedModel> low = {};
     std::optional<BakeFileReport> bake = {};
-    CheckReport check = {};                      ///< of the output
-    std::vector<std::string> remarks = {};       ///< what could not be done, and what does it: one sentence each
+    CheckReport check = {};  ///< check of the output
+    std::vector<std::string> remarks =
+        {};  ///< actions that were not possible, and which tools do them: one sentence each
     std::vector<std::string> output_files = {};  ///< the model first. Empty where no ray of an image met anything
-    std::uint64_t output_bytes = 0;              ///< of the model
+    std::uint64_t output_bytes = 0;              ///< size of the model file
 };
 
 /// Reads `input` (any format), and writes `output`, a GLB. Right normals and tangents stay; where nothing is wrong a GLB is

@@ -19,7 +19,7 @@
 
 namespace tspace {
 
-/// How much a finding matters.
+/// Importance of a finding.
 enum class Severity : std::uint32_t {
     note = 0,     ///< worth knowing; it renders as it should
     warning = 1,  ///< it renders wrong in some renderers, in a small part, or only perhaps
@@ -28,7 +28,7 @@ enum class Severity : std::uint32_t {
 /// "note", "warning" or "error".
 const char* severityName(Severity severity);
 
-/// What was found. Names (findingName) and numbers are stable and never reused.
+/// Kind of a finding. Names (findingName) and numbers are stable and never reused.
 enum class FindingCode : std::uint32_t {
     positionsNotFinite = 0,
     uvsMissing = 1,  ///< a texture needs tangents along a UV set that the primitive does not have
@@ -59,7 +59,7 @@ enum class FindingCode : std::uint32_t {
     texturesDisagree = 26,     ///< two textures of one primitive need different frames
     greenFlipped = 27,         ///< a normal map whose green points down (DirectX)
     normalMapUnreadable = 28,  ///< the image could not be looked at
-    fileRemark = 29,           ///< what reading the file had to say: parts that were left out, or taken to be absent
+    fileRemark = 29,           ///< a warning of the reader: data that were ignored, or treated as missing
     greenMixed = 30,           ///< a normal map whose green points down in one part and up in another
     packedFramesUnreadable =
         31,                     ///< an attribute of packed frames is not what its name promises (docs/concepts/pack.md)
@@ -91,7 +91,7 @@ inline constexpr std::uint32_t kFindingCodeCount = 54;
 /// Stable lowerCamelCase name: the name of the enumerator.
 const char* findingName(FindingCode code);
 
-/// What it is, in a short sentence that holds for every finding of the code: "Every sign is inverted."
+/// Short description that holds for every finding of the code: "Every sign is inverted."
 const char* findingSummary(FindingCode code);
 
 /// What a person sees where it is so, in one or two short sentences: "Bumps are lit from the wrong side."
@@ -127,34 +127,35 @@ struct Finding {
     std::string mesh_name = {};      ///< may be empty
     std::string material_name = {};  ///< may be empty
     std::string unit = {};           ///< what is counted: "vertices", "triangles", "blocks" (of an image), ...
-    std::uint64_t count = 0;         ///< how many have it
-    std::uint64_t total = 0;         ///< of how many that could have it
+    std::uint64_t count = 0;         ///< number of elements with the fault
+    std::uint64_t total = 0;         ///< number of candidates
     double surface_share = 0;        ///< their part of the primitive's surface, 0 to 1; 0 where that says nothing
     double worst_deg = 0;            ///< the largest angle, for findings about angles; else 0
     double confidence = 1;           ///< 0 to 1; below 1 for findings that rest on statistics
     std::vector<std::uint32_t> vertices = {};  ///< the first of them, at most 8
     std::string message = {};                  ///< one plain sentence
     std::string remedy = {};                   ///< how to mend it here; usually findingRemedy(code)
-    std::vector<RemedyCommand> commands = {};  ///< those that `remedy` spells as command lines, in its order
+    std::vector<RemedyCommand> commands = {};  ///< the commands that `remedy` spells as command lines, in its order
 };
 
-/// What is right. Angles are in degrees; no number may be negative or not finite.
+/// Tolerances and conventions of a check. Angles are in degrees; no number may be negative or not finite.
 struct CheckOptions {
-    /// How far a tangent may lie outside the directions that the triangles around it give, 0 to 180. All common ways
-    /// to average lie between those directions, so that the default is beyond every method.
+    /// Maximum angle of a tangent outside the range of directions that its adjacent triangles span, 0 to 180. All common
+    /// averages lie within that range, so the default exceeds the error of every method.
     double direction_deg = 10;
     /// From here on a direction is so wrong that it is an error, 0 to 180. The default is halfway to a right angle, where T
     /// says nothing of u.
     double error_deg = 45;
-    /// How far a tangent may lean out of the plane of the surface, 0 to 90. Quantised normals make a degree.
+    /// Maximum tilt of a tangent out of the plane of the surface, 0 to 90. Quantized normals cause up to a degree.
     double orthogonal_deg = 3;
-    /// How much the tangents of equal vertices may differ, 0 to 180. Storing in 8 bits makes less than the default.
+    /// Maximum angle between the tangents of equal vertices, 0 to 180. Storing in 8 bits causes less than the default.
     double split_deg = 2;
-    /// How far lengths may be from 1. The default is what storing in 8 bits takes, and what the glTF validator allows.
+    /// Maximum deviation of lengths from 1. The default covers storing in 8 bits, and equals the tolerance of the glTF
+    /// validator.
     double unit_tolerance = 0.00674;
-    /// What would be an error is a warning where it concerns less than this part of a primitive's surface, 0 to 1.
+    /// Errors become warnings if they affect less than this share of a primitive's surface, 0 to 1.
     double error_share = 0.001;
-    /// Whose signs are right for the data as they are in the file. The default is what glTF files hold.
+    /// Sign convention of the data in the file. The default is that of glTF files.
     Convention convention = conventions::gltf;
     /// Look at normal maps (PNG, JPEG and WebP, where tspace was built with their decoders; KTX2 and DDS; TGA, but not in glTF).
     bool images = true;
@@ -163,8 +164,8 @@ struct CheckOptions {
     FileOptions file = {};
     /// Primitives are checked at the same time. An allocator is not used.
     Execution execution = {};
-    /// What the tangents are compared with. automatic: triangles, and quads where the tangents fit clearly better to
-    /// those; quads: pairs of triangles that look like one. Blender computes tangents on quads.
+    /// Faces that tangents are compared with. automatic: triangles, or quads where the tangents clearly fit those better;
+    /// quads: pairs of triangles that look like one. Blender computes tangents on quads.
     Faces faces = Faces::automatic;
     /// Positions within this distance are one for winding, borders of primitives and noise: as NormalOptions has it.
     float weld_distance = NormalOptions::weld_auto;
@@ -209,12 +210,12 @@ struct CheckReport {
     std::uint64_t error_count = 0;
     std::uint64_t warning_count = 0;
     std::uint64_t note_count = 0;
-    std::uint64_t primitive_count = 0;                 ///< in the file
-    std::uint64_t tangents_count = 0;                  ///< primitives of those whose tangents were examined
-    std::uint64_t image_count = 0;                     ///< normal maps that were looked at: what their channels hold
-    std::uint64_t green_count = 0;                     ///< those of them whose relief says which way green points
+    std::uint64_t primitive_count = 0;  ///< in the file
+    std::uint64_t tangents_count = 0;   ///< primitives of those whose tangents were examined
+    std::uint64_t image_count = 0;      ///< normal maps that were looked at: what their channels hold
+    std::uint64_t green_count = 0;      ///< normal maps of these whose relief shows the direction of green
     std::vector<PackedFramesInfo> packed_frames = {};  ///< in file order
-    std::optional<CheckedImage> image = {};            ///< of an image alone
+    std::optional<CheckedImage> image = {};            ///< content of an image that was checked alone
 };
 
 /// Reads a model and says what is wrong with its frames; or an image (by its extension, or by the first bytes of file.content), and

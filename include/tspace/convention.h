@@ -6,14 +6,14 @@
 
 namespace tspace {
 
-/// Where v = 0 lies in the texture. It decides every sign, so it has no default.
+/// Position of v = 0 in the texture. It decides every sign, so it has no default.
 enum class VAxis : std::uint32_t {
-    unset = 0,  ///< not said; what computes tangents then fails with invalidOption
+    unset = 0,  ///< not set; functions that compute tangents fail with invalidOption
     up = 1,     ///< v = 0 is the bottom row of the image (OpenGL, Blender, Unity)
     down = 2    ///< v = 0 is the top row of the image (glTF, DirectX, Unreal, Godot)
 };
 
-/// What a large green value in a normal map means.
+/// Meaning of a large green value in a normal map.
 enum class Green : std::uint32_t {
     up = 0,   ///< towards the top row of the image ("OpenGL", +Y)
     down = 1  ///< towards the bottom row ("DirectX", -Y)

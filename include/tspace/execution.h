@@ -13,7 +13,7 @@ struct Executor {
     void (*run)(void* user, std::size_t task_count, void (*task)(void* context, std::size_t task_index),
                 void* context) = nullptr;
     void* user = nullptr;
-    unsigned concurrency = 1;  ///< how many tasks can run at the same time; work is cut to fit
+    unsigned concurrency = 1;  ///< number of tasks that can run at the same time
 };
 
 /// The caller's memory. `allocate` returns memory of that alignment (a power of two, at most 64) or null, which

@@ -29,8 +29,8 @@ struct FileOptions {
     std::uint64_t import_max_file_bytes = std::uint64_t{2} << 30;
     /// Address space of the importer, in bytes; a file gets 192 MiB and 256 times its size at most.
     std::uint64_t import_max_memory_bytes = std::uint64_t{16} << 30;
-    /// What the importer may take of processor time, and on the clock. 0: by the size of the file, 2 s and one more for
-    /// each MiB of it, and twice that on the clock.
+    /// Time limit of the importer: processor time in seconds, and twice that in wall-clock time. 0: 2 s, and 1 s more per MiB
+    /// of the file.
     std::uint32_t import_max_seconds = 0;
     /// What working on one file may take of memory, about; what it would take is estimated first, and more is
     /// refused (tooLarge). 0: 64 MB, and 16 times the bytes of the file, of those it names, and of what its

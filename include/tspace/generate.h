@@ -22,11 +22,11 @@
 
 namespace tspace {
 
-/// What becomes of tangents that are there and needed.
+/// Treatment of existing tangents that are needed.
 enum class ExistingTangents : std::uint32_t {
     keep = 0,     ///< they stay; only missing ones are added
     replace = 1,  ///< they are computed anew
-    repair = 2,   ///< what `check` calls an error is mended, vertex by vertex; everything else stays
+    repair = 2,   ///< repair what `check` reports as an error, vertex by vertex; keep everything else
 };
 
 /// Whether tangents follow the UVs before or after KHR_texture_transform. It matters for a rotation, and for a scale of
@@ -38,20 +38,20 @@ enum class TextureTransform : std::uint32_t {
 
 /// How the geometry of a written glTF file is packed.
 enum class Compression : std::uint32_t {
-    keep = 0,     ///< what came in compressed goes out compressed the same way, new data in it; the rest stays plain
+    keep = 0,     ///< keep the compression of the input, for new data too; plain data stay plain
     none = 1,     ///< everything is unpacked
     meshopt = 2,  ///< EXT_meshopt_compression for vertices and indices; changes no value
     draco = 3,    ///< KHR_draco_mesh_compression for triangles; rounds positions, normals and UVs new to it
 };
 
-/// What of NORMAL and TANGENT goes where a primitive has its frames packed.
+/// Attributes that are removed where a primitive has its frames packed.
 enum class PackDrop : std::uint32_t {
     nothing = 0,
     tangents = 1,  ///< TANGENT
     all = 2,       ///< TANGENT and NORMAL: only readers of the packed attribute light the primitive as before
 };
 
-/// Which normal maps get their green channel inverted.
+/// Normal maps whose green channel is inverted.
 enum class FlipGreen : std::uint32_t {
     none = 0,
     /// Those whose green points down throughout, as checkFile finds them (greenFlipped). Not where tangents that stay have
@@ -60,9 +60,9 @@ enum class FlipGreen : std::uint32_t {
     all = 2,  ///< every normal map and clearcoat normal map
 };
 
-/// What morph targets that move the surface get to add to normals that stay (NORMAL of a target).
+/// Normal deltas of morph targets that move the surface, for normals that are kept (NORMAL of a target).
 enum class MorphNormals : std::uint32_t {
-    keep = 0,     ///< what they have, or nothing
+    keep = 0,     ///< existing ones, or none
     missing = 1,  ///< targets without such offsets, or with zeros alone, get some; so do those not finite
     all = 2,      ///< all get new ones
 };
@@ -147,7 +147,7 @@ struct GenerateOptions {
     MorphNormals morph_normals = MorphNormals::keep;
 };
 
-/// What was done to one primitive.
+/// Result for one primitive.
 enum class PrimitiveAction : std::uint32_t {
     generated = 0,     ///< tangents were added
     replaced = 1,      ///< tangents were there and were computed anew
@@ -189,10 +189,11 @@ struct PrimitiveReport {
     /// Numbers of vertex lists: primitives with one `source_list` share their vertices in the input, and primitives with one
     /// `split_list` share the vertices that a split added. Sums over primitives count each list once.
     std::uint32_t source_list = 0, split_list = 0;
-    std::uint64_t mended_vertex_count = 0;     ///< of vertices_before: those whose tangents were wrong (`repair`)
-    std::uint32_t morph_target_count = 0;      ///< morph targets that the primitive has
-    std::uint32_t morph_deltas_computed = 0;   ///< those whose tangent deltas were computed
-    std::uint32_t morph_normals_computed = 0;  ///< those whose normal deltas were, for normals that stay
+    std::uint64_t mended_vertex_count = 0;    ///< vertices of vertices_before whose tangents were wrong (`repair`)
+    std::uint32_t morph_target_count = 0;     ///< morph targets that the primitive has
+    std::uint32_t morph_deltas_computed = 0;  ///< morph targets whose tangent deltas were computed
+    std::uint32_t morph_normals_computed =
+        0;  ///< morph targets whose normal deltas were computed, for normals that are kept
     /// Corners, over all targets, at which the frame of the moved shape has the other sign, which glTF cannot morph.
     std::uint64_t morph_sign_flip_count = 0;
     NormalReport normals = {};
@@ -214,18 +215,18 @@ struct PrimitiveReport {
     std::uint64_t negative_uv_count = 0;  ///< triangles with negative UV area, by the numbers in the file
     SanitizeReport sanitize = {};
     PackReport packing = {};         ///< frames that were mended before they were packed
-    Faces faces = Faces::triangles;  ///< what its tangents were computed on: triangles or quads
-    std::uint64_t quad_count = 0;    ///< of those, the ones with four corners or more
+    Faces faces = Faces::triangles;  ///< faces that its tangents were computed on: triangles or quads
+    std::uint64_t quad_count = 0;    ///< number of those faces with four corners or more
 };
 
-/// What was done to the winding of one mesh (`mend_winding`); of OBJ, whose objects are one surface, of the file.
+/// Changes to the winding of one mesh (`mend_winding`); of the file for OBJ, whose objects are one surface.
 struct MendedWindingReport {
     std::uint32_t mesh = 0;
     std::string mesh_name = {};  ///< may be empty
     WindingReport winding = {};
 };
 
-/// What became of one image that is a normal map.
+/// Result for one image that is a normal map.
 struct NormalMapReport {
     std::uint32_t image = 0;  ///< index in the input's images; for OBJ a running number
     std::string name = {};    ///< name or URI; may be empty
@@ -235,16 +236,16 @@ struct NormalMapReport {
     std::string reason = {};  ///< why nothing was done, or what it held: half a sentence for a person
 };
 
-/// What became of one normal map as some primitives show it (`convert_maps`).
+/// Result for one normal map as used by some primitives (`convert_maps`).
 struct ConvertedMapReport {
     std::uint32_t image = 0;                    ///< index in the input's images
     std::string name = {};                      ///< name or URI; may be empty
     bool converted = false;                     ///< they have a new image
     std::uint32_t new_image = 0;                ///< index in the output's images, where it was converted
     std::string reason = {};                    ///< why not: half a sentence for a person
-    std::vector<std::uint32_t> materials = {};  ///< of the input, which show the map
-    std::uint32_t primitive_count = 0;          ///< that show it
-    unsigned bits = 0;                          ///< of a channel, where it was converted
+    std::vector<std::uint32_t> materials = {};  ///< materials of the input that use the map
+    std::uint32_t primitive_count = 0;          ///< number of primitives that use it
+    unsigned bits = 0;                          ///< bits per channel, if it was converted
     std::uint64_t changed = 0;                  ///< texels that changed
     /// Angles between what the primitives show after and before, at the texels of all of their triangles: as it is, and as it
     /// would be with the old map.
@@ -255,7 +256,7 @@ struct ConvertedMapReport {
 struct GenerateReport {
     std::vector<PrimitiveReport> primitives = {};         ///< in file order
     std::vector<NormalMapReport> normal_maps = {};        ///< with flip_green or mend_maps; from OBJ height maps too
-    std::vector<ConvertedMapReport> converted_maps = {};  ///< of maps whose primitives got tangents (convert_maps)
+    std::vector<ConvertedMapReport> converted_maps = {};  ///< maps whose primitives got tangents (convert_maps)
     std::vector<MendedWindingReport> windings = {};       ///< with mend_winding, of each mesh with triangles
     bool changed = false;                                 ///< false: the output is byte for byte the input
     std::uint64_t input_bytes = 0;                        ///< the model file and what it loads

@@ -74,7 +74,7 @@ struct IndexedFramesOptions {
     bool make_normals = false;  ///< also where the mesh has normals; they are made anyway where it has none
     /// Mend tangents that are not finite, zero, not unit, parallel to N, or of mixed sign inside a face.
     bool sanitize = true;
-    bool orthogonalize_all = false;  ///< as SanitizeOptions::orthogonalize_all
+    bool orthogonalize_all = false;  ///< like SanitizeOptions::orthogonalize_all
     /// Further attributes, one entry per corner, that must not be shared: corners that disagree get a vertex each.
     /// Only a mesh without indices needs it, for what hangs on its vertices beside position, normal and UV.
     std::span<const CornerAttribute> keep_apart = {};

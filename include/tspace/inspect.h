@@ -25,7 +25,7 @@ struct TangentUseInfo {
     std::string place = {};      ///< JSON pointer of the texture reference or extension; empty for OBJ
     std::uint32_t material = 0;
     std::string material_name = {};  ///< may be empty
-    bool only_in_variant = false;    ///< not the primitive's own material, but one of KHR_materials_variants
+    bool only_in_variant = false;    ///< used by one of KHR_materials_variants, not by the primitive's own material
     std::int32_t uv_set = 0;         ///< n of TEXCOORD_n
     double uv_offset[2] = {0, 0};    ///< KHR_texture_transform
     double uv_rotation_rad = 0;
@@ -33,7 +33,7 @@ struct TangentUseInfo {
     bool follows_first = true;  ///< tangents made for the first use of the primitive fit this one too
 };
 
-/// What is in one primitive, as a person would want to know it before generating.
+/// Properties of one primitive that matter for generating tangents.
 struct PrimitiveInfo {
     std::uint32_t mesh = 0;
     std::uint32_t primitive = 0;
@@ -42,7 +42,7 @@ struct PrimitiveInfo {
     std::string mode = {};  ///< "triangles", "triangle strip", "points", ...
     std::uint64_t triangle_count = 0;
     std::uint64_t vertex_count = 0;
-    std::uint32_t vertex_list = 0;             ///< the same number for primitives that share their vertices
+    std::uint32_t vertex_list = 0;             ///< equal numbers mean shared vertices
     std::string index_type = {};               ///< "u8", "u16", "u32" or "none"
     std::string compression = {};              ///< "meshopt", "draco" or "none"
     std::vector<std::string> attributes = {};  ///< "POSITION float3", "NORMAL snorm16x3", ...
@@ -66,7 +66,7 @@ struct PrimitiveInfo {
     /// Triangles that show the texture mirrored (V direction and KHR_texture_transform considered).
     std::uint64_t mirrored_triangle_count = 0;
     std::uint32_t uv_island_count = 0;        ///< connected pieces of the UV map
-    std::uint32_t mirrored_island_count = 0;  ///< those of which most of the area is mirrored
+    std::uint32_t mirrored_island_count = 0;  ///< islands whose area is mostly mirrored
 };
 
 struct Inspection {
@@ -83,7 +83,7 @@ struct Inspection {
     std::vector<std::string> variants = {};      ///< names of KHR_materials_variants
     std::vector<PrimitiveInfo> primitives = {};  ///< in file order
     std::vector<std::string> warnings = {};      ///< about the file as a whole: one sentence each
-    double coordinate_offset[3] = {0, 0, 0};     ///< as in GenerateReport: what generate would take out
+    double coordinate_offset[3] = {0, 0, 0};     ///< offset that generate would subtract, as in GenerateReport
 };
 
 /// Reads a model and says what is in it. Changes nothing. Errors as generateFile.
@@ -92,10 +92,10 @@ Result<Inspection> inspectFile(const std::string& input, const FileOptions& opti
 // Which method and which convention made the tangents of a model: every known method is run on the file's own
 // positions, normals and UVs, and compared with what the file has. CMake target tspace::asset. Changes nothing.
 
-/// What the stored signs mean, seen over all corners.
+/// Meaning of the stored signs, over all corners.
 enum class SignReading : std::uint32_t {
-    none = 0,      ///< nothing to go by: no corner has an orientation
-    gltf = 1,      ///< as glTF wants it, B against growing v: the method was fed (u, 1 - v), or its sign negated
+    none = 0,      ///< undetermined: no corner has an orientation
+    gltf = 1,      ///< as in glTF, B against growing v: the method was given (u, 1 - v), or its sign was negated
     inverted = 2,  ///< the opposite: the method was fed the file's raw UVs and its sign was stored as it came
     mixed = 3,     ///< neither holds for 95 % of the corners
 };
@@ -115,7 +115,7 @@ struct Explanation {
     /// stored.
     bool is_transformed = false;
     std::uint64_t corner_count = 0;  ///< corners compared: those with a stored tangent that has a direction
-    std::uint64_t near_count = 0;    ///< of those, within the tolerance of the method's tangent at this corner
+    std::uint64_t near_count = 0;    ///< corners of these within the tolerance of the method's tangent
     /// Within the tolerance of the method's tangent at some corner of the same vertex: what remains when results per
     /// corner were written through the old index list, so that one corner's tangent serves all.
     std::uint64_t near_any_count = 0;
@@ -202,7 +202,7 @@ struct PrimitiveDiff {
     std::string place_a = {}, place_b = {};  ///< JSON pointers (OBJ: "usemtl NAME"); empty: no partner
     std::uint32_t mesh_a = 0, primitive_a = 0;
     std::uint32_t mesh_b = 0, primitive_b = 0;
-    std::string mesh_name = {};  ///< that of A, or of B when there is no A; may be empty
+    std::string mesh_name = {};  ///< mesh name in A, or in B if there is no A; may be empty
     /// "geometry" (same triangles, in any order and split or not), "name", "order" (neither fits, but the counts do),
     /// or "none": it has no partner.
     std::string paired_by = {};
@@ -221,11 +221,11 @@ struct PrimitiveDiff {
 struct DiffOptions {
     FileOptions file = {};
     std::optional<FileOptions> file_b = {};  ///< how B is opened, where that is not how A is
-    std::size_t worst_count = 8;             ///< how many of the worst places are listed
+    std::size_t worst_count = 8;             ///< number of worst places to list
 };
 
 struct FrameDiff {
-    std::vector<PrimitiveDiff> primitives = {};  ///< those of A in file order, then those of B without a partner
+    std::vector<PrimitiveDiff> primitives = {};  ///< primitives of A in file order, then those of B without a match
     AngleStatistics tangents = {};               ///< over all pairs of the file
     AngleStatistics normals = {};
     AngleStatistics bitangents = {};

@@ -24,7 +24,7 @@ namespace tspace {
 //
 // All functions are thread-safe, and give the same bytes each time.
 
-// Where an image keeps the vectors of a normal map, when that is not x, y and z in red, green and blue.
+// Layout of a normal map's vectors in an image, if it is not x, y and z in red, green and blue.
 
 /// A channel of an image.
 enum class MapChannel : std::uint32_t {
@@ -32,7 +32,7 @@ enum class MapChannel : std::uint32_t {
     green = 1,
     blue = 2,
     alpha = 3,
-    none = 4  ///< of z only: it is the root of 1 - x^2 - y^2
+    none = 4  ///< for z only: it is sqrt(1 - x^2 - y^2)
 };
 
 /// The curve that was applied to the numbers of an image that was taken for a picture.
@@ -52,7 +52,7 @@ struct MapComponent {
 /// The default is what glTF has.
 struct MapLayout {
     MapComponent x{MapChannel::red}, y{MapChannel::green}, z{MapChannel::blue};
-    MapCurve curve = MapCurve::none;  ///< of red, green and blue; alpha never has one
+    MapCurve curve = MapCurve::none;  ///< encoding of red, green and blue; alpha is always linear
 
     friend bool operator==(const MapLayout&, const MapLayout&) = default;
 };
@@ -71,26 +71,27 @@ enum class ImageFileFormat : std::uint32_t {
 };
 
 struct FlipGreenOptions {
-    /// Of the output: that of the input, or PNG. Others are refused (unsupportedFile): they would lose bits or depth.
+    /// Format of the output: that of the input, or PNG. Others are rejected (unsupportedFile), because they would lose bits or
+    /// depth.
     ImageFileFormat format = ImageFileFormat::sameAsInput;
-    /// Where a JPEG is written: 1 to 100. The default adds less than the rounding to 8 bits did.
+    /// JPEG quality, 1 to 100. The default adds a smaller error than rounding to 8 bits.
     int jpeg_quality = 98;
-    /// As FileOptions::memory_limit_bytes.
+    /// Like FileOptions::memory_limit_bytes.
     std::uint64_t memory_limit_bytes = 0;
 
     // For flipGreenFile.
 
     std::span<const std::uint8_t> content = {};  ///< the image, in place of the file `input`; must stay while it runs
-    /// As GenerateOptions::sink: gets the bytes in place of the file `output`, of which nothing is asked then.
+    /// Like GenerateOptions::sink: receives the bytes instead of the file `output`.
     Sink sink = {};
     bool dry_run = false;  ///< everything but writing
-    bool sync = true;      ///< as FileOptions::sync
+    bool sync = true;      ///< like FileOptions::sync
 };
 
 struct FlipGreenReport {
-    ImageFileFormat format = ImageFileFormat::png;  ///< of the output; never sameAsInput
+    ImageFileFormat format = ImageFileFormat::png;  ///< format of the output; never sameAsInput
     std::uint32_t width = 0, height = 0;
-    std::uint32_t bits = 8;  ///< of a channel
+    std::uint32_t bits = 8;  ///< bits per channel
     /// Every texel has exactly 255 - G (65535 - G with 16 bits), and all other channels are as they were. false: a JPEG was
     /// written, whose texels are rounded again, or a PNG of a KTX2 or DDS that has numbers between the integers.
     bool is_exact = true;
@@ -130,22 +131,22 @@ Result<FlipGreenReport> flipGreenFile(const std::string& input, const std::strin
 enum class MapFileSpace : std::uint32_t {
     tangent = 0,
     object = 1,  ///< the coordinates of the mesh, as the model file has them
-    world = 2    ///< those of the scene: the mesh's nodes, which must agree, turn and squeeze them
+    world = 2    ///< axes of the scene: the mesh's nodes, which must agree, rotate and scale the vectors
 };
 
 /// The meaning of the alpha channel of a normal map from which smaller mip levels are made.
 enum class MapAlpha : std::uint32_t {
     automatic = 0,  ///< coverage where texels with alpha 0 hold no unit vectors and nearly all others do; else data
     coverage =
-        1,    ///< how much of a texel is surface, as in sprites and foliage: smaller levels are means weighted by it
+        1,    ///< fraction of a texel that is surface, as in sprites and foliage: mip levels are alpha-weighted means
     data = 2  ///< anything else, such as heights: it is left out
 };
 
 /// The header of a DDS.
 enum class DdsHeader : std::uint32_t {
-    dx10 = 0,    ///< that of Direct3D 10, with a number of DXGI: the only one that names every format
-    legacy = 1,  ///< that of Direct3D 9: BC5 as FourCC ATI2 (with a sign BC5S), plain texels by masks
-    bc5u = 2     ///< as legacy, but BC5 as FourCC BC5U
+    dx10 = 0,    ///< Direct3D 10, with a DXGI number: the only one that names every format
+    legacy = 1,  ///< Direct3D 9: BC5 as FourCC ATI2 (signed: BC5S), plain texels by masks
+    bc5u = 2     ///< like legacy, but BC5 as FourCC BC5U
 };
 
 struct ConvertMapFileOptions {
@@ -177,23 +178,23 @@ struct ConvertMapFileOptions {
     bool dry_run = false;                        ///< everything but writing
     Execution execution = {};
     Progress progress = {};
-    MapAlpha alpha = MapAlpha::automatic;    ///< of `input`, where the output has levels (KTX2, DDS)
-    DdsHeader dds_header = DdsHeader::dx10;  ///< of an output in DDS
+    MapAlpha alpha = MapAlpha::automatic;    ///< alpha of `input`, if the output has mip levels (KTX2, DDS)
+    DdsHeader dds_header = DdsHeader::dx10;  ///< header of an output in DDS
 };
 
-/// What was taken of a model file.
+/// The part of a model file that was used.
 struct MapMeshReport {
     std::uint32_t primitive_count = 0;
     std::uint64_t triangle_count = 0;
     std::vector<std::string> materials = {};  ///< names, each once
-    bool tangents_made = false;               ///< by `tangents`, for some of them at least
-    double scale = 1;                         ///< what their materials multiply x and y of the map by
+    bool tangents_made = false;               ///< tangents were computed by `tangents`, for some of them at least
+    double scale = 1;                         ///< factor of x and y of the map in their materials
 };
 
 struct ConvertMapFileReport {
     std::uint32_t width = 0, height = 0;
     unsigned bits_before = 8,
-             bits = 16;                ///< of a channel in the files: whole numbers of 8 or 16, or floats of 16 or 32
+             bits = 16;                ///< bits per channel in the files: integers of 8 or 16, or floats of 16 or 32
     MapMeshReport from = {}, to = {};  ///< empty where there is no mesh
     ConvertMapReport texels = {};
     std::vector<std::string> warnings = {};  ///< one sentence each
@@ -222,12 +223,12 @@ struct HeightToNormalFileOptions {
     /// texel_size. Of heights in meters: 1 keeps them, 2 makes slopes twice as steep.
     double strength = 1;
     std::string mesh = {};      ///< the model that shows the map; empty: none
-    std::string material = {};  ///< as ConvertMapFileOptions::material
-    Green green = Green::up;    ///< of the output
+    std::string material = {};  ///< like ConvertMapFileOptions::material
+    Green green = Green::up;    ///< direction of green in the output
     bool clamp = false;  ///< the image ends at its borders; else it repeats, or does what the mesh's texture does
-    unsigned bits = 16;  ///< of a channel of the output: 8 or 16
-    TangentOptions tangents{.convention = conventions::gltf};  ///< as ConvertMapFileOptions::tangents
-    FileOptions file = {};                                     ///< as ConvertMapFileOptions::file
+    unsigned bits = 16;  ///< bits per channel of the output: 8 or 16
+    TangentOptions tangents{.convention = conventions::gltf};  ///< like ConvertMapFileOptions::tangents
+    FileOptions file = {};                                     ///< like ConvertMapFileOptions::file
     std::span<const std::uint8_t> content = {};                ///< the image, in place of the file `input`
     Sink sink = {};                                            ///< takes the output in place of a file
     bool dry_run = false;                                      ///< everything but writing
@@ -240,7 +241,7 @@ struct HeightToNormalFileOptions {
 
 struct HeightToNormalFileReport {
     std::uint32_t width = 0, height = 0;
-    unsigned bits_before = 8, bits = 16;  ///< of a channel
+    unsigned bits_before = 8, bits = 16;  ///< bits per channel
     MapMeshReport mesh = {};              ///< empty where there is none
     HeightToNormalReport texels = {};
     std::vector<std::string> warnings = {};  ///< one sentence each
@@ -279,29 +280,29 @@ struct CompressMapFileOptions {
     std::string roughness = {}, roughness_output = {};
     double roughness_factor = 1;  ///< is multiplied into green, before: the material's factor is then 1
     unsigned zstd_level = 0;      ///< packs levels of a KTX2 once more, 1 to 22; 0: not
-    unsigned bits = 16;           ///< of the PNGs of normals: 8 or 16
+    unsigned bits = 16;           ///< bits per channel of the PNGs of normals: 8 or 16
     /// Limits for the image: as ConvertMapFileOptions::file.
     FileOptions file = {};
     std::span<const std::uint8_t> content = {};  ///< the image, in place of the file `input`; must stay while it runs
     Sink sink = {};                              ///< takes the output, a KTX2, in place of a file; without roughness
     bool dry_run = false;                        ///< everything but writing
     Execution execution = {};
-    MapAlpha alpha = MapAlpha::automatic;    ///< of `input`
-    DdsHeader dds_header = DdsHeader::dx10;  ///< of outputs in DDS
+    MapAlpha alpha = MapAlpha::automatic;    ///< alpha of `input`
+    DdsHeader dds_header = DdsHeader::dx10;  ///< header of outputs in DDS
 };
 
 struct CompressMapFileReport {
     std::uint32_t width = 0, height = 0;
-    unsigned bits_before = 8;        ///< of a channel of the input
+    unsigned bits_before = 8;        ///< bits per channel of the input
     std::string format = {};         ///< what was written: "BC5", "BC5 signed", "PNG"
     std::uint32_t level_count = 1;   ///< in the output
-    std::uint64_t output_bytes = 0;  ///< of the normal map
+    std::uint64_t output_bytes = 0;  ///< size of the normal map
     std::uint64_t roughness_bytes = 0;
     /// Between the map as three channels of full depth and as the texture, of the first level: bilinear, then unit, at 3 x 3
     /// points a texel (of some rows, where it is large). What rebuilding z after the filter costs is in it, and what looks below
     /// the horizon.
     double mean_error_deg = 0, p99_error_deg = 0, max_error_deg = 0;
-    double max_error_x = 0, max_error_y = 0;  ///< where, in texels from the top left corner
+    double max_error_x = 0, max_error_y = 0;  ///< position of the maximum, in texels from the top left corner
     std::uint64_t below_horizon = 0;          ///< texels whose z is below 0: of two channels laid on the horizon
     std::uint64_t not_unit = 0;               ///< texels that are a tenth or more longer or shorter than unit vectors
     /// Means of the roughness of the last level, as plain means and as written; 0 without roughness.
@@ -326,7 +327,7 @@ struct TextureErrorReport {
     std::uint32_t width = 0, height = 0;
     std::string format = {};  ///< "BC5 in a DDS"; empty for other images
     bool makes_z = false;     ///< it has two channels: z is made after the filter, as by renderers
-    double mean_error_deg = 0, p99_error_deg = 0, max_error_deg = 0;  ///< as CompressMapFileReport
+    double mean_error_deg = 0, p99_error_deg = 0, max_error_deg = 0;  ///< as in CompressMapFileReport
     double max_error_x = 0, max_error_y = 0;
     std::vector<std::string> warnings = {};  ///< one sentence each
 };

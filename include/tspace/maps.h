@@ -17,7 +17,7 @@
 
 namespace tspace {
 
-/// Where x, y and z of a map in object space point, in the coordinates of the meshes. The default is those coordinates.
+/// Axes of a map in object space: directions of its x, y and z in the coordinates of the meshes. Default: those coordinates.
 struct MapAxes {
     Vec3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
 
@@ -27,7 +27,7 @@ struct MapAxes {
 /// Maps of programs in which z points up (Blender, 3ds Max), for meshes of which y does: those have x, -z, y.
 inline constexpr MapAxes kMapAxesZUp{{1, 0, 0}, {0, 0, -1}, {0, 1, 0}};
 
-/// What a texture shows at UVs outside of 0 to 1.
+/// Behavior of a texture outside the 0-1 UV range.
 enum class TextureWrap : std::uint32_t { repeat = 0, mirror = 1, clamp = 2 };
 
 /// The space of the vectors of a map.
@@ -70,7 +70,7 @@ struct MapReading {
 /// sources of these programs as they stood in 2026 (docs/reference/shaders.md). Null for any other name. Thread-safe.
 const MapReading* findMapReading(const char* name);
 
-/// Which front face of the high poly a point of the low poly stands for, of those that its ray meets.
+/// Which of the front faces of the high poly on the ray of a point of the low poly is baked.
 enum class RayTarget : std::uint32_t {
     /// The first one from the cage inwards, and so what is seen from outside: bolts on a plate, and not the plate below.
     /// Where there is none, the nearest one beyond the cage.
@@ -79,7 +79,7 @@ enum class RayTarget : std::uint32_t {
     nearest = 1,
 };
 
-/// Where rays point.
+/// Directions of the rays.
 enum class RayDirections : std::uint32_t {
     /// Straight at flat faces, and averaged near edges where faces meet at over 30 degrees: nothing leans in the middle of
     /// a face, and nothing is cut at its edges. Averaged where there are no such edges. The field calls it skew
@@ -91,16 +91,16 @@ enum class RayDirections : std::uint32_t {
     normals = 2,  ///< the low poly's normals as stored: gaps and overlaps at hard edges
 };
 
-/// Not for a low poly with a cage of its own, whose rays go from the cage to the low poly and on (LowPoly::cage).
+/// Not for a low poly with a cage mesh, whose rays go from the cage through the low poly (LowPoly::cage).
 struct RayOptions {
     RayTarget target = RayTarget::outermost;
     RayDirections directions = RayDirections::automatic;
-    /// How far the cage is from the low poly's faces, where rays begin; `nearest` only judges by it. 0: as the reach.
+    /// Cage distance: how far from the low poly's faces rays start; `nearest` only uses it to choose. 0: the reach.
     double cage_offset = 0;
     /// In place of `directions`: its first channel, by the low poly's UVs, is 0 where rays are averaged and 1 where they
     /// are at right angles to the triangle. Without texels: none.
     MapImage skew = {};
-    /// Which positions are one point, for directions of rays and for curvature: as NormalOptions::weld_distance.
+    /// Weld distance for ray directions and curvature: as NormalOptions::weld_distance.
     float weld_distance = NormalOptions::weld_auto;
 };
 
@@ -118,10 +118,10 @@ inline constexpr std::uint32_t kEveryGroup = 0xffffffff;
 /// is said. Triangles that are not finite are left out.
 struct LowPoly {
     StridedSpan<const Vec3> positions = {};
-    StridedSpan<const Vec3> normals = {};   ///< as stored: used for rays and for shading
+    StridedSpan<const Vec3> normals = {};   ///< normals as stored: used for rays and for shading
     StridedSpan<const Vec4> tangents = {};  ///< empty with MapSpace::object
     StridedSpan<const Vec2> uvs = {};       ///< v runs down
-    StridedSpan<const Vec3> cage = {};      ///< where rays begin; empty: as RayOptions say
+    StridedSpan<const Vec3> cage = {};      ///< start of the rays; empty: as in RayOptions
     /// One per triangle: it looks only at triangles of the high poly with the same number, or where either is kEveryGroup.
     /// Empty, also there: at all.
     std::span<const std::uint32_t> groups = {};
@@ -154,10 +154,10 @@ struct HighPoly {
 };
 
 struct MapErrorOptions {
-    MapSpace space = MapSpace::tangent;  ///< what the map is taken for; the default is glTF's
+    MapSpace space = MapSpace::tangent;  ///< space that the map is read in; the default is that of glTF
     MapReading reading = {};             ///< how it is taken to be read; the default is glTF's
     MapAxes axes = {};                   ///< with MapSpace::object
-    /// How far rays go from the surface, inwards and outwards; with a cage, how far beyond the surface. 0: chosen from the
+    /// Ray distance from the surface, inwards and outwards; with a cage, the distance beyond the surface. 0: chosen from the
     /// sizes of both meshes (chosenReach).
     double reach = 0;
     RayOptions rays = {};
@@ -165,7 +165,7 @@ struct MapErrorOptions {
     bool heat = false;                   ///< also MapError::heat
 };
 
-/// What a point counts as whose ray meets no high poly: nothing is right there.
+/// Error of a sample whose ray hits no high poly.
 inline constexpr double kMissedDeg = 90;
 
 /// Angles between the shaded normal and the truth, in degrees.
@@ -177,12 +177,12 @@ struct MapError {
     /// Points whose ray goes through a back of the high poly before the front that counts, or meets backs alone.
     std::uint64_t back_count = 0;
     std::uint64_t inward_count = 0;                 ///< points that met a front whose normal, as shaded, points inwards
-    double mean_deg = 0, p99_deg = 0, max_deg = 0;  ///< of all points; one that missed counts as kMissedDeg
+    double mean_deg = 0, p99_deg = 0, max_deg = 0;  ///< over all samples; one without a hit counts as kMissedDeg
     double met_mean_deg = 0;                        ///< the mean of those that met the high poly
-    std::uint64_t seam_point_count = 0;             ///< those within a texel of a border of the UV map
+    std::uint64_t seam_point_count = 0;             ///< samples within one texel of a UV border
     double seam_mean_deg = 0;                       ///< their mean
-    double inside_mean_deg = 0;                     ///< that of the others
-    double reach = 0, cage_offset = 0;              ///< what was used; no offset with a cage of the low poly's own
+    double inside_mean_deg = 0;                     ///< mean over the other samples
+    double reach = 0, cage_offset = 0;              ///< the values used; no offset with a cage mesh
     /// One per texel, degrees: the mean over four points of it; -1 where no triangle has one of them. Empty unless asked for.
     std::vector<float> heat = {};
 };
@@ -204,7 +204,7 @@ struct MapCandidate {
     MapSpace space = MapSpace::tangent;
     MapReading reading = {};
     StridedSpan<const Vec4> tangents = {};  ///< three per triangle; empty: the low poly's
-    /// Which rays say the truth; null: those of the options. Must stay.
+    /// Rays that define the truth; null: those of the options. Must stay valid.
     const RayOptions* rays = nullptr;
     double reach = 0;   ///< with `rays`; 0: that of the options
     MapAxes axes = {};  ///< with MapSpace::object
@@ -256,7 +256,7 @@ struct ConvertMapOptions {
 
 struct ConvertMapReport {
     std::uint64_t converted = 0;   ///< texels that triangles or their padding show, and that were converted
-    std::uint64_t changed = 0;     ///< those of them with another value than before
+    std::uint64_t changed = 0;     ///< texels of these whose value changed
     std::uint64_t background = 0;  ///< texels that no triangle shows: left as they are
     /// Left as they are because there is no answer: frames that are singular or not finite, texels without a direction.
     std::uint64_t without_frame = 0;
@@ -304,13 +304,13 @@ Result<ConvertMapReport> convertMap(const MapImage& map, const MapSide& from, co
 struct HeightMap {
     std::uint32_t width = 0, height = 0;
     std::span<const float> heights = {};  ///< width * height, row 0 is v = 0; 0 is black and 1 is white
-    TextureWrap wrap_u = TextureWrap::repeat, wrap_v = TextureWrap::repeat;  ///< what lies beyond the borders
+    TextureWrap wrap_u = TextureWrap::repeat, wrap_v = TextureWrap::repeat;  ///< wrap modes
 };
 
 struct HeightToNormalOptions {
     /// How high white stands above black. With a mesh in its units, else in texels. Below 0: white lies deeper.
     double strength = 1;
-    Green green = Green::up;  ///< of the normal map
+    Green green = Green::up;  ///< direction of green in the normal map
     /// Channels are rounded to n / (2^bits - 1), n whole. 32: as computed.
     unsigned bits = 16;
 };
@@ -357,23 +357,23 @@ enum class MapFit : std::uint32_t {
 /// symmetric do. Pieces of the UV map are triangles that join in UVs and in space and turn one way.
 enum class MapOverlap : std::uint32_t {
     mean = 0,    ///< the mean of all: equally wrong on each
-    first = 1,   ///< those of the piece whose triangles come first in the mesh
-    larger = 2,  ///< those of the piece with the larger surface
+    first = 1,   ///< the piece whose triangles come first in the mesh
+    larger = 2,  ///< the piece with the larger surface
 };
 
 struct BakeOptions {
     std::uint32_t width = 1024, height = 1024;  ///< 1 to 16384
-    unsigned bits = 16;                         ///< of a channel: 8 or 16
-    MapSpace space = MapSpace::tangent;         ///< what its vectors are told in; the default is glTF's
+    unsigned bits = 16;                         ///< bits per channel: 8 or 16
+    MapSpace space = MapSpace::tangent;         ///< space of its vectors; the default is that of glTF
     MapAxes axes = {};                          ///< with MapSpace::object: unit, and at right angles
-    MapReading reading = {};  ///< what the map is made for. With two channels all texels have length 1
+    MapReading reading = {};  ///< reader that the map is made for. With two channels all texels have length 1
     /// How the texture goes on outside of 0 to 1. What reaches beyond the edge of a clamped one has no say.
     TextureWrap wrap_u = TextureWrap::repeat, wrap_v = TextureWrap::repeat;
     MapFit fit = MapFit::solve;
     MapOverlap overlap = MapOverlap::mean;
     TexelLengths lengths = TexelLengths::even;  ///< with 8 bits and three channels
     std::uint32_t padding = 16;                 ///< texels around the triangles that continue them; 0 to 256
-    double reach = 0;                           ///< as MapErrorOptions::reach
+    double reach = 0;                           ///< like MapErrorOptions::reach
     RayOptions rays = {};
     bool heat = false;  ///< MapError::heat
     /// Most memory that the call may take: bakeBytes is compared with it before any work (tooLarge). 0: no limit.

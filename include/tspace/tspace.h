@@ -193,7 +193,7 @@ tspace_ErrorCode tspace_validate(const tspace_Mesh* mesh, tspace_Error* error) T
 typedef struct tspace_Executor {
     void (*run)(void* user, size_t task_count, void (*task)(void* context, size_t task_index), void* context);
     void* user;
-    uint32_t concurrency; /* how many tasks can run at the same time; work is cut to fit. In C: 0 means 1. */
+    uint32_t concurrency; /* number of tasks that can run at the same time. In C: 0 means 1. */
 } tspace_Executor;
 
 /* The caller's memory. `allocate` returns memory of that alignment (a power of two, at most 64) or null, which makes
@@ -272,15 +272,15 @@ void tspace_trimArena(tspace_Arena* arena) TSPACE_NOEXCEPT;
 /* Frees an arena. Null is allowed. */
 void tspace_destroyArena(tspace_Arena* arena) TSPACE_NOEXCEPT;
 
-/* Where v = 0 lies in the texture. It decides every sign, so it has no default. */
+/* Position of v = 0 in the texture. It decides every sign, so it has no default. */
 typedef uint32_t tspace_VAxis;
 enum {
-    TSPACE_V_UNSET = 0, /* not said; what computes tangents then fails with INVALID_OPTION */
+    TSPACE_V_UNSET = 0, /* not set; functions that compute tangents fail with INVALID_OPTION */
     TSPACE_V_UP = 1,    /* v = 0 is the bottom row of the image (OpenGL, Blender, Unity) */
     TSPACE_V_DOWN = 2   /* v = 0 is the top row of the image (glTF, DirectX, Unreal, Godot) */
 };
 
-/* What a large green value in a normal map means. */
+/* Meaning of a large green value in a normal map. */
 typedef uint32_t tspace_Green;
 enum {
     TSPACE_GREEN_UP = 0,  /* towards the top row of the image ("OpenGL", +Y) */
@@ -968,7 +968,7 @@ typedef struct tspace_IndexedFramesOptions {
     /* 0 or 1. Mend tangents that are not finite, zero, not unit, parallel to N, or of mixed sign inside a face.
      * Default: 1. */
     uint32_t sanitize;
-    uint32_t orthogonalize_all; /* 0 or 1. As tspace_SanitizeOptions.orthogonalize_all */
+    uint32_t orthogonalize_all; /* 0 or 1. Like tspace_SanitizeOptions.orthogonalize_all */
     /* Its convention must be set; it also says which side of a face is out.
      * Results are per corner (`domain`): the split makes vertices of them.
      * In C: not null. */

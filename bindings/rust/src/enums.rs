@@ -122,7 +122,7 @@ pub enum FrameFormat {
     GltfSnorm16 = 8,
 }
 
-/// Where v = 0 lies in the texture. It decides every sign, so it has no default.
+/// Position of v = 0 in the texture. It decides every sign, so it has no default.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum VAxis {
     /// v = 0 is the bottom row of the image (OpenGL, Blender, Unity).
@@ -131,7 +131,7 @@ pub enum VAxis {
     Down = 2,
 }
 
-/// What a large green value in a normal map means.
+/// Meaning of a large green value in a normal map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Green {
     /// Towards the top row of the image ("OpenGL", +Y).
