@@ -53,6 +53,7 @@ CPP_ALONE = {
     r"Cancelled": "C has no function that is told of progress",
     r"mapErrorFile": "`tspace map-error`, which is for C++ and the tool",
     r"MapLayout|MapComponent|readTexel": "of maps in arrays, which C does not have",
+    r"[pP]lanBuffer(s|Options)": "buffers for compute shaders, which C does not have yet",
     r"allMaps": "the default of FinishOptions::bake",
 }
 
