@@ -114,7 +114,8 @@ function followLink(): void {
   linked = {};
   // What one sees at once is the worst of it.
   const worst = check && worstOf(check);
-  if (worst && finding === undefined && split === undefined && !camera) place.aim(check!.findings.filter(({ code }) => code === worst.code));
+  const isDrawn = document.documentElement.dataset.picture === "drawn";
+  if (worst && isDrawn && finding === undefined && split === undefined && !camera) place.aim(check!.findings.filter(({ code }) => code === worst.code));
   if (finding !== undefined) findings.openFinding(finding);
   if (look) stage.setLook(look);
   if (split !== undefined) stage.setSplit(split);

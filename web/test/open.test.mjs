@@ -70,7 +70,7 @@ test("dropped files, folders and OBJs are shown and judged", { skip: missing }, 
 test("what is no model, or lacks its files, gets a sentence", { skip: missing }, async () => {
   await withPage(async (tab) => {
     assert.equal(await drop(tab, at("notes.txt")), "failed");
-    assert.match(await tab.locator(".failure").textContent(), /notes\.txt is no model/);
+    assert.match(await tab.locator(".failure").textContent(), /notes\.txt is no file that this page reads/);
     assert.equal(await drop(tab, at("box", "crate.gltf")), "failed");
     assert.match(await tab.locator(".failure").textContent(), /crate\.bin/);
     assert.equal(await drop(tab, at("crate.glb")), "ready");
@@ -112,7 +112,7 @@ test("files and folders can be chosen, too", { skip: missing }, async () => {
     await tab.locator(".picker input").first().setInputFiles([at("quad.obj"), at("quad.mtl")]);
     await tab.waitForFunction(() => window.tspaceView.model?.name === "quad.glb");
     assert.equal(await settled(tab), "ready");
-    await tab.locator(".picker input").last().setInputFiles(at("box"));
+    await tab.locator(".picker input[webkitdirectory]").setInputFiles(at("box"));
     await tab.waitForFunction(() => window.tspaceView.model?.name === "crate.gltf");
     assert.equal(await settled(tab), "ready");
     assert.equal((await shown(tab)).picture, "drawn");
@@ -151,7 +151,7 @@ test("one finger turns the model, and two come nearer", { skip: missing }, async
     await drag([[0.2, 0.5], [0.8, 0.5]], [[0.45, 0.5], [0.55, 0.5]]);
     assert.ok((await eye(tab)).distance > 1.2 * near.distance, "and away again");
     assert.equal(await tab.evaluate(() => scrollY), 0, "the page does not scroll under the fingers");
-    await tab.waitForSelector(".texel dl"); // what a finger touches is read
+    await tab.waitForSelector(".texel dl", { state: "attached" }); // what a finger touches is read
   }, { width: 390, height: 844, hasTouch: true });
 });
 

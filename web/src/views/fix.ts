@@ -62,7 +62,7 @@ export class FixView {
     const isFixed = after !== null && after.error + after.warning === 0;
     this.caption.dataset.severity = isFixed || after === null ? "fine" : after.error > 0 ? "error" : "warning";
     const counts = after === null ? "" : ` ${changeOfCounts(before, after)}.`;
-    replaceChildren(this.caption, el("strong", {}, isFixed ? "Fixed:" : after ? `Fixed in part, ${countsText(after)} left:` : "Done:"), `${counts} The file as it was is left of the line, the fixed one right of it.`);
+    replaceChildren(this.caption, el("strong", {}, isFixed ? "Fixed:" : after ? `Fixed in part, ${countsText(after)} left:` : "Done:"), `${counts} Left of the line: before. Right: after.`);
     this.element.hidden = false;
     this.#button.disabled = false;
     if (rest) replaceChildren(this.#button, el("strong", {}, "Fix the rest"), el("span", {}, rest.steps.join(", ")));

@@ -60,12 +60,16 @@ async function answerTo(question: Question): Promise<{ answer: unknown; transfer
   }
 }
 
+/** What decoders throw is about the file, unless the code is wrong. */
+const readers = new Set<string>(["meshopt", "draco", "texture", "image"]);
+
 async function serve(question: Question): Promise<void> {
   try {
     const { answer, transfer = [] } = await answerTo(question);
     self.postMessage({ id: question.id, answer } satisfies Answer, { transfer });
   } catch (error) {
-    const code = String((error as { code?: unknown }).code ?? "internal");
+    const isFault = error instanceof TypeError || error instanceof ReferenceError || !readers.has(question.call);
+    const code = String((error as { code?: unknown }).code ?? (isFault ? "internal" : "unreadable"));
     const message = error instanceof Error ? error.message : String(error);
     self.postMessage({ id: question.id, code, message } satisfies Answer);
   }
