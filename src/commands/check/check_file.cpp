@@ -7,6 +7,7 @@
 #include "commands/check/check_image.h"
 #include "commands/check/check_report.h"
 #include "commands/check/findings.h"
+#include "commands/check/remedy.h"
 #include "commands/check/scene_checks.h"
 #include "commands/check/scene_verdict.h"
 #include "core/base/sort.h"
@@ -62,7 +63,9 @@ Finding fileRemark(const std::string& warning) {
     return makeFinding(FindingCode::fileRemark, Severity::note, one, "files", warning);
 }
 
-void countFindings(CheckReport& report) {
+/// Sorts, counts and spells the findings.
+void finishFindings(CheckReport& report) {
+    spellRemedies(report.findings);
     sortStably(report.findings.begin(), report.findings.end(),
                [](const Finding& a, const Finding& b) { return a.severity > b.severity; });
     for (const Finding& finding : report.findings) {
@@ -76,7 +79,7 @@ CheckReport check(const std::string& input, const CheckOptions& options) {
     checkOptions(options);
     if (isImageInput(input, options.file.content)) {
         CheckReport report = checkImageFile(input, options);
-        countFindings(report);
+        finishFindings(report);
         return report;
     }
     const auto tell = [&](const char* what, std::uint64_t done) {
@@ -116,7 +119,7 @@ CheckReport check(const std::string& input, const CheckOptions& options) {
         // A finding about their primitives says it.
         if (warning.rfind(kNormalLengths, 0) != 0) report.findings.push_back(fileRemark(warning));
     }
-    countFindings(report);
+    finishFindings(report);
     return report;
 }
 

@@ -519,6 +519,7 @@ Result<std::vector<Finding>> checkPrimitive(const ScenePrimitive& primitive, con
                                             bool is_gltf) {
     Result<PrimitiveVerdict> verdict = judgePrimitive(primitive, options, is_gltf);
     if (!verdict) return verdict.error();
+    spellRemedies(verdict->findings);
     return std::move(verdict->findings);
 }
 

@@ -214,6 +214,7 @@ const char* findingRemedy(FindingCode code) {
         for (std::uint32_t number = 0; number < kFindingCodeCount; ++number) {
             Finding finding;
             setRemedy(finding, usualRemedy(static_cast<FindingCode>(number)));
+            spellRemedies({&finding, 1});
             all.push_back(std::move(finding.remedy));
         }
         return all;
@@ -268,17 +269,22 @@ Remedy usualRemedy(FindingCode code) {
 }
 
 void setRemedy(Finding& finding, Remedy remedy) {
-    constexpr std::string_view kPlace = "{}";
-    std::size_t at = 0;
-    for (const RemedyCommand& command : remedy.commands) {
-        at = remedy.text.find(kPlace, at);
-        if (at == std::string::npos) break;
-        const std::string line = commandLine(command);
-        remedy.text.replace(at, kPlace.size(), line);
-        at += line.size();
-    }
     finding.remedy = std::move(remedy.text);
     finding.commands = std::move(remedy.commands);
+}
+
+void spellRemedies(std::span<Finding> findings) {
+    constexpr std::string_view kPlace = "{}";
+    for (Finding& finding : findings) {
+        std::size_t at = 0;
+        for (const RemedyCommand& command : finding.commands) {
+            at = finding.remedy.find(kPlace, at);
+            if (at == std::string::npos) break;
+            const std::string line = commandLine(command);
+            finding.remedy.replace(at, kPlace.size(), line);
+            at += line.size();
+        }
+    }
 }
 
 }  // namespace tspace

@@ -2,7 +2,7 @@
 // Remedies of findings: sentences, and the commands in them as values.
 #pragma once
 
-#include <cstddef>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -28,23 +28,11 @@ RemedyCommand withOption(RemedyCommand command, std::string name, std::string va
 /// The usual remedy of a code (findingRemedy).
 Remedy usualRemedy(FindingCode code);
 
-/// Fills in Finding::remedy and Finding::commands.
+/// Fills in Finding::remedy and Finding::commands. The "{}" of the text stay until spellRemedies, so that commands may change.
 void setRemedy(Finding& finding, Remedy remedy);
 inline void setRemedy(Finding& finding, std::string text) { setRemedy(finding, Remedy{std::move(text), {}}); }
 
-/// Changes the commands of a finding by `change(command)`, also where its remedy spells them.
-template <class Change>
-void changeCommands(Finding& finding, const Change& change) {
-    std::size_t at = 0;
-    for (RemedyCommand& command : finding.commands) {
-        const std::string old = commandLine(command);
-        change(command);
-        const std::string line = commandLine(command);
-        at = finding.remedy.find(old, at);
-        if (at == std::string::npos) break;
-        finding.remedy.replace(at, old.size(), line);
-        at += line.size();
-    }
-}
+/// Writes the commands of findings into their remedies. Once for each finding.
+void spellRemedies(std::span<Finding> findings);
 
 }  // namespace tspace

@@ -169,19 +169,19 @@ bool makesTangents(const RemedyCommand& command) {
 /// Adds the convention to the commands of a remedy: who checks by another convention than the format's has to compute by it.
 void addConvention(const CheckOptions& options, Finding& finding) {
     if (signFactor(options.convention) == signFactor(conventions::gltf)) return;
-    changeCommands(finding, [&](RemedyCommand& command) {
+    for (RemedyCommand& command : finding.commands) {
         if (makesTangents(command))
             command.options.insert(command.options.begin() + 1, RemedyOption{"convention", nameOf(options.convention)});
-    });
+    }
 }
 
 /// Has commands that make tangents make them as `name` says: "repair" or "overwrite".
 void setCommandOption(Finding& finding, const char* name, bool flips_green = false) {
-    changeCommands(finding, [&](RemedyCommand& command) {
-        if (!makesTangents(command)) return;
+    for (RemedyCommand& command : finding.commands) {
+        if (!makesTangents(command)) continue;
         command.options.front().name = name;
         if (flips_green) command.options.insert(command.options.begin() + 1, RemedyOption{"flip-green", {}});
-    });
+    }
 }
 
 // Remedies of green that points down together with inverted signs.
