@@ -89,6 +89,37 @@ TEST(Vrm, ItsExtensionsStayByteForByte) {
     EXPECT_NE(jsonOf(folder.read("out.vrm")).find(kAvatar), std::string::npos) << jsonOf(folder.read("out.vrm"));
 }
 
+/// VRM 0.x describes materials at the root, by numbers of textures, and its readers look there alone.
+TEST(Vrm, OfVersion0ShowsTheMapThatWasBaked) {
+    for (const bool shares_texture : {false, true}) {
+        const TempFolder folder;
+        writeAvatar(folder, "hero.vrm");
+        const std::string glb = folder.read("hero.vrm");
+        auto json = nlohmann::json::parse(jsonOf(glb));
+        const auto old = json["materials"][0]["normalTexture"]["index"].get<std::size_t>();
+        json["extensions"] = nlohmann::json::parse(
+            R"({"VRM":{"materialProperties":[{"name":"a","shader":"VRM/MToon","textureProperties":{},"keywordMap":{}}]}})");
+        auto& textures = json["extensions"]["VRM"]["materialProperties"][0]["textureProperties"];
+        textures["_BumpMap"] = old;
+        if (shares_texture) textures["_MainTex"] = old;
+        std::string text = json.dump();
+        while (text.size() % 4 != 0) text += ' ';
+        const std::string rest = glb.substr(20 + wordAt(glb, 12));
+        folder.write("hero.vrm", "glTF" + word(2) + word(static_cast<std::uint32_t>(20 + text.size() + rest.size())) +
+                                     word(static_cast<std::uint32_t>(text.size())) + "JSON" + text + rest);
+        const ToolRun bake = runTool(folder, "bake hero.vrm --high hero.vrm -o map.png --size 16 --out-mesh new.vrm");
+        if (bake.err.find("Embree") != std::string::npos) GTEST_SKIP();
+        ASSERT_EQ(bake.exit_code, 0) << bake.err;
+        const auto after = nlohmann::json::parse(jsonOf(folder.read("new.vrm")));
+        const auto& shown = after["extensions"]["VRM"]["materialProperties"][0];
+        EXPECT_EQ(shown["textureProperties"]["_BumpMap"], after["materials"][0]["normalTexture"]["index"]);
+        EXPECT_EQ(shown["keywordMap"]["_NORMALMAP"], true);
+        // What another property shows stays.
+        if (shares_texture) EXPECT_NE(shown["textureProperties"]["_MainTex"], shown["textureProperties"]["_BumpMap"]);
+        if (shares_texture) EXPECT_EQ(shown["textureProperties"]["_MainTex"], old);
+    }
+}
+
 TEST(Vrm, IsShownRenderedAndBakedFor) {
     const TempFolder folder;
     writeAvatar(folder, "hero.vrm");

@@ -8,6 +8,8 @@
 
 #include "model/gltf/container.h"
 #include "model/gltf/editor.h"
+#include "model/gltf/json_access.h"
+#include "model/gltf/material_needs.h"
 #include "model/io/file_error.h"
 #include "model/io/uri.h"
 
@@ -25,6 +27,40 @@ std::size_t referencesTo(const Json& value, std::size_t texture) {
         if (index != nullptr && index->is_number_unsigned() && index->get<std::size_t>() == texture) ++count;
     }
     for (const Json& child : value) count += referencesTo(child, texture);
+    return count;
+}
+
+/// The property of a slot in VRM 0.x; null: there is none.
+const char* vrmPropertyOf(MapSlot slot) {
+    switch (slot) {
+        case MapSlot::normal:
+            return "_BumpMap";
+        case MapSlot::color:
+            return "_MainTex";
+        case MapSlot::emission:
+            return "_EmissionMap";
+        default:
+            return nullptr;
+    }
+}
+
+/// How often VRM 0.x names a texture: its materials by number, and its thumbnail.
+std::size_t vrmReferencesTo(const Json& json, std::size_t texture) {
+    const Json* const vrm = gltf::findExtension(json, "VRM");
+    if (vrm == nullptr || !vrm->is_object()) return 0;
+    const auto isIt = [&](const Json& number) {
+        return number.is_number_unsigned() && number.get<std::size_t>() == texture;
+    };
+    const Json* const meta = vrm->find("meta");
+    const Json* const thumbnail = meta == nullptr || !meta->is_object() ? nullptr : meta->find("texture");
+    std::size_t count = thumbnail != nullptr && isIt(*thumbnail) ? 1 : 0;
+    const Json* const materials = vrm->find("materialProperties");
+    if (materials == nullptr || !materials->is_array()) return count;
+    for (const Json& material : *materials) {
+        const Json* const textures = material.is_object() ? material.find("textureProperties") : nullptr;
+        if (textures == nullptr || !textures->is_object()) continue;
+        for (const Json& number : *textures) count += isIt(number) ? 1 : 0;
+    }
     return count;
 }
 
@@ -109,7 +145,7 @@ class MapPlacing {
     /// True: a .gltf names the file beside it.
     bool place(const ModelMap& map) {
         const std::vector<std::size_t> materials = giveMaterials(map);
-        const std::optional<std::size_t> old = oldTexture(materials, referencesOf(map.slot));
+        const std::optional<std::size_t> old = oldTexture(materials, map.slot);
         const std::optional<std::string> name = nameBeside(map.path);
         const std::size_t image = placeImage(map, name, old);
         const std::size_t texture = old ? *old : append("textures", Json{{"source", image}});
@@ -119,6 +155,7 @@ class MapPlacing {
             for (const SlotReference& reference : referencesOf(map.slot))
                 showMap(materials[i], map.primitives[i], texture, reference);
             setFactors(document_.json["materials"][materials[i]], map.slot);
+            showInVrm(materials[i], map.slot, texture);
         }
         editor_.touch();
         if (name) document_.new_files[*name] = map.png;
@@ -134,6 +171,14 @@ class MapPlacing {
         Json& entries = document_.json[list];
         entries.push_back(std::move(entry));
         return entries.size() - 1;
+    }
+
+    [[nodiscard]] bool showsInVrm(std::size_t material, MapSlot slot, std::size_t texture) const {
+        const char* const property = vrmPropertyOf(slot);
+        const Json* const entry = gltf::vrmMaterial(document_, material);
+        const Json* const textures = entry == nullptr ? nullptr : entry->find("textureProperties");
+        if (property == nullptr || textures == nullptr || !textures->is_object()) return false;
+        return indexIn(*textures, property, texture + 1) == texture;
     }
 
     void setWrap(Json& texture, const ModelMap& map) {
@@ -173,13 +218,34 @@ class MapPlacing {
     std::size_t ownMaterial(std::optional<std::size_t> before, bool is_alone) {
         if (!before) return append("materials", Json::object());
         if (is_alone) return *before;
+        // VRM 0.x describes materials in the order of the list.
+        if (gltf::vrmMaterial(document_, *before) != nullptr) {
+            Json& all = document_.json["extensions"]["VRM"]["materialProperties"];
+            if (all.size() == document_.json["materials"].size()) {
+                Json entry = all[*before];
+                all.push_back(std::move(entry));
+            }
+        }
         Json copy = document_.json["materials"][*before];
         return append("materials", std::move(copy));
     }
 
+    void showInVrm(std::size_t material, MapSlot slot, std::size_t texture) {
+        const char* const property = vrmPropertyOf(slot);
+        if (property == nullptr || gltf::vrmMaterial(document_, material) == nullptr) return;
+        Json& entry = document_.json["extensions"]["VRM"]["materialProperties"][material];
+        if (!entry["textureProperties"].is_object()) entry["textureProperties"] = Json::object();
+        entry["textureProperties"][property] = texture;
+        if (slot != MapSlot::normal) return;
+        if (!entry["keywordMap"].is_object()) entry["keywordMap"] = Json::object();
+        entry["keywordMap"]["_NORMALMAP"] = true;
+        if (!entry["floatProperties"].is_object()) entry["floatProperties"] = Json::object();
+        entry["floatProperties"]["_BumpScale"] = 1.0;
+    }
+
     /// The texture that all these references of these materials show, where nothing else shows it or its image.
-    [[nodiscard]] std::optional<std::size_t> oldTexture(const std::vector<std::size_t>& materials,
-                                                        const std::vector<SlotReference>& references) const {
+    [[nodiscard]] std::optional<std::size_t> oldTexture(const std::vector<std::size_t>& materials, MapSlot slot) const {
+        const std::vector<SlotReference> references = referencesOf(slot);
         const Json& json = document_.json;
         std::optional<std::size_t> texture;
         std::set<std::size_t> seen;
@@ -196,6 +262,9 @@ class MapPlacing {
             }
         }
         if (!texture || referencesTo(json["materials"], *texture) != seen.size() * references.size()) return {};
+        std::size_t own = 0;
+        for (const std::size_t material : seen) own += showsInVrm(material, slot, *texture) ? 1 : 0;
+        if (vrmReferencesTo(json, *texture) != own) return {};
         const Json& entry = json["textures"][*texture];
         const auto image = indexIn(entry, "source", json["images"].size());
         if (!image || entry.contains("extensions")) return {};

@@ -106,6 +106,16 @@ TextureReading readTexture(const Document& document, const Json& texture, const 
     return reading;
 }
 
+const Json* vrmMaterial(const Document& document, std::size_t material) {
+    const Json* vrm = findExtension(document.json, "VRM");
+    const Json* all = vrm == nullptr ? nullptr : findMember(*vrm, "materialProperties");
+    if (all == nullptr || !all->is_array() || material >= all->size()) return nullptr;
+    const Json& entry = (*all)[material];
+    const Json* shader = findMember(entry, "shader");
+    const bool is_as_in_gltf = shader != nullptr && *shader == "VRM_USE_GLTFSHADER";
+    return is_as_in_gltf || !entry.is_object() ? nullptr : &entry;
+}
+
 namespace {
 
 /// Extensions of materials that read no tangents, or whose use of tangents is collected here. Any other may read them.
@@ -136,16 +146,11 @@ bool isKnownExtension(const std::string& name) {
 /// for readers that do not know them.
 constexpr std::array kOverridesUnlit{"VRMC_materials_mtoon"};
 
-/// The normal map of a material in VRM 0.x, which describes materials at the root of the file and has KHR_materials_unlit in
-/// them as the fallback; null where it names none.
+/// The normal map of a material in VRM 0.x; null where it names none.
 const Json* vrmNormalMap(const Document& document, std::size_t material) {
-    const Json* vrm = findExtension(document.json, "VRM");
-    const Json* all = vrm == nullptr ? nullptr : findMember(*vrm, "materialProperties");
-    if (all == nullptr || !all->is_array() || material >= all->size()) return nullptr;
-    const Json* shader = findMember((*all)[material], "shader");
-    const Json* textures = findMember((*all)[material], "textureProperties");
-    const bool is_as_in_gltf = shader != nullptr && *shader == "VRM_USE_GLTFSHADER";
-    return textures == nullptr || is_as_in_gltf ? nullptr : findMember(*textures, "_BumpMap");
+    const Json* entry = vrmMaterial(document, material);
+    const Json* textures = entry == nullptr ? nullptr : findMember(*entry, "textureProperties");
+    return textures == nullptr ? nullptr : findMember(*textures, "_BumpMap");
 }
 
 /// Whether an object, at any depth, has a texture reference whose name says that it is a normal or bump map.

@@ -36,6 +36,10 @@ std::vector<std::size_t> variantMaterials(const Document& document, const Primit
 /// it (VRMC_materials_mtoon; VRM 0.x with a `_BumpMap`), and no extension unknown to tspace that names a normal or bump map.
 bool isUnlit(const Document& document, std::size_t material);
 
+/// What VRM 0.x says of a material at the root of the file, and its readers take in place of the material, which is the
+/// fallback; null where it says nothing, or that the material counts (VRM_USE_GLTFSHADER).
+const Json* vrmMaterial(const Document& document, std::size_t material);
+
 /// Properties that all materials of a primitive, its own and those of variants, share. Without any: the default
 /// material's.
 struct SurfaceKind {
