@@ -7,6 +7,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import threading
 import time
 
 tool = os.path.abspath(sys.argv[1])
@@ -117,6 +118,13 @@ for command, more in (("check", []), ("inspect", []), ("identify", []), ("genera
     with open("list.txt", "w", encoding="ascii") as file:
         file.write("two.gltf\n")
     expect(b"two.gltf" in run(command, *more, "--files-from", "list.txt").stdout, f"{command} --files-from FILE")
+    if hasattr(os, "mkfifo"):
+        os.mkfifo("pipe")
+        writer = threading.Thread(target=lambda: open("pipe", "w", encoding="ascii").write("two.gltf\n"))
+        writer.start()
+        expect(b"two.gltf" in run(command, *more, "--files-from", "pipe").stdout, f"{command} --files-from PIPE")
+        writer.join()
+        os.remove("pipe")
     expect(run(command, *more, "--files-from", "-").returncode == 0, f"{command}: an empty list is an error")
     expect(run(command, *more, "--files-from", "nothing.txt").returncode == 4, f"{command}: a list that is not there")
     expect(run(command, *more).returncode == 2, f"{command}: without inputs")

@@ -63,7 +63,9 @@ Command helpCommand() {
         .examples = {"tspace help", "tspace help generate"},
     };
     Option about = text("", "COMMAND", *topic, "The command to describe.");
-    for (const Entry& entry : kCommands) about.choices.emplace_back(entry.name);
+    for (const Entry& entry : kCommands) {
+        if (entry.is_there) about.choices.emplace_back(entry.name);
+    }
     command.add("Input and output", about);
     command.add("Reporting", helpOption());
     command.run = [topic] {

@@ -12,6 +12,7 @@
 #include "model/io/file_error.h"
 #include "model/io/file_io.h"
 #include "model/io/recorded_files.h"
+#include "model/io/system_files.h"
 
 namespace tspace::tool {
 namespace {
@@ -49,21 +50,32 @@ Option operand(const char* value_name, std::vector<std::string>& target, HelpTex
 
 namespace {
 
+/// Reads a stream to its end. Throws FileError.
+void readStream(std::FILE* stream, std::string& text) {
+    constexpr std::size_t kMostBytes = std::size_t{1} << 28;
+    char part[4096];
+    for (std::size_t count = 0; (count = std::fread(part, 1, sizeof part, stream)) != 0;) {
+        text.append(part, count);
+        if (text.size() > kMostBytes) failFile(ErrorCode::cannotRead, "it has more than 256 MB");
+    }
+    if (std::ferror(stream) != 0) failFile(ErrorCode::cannotRead, "it cannot be read");
+}
+
 /// Appends the paths that a list names: one per line, or separated by NUL bytes where it has any.
 ExitCode readFileList(const std::string& list, std::vector<std::string>& inputs) {
     std::string text;
-    if (list == "-") {
-        char part[4096];
-        for (std::size_t count = 0; (count = std::fread(part, 1, sizeof part, stdin)) != 0;) text.append(part, count);
-        if (std::ferror(stdin) != 0) return printError("standard input", {ErrorCode::cannotRead, "it cannot be read"});
-    } else {
-        const std::optional<Error> failure = tryFile([&] {
-            const Bytes bytes = readFile(list);
-            text.assign(bytes.begin(), bytes.end());
-        });
-        if (failure) return printError(list, *failure);
+    const bool is_stdin = list == "-";
+    const std::optional<Error> failure = tryFile([&] {
+        if (is_stdin) return readStream(stdin, text);
+        // A pipe, as shells pass it for <(...).
+        if (kindOf(list) == PathKind::stream) {
+            if (const CFile file = openFile(list, "rb")) return readStream(file.get(), text);
+        }
+        const Bytes bytes = readFile(list);
+        text.assign(bytes.begin(), bytes.end());
         recordInput(list);
-    }
+    });
+    if (failure) return printError(is_stdin ? "standard input" : list, *failure);
     const char end = text.find('\0') == std::string::npos ? '\n' : '\0';
     for (std::size_t begin = 0; begin < text.size();) {
         const std::size_t stop = std::min(text.find(end, begin), text.size());
