@@ -115,8 +115,10 @@ TEST(Vrm, OfVersion0ShowsTheMapThatWasBaked) {
         EXPECT_EQ(shown["textureProperties"]["_BumpMap"], after["materials"][0]["normalTexture"]["index"]);
         EXPECT_EQ(shown["keywordMap"]["_NORMALMAP"], true);
         // What another property shows stays.
-        if (shares_texture) EXPECT_NE(shown["textureProperties"]["_MainTex"], shown["textureProperties"]["_BumpMap"]);
-        if (shares_texture) EXPECT_EQ(shown["textureProperties"]["_MainTex"], old);
+        if (shares_texture) {
+            EXPECT_NE(shown["textureProperties"]["_MainTex"], shown["textureProperties"]["_BumpMap"]);
+            EXPECT_EQ(shown["textureProperties"]["_MainTex"], old);
+        }
     }
 }
 

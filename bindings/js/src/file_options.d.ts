@@ -89,8 +89,8 @@ export interface GenerateFileOptions {
    */
   pack?: "frame32" | "frame48" | "frame64" | "oct32" | "qtangent64" | "snorm8_pair" | "snorm16_pair" | "gltf_snorm8" | "gltf_snorm16";
   /**
-   * Attributes to remove where frames were packed. tangents: TANGENT; all: NORMAL too, for engines that read only packed
-   * frames. Attributes that morph targets add to are kept. By default both are kept.
+   * Attributes to remove where frames were packed.  tangents: TANGENT; all: NORMAL too, for engines that read only
+   * packed frames. Attributes that morph targets add to are kept. By default both are kept.
    */
   packDrop?: "tangents" | "all";
   /**

@@ -116,8 +116,9 @@ std::string messageOf(const NamedImage& image, const MapLook& look) {
                    " hold x + y and x - y of (x, y, z) / (|x| + |y| + z), as their slopes show, and glTF does not have "
                    "this encoding";
         case MapContent::octahedral:
-            return "the relief is lit wrong: the normal map " + name + " is octahedrally encoded: " +
-                   channelName(layout.x.channel) + " and " + channelName(layout.y.channel) +
+            return "the relief is lit wrong: the normal map " + name +
+                   " is octahedrally encoded: " + channelName(layout.x.channel) + " and " +
+                   channelName(layout.y.channel) +
                    " hold x and y of (x, y, z) / (|x| + |y| + |z|), as their slopes show, and glTF does not have this "
                    "encoding";
         case MapContent::normals:
