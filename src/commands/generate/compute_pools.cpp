@@ -232,34 +232,13 @@ class NewMorphNormals {
     std::vector<std::optional<VertexOffsets>> made_;
 };
 
-/// Which vertices have a sign by UVs: those of triangles with UV area.
-std::vector<bool> haveSigns(const PoolView& vertices, std::span<const PrimitiveGeometry> geometries) {
-    std::vector<bool> have(vertices.positions.count, false);
-    if (vertices.uvs.count == 0) return have;
-    for (const PrimitiveGeometry& geometry : geometries) {
-        for (std::size_t corner = 0; corner + 2 < geometry.indices.size(); corner += 3) {
-            const std::uint32_t* const v = geometry.indices.data() + corner;
-            const std::array<Vec3, 3> positions{vertices.positions[v[0]], vertices.positions[v[1]],
-                                                vertices.positions[v[2]]};
-            const std::array<Vec2, 3> uvs{vertices.uvs[v[0]], vertices.uvs[v[1]], vertices.uvs[v[2]]};
-            if (describeFace(positions, &uvs).orientation == 0) continue;
-            for (std::size_t k = 0; k < 3; ++k) have[v[k]] = true;
-        }
-    }
-    return have;
-}
-
-/// Whether most tangents that were there have the other sign, as files have it whose green points down. `have_signs`: of new
-/// vertices; without UV area a sign says nothing.
-bool haveInvertedSigns(std::span<const Vec4> old, const PoolFrames& frames, const std::vector<bool>& have_signs) {
+/// Whether most tangents that were there have the other sign, as files have it whose green points down.
+bool haveInvertedSigns(std::span<const Vec4> old, const PoolFrames& frames) {
     if (old.empty() || frames.tangents.empty()) return false;
-    std::size_t inverted = 0, count = 0;
-    for (std::size_t v = 0; v < frames.tangents.size(); ++v) {
-        if (!have_signs[v]) continue;
-        ++count;
+    std::size_t inverted = 0;
+    for (std::size_t v = 0; v < frames.tangents.size(); ++v)
         inverted += frames.tangents[v].w * old[frames.source_vertices[v]].w < 0 ? 1U : 0U;
-    }
-    return count != 0 && 3 * inverted >= 2 * count;
+    return 3 * inverted >= 2 * frames.tangents.size();
 }
 
 /// The vertices as they are.
@@ -365,15 +344,10 @@ PoolElements PoolComputer::computeOne(const PoolPlan& pool, const Execution& exe
     }
     const bool has_tangent_deltas = pool.makes_tangents && !frames.morphs.empty();
     if (morph_normals) morph_normals->write(vertices, frames);
-    std::vector<bool> have_signs;
-    if (keeps_signs && !vertices.old_tangents.empty()) {
-        const std::vector<bool> sources = haveSigns(vertices, geometries);
-        for (const std::uint32_t source : frames.source_vertices) have_signs.push_back(sources[source]);
-    }
     if (was_welded) {
         for (std::uint32_t& source : frames.source_vertices) source = welded.kept[source];
     }
-    if (keeps_signs && haveInvertedSigns(vertices.old_tangents, frames, have_signs)) {
+    if (keeps_signs && haveInvertedSigns(vertices.old_tangents, frames)) {
         for (Vec4& tangent : frames.tangents) tangent.w = -tangent.w;
         for (const std::size_t number : pool.primitives) {
             reports[number].notes.emplace_back(
