@@ -133,17 +133,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A path as an MTL or OBJ file writes it: maybe quoted, maybe with Windows' separators. `keeps_characters`: a backslash that
-/// may be the second byte of a character is none.
-std::string plainPath(std::string text, bool keeps_characters = true) {
+/// A path as an MTL or OBJ file writes it: maybe quoted, maybe with Windows' separators.
+std::string plainPath(std::string text) {
     text.erase(0, std::min(text.find_first_not_of(" \t"), text.size()));
     text.erase(text.find_last_not_of(" \t") + 1);
     if (text.size() >= 2 && text.front() == '"' && text.back() == '"') text = text.substr(1, text.size() - 2);
-    const bool is_utf8 = isUtf8(text);
-    const std::string spelled = text;
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        if (spelled[i] == '\\' && (is_utf8 || !keeps_characters || !isSecondByte(spelled, i))) text[i] = '/';
-    }
+    std::replace(text.begin(), text.end(), '\\', '/');
     return text;
 }
 
@@ -203,8 +198,6 @@ class FileFinder {
     std::string find(const std::string& text) {
         const std::string plain = plainPath(text);
         if (isThere(plain)) return plain;
-        if (const std::string separated = plainPath(text, false); separated != plain && isThere(separated))
-            return separated;
         const fs::path path = Path(plain);
         if (!path.has_root_path() && !startsAtDrive(path)) return plain;
         std::string name = Path(path.filename()).string();
