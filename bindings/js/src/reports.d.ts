@@ -39,7 +39,7 @@ export interface CheckedImage {
   width: number;
   height: number;
   /** "normals" in tangent space as glTF reads them, "twoChannels", "unsignedZ", "xInAlpha", "exchanged", "encoded" (sRGB),
-   * "hemiOctahedral", "octahedral", "objectSpace", "height", "picture" or "constant". */
+   * "hemiOctahedral", "objectSpace", "height", "picture" or "constant". */
   content: string;
   /** Direction of green, or of y where that is in another channel, if x is right: "up", "down", "mixed" or "unknown". */
   green: string;

@@ -39,8 +39,6 @@ const char* contentName(MapContent content) {
             return "height";
         case MapContent::hemiOctahedral:
             return "hemiOctahedral";
-        case MapContent::octahedral:
-            return "octahedral";
         case MapContent::picture:
             break;
     }

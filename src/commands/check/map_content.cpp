@@ -212,19 +212,6 @@ class Looker {
         return look;
     }
 
-    /// Whether blue falls where red and green grow, as in vectors of one length, whichever that is; beside x and y alone it would
-    /// be constant.
-    [[nodiscard]] bool haveOneLength() const {
-        constexpr double kRounding = 0.01, kMostOfSpread = 0.5;
-        const double across =
-            spreadOf(texels_, [](const TexelBytes& texel) { return squareOf(texel, 0, 1); }).deviation;
-        const auto squaredLength = [](const TexelBytes& texel) {
-            const double z = signedValue(texel[2]);
-            return squareOf(texel, 0, 1) + z * z;
-        };
-        return across > kRounding && spreadOf(texels_, squaredLength).deviation < kMostOfSpread * across;
-    }
-
     /// Blue is the same everywhere, and not what z would be: over all texels, or over those that lean. Maps that are flat
     /// nearly everywhere are left alone: Khronos' Lantern has one with blue 255, which is 0.15 degrees off in the mean.
     [[nodiscard]] std::optional<MapLook> twoChannels(double most_mean) const {
@@ -259,7 +246,7 @@ class Looker {
         const bool is_constant = blue.deviation <= kConstant && count >= kLeastCount &&
                                  off <= kConstant * kConstant * static_cast<double>(count) && wanted >= 4 * off &&
                                  angle >= kSeenDeg * total;
-        if ((!is_far && !is_constant) || haveOneLength()) return {};
+        if (!is_far && !is_constant) return {};
         MapLayout layout;
         layout.z.channel = MapChannel::none;
         return made(MapContent::twoChannels, layout, 1);

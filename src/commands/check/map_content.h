@@ -26,7 +26,6 @@ enum class MapContent {
     picture,      ///< colours, which are no unit vectors under any reading
     /// Hemi-octahedral: x + y and x - y of (x, y, z) / (|x| + |y| + z), in the channels that the layout has as x and y.
     hemiOctahedral,
-    octahedral,  ///< x and y of (x, y, z) / (|x| + |y| + |z|), in the channels that the layout has as x and y
 };
 
 /// A texel: red, green, blue, alpha.
@@ -75,7 +74,7 @@ bool isBlueConstant(std::span<const TexelBytes> texels);
 /// Whether the layout reads vectors in tangent space out of the image.
 inline bool holdsNormals(MapContent content) {
     return content != MapContent::objectSpace && content != MapContent::height && content != MapContent::picture &&
-           content != MapContent::hemiOctahedral && content != MapContent::octahedral;
+           content != MapContent::hemiOctahedral;
 }
 
 /// Makes of the image what a reader of the layout sees: x, y and z in red, green and blue. Without an alpha channel, 255

@@ -46,7 +46,6 @@ FindingCode codeOf(MapContent content) {
         case MapContent::picture:
             return FindingCode::normalMapIsPicture;
         case MapContent::hemiOctahedral:
-        case MapContent::octahedral:
             return FindingCode::normalMapTwoChannels;
         case MapContent::normals:
         case MapContent::height:
@@ -115,12 +114,6 @@ std::string messageOf(const NamedImage& image, const MapLook& look) {
                    channelName(layout.y.channel) +
                    " hold x + y and x - y of (x, y, z) / (|x| + |y| + z), as their slopes show, and glTF does not have "
                    "this encoding";
-        case MapContent::octahedral:
-            return "the relief is lit wrong: the normal map " + name +
-                   " is octahedrally encoded: " + channelName(layout.x.channel) + " and " +
-                   channelName(layout.y.channel) +
-                   " hold x and y of (x, y, z) / (|x| + |y| + |z|), as their slopes show, and glTF does not have this "
-                   "encoding";
         case MapContent::normals:
         case MapContent::height:
             break;
@@ -176,7 +169,7 @@ Remedy remedyOf(const NamedImage& image, const MapLook& look, bool green_is_down
     const RemedyCommand convert = convertCommand(image);
     if (look.is_x_lost) return {"Export the map again from its source, with its alpha channel: x cannot be restored."};
     if (look.content == MapContent::picture) return usualRemedy(FindingCode::normalMapIsPicture);
-    if (look.content == MapContent::hemiOctahedral || look.content == MapContent::octahedral) {
+    if (look.content == MapContent::hemiOctahedral) {
         return {
             "Decode it with the program that encoded it, and export x, y and z. No tspace command decodes it, and "
             "reading the two channels as x and y gives a different surface."};

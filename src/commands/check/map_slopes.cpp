@@ -61,16 +61,15 @@ bool areXAndYExchanged(const DecodedMap& map) {
     return std::fabs(slopesOf(map.image, map).correlation) <= kMost && fitsWell(slopesOf(map, exchanged({})));
 }
 
-/// Decodes the channels that the layout has as x and y from octahedral encoding of vectors with z >= 0; `is_turned`: from
-/// hemi-octahedral encoding, which has x + y and x - y there.
-RgbImage decodeOctahedral(const DecodedMap& map, const MapLayout& layout, bool is_turned) {
+/// Decodes the channels that the layout has as x and y from hemi-octahedral encoding.
+RgbImage decodeHemiOctahedral(const DecodedMap& map, const MapLayout& layout) {
     RgbImage read = readAs(map, layout);
     const auto byteOf = [](double value) {
         return static_cast<std::uint8_t>(std::clamp(127.5 * (value + 1) + 0.5, 0.0, 255.0));
     };
     for (std::size_t i = 0; i + 2 < read.rgb.size(); i += 3) {
-        const double first = read.rgb[i] / 127.5 - 1, second = read.rgb[i + 1] / 127.5 - 1;
-        const double x = is_turned ? (first + second) / 2 : first, y = is_turned ? (first - second) / 2 : second;
+        const double sum = read.rgb[i] / 127.5 - 1, difference = read.rgb[i + 1] / 127.5 - 1;
+        const double x = (sum + difference) / 2, y = (sum - difference) / 2;
         const double z = std::max(0.0, 1 - std::fabs(x) - std::fabs(y)), length = std::sqrt(x * x + y * y + z * z);
         read.rgb[i] = byteOf(x / length);
         read.rgb[i + 1] = byteOf(y / length);
@@ -79,27 +78,14 @@ RgbImage decodeOctahedral(const DecodedMap& map, const MapLayout& layout, bool i
     return read;
 }
 
-/// Whether slopes fit the decoded vectors clearly better than the plain ones, which they fit too: an octahedral x grows with x.
-/// Of relief with slopes of 0.3 and more, stored in 8 bits, the misfit of the wrong reading is 2 to 300 times as large.
-bool isOctahedral(const GreenTest& plain, const GreenTest& decoded) {
-    constexpr double kClear = 1.5;
-    const auto misfit = [](const GreenTest& test) { return 1 - std::fabs(test.correlation); };
-    return fitsWell(decoded) && misfit(plain) > kClear * misfit(decoded);
-}
-
 /// Tests by slopes whether two channels are x and y. Of a periodic height h, the products h_xx h_yy and h_xy h_xy have the
 /// same mean; so where x + y and x - y are taken for x and y, nothing correlates.
 void testTwoChannels(const DecodedMap& map, MapLook& look) {
     constexpr std::uint64_t kManyBlocks = 32;
     constexpr double kNoCorrelation = 0.1, kClear = 0.3;
-    const GreenTest plain = slopesOf(map, look.layout);
-    const GreenTest turned = slopesOf(decodeOctahedral(map, look.layout, true), map);
-    if (fitsWell(turned) && std::fabs(turned.correlation) > std::fabs(plain.correlation) + kClear) {
+    const GreenTest plain = slopesOf(map, look.layout), decoded = slopesOf(decodeHemiOctahedral(map, look.layout), map);
+    if (fitsWell(decoded) && std::fabs(decoded.correlation) > std::fabs(plain.correlation) + kClear) {
         look.content = MapContent::hemiOctahedral;
-        return;
-    }
-    if (isOctahedral(plain, slopesOf(decodeOctahedral(map, look.layout, false), map))) {
-        look.content = MapContent::octahedral;
         return;
     }
     look.is_doubtful = look.layout.z.channel == MapChannel::none && plain.verdict == GreenVerdict::unknown &&

@@ -32,7 +32,6 @@ const char* whatItHeld(MapContent content) {
         case MapContent::height:
         case MapContent::picture:
         case MapContent::hemiOctahedral:
-        case MapContent::octahedral:
             break;
     }
     return "";
@@ -51,7 +50,6 @@ std::string whyUnchanged(const JudgedMap& map, bool claims_srgb) {
         return "it is in world space (tspace convert-map --from world)";
     if (look.content == MapContent::hemiOctahedral)
         return "it is hemi-octahedrally encoded, which tspace does not decode";
-    if (look.content == MapContent::octahedral) return "it is octahedrally encoded, which tspace does not decode";
     if (look.is_doubtful)
         return "its two channels may use another encoding, since they are not the slopes of any height field (see "
                "tspace check)";

@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include "core/base/numbers.h"
-
 namespace tspace::test {
 namespace {
 
@@ -24,14 +22,6 @@ TEST(Tally, NamesTheFirstEight) {
     Tally tally;
     for (std::uint32_t corner = 0; corner < 60; ++corner) tally.add(corner / 3, 1);
     EXPECT_EQ(tally.vertices, (Vertices{0, 1, 2, 3, 4, 5, 6, 7}));
-}
-
-TEST(Numbers, OfAnySizeAreWritten) {
-    EXPECT_EQ(stepText(1e30), "1e+30");
-    EXPECT_EQ(stepText(1e-30), "1e-30");
-    EXPECT_EQ(stepText(100), "100");
-    EXPECT_EQ(stepText(0.25), "0.25");
-    EXPECT_EQ(shortNumber(1e-300), "1e-300");
 }
 
 }  // namespace

@@ -72,15 +72,6 @@ TEST(MapContent, IsNormalsForLengthsThatFilteringShortened) {
 }
 
 /// Flat but for a few texels: blue is constant nearly everywhere.
-TEST(MapContent, IsNormalsForVectorsOfOneLengthBelowOne) {
-    for (const double size : {0.4, 0.6, 0.8}) {
-        const RgbImage map = changed(sound(), [&](std::uint8_t* texel) {
-            for (int k = 0; k < 3; ++k) texel[k] = byteOf(0.5 + size * (texel[k] / 255.0 - 0.5));
-        });
-        EXPECT_EQ(lookAt(map).content, MapContent::normals) << size;
-    }
-}
-
 TEST(MapContent, IsNormalsForMapsThatAreFlatNearlyEverywhere) {
     const auto rivet = [](double x, double y) {
         return 0.02 * std::exp(-900 * ((x - .5) * (x - .5) + (y - .5) * (y - .5)));

@@ -80,31 +80,6 @@ TEST(MapSlopes, TellHemiOctahedralMapsFromXAndY) {
     }
 }
 
-void encodeOctahedral(double& x, double& y, double z) {
-    const double sum = std::fabs(x) + std::fabs(y) + std::max(z, 0.0);
-    x /= sum;
-    y /= sum;
-}
-
-TEST(MapSlopes, TellOctahedralMapsFromXAndY) {
-    for (const Height& relief : kReliefs) {
-        for (const double scale : {1.0, 2.0, 4.0}) {
-            const Height height = [&](double x, double y) { return scale * relief(x, y); };
-            for (const double blue : {-1.0, 0.0, 1.0}) {
-                const RgbImage map = stored(height, [&](double& x, double& y, double& z) {
-                    encodeOctahedral(x, y, z);
-                    z = blue;
-                });
-                EXPECT_EQ(lookAtImage(map).content, MapContent::octahedral)
-                    << &relief - kReliefs.data() << ' ' << scale << ' ' << blue;
-                const MapLook plain = lookAtImage(stored(height, [&](double&, double&, double& z) { z = blue; }));
-                EXPECT_EQ(plain.content, MapContent::twoChannels)
-                    << &relief - kReliefs.data() << ' ' << scale << ' ' << blue;
-            }
-        }
-    }
-}
-
 TEST(MapSlopes, TellHemiOctahedralMapsInAlphaAndGreen) {
     RgbImage map = stored(bumps, [](double& x, double& y, double& z) { encodeHemiOctahedral(x, y, z); });
     std::vector<std::uint8_t> alpha;

@@ -46,7 +46,7 @@ class CheckedImage(Report):
     width: int
     height: int
     #: "normals" in tangent space as glTF reads them, "twoChannels", "unsignedZ", "xInAlpha", "exchanged", "encoded"
-    #: (sRGB), "hemiOctahedral", "octahedral", "objectSpace", "height", "picture" or "constant".
+    #: (sRGB), "hemiOctahedral", "objectSpace", "height", "picture" or "constant".
     content: str
     #: Direction of green, or of y where that is in another channel, if x is right: "up", "down", "mixed" or "unknown".
     green: str
