@@ -61,7 +61,7 @@ class Model {
         EXPECT_EQ(report.action, PrimitiveAction::replaced);
         ASSERT_EQ(report.notes.size(), 1u);
         EXPECT_GT(report.mended_vertex_count, 0u);
-        EXPECT_EQ(report.notes[0].rfind("its old tangents were invalid:  ", 0), 0u);
+        EXPECT_EQ(report.notes[0].rfind("its tangents were wrong: ", 0), 0u);
         EXPECT_NE(report.notes[0].find(words), std::string::npos) << report.notes[0];
         EXPECT_EQ(readFile(repaired()), readFile(good()));
     }
@@ -408,7 +408,7 @@ TEST(Repair, ReplacesTangentsThatCannotBeRead) {
             for (const Vec4& t : tangentsAfter(builder, {.existing = existing}, report))
                 EXPECT_EQ(t, (Vec4{1, 0, 0, 1}));
             EXPECT_EQ(report.primitives.at(0).action, PrimitiveAction::replaced);
-            EXPECT_EQ(report.primitives.at(0).notes.at(0), "its old tangents were invalid:  " + why);
+            EXPECT_EQ(report.primitives.at(0).notes.at(0), "its old tangents were invalid: " + why);
         }
         GltfBuilder unneeded = builder;
         firstPrimitive(unneeded)["material"] = 1;

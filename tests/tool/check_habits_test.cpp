@@ -92,9 +92,9 @@ TEST(ManyFiles, GetOneLineEachAndASummaryByCode) {
     EXPECT_EQ(std::count(brief.out.begin(), brief.out.end(), '\n'), 12 + 2 + 1) << brief.out;
     EXPECT_NE(brief.out.find("  error    signsInverted            12 findings in 12 files\n"), std::string::npos)
         << brief.out;
-    EXPECT_EQ(brief.out.find("mend:"), std::string::npos);
-    EXPECT_NE(runTool(folder, "check in --verbose").out.find("mend:"), std::string::npos);
-    EXPECT_NE(runTool(folder, "check in/m1.glb").out.find("mend:"), std::string::npos);
+    EXPECT_EQ(brief.out.find("fix:"), std::string::npos);
+    EXPECT_NE(runTool(folder, "check in --verbose").out.find("fix:"), std::string::npos);
+    EXPECT_NE(runTool(folder, "check in/m1.glb").out.find("fix:"), std::string::npos);
     for (const char* command : {"inspect in", "identify in"}) {
         const ToolRun run = runTool(folder, command);
         EXPECT_EQ(std::count(run.out.begin(), run.out.end(), '\n'), 12) << run.out;

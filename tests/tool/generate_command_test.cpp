@@ -26,7 +26,7 @@ TEST(Generate, WritesTheOutputAndSaysWhatItDid) {
     EXPECT_EQ(run.err, "");
     EXPECT_TRUE(isCompleteGlb(folder.read("out/folded.glb")));
     EXPECT_EQ(run.out.rfind("folded.obj -> out/folded.glb\n", 0), 0U) << run.out;
-    for (const char* text : {"1 primitive: 1 generated", "triangles", "mended", "time", "written", "skin"}) {
+    for (const char* text : {"1 primitive: 1 generated", "triangles", "repaired", "time", "written", "skin"}) {
         EXPECT_NE(run.out.find(text), std::string::npos) << text << "\n" << run.out;
     }
     EXPECT_EQ(run.out.find('\x1b'), std::string::npos) << "no colours into a pipe";
@@ -141,7 +141,7 @@ TEST(Generate, RepairKeepsWhatItMadeItself) {
     EXPECT_EQ(folder.read("a.glb"), folder.read("b.glb"));
     const ToolRun inverted = runTool(folder, "generate a.glb -o c.glb --repair --convention opengl");
     EXPECT_NE(inverted.out.find("1 replaced"), std::string::npos) << inverted.out;
-    EXPECT_NE(inverted.out.find("note: mesh 0, primitive 0: its old tangents were invalid:  "), std::string::npos)
+    EXPECT_NE(inverted.out.find("note: mesh 0, primitive 0: its tangents were wrong: "), std::string::npos)
         << inverted.out;
 }
 

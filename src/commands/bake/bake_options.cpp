@@ -97,7 +97,7 @@ void addLayerOptions(OptionList& list, LayerOptions& layers, BakeIds& ids) {
     add(list, group, samplesOption(layers.ray_count));
     add(list, group,
         lengthOption("--ao-distance", layers.sky_distance,
-                     "Maximum occlusion distance, in model units. Default: unlimited."));
+                     "Maximum occlusion distance, in model units. Default: no limit."));
     add(list, group,
         lengthOption("--height-range", layers.height_range,
                      "Height mapped to white, in model units; its negative maps to black. Default: the largest "

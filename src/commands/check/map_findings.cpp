@@ -171,7 +171,7 @@ Remedy remedyOf(const NamedImage& image, const MapLook& look, bool green_is_down
     if (look.content == MapContent::picture) return usualRemedy(FindingCode::normalMapIsPicture);
     if (look.content == MapContent::hemiOctahedral) {
         return {
-            "Decode it with the program that encoded it, and export x, y and z. No tspace command decodes it, and "
+            "Decode it with the program that encoded it, and export x, y and z. No command can decode it, and "
             "reading the two channels as x and y gives a different surface."};
     }
     if (look.content == MapContent::height) {

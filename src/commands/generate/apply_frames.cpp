@@ -222,7 +222,7 @@ void applyFrames(Editor& editor, const Document& document, std::span<const Primi
         }
         for (std::string& wrong : report.notes) {
             if (!pool.mendsTangents() || wrong.rfind(kWrongNote, 0) != 0) continue;
-            wrong += "; mended at " + std::to_string(report.mended_vertex_count) + " of " +
+            wrong += "; repaired at " + std::to_string(report.mended_vertex_count) + " of " +
                      std::to_string(report.vertices_before) + " vertices";
         }
         report.vertices_after = elements.vertex_count;
