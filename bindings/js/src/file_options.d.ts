@@ -105,6 +105,8 @@ export interface GenerateFileOptions {
    * alpha, colors (sRGB), object space. They become PNGs, also from KTX2 and DDS. Height maps are kept, because their
    * strength is unknown (see tspace height-to-normal).
    */
+  fixMaps?: boolean;
+  /** The name of fix-maps before 0.1. */
   mendMaps?: boolean;
   /**
    * Do not read the pixels of normal maps; `repair` reads them where most signs are inverted. Inverted signs are then
@@ -158,6 +160,8 @@ export interface GenerateFileOptions {
    * Turn triangles whose winding disagrees with their neighbors, and parts that are inside out, before anything else.
    * The outside is given by existing normals where they agree; otherwise by the volume, the inside or the majority.
    */
+  fixWinding?: boolean;
+  /** The name of fix-winding before 0.1. */
   mendWinding?: boolean;
   /**
    * Write the raw result of the method, even where it is not finite, zero, not unit, parallel to the normal, or of mixed

@@ -4,9 +4,9 @@ export const optionNames = {
   generate: [
     "dryRun", "compress", "keepCoordinates", "all", "onlyMissing", "overwrite", "repair", "strip",
     "textureTransform", "method", "faces", "pairing", "threshold", "frame", "refine", "bitangents", "convention",
-    "format", "pack", "packDrop", "flipGreen", "flipGreenAll", "mendMaps", "noImages", "compressMaps", "normals",
-    "crease", "denoise", "weldDistance", "normalsPerPrimitive", "overwriteNormals", "morphNormals", "mendWinding",
-    "noSanitize", "orthogonalize",
+    "format", "pack", "packDrop", "flipGreen", "flipGreenAll", "fixMaps", "mendMaps", "noImages", "compressMaps",
+    "normals", "crease", "denoise", "weldDistance", "normalsPerPrimitive", "overwriteNormals", "morphNormals",
+    "fixWinding", "mendWinding", "noSanitize", "orthogonalize",
   ],
   check: [
     "failOn", "severity", "ignore", "angle", "convention", "faces", "weldDistance", "noImages",

@@ -64,7 +64,7 @@ const modules = {
     sources: ["memory.cpp", "textures.cpp"], isFast: true, hot: /fit_blocks|filtered_error/, defines: [], rooms: [], kernels: [], imports: ["canUnpack", "endCall", "unpack"],
     files: [
       ...["astc", "basis_lz", "bc7", "dds", "float_range", "image", "ktx2", "map_layout", "texel_format", "texture", "uastc", "write_texture"].map((name) => `images/${name}.cpp`),
-      ...["filtered_error", "fit_blocks", "normal_levels", "roughness_levels", "shading"].map((name) => `maps/${name}.cpp`),
+      ...["blocks/filtered_error", "blocks/fit_blocks", "blocks/normal_levels", "blocks/roughness_levels", "texels/shading"].map((name) => `maps/${name}.cpp`),
       "commands/compress_map/texture_levels.cpp", "commands/shared/map_coverage.cpp", "commands/shared/texture_vectors.cpp",
     ],
   },

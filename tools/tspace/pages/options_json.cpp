@@ -27,20 +27,22 @@ std::string taken(const Option& option) {
     return list(values);
 }
 
-std::string optionJson(const Option& option) {
-    // Members of the bindings keep the name before a rename, which the C API accepts.
-    const std::string& name = option.old_names.empty() ? option.name() : option.old_names.front();
+std::string optionJson(const Option& option, const std::string& name, const std::string& help) {
     return "{\"name\": " + quoted(name.substr(2)) + ", \"value\": " + quoted(option.value) +
            ", \"choices\": " + list(option.choices) + ", \"takes\": " + taken(option) +
            ", \"file\": " + (option.is_file ? "true" : "false") + ", \"list\": " + (option.is_list ? "true" : "false") +
-           ", \"default\": " + quoted(option.default_text) + ",\n   \"help\": " + quoted(option.help) + "}";
+           ", \"default\": " + quoted(option.default_text) + ",\n   \"help\": " + quoted(help) + "}";
 }
 
 template <class Request>
 std::string callJson(const char* name, OptionList (*make)(Request&)) {
     Request request;
     std::string made;
-    for (const Option& option : make(request)) made += (made.empty() ? "\n  " : ",\n  ") + optionJson(option);
+    for (const Option& option : make(request)) {
+        made += (made.empty() ? "\n  " : ",\n  ") + optionJson(option, option.name(), option.help);
+        for (const std::string& old : option.old_names)
+            made += ",\n  " + optionJson(option, old, "The name of " + option.name().substr(2) + " before 0.1.");
+    }
     return quoted(name) + ": [" + made + "]";
 }
 
