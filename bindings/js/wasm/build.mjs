@@ -20,7 +20,8 @@ const rooms = ["base", "frames", "normals", "tangents", "tangents/mikktspace", "
 /// What plain_normals.cpp stands for.
 const notPlain = ["crease_auto", "denoise", "noise_screen", "normal_groups"].map((name) => `core/normals/${name}.cpp`);
 const fileRooms = [
-  ...["surface", "quads", "pools"].map((room) => `core/mesh/${room}`), "images", "maps",
+  ...["surface", "quads", "pools"].map((room) => `core/mesh/${room}`), "images",
+  ...["texels", "layout", "rays", "solve", "convert", "error", "bake", "blocks"].map((room) => `maps/${room}`),
   ...["io", "json", "gltf", "gltf/codecs", "obj", "read"].map((room) => `model/${room}`),
   ...["shared", "bake", "check", "convert_map", "diff", "flip_green", "generate", "height_to_normal", "identify", "inspect", "render"]
     .map((room) => `commands/${room}`), "api",
