@@ -12,9 +12,7 @@
 namespace tspace {
 namespace {
 
-std::string counted(std::uint64_t count, const char* noun) {
-    return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
-}
+using report::counted;
 
 bool wasComputed(const PrimitiveReport& primitive) { return report::wasComputed(primitive.action); }
 
