@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Written by scripts/shaders from tspace_evaluate.hlsl.
 // Normals and tangents of a pose from a plan (planBuffers of tspace), in WGSL: one thread gathers one result. No atomics, and
-// sums in a fixed order: the same bits from run to run. docs/gpu.md of tspace describes the buffers.
+// sums in a fixed order: the same bits from run to run. docs/guides/gpu.md of tspace describes the buffers.
 //
 // Dispatch tspace_evaluate with 64 threads per group, ceil(results / 64) groups in x and y together (65535 at most in x).
 

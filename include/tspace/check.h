@@ -61,19 +61,19 @@ enum class FindingCode : std::uint32_t {
     normalMapUnreadable = 28,  ///< the image could not be looked at
     fileRemark = 29,           ///< a warning of the reader: data that were ignored, or treated as missing
     greenMixed = 30,           ///< a normal map whose green points down in one part and up in another
-    packedFramesUnreadable =
-        31,                     ///< an attribute of packed frames is not what its name promises (docs/concepts/pack.md)
-    packedFramesDiffer = 32,    ///< packed frames are not those of NORMAL and TANGENT
-    tangentsUnreadable = 33,    ///< TANGENT has a type or a number of elements that tangents cannot have
-    positionsRounded = 34,      ///< positions are stored so coarsely that triangles do not say where tangents point
-    normalSeam = 35,            ///< two primitives of one smooth surface, each with the normals of its own triangles
-    normalsFarFromFaces = 36,   ///< normals that differ much from all triangles at their vertices
-    morphNormalsMissing = 37,   ///< a morph target turns the surface and leaves the normals behind
-    morphNormalsWrong = 38,     ///< a morph target turns normals in another way than the surface
-    normalMapTwoChannels = 39,  ///< a normal map with x and y alone: blue says nothing of z
-    normalMapUnsigned = 40,     ///< blue is z itself, and not (z + 1) / 2
-    normalMapChannels = 41,     ///< x, y and z are in other channels, or inverted: z in red, x in alpha, ...
-    normalMapIsSrgb = 42,       ///< the sRGB curve was put on the vectors, or taken off
+    /// An attribute of packed frames is not what its name promises (docs/concepts/pack.md).
+    packedFramesUnreadable = 31,
+    packedFramesDiffer = 32,      ///< packed frames are not those of NORMAL and TANGENT
+    tangentsUnreadable = 33,      ///< TANGENT has a type or a number of elements that tangents cannot have
+    positionsRounded = 34,        ///< positions are stored so coarsely that triangles do not say where tangents point
+    normalSeam = 35,              ///< two primitives of one smooth surface, each with the normals of its own triangles
+    normalsFarFromFaces = 36,     ///< normals that differ much from all triangles at their vertices
+    morphNormalsMissing = 37,     ///< a morph target turns the surface and leaves the normals behind
+    morphNormalsWrong = 38,       ///< a morph target turns normals in another way than the surface
+    normalMapTwoChannels = 39,    ///< a normal map with x and y alone: blue says nothing of z
+    normalMapUnsigned = 40,       ///< blue is z itself, and not (z + 1) / 2
+    normalMapChannels = 41,       ///< x, y and z are in other channels, or inverted: z in red, x in alpha, ...
+    normalMapIsSrgb = 42,         ///< the sRGB curve was put on the vectors, or taken off
     normalMapInObjectSpace = 43,  ///< directions in the coordinates of the mesh, or of the scene
     normalMapIsHeight = 44,       ///< the image is grey
     normalMapScale = 45,          ///< normalTexture.scale is 0 or below

@@ -232,7 +232,7 @@ FinishedPrimitive finish(const Model& model, const ObjPrimitive& primitive, bool
     report.normals_generated = primitive.normals_generated;
     report.normals_replaced = replaced;
     if (primitive.normals_generated) {
-        FramesReport faults{.morph_sign_flip_count = report.morph_sign_flip_count};
+        FramesReport faults;  // OBJ has no morph targets, so no sign of one flips
         countFaults(mesh.positions, mesh.normals, {&mesh.indices, 1}, options.normals.weld_distance, {&faults, 1});
         copyReportOfKept(faults, report);
     }

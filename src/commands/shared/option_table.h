@@ -28,8 +28,8 @@ using HelpText = std::string;
 /// An option, or an operand of a command line (what stands there without a name, such as input files).
 struct Option {
     std::vector<std::string> names = {};  ///< {"-o", "--output"}; none: an operand
-    std::vector<std::string> old_names =
-        {};                                 ///< names before a rename: accepted, but in no help, completion or man page
+    /// Names before a rename: accepted, but in no help, completion or man page.
+    std::vector<std::string> old_names = {};
     std::string value = {};                 ///< what stands for the value in help, "DEG"; empty: a flag
     HelpText help = {};                     ///< a sentence or more
     std::string default_text = {};          ///< printed behind the help; empty: the help says it, or there is none

@@ -109,8 +109,8 @@ class Parallel::Pool {
     std::size_t count_ = 0;
     std::atomic<bool> is_ending_{false};
     std::atomic<std::uint32_t> calls_{0};  ///< how often helpers were called
-    std::atomic<std::uint32_t> inside_{
-        kClosed};  ///< number of helpers that look at the loop, and a bit that tells whether it is closed
+    /// Number of helpers that look at the loop, and a bit that tells whether it is closed.
+    std::atomic<std::uint32_t> inside_{kClosed};
     std::atomic<std::size_t> next_{0};
 };
 

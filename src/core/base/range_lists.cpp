@@ -187,8 +187,8 @@ bool RangeLists::Batches::next(TriangleBatch& batch, bool wants_vertices) {
 
 namespace {
 
-constexpr std::size_t kRangeBytes = std::size_t{512}
-                                    << 10;  // size of the sums of a range: half of a typical second-level cache
+// Size of the sums of a range: half of a typical second-level cache.
+constexpr std::size_t kRangeBytes = std::size_t{512} << 10;
 constexpr std::size_t kTasksPerThread = 4;
 constexpr std::size_t kMostRows = 8;
 

@@ -27,14 +27,14 @@ namespace {
 // without noise and on bevels (docs/evidence/accuracy.md).
 constexpr double kNoise = 0.45;  // share of the edge bend that no normal explains
 constexpr double kKink = 1.5;    // misfit of the sharp normals, in that of the robust ones: of the large faces
-constexpr double kFillet =
-    1.3;                        // like kNoise, for short edges. A flat cap that is a fan from one vertex of its rim has
-                                // no edge that tells it from a dome; its neighbours, the edges of a fillet, do.
-constexpr double kBent = 1.25;  // turn as in kJump, in radians, from which on these two count wholly. Where a mesh is
-                                // fine both misfits are small, and their ratio is chance.
-constexpr double kJump = 2.5;   // turn over the longest edge if all of it bent like the most bent one, in
-                                // radians, times the sine between the two means
-constexpr double kTurn = 0.8;   // twice the sine of half the angle between the sharp normals at an edge's ends
+// Like kNoise, for short edges. A flat cap that is a fan from one vertex of its rim has no edge that tells it from a dome;
+// its neighbors, the edges of a fillet, do.
+constexpr double kFillet = 1.3;
+constexpr double kBent = 1.25;    // turn as in kJump, in radians, from which on these two count wholly. Where a mesh is
+                                  // fine both misfits are small, and their ratio is chance.
+constexpr double kJump = 2.5;     // turn over the longest edge if all of it bent like the most bent one, in
+                                  // radians, times the sine between the two means
+constexpr double kTurn = 0.8;     // twice the sine of half the angle between the sharp normals at an edge's ends
 constexpr double kSpread = 0.42;  // sine between fit and robust mean
 
 // The ridge, relative to the quadratic part: enough for rings with too few edges, negligible elsewhere. It weighs

@@ -14,7 +14,6 @@
 #include "model/gltf_builder.h"
 #include "support/temp_folder.h"
 #include "tspace/generate.h"
-#include "tspace/result.h"
 
 namespace tspace::test {
 namespace {
