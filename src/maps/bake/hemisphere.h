@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Directions spread over a hemisphere by the cosine, such that few of them do: Sobol's first two dimensions, scrambled for
-// each point by itself, so that neighbours err differently.
-// Based on: Sobol, "On the distribution of points in a cube", 1967; Owen, "Randomly permuted (t,m,s)-nets", 1995; Shirley &
-// Chiu, "A low distortion map between disk and square", 1997.
+// Cosine-distributed directions over a hemisphere with low discrepancy, so that few samples suffice: the first two
+// Sobol dimensions, scrambled per point, so that the errors of neighbors differ.
+// Based on: Sobol, "On the distribution of points in a cube", 1967; Owen, "Randomly permuted (t,m,s)-nets", 1995;
+// Shirley & Chiu, "A low distortion map between disk and square", 1997.
 #pragma once
 
 #include <bit>
@@ -12,16 +12,16 @@
 
 namespace tspace {
 
-/// The points of a square, one after the other, that belong to one texel. Of the first 2^k each part of the square with sides
-/// 2^-i and 2^-(k - i) has one. Texels of one block have parts of one sequence, so that the points of a block, and of each quarter
-/// of it, are spread as well as those of a texel: what texels err by, those around make good under a filter.
-/// Based on also: Ahmed & Wonka, "Screen-space blue-noise diffusion of Monte Carlo sampling error via hierarchical ordering of
-/// pixels", 2020.
+/// Sequence of points in the unit square for one texel. Of its first 2^k points, each cell of 2^-i x 2^-(k - i)
+/// contains exactly one. Texels of one block use consecutive parts of one sequence, so that the points of a block, and
+/// of each quarter of it, are as evenly distributed as those of a single texel: a filter averages the errors out.
+/// Also based on: Ahmed & Wonka, "Screen-space blue-noise diffusion of Monte Carlo sampling error via hierarchical
+/// ordering of pixels", 2020.
 class ScrambledSobol {
   public:
     static constexpr int kBlockLevels = 2;  // 4 x 4 texels
 
-    /// `count`: how many points of the texel at column x and row y will be asked for, 1 to 2^16.
+    /// `count`: number of points used for the texel at column x and row y, 1 to 2^16.
     ScrambledSobol(std::uint32_t count, std::uint32_t x, std::uint32_t y) {
         const std::uint64_t seed = mixBits(std::uint64_t{y >> kBlockLevels} << 32 | x >> kBlockLevels);
         std::uint32_t place = 1;
@@ -35,10 +35,10 @@ class ScrambledSobol {
         seeds_ = {mixBits(seed + 1), mixBits(seed + 2)};
     }
 
-    /// Both coordinates of point i, from 0 to below 1.
+    /// Returns both coordinates of point i, in [0, 1).
     [[nodiscard]] std::array<double, 2> at(std::uint32_t i) const {
         i += first_;
-        // The first dimension has the bits of i in reverse; the second one's matrix is Pascal's triangle modulo 2.
+        // The first dimension is i with its bits reversed; the matrix of the second one is Pascal's triangle modulo 2.
         std::uint32_t first = 0, second = 0, column = 0x80000000u;
         for (std::uint32_t bit = 0; i >> bit != 0; ++bit, column ^= column >> 1) {
             if ((i >> bit & 1) == 0) continue;
@@ -49,8 +49,8 @@ class ScrambledSobol {
     }
 
   private:
-    /// Turns each bit over or not, by the seed and the bits above it: halves of halves change places. Below the bits that tell
-    /// points apart a number of the seed's own.
+    /// Owen scrambling: flips each bit depending on the seed and on the higher bits, which swaps halves recursively.
+    /// The bits below those that distinguish points are a constant derived from the seed.
     [[nodiscard]] double scrambled(std::uint32_t bits, std::uint64_t seed) const {
         std::uint64_t above = 1, result = 0;
         for (int level = 0; level < depth_; ++level) {
@@ -67,7 +67,7 @@ class ScrambledSobol {
     std::array<std::uint64_t, 2> seeds_ = {};
 };
 
-/// A unit direction about the z axis, as likely as its z is large.
+/// Maps a point of the unit square to a unit direction about the z axis, with a density proportional to z.
 inline DVec3 cosineDirection(const std::array<double, 2>& square) {
     const double a = 2 * square[0] - 1, b = 2 * square[1] - 1;
     if (a == 0 && b == 0) return {0, 0, 1};

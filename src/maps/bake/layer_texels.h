@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The texels of one layer while it is made.
+// Texels of one layer during baking.
 #pragma once
 
 #include <span>
@@ -11,18 +11,18 @@
 namespace tspace {
 
 enum class TexelState : std::uint8_t {
-    empty,    ///< no triangle is near
-    missing,  ///< a triangle is there, and nothing was met
+    empty,    ///< no triangle nearby
+    missing,  ///< covered by a triangle, but the ray hit nothing
     known
 };
 
-/// How missing texels are made of those around.
+/// How missing texels are computed from their neighbors.
 enum class Filling {
-    mean,  ///< the mean of known neighbours
-    copy   ///< one of them: what must not be mixed
+    mean,  ///< mean of the known neighbors
+    copy   ///< copy of one known neighbor, for values that must not be mixed
 };
 
-/// Gives missing texels values, ring by ring from the known ones; nothing where none is known.
+/// Fills missing texels ring by ring, starting from the known ones. Does nothing if no texel is known.
 void fillMissing(std::span<float> values, std::uint32_t channel_count, std::span<const TexelState> states,
                  const TextureShape& shape, Filling filling);
 

@@ -22,13 +22,13 @@ namespace {
 
 constexpr std::uint32_t kMostSide = 16384;
 constexpr std::uint32_t kMostPadding = 256;
-/// Texels around a triangle that the bilinear filter reads inside of it.
+/// Number of texels around a triangle that the bilinear filter reads for points inside it.
 constexpr std::uint32_t kFilterTexels = 2;
 
 class Baking {
   public:
-    /// `layers`: what is made beside the normal map. `shared`: null, or the surface of the high poly, which is left there; the map
-    /// then has no texels where no ray meets anything, which is an error else.
+    /// `layers`: layers to bake in addition to the normal map. `shared`: null, or receives the ray structure of the
+    /// high poly. If it is set, a map without any hit is empty; otherwise that is an error.
     Baking(const LowPoly& low, const HighPoly& high, const BakeOptions& options, const LayerOptions& layers,
            const Execution& execution, const Progress& progress, SharedRays* shared)
         : low_(low),
@@ -110,7 +110,7 @@ class Baking {
         if (work_.progress) work_.progress(what, 0, 1);
     }
 
-    /// Takes the triangles: their memory is not needed beside that of the system.
+    /// Consumes the triangles: their memory is freed before the system is allocated.
     void solve(const MapSurfaces& surfaces, TexelTriangles& triangles) {
         const bool has_integers = options_.bits == 8;
         const CellSampling sampling = samplingOf(options_);
@@ -129,7 +129,7 @@ class Baking {
         if (options_.reading.two_channels) completeThirds(texels);
     }
 
-    /// z follows from x and y, which may be those of no unit vector by then.
+    /// Recomputes z from x and y, which may have become too long for a unit vector.
     void completeThirds(std::span<Vec3> texels) {
         for (Vec3& texel : texels) {
             const float flat = texel.x * texel.x + texel.y * texel.y;
@@ -204,7 +204,7 @@ class Baking {
 
 namespace {
 
-/// With some room for rounding. Not where one of them is not finite.
+/// Returns whether the axes are finite, orthogonal and of unit length, within a rounding tolerance.
 bool areAxes(const MapAxes& axes) {
     constexpr double kSame = 1e-4;
     const DVec3 all[3] = {toDouble(axes.x), toDouble(axes.y), toDouble(axes.z)};
@@ -240,12 +240,13 @@ Error checkBakeOptions(const BakeOptions& options, std::size_t low_triangles, st
 }
 
 std::uint64_t bakeBytes(std::uint64_t low_triangles, std::uint64_t high_triangles, const BakeOptions& options) {
-    // TexelTriangles, the vectors and their votes, the result; and the strip with the system and what solving it needs.
+    // Texel triangles, vectors with votes, and the result; then the strip with its system and the memory for solving
+    // it.
     constexpr std::uint64_t kPlain = 26 + 16 + 13, kStrip = sizeof(TexelRow) + 60 + 24, kHeat = 6;
     const std::uint64_t texel = kPlain + (options.heat ? kHeat : 0);
     const std::uint64_t strip_rows = std::min(options.height, kStripRows + 2 * (kRowsAround + 1));
     const std::uint64_t strip = options.fit == MapFit::solve ? kStrip * options.width * strip_rows : 0;
-    // Directions of rays and boxes of Embree; points of the measure.
+    // Ray directions, bounding boxes of Embree, and measured points.
     constexpr std::uint64_t kLow = 120 + 400, kHigh = 200, kPoints = 100000 * 64;
     return texel * options.width * options.height + strip + kLow * low_triangles + kHigh * high_triangles + kPoints;
 }

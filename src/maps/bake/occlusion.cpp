@@ -8,7 +8,8 @@ namespace tspace {
 
 namespace {
 
-/// Rays begin that far from their point, of the size of the high poly: its own plane and that of a triangle beside it are there.
+/// Offset of ray origins from the surface, relative to the size of the high poly: avoids hits on the triangle itself
+/// and on adjacent ones.
 constexpr double kBegin = 1e-6;
 
 DVec3 turned(const PlaneAxes& axes, const DVec3& normal, const DVec3& direction) {

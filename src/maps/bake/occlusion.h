@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What lies over and below a point of a surface.
+// Occlusion above a point of a surface, and thickness below it.
 #pragma once
 
 #include "maps/rays/map_surfaces.h"
@@ -8,20 +8,20 @@ namespace tspace {
 
 struct OcclusionOptions {
     std::uint32_t ray_count = 64;
-    double sky_distance = 0;  ///< 0: everything hides
+    double sky_distance = 0;  ///< maximum ray length for occlusion; 0: unlimited
     bool has_sky = true, has_thickness = true;
 };
 
 struct Occlusion {
-    double open = 1;       ///< the part of the sky that nothing hides
-    DVec3 bent = {};       ///< the mean of the open directions, unit; the normal where nothing is open
-    double thickness = 0;  ///< the mean depth, along the normal, at which the rays inwards that met something did
-    double solid = 0;      ///< the part of them that met something
+    double open = 1;       ///< unoccluded part of the sky, 0 to 1
+    DVec3 bent = {};       ///< mean unoccluded direction (unit), or the normal if every direction is occluded
+    double thickness = 0;  ///< mean depth of the hits of inward rays, along the normal
+    double solid = 0;      ///< part of the inward rays that hit something
 };
 
-/// The directions over the point lie about its normal as shaded, by the cosine. Those below the plane of its own triangle do not
-/// count: so a coarse ball, smoothly shaded, hides nothing of its own sky. Triangles hide from both sides, whatever group they
-/// are of. `x`, `y`: of the texel, which says which directions.
+/// Computes occlusion with directions about the shading normal, distributed by the cosine. Directions below the plane
+/// of the hit triangle are ignored, so that a coarse, smoothly shaded sphere does not occlude itself. Triangles occlude
+/// from both sides, in every group. `x`, `y`: texel position, which selects the sample directions.
 Occlusion occlusionAt(const MapSurfaces& surfaces, const SurfaceHit& hit, const OcclusionOptions& options,
                       std::uint32_t x, std::uint32_t y);
 

@@ -13,12 +13,13 @@ namespace tspace {
 namespace {
 
 constexpr unsigned kIntegerRounds = 3;
-/// Rows above a strip that were found before, and stay. One of them has a say; with two, strips begin at even rows, and integers
-/// are chosen in the order of a whole map: every second row, then the others.
+/// Number of solved rows above a strip that stay fixed. Only one of them influences the strip; with two, strips begin
+/// at even rows, and integers are chosen in the order of a whole map: every second row, then the others.
 constexpr std::uint32_t kRowsStay = 2;
 
-/// Rows of the map that are found, and those that their system has. Of the rows below, kRowsAround are found too, and forgotten,
-/// and the next one stays. Above lie rows that stay; above the first strip, as below.
+/// Rows of the map that are solved, and rows of their system (`window`). The window also contains kRowsAround rows
+/// below, which are solved and discarded, and one fixed row after them. Rows above are fixed; above the first strip
+/// they are treated like the rows below.
 struct Strip {
     std::uint32_t first = 0, end = 0;
     TexelWindow window = {};
@@ -124,7 +125,7 @@ class Solving {
     LowUvs uvs_;
     SampleBands bands_;
     PointsBetween points_;
-    Buffer<Vec3> texels_;                                 ///< the start, and the result in rows that are found
+    Buffer<Vec3> texels_;                                 ///< initial texels; in solved rows, the result
     std::vector<Vec3> first_row_ = {}, rows_above_ = {};  ///< rows of the initial texels
     ToldSteps steps_ = {};
 };

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Twice the mean curvature is the divergence of the normals. Over a triangle its integral is that of the normals along
-// the border, across it: exact for normals that change linearly along edges. On tori of 48 x 24 to 192 x 96 irregular cells the error
-// falls from 2 to 0.5 % of the largest curvature (root of the mean square); angles between faces do not converge there (24 %, 22 %).
+// Twice the mean curvature is the divergence of the normals. Its integral over a triangle equals the flux of the
+// normals through the border, which is exact for normals that change linearly along edges. On tori of 48 x 24 to 192 x
+// 96 irregular cells the RMS error falls from 2 to 0.5 % of the largest curvature; a method based on dihedral angles
+// does not converge there (24 %, 22 %).
 #include "maps/bake/surface_curvature.h"
 
 #include <array>
@@ -43,14 +44,14 @@ class Curvature {
   private:
     struct Triangle {
         std::array<std::uint32_t, 3> vertices = {};
-        std::array<DVec3, 3> edges = {};  ///< from corner i to the next one
+        std::array<DVec3, 3> edges = {};  ///< from corner i to the following corner
         DVec3 normal = {};                ///< unit
         double area = 0;
     };
 
     [[nodiscard]] std::uint32_t rootOf(std::uint32_t vertex) const { return roots_.empty() ? vertex : roots_[vertex]; }
 
-    /// False where it has no area.
+    /// Describes a triangle. Returns false if the triangle has no area.
     bool describe(std::size_t number, Triangle& triangle) const {
         std::array<DVec3, 3> at{};
         for (std::size_t i = 0; i < 3; ++i) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The mean curvature of a mesh at its vertices.
+// Mean curvature at the vertices of a mesh.
 #pragma once
 
 #include "core/base/memory.h"
@@ -8,10 +8,10 @@
 
 namespace tspace {
 
-/// One per vertex, in 1 / length; that of a sphere of radius r is 1 / r, and 0 where no triangle has an area. Normals are those of the
-/// mesh, or of its triangles where it has none, all of one position as one, by the angles of the corners: across a hard edge the
-/// surface bends within the triangles at both sides of it. Linear, but for the search for equal positions.
-/// weld_distance: which positions are one (NormalOptions::weld_distance).
+/// Returns the mean curvature of each vertex, in 1 / length: 1 / r for a sphere of radius r, and 0 if all its triangles
+/// are degenerate. Uses the normals of the mesh, or triangle normals if it has none, averaged per position with angle
+/// weights: at a hard edge the surface then bends within the triangles on both sides. Linear time, except for the
+/// search for equal positions. weld_distance: distance up to which positions are welded (NormalOptions::weld_distance).
 Buffer<float> vertexCurvature(const HighPoly& mesh, float weld_distance, Parallel& parallel,
                               const Allocator* allocator);
 

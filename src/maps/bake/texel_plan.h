@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Cells between texel centres: smooth ones, where the map follows from the vectors wanted at the centres, and others, which
-// need rays: at creases of the low poly, edges and small detail of the high poly, and the rims of charts.
+// Classification of the cells between texel centers. In smooth cells the map follows from the vectors wanted at the
+// centers; other cells need rays: at creases of the low poly, edges and small detail of the high poly, and rims of
+// charts.
 #pragma once
 
 #include "core/base/parallel.h"
@@ -10,11 +11,11 @@
 
 namespace tspace {
 
-/// The square between the centres of four texels, by its upper left one.
+/// Square between the centers of four texels, identified by its upper left texel.
 enum class TexelCell : std::uint8_t {
     outside,  ///< contains no part of a triangle
     smooth,   ///< targets between the centers follow from those at the centers
-    asked,    ///< smooth, but sampled by rays too, for the cells beside it
+    asked,    ///< smooth, but also sampled by rays because an adjacent cell is rough
     rough     ///< rays determine the targets
 };
 
@@ -24,41 +25,44 @@ struct TexelPlan {
     Buffer<TexelRole> roles = {};
 };
 
-/// Rows of an image whose system is solved at once: `count` from `first` on, after the last row of the image the first one.
+/// Rows of an image whose system is solved at once: `count` rows, starting at `first` and wrapping around after the
+/// last row.
 struct TexelWindow {
     std::uint32_t first = 0, count = 0, height = 0;
 
-    /// Row of the image, relative to the window; `count` or more: it is outside.
+    /// Returns the row of the image relative to the window; a value of `count` or more means that it is outside the
+    /// window.
     [[nodiscard]] std::uint32_t local(std::uint32_t y) const { return y >= first ? y - first : y + height - first; }
     [[nodiscard]] std::uint32_t inImage(std::uint32_t local) const { return (first + local) % height; }
-    /// Whether both rows of the cells below a row are there.
+    /// Returns whether the window contains both rows of the cells below row y.
     [[nodiscard]] bool hasCells(std::uint32_t y) const { return isWhole() || local(y) + 1 < count; }
     [[nodiscard]] bool isWhole() const { return count == height; }
 };
 
 /// Density of samples between texel centers.
 struct CellSampling {
-    /// A cell is smooth where the vectors of four texels in a row are that near to a parabola, in radians. A crease between
-    /// two of them is then wrong by a quarter of it at most.
+    /// Maximum deviation from a parabola of the vectors of four texels in a row, in radians, for a cell to be smooth. A
+    /// crease between two texels then causes an error of at most a quarter of this value.
     float tolerance = 2e-5F;
-    std::uint32_t points = 3;  ///< points of a texel in a row, in cells that are not smooth
+    std::uint32_t points = 3;  ///< number of points per texel and axis, in cells that are not smooth
 };
 
-/// Rays per cell. For 16 bits, as many as such texels can resolve; fewer in maps of more than 1024 x 1024 texels, whose
-/// texels are small beside the detail, and take most of the time. For 8 bits, whose rounding is far larger, always
-/// fewer.
+/// Returns the number of rays per cell. For 16 bits: as many as the precision of the texels justifies; fewer in maps of
+/// more than 1024 x 1024 texels, whose texels are small relative to the detail, and which take most of the time. For 8
+/// bits, whose rounding error is far larger: always fewer.
 CellSampling samplingOf(const BakeOptions& options);
 
-/// How long vectors of real numbers shall be: below 1, so that no channel of a texel around has to be more.
+/// Length of the wanted vectors of real numbers: below 1, so that no channel of a nearby texel has to exceed 1.
 inline constexpr float kWantedLength = 0.98F;
 
-/// `all_unknown`: all texels that are read are unknown, and no cell is asked; else those of rough cells are, and other cells
-/// that share a texel with them are asked. Memory: 5 bytes a texel while it runs, 2 stay.
+/// Classifies all cells. `all_unknown`: if true, all texels that are read are unknown, and no cell is `asked`;
+/// otherwise the texels of rough cells are unknown, and other cells that share a texel with them are `asked`. Memory: 5
+/// bytes per texel temporarily, 2 permanently.
 TexelPlan planTexels(const TracedTexels& traced, const TexelTriangles& triangles, float tolerance, bool all_unknown,
                      Parallel& parallel, const Allocator* allocator);
 
-/// Texels from what is wanted at their centres. Those of which all cells are smooth become the least squares of the filtered map:
-/// against a parabola, of second difference c, the chord between texels is off by c/12 in the mean.
+/// Computes texels from the vectors wanted at their centers. Texels in smooth cells become the least-squares solution
+/// for the filtered map: the chord between texels deviates from a parabola of second difference c by c/12 on average.
 Buffer<Vec3> sharpenedTexels(const TexelPlan& plan, std::span<const Vec3> wanted, Parallel& parallel,
                              const Allocator* allocator);
 

@@ -48,7 +48,7 @@ Vec3 backgroundOf(MapLayer layer) {
     }
 }
 
-/// The layers of one bake, as what they show until their range is known.
+/// Layers of one bake; they hold unscaled values until their range is known.
 class LayerTracing {
   public:
     LayerTracing(const MapSurfaces& surfaces, const TexelTriangles& triangles, const BakeOptions& options,
@@ -162,7 +162,7 @@ class LayerTracing {
             set(MapLayer::thickness, texel, around.thickness);
             if (has(MapLayer::thickness)) solid_[texel] = static_cast<float>(around.solid);
         }
-        // Colours inside of triangles are means over more rays.
+        // Inside triangles, colors are means over several rays.
         if (has_material_ && !hasMean(texel)) setMaterial(texel, layers_.material(hit.triangle, hit.weights));
     }
 
@@ -182,7 +182,7 @@ class LayerTracing {
     struct GridPlace {
         std::uint32_t row = 0, column = 0;
     };
-    /// take(place, hit) for the points of a band that meet something.
+    /// Calls take(place, hit) for each point of a band whose ray hits something.
     template <class Take>
     void forHits(const SampleBands& bands, std::size_t band, const Take& take) const {
         double guess = 0;
@@ -200,7 +200,8 @@ class LayerTracing {
         });
     }
 
-    /// Texels such that the filtered map is right between them: least squares over the points of a grid.
+    /// Computes texels by least squares over a grid of points, so that the filtered map is also correct between texel
+    /// centers.
     void fitMaterial(MapLayer layer) {
         const std::uint32_t n = samplingOf(options_).points;
         TexelSystem system(work_.allocator, options_.width, options_.height, {roles().data(), roles_.size()});
@@ -215,7 +216,7 @@ class LayerTracing {
                 system.add(x.texel, y.texel, x.part, y.part, {kEqual, shown});
             });
         };
-        // Bands beside each other share a row of texels.
+        // Adjacent bands share a row of texels, so they must not run at the same time.
         forApart(bands.bandCount(), [&](std::size_t begin, std::size_t number) {
             forTasksTold(work_, number, "colours", [&](std::size_t i) { traceBand(begin + 2 * i); });
         });
@@ -234,7 +235,7 @@ class LayerTracing {
         for (std::size_t i = 0; i < texels.size(); ++i) set(layer, i, texels[i]);
     }
 
-    /// All texels that a filter reads inside of a triangle, and that met something to begin with, are unknown.
+    /// Unknown texels: those that a filter reads inside a triangle and whose center ray hit something.
     const Buffer<TexelRole>& roles() {
         if (!roles_.empty()) return roles_;
         roles_ = Buffer<TexelRole>(work_.allocator, met_.size(), TexelRole::apart);
@@ -251,7 +252,7 @@ class LayerTracing {
         return {1, shown.roughness, shown.metalness};
     }
 
-    /// Means over the rays of each texel.
+    /// Computes the mean over the rays of each texel.
     void traceMeans() {
         sample_count_ = Buffer<std::uint16_t>(work_.allocator, met_.size(), std::uint16_t{0});
         const std::uint32_t n = samplingOf(options_).points;
@@ -266,7 +267,7 @@ class LayerTracing {
         forTasksTold(work_, bands.bandCount(), "colours", traceBand);
     }
 
-    /// The mean goes on with each sample.
+    /// Updates the running mean of a texel with one more sample.
     void addMaterial(std::size_t texel, const ShownMaterial& shown) {
         const float part = 1 / static_cast<float>(++sample_count_[texel]);
         for (const MapLayer layer : {MapLayer::color, MapLayer::orm, MapLayer::emission}) {
@@ -278,7 +279,7 @@ class LayerTracing {
         }
     }
 
-    /// The states of a layer's texels; means can include texels whose center ray hit nothing.
+    /// Returns the states of a layer's texels; means can include texels whose center ray hit nothing.
     [[nodiscard]] std::vector<TexelState> statesOf(const BakedLayer& layer) const {
         std::vector<TexelState> states(met_.begin(), met_.end());
         for (std::size_t i = 0; i < states.size(); ++i) {
@@ -322,7 +323,8 @@ class LayerTracing {
         return static_cast<double>(most);
     }
 
-    /// Rays that met nothing count as deep as the range is, which those points say of which most rays met something.
+    /// Assigns the full range as depth to rays that hit nothing. The default range is derived from the points where
+    /// most rays hit something.
     void completeThickness(BakedLayer& layer, const std::vector<TexelState>& states) const {
         double range = layers_.thickness_range;
         for (std::size_t i = 0; layers_.thickness_range == 0 && i < states.size(); ++i) {
@@ -333,13 +335,13 @@ class LayerTracing {
         for (std::size_t i = 0; i < states.size(); ++i)
             layer.values[i] = solid_[i] * layer.values[i] + (1 - solid_[i]) * deepest;
         spread(layer, states, range, false);
-        // Without a range there is no solid at all.
+        // A range of zero means that there is no solid part at all.
         for (std::size_t i = 0; range == 0 && i < states.size(); ++i) {
             if (states[i] == TexelState::known) layer.values[i] = 1;
         }
     }
 
-    /// The 99th percentile of the absolute values.
+    /// Returns the 99th percentile of the absolute values.
     static double usual(const BakedLayer& layer, const std::vector<TexelState>& states) {
         std::vector<float> sizes;
         for (std::size_t i = 0; i < states.size(); ++i) {
@@ -351,7 +353,7 @@ class LayerTracing {
         return *at > 0 ? *at : *std::max_element(sizes.begin(), sizes.end());
     }
 
-    /// From 0, or from -range, to range: 0 to 1.
+    /// Maps the values from [0, range], or [-range, range] if signed, to [0, 1].
     static void spread(BakedLayer& layer, const std::vector<TexelState>& states, double range, bool is_signed) {
         const double least = is_signed ? -range : 0;
         layer.least = {least, least, least};
@@ -385,7 +387,7 @@ class LayerTracing {
         for (float& value : layer.values) value = value > 0 ? std::min(value, 1.0F) : 0.0F;
     }
 
-    /// Vectors as the texels of a normal map, of any number of channels that its readers look at.
+    /// Encodes vectors like texels of a normal map, with all channels that a reader might use.
     void encode(BakedLayer& layer) const {
         layer.least = {-1, -1, -1};
         MapReading reading = options_.reading;
@@ -400,7 +402,7 @@ class LayerTracing {
         }
     }
 
-    /// Red of `orm`.
+    /// Sets the red channel of `orm` to the occlusion.
     void setOcclusion() {
         std::vector<float>& orm = made_[at_[static_cast<std::size_t>(MapLayer::orm)]].values;
         const float* const ao =
@@ -416,7 +418,7 @@ class LayerTracing {
     LowUvs uvs_;
     std::array<std::size_t, kMapLayerCount> at_ = {};  ///< index of each layer in `made_`
     std::vector<BakedLayer> made_ = {};
-    Buffer<TexelState> met_ = {};  ///< texel states by the rays of centers
+    Buffer<TexelState> met_ = {};  ///< texel states by the ray of each center
     bool has_material_ = false;
     Buffer<std::uint16_t> sample_count_ = {};
     Buffer<TexelRole> roles_ = {};
@@ -434,7 +436,8 @@ const char* layerName(MapLayer layer) {
 }
 
 Vec3 idColor(std::uint32_t id) {
-    // Three bits of the number, from the lowest on, are the highest bits of the channels, and so on.
+    // Distributes the bits of the number over the channels: the three lowest bits become the highest bits of the
+    // channels, and so on.
     std::uint32_t number = (id + 1) & 0xffffff;
     std::array<std::uint32_t, 3> bytes{};
     for (int bit = 7; bit >= 0 && number != 0; --bit) {
@@ -476,14 +479,14 @@ Error checkLayers(const LayerOptions& layers, const BakeOptions& options, std::s
 }
 
 std::uint64_t layerBytes(std::uint64_t high_triangles, const BakeOptions& options, const LayerOptions& layers) {
-    // Values; their states and counts; filling one of them, and the range of one; the system of one.
+    // Values; states and sample counts; filling of one layer and its range; the system of one layer.
     std::uint64_t texel = layers.layers.empty() ? 0 : 1 + 2 + 12 + 4;
     const bool has_material = std::any_of(layers.layers.begin(), layers.layers.end(), isMaterial);
     if (has_material && options.fit == MapFit::solve) texel += sizeof(TexelRow) + 36 + sizeof(Vec3);
     for (const MapLayer layer : layers.layers) texel += sizeof(float) * channelsOf(layer);
     const bool has_curvature =
         std::find(layers.layers.begin(), layers.layers.end(), MapLayer::curvature) != layers.layers.end();
-    // Per vertex, of which there may be three a triangle.
+    // Bytes per vertex; a triangle may have three vertices of its own.
     constexpr std::uint64_t kCurvature = 3 * 64;
     return texel * options.width * options.height + (has_curvature ? kCurvature * high_triangles : 0);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The layers of a map, traced: see tspace/maps.h.
+// Traces the layers of a bake (see tspace/maps.h).
 #pragma once
 
 #include "maps/error/measure_points.h"
@@ -8,7 +8,8 @@
 
 namespace tspace {
 
-/// Checks options for meshes of so many triangles, `options` being checked. An Error with code ok when all is well.
+/// Checks the layer options for meshes with the given numbers of triangles; `options` must have been checked before.
+/// Returns ErrorCode::ok if they are valid.
 Error checkLayers(const LayerOptions& layers, const BakeOptions& options, std::size_t low_triangles,
                   std::size_t high_triangles);
 

@@ -11,20 +11,20 @@ namespace tspace {
 
 namespace {
 
-/// The cosine of half of two degrees: how short the mean of two unit vectors may be.
+/// Minimum length of the mean of two unit vectors that agree: the cosine of half of kApartDeg.
 constexpr float kAgreeing = 0.99985F;
 constexpr double kApartDeg = 2;
-/// TracedTexels::owners of a texel whose centre no triangle shows.
+/// Value of TracedTexels::owners for a texel whose center no triangle covers.
 constexpr std::uint32_t kNobody = 0xffffffff;
 /// Weight of a length error relative to a direction error.
 constexpr float kAlong = 0.02F;
 
-/// The vectors wanted at points of triangles.
+/// Computes the vectors wanted at points of triangles.
 class WantedVectors {
   public:
     WantedVectors(const MapSurfaces& surfaces, const BakeOptions& options) : surfaces_(surfaces), options_(options) {}
 
-    /// take(i, is_hit, wanted) for each of kLinesAtOnce points at most.
+    /// Calls take(i, is_hit, wanted) for each point; at most kLinesAtOnce points.
     template <class Take>
     void at(std::span<const LowPoint> points, const Take& take) {
         std::array<DVec3, kLinesAtOnce> normals;
@@ -55,7 +55,7 @@ class WantedVectors {
 
 FitSample sampleOf(const BakeOptions& options, const Vec3& wanted) {
     if (options.reading.two_channels) return twoChannelSample(wanted);
-    // Integers are chosen with any length; real numbers would shrink.
+    // Integers are chosen with any length. Real numbers need a length term, otherwise the vectors would shrink.
     return acrossSample(wanted, options.bits == 8 ? 0.0F : kAlong, kWantedLength);
 }
 
@@ -65,7 +65,7 @@ FitSample weighted(float weight, FitSample sample) {
     return sample;
 }
 
-/// Whether rays say what is wanted in a cell.
+/// Returns whether the targets of a cell come from rays.
 bool isTraced(TexelCell cell) { return cell == TexelCell::asked || cell == TexelCell::rough; }
 
 class Tracing {
@@ -102,7 +102,7 @@ class Tracing {
             return std::size_t{sample.row} * options_.width + sample.column;
         };
         const auto traceBand = [&](std::size_t band) {
-            // A texel's samples are all in one band.
+            // All samples of a texel are in the same band, so no other thread writes it.
             if (traced_.ranks.size() > 0) {
                 bands.forSamples(band, [&](const BandSample& sample) {
                     std::uint32_t& owner = traced_.owners[texelOf(sample)];
@@ -129,7 +129,7 @@ class Tracing {
         decideVotes();
     }
 
-    /// Whether a triangle has a say in a texel.
+    /// Returns whether a triangle contributes to a texel.
     [[nodiscard]] bool counts(std::size_t texel, std::uint32_t triangle) const {
         return traced_.ranks.size() == 0 || traced_.owners[texel] == traced_.ranks[triangle];
     }
@@ -162,7 +162,7 @@ class Tracing {
         traced_.conflict_max_deg = std::max(traced_.conflict_max_deg, degrees);
     }
 
-    /// The angle between two unit vectors whose mean is so long.
+    /// Returns the angle in degrees between two unit vectors whose mean has the given length.
     static double anglePairOf(float mean_length) {
         const double cosine = std::min(1.0, static_cast<double>(mean_length));
         return 2 * polarAngle(cosine, std::sqrt(1 - cosine * cosine)) * (180 / kPi);
@@ -202,7 +202,7 @@ class Tracing {
     TracedTexels& traced_;
     LowUvs uvs_;
     Buffer<std::uint16_t> votes_ = {};
-    Buffer<Vec3> others_ = {};  ///< with ranks: sums of what pieces want that do not count
+    Buffer<Vec3> others_ = {};  ///< with ranks: sums of the vectors wanted by UV islands that do not own the texel
 };
 
 }  // namespace
@@ -214,8 +214,8 @@ void traceTexels(const MapSurfaces& surfaces, const TexelTriangles& triangles, c
 
 namespace {
 
-/// If samples lie at 1/4 and 3/4 of the way between centers, the centers are sampled too, weighted so that the integral of the
-/// square of any linear function over a cell is exact: a corner counts an eighth of such a sample.
+/// If samples are at 1/4 and 3/4 between centers, the centers are sampled too, weighted so that the integral of the
+/// square of any linear function over a cell is exact: a corner has an eighth of the weight of such a sample.
 constexpr float kCornerOfCell = 0.125F;
 
 void addCentres(const TracedTexels& traced, const TexelPlan& plan, const TexelWindow& window,
@@ -283,7 +283,7 @@ void traceBetween(const MapSurfaces& surfaces, const TracedTexels& traced, const
         });
     };
     const std::vector<std::size_t> bands = bandsOf(window);
-    // Bands beside each other share a row of texels.
+    // Adjacent bands share a row of texels, so they must not run at the same time.
     forApart(bands.size(), [&](std::size_t begin, std::size_t number) {
         forTasksTold(work, number, "tracing between texels", steps,
                      [&](std::size_t i) { traceBand(bands[begin + 2 * i]); });
@@ -294,7 +294,8 @@ void traceBetween(const MapSurfaces& surfaces, const TracedTexels& traced, const
 
 void addSmoothCells(const TexelPlan& plan, const TexelWindow& window, std::span<const Vec3> texels,
                     std::uint32_t points, const BakeOptions& options, Parallel& parallel, TexelSystem& system) {
-    // Gauss's two points of a line, twice: the integral over the cell, since what is asked is a product of two filters.
+    // Two-point Gauss quadrature in each direction: exact for the integral over the cell, whose integrand is a product
+    // of two bilinear filters.
     constexpr float kNear = 0.21132487F, kFar = 1 - kNear;
     // Same total weight as a cell sampled by rays.
     const float weight = points == 2 ? 1 + kCornerOfCell : static_cast<float>(points * points) / 4;
@@ -323,8 +324,8 @@ void fillFromNeighbours(TracedTexels& traced, const TextureShape& shape) {
     for (std::size_t i = 0; i < wanted.size(); ++i) {
         if (traced.origins[i] != TexelOrigin::background && isZero(wanted[i])) empty.push_back(i);
     }
-    // The first ring goes on as the two texels before it do: at a rim, a filter reads it beside them. Further away the mean
-    // around, which cannot grow.
+    // The first ring extrapolates from the two texels before it, because a filter reads it at the rim. Farther texels
+    // use the mean of their neighbors, which cannot grow.
     bool is_first_ring = true;
     const auto meanAround = [&](std::size_t texel) {
         const auto x = static_cast<std::int64_t>(texel % shape.width),
@@ -338,7 +339,7 @@ void fillFromNeighbours(TracedTexels& traced, const TextureShape& shape) {
             for (const int dx : {-1, 0, 1}) {
                 const DVec3 near = at(dx, dy), far = at(2 * dx, 2 * dy);
                 sum = sum + near;
-                // A jump is not a slope.
+                // Do not extrapolate across a discontinuity.
                 if (dot(near, far) > 0.9) ahead = ahead + (2.0 * near - far);
             }
         }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Rays for the texels of a map: the vector wanted at each texel's centre, and samples between centres.
+// Ray tracing for the texels of a map: the vector wanted at each texel center, and samples between centers.
 #pragma once
 
 #include "maps/bake/texel_plan.h"
@@ -11,32 +11,32 @@
 
 namespace tspace {
 
-/// Shoots a ray from the center of each texel inside a triangle or its padding.
+/// Traces a ray from the center of each texel inside a triangle or in its padding.
 void traceTexels(const MapSurfaces& surfaces, const TexelTriangles& triangles, const BakeOptions& options,
                  const MapWork& work, TracedTexels& traced);
 
 /// Bands with samples between texel centers.
 struct PointsBetween {
     const SampleBands& bands;
-    std::uint32_t n;  ///< n x n points a texel
+    std::uint32_t n;  ///< n x n points per texel
 };
 
 /// Returns the bands that have samples in the window.
 std::vector<std::size_t> bandsOf(const TexelWindow& window);
 
-/// Rays at points in the cells of the plan that are asked or rough; what they say is added to the system of the window, and what
-/// the centres say that are none of these points. `steps` go on by as many as the window has bands.
+/// Traces rays at points in the `asked` and `rough` cells of the plan, and adds the results to the system of the
+/// window, including centers that are none of these points. Advances `steps` by the number of bands in the window.
 void traceBetween(const MapSurfaces& surfaces, const TracedTexels& traced, const TexelPlan& plan,
                   const TexelWindow& window, const PointsBetween& points, const BakeOptions& options,
                   const MapWork& work, ToldSteps& steps, TexelSystem& system);
 
-/// Adds what `texels` of the window, filtered, say in the smooth cells of the plan, as much as rays at `points` x `points` points
-/// a texel say in others.
+/// Adds the filtered values of `texels` in the smooth cells of the window, with the same weight as rays at `points` x
+/// `points` points per texel in other cells.
 void addSmoothCells(const TexelPlan& plan, const TexelWindow& window, std::span<const Vec3> texels,
                     std::uint32_t points, const BakeOptions& options, Parallel& parallel, TexelSystem& system);
 
-/// Gives texels that have an origin but no vector one, ring by ring: the first ring what the slope before it leads to, the
-/// others the mean of their neighbours; flat ones where there is none.
+/// Fills texels that have an origin but no vector, ring by ring: the first ring extrapolates the slope before it,
+/// farther rings use the mean of their neighbors. Texels without known neighbors become flat.
 void fillFromNeighbours(TracedTexels& traced, const TextureShape& shape);
 
 }  // namespace tspace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The results of rays for the texels of a map.
+// Results of the rays for the texels of a map.
 #pragma once
 
 #include <cstdint>
@@ -10,15 +10,17 @@
 
 namespace tspace {
 
-/// The results of rays for texels. All vectors are unit, along T, B and N, or of the object.
+/// Ray results per texel. All vectors are unit length, relative to T, B and N or in object space.
 struct TracedTexels {
-    Buffer<Vec3> wanted = {};  ///< at the centre; the mean where several triangles show it. Zero: not known
+    Buffer<Vec3> wanted = {};  ///< at the center; the mean if several triangles cover it. Zero: unknown
     Buffer<TexelOrigin> origins = {};
-    /// Texels whose triangles want over 2 degrees different vectors; the sum and the largest of these angles.
+    /// Number of texels whose triangles want vectors that differ by more than 2 degrees, with the sum and the maximum
+    /// of these angles.
     std::uint64_t conflict_count = 0;
     double conflict_sum_deg = 0, conflict_max_deg = 0;
-    Buffer<std::uint32_t> ranks = {};   ///< ranksOfPieces; empty: all triangles of a texel count
-    Buffer<std::uint32_t> owners = {};  ///< with ranks, of each texel: the smallest one of those that show its centre
+    Buffer<std::uint32_t> ranks = {};  ///< result of ranksOfPieces; empty: all triangles of a texel contribute
+    /// with ranks: per texel, the smallest rank of the triangles that cover its center
+    Buffer<std::uint32_t> owners = {};
 };
 
 }  // namespace tspace

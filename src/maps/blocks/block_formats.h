@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What BlockSearch asks of formats of 8 bytes a channel and block: BC4 (two of which are BC5) and EAC.
+// Formats for BlockSearch with 8 bytes per channel and block: BC4 (BC5 is two of them) and EAC.
 #pragma once
 
 #include "images/pack_block.h"
@@ -11,9 +11,9 @@ struct NearestCode {
     Eight code, value;
 };
 
-/// Palettes of BC4 in steps of 1 / 255, or 1 / 254 with a sign: eight values between two whole numbers, the first of which is the larger, or
-/// six, where it is not. `kind`: how many steps there are between the ends, 7 or 5. The values 0 and 1 that stand
-/// beside the six are not used: of maps with relief less than one block in a hundred gains by them.
+/// BC4 palettes in steps of 1 / 255 (signed: 1 / 254): eight values between two integer ends if the first end is
+/// larger, otherwise six. `kind`: number of steps between the ends, 7 or 5. The extra values 0 and 1 of six-value
+/// palettes are not used: in normal maps with relief, fewer than one block in a hundred would gain from them.
 class Bc4Format {
   public:
     explicit Bc4Format(bool is_signed) : is_signed_(is_signed), most_(is_signed ? 254.0F : 255.0F) {}
@@ -30,7 +30,7 @@ class Bc4Format {
         }
     };
     [[nodiscard]] static Values valuesOf(const Eight& origin, const Eight& step, const Eight& kind) {
-        // A step of 0 has one value, whatever the code.
+        // A step of 0 has a single value for all codes.
         const Eight size = step * step, tiny = 1e-12F;
         return {origin, step, whereLess(tiny, size, 1.0F / whereLess(tiny, size, step, 1.0F), 0.0F), kind};
     }
@@ -38,7 +38,7 @@ class Bc4Format {
         return origin + code * step;
     }
 
-    /// To whole ends within 0 and the most, in the order that the kind asks for.
+    /// Rounds to integer ends between 0 and the maximum, in the order that the kind requires.
     void round(const Eight& origin, const Eight& step, const Eight& /*mean_code*/, const Eight& kind, Eight& new_origin,
                Eight& new_step) const {
         const Eight first = nearestWhole(between(origin, 0.0F, most_));
@@ -59,7 +59,7 @@ class Bc4Format {
         return {first, (kept - first) / palette.kind, palette.kind};
     }
 
-    /// Ends at the extremes and inside of them.
+    /// Tries palettes whose ends are at the extremes and slightly inside them.
     template <class Try>
     void forStarts(float least, float most, bool all, const Try& tryPalettes) const {
         constexpr Eight::Four kParts[4][2] = {{{0, 0.05F, 0.1F, 0.16F}, {0, 0.1F, 0.05F, 0.16F}},
@@ -72,20 +72,20 @@ class Bc4Format {
             const Eight last(kParts[2 * group + 1][0], kParts[2 * group + 1][1]);
             tryRounded(most - first * range, least + last * range, 7.0F, tryPalettes);
         }
-        // Few values that lie evenly are often better met by six than by eight.
+        // A few evenly spaced values are often represented better by six values than by eight.
         if (!all) return;
         const Eight first(kParts[0][0], kParts[0][1]), last(kParts[1][0], kParts[1][1]);
         tryRounded(least + first * range, most - last * range, 5.0F, tryPalettes);
     }
 
-    /// All pairs of ends from one step below to one step above.
+    /// Tries all pairs of ends from one step below the range to one step above it.
     template <class Try>
     void forNear(float least, float most, const Try& tryPalettes) const {
         const int from = std::max(0, static_cast<int>(least) - 1);
         const int to = std::min(static_cast<int>(most_), static_cast<int>(most) + 2);
         forEnds(from, to, from, to, tryPalettes);
     }
-    /// All pairs of which one end is near each extreme, in both orders.
+    /// Tries all pairs whose ends are near opposite extremes, in both orders.
     template <class Try>
     void forPairs(float least, float most, const Try& tryPalettes) const {
         const auto aside = static_cast<int>(std::min(4 + 0.15F * (most - least), 12.0F));
@@ -102,7 +102,7 @@ class Bc4Format {
         const int last = static_cast<int>(palette.origin + palette.kind * palette.step + 0.5F);
         std::array<std::uint8_t, 16> codes{};
         for (std::size_t i = 0; i < 16; ++i) {
-            // The ends have the codes 0 and 1, and those between follow.
+            // The ends have codes 0 and 1; the values between them have the codes from 2 on.
             const int code = static_cast<int>(fitted.codes[i]);
             codes[i] = static_cast<std::uint8_t>(code == 0 ? 0 : code == parts ? 1 : code + 1);
         }
@@ -140,8 +140,8 @@ class Bc4Format {
     float most_;
 };
 
-/// Palettes of EAC in steps of 1 / 2047, or 1 / 2046 with a sign: a base in steps of 8, and modifiers of one of 16 tables, times 8 and a
-/// multiplier up to 15, or times 1. `kind`: the number of the table.
+/// EAC palettes in steps of 1 / 2047 (signed: 1 / 2046): a base in steps of 8, plus modifiers from one of 16 tables,
+/// multiplied by 8 and a multiplier of up to 15, or by 1. `kind`: index of the table.
 class EacFormat {
   public:
     explicit EacFormat(bool is_signed)
@@ -175,7 +175,7 @@ class EacFormat {
         return between(origin + code * step, 0.0F, most_);
     }
 
-    /// The origin follows the rounding of the step, so that the mean stays.
+    /// Rounds the step and adjusts the origin so that the mean is preserved.
     void round(const Eight& origin, const Eight& step, const Eight& mean_code, const Eight& /*kind*/, Eight& new_origin,
                Eight& new_step) const {
         const Eight multiplier = nearestWhole(between((1 / kBaseStep) * step, 0.0F, 15.0F));
@@ -190,7 +190,7 @@ class EacFormat {
                 palette.kind};
     }
 
-    /// For each table: tries the step that spans the range, and smaller ones.
+    /// Tries, for each table, the step that spans the range, and smaller steps.
     template <class Try>
     void forStarts(float least, float most, bool all, const Try& tryPalettes) const {
         constexpr float kScales[] = {1, 0.9F, 0.8F};
@@ -212,7 +212,7 @@ class EacFormat {
         }
     }
 
-    /// The two smallest steps of all tables, with bases around the middle.
+    /// Tries the two smallest steps of all tables, with bases near the middle.
     template <class Try>
     void forNear(float least, float most, const Try& tryPalettes) const {
         constexpr int kAside = 2;

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-// One channel of a 4 x 4 block, of which all else is held: the ends and codes with the least error as it is filtered. Eight
-// palettes are looked at side by side.
+// Search for the best encoding of one channel of a 4 x 4 block while everything else is fixed: the ends and codes with
+// the least filtered error. Eight palettes are evaluated in parallel lanes.
 //
-// The error of a block is e'He + 2 g'e: e what its texels are off by, H how the bilinear filter mixes them with each other (nine
-// numbers a texel), g what texels around and the other channel are off by. Steps, for each palette: the code of one texel
-// after the other, best beside those of its neighbours (iterated conditional modes); then the origin and step of the palette
-// by least squares in H, rounded to what the format holds; then the codes once more.
+// The error of a block is e'He + 2 g'e, with e the errors of its texels, H the mixing of texels by the bilinear filter
+// (nine numbers per texel), and g the contribution of the errors of surrounding texels and of the other channel. Steps
+// for each palette: choose the best code for one texel after the other, given its neighbors (iterated conditional
+// modes); fit the origin and step of the palette by least squares in H and round them to the format; choose the codes
+// again.
 #pragma once
 
 #include <algorithm>
@@ -17,22 +18,23 @@
 
 namespace tspace {
 
-/// Slot of texel i of a block in a 6 x 6 grid: the block and one texel around it.
+/// Returns the slot of texel i of a block in a 6 x 6 grid: the block and a border of one texel.
 constexpr std::size_t slotOf(std::size_t i) { return (i / 4 + 1) * 6 + i % 4 + 1; }
-/// From a slot to the nine around it, row by row.
+/// Offsets from a slot to the 3 x 3 slots around it, row by row.
 inline constexpr std::array<int, 9> kAround = {-7, -6, -5, -1, 0, 1, 5, 6, 7};
 
 using Stencil = std::array<float, 9>;
 
 struct ChannelBlock {
-    std::array<bool, 16> is_used = {};     ///< false: the texel lies beyond the edge of the image
-    std::array<float, 16> targets = {};    ///< in steps of the format, 0 to `most`
-    std::array<Stencil, 16> mix = {};      ///< rows of H; those of texels that are not in the block are in `pull` alone
-    std::array<float, 16> own_parts = {};  ///< sums of what a row of H has inside of the block
+    std::array<bool, 16> is_used = {};   ///< false: the texel lies beyond the edge of the image
+    std::array<float, 16> targets = {};  ///< in steps of the format, 0 to `most`
+    /// rows of H; entries for texels outside the block are contained in `pull` only
+    std::array<Stencil, 16> mix = {};
+    std::array<float, 16> own_parts = {};  ///< sums of each row of H over the texels inside the block
     std::array<float, 16> pull = {};       ///< g
 };
 
-/// Values are origin + step * c, where c is what a code stands for.
+/// Palette values are origin + step * c, where c is the number that a code represents.
 struct Palette {
     float origin = 0, step = 0;
     float kind = 0;  ///< block kind in the encoding of the format
@@ -47,12 +49,12 @@ struct FittedChannel {
 };
 
 struct SearchEffort {
-    bool all_starts = true;   ///< palettes of all kinds to begin with; else of the most usual one
-    int start_fits = 1;       ///< least squares of each
-    float near_range = 0;     ///< blocks whose range is below try all palettes within it, in steps of 8 bits
-    bool few_values = false;  ///< blocks of few values try all palettes whose ends lie near the extremes
+    bool all_starts = true;   ///< start with palettes of all kinds; otherwise only of the most common kind
+    int start_fits = 1;       ///< number of least-squares fits per start
+    float near_range = 0;     ///< blocks with a smaller range try all palettes within it, in steps of 8 bits
+    bool few_values = false;  ///< blocks with few distinct values try all palettes whose ends are near the extremes
     int sweeps = 1;
-    bool looks_around = false;  ///< at the neighbours of the best palette
+    bool looks_around = false;  ///< also tries the neighbors of the best palette
 };
 
 template <class Format>
@@ -60,7 +62,7 @@ class BlockSearch {
   public:
     BlockSearch(const Format& format, const ChannelBlock& block) : format_(format), block_(block) {}
 
-    /// The best for each texel by itself.
+    /// Returns the best encoding of each texel independently of its neighbors.
     FittedChannel alone(const SearchEffort& effort) {
         constexpr std::size_t kDescents = 3;
         chooseStarts(block_.targets, effort, kDescents);
@@ -79,7 +81,7 @@ class BlockSearch {
         return fitted;
     }
 
-    /// Better than `from`, or `from`.
+    /// Returns an encoding with a smaller error than `from`, or `from`.
     FittedChannel beside(const FittedChannel& from, const SearchEffort& effort) {
         std::array<float, 16> wanted = relaxed(from);
         chooseStarts(wanted, effort, 7);
@@ -119,7 +121,7 @@ class BlockSearch {
         [[nodiscard]] Palette palette(std::size_t lane) const { return {origin[lane], step[lane], kind[lane]}; }
     };
 
-    /// Values that the texels would have without quantization.
+    /// Returns the values that the texels would have without quantization.
     std::array<float, 16> relaxed(const FittedChannel& from) const {
         constexpr int kSweeps = 2;
         std::array<float, 36> errors{};
@@ -135,7 +137,7 @@ class BlockSearch {
         return values;
     }
 
-    /// The part of the gradient at texel i that comes from all others.
+    /// Returns the part of the gradient at texel i that other texels contribute.
     template <class Number>
     Number pullAt(std::size_t i, const Number* error) const {
         const Stencil& mix = block_.mix[i];
@@ -157,7 +159,7 @@ class BlockSearch {
         }
     }
 
-    /// Origin and step by least squares for the codes, rounded; errors follow.
+    /// Fits the origin and step to the codes by least squares, rounds them, and updates the errors.
     void fitPalettes(Lanes& lanes) const {
         std::array<Eight, 36> codes{};
         for (std::size_t i = 0; i < 16; ++i) {
@@ -237,7 +239,7 @@ class BlockSearch {
         }
     }
 
-    // Starts: palettes that are best for the texels by themselves.
+    // Finds start palettes: the best ones when texels are fitted independently.
 
     void chooseStarts(const std::array<float, 16>& values, const SearchEffort& effort, std::size_t wanted) {
         start_count_ = 0;
@@ -265,8 +267,8 @@ class BlockSearch {
         }
     }
 
-    /// Blocks with few values, such as those beside the edge of a flat area, have palettes that hit all of them; descent does
-    /// not find these.
+    /// Blocks with few distinct values, for example next to the edge of a flat area, have palettes that represent all
+    /// of them exactly; descent does not find these.
     void tryFewValues(const std::array<float, 16>& values, float least, float most) {
         constexpr std::size_t kFew = 4;
         std::array<float, 16> sorted{};
@@ -301,7 +303,7 @@ class BlockSearch {
         });
     }
 
-    /// From a start to better neighbours, two steps away and one, as long as there are any.
+    /// Moves from a start to better neighboring palettes, two steps away and then one step, until none is better.
     void descend(Palette from) {
         constexpr int kMostRounds = 16;
         for (const float by : {2.0F, 1.0F}) {
@@ -321,7 +323,7 @@ class BlockSearch {
         }
     }
 
-    /// Least squares of the texels by themselves, rounded.
+    /// Fits palettes to the texels independently by least squares, and rounds them.
     void fitAlone(const std::array<float, 16>& values, Eight& origin, Eight& step, const Eight& kind) const {
         const typename Format::Values palettes = format_.valuesOf(origin, step, kind);
         Eight count, sum, squares, side, code_side;
@@ -352,12 +354,12 @@ class BlockSearch {
         for (std::size_t lane = 0; lane < 8; ++lane) addStart({origin[lane], step[lane], kind[lane]}, total[lane]);
     }
 
-    /// Sorted by error; the first of equal ones stays first.
+    /// Inserts a start, sorted by error; among equal errors the earlier start comes first.
     void addStart(const Palette& palette, float error) {
         if (start_count_ == wanted_starts_ && !(error < start_errors_[start_count_ - 1])) return;
         std::size_t at = start_count_;
         while (at > 0 && error < start_errors_[at - 1]) --at;
-        // Equal palettes have equal errors.
+        // Equal palettes have equal errors, so only these need comparing.
         for (std::size_t i = at; i > 0 && start_errors_[i - 1] == error; --i) {
             if (starts_[i - 1] == palette) return;
         }

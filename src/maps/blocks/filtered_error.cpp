@@ -11,7 +11,8 @@ namespace tspace {
 
 namespace {
 
-/// Points of a texel in a row, in the middle of equal parts: none lies at a centre, where blocks are chosen to be off more than between.
+/// Number of sample points per texel and axis, each in the middle of an equal part. None is at a texel center, where
+/// the error of fitted blocks is larger than between centers.
 constexpr std::size_t kPoints = 3;
 
 class FilteredPair {
@@ -19,7 +20,7 @@ class FilteredPair {
     FilteredPair(const NormalLevel& truth, std::span<const Vec3> texels, bool makes_z)
         : truth_(truth), texels_(texels), makes_z_(makes_z) {}
 
-    /// Angles at the points of row y, from `angles` on.
+    /// Computes the angles at the points of row y and stores them from `angles` on.
     void measureRow(std::size_t y, float* angles) const {
         for (std::size_t x = 0; x < truth_.width; ++x) {
             for (std::size_t point = 0; point < kPoints * kPoints; ++point)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How far a compressed normal map is from the map that it stands for, as both are filtered.
+// Error of a compressed normal map relative to its source, both bilinearly filtered.
 #pragma once
 
 #include <span>
@@ -8,14 +8,15 @@
 
 namespace tspace {
 
-/// In degrees.
+/// Error angles in degrees.
 struct FilteredError {
     double mean_deg = 0, p99_deg = 0, max_deg = 0;
     double max_x = 0, max_y = 0;  ///< position of the maximum, in texels; centers lie at halves
 };
 
-/// What a renderer shades at 3 x 3 points a texel (of some rows, where there are more than 4 million): of `truth` bilinear, then unit; of
-/// `texels` the same, or, with `makes_z`, x and y bilinear and z made of them. The map repeats. The same for any number of threads.
+/// Compares the shading normals at 3 x 3 points per texel (in a subset of the rows for more than 4 million texels).
+/// `truth` is filtered and normalized; so is `texels`, or, with `makes_z`, x and y are filtered and z is computed from
+/// them. The map repeats. The result does not depend on the number of threads.
 FilteredError measureFiltered(const NormalLevel& truth, std::span<const Vec3> texels, bool makes_z, Parallel& parallel);
 
 }  // namespace tspace

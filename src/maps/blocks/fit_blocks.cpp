@@ -11,8 +11,8 @@ namespace tspace {
 
 namespace {
 
-/// Runs body(row) for all of `count` rows, where neighbours never run at the same time: every second one, then the others. The
-/// first and the last are neighbours.
+/// Runs body(row) for all `count` rows such that neighboring rows never run at the same time: every second row, then
+/// the others. The first and the last row are neighbors.
 template <class Body>
 void forRowsApart(std::size_t count, Parallel& parallel, const Body& body) {
     const std::size_t pairs = count / 2;
@@ -23,8 +23,8 @@ void forRowsApart(std::size_t count, Parallel& parallel, const Body& body) {
     if (count % 2 != 0) body(count - 1);
 }
 
-/// What the filtered error of x and y is: a quadratic form. Between four texels the metric of directions is taken as constant,
-/// and what the filter mixes there has the weights of bilinear elements: 4, 2 and 1 parts of 36.
+/// Quadratic form for the filtered error of x and y. Between four texels the metric of directions is taken as constant,
+/// and the filter mixes texels with the weights of bilinear elements: 4/36, 2/36 and 1/36.
 class FilteredForm {
   public:
     FilteredForm(const NormalLevel& level, Parallel& parallel)
@@ -37,12 +37,13 @@ class FilteredForm {
 
     [[nodiscard]] std::size_t width() const { return width_; }
     [[nodiscard]] std::size_t height() const { return height_; }
-    /// x and y for which the filtered map is nearest, without blocks.
+    /// Returns the x and y with the least error of the filtered map, without block compression.
     [[nodiscard]] const std::vector<Vec2>& best() const { return best_; }
     /// Metric of the square to the right of and below a texel: xx, xy, yy.
     [[nodiscard]] const Vec3& metric(std::size_t x, std::size_t y) const { return metrics_[y * width_ + x]; }
 
-    /// The row of the form of a texel, of the metrics of the squares above it (left, right) and below it.
+    /// Returns the row of the form for a texel, from the metrics of the four adjacent squares: above (left, right) and
+    /// below.
     template <class Number>
     static std::array<Number, 9> stencil(const Number& above_left, const Number& above, const Number& left,
                                          const Number& own) {
@@ -63,9 +64,10 @@ class FilteredForm {
     [[nodiscard]] std::size_t below(std::size_t y) const { return y + 1 < height_ ? y + 1 : 0; }
     [[nodiscard]] std::size_t above(std::size_t y) const { return y > 0 ? y - 1 : height_ - 1; }
 
-    /// Metrics of a row of squares, and what their filtered directions are off by from filtered x and y.
+    /// Adds the metrics of a row of squares, and the differences between their filtered directions and filtered x and
+    /// y.
     void addRow(const NormalLevel& level, std::size_t y, std::vector<Vec2>& residuals) {
-        // Gauss' two points: exact for the products of weights.
+        // Two-point Gauss quadrature: exact for the products of weights.
         constexpr float kNear = 0.2113248654F, kFar = 1 - kNear, kLeastZ = 0.2F;
         const std::size_t row = y * width_, row_below = below(y) * width_;
         for (std::size_t x = 0; x < width_; ++x) {
@@ -91,14 +93,14 @@ class FilteredForm {
             float off_by = 0;
             for (const Vec2& one : off)
                 off_by += 0.25F * (metric.x * one.x * one.x + 2 * metric.y * one.x * one.y + metric.z * one.y * one.y);
-            // Squares alone would spread what no texels can make good at a hard edge over the flats beside it. Half a
-            // degree counts half as much; least squares of the seven kinds of maps come out at .885 of the mean in
-            // place of .889, and no worse at 99 %.
+            // At a hard edge, unweighted squares would spread an error that no texels can remove over the flat areas
+            // next to it. An error of half a degree halves the weight: the least-squares error of the seven kinds of
+            // maps is then 0.885 of the mean instead of 0.889, with no loss at the 99th percentile.
             constexpr float kUsual = 0.5F / 57.29578F;
             metric = (kUsual / (kUsual + std::sqrt(off_by))) * metric;
             metrics_[row + x] = metric;
             for (std::size_t point = 0; point < 4; ++point) {
-                // The form is 36 times the mean over the square.
+                // The form is scaled to 36 times the mean over the square.
                 const Vec2 side{9 * (metric.x * off[point].x + metric.y * off[point].y),
                                 9 * (metric.y * off[point].x + metric.z * off[point].y)};
                 for (std::size_t i = 0; i < 4; ++i) {
@@ -110,7 +112,8 @@ class FilteredForm {
         }
     }
 
-    /// Gauss and Seidel, from x and y of the map. Three sweeps leave less than what a fourth would gain: .0003 of the error of blocks.
+    /// Gauss-Seidel iteration, starting from x and y of the map. Three sweeps suffice: a fourth would reduce the error
+    /// of blocks by less than 0.03 %.
     void solve(const std::vector<Vec2>& residuals, Parallel& parallel) {
         constexpr int kSweeps = 3;
         std::vector<Vec2> moved(best_.size());
@@ -277,7 +280,7 @@ class LevelFit {
         return fitted;
     }
 
-    /// Sets what the channel's error is for the errors around it.
+    /// Sets the quadratic error of the channel, given the errors around it.
     static void setForm(ChannelBlock& block, std::size_t channel, const std::array<std::array<Vec3, 9>, 16>& mixes,
                         const std::array<Vec2, 36>& errors) {
         std::array<bool, 36> is_inside{};
@@ -336,8 +339,9 @@ FittedLevel fitBlocks(const NormalLevel& level, const BlockOptions& options, Par
 }
 
 std::vector<Vec2> fitTexels(const NormalLevel& level, Parallel& parallel) {
-    // Beside edges the best x and y waver about those of a flat, by less and less, and a packer that searches texels by themselves gains
-    // by a block of one value. ASTC by astcenc, moved by any: hard surfaces are 1.8 times as far off as not moved at all; from here on 0.97.
+    // Next to edges the best x and y oscillate around the value of the flat area with decreasing amplitude, whereas an
+    // encoder that searches texels independently benefits from blocks of a single value. With astcenc and no minimum,
+    // hard surfaces have 1.8 times the error of unmoved texels; with this minimum, 0.97 times.
     constexpr float kLeastMove = 0.003F;
     std::vector<Vec2> texels = FilteredForm(level, parallel).best();
     for (std::size_t i = 0; i < texels.size(); ++i) {

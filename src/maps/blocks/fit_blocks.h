@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Normal maps as blocks of two channels (BC5, EAC RG11): x and y, and z is made by who reads them, after the filter.
+// Compresses normal maps to blocks of two channels (BC5, EAC RG11): x and y. Readers compute z after filtering.
 #pragma once
 
 #include <cstdint>
@@ -12,8 +12,8 @@ namespace tspace {
 enum class BlockFormat : std::uint8_t { bc5, eacRg11 };
 
 enum class BlockQuality : std::uint8_t {
-    quick,  ///< each channel of a block by itself: least squares of its texels
-    fast,   ///< the least error as it is filtered, one round
+    quick,  ///< fits each channel of a block independently, by least squares over its texels
+    fast,   ///< minimizes the filtered error in one round
     best    ///< like `fast`, with three rounds and more palettes
 };
 
@@ -25,16 +25,17 @@ struct BlockOptions {
 
 struct FittedLevel {
     std::vector<std::uint8_t> blocks = {};  ///< 16 bytes each, row by row
-    std::vector<Vec2> texels = {};          ///< x and y as they are decoded
+    std::vector<Vec2> texels = {};          ///< x and y as decoded
 };
 
-/// The map repeats. Errors are squares of angles, nearly: x and y count as the direction that is made of them changes (the first
-/// derivative, at z of 0.2 at least), at points between the texels, where both the map and the texture are filtered. Time: linear.
-/// Memory: 48 bytes a texel. The same bytes for any number of threads, and on any CPU.
+/// Fits blocks to a level. The map repeats. Errors are approximately squared angles: x and y are weighted by the
+/// derivative of the direction that is reconstructed from them (at z of at least 0.2), at points between the texels,
+/// where both the map and the texture are filtered. Linear time. Memory: 48 bytes per texel. The result is identical
+/// for any number of threads and on any CPU.
 FittedLevel fitBlocks(const NormalLevel& level, const BlockOptions& options, Parallel& parallel);
 
-/// x and y for which the map is nearest as it is filtered, for packers of others: where that moves them by little, they stay. They may be a
-/// little beyond -1 to 1.
+/// Returns the x and y with the least error of the filtered map, as input for other encoders. Texels that would move
+/// only slightly are kept. Values may slightly exceed the range -1 to 1.
 std::vector<Vec2> fitTexels(const NormalLevel& level, Parallel& parallel);
 
 }  // namespace tspace

@@ -9,14 +9,14 @@ namespace tspace {
 
 namespace {
 
-/// Means of xx, xy, xz, yy and yz of unit normals; that of zz follows.
+/// Means of xx, xy, xz, yy and yz of unit normals; the mean of zz follows from them.
 using Moments = std::array<float, 5>;
 
 struct MeanLevel {
     std::uint32_t width = 0, height = 0;
     std::vector<Vec3> means = {};       ///< mean normals, not normalized, multiplied by coverage
-    std::vector<Moments> moments = {};  ///< times coverage
-    std::vector<float> coverage = {};   ///< empty: 1
+    std::vector<Moments> moments = {};  ///< moments multiplied by coverage
+    std::vector<float> coverage = {};   ///< empty: fully covered
 };
 
 }  // namespace
@@ -24,7 +24,7 @@ struct MeanLevel {
 std::vector<Cover> coversOf(std::uint32_t from, std::uint32_t to) {
     std::vector<Cover> covers(to);
     for (std::uint32_t i = 0; i < to; ++i) {
-        // In units of 1 / to of a texel, so that edges are whole numbers.
+        // In units of 1 / to of a texel, so that edges are integers.
         const std::uint64_t begin = std::uint64_t{i} * from, end = begin + from;
         covers[i].begin = static_cast<std::size_t>(begin / to);
         for (std::uint64_t texel = begin / to; texel * to < end; ++texel) {
@@ -39,7 +39,7 @@ namespace {
 
 Moments momentsOf(const Vec3& n) { return {n.x * n.x, n.x * n.y, n.x * n.z, n.y * n.y, n.y * n.z}; }
 
-/// Sums part(texel, weight) over what a texel covers.
+/// Sums part(texel, weight) over the source texels that a texel covers.
 template <class Part>
 void forCovered(const MeanLevel& from, const Cover& across, const Cover& down, const Part& part) {
     for (std::size_t j = 0; j < down.weights.size(); ++j) {
@@ -137,7 +137,8 @@ std::vector<NormalLevel> makeNormalLevels(NormalLevel first, Parallel& parallel,
     while (levels.back().width > 1 || levels.back().height > 1) {
         const std::uint32_t width = std::max(levels.back().width / 2, 1U);
         const std::uint32_t height = std::max(levels.back().height / 2, 1U);
-        // Means of the last level's means are those of the first where no edge cuts a texel of either.
+        // The last level can be the source only if no texel edge of it cuts a texel of the whole map; its means then
+        // equal those of the first level.
         const bool is_even = !last.means.empty() && whole.width % last.width == 0 && whole.height % last.height == 0 &&
                              last.width % width == 0 && last.height % height == 0;
         last = shrink(is_even ? last : whole, width, height, parallel);

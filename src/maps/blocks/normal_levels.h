@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Smaller levels of a normal map: mean directions.
+// Mip levels of a normal map: mean directions.
 #pragma once
 
 #include <cstdint>
@@ -13,25 +13,26 @@ namespace tspace {
 struct NormalLevel {
     std::uint32_t width = 0, height = 0;
     std::vector<Vec3> normals = {};  ///< unit vectors
-    /// Spread of the normals that a texel covers around its own: 1 - mean (n . own)^2, the trace of their covariance across it.
-    /// Empty unless requested.
+    /// Spread of the covered normals around the texel's normal n: 1 - mean (m . n)^2, the trace of their covariance
+    /// perpendicular to it. Empty unless requested.
     std::vector<float> spreads = {};
-    /// Fraction of each texel that is surface, 0 to 1; empty: all of it.
+    /// Fraction of each texel that is surface, 0 to 1; empty: fully covered.
     std::vector<float> coverage = {};
 };
 
-/// Texels in a row of `from` covered by a texel in a row of `to`: from `begin` on, with weights that sum to 1.
+/// Texels in a row of `from` that a texel in a row of `to` covers: consecutive texels from `begin` on, with weights
+/// that sum to 1.
 struct Cover {
     std::size_t begin = 0;
     std::vector<double> weights = {};
 };
 std::vector<Cover> coversOf(std::uint32_t from, std::uint32_t to);
 
-/// The given level and all smaller ones down to 1 x 1, each half as wide and high, rounded down. A texel of any level is the unit mean of
-/// the normals that it covers on the first, in parts where an edge cuts them, weighted by their coverage; z along where that has no
-/// direction. Where nothing is covered, a texel of any level, the first too, gets the normal of the next smaller level there, so
-/// that filters at silhouettes read no foreign direction. Memory: twice that of the first level, with spreads four times. The same for
-/// any number of threads.
+/// Returns the given level and all smaller ones down to 1 x 1, each half as wide and high, rounded down. A texel of any
+/// level is the normalized mean of the normals that it covers in the first level, weighted by area and coverage, or z
+/// if that mean has no direction. A texel without coverage, in any level including the first, gets the normal of the
+/// next smaller level, so that filters at silhouettes read no unrelated direction. Memory: twice that of the first
+/// level, four times with spreads. The result does not depend on the number of threads.
 std::vector<NormalLevel> makeNormalLevels(NormalLevel first, Parallel& parallel, bool with_spreads = false);
 
 }  // namespace tspace

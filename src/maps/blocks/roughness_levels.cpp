@@ -9,7 +9,8 @@ namespace tspace {
 
 namespace {
 
-/// Levels by which a roughness texture is smaller than the normal map; below 0: larger. Nothing where it is neither.
+/// Computes the number of levels by which a roughness texture is smaller than the normal map (negative: larger).
+/// Returns false if the sizes do not differ by a power of two.
 bool findShift(const RoughnessLevel& roughness, std::uint32_t width, std::uint32_t height, int& shift) {
     constexpr int kMost = 31;
     const auto isTimes = [](std::uint32_t large, std::uint32_t small, int by) {
@@ -25,7 +26,7 @@ bool findShift(const RoughnessLevel& roughness, std::uint32_t width, std::uint32
     return false;
 }
 
-/// Coverage of each texel of the first roughness level; empty: all. `shift`: of findShift.
+/// Returns the coverage of each texel of the first roughness level; empty: fully covered. `shift`: result of findShift.
 std::vector<float> coverageOf(const RoughnessLevel& first, std::span<const NormalLevel> normals, int shift) {
     const auto level = static_cast<std::size_t>(std::max(shift, 0));
     if (level >= normals.size() || normals[level].coverage.empty()) return {};

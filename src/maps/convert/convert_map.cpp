@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// convertMap: the frames of both sides at each texel, and the sums of the report.
+// convertMap: computes the frames of both sides at each texel, and the sums of the report.
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -24,14 +24,14 @@ namespace {
 
 constexpr std::size_t kTexelsOfTask = 4096, kTasksOfStep = 64;
 
-/// The part of a reading that matters: in object space only the green channel.
+/// Returns the relevant part of an interpretation: in object space only the green channel.
 MapReading readingOf(const MapSide& side) {
     return side.space == MapSpace::tangent ? side.reading : MapReading{.green = side.reading.green};
 }
 
 bool hasFrames(const MapSide& side) { return side.space == MapSpace::tangent && !side.uvs.empty(); }
 
-/// Sums of some texels, in their order.
+/// Sums over a range of texels, added in order.
 struct Sums {
     std::uint64_t converted = 0, changed = 0, background = 0, without_frame = 0, below_horizon = 0, unmatched = 0,
                   apart = 0;
@@ -50,7 +50,7 @@ struct Sums {
     }
 };
 
-// -- triangles of both sides that are one triangle of the surface --
+// -- matching triangles of both sides --
 
 struct HashedTriangle {
     std::uint64_t hash = 0;
@@ -88,9 +88,9 @@ DVec3 positionAt(const MapSide& side, const UvTriangles& triangles, const Textur
     return sum;
 }
 
-/// For each triangle of `side` the one of `other` with the same UVs and, where both have them, positions, or kNoTriangle. Corners
-/// may begin elsewhere, but run the same way round. Of several with the same corners each is matched once, in order.
-/// O(n log n).
+/// Returns, for each triangle of `side`, the triangle of `other` with the same UVs and (if both sides have them) the
+/// same positions, or kNoTriangle. Corners may start at a different vertex but must have the same order around the
+/// triangle. Of several triangles with equal corners each is matched once, in order. O(n log n).
 Buffer<std::uint32_t> matchTriangles(const MapSide& side, const MapSide& other, const Allocator* allocator) {
     const bool with_positions = !side.positions.empty() && !other.positions.empty();
     const Buffer<HashedTriangle> mine = sorted(side, with_positions, allocator);
@@ -108,7 +108,7 @@ Buffer<std::uint32_t> matchTriangles(const MapSide& side, const MapSide& other, 
     return match;
 }
 
-/// visit(texel, its place) for each texel whose centre lies inside of a triangle.
+/// Calls visit(texel, place) for each texel whose center is inside a triangle.
 template <class Visit>
 void forEachTexel(const UvTriangles& triangles, std::size_t triangle, const TextureShape& shape, const Visit& visit) {
     forEachSample(cornerUvs(triangles, triangle), shape, 1, [&](const UvSample& sample) {
@@ -123,8 +123,8 @@ void forEachTexel(const UvTriangles& triangles, std::size_t triangle, const Text
     });
 }
 
-/// For texels inside of triangles of both, which may lie over each other: takes the triangle of `other` that is nearest in
-/// space to where `places` has the texel on `side`. Both have positions.
+/// For texels inside triangles of both sides, where triangles may overlap: chooses the triangle of `other` that is
+/// closest in space to the texel's point on `side`, given by `places`. Both sides must have positions.
 void chooseByPosition(const MapSide& side, const UvTriangles& triangles, const TexelTriangles& places,
                       const MapSide& other, const UvTriangles& other_triangles, TexelTriangles& other_places,
                       const Allocator* allocator) {
@@ -193,10 +193,10 @@ class Conversion {
     }
 
   private:
-    /// False: too much work.
+    /// Finds the triangle of each texel. Returns false if that takes too much work.
     bool findPlaces() {
         const UvTriangles triangles = main_corners_.triangles(map_);
-        // The texels that filtering reads are found within two.
+        // Texels that a filter reads are at most two texels away.
         const std::uint32_t padding = std::max<std::uint32_t>(options_.padding, 2);
         auto places = findTexelTriangles(triangles, map_.width, map_.height, padding, parallel_, allocator_);
         if (!places) return false;
@@ -215,13 +215,14 @@ class Conversion {
         return true;
     }
 
-    /// Whether integers are chosen such that neighbours make good what is rounded off: where vectors lie anywhere between
-    /// integers, as those from another space do, and where integers are few. The third of two channels follows from x and y.
+    /// Returns whether integers are chosen jointly, so that neighbors compensate for rounding: useful if vectors lie
+    /// anywhere between integers (as after a change of space), and if there are few integers. z of two-channel maps
+    /// follows from x and y.
     [[nodiscard]] bool choosesTogether() const {
         return options_.bits == 16 ? from_.space != to_.space : options_.bits == 8 && !to_.reading.two_channels;
     }
 
-    /// `changed`: how many texels are others already. Returns how many are then.
+    /// `changed`: number of texels changed so far. Returns the number after the call.
     std::uint64_t chooseTogether(std::uint64_t changed) {
         const std::span<Vec3> vectors(vectors_.data(), vectors_.size());
         const std::span<const bool> keeps(keeps_.data(), keeps_.size());
@@ -285,7 +286,7 @@ class Conversion {
         sums.most_change = std::max(sums.most_change, converted->change_deg);
     }
 
-    /// Before any texel is written: `out_` may be the input.
+    /// Must be called before any texel is written, because `out_` may be the input.
     void countConflicts() {
         constexpr double kApartDeg = 2;
         const UvTriangles triangles = main_corners_.triangles(map_);
@@ -306,7 +307,7 @@ class Conversion {
         }
     }
 
-    /// Whether the texel lies far from where the other side has it.
+    /// Returns whether the texel is far from its position on the other side.
     [[nodiscard]] bool isApart(const TexelPlace& place, const TexelPlace& other) const {
         if (!(size_ > 0)) return false;
         constexpr double kFar = 0.02;
@@ -315,7 +316,7 @@ class Conversion {
         return dot(apart, apart) > kFar * kFar * size_ * size_;
     }
 
-    /// False: the other side has no triangle there.
+    /// Finds the frames of a texel on both sides. Returns false if the other side has no triangle there.
     [[nodiscard]] bool findFrames(std::size_t texel, ShadingFrame& from, ShadingFrame& to, Sums& sums) const {
         const TexelPlace& place = places_.places[texel];
         const std::array<double, 3> weights = weightsAt(main_corners_.triangles(map_), places_.shape, place);
@@ -374,7 +375,7 @@ class Conversion {
     const Allocator* allocator_;
     Parallel& parallel_;
     bool one_mesh_;
-    const MapSide &main_, &other_;  ///< texels go by the triangles of the first
+    const MapSide &main_, &other_;  ///< texel positions refer to the triangles of main_
     CornerTriangles main_corners_, other_corners_;
     TexelTriangles places_ = {}, other_places_ = {};
     /// Vectors as computed, and which texels are unchanged so far; used if integers are chosen together.
@@ -382,7 +383,7 @@ class Conversion {
     Buffer<bool> keeps_ = {};
     std::uint64_t conflict_count_ = 0;
     double size_ = 0;                     ///< size of the mesh, if both sides have positions
-    Buffer<std::uint32_t> matches_ = {};  ///< triangles of the other side, by those of the main one
+    Buffer<std::uint32_t> matches_ = {};  ///< matching triangle of the other side for each triangle of the main side
 };
 
 const Error kFine{ErrorCode::ok};

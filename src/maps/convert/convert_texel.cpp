@@ -19,7 +19,7 @@ constexpr double kSameVector = 1e-7;
 
 bool isOnGrid(float channel, unsigned most) {
     const double scaled = static_cast<double>(channel) * most;
-    // A float n / most is off by half a unit in its last place, and by somewhat more after 1 - n / most.
+    // The error of a float n / most is half a unit in its last place, and slightly more after computing 1 - n / most.
     return std::fabs(scaled - std::nearbyint(scaled)) <= most * 1.5e-7;
 }
 
@@ -29,7 +29,7 @@ bool isOnGrid(const Vec3& texel, const TexelNumbers& numbers) {
     return isOnGrid(texel.x, most) && isOnGrid(texel.y, most) && isOnGrid(texel.z, most);
 }
 
-/// The texel for a vector, which keeps its length where it can.
+/// Returns the texel for a vector. The vector keeps its length if possible.
 Vec3 storedTexel(const DVec3& vector, const MapReading& reading, const TexelNumbers& numbers) {
     const DVec3 encoded = encodeTexel(vector, reading);
     DVec3 stored{2 * encoded.x - 1, 2 * encoded.y - 1, 2 * encoded.z - 1};
@@ -44,7 +44,7 @@ Vec3 storedTexel(const DVec3& vector, const MapReading& reading, const TexelNumb
     return channelsOf(stored, numbers.are_chosen ? TexelNumbers{.bits = 32} : numbers);
 }
 
-/// Whether a vector is stored alike, but for green.
+/// Returns whether two interpretations store a vector in the same way, apart from the direction of green.
 bool storesAlike(const MapReading& a, const MapReading& b) {
     return a.scale == b.scale && a.two_channels == b.two_channels;
 }
@@ -118,7 +118,7 @@ CarriedError measureCarried(const MapImage& map, std::span<const Vec3> converted
     const TextureShape shape{map.width, map.height, map.wrap_u, map.wrap_v};
     const std::size_t triangles = from.uvs.count / 3, tasks = (triangles + kTrianglesOfTask - 1) / kTrianglesOfTask;
     std::vector<AngleSums> sums(tasks);
-    // One point of four for each texel, off its centre as those that renderers filter.
+    // Samples one of four points per texel, off its center, like the points that renderers filter.
     const auto isTaken = [](const UvSample& sample) {
         const double column = std::floor(sample.x), row = std::floor(sample.y);
         const int corner = (sample.x - column > 0.5 ? 1 : 0) + (sample.y - row > 0.5 ? 2 : 0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Converting one texel from one frame and reading to another, and the UVs of a side of a conversion.
+// Conversion of one texel from one frame and interpretation to another, and the UVs of one side of a conversion.
 #pragma once
 
 #include <array>
@@ -14,29 +14,31 @@
 
 namespace tspace {
 
-/// The numbers in which the output is stored.
+/// Numeric format of the output.
 struct TexelNumbers {
-    unsigned bits = 16;       ///< 8, 16, or 32: no integers
-    bool are_chosen = false;  ///< the integers are chosen later: what changes stays as it was computed
+    unsigned bits = 16;       ///< 8, 16, or 32 (no integers)
+    bool are_chosen = false;  ///< integers are chosen later: changed texels stay unrounded
     [[nodiscard]] unsigned most() const { return (1U << bits) - 1; }  ///< largest integer value for 8 or 16 bits
 };
 
 struct ConvertedTexel {
     Vec3 texel = {};
-    double change_deg = 0;  ///< between what it shows, and what the texel before would show on the new side
+    double change_deg = 0;  ///< angle between the new normal and the one that the old texel would show on the new side
     bool is_below_horizon = false;
-    bool stays = false;  ///< but for green: both sides read it alike, and integers stand for it
+    /// unchanged except for green: both sides interpret the texel alike, and integers represent it exactly
+    bool stays = false;
 };
 
-/// The nearest channels for a vector as an image stores it.
+/// Returns the nearest channel values for a vector in stored form.
 Vec3 channelsOf(const DVec3& stored, const TexelNumbers& numbers);
 
-/// Returns nothing if there is no solution: a singular or non-finite frame, or a texel without direction.
+/// Converts a texel. Returns nullopt if there is no solution: a singular or non-finite frame, or a texel without
+/// direction.
 std::optional<ConvertedTexel> convertTexel(const Vec3& texel, const ShadingFrame& from, const MapReading& from_reading,
                                            const ShadingFrame& to, const MapReading& to_reading,
                                            const TexelNumbers& numbers);
 
-/// The UVs of a side of a conversion, one per corner, as a list of triangles.
+/// UVs of one side of a conversion, one per corner, as a list of triangles.
 struct CornerTriangles {
     CornerTriangles(const MapSide& side, const Allocator* allocator)
         : uvs(allocator, side.uvs.count), corners(allocator, side.uvs.count) {
@@ -60,18 +62,19 @@ struct CornerTriangles {
 
 // The error of a map that was converted from one set of frames to another.
 
-/// The frame of a side of a conversion at a point of a triangle.
+/// Returns the frame of one side of a conversion at a point of a triangle.
 ShadingFrame sideFrame(const MapSide& side, std::size_t triangle, const std::array<double, 3>& weights);
 
-/// Angles at points of all triangles, one for each texel that a triangle shows, filtered as renderers do.
+/// Error angles at points of all triangles, one point per covered texel, filtered as renderers do.
 struct CarriedError {
-    double mean_deg = 0;              ///< between the new map on the new frames and the old one on the old
-    double mean_unconverted_deg = 0;  ///< between the old map on the new frames and on the old
-    std::uint64_t count = 0;          ///< 0: no triangle has such a point, or frames there
+    double mean_deg = 0;              ///< between the new map with the new frames and the old map with the old frames
+    double mean_unconverted_deg = 0;  ///< between the old map with the new frames and the old map with the old frames
+    std::uint64_t count = 0;          ///< number of points; 0: no triangle has a sampled point with frames
 };
 
-/// `from` and `to` have the same triangles in the same order, in tangent space. `converted`: as many texels as `map`
-/// has. Time: linear in the texels that triangles show. Equal results for any number of threads.
+/// Measures the error of a converted map. `from` and `to` must have the same triangles in the same order, in tangent
+/// space. `converted` must have as many texels as `map`. Time: linear in the covered texels. The result does not depend
+/// on the number of threads.
 CarriedError measureCarried(const MapImage& map, std::span<const Vec3> converted, const MapSide& from,
                             const MapSide& to, Parallel& parallel);
 

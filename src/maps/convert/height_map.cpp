@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// heightToNormal: differences of heights, and what they are on the surface.
+// heightToNormal: finite differences of heights, converted to slopes of the surface.
 #include "tspace/maps.h"
 
 #include <algorithm>
@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t kRowsOfTask = 16;
 
-/// Slopes by differences over one texel width and height.
+/// Height differences over one texel width and one texel height.
 struct Slope {
     double along_u = 0, along_v = 0;
 };
@@ -29,7 +29,7 @@ struct TexelEdges {
     [[nodiscard]] double size() const { return std::sqrt(length(cross(u, v))); }
 };
 
-/// The edges of texels on a triangle; false where it has no UV area.
+/// Computes the edges of texels on a triangle. Returns false if the triangle has no UV area.
 bool edgesOf(const MapSide& mesh, std::size_t triangle, const HeightMap& map, TexelEdges& edges) {
     const auto at = [&](std::size_t k) { return 3 * triangle + k; };
     const Vec2 first = mesh.uvs[at(0)];
@@ -89,7 +89,7 @@ class Heights {
         double sum = 0, most = 0;
     };
 
-    /// The mean over texels that triangles show.
+    /// Computes the mean texel size over the texels that triangles cover.
     void findTexelSize() {
         double sum = 0;
         for (std::size_t i = 0; i < places_.places.size(); ++i) {
@@ -108,13 +108,15 @@ class Heights {
         return static_cast<double>(map_.heights[y * map_.width + x]);
     }
 
-    /// Whether the image ends beside that column (or row): what a clamped sampler repeats there is no height of the surface.
+    /// Returns whether the image ends at this column (or row): the values that a clamped sampler repeats beyond it are
+    /// not heights of the surface.
     static bool isAtEnd(std::int64_t at, std::uint32_t size, TextureWrap wrap) {
         return wrap == TextureWrap::clamp && (at == 0 || at + 1 == size);
     }
 
-    /// The derivative over one texel along a row (or column): the central difference, or at an end the one-sided difference of second
-    /// order, of first order where there are two texels. All are exact for planes, and the first two for parabolas.
+    /// Returns the derivative over one texel along a row (or column): the central difference; at an end the one-sided
+    /// difference of second order, or of first order if there are only two texels. All are exact for planes, the first
+    /// two also for parabolas.
     [[nodiscard]] double derivativeAt(std::int64_t column, std::int64_t row, bool along_u) const {
         const std::int64_t at = along_u ? column : row;
         const std::uint32_t size = along_u ? map_.width : map_.height;
@@ -129,9 +131,9 @@ class Heights {
         return static_cast<double>(inward) * slope;
     }
 
-    /// Based on: Scharr, "Optimale Operatoren in der Digitalen Bildverarbeitung", 2000: weights 3, 10, 3 turn least with
-    /// the direction of the slope. At the ends of columns (rows) the texel stands alone, since weights of one side would
-    /// give the derivative beside it.
+    /// Based on: Scharr, "Optimale Operatoren in der Digitalen Bildverarbeitung", 2000: the weights 3, 10, 3 have the
+    /// least dependence on the direction of the slope. At the ends of columns (rows) only the texel itself is used,
+    /// because one-sided weights would give the derivative next to it.
     [[nodiscard]] Slope slopeAt(std::int64_t column, std::int64_t row) const {
         const auto mean = [&](bool along_u) {
             const double own = derivativeAt(column, row, along_u);
@@ -146,7 +148,7 @@ class Heights {
         return {mean(true), mean(false)};
     }
 
-    /// Along T, B and N of the mesh; false where no triangle tells.
+    /// Computes the normal relative to T, B and N of the mesh. Returns false if no triangle covers the texel.
     [[nodiscard]] bool onMesh(const UvTriangles& triangles, std::size_t texel, const Slope& slope,
                               DVec3& vector) const {
         if (mesh_.uvs.empty() || places_.kinds[texel] == TexelCoverage::none) return false;

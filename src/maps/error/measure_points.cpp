@@ -70,7 +70,7 @@ MeasurePoints MeasurePoints::spread(const MapSurfaces& surfaces, std::uint32_t c
         double guess = 0;
         const std::size_t end = std::min<std::size_t>(count, (task + 1) * kPointsOfTask);
         for (std::size_t i = task * kPointsOfTask; i < end; ++i) {
-            // Evenly over the area, and inside of a triangle by a hash of the number.
+            // Evenly distributed over the area; the position within a triangle comes from a hash of the index.
             Point& point = made.points_[i];
             const double at = total * (static_cast<double>(i) + 0.5) / count;
             const auto triangle = std::upper_bound(ends.begin(), ends.end(), at) - ends.begin();
@@ -136,7 +136,7 @@ MapError MeasurePoints::measure(const MapImage& map, const MapSurfaces& surfaces
     error.cage_offset = surfaces.cageOffset();
     const LowPoly& low = surfaces.low();
     const StridedSpan<const Vec4>& tangents = candidate.tangents.empty() ? low.tangents : candidate.tangents;
-    // A point that met nothing counts as kMissedDeg, whatever the map shows there.
+    // A point whose ray hit nothing counts as kMissedDeg, whatever the map contains there.
     std::vector<float> angles(points_.size(), static_cast<float>(kMissedDeg));
     std::vector<std::uint8_t> near_border(points_.size());
     parallel.forRanges(points_.size(), kPointsOfTask, [&](std::size_t begin, std::size_t end) {
@@ -186,7 +186,7 @@ void MeasurePoints::countPoints(MapError& error) const {
 
 std::vector<float> heatOf(const MapImage& map, const MapSurfaces& surfaces, const MapCandidate& candidate,
                           const MapWork& work) {
-    constexpr std::uint32_t kSide = 2;  // points of a texel in a row
+    constexpr std::uint32_t kSide = 2;  // number of points per texel and axis
     const LowUvs uvs(surfaces.low(), work.allocator);
     const SampleBands bands(uvs.triangles(map.wrap_u, map.wrap_v), map.width, map.height, kSide, 0, work.allocator);
     const StridedSpan<const Vec4>& tangents = candidate.tangents.empty() ? surfaces.low().tangents : candidate.tangents;

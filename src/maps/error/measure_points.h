@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Points spread over a low poly, the truth at each, and how far a map is from it.
+// Points distributed over a low poly, the true normal at each, and the error of a map relative to them.
 #pragma once
 
 #include <utility>
@@ -11,10 +11,11 @@
 
 namespace tspace {
 
-// Points of triangles on a grid of n x n a texel, cut into bands of texel rows. Within a band points come one after the
-// other, so sums are equal for any number of threads.
+// Points of triangles on a grid of n x n per texel, divided into bands of texel rows. The points of a band are
+// processed in sequence, so sums do not depend on the number of threads.
 
-/// A column or row of a grid of n points a texel, as a part of the way from the centre of a texel to the next.
+/// Column or row of a grid of n points per texel, as a texel and the fraction of the distance from its center to the
+/// next.
 struct BetweenTexels {
     std::uint32_t texel = 0;
     float part = 0;
@@ -23,7 +24,8 @@ struct BetweenTexels {
 inline BetweenTexels betweenTexels(std::uint32_t at, std::uint32_t n, std::uint32_t size, TextureWrap wrap) {
     const std::uint32_t shift = n / 2;
     const bool repeats = wrap == TextureWrap::repeat;
-    // Points before the first centre belong to the last texel of an image that repeats; others show the first alone there.
+    // Points before the first center belong to the last texel of an image that repeats; other images use the first
+    // texel alone there.
     if (at < shift && !repeats) return {};
     const std::uint32_t from_centre = at < shift ? at + size * n - shift : at - shift, texel = from_centre / n;
     if (texel + 1 == size && !repeats) return {texel, 0};
@@ -35,15 +37,15 @@ inline BetweenTexels betweenTexels(std::uint32_t at, std::uint32_t n, std::uint3
 struct BandSample {
     std::uint32_t triangle = 0;
     std::uint32_t row = 0, column = 0;  ///< row and column of the grid in the image
-    double x = 0, y = 0;                ///< in texels, where the triangle is placed
+    double x = 0, y = 0;                ///< in texels, relative to the placed triangle
     const ExactTriangle* exact = nullptr;
 
     [[nodiscard]] std::array<double, 3> weights() const { return exact->weights(x, y); }
 };
 
-/// Band b has the grid rows b * kBandTexels * n + shift and on, as many as kBandTexels texels have or are left; beyond the last
-/// row comes the first. What lies outside of a clamped image is left out. Points beside each other come after each other, in
-/// blocks of 4 x 4, since rays beside each other take less time together.
+/// Band b consists of the grid rows from b * kBandTexels * n + shift on, as many as kBandTexels texels have or as
+/// remain; the last row is followed by the first. Points outside a clamped image are skipped. Points are visited in
+/// blocks of 4 x 4, because nearby rays are traced faster together.
 class SampleBands {
   public:
     static constexpr std::uint32_t kBandTexels = 16;
@@ -72,12 +74,12 @@ class SampleBands {
     }
 
     [[nodiscard]] std::size_t bandCount() const { return (shape_.height + kBandTexels - 1) / kBandTexels; }
-    /// Texel rows of a band.
+    /// Returns the number of texel rows of a band.
     [[nodiscard]] std::uint32_t rowCount(std::size_t band) const {
         return std::min(kBandTexels, shape_.height - static_cast<std::uint32_t>(band) * kBandTexels);
     }
 
-    /// visit(BandSample), triangle after triangle.
+    /// Calls visit(BandSample) for all samples of a band, one triangle after the other.
     template <class Visit>
     void forSamples(std::size_t band, Visit&& visit) const {
         const std::int64_t height = grid_.height;
@@ -107,7 +109,8 @@ class SampleBands {
   private:
     static constexpr std::int64_t kBlock = 4;
 
-    /// Rows of the image; its row 0 is `origin` of the endless plane, and the next one is `step` further.
+    /// Visits rows of the image. Its row 0 is row `origin` of the infinite plane, and each further row advances by
+    /// `step`.
     template <class Visit>
     void visitRows(const PlacedTriangle& placed, TexelRange rows, std::int64_t origin, std::int64_t step,
                    BandSample sample, Visit&& visit) const {
@@ -140,7 +143,8 @@ class SampleBands {
         }
     }
 
-    /// visit(band), once for each that the triangle has rows in. Of three tiles one is shown whole.
+    /// Calls visit(band) once for each band in which the triangle has rows. A triangle over three tiles covers one of
+    /// them completely.
     template <class Visit>
     void forBands(std::size_t triangle, Visit&& visit) {
         PlacedTriangle placed;
@@ -170,7 +174,7 @@ class SampleBands {
     std::uint32_t n_, shift_;
     Buffer<std::size_t> begin_;
     Buffer<std::uint32_t> entries_ = {};
-    Buffer<std::size_t> marks_;  ///< for each band, the last triangle that is listed in it
+    Buffer<std::size_t> marks_;  ///< per band: the last triangle listed in it
     std::size_t mark_ = 0;
 };
 
@@ -183,10 +187,10 @@ struct MapWork {
 
 class MeasurePoints {
   public:
-    /// Shoots a ray for each of `count` points. Memory: 48 bytes a point.
+    /// Traces a ray for each of `count` points. Memory: 48 bytes per point.
     static MeasurePoints spread(const MapSurfaces& surfaces, std::uint32_t count, const MapWork& work);
 
-    /// Without heat. `tangents` as MapCandidate.
+    /// Measures a map, without the heat map. `tangents`: see MapCandidate.
     [[nodiscard]] MapError measure(const MapImage& map, const MapSurfaces& surfaces, const MapCandidate& candidate,
                                    Parallel& parallel) const;
 
@@ -195,18 +199,18 @@ class MeasurePoints {
         std::uint32_t triangle = 0;
         std::array<float, 2> weights = {};  ///< weights of the second and the third corner
         bool is_hit = false, is_hidden = false, met_back = false, is_inward = false;
-        Vec3 normal = {};  ///< the truth
+        Vec3 normal = {};  ///< the true normal
     };
     std::vector<Point> points_ = {};
     std::vector<std::uint8_t> borders_ =
-        {};  ///< per triangle: bit i, its edge from corner i on is a border of the UV map
+        {};  ///< per triangle: bit i is set if the edge that starts at corner i is a border of the UV map
 
     void findBorders(const LowPoly& low);
     void countPoints(MapError& error) const;
     [[nodiscard]] bool isNearBorder(const MapImage& map, const LowPoly& low, const Point& point, const Vec2& uv) const;
 };
 
-/// The unit normal that a renderer shades at a point.
+/// Returns the unit normal that a renderer shades at a point.
 DVec3 shadedAt(const MapImage& map, const MapCandidate& candidate, const CornerFrames& corners,
                const std::array<double, 3>& weights, const Vec2& uv);
 
@@ -214,13 +218,13 @@ DVec3 shadedAt(const MapImage& map, const MapCandidate& candidate, const CornerF
 std::vector<float> heatOf(const MapImage& map, const MapSurfaces& surfaces, const MapCandidate& candidate,
                           const MapWork& work);
 
-/// A part of the steps that progress is told of.
+/// Range of the progress steps that a stage reports.
 struct ToldSteps {
     std::uint64_t before = 0, total = 0;
 };
 
-/// Bodies of parallel loops see nothing of the caller. Calls task(i) for each i below `count`, and now and then `progress`
-/// from the calling thread.
+/// Calls task(i) for each i below `count` in parallel, and `progress` at intervals from the calling thread, since
+/// bodies of parallel loops must not call back to the user.
 template <class Task>
 void forTasksTold(const MapWork& work, std::size_t count, const char* what, ToldSteps steps, Task&& task) {
     const std::size_t at_once = std::size_t{work.parallel.width()} * 4;

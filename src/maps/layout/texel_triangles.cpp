@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Bands of rows, each by one thread: first what lies inside of triangles, then the texels right beside them. What is
-// further away is filled ring by ring.
+// Rasterizes bands of rows in parallel: first texels inside triangles, then the texels next to them. Texels farther
+// away are filled ring by ring.
 #include "maps/layout/texel_triangles.h"
 
 #include <unordered_map>
@@ -11,15 +11,17 @@ namespace tspace {
 namespace {
 
 constexpr std::uint32_t kBandRows = 64;
-/// Bilinear filtering inside of a chart reads no texel that is further away than the root of 2.
+/// Bilinear filtering inside a chart reads no texel that is farther away than sqrt(2).
 constexpr double kNearTexels = 1.5;
 constexpr std::int64_t kNearRows = 2;
-/// Triangles with more rows are remembered, as in uv_coverage: many cards of one tree show the same part of an image.
+/// Triangles with more rows than this are remembered, as in uv_coverage: many cards of one tree share the same part of
+/// an image.
 constexpr std::int64_t kLargeTriangleRows = 64;
 constexpr std::size_t kMostLarge = std::size_t{1} << 16;
-/// Texels that cost a step.
+/// Number of texels per work step.
 constexpr std::uint64_t kTexelsOfStep = 16;
-/// While rings are made: will get a triangle in this ring, and is further away than the padding.
+/// Temporary states during the search of rings: the texel gets a triangle in this ring, or is farther away than the
+/// padding.
 constexpr auto kPending = static_cast<TexelCoverage>(3), kRefused = static_cast<TexelCoverage>(4);
 
 struct RowRange {
@@ -81,7 +83,7 @@ class TriangleSearch {
         return true;
     }
 
-    /// Sets the rows of a triangle, and returns the work that it is.
+    /// Sets the rows of a triangle. Returns its amount of work.
     std::uint64_t placeRows(std::size_t i) {
         PlacedTriangle placed;
         const UvPlacing placing = placed.place(cornerUvs(triangles_, i), shape_);
@@ -105,7 +107,7 @@ class TriangleSearch {
         return row_count + static_cast<std::uint64_t>(area) / (2 * kTexelParts * kTexelParts * kTexelsOfStep);
     }
 
-    /// Whether two triangles before have the same place. The second still counts as overlapping.
+    /// Returns whether two earlier triangles have the same position. The second one still counts as overlapping.
     bool isThird(const PlacedTriangle& placed) {
         const std::array<std::int64_t, 6> key = placed.key();
         const auto known = known_.find(key);
@@ -114,7 +116,7 @@ class TriangleSearch {
         return false;
     }
 
-    /// visit(band), once for each. Of three tiles one is shown whole.
+    /// Calls visit(band) once for each band. A triangle over three tiles covers one of them completely.
     template <class Visit>
     void forBands(RowRange rows, const Visit& visit) {
         if (rows.last < rows.first) return;
@@ -142,7 +144,7 @@ class TriangleSearch {
 
     // One band.
 
-    /// visit(row, row in the image) for the rows of a triangle in a band.
+    /// Calls visit(row, row in the image) for the rows of a triangle in a band.
     template <class Visit>
     void forRows(RowRange rows, std::size_t band, const Visit& visit) const {
         const std::int64_t height = shape_.height, first = static_cast<std::int64_t>(band) * kBandRows;
@@ -180,7 +182,8 @@ class TriangleSearch {
         });
     }
 
-    /// Centres on an edge that two triangles share are no overlap.
+    /// Returns whether the texel center is strictly inside its triangle: a center on an edge that two triangles share
+    /// is no overlap.
     [[nodiscard]] bool isInner(const TexelPlace& place) const {
         PlacedTriangle placed;
         placed.place(cornerUvs(triangles_, place.triangle), shape_);
@@ -216,7 +219,7 @@ class TriangleSearch {
         });
     }
 
-    /// The columns that may be near to the triangle in a row.
+    /// Returns the columns of a row that may be close to the triangle.
     static TexelRange nearColumns(const ExactTriangle& corners, std::int64_t row) {
         const double low = static_cast<double>(row) + 0.5 - kNearTexels, high = low + 2 * kNearTexels;
         double least = INFINITY, most = -INFINITY;
@@ -271,7 +274,7 @@ class TriangleSearch {
         return found_.kinds[texel] == TexelCoverage::inside || found_.kinds[texel] == TexelCoverage::beside;
     }
 
-    /// visit(neighbour, dx, dy) for the up to eight texels around.
+    /// Calls visit(neighbor, dx, dy) for each of up to eight adjacent texels.
     template <class Visit>
     void forNeighbours(std::size_t texel, const Visit& visit) const {
         const auto x = static_cast<std::int64_t>(texel % shape_.width);
@@ -287,7 +290,8 @@ class TriangleSearch {
         }
     }
 
-    /// `size` where there is none: at the edge of a mirrored image the neighbour is the texel itself.
+    /// Returns the position of a neighbor, or `size` if there is none. At the edge of a mirrored image the neighbor
+    /// would be the texel itself, so none is returned.
     static std::size_t neighbour(std::int64_t at, std::uint32_t size, TextureWrap wrap) {
         return texelInImage(at, size, wrap == TextureWrap::repeat ? wrap : TextureWrap::clamp);
     }
@@ -300,7 +304,7 @@ class TriangleSearch {
         });
     }
 
-    /// The nearest triangle of those that the texels around have.
+    /// Returns the nearest of the triangles assigned to the adjacent texels.
     [[nodiscard]] TexelPlace placeFromNeighbours(std::size_t texel) const {
         TexelPlace best;
         double best_distance = padding_ * padding_;
@@ -320,7 +324,7 @@ class TriangleSearch {
         return best;
     }
 
-    /// A step in the image, in the plane where the texel lies at `at`.
+    /// Converts a step in the image to a step in the infinite plane, where the texel is at `at`.
     [[nodiscard]] std::int64_t step(int in_image, std::int64_t at, std::uint32_t size, TextureWrap wrap) const {
         return isFlipped(floorDiv(at, size), wrap) ? -in_image : in_image;
     }
@@ -343,7 +347,7 @@ class TriangleSearch {
     Parallel& parallel_;
     const Allocator* allocator_;
     std::size_t band_count_;
-    Buffer<RowRange> rows_ = {};  ///< with the rows that are near
+    Buffer<RowRange> rows_ = {};  ///< rows near each triangle
     Buffer<std::size_t> begin_ = {};
     Buffer<std::uint32_t> entries_ = {};
     Buffer<std::uint64_t> marks_ = {};
@@ -371,7 +375,7 @@ ExactTriangle::ExactTriangle(const std::array<Vec2, 3>& uvs, const PlacedTriangl
     double_area_ = (x[1] - x[0]) * (y[2] - y[0]) - (y[1] - y[0]) * (x[2] - x[0]);
 }
 
-/// The result is not finite if the triangle has no area.
+/// Returns barycentric coordinates, which are not finite if the triangle has no area.
 std::array<double, 3> ExactTriangle::plane(double px, double py) const {
     const double at_1 = ((px - x[0]) * (y[2] - y[0]) - (py - y[0]) * (x[2] - x[0])) / double_area_;
     const double at_2 = ((x[1] - x[0]) * (py - y[0]) - (y[1] - y[0]) * (px - x[0])) / double_area_;
@@ -418,7 +422,7 @@ bool ExactTriangle::isReadAt(double px, double py) const {
     for (std::size_t a = 0; a < 3; ++a) {
         const std::size_t b = (a + 1) % 3;
         const double from_x = x[a] - px, from_y = y[a] - py, dx = x[b] - x[a], dy = y[b] - y[a];
-        // The larger of the two distances is smallest at an end, or where they are equal.
+        // The maximum of both distances is smallest at an end of the edge, or where the distances are equal.
         for (const double part : {0.0, 1.0, (from_y - from_x) / (dx - dy), -(from_x + from_y) / (dx + dy)}) {
             if (!(part >= 0 && part <= 1)) continue;
             if (std::fabs(from_x + part * dx) < 1 && std::fabs(from_y + part * dy) < 1) return true;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which triangle of a UV map says what stands in a texel, and where in the triangle the texel's centre is.
+// Determines which triangle of a UV map covers each texel, and the position of the texel center in that triangle.
 #pragma once
 
 #include <optional>
@@ -12,73 +12,74 @@
 namespace tspace {
 
 inline constexpr std::uint32_t kNoTriangle = 0xffffffffu;
-/// A padding without limit: every texel has a triangle, if there is one at all.
+/// Unlimited padding: every texel gets a triangle, if there is any.
 inline constexpr std::uint32_t kAllTexels = 0xffffffffu;
 
 enum class TexelCoverage : std::uint8_t {
     none,    ///< no triangle within the padding
-    inside,  ///< the centre lies in the triangle or on its edge
-    beside   ///< the nearest triangle, whose plane goes on
+    inside,  ///< the center is inside the triangle or on its edge
+    beside   ///< near the triangle, whose plane is extrapolated
 };
 
 struct TexelPlace {
     std::uint32_t triangle = kNoTriangle;
-    /// Column and row before wrapping, counted from where the triangle's image begins (PlacedTriangle).
+    /// Column and row before wrapping, relative to the origin of the triangle's image (PlacedTriangle).
     std::int32_t x = 0, y = 0;
 };
 
 struct TexelTriangleCounts {
     std::uint64_t inside = 0, beside = 0;
-    std::uint64_t overlapping = 0;  ///< texels with the centre inside of several triangles; the first has them
-    // Triangles that are left out:
+    std::uint64_t overlapping = 0;  ///< texels whose center is inside several triangles; the first triangle is used
+    // Triangles that are skipped:
     std::uint64_t without_area = 0;  ///< less than 1/256 texel wide
     std::uint64_t not_finite = 0;
     std::uint64_t too_far = 0;   ///< UvPlacing::tooFar
-    std::uint64_t repeated = 0;  ///< large ones, all of whose corners are those of two before
+    std::uint64_t repeated = 0;  ///< large triangles whose corners equal those of two earlier ones
 };
 
 struct TexelTriangles {
     TextureShape shape = {};
-    Buffer<TexelPlace> places = {};  ///< width * height, as kinds
+    Buffer<TexelPlace> places = {};  ///< width * height entries, like kinds
     Buffer<TexelCoverage> kinds = {};
-    Buffer<bool> overlaps = {};  ///< whether several triangles claim the texel
+    Buffer<bool> overlaps = {};  ///< whether several triangles cover the texel
     Buffer<bool> is_read =
-        {};  ///< outside of all triangles, but read by bilinear filtering inside of one; needs a padding of 2
+        {};  ///< outside all triangles, but read by bilinear filtering inside one; requires a padding of 2
     TexelTriangleCounts counts = {};
 };
 
-/// Looks at all texels of an image, 2^33 at most, neither side 0.
+/// Finds the triangle of each texel of an image with nonzero sides and at most 2^33 texels.
 ///
-/// Inside of a triangle is what coverTexels says; where several claim a texel, the first has it. Of the others, those within 1.5
-/// texels of a triangle get the nearest one; further away, up to `padding` texels, the nearest one of those that the
-/// texels around have, which is less than a texel further than the nearest of all. Wrapped as the modes say;
-/// a clamped image ends at its edge, beyond which triangles are not looked for.
+/// Texels inside triangles are those of coverTexels; if several triangles cover a texel, the first one is used. Other
+/// texels within 1.5 texels of a triangle get the nearest one. Farther texels, up to `padding`, get the nearest of the
+/// triangles assigned to adjacent texels, whose distance exceeds that of the nearest triangle by less than one texel.
+/// Texels wrap according to the wrap modes; beyond the edge of a clamped image no triangles are searched.
 ///
-/// Nothing where there is more work than sound models need (kCoverSteps). Time: linear in triangles, their rows, and texels.
-/// Equal results for any number of threads. Throws OutOfMemory; 27 bytes a texel while it runs, 15 stay.
+/// Returns nullopt if the work exceeds what valid models need (kCoverSteps). Time: linear in triangles, their rows, and
+/// texels. The result does not depend on the number of threads. Throws OutOfMemory. Memory: 27 bytes per texel
+/// temporarily, 15 permanently.
 std::optional<TexelTriangles> findTexelTriangles(const UvTriangles& triangles, std::uint32_t width,
                                                  std::uint32_t height, std::uint32_t padding, Parallel& parallel,
                                                  const Allocator* allocator = nullptr);
 
-/// The UVs of a triangle's corners.
+/// Returns the UVs of a triangle's corners.
 inline std::array<Vec2, 3> cornerUvs(const UvTriangles& triangles, std::size_t triangle) {
     const std::uint32_t* const corners = triangles.corners.data() + 3 * triangle;
     return {triangles.uvs[corners[0]], triangles.uvs[corners[1]], triangles.uvs[corners[2]]};
 }
 
-/// A triangle in texels, not rounded, where PlacedTriangle puts it.
+/// Triangle in unrounded texel coordinates, at the position given by PlacedTriangle.
 class ExactTriangle {
   public:
     ExactTriangle(const std::array<Vec2, 3>& uvs, const PlacedTriangle& placed, const TextureShape& shape);
 
-    /// Barycentric coordinates of a point; their sum is 1. Outside of the triangle they go on as its plane does, but none below
-    /// -1: from there on they are those of a point nearer to it, since frames say nothing so far away (slivers).
-    /// Always finite.
+    /// Returns the barycentric coordinates of a point, which sum to 1. Outside the triangle they are extrapolated, but
+    /// none falls below -1: farther points use the coordinates of a closer point, because extrapolated frames are
+    /// meaningless at such distances (slivers). Always finite.
     [[nodiscard]] std::array<double, 3> weights(double x, double y) const;
-    /// The square of the distance of a point, in texels; 0 inside.
+    /// Returns the squared distance of a point from the triangle, in texels; 0 inside.
     [[nodiscard]] double squaredDistance(double x, double y) const;
 
-    /// Whether a point of the triangle lies less than one column and less than one row away.
+    /// Returns whether the triangle has a point that is less than one column and less than one row away.
     [[nodiscard]] bool isReadAt(double x, double y) const;
 
     std::array<double, 3> x = {}, y = {};
@@ -94,18 +95,18 @@ class ExactTriangle {
     double double_area_ = 0;
 };
 
-/// ExactTriangle::weights of a texel's centre. `place` has a triangle.
+/// Returns ExactTriangle::weights of a texel center. `place` must have a triangle.
 std::array<double, 3> weightsAt(const UvTriangles& triangles, const TextureShape& shape, const TexelPlace& place);
 
-/// A point of a triangle, in texels before wrapping.
+/// Sample point of a triangle, in texels before wrapping.
 struct UvSample {
     double x = 0, y = 0;
     std::array<double, 3> weights = {};
 };
 
-/// visit(UvSample) for each point of a grid of n x n points a texel (those of a texel at (i + 0.5) / n) that lies inside of the
-/// triangle or on its edge: a point on the edge of two is visited with both. Not placed: nothing is visited. `n` times the
-/// image's sides give at most 2^33 points.
+/// Calls visit(UvSample) for each point of a grid of n x n points per texel (at (i + 0.5) / n) that is inside the
+/// triangle or on its edge; a point on a shared edge is visited with both triangles. Visits nothing if the triangle
+/// cannot be placed. The grid must not exceed 2^33 points.
 template <class Visit>
 UvPlacing forEachSample(const std::array<Vec2, 3>& uvs, const TextureShape& shape, std::uint32_t n, Visit&& visit) {
     const TextureShape grid{shape.width * n, shape.height * n, shape.wrap_u, shape.wrap_v};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Rows of texel centres through each triangle, in whole numbers.
+// Rows of texel centers through each triangle, in integer arithmetic.
 #include "maps/layout/uv_coverage.h"
 
 #include <algorithm>
@@ -13,13 +13,13 @@ namespace tspace {
 
 namespace {
 
-/// The bits `begin` to `end` - 1 of a word; end is 64 at most.
+/// Returns a mask of the bits `begin` to `end` - 1 of a word; `end` is at most 64.
 std::uint64_t bitsOf(std::uint32_t begin, std::uint32_t end) {
     const std::uint64_t below_end = end == 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << end) - 1;
     return below_end & ~((std::uint64_t{1} << begin) - 1);
 }
 
-/// work(word, bits) for each word of the texels `begin` to `end` - 1 of a row.
+/// Calls work(word, bits) for each word of the texels `begin` to `end` - 1 of a row.
 template <class Work>
 void forWords(std::uint32_t begin, std::uint32_t end, const Work& work) {
     for (std::uint32_t word = begin / 64; word * 64 < end; ++word) {
@@ -105,7 +105,7 @@ std::uint64_t TexelMask::count(const TexelRect& rect) const {
 
 namespace {
 
-/// Triangles with more rows are remembered: many cards of one tree show the same large part of an image.
+/// Triangles with more rows than this are remembered: many cards of one tree share the same large part of an image.
 constexpr std::int64_t kLargeRows = 64;
 constexpr std::size_t kMostRemembered = std::size_t{1} << 16;
 
@@ -166,7 +166,7 @@ class Coverage {
 
     void take(std::uint64_t steps) { steps_ -= std::min(steps_, steps); }
 
-    /// Whether the triangle was there before, and remembers it.
+    /// Returns whether an equal triangle was seen before; otherwise remembers this one.
     bool isKnown(const PlacedTriangle& triangle) {
         const std::array<std::int64_t, 6> key = triangle.key();
         if (known_.contains(key)) return true;

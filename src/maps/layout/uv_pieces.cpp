@@ -27,11 +27,11 @@ class Pieces {
         joinAtCorners();
     }
 
-    /// The first triangle of a triangle's piece.
+    /// Returns the first triangle of the UV island that contains a triangle.
     std::uint32_t firstOf(std::uint32_t triangle) { return rootOf(parents_.data(), triangle); }
 
   private:
-    /// Orientation of a triangle's UVs: 1, -1, or 0 without area.
+    /// Returns the orientation of a triangle's UVs: 1, -1, or 0 without area.
     [[nodiscard]] int turnOf(std::size_t triangle) const {
         const Vec2 a = low_.uvs[3 * triangle], b = low_.uvs[3 * triangle + 1], c = low_.uvs[3 * triangle + 2];
         const double area = (static_cast<double>(b.x) - a.x) * (static_cast<double>(c.y) - a.y) -

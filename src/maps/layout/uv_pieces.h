@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pieces of a UV map, and which of them goes before the others where they lie over each other.
+// UV islands, and their priority where they overlap.
 #pragma once
 
 #include "core/base/memory.h"
@@ -7,10 +7,11 @@
 
 namespace tspace {
 
-/// Of each triangle of a checked low poly the rank of its piece: 0 goes before all others. A piece is triangles that share
-/// corners, in UVs and in space, and whose UVs turn one way: mirrored halves are two, though they meet at their middle. By
-/// `overlap`: in the order of their first triangles, or the larger surface first, and then that order. Empty with
-/// MapOverlap::mean. Time: n log n.
+/// Returns, for each triangle of a checked low poly, the rank of its UV island; rank 0 has the highest priority. An
+/// island consists of triangles that share corners, in UVs and in space, and whose UVs have the same orientation:
+/// mirrored halves are two islands, even if they share an edge. `overlap` determines the order: by first triangle, or
+/// by decreasing surface area and then by first triangle. Returns an empty buffer for MapOverlap::mean. Time: O(n log
+/// n).
 Buffer<std::uint32_t> ranksOfPieces(const LowPoly& low, MapOverlap overlap, const Allocator* allocator);
 
 }  // namespace tspace

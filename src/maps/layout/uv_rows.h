@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Triangles of a UV map on the grid of texels, in whole numbers, and the rows of texel centres through them. The one rule of
-// which texel stands in which triangle: UVs are rounded to 1/256 texel, and from there on all is exact. So triangles that
-// share an edge leave no gap.
+// Triangles of a UV map on the texel grid in integer coordinates, and the rows of texel centers inside them. All code
+// uses this rule for whether a texel is inside a triangle: UVs are rounded to 1/256 texel, and the rest is exact. So
+// triangles that share an edge leave no gap.
 #pragma once
 
 #include <algorithm>
@@ -15,15 +15,16 @@
 
 namespace tspace {
 
-/// Parts of a texel that UVs are rounded to.
+/// Number of subdivisions of a texel to which UVs are rounded.
 inline constexpr std::int64_t kTexelParts = 256;
-/// How often a triangle may repeat the image. With images of at most 2^33 texels, products of two coordinates fit.
+/// Maximum number of times a triangle may repeat the image. With images of at most 2^33 texels, products of two
+/// coordinates do not overflow.
 inline constexpr double kMostRepeats = 64;
 
 inline std::int64_t floorDiv(std::int64_t a, std::int64_t b) { return a / b - (a % b < 0 ? 1 : 0); }
 inline std::int64_t ceilDiv(std::int64_t a, std::int64_t b) { return -floorDiv(-a, b); }
 
-/// Texel `at` of the endless row, in the image; `size` where there is none.
+/// Returns the position in the image of texel `at` of an infinite row; `size` if there is none.
 inline std::uint32_t texelInImage(std::int64_t at, std::uint32_t size, TextureWrap wrap) {
     return wrap == TextureWrap::clamp && (at < 0 || at >= size) ? size : wrappedTexel(at, size, wrap);
 }
@@ -31,13 +32,14 @@ inline std::uint32_t texelInImage(std::int64_t at, std::uint32_t size, TextureWr
 enum class UvPlacing : std::uint8_t {
     placed,
     notFinite,
-    tooFar  ///< repeats the image more than kMostRepeats times, or lies that far outside of a clamped one
+    tooFar  ///< repeats the image more than kMostRepeats times, or is that far outside a clamped image
 };
 
-/// One coordinate of three corners.
+/// One coordinate of the three corners of a triangle.
 struct PlacedAxis {
-    double begin = 0;                     ///< whole images that were taken away, so that the first shown is the first
-    std::array<std::int64_t, 3> at = {};  ///< parts of a texel
+    /// number of whole images subtracted, so that the first covered image has index 0
+    double begin = 0;
+    std::array<std::int64_t, 3> at = {};  ///< in subdivisions of a texel
 
     UvPlacing place(const std::array<float, 3>& from, std::uint32_t size, TextureWrap wrap) {
         const double least = std::min({from[0], from[1], from[2]}), most = std::max({from[0], from[1], from[2]});
@@ -54,17 +56,18 @@ struct PlacedAxis {
     }
 };
 
-/// Columns (or rows) of texels, the last one included.
+/// Range of texel columns (or rows), including the last one.
 struct TexelRange {
     std::int64_t first = 0, last = -1;
 
     [[nodiscard]] bool isEmpty() const { return last < first; }
 };
 
-/// Whether a tile of the endless plane shows the image from its end on.
+/// Returns whether a tile of the infinite plane shows the image mirrored.
 inline bool isFlipped(std::int64_t tile, TextureWrap wrap) { return wrap == TextureWrap::mirror && tile % 2 != 0; }
 
-/// Returns which of the rows `first` to `last` of an image are covered, in a tile, by a range of rows of the infinite plane.
+/// Returns which of the rows `first` to `last` of an image are covered, in one tile, by a range of rows of the infinite
+/// plane.
 inline TexelRange rowsOfTile(TexelRange rows, std::int64_t tile, std::uint32_t size, TextureWrap wrap,
                              std::int64_t first, std::int64_t last) {
     if (wrap == TextureWrap::clamp && tile != 0) return {};
@@ -79,7 +82,7 @@ inline TexelRange rowsOfTile(TexelRange rows, std::int64_t tile, std::uint32_t s
     return {std::max(from, first), std::min(to, last)};
 }
 
-/// visit(column, column in the image) for a range of columns. A clamped image ends at its edge.
+/// Calls visit(column, column in the image) for a range of columns, limited to the image if it is clamped.
 template <class Visit>
 void forColumnsInImage(TexelRange columns, std::uint32_t size, TextureWrap wrap, const Visit& visit) {
     const std::int64_t width = size;
@@ -97,7 +100,7 @@ void forColumnsInImage(TexelRange columns, std::uint32_t size, TextureWrap wrap,
     }
 }
 
-/// Texels and their numbers are those of the endless plane: texelInImage says where they are in the image.
+/// Triangle in texel coordinates of the infinite plane; texelInImage converts them to positions in the image.
 struct PlacedTriangle {
     PlacedAxis x = {}, y = {};
 
@@ -107,12 +110,12 @@ struct PlacedTriangle {
                                             : placing;
     }
 
-    /// Equal for triangles that show the same texels by the same corners, in their order.
+    /// Returns a key that is equal for triangles with the same corner positions in the same order.
     [[nodiscard]] std::array<std::int64_t, 6> key() const {
         return {x.at[0], x.at[1], x.at[2], y.at[0], y.at[1], y.at[2]};
     }
 
-    /// Twice the area in squares of parts; 0 where all lies on a line.
+    /// Returns twice the area in squared subdivisions; 0 if the triangle is degenerate.
     [[nodiscard]] std::int64_t doubleArea() const {
         return (x.at[1] - x.at[0]) * (y.at[2] - y.at[0]) - (y.at[1] - y.at[0]) * (x.at[2] - x.at[0]);
     }
@@ -122,7 +125,7 @@ struct PlacedTriangle {
         return {ceilDiv(*least - kTexelParts / 2, kTexelParts), floorDiv(*most - kTexelParts / 2, kTexelParts)};
     }
 
-    /// The texels of a row whose centres lie inside of the triangle or on its edge.
+    /// Returns the texels of a row whose centers are inside the triangle or on its edge.
     [[nodiscard]] TexelRange columns(std::int64_t row) const {
         const std::int64_t centre = row * kTexelParts + kTexelParts / 2;
         TexelRange range{INT64_MAX, INT64_MIN};
@@ -145,7 +148,7 @@ struct PlacedTriangle {
         return range;
     }
 
-    /// Whether the centre of a texel lies inside, and not on an edge.
+    /// Returns whether the center of a texel is strictly inside, not on an edge.
     [[nodiscard]] bool isInner(std::int64_t column, std::int64_t row) const {
         const std::int64_t px = column * kTexelParts + kTexelParts / 2, py = row * kTexelParts + kTexelParts / 2;
         int left = 0, right = 0;

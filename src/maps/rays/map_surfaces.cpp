@@ -13,12 +13,13 @@ namespace tspace {
 
 namespace {
 
-/// Ratio of sizes from which two models are taken to have different units.
+/// Size ratio above which two models are assumed to use different units.
 constexpr double kOtherUnit = 8;
-/// Largest difference of sides, in parts of the diagonal, at which boxes fit, and least one at which they do not.
+/// Maximum difference between sides of matching boxes, and minimum difference of boxes that do not match, relative to
+/// the diagonal.
 constexpr double kFits = 0.02, kFitsNot = 0.1;
 
-/// The box of its corners, as `change` moves them.
+/// Returns the bounding box of the transformed corners.
 template <class Change>
 PositionBox changed(const PositionBox& box, const Change& change) {
     PositionBox result;
@@ -278,7 +279,7 @@ bool MapSurfaces::meetBeyond(const Ray& ray, RayHit& hit) const {
 }
 
 RayNeighbourhood MapSurfaces::around(const Ray& ray, const RayHit* hit) const {
-    // A line through an edge meets both of its triangles.
+    // A line through an edge hits both adjacent triangles.
     constexpr double kNearby = 1e-6;
     const double most = std::max(ray.height, reach_), least = -reach_;
     if (hit == nullptr) return {.met_back = rays_->crossings(ray.place, ray.outward, least, most, ray.group).backs > 0};
@@ -308,7 +309,7 @@ std::uint32_t MapSurfaces::meetTogether(std::span<const LowPoint> points, double
     for (std::size_t i = 0; i < points.size(); ++i) {
         Ray& ray = rays[i];
         if (!rayAt(points[i].triangle, points[i].weights, ray)) {
-            lines[i] = {.begin = 1, .end = 0};  // meets nothing
+            lines[i] = {.begin = 1, .end = 0};  // an empty range: hits nothing
             continue;
         }
         aimed |= 1U << i;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A low poly, its high poly, and the rays between them; and the checks of a call on both.
+// Low poly, high poly, and the rays between them; checks of calls that take both.
 #pragma once
 
 #include <memory>
@@ -16,13 +16,13 @@
 
 namespace tspace {
 
-// The bounding box of points, and why two meshes that should coincide do not.
+// Bounding box of points; and the reason why two meshes that should coincide do not.
 
 struct PositionBox {
     DVec3 least{INFINITY, INFINITY, INFINITY}, most{-INFINITY, -INFINITY, -INFINITY};
 
     PositionBox() = default;
-    /// Points that are not finite are left out.
+    /// Ignores points that are not finite.
     explicit PositionBox(const StridedSpan<const Vec3>& points);
 
     void add(const DVec3& point);
@@ -33,29 +33,29 @@ struct PositionBox {
     [[nodiscard]] bool meets(const PositionBox& other, double margin) const;
 };
 
-/// chosenReach of meshes in these boxes.
+/// Returns the value of chosenReach for meshes with these bounding boxes.
 double reachBetween(const PositionBox& low, const PositionBox& high);
 
-/// The likely reason why a high poly does not lie on its low poly: another unit, or another axis that points up; one
-/// sentence. Empty where none shows.
+/// Returns the likely reason why a high poly does not coincide with its low poly (a different unit or up axis) in one
+/// sentence, or an empty string if none is found.
 std::string misplacement(const PositionBox& low, const PositionBox& high);
 
-/// Checks the meshes of measureMap, bakeMap and the calls like them. An Error with code ok when all is well.
+/// Checks the meshes of measureMap, bakeMap and similar calls. Returns ErrorCode::ok if they are valid.
 Error checkSurfaces(const LowPoly& low, const HighPoly& high, bool needs_tangents);
 
-/// Checks the options of bakeMap for meshes of so many triangles. An Error with code ok when all is well.
+/// Checks the options of bakeMap for meshes with these numbers of triangles. Returns ErrorCode::ok if they are valid.
 Error checkBakeOptions(const BakeOptions& options, std::size_t low_triangles, std::size_t high_triangles);
 
-/// Checks what says where rays go. An Error with code ok when all is well.
+/// Checks the ray options. Returns ErrorCode::ok if they are valid.
 Error checkRays(const RayOptions& rays, double reach);
 
 /// Surroundings of the point where a ray hit the high poly, or of a ray without a hit.
 struct RayNeighbourhood {
     bool has_front_further_out = false, met_back = false;
-    bool normal_is_inward = false;  ///< the shaded normal of the high poly points inwards at the hit front face
+    bool normal_is_inward = false;  ///< the shading normal of the high poly points inward at the hit front face
 };
 
-/// A point of the low poly.
+/// Point on the low poly.
 struct LowPoint {
     std::uint32_t triangle = 0;
     std::array<double, 3> weights = {};
@@ -65,16 +65,16 @@ struct LowPoint {
 struct SurfaceHit {
     std::uint32_t triangle = 0;  ///< triangle of the high poly
     std::array<double, 3> weights = {};
-    double height = 0;  ///< outwards from the low poly, along the ray
+    double height = 0;  ///< distance from the low poly along the ray, positive outward
     DVec3 place = {};
-    DVec3 normal = {}, face = {};  ///< unit: as shaded, and that of the triangle
+    DVec3 normal = {}, face = {};  ///< unit vectors: shading normal and face normal
 };
 
 class MapSurfaces {
   public:
-    /// Checked meshes, which must stay, and checked rays, whose image must stay. `reach`: 0 chooses. Errors:
-    /// unsupportedFile, outOfMemory, missingAttribute (meshes that are nowhere near each other). `surface`: that of the high
-    /// poly, where it is there already, or null.
+    /// Requires checked meshes and rays; the meshes and the image of the rays must outlive the result. `reach`: 0
+    /// chooses a value. Errors: unsupportedFile, outOfMemory, missingAttribute (the meshes are far apart). `surface`:
+    /// ray structure of the high poly if it exists already, or null.
     static Result<MapSurfaces> make(const LowPoly& low, const HighPoly& high, double reach, const RayOptions& rays,
                                     Parallel& parallel, const Allocator* allocator,
                                     std::shared_ptr<const RaySurface> surface = nullptr);
@@ -86,19 +86,20 @@ class MapSurfaces {
     [[nodiscard]] const HighPoly& high() const { return high_; }
     [[nodiscard]] const RayOptions& rays() const { return options_; }
     [[nodiscard]] double reach() const { return reach_; }
-    /// 0 with a cage of the low poly's own.
+    /// Returns 0 if the low poly has its own cage.
     [[nodiscard]] double cageOffset() const { return low_.cage.empty() ? cage_offset_ : 0; }
     [[nodiscard]] std::size_t triangleCount() const { return low_.positions.count / 3; }
     [[nodiscard]] const std::shared_ptr<const RaySurface>& surface() const { return rays_; }
 
-    /// The unit normal of the high poly, as shaded, where the ray of a point of the low poly meets it. `guess` as
-    /// RaySurface::nearest; begin with 0. `around`: null, or where to say what else the ray meets. Threads may call at the
-    /// same time.
+    /// Computes the unit shading normal of the high poly where the ray from a point of the low poly hits it. Returns
+    /// false if the ray hits nothing. `guess`: see RaySurface::nearest; initialize it with 0. `around`: null, or
+    /// receives the surroundings of the hit. Thread-safe.
     bool truthAt(std::size_t triangle, const std::array<double, 3>& weights, double& guess, DVec3& normal,
                  RayNeighbourhood* around = nullptr) const;
-    /// truthAt of kLinesAtOnce points at most, which takes less time where they lie beside each other. Zero where it is false.
+    /// Calls truthAt for at most kLinesAtOnce points, which is faster if they are close together. The normal of a point
+    /// without a hit is zero.
     void truthsAt(std::span<const LowPoint> points, double& guess, std::span<DVec3> normals) const;
-    /// truthsAt, and all of the places. Bit i of the result: whether hits[i] is one.
+    /// Like truthsAt, but returns complete hits. Bit i of the result is set if hits[i] is valid.
     [[nodiscard]] std::uint32_t hitsAt(std::span<const LowPoint> points, double& guess,
                                        std::span<SurfaceHit> hits) const;
 
@@ -112,7 +113,7 @@ class MapSurfaces {
     RayField field_ = {};
     std::shared_ptr<const RaySurface> rays_ = {};
 
-    /// The ray of a point: where it begins to look, outwards, and how far the low poly is from there.
+    /// Ray of a point: its origin, its outward direction, and the distance of the low poly from the origin.
     struct Ray {
         std::size_t triangle = 0;
         std::array<double, 3> weights = {};
@@ -121,21 +122,21 @@ class MapSurfaces {
         std::uint32_t group = 0;
     };
     bool rayAt(std::size_t triangle, const std::array<double, 3>& weights, Ray& ray) const;
-    /// `hit`.distance is outwards from the low poly.
+    /// Finds the hit of a ray; `hit`.distance is measured outward from the low poly.
     bool meet(const Ray& ray, double& guess, RayHit& hit) const;
-    /// Whether a ray that met nothing from the cage inwards meets something further out.
+    /// Finds a hit farther outward for a ray that hit nothing from the cage inward. Returns false if there is none.
     bool meetBeyond(const Ray& ray, RayHit& hit) const;
-    /// meet for points that are asked for together. Bit i of the result: whether hits[i] is one.
+    /// Calls meet() for several points at once. Bit i of the result is set if hits[i] is valid.
     std::uint32_t meetTogether(std::span<const LowPoint> points, double& guess, std::span<RayHit> hits) const;
     [[nodiscard]] RayNeighbourhood around(const Ray& ray, const RayHit* hit) const;
     void aim(const RayOptions& rays, Parallel& parallel, const Allocator* allocator);
     [[nodiscard]] DVec3 normalOf(const RayHit& hit) const;
     [[nodiscard]] DVec3 faceOf(std::uint32_t triangle) const;
-    /// The normal that the high poly's own map gives; zero where it shows none there.
+    /// Returns the normal from the high poly's own normal map; zero if the map has no direction there.
     [[nodiscard]] DVec3 mappedNormal(const RayHit& hit, const std::array<std::uint32_t, 3>& vertices) const;
 };
 
-/// Points, each with a tag that says what it is for, until there are kLinesAtOnce: see askTogether.
+/// Collects points, each with a tag, in batches of kLinesAtOnce: see askTogether.
 template <class Tag, class Ask>
 class PointsTogether {
   public:
@@ -159,7 +160,8 @@ class PointsTogether {
     std::array<Tag, kLinesAtOnce> tags_ = {};
 };
 
-/// ask(points, tags) for what body(together) adds by together.add(point, tag): kLinesAtOnce at a time, in that order.
+/// Calls ask(points, tags) for the points that body(together) adds by together.add(point, tag): in batches of
+/// kLinesAtOnce, in the order of adding.
 template <class Tag, class Ask, class Body>
 void askTogether(const Ask& ask, const Body& body) {
     PointsTogether<Tag, Ask> together(ask);
@@ -167,7 +169,7 @@ void askTogether(const Ask& ask, const Body& body) {
     together.finish();
 }
 
-/// The UVs of a low poly as a list of triangles.
+/// UVs of a low poly as a list of triangles.
 struct LowUvs {
     explicit LowUvs(const LowPoly& low, const Allocator* allocator);
     [[nodiscard]] UvTriangles triangles(TextureWrap wrap_u, TextureWrap wrap_v) const {

@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t kSamples = 1000;
 constexpr double kMeets = 0.8;
-/// In parts of the low poly's size.
+/// Relative to the size of the low poly.
 constexpr double kUsualReach = 0.05;
 
 /// Rotation by multiples of 90 degrees, as matrix rows.
@@ -47,7 +47,7 @@ struct NamedTurn {
     std::string name = {};
 };
 
-/// All turns by quarters but the one that changes nothing: about one axis, and about two.
+/// Returns all rotations by multiples of 90 degrees about one or two axes, except the identity.
 std::vector<NamedTurn> quarterTurns() {
     constexpr Turn kAxes[3] = {{{{1, 0, 0}, {0, 0, -1}, {0, 1, 0}}},
                                {{{0, 0, 1}, {0, 1, 0}, {-1, 0, 0}}},
@@ -80,7 +80,7 @@ struct Sample {
     std::uint32_t group = 0;
 };
 
-/// Points of the low poly, evenly over its area.
+/// Returns sample points of the low poly, evenly distributed over its area.
 std::vector<Sample> samplesOf(const LowPoly& low) {
     std::vector<double> ends(low.positions.count / 3);
     double total = 0;
@@ -110,12 +110,12 @@ std::vector<Sample> samplesOf(const LowPoly& low) {
     return samples;
 }
 
-/// The high poly, and the samples that meet it when it is turned and scaled.
+/// Counts the samples that hit the high poly after a rotation and scaling.
 class Trial {
   public:
     Trial(const RaySurface& surface, std::vector<Sample> samples) : surface_(surface), samples_(std::move(samples)) {}
 
-    /// Share of samples whose ray hits a front face.
+    /// Returns the share of samples whose ray hits a front face.
     [[nodiscard]] double met(double reach, const Turn& turn = kNone, double scale = 1) const {
         std::size_t count = 0;
         double guess = 0;
@@ -128,7 +128,7 @@ class Trial {
         }
         return partOf(count);
     }
-    /// Share of samples whose ray hits back faces, and no front face.
+    /// Returns the share of samples whose ray hits only back faces.
     [[nodiscard]] double metBacksAlone(double reach) const {
         std::size_t count = 0;
         for (const Sample& sample : samples_) {
@@ -147,7 +147,8 @@ class Trial {
     std::vector<Sample> samples_;
 };
 
-/// The turn and the scale with which most rays meet the high poly, where they are more than `enough`.
+/// Describes the rotation and scale with which most rays hit the high poly, if their share exceeds `enough`; otherwise
+/// returns an empty string.
 std::string otherPlace(const Trial& trial, double size, double high_size, double reach, double enough) {
     constexpr double kOtherSize = 1.5;
     std::vector<NamedTurn> turns = quarterTurns();

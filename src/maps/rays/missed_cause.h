@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Why most rays of a low poly meet no high poly.
+// Finds out why most rays of a low poly hit no high poly.
 #pragma once
 
 #include <memory>
@@ -12,23 +12,24 @@
 
 namespace tspace {
 
-/// The surface of a high poly, which bakes of several maps, and what looks for a cause, have in common. Empty until the first
+/// Ray structure of a high poly, shared by bakes of several maps and the search for a cause. Empty until the first
 /// bake.
 struct SharedRays {
     std::shared_ptr<const RaySurface> surface = {};
 };
 
-/// The likely reason, as a part of a sentence about the high poly: faces that point inwards, a reach that is too short,
-/// another axis that points up, another unit. Each is tried: it is named where four of five rays then meet the high poly.
-/// Empty where none of them is the reason. Checked meshes; `surface`: that of the high poly; `reach`: what the rays had.
+/// Returns the likely reason as part of a sentence about the high poly: inward faces, a reach that is too short, a
+/// different up axis, or a different unit. Each correction is tried, and named if at least four of five rays then hit.
+/// Returns an empty string if none helps. Requires checked meshes. `surface`: ray structure of the high poly; `reach`:
+/// the reach used by the rays.
 std::string causeOfMisses(const LowPoly& low, const HighPoly& high, const RaySurface& surface, double reach);
 
-/// Of a bake that met something in most places: the axes or units in which nearly all of the high poly lies on the low poly,
-/// where now less than half of it does. Empty where there are none.
+/// For a bake with hits in most places: returns the axes or unit for which nearly all of the high poly coincides with
+/// the low poly, if less than half of it does now. Returns an empty string if there is none.
 std::string otherPlaceOf(const LowPoly& low, const HighPoly& high, const RaySurface& surface);
 
-/// bakeMaps, but where nothing meets the high poly the result is a map without texels, and no error. `shared`: of this high
-/// poly; filled where it is empty.
+/// Like bakeMaps, but a bake without any hit returns a map without texels instead of an error. `shared`: ray structure
+/// of this high poly; set if empty.
 Result<BakedMaps> bakeEvenIfMissed(const LowPoly& low, const HighPoly& high, const BakeOptions& options,
                                    const LayerOptions& layers, const Execution& execution, const Progress& progress,
                                    SharedRays& shared);

@@ -60,13 +60,13 @@ class Search {
         return normalize(normal) ? normal : DVec3{};
     }
 
-    /// The sides of one edge: it is hard, or its two faces are one around both of its ends.
+    /// Processes the triangles of one edge: marks the edge as hard, or joins the corners at both of its ends.
     void joinOrPart(std::uint32_t low, std::uint32_t high, std::span<const HalfEdge> sides) {
         constexpr double kCosine = 0.861629160441525819;  // cosine of kHardDeg
         if (sides.size() == 1) return;
         if (sides.size() == 2) {
             const DVec3 a = normalOf(cornerOf(sides[0])), b = normalOf(cornerOf(sides[1]));
-            // A triangle without area bends nothing.
+            // A degenerate triangle has no angle.
             const bool has_angle = dot(a, a) > 0 && dot(b, b) > 0;
             if (!has_angle || dot(a, b) >= kCosine) {
                 for (const std::uint32_t end : {low, high})
@@ -89,7 +89,7 @@ class Search {
         return roots_[side] == root ? side : nextCorner(side);
     }
 
-    /// The first corner of its group.
+    /// Returns the first corner of a corner's group.
     std::uint32_t groupOf(std::uint32_t corner) { return rootOf(groups_.data(), corner); }
 
     [[nodiscard]] double distanceTo(std::uint32_t edge, std::uint32_t corner) const {
@@ -107,11 +107,11 @@ class Search {
         }
     };
 
-    /// Edges pass from corners to the other corners of their triangles, the nearest first; a corner passes on the first two
-    /// that reach it.
+    /// Propagates edges from corners to the other corners of their triangles, nearest first; a corner propagates the
+    /// first two edges that reach it.
     void spread() {
         near_.assign(groups_.size(), {HardEdges::kNone, HardEdges::kNone});
-        // The corners of each group, in a list.
+        // Linked list of the corners of each group.
         std::vector<std::uint32_t> first(groups_.size(), HardEdges::kNone), next(groups_.size(), HardEdges::kNone);
         for (auto corner = static_cast<std::uint32_t>(groups_.size()); corner-- > 0;) {
             const std::uint32_t group = groupOf(corner);
@@ -140,8 +140,8 @@ class Search {
     StridedSpan<const Vec3> positions_;
     std::span<const std::uint32_t> roots_;
     double far_;
-    std::vector<std::uint32_t> groups_;  ///< corners at one place whose faces meet smoothly: a forest
-    std::vector<std::array<std::uint32_t, 2>> at_edges_ = {};  ///< corners at hard edges, and which
+    std::vector<std::uint32_t> groups_;  ///< disjoint sets of corners with equal positions whose faces meet smoothly
+    std::vector<std::array<std::uint32_t, 2>> at_edges_ = {};  ///< corners at hard edges, each with its edge
     std::vector<std::array<std::uint32_t, 2>> near_ = {};      ///< neighbors of each group
     HardEdges found_ = {};
 };
@@ -154,19 +154,21 @@ HardEdges findHardEdges(StridedSpan<const Vec3> positions, std::span<const std::
 
 namespace {
 
-/// The cage is at most this many times as far from a corner as from its faces: spikes would have none.
+/// Maximum ratio of the cage distance at a corner to that at its faces; without it, spikes would have an unlimited
+/// distance.
 constexpr double kMostFactor = 3;
-/// Less of its own direction, and a corner has no part in the mean: both sides of a leaf are at one place.
+/// Minimum cosine between the mean normal and a corner's own normal; below it the corner is excluded from the mean,
+/// because both sides of a leaf share positions.
 constexpr double kOwnPart = 0.05;
 
-/// How far from a hard edge ways bend towards it, in parts of the cage's offset. On boxes with bevels, ribs and bolts at an
-/// offset of .1, seen from seven sides: 1 and .5 are as near to the high poly, .25 is as near but for misses at sharp rims,
-/// and .1 as far off as stored normals.
+/// Distance from a hard edge within which ray directions bend toward it, relative to the cage offset. On boxes with
+/// bevels, ribs and bolts at an offset of 0.1, seen from seven sides: 1 and 0.5 are equally close to the high poly,
+/// 0.25 is as close except for misses at sharp rims, and 0.1 is as inaccurate as stored normals.
 constexpr double kBend = 0.5;
 
 DVec3 unitOr(DVec3 v, const DVec3& other) { return normalize(v) ? v : other; }
 
-/// The whole mesh: the triangles that the map shows, and the rest. Near positions are one.
+/// Whole mesh: the triangles that the map covers, and the remaining ones. Close positions are welded.
 struct WholeMesh {
     WholeMesh(const LowPoly& low, float weld_distance, const Allocator* allocator, Parallel& parallel)
         : positions(allocator, low.positions.count + low.rest_positions.count),
@@ -202,13 +204,14 @@ struct WholeMesh {
     }
 
     Buffer<Vec3> positions, normals;
-    Buffer<DVec3> faces;  ///< unit normals; zero where there is none
+    Buffer<DVec3> faces;  ///< unit normals; zero for degenerate faces
     Buffer<std::uint32_t> roots = {};
 };
 
 DVec3 ownOf(const WholeMesh& mesh, std::size_t corner) { return unitOr(toDouble(mesh.normals[corner]), {}); }
 
-/// At the root of each place the way to the cage along the mean of all normals there. Zero where there is none.
+/// Returns, at the first corner of each position, the offset to the cage along the mean of all normals there; zero if
+/// there is none.
 Buffer<Vec3> meanWays(const WholeMesh& mesh, const Allocator* allocator) {
     const std::size_t count = mesh.positions.size();
     Buffer<DVec3> means(allocator, count, DVec3{});
@@ -228,7 +231,8 @@ Buffer<Vec3> meanWays(const WholeMesh& mesh, const Allocator* allocator) {
     return ways;
 }
 
-/// For each corner that the map shows that of its place, or its own normal where the mean is not on its side.
+/// Returns, for each corner that the map covers, the offset of its position, or its own normal if the mean points to
+/// its other side.
 Buffer<Vec3> averagedWays(const WholeMesh& mesh, const Buffer<Vec3>& means, std::size_t shown,
                           const Allocator* allocator) {
     Buffer<Vec3> ways(allocator, shown);
@@ -241,7 +245,8 @@ Buffer<Vec3> averagedWays(const WholeMesh& mesh, const Buffer<Vec3>& means, std:
     return ways;
 }
 
-/// The mean of the faces that meet smoothly at a corner with a hard edge; as `averaged` elsewhere.
+/// Returns the mean normal of the faces that meet smoothly at a corner with a hard edge, and `averaged` for other
+/// corners.
 Buffer<Vec3> straightWays(const WholeMesh& mesh, const HardEdges& hard, const Buffer<Vec3>& averaged,
                           const Allocator* allocator) {
     Buffer<DVec3> means(allocator, mesh.positions.size(), DVec3{});
@@ -349,7 +354,7 @@ DVec3 RayField::bentAtEdges(std::size_t triangle, const DVec3& point, const DVec
                      of_to = smooth(std::max(0.0, 1 - (1 - part) * size / near_end));
         DVec3 way = toDouble(edge.way);
         way = way + of_from * (toDouble(edge.way_of_from) - way) + of_to * (toDouble(edge.way_of_to) - way);
-        // If there are several edges, nearer ones count more; a single one counts fully.
+        // If there are several edges, closer ones have more weight; a single edge has full weight.
         const double bent = smooth(1 - away / bend_), least = 1e-6 * bend_;
         const double weight = bent / (away * away + least * least);
         sum = sum + (weight * bent) * (way - straight);

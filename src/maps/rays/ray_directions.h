@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where the ray of a point of a low poly points, and where the cage is on it.
+// Direction of the ray from a point of a low poly, and position of the cage on it.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 
 namespace tspace {
 
-// Distance of a point from a segment.
+// Distance of a point from a line segment.
 
 /// Returns the parameter, from 0 at a to 1 at b, of the point of the segment that is nearest to `point`.
 inline double nearestPart(const DVec3& point, const DVec3& a, const DVec3& b) {
@@ -23,15 +23,15 @@ inline double nearestPart(const DVec3& point, const DVec3& a, const DVec3& b) {
     return squared > 0 ? std::clamp(dot(point - a, edge) / squared, 0.0, 1.0) : 0.0;
 }
 
-/// The square of the distance.
+/// Returns the squared distance of a point from the segment from a to b.
 inline double squaredDistanceTo(const DVec3& point, const DVec3& a, const DVec3& b) {
     const DVec3 away = point - a - nearestPart(point, a, b) * (b - a);
     return dot(away, away);
 }
 
-// Edges at which the faces of a low poly meet at an angle, and which of them are near.
+// Edges where the faces of a low poly meet at an angle, and the nearest such edges of each corner.
 
-/// Faces that meet at more are not smooth, in degrees: 12 sides around a cylinder still are.
+/// Angle between faces above which an edge is hard, in degrees: a cylinder with 12 sides is still smooth.
 inline constexpr float kHardDeg = 30.5F;
 
 struct HardEdges {
@@ -39,18 +39,19 @@ struct HardEdges {
 
     struct Edge {
         std::array<std::uint32_t, 2> corners = {};  ///< its two end points
-        DVec3 way = {};                             ///< unit, or zero: the mean of its faces' normals
+        DVec3 way = {};                             ///< unit mean of its face normals, or zero
     };
     std::vector<Edge> edges = {};
-    // One per corner; empty where no edge is hard:
-    /// The hard edges that are nearest to it over faces that meet smoothly. At most `far` away.
+    // One entry per corner; empty if no edge is hard:
+    /// The two nearest hard edges, reached over faces that meet smoothly, at most `far` away.
     std::vector<std::array<std::uint32_t, 2>> nearest = {};
-    std::vector<std::uint32_t> groups = {};  ///< equal for corners at one place whose faces meet smoothly: one of them
-    std::vector<bool> at_edge = {};          ///< whether one of its group begins or ends a hard edge
+    /// equal for corners with the same position whose faces meet smoothly: one corner of the group
+    std::vector<std::uint32_t> groups = {};
+    std::vector<bool> at_edge = {};  ///< whether a hard edge starts or ends at a corner of its group
 };
 
-/// `positions` three per triangle, and `roots` the first corner at the same place as each. Linear but for a sort of the edges;
-/// the same result for any number of threads.
+/// Finds hard edges. `positions`: three per triangle. `roots`: for each corner the first corner with the same position.
+/// Linear time, except for sorting the edges. The result does not depend on the number of threads.
 HardEdges findHardEdges(StridedSpan<const Vec3> positions, std::span<const std::uint32_t> roots, double far);
 
 /// Interpolates an attribute at a point of a triangle; three values per triangle.
@@ -61,11 +62,11 @@ DVec3 mixedAt(const StridedSpan<const T>& values, std::size_t triangle, const st
     return sum;
 }
 
-/// An edge at which faces meet at over 30 degrees.
+/// Edge at which faces meet at more than kHardDeg degrees.
 struct HardEdge {
     Vec3 from = {}, to = {};
-    Vec3 way = {};                          ///< to the cage, for an offset of 1: between its faces
-    Vec3 way_of_from = {}, way_of_to = {};  ///< between all faces at its ends
+    Vec3 way = {};                          ///< offset to the cage between its two faces, for a cage offset of 1
+    Vec3 way_of_from = {}, way_of_to = {};  ///< offsets at its ends, between all faces there
 };
 
 /// The rays of a low poly. Const calls are thread-safe.
@@ -76,12 +77,13 @@ class RayField {
     /// sort of the edges.
     RayField(const LowPoly& low, const RayOptions& rays, double offset, Parallel& parallel, const Allocator* allocator);
 
-    /// The unit direction outwards at a point, and how far along it the cage is. False where there is none.
+    /// Computes the unit outward direction at a point and the distance to the cage along it. Returns false if there is
+    /// no direction.
     bool at(std::size_t triangle, const std::array<double, 3>& weights, DVec3& outward, double& height) const;
 
   private:
     static constexpr std::uint32_t kNoEdge = 0xffffffffu;
-    /// The hard edges that are nearest to a corner, over faces that meet smoothly.
+    /// The hard edges nearest to a corner, reached over faces that meet smoothly.
     using NearEdges = std::array<std::uint32_t, 2>;
 
     [[nodiscard]] DVec3 faceOf(std::size_t triangle) const;
@@ -92,18 +94,18 @@ class RayField {
         const NearEdges* const corners = near_.data() + 3 * triangle;
         return corners[0][0] != kNoEdge || corners[1][0] != kNoEdge || corners[2][0] != kNoEdge;
     }
-    /// The way at a point near hard edges, where `straight` is the way of its face.
+    /// Returns the direction at a point near hard edges; `straight` is the direction of its face.
     [[nodiscard]] DVec3 bentAtEdges(std::size_t triangle, const DVec3& point, const DVec3& straight) const;
 
     LowPoly low_ = {};
     RayOptions rays_ = {};
     double offset_ = 0;
     double bend_ = 0;  ///< distance from a hard edge within which directions bend towards it
-    /// From a corner to the cage, for an offset of 1: longer than 1 where faces lean away from the mean, so that the cage
-    /// is as far from them.
+    /// Offset from a corner to the cage, for a cage offset of 1. It is longer than 1 if faces are inclined to the mean
+    /// normal, so that the cage keeps its distance from the faces.
     Buffer<Vec3> averaged_ = {};
-    Buffer<Vec3> straight_ = {};   ///< the mean over faces that meet smoothly; empty unless it is asked for
-    Buffer<NearEdges> near_ = {};  ///< one per corner; empty where nothing is hard
+    Buffer<Vec3> straight_ = {};   ///< mean over faces that meet smoothly; empty unless requested
+    Buffer<NearEdges> near_ = {};  ///< one per corner; empty if no edge is hard
     Buffer<HardEdge> edges_ = {};
 };
 

@@ -28,9 +28,9 @@ namespace tspace {
 
 namespace {
 
-/// The functions of Embree that are used, from the library that is there at run time.
+/// Functions of Embree that are used, from the library installed at run time.
 struct Embree {
-    /// Embree 3 and TBB take 47 MB. Their constructors end the process where memory ends.
+    /// Embree 3 and TBB take 47 MB. Their constructors terminate the process if memory runs out.
     static constexpr std::size_t kLoadedBytes = std::size_t{64} << 20;
     LoadedLibrary library = LoadedLibrary(TSPACE_EMBREE_LIBRARY, kLoadedBytes);
     decltype(&rtcNewDevice) newDevice = library.find("rtcNewDevice");
@@ -60,7 +60,7 @@ const Embree& embree() {
     return loaded;
 }
 
-/// Whether Embree ran out of memory in this process, which must not call it again.
+/// Whether Embree ran out of memory in this process; after that it must not be called again.
 std::atomic<bool> has_embree_failed = false;
 
 #if RTC_VERSION_MAJOR >= 4
@@ -71,7 +71,7 @@ using QueryContext = RTCIntersectContext;
 
 constexpr std::uint32_t kNothingSkipped = 0xffffffffu;
 
-/// A point of a triangle's plane.
+/// Point of a triangle's plane.
 struct PlanePoint {
     double distance = 0;
     std::array<double, 3> weights = {};
@@ -82,15 +82,16 @@ struct PlanePoint {
 struct RaySurface::State {
     StridedSpan<const Vec3> positions;
     std::span<const std::uint32_t> corners, groups;
-    // For Embree the surface is moved and scaled into the unit cube: it drops what is very large, and its boxes round.
+    // The surface is moved and scaled into the unit cube for Embree, which drops very large triangles and rounds
+    // bounding boxes.
     DVec3 centre = {};
     double scale = 1, size = 1;     ///< size: 1 / scale
-    std::vector<Vec4> placed = {};  // 16 bytes each: Embree reads them so
+    std::vector<Vec4> placed = {};  // 16 bytes each, as Embree requires
     RTCDevice device = nullptr, second_device = nullptr;
     RTCScene scene = nullptr;
 
-    /// Leaks what Embree made and reports a lack of memory. Embree's devices share state whose locks stay locked after a
-    /// failed call: releasing them, or any further device, would wait forever.
+    /// Leaks all Embree objects and reports a lack of memory. Embree devices share state whose locks stay locked after
+    /// a failed call: releasing the objects, or creating another device, would wait forever.
     Error abandon() {
         has_embree_failed = true;
         scene = nullptr;
@@ -104,7 +105,8 @@ struct RaySurface::State {
         if (second_device != nullptr) embree().releaseDevice(second_device);
     }
 
-    /// Intersects the line with the plane of a triangle whose front faces against `direction`.
+    /// Intersects the line with the plane of a triangle whose front faces against `direction`. Returns false if the
+    /// line misses it.
     bool meet(std::uint32_t triangle, const DVec3& from, const DVec3& direction, PlanePoint& point) const {
         std::array<DVec3, 3> corner{};
         for (std::size_t i = 0; i < 3; ++i) corner[i] = toDouble(positions[corners[3 * triangle + i]]) - from;
@@ -127,28 +129,28 @@ struct RaySurface::State {
 
 namespace {
 
-/// Front face to search for on a line, if any.
+/// Which triangle to search for on a line.
 enum class Wanted : std::uint8_t {
-    nearest,  ///< to `from`, on either side
-    first,    ///< in the order of the direction
+    nearest,  ///< nearest to `from`, on either side
+    first,    ///< first along the direction
     last,
-    any,  ///< the first, fronts or backs
-    all   ///< all are counted, and backs
+    any,  ///< first along the direction, front or back face
+    all   ///< counts all front and back faces
 };
 
-/// A line and its best hit.
+/// A line and its best hit so far.
 struct Query {
     const RaySurface::State* surface;
     DVec3 from, direction;
     double begin, end;  ///< along the direction
     Wanted wanted;
     std::uint32_t group;
-    std::uint32_t skipped;  ///< a triangle that is not met; kNothingSkipped: none
+    std::uint32_t skipped;  ///< triangle to ignore; kNothingSkipped: none
     bool is_hit;
     RayHit best;
     RayCrossings crossings;
 
-    /// Less is better.
+    /// Returns the rank of a hit; the hit with the lowest rank is the best.
     [[nodiscard]] double rank(double distance) const {
         return wanted == Wanted::nearest ? std::fabs(distance) : wanted == Wanted::last ? -distance : distance;
     }
@@ -158,7 +160,8 @@ struct Query {
     }
 };
 
-/// A call of Embree for one line or several. Embree's part comes first: filter functions get a pointer to it.
+/// One call of Embree for one or more lines. The context must be the first member, because filter functions get a
+/// pointer to it.
 struct Shot {
     QueryContext context;
     Query* queries;
@@ -174,7 +177,7 @@ struct Shot {
     }
 };
 
-/// visit(query, triangle, valid) for each line of a filter function's call: `valid` 0 rejects the triangle.
+/// Calls visit(query, triangle, valid) for each line of a filter call; setting `valid` to 0 rejects the triangle.
 template <class Visit>
 void forLines(const RTCFilterFunctionNArguments* arguments, const Visit& visit) {
     const auto& shot = *reinterpret_cast<const Shot*>(arguments->context);
@@ -186,7 +189,7 @@ void forLines(const RTCFilterFunctionNArguments* arguments, const Visit& visit) 
     }
 }
 
-/// Counts a triangle that is met, in front or from behind.
+/// Counts a triangle that is hit from the front or from behind.
 void countCrossing(Query& query, std::uint32_t triangle) {
     for (const double sign : {1.0, -1.0}) {
         PlanePoint point;
@@ -195,7 +198,8 @@ void countCrossing(Query& query, std::uint32_t triangle) {
     }
 }
 
-/// Intersects the line with the plane of a triangle, whichever way it faces.
+/// Intersects the line with the plane of a triangle, regardless of its orientation. Returns false if the line misses
+/// it.
 bool meetEitherSide(const Query& query, std::uint32_t triangle, PlanePoint& point) {
     if (query.surface->meet(triangle, query.from, query.direction, point)) return true;
     if (!query.surface->meet(triangle, query.from, -1.0 * query.direction, point)) return false;
@@ -203,7 +207,7 @@ bool meetEitherSide(const Query& query, std::uint32_t triangle, PlanePoint& poin
     return true;
 }
 
-/// Called for triangles that may hide the way; rejects those that do not, so that Embree goes on to others.
+/// Filter for triangles that may block a line; rejects triangles that do not, so that Embree continues.
 void acceptBlocking(const RTCFilterFunctionNArguments* arguments) {
     forLines(arguments, [](const Query& query, std::uint32_t triangle, int& valid) {
         PlanePoint point;
@@ -213,7 +217,7 @@ void acceptBlocking(const RTCFilterFunctionNArguments* arguments) {
     });
 }
 
-/// Takes a triangle that a line meets, if it is better than what was met before.
+/// Updates the best hit of a line with a triangle that the line hits.
 void takeHit(Query& query, std::uint32_t triangle) {
     if (!query.surface->groups.empty() && query.group != kEveryGroup) {
         const std::uint32_t group = query.surface->groups[triangle];
@@ -234,7 +238,7 @@ void takeHit(Query& query, std::uint32_t triangle) {
     query.best = {triangle, point.weights, point.distance};
 }
 
-/// Called for triangles that lines meet; rejects each, so that Embree goes on to all others.
+/// Filter that records hits; rejects every triangle, so that Embree visits all others.
 void collectHits(const RTCFilterFunctionNArguments* arguments) {
     forLines(arguments, [](Query& query, std::uint32_t triangle, int& valid) {
         valid = 0;
@@ -242,7 +246,7 @@ void collectHits(const RTCFilterFunctionNArguments* arguments) {
     });
 }
 
-/// Sets centre and scale from the finite positions.
+/// Sets center and scale from the finite positions.
 void findPlace(RaySurface::State& state) {
     DVec3 least{1e300, 1e300, 1e300}, most = -1.0 * least;
     for (std::size_t i = 0; i < state.positions.count; ++i) {
@@ -258,12 +262,13 @@ void findPlace(RaySurface::State& state) {
     state.size = 1 / state.scale;
 }
 
-/// A device whose scenes are built by those threads that call joinCommitScene, `threads` at most. Its number of threads is
-/// the limit of TBB for the whole process, and so for a host that uses it too, as long as no device has a larger one: a
-/// second device, which has none, takes that back, and the first keeps its arena. False where there are no devices.
+/// Creates a device whose scenes are built by the threads that call joinCommitScene, at most `threads`. Its thread
+/// count limits TBB for the whole process, including a host that uses TBB, unless another device has a larger limit: a
+/// second device without a limit removes the restriction, while the first keeps its arena. Returns false if no device
+/// can be created.
 bool makeDevices(RaySurface::State& state, unsigned threads) {
     char settings[96];
-    // Without this each device reserves 128 MB for subdivision surfaces.
+    // Without this option each device reserves 128 MB for subdivision surfaces.
     constexpr const char* kNoCache = "tessellation_cache_size=0";
     std::snprintf(settings, sizeof settings, "threads=%u,user_threads=%u,%s", threads, threads, kNoCache);
     state.device = embree().newDevice(settings);
@@ -277,7 +282,7 @@ RTCError buildScene(const RaySurface::State& state, Parallel& parallel) {
     std::atomic<RTCError> failure = RTC_ERROR_NONE;
     parallel.forTasks(parallel.width(), [&](std::size_t) {
         embree().joinCommitScene(state.scene);
-        // Each thread has its own.
+        // Each thread has its own error code.
         if (const RTCError error = embree().getDeviceError(state.device); error != RTC_ERROR_NONE) failure = error;
     });
     return failure;
@@ -305,7 +310,8 @@ Result<std::unique_ptr<const RaySurface>> RaySurface::make(StridedSpan<const Vec
         const Vec3 at = toFloat(state->scale * (toDouble(positions[i]) - state->centre));
         state->placed[i] = {at.x, at.y, at.z, 0};
     }
-    // More than devices, threads and a tree of triangles take. What fails inside of Embree may end the process.
+    // Upper limit of the memory for devices, threads and the BVH. A failed allocation inside Embree may terminate the
+    // process.
     constexpr std::size_t kDeviceBytes = std::size_t{16} << 20, kThreadBytes = std::size_t{1} << 20,
                           kTriangleBytes = 256;
     requireMemory(kDeviceBytes + kThreadBytes * parallel.width() + kTriangleBytes * (corners.size() / 3));
@@ -314,7 +320,8 @@ Result<std::unique_ptr<const RaySurface>> RaySurface::make(StridedSpan<const Vec
     if (!makeDevices(*state, parallel.width())) {
         if (state->device == nullptr && api.getDeviceError(nullptr) == RTC_ERROR_UNSUPPORTED_CPU)
             return makeError(ErrorCode::unsupportedFile, kNoElement, "Embree does not run on this CPU");
-        return state->abandon();  // settings are right, and Embree has several codes for a lack of memory
+        // the settings are valid, so this is a lack of memory, for which Embree has several codes
+        return state->abandon();
     }
     state->scene = api.newScene(state->device);
     const RTCGeometry geometry = api.newGeometry(state->device, RTC_GEOMETRY_TYPE_TRIANGLE);
@@ -339,7 +346,7 @@ Result<std::unique_ptr<const RaySurface>> RaySurface::make(StridedSpan<const Vec
 
 namespace {
 
-/// A line between `begin` and `end`, on which nothing is looked for yet.
+/// Returns a query for the line between `begin` and `end`, without a hit yet.
 Query lineOf(const RaySurface::State& state, const DVec3& from, const DVec3& direction, double begin, double end,
              Wanted wanted, std::uint32_t group) {
     Query query;
@@ -356,10 +363,10 @@ Query lineOf(const RaySurface::State& state, const DVec3& from, const DVec3& dir
     return query;
 }
 
-/// The part of a line near the surface, as Embree has it. False where there is none.
+/// Converts the part of a line near the surface to Embree's coordinates. Returns false if there is none.
 bool placeRay(const Query& query, RTCRay& ray) {
-    // Embree ends the process where a ray begins or ends beyond 1.8e18: only the part near the surface is given to it,
-    // whose box has sides of 1 about the centre.
+    // Embree terminates the process if a ray starts or ends beyond 1.8e18, so it gets only the part near the surface,
+    // whose bounding box has sides of at most 1 about the center.
     constexpr double kBeyond = 2;
     const RaySurface::State& state = *query.surface;
     const double middle = dot(state.centre - query.from, query.direction);
@@ -380,7 +387,7 @@ bool placeRay(const Query& query, RTCRay& ray) {
     return true;
 }
 
-/// Finds what is wanted on the line, or counts what is there.
+/// Finds the requested hit on the line, or counts hits.
 void shoot(Query& query) {
     RTCRayHit ray{};
     if (!placeRay(query, ray.ray)) return;
@@ -397,7 +404,7 @@ void shoot(Query& query) {
 #endif
 }
 
-/// Shoots up to kLinesAtOnce lines that belong to one surface.
+/// Traces up to kLinesAtOnce lines of one surface.
 void shootTogether(std::span<Query> queries) {
     RTCRayHit16 rays{};
     alignas(64) std::array<int, kLinesAtOnce> valid{};
@@ -436,7 +443,7 @@ Query shoot(const RaySurface::State& state, const DVec3& from, const DVec3& dire
     return query;
 }
 
-/// Whether a triangle is accepted by acceptBlocking.
+/// Returns whether acceptBlocking accepts a triangle on the line.
 bool isHidden(Query& query) {
     RTCRay ray{};
     if (!placeRay(query, ray)) return false;
@@ -452,7 +459,8 @@ bool isHidden(Query& query) {
     return ray.tfar < 0;
 }
 
-/// The best hit, with its distance along the other direction.
+/// Copies the best hit to `hit` with its distance negated (measured along the opposite direction). Returns false if
+/// there was no hit.
 bool takeTurned(const Query& query, RayHit& hit) {
     if (!query.is_hit) return false;
     hit = query.best;
@@ -465,7 +473,7 @@ bool takeTurned(const Query& query, RayHit& hit) {
 bool RaySurface::nearest(const DVec3& from, const DVec3& outward, double reach, std::uint32_t group, double& guess,
                          RayHit& hit) const {
     const DVec3 inward = -1.0 * outward;
-    // The part of a reach that is hardly more than zero may be zero.
+    // A fraction of a very small reach may underflow to zero.
     const double least = std::max(reach / 1024, std::min(reach, std::numeric_limits<double>::min()));
     for (double half = std::clamp(guess, least, reach);; half = std::min(4 * half, reach)) {
         if (takeTurned(shoot(*state_, from, inward, -half, half, Wanted::nearest, group), hit)) {

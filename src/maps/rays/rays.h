@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Intersections of lines and a surface. Only this file knows Embree, which is loaded with the first surface: Embree and
-// its dependencies take 60 MB, and most runs shoot no ray.
+// Intersections of lines with a surface. Only this file uses Embree, which is loaded with the first surface: Embree and
+// its dependencies take 60 MB, and most runs trace no rays.
 #pragma once
 
 #include <array>
@@ -17,8 +17,8 @@ namespace tspace {
 
 struct RayHit {
     std::uint32_t triangle = 0;
-    std::array<double, 3> weights = {};  ///< barycentric weights of its corners
-    double distance = 0;                 ///< along the direction; negative on the other side
+    std::array<double, 3> weights = {};  ///< barycentric weights of the triangle's corners
+    double distance = 0;                 ///< along the direction; negative for the opposite side
 };
 
 /// Number of triangles that a segment of a line crosses.
@@ -27,22 +27,24 @@ struct RayCrossings {
     std::uint32_t backs = 0;   ///< back faces
 };
 
-/// A part of a line: what lies between `begin` and `end` along `outward` (unit) from a place.
+/// Segment of a line: the points from `begin` to `end` along `outward` (unit), relative to `from`.
 struct RayLine {
     DVec3 from = {}, outward = {};
     double begin = 0, end = 0;
     std::uint32_t group = 0;
 };
 
-/// Lines that are asked for together.
+/// Maximum number of lines per call.
 inline constexpr std::size_t kLinesAtOnce = 16;
 
-/// The triangles of a surface, ordered for rays. Const calls are thread-safe. Embree only says which triangles a line may
-/// meet: places are computed here, in double, and do not depend on the order in which triangles are found.
+/// Triangles of a surface in a structure for ray queries. Const calls are thread-safe. Embree only finds candidate
+/// triangles: intersections are computed here in double precision, and do not depend on the order in which triangles
+/// are found.
 class RaySurface {
   public:
-    /// `positions`, `corners` and `groups` (one per triangle, or empty) must stay. Triangles that are not finite, or have no
-    /// area, are not met. Lines may begin and end anywhere. Built by the threads of `parallel`. Errors: unsupportedFile (no Embree), outOfMemory.
+    /// `positions`, `corners` and `groups` (one per triangle, or empty) must outlive the surface. Triangles that are
+    /// not finite or are degenerate are never hit. Lines may start and end anywhere. Builds on the threads of
+    /// `parallel`. Errors: unsupportedFile (no Embree), outOfMemory.
     static Result<std::unique_ptr<const RaySurface>> make(StridedSpan<const Vec3> positions,
                                                           std::span<const std::uint32_t> corners,
                                                           std::span<const std::uint32_t> groups, Parallel& parallel);
@@ -50,38 +52,39 @@ class RaySurface {
     RaySurface(const RaySurface&) = delete;
     RaySurface& operator=(const RaySurface&) = delete;
 
-    /// The triangle nearest to `from` on the line along `outward` (unit), at most `reach` away on either side, whose front
-    /// faces `outward`. Of equally near ones the first. `guess`: how near it may be, which changes the time alone; it is
-    /// set for the next call nearby. Of the triangles of `group` alone, where there are groups.
+    /// Finds the triangle nearest to `from` on the line along `outward` (unit), at most `reach` away on either side,
+    /// whose front faces `outward`; the first of equally near ones. Only triangles of `group` are considered if the
+    /// surface has groups. `guess`: expected distance; it affects only the time, and is updated for the next call
+    /// nearby.
     bool nearest(const DVec3& from, const DVec3& outward, double reach, std::uint32_t group, double& guess,
                  RayHit& hit) const;
 
-    /// The first triangle from `from` along `inward` (unit) whose front faces `from`, within `most`.
+    /// Finds the first triangle within `most` from `from` along `inward` (unit) whose front faces `from`.
     bool first(const DVec3& from, const DVec3& inward, double most, std::uint32_t group, RayHit& hit) const;
 
-    /// Of the triangles whose fronts face `outward` (unit), and which the line along it meets between `begin` and `end`, the
-    /// one that is furthest out, or the one that is furthest in.
+    /// Finds the outermost (or innermost) triangle that the line along `outward` (unit) hits between `begin` and `end`,
+    /// among triangles whose front faces `outward`.
     bool outermost(const DVec3& from, const DVec3& outward, double begin, double end, std::uint32_t group,
                    RayHit& hit) const;
     bool innermost(const DVec3& from, const DVec3& outward, double begin, double end, std::uint32_t group,
                    RayHit& hit) const;
-    /// outermost of kLinesAtOnce lines at most, which takes half of the time where they lie beside each other. Bit i of the
-    /// result: whether line i meets something, which is hits[i] then.
+    /// Calls outermost for at most kLinesAtOnce lines, in half of the time if they are close together. Bit i of the
+    /// result is set if line i has a hit, which is stored in hits[i].
     [[nodiscard]] std::uint32_t outermost(std::span<const RayLine> lines, std::span<RayHit> hits) const;
 
-    /// Counts the triangles, front and back faces, that the line along `outward` (unit) crosses from `begin` to `end`.
+    /// Counts the front and back faces that the line along `outward` (unit) crosses from `begin` to `end`.
     [[nodiscard]] RayCrossings crossings(const DVec3& from, const DVec3& outward, double begin, double end,
                                          std::uint32_t group) const;
 
-    /// Whether a triangle other than `skipped` lies on the line from `from` along `direction` (unit), between `begin` and `end`
-    /// away, whichever way it faces and whatever its group.
+    /// Returns whether the line from `from` along `direction` (unit) hits a triangle other than `skipped` between
+    /// `begin` and `end`, regardless of orientation and group.
     [[nodiscard]] bool isBlocked(const DVec3& from, const DVec3& direction, double begin, double end,
                                  std::uint32_t skipped) const;
-    /// The first of these triangles.
+    /// Finds the first triangle for which isBlocked returns true.
     bool firstOfAny(const DVec3& from, const DVec3& direction, double begin, double end, std::uint32_t skipped,
                     RayHit& hit) const;
 
-    /// The longest side of the box of the surface.
+    /// Returns the longest side of the surface's bounding box.
     [[nodiscard]] double size() const;
 
     struct State;

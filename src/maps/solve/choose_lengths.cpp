@@ -14,7 +14,7 @@ namespace {
 constexpr std::uint32_t kRowsOfBand = 128;
 constexpr unsigned kRounds = 3;
 
-/// Some rows of a map, with the row above and the one below, which stay.
+/// Consecutive rows of a map, with the row above and the row below, which are fixed.
 class Band {
   public:
     Band(const VectorMap& map, std::uint32_t first, std::uint32_t rows, const Allocator* allocator)
@@ -50,12 +50,12 @@ class Band {
     [[nodiscard]] std::size_t inMap(std::uint32_t y) const {
         return std::size_t{(first_ + height_ + y - 1) % height_} * map_.width;
     }
-    /// Whether the texture does not go on from this row of the band to the next one.
+    /// Returns whether the texture ends between this row of the band and the next.
     [[nodiscard]] bool isCut(std::uint32_t y) const {
         return map_.wrap_v != TextureWrap::repeat && (first_ + y == 0 || first_ + y == height_);
     }
 
-    /// Returns whether some of its vectors are to be chosen.
+    /// Loads a row. Returns whether some of its vectors are to be chosen.
     bool takeRow(std::uint32_t y) {
         const bool is_inside = y > 0 && y <= rows_;
         bool has_unknown = false;
@@ -71,7 +71,8 @@ class Band {
     }
 
     void addCells(std::uint32_t y, TexelSystem& system) const {
-        // Gauss's two points of a line, twice: the integral over the cell, since what is asked is a product of two filters.
+        // Two-point Gauss quadrature in each direction: exact for the integral over the cell, whose integrand is a
+        // product of two bilinear filters.
         constexpr float kNear = 0.21132487F, kFar = 1 - kNear;
         const std::size_t here = std::size_t{y} * map_.width, below = here + map_.width;
         const std::uint32_t cells = map_.wrap_u == TextureWrap::repeat && map_.width > 1 ? map_.width : map_.width - 1;
@@ -89,7 +90,7 @@ class Band {
         }
     }
 
-    /// Errors across a vector that the filter mixed, as angles.
+    /// Returns a sample that measures errors across a filtered vector, as angles.
     [[nodiscard]] FitSample sampleOf(const Vec3& mixed) const {
         // Below this length the filtered direction is unreliable.
         constexpr float kLeastSquare = 0.05F;
@@ -104,8 +105,9 @@ class Band {
         return sample;
     }
 
-    /// Directions alone count where any of the asked lengths will do. Others stay as they are, and so do those beside what points
-    /// elsewhere, by over a tenth of a right angle: there, filtering shows how long they are.
+    /// Only directions matter for vectors whose length is in the requested range, so they become unit. Other vectors
+    /// keep their length, and so do vectors next to one that differs by more than 9 degrees, because filtering there
+    /// depends on the lengths.
     void makeUnit(const IntegerChoice& choice) {
         constexpr float kCosine = 0.98769F, kSlack = 1e-5F;
         const Buffer<float> lengths = lengthsOf();
@@ -143,7 +145,8 @@ class Band {
 }  // namespace
 
 IntegerChoice integerChoice(TexelLengths lengths) {
-    // Narrower ranges than `even` do no more for smaller levels, and cost the first one more: docs/evidence/bake-theory.md has the figures.
+    // Ranges narrower than that of `even` do not improve smaller levels, but cost the first level more (figures:
+    // docs/evidence/bake-theory.md).
     if (lengths == TexelLengths::free) return {.least_length = 0.7F, .most_length = 1.1F};
     return {.least_length = 0.9F, .most_length = 1.0F};
 }

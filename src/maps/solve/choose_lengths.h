@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Vectors of given directions and lengths as integers of 8 bits, such that neighbours make good under the filter what is rounded off.
+// Encodes vectors of given directions and lengths as 8-bit integers, such that neighboring texels compensate for
+// rounding errors under filtering.
 #pragma once
 
 #include <cstdint>
@@ -12,20 +13,21 @@
 
 namespace tspace {
 
-/// Integers of 8 bits for three channels, whose lengths are as asked.
+/// Returns the choice of 8-bit integers for three channels with the requested lengths.
 IntegerChoice integerChoice(TexelLengths lengths);
 
 struct VectorMap {
-    std::span<Vec3> vectors = {};      ///< vectors as stored: 2 c - 1 for channels c. Zero: unknown, and unchanged
-    std::span<const bool> keeps = {};  ///< vectors that are such integers and stay
+    /// vectors as stored: 2 c - 1 for channel values c. Zero: unknown, and unchanged
+    std::span<Vec3> vectors = {};
+    std::span<const bool> keeps = {};  ///< vectors that are already integers and must not change
     std::uint32_t width = 0;
     TextureWrap wrap_u = TextureWrap::repeat, wrap_v = TextureWrap::repeat;
-    float scale = 1;  ///< readers multiply x and y by it
+    float scale = 1;  ///< factor by which readers multiply x and y
 };
 
-/// Makes of vectors ones that integers stand for: those by which the filtered map points where it did. One whose length is not
-/// of the asked ones keeps it, within a twentieth; and so do those beside vectors over 9 degrees away.
-/// Memory: 150 bytes a texel, of 130 rows at a time. The same bits for any number of threads.
+/// Replaces vectors by vectors that integers represent and for which the filtered map keeps its directions. A vector
+/// whose length is outside the requested range keeps it within 5 %, as do neighbors of vectors that differ by more than
+/// 9 degrees. Memory: 150 bytes per texel, for 130 rows at a time. The result does not depend on the number of threads.
 void chooseLengths(const VectorMap& map, TexelLengths lengths, Parallel& parallel, const Allocator* allocator);
 
 }  // namespace tspace

@@ -72,7 +72,7 @@ FitSample acrossSample(const Vec3& wanted, float along, float wanted_length) {
 }
 
 FitSample twoChannelSample(const Vec3& wanted) {
-    // The derivative of z by x and y. It is unbounded where the surface is seen from the side, so it is clamped.
+    // Derivative of z with respect to x and y. It is unbounded at grazing angles, so it is clamped.
     const float z = std::max(wanted.z, 0.1f), x = wanted.x / z, y = wanted.y / z;
     const SymmetricBlock metric{1 + x * x, x * y, 0, 1 + y * y, 0, 0};
     return {metric, blockTimes(metric, wanted)};
@@ -80,7 +80,7 @@ FitSample twoChannelSample(const Vec3& wanted) {
 
 namespace {
 
-/// Rows of a task. Sums over tasks are added in order, so that they do not depend on threads.
+/// Rows per task. The sums of tasks are added in order, so the result does not depend on the number of threads.
 constexpr std::size_t kSystemRows = 2048;
 
 class TaskSums {
@@ -97,7 +97,7 @@ class TaskSums {
     Buffer<double> of_tasks_;
 };
 
-/// The inverse of a texel's block with itself, for the preconditioner.
+/// Returns the inverse of a texel's diagonal block, for the preconditioner.
 SymmetricBlock inverseOf(SymmetricBlock m) {
     m[0] += kHold;
     m[3] += kHold;
@@ -112,7 +112,7 @@ SymmetricBlock inverseOf(SymmetricBlock m) {
             factor * (m[0] * m[3] - m[1] * m[1])};
 }
 
-/// Conjugate gradients for the change of the texels, whose numbers are small enough for floats.
+/// Conjugate gradients for the changes of the texels, which are small enough for floats.
 class Gradients {
   public:
     Gradients(const TexelSystem& system, std::span<Vec3> texels, Parallel& parallel, const Allocator* allocator)
@@ -128,7 +128,7 @@ class Gradients {
           second_(allocator, tasks_) {}
 
     void run(const TellStep& tell) {
-        // Each step takes the error down by a factor of about 2; what is left at the end is below what 16 bits show.
+        // Each step halves the error, approximately; the remaining error is below the precision of 16 bits.
         constexpr int kMostSteps = 24;
         constexpr double kSmall = 1e-4;
         begin();
@@ -160,7 +160,7 @@ class Gradients {
         });
     }
 
-    /// The products of the neighbours' blocks with their values, which `of(row, texel)` gives.
+    /// Returns the sum of the products of the neighbors' blocks with their values, given by `of(row, texel)`.
     template <class Of>
     Vec3 around(std::size_t row, const Of& of) const {
         const std::uint32_t texel = system_.texelOf(row);
@@ -239,7 +239,7 @@ void solveTexels(const TexelSystem& system, std::span<Vec3> texels, Parallel& pa
 
 namespace {
 
-/// One texel: q that minimises q.Mq + 2 q.h.
+/// Search for one texel: the q that minimizes q.Mq + 2 q.h.
 class IntegerTexel {
   public:
     IntegerTexel(const IntegerChoice& choice, const SymmetricBlock& m, const Vec3& h)
@@ -249,7 +249,7 @@ class IntegerTexel {
           last_(static_cast<float>(choice.most)),
           m_(m),
           h_(h) {
-        // The best real numbers x and y beside a z lie on a line.
+        // For a given z, the optimal real x and y lie on a line.
         const float factor = 1 / (m[0] * m[3] - m[1] * m[1]);
         start_x_ = factor * (m[1] * h.y - m[3] * h.x);
         slope_x_ = factor * (m[1] * m[4] - m[3] * m[2]);
@@ -260,15 +260,15 @@ class IntegerTexel {
     Vec3 best(const Vec3& start) const { return choice_.is_two_channel ? bestOfTwo(start) : bestOfThree(start); }
 
   private:
-    /// The squared length of the texels around, times their part in what is mixed.
+    /// Squared length of the surrounding texels, multiplied by their part in the mixture.
     static constexpr float kOthers = 0.4F;
 
     [[nodiscard]] int indexOf(float value) const { return static_cast<int>(std::floor((value + 1) / step_ + 0.5f)); }
     [[nodiscard]] bool isInside(float real) const { return real >= -1 && real <= 1; }
-    /// The increase of the energy over its value for real numbers, by an error of dx and dy.
+    /// Returns the energy increase caused by errors dx and dy of the optimal real x and y.
     [[nodiscard]] float added(float dx, float dy) const { return dx * (m_[0] * dx + 2 * m_[1] * dy) + m_[3] * dy * dy; }
 
-    /// Integers beside those of z, in steps: the nearest x, and of the y beside it the one with the least error.
+    /// Integers for a given z, in steps: the nearest x, and the y with the least error for that x.
     template <class Number>
     struct Beside {
         Number x, y, error_x, error_y;
@@ -287,21 +287,22 @@ class IntegerTexel {
     }
 
     [[nodiscard]] Vec3 bestOfThree(const Vec3& start) const {
-        // The value is a sum of squares, up to a constant that only the neighbours change. For the best real numbers it
-        // is taken to be next to nothing: this much, squared, of a sample of which the texel is half.
+        // The value is a sum of squares, up to a constant that depends only on the neighbors. Its minimum over real
+        // numbers is assumed to be this small value (squared, for a sample of which the texel is half).
         constexpr float kLeftOver = 2e-6F;
         const float x = start_x_ + slope_x_ * start.z, y = start_y_ + slope_y_ * start.z;
         const float linear = 2 * (m_[2] * x + m_[4] * y + m_[5] * start.z + h_.z);
         const float square = m_[2] * slope_x_ + m_[4] * slope_y_ + m_[5];
         const float rest =
             kLeftOver * (m_[0] + m_[3] + m_[5]) / 8 + (square > 0 ? linear * linear / (4 * square) : 0.0F);
-        // z of a vector of the least and the most length that points as the start does, and some around.
+        // Range of z for vectors that point like the start and have the least to the most length, with a margin of one
+        // step.
         const float size = std::max(length(start), 1e-6F), slope = start.z / size;
         const float a = slope * choice_.least_length, b = slope * choice_.most_length;
         const int first = std::max(0, indexOf(std::min(a, b)) - 1);
         const int last = std::min(static_cast<int>(choice_.most), indexOf(std::max(a, b)) + 1);
 
-        // From here on all lengths are in steps, and squares of them in squares of steps.
+        // From here on lengths are in steps, and squared lengths in squared steps.
         const float squares = half_ * half_, start_z = (start.z + 1) * half_;
         const Eight least_square = choice_.least_length * choice_.least_length * squares,
                     most_square = choice_.most_length * choice_.most_length * squares;
@@ -315,7 +316,7 @@ class IntegerTexel {
                 at.error_x * (m_[0] * at.error_x + 2 * m_[1] * at.error_y) + m_[3] * (at.error_y * at.error_y);
             const Eight column = at.x - half_, row = at.y - half_, plane = z - half_;
             const Eight squared = column * column + row * row + plane * plane;
-            // Angles are errors in parts of the length of what is mixed: of the texel, and of those around.
+            // Angles are errors relative to the length of the mixture of the texel and its neighbors.
             Eight score = (value + error) / (squared + kOthers * squares);
             score = whereLess(squared, least_square, 1e20F, score);
             score = whereLess(most_square, squared, 1e20F, score);
@@ -326,7 +327,7 @@ class IntegerTexel {
         return vectorOf(least, chosen, start);
     }
 
-    /// The vector of the least score, of equal ones that of the least z; `start` where none is allowed.
+    /// Returns the vector with the lowest score (for equal scores, the lowest z), or `start` if no vector is allowed.
     [[nodiscard]] Vec3 vectorOf(const Eight& scores, const Eight& planes, const Vec3& start) const {
         float least = 1e6F, z = -1;
         for (std::size_t lane = 0; lane < 8; ++lane) {
@@ -343,7 +344,7 @@ class IntegerTexel {
     [[nodiscard]] Vec3 bestOfTwo(const Vec3& start) const {
         const float x = start_x_ + slope_x_ * start.z, y = start_y_ + slope_y_ * start.z;
         if (!isInside(x) || !isInside(y)) return start;
-        // The integer below a real number; so that the next one is an integer too.
+        // Returns the integer below a real number, limited so that the next integer is also valid.
         const auto below = [&](float real) {
             const auto index = static_cast<float>(static_cast<int>((real + 1) * half_));
             return std::max(0.0F, std::min(index, last_ - 1)) * step_ - 1;
@@ -371,12 +372,12 @@ class IntegerTexel {
 float usualLength(const IntegerChoice& choice) { return (choice.least_length + choice.most_length) / 2; }
 
 bool keepsLength(const IntegerChoice& choice, const Vec3& wanted) {
-    // A unit vector may be longer by what its numbers are rounded.
+    // A unit vector may be longer by the rounding error of its components.
     constexpr float kSlack = 1e-5F;
     return choice.keeps_lengths && std::fabs(length(wanted) - 1) > kSlack;
 }
 
-/// The choice is made plane by plane of z: of a vector that has most of its length along x or y that one takes its place.
+/// Chooses the integers plane by plane of z. If x or y is the longest component, the axes are exchanged first.
 Vec3 bestIntegers(IntegerChoice choice, const SymmetricBlock& m, const Vec3& h, Vec3 wanted) {
     if (keepsLength(choice, wanted)) {
         const float size = length(wanted);
@@ -397,8 +398,8 @@ Vec3 bestIntegers(IntegerChoice choice, const SymmetricBlock& m, const Vec3& h, 
     return {best.y, best.z, best.x};
 }
 
-/// The integers for a texel whose row of the system has the block `own`, and of which `rest` is what its neighbours leave. A weak
-/// pull to its own direction decides where no sample does.
+/// Returns the integers for a texel whose system row has the diagonal block `own`; `rest` is the contribution of its
+/// neighbors. A weak pull to its own direction decides if no samples do.
 Vec3 chosenFor(const IntegerChoice& choice, const SymmetricBlock& own, const Vec3& rest, const Vec3& wanted) {
     DVec3 unit_wanted = toDouble(wanted);
     if (!normalize(unit_wanted)) return wanted;
@@ -409,7 +410,7 @@ Vec3 chosenFor(const IntegerChoice& choice, const SymmetricBlock& own, const Vec
     return bestIntegers(choice, block, rest - kHold * hold.side, wanted);
 }
 
-/// Texels that take no part in the system follow from themselves. Most are of the background, and alike.
+/// Texels that take no part in the system are chosen independently. Most of them are background, and equal.
 void chooseApart(const TexelSystem& system, const IntegerChoice& choice, std::span<Vec3> texels, Parallel& parallel) {
     parallel.forRanges(system.height(), 4, [&](std::size_t begin, std::size_t end) {
         Vec3 last_wanted{}, last_chosen{};
@@ -432,7 +433,7 @@ void chooseIntegers(const TexelSystem& system, const IntegerChoice& choice, std:
     chooseApart(system, choice, texels, parallel);
     Buffer<Vec3> wanted(allocator, texels.size());
     std::copy(texels.begin(), texels.end(), wanted.begin());
-    // Texels that are not chosen yet are taken to have the usual length of a chosen one.
+    // Assumes that texels not chosen yet have the usual length.
     if (!choice.is_two_channel) {
         for (std::size_t i = 0; i < texels.size(); ++i) {
             if (!system.isUnknown(system.rowOf(i)) || keepsLength(choice, texels[i])) continue;
@@ -459,8 +460,8 @@ void chooseIntegers(const TexelSystem& system, const IntegerChoice& choice, std:
 
 namespace {
 
-/// Roundings of one texel. Vectors are in steps from the middle of what integers stand for: whole numbers and a half, where their
-/// number is even.
+/// Rounds one texel. Vectors are in steps relative to the middle of the integer range: integers plus one half if the
+/// number of values is even.
 class StepRounding {
   public:
     explicit StepRounding(const TexelRounding& rounding)
@@ -470,8 +471,8 @@ class StepRounding {
 
     [[nodiscard]] Vec3 nearest(const Vec3& v) const { return {nearest(v.x), nearest(v.y), nearest(v.z)}; }
 
-    /// Among lattice vectors near `wanted`, which may be a little longer or shorter, the one with the least error
-    /// across it.
+    /// Returns, among lattice vectors near `wanted` that may be slightly longer or shorter, the one with the least
+    /// perpendicular error.
     [[nodiscard]] Vec3 nearestAcross(const Vec3& wanted) const {
         std::array<float, 3> v{wanted.x, wanted.y, wanted.z};
         std::size_t main = 0;
@@ -481,12 +482,12 @@ class StepRounding {
         const std::size_t second = (main + 1) % 3, third = (main + 2) % 3;
         const float sign = v[main] < 0 ? -1.0F : 1.0F, size = sign * v[main];
         const float slope_b = v[second] / size, slope_c = v[third] / size;
-        // The flatter, the more a vector must grow before another number of the others fits it better.
+        // The smaller the slopes, the more the length must change before other components round to different integers.
         const float steepest = std::max(std::fabs(slope_b), std::fabs(slope_c));
         const float stride =
             steepest * kMostStride > kMove ? std::floor(std::max(1.0F, kMove / steepest)) : kMostStride;
         const float first = std::min(nearest(size) - stride * (kLengths / 2), middle_ - stride * (kLengths - 1));
-        // A vector that is short compared with a step has no meaningful error across it.
+        // A vector that is short relative to a step has no meaningful perpendicular error.
         if (!(first > stride * kLengths)) return nearest(wanted);
         const float shorter = 1 / (1 + slope_b * slope_b + slope_c * slope_c);
         std::array<float, kLengths> b, c, off;
@@ -506,8 +507,8 @@ class StepRounding {
     }
 
   private:
-    /// Lengths that are tried. Their spacing moves one of the other components by a fraction of a step, up to a limit
-    /// of steps.
+    /// Number of lengths tried. Their spacing moves one of the other components by a fraction of a step; the spacing
+    /// has a maximum, in steps.
     static constexpr int kLengths = 8;
     static constexpr float kMove = 0.4F, kMostStride = 40;
 
@@ -525,8 +526,8 @@ void roundTexels(std::span<Vec3> texels, std::uint32_t width, const TexelRoundin
                  const Allocator* allocator) {
     const auto height = static_cast<std::uint32_t>(texels.size() / width);
     const StepRounding steps(rounding);
-    // The rounding errors so far, in steps; each texel is rounded with its neighbours fixed. An error along a vector
-    // turns nothing, and does not count.
+    // Rounding errors so far, in steps; each texel is rounded with its neighbors fixed. An error along the vector does
+    // not change its direction and is ignored.
     Buffer<Vec3> off(allocator, texels.size(), Vec3{});
     const auto roundRow = [&](std::uint32_t y) {
         const std::size_t here = std::size_t{y} * width, above = std::size_t{y > 0 ? y - 1 : height - 1} * width,
@@ -536,7 +537,7 @@ void roundTexels(std::span<Vec3> texels, std::uint32_t width, const TexelRoundin
             const std::size_t left = x > 0 ? x - 1 : width - 1, right = x + 1 < width ? x + 1 : 0;
             const Vec3 sides = (off[here + left] + off[here + right]) + (off[above + x] + off[below + x]);
             const Vec3 corners = (off[above + left] + off[above + right]) + (off[below + left] + off[below + right]);
-            // The integral of two filters: 4/9 at the texel itself, 1/9 at its sides, 1/36 at its corners.
+            // Integral of the product of two filters: 4/9 at the texel itself, 1/9 at its sides, 1/36 at its corners.
             const Vec3 others = 0.25F * sides + 0.0625F * corners;
             // Subtracts the rounding error of an earlier round.
             const Vec3 wanted = steps.middle() * texels[here + x] - off[here + x];
@@ -554,7 +555,7 @@ void roundTexels(std::span<Vec3> texels, std::uint32_t width, const TexelRoundin
             texels[here + x] = (1 / steps.middle()) * chosen;
         }
     };
-    // With free lengths the second round gains next to nothing.
+    // If lengths are free, a second round gains almost nothing.
     for (int round = 0; round < (rounding.keeps_lengths ? 2 : 1); ++round) forRowsApart(parallel, height, roundRow);
 }
 

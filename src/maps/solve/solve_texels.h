@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Texels that solve a TexelSystem: as real numbers, or as integers.
+// Solves a TexelSystem for texels: real numbers or integers.
 #pragma once
 
 #include <array>
@@ -14,11 +14,12 @@
 
 namespace tspace {
 
-/// Least width and height of an image whose texels are solved for: texels of smaller images are their own neighbors.
+/// Minimum width and height of an image that is solved: in smaller images texels would be their own neighbors.
 inline constexpr std::uint32_t kLeastSolved = 4;
 
-// The texels of a map as unknowns, and what samples ask of them under the bilinear filter: least squares, one symmetric 3 x 3
-// block for each pair of texels that a sample mixes. The image repeats: samples of others mix no texels over its edge. Only texels that samples mix take memory.
+// Texels of a map as unknowns, and the equations of samples of the bilinearly filtered map: least squares, with one
+// symmetric 3 x 3 block for each pair of texels that a sample mixes. The image repeats; samples of images that do not
+// repeat mix no texels across the edge. Only texels that samples mix take memory.
 
 /// xx, xy, xz, yy, yz, zz
 using SymmetricBlock = std::array<float, 6>;
@@ -28,24 +29,24 @@ inline Vec3 blockTimes(const SymmetricBlock& m, const Vec3& v) {
             m[2] * v.x + m[4] * v.y + m[5] * v.z};
 }
 
-/// The row of the normal equations of one texel: its diagonal block, its blocks with the neighbours right, left below,
-/// below and right below (the other four are stored by those neighbours), and the right side.
+/// Row of the normal equations for one texel: its diagonal block, the blocks with its right, lower left, lower and
+/// lower right neighbors (the other four neighbors store their blocks with it), and the right-hand side.
 struct TexelRow {
     std::array<SymmetricBlock, 5> blocks = {};
     Vec3 side = {};
 };
 
-/// A sample: the filtered map shall be `target` at a place between four texels, and errors count as `metric` says.
+/// Sample: the filtered map should be `target` at a point between four texels; `metric` defines the error.
 struct FitSample {
     SymmetricBlock metric = {};
     Vec3 side = {};  ///< metric times target
 };
 
-/// The part that a texel plays in the system.
+/// Role of a texel in the system.
 enum class TexelRole : std::uint8_t {
-    apart,   ///< samples ask nothing of it that is remembered
-    fixed,   ///< samples mix it with others, which are unknown
-    unknown  ///< is to be found. Of all samples that read it, all that they mix have a row
+    apart,   ///< not in the system: samples that mix it are skipped
+    fixed,   ///< fixed value that samples mix with unknown texels
+    unknown  ///< to be solved; every sample that reads it mixes only texels with a row
 };
 
 class TexelSystem {
@@ -61,7 +62,7 @@ class TexelSystem {
     [[nodiscard]] std::uint32_t below(std::uint32_t y) const { return y + 1 < height_ ? y + 1 : 0; }
     [[nodiscard]] std::uint32_t above(std::uint32_t y) const { return y > 0 ? y - 1 : height_ - 1; }
 
-    /// Row 0 is zero, and shared by all texels that take no part.
+    /// Row 0 is zero, and shared by all texels that are not in the system.
     [[nodiscard]] std::size_t rowCount() const { return rows_.size(); }
     [[nodiscard]] std::uint32_t rowOf(std::uint32_t x, std::uint32_t y) const {
         return row_of_[std::size_t{y} * width_ + x];
@@ -71,11 +72,11 @@ class TexelSystem {
     [[nodiscard]] std::uint32_t texelOf(std::size_t row) const { return texel_of_[row]; }
     [[nodiscard]] bool isUnknown(std::size_t row) const { return is_unknown_[row]; }
 
-    /// Adds a sample that lies `fx`, `fy` (0 to 1) right of and below the centre of a texel. A sample that mixes a texel
-    /// that is apart is left out.
+    /// Adds a sample at the offset `fx`, `fy` (0 to 1) to the right of and below the center of a texel. Skips a sample
+    /// that mixes a texel with the role `apart`.
     void add(std::uint32_t x, std::uint32_t y, float fx, float fy, const FitSample& sample);
 
-    /// The row of a texel times its neighbours, whose values `at(x, y)` gives: all but the diagonal block.
+    /// Returns the row of a texel multiplied by its neighbors, given by `at(x, y)`, without the diagonal block.
     template <class At>
     [[nodiscard]] Vec3 aroundTexel(std::uint32_t x, std::uint32_t y, const At& at) const {
         const std::uint32_t left_x = left(x), right_x = right(x), above_y = above(y), below_y = below(y);
@@ -97,17 +98,19 @@ class TexelSystem {
     Buffer<TexelRow> rows_ = {};
 };
 
-/// Errors count across the unit vector `wanted`; along it, where only the length changes, by the part `along`.
+/// Returns a sample that measures errors perpendicular to the unit vector `wanted`. Errors along it, which change only
+/// the length, have the weight `along`.
 FitSample acrossSample(const Vec3& wanted, float along, float wanted_length);
-/// Errors of the vector (x, y, sqrt(1 - x^2 - y^2)), as two-channel maps are read.
+/// Returns a sample that measures errors of the vector (x, y, sqrt(1 - x^2 - y^2)), as decoded from two-channel maps.
 FitSample twoChannelSample(const Vec3& wanted);
 
-/// Weight that holds texels to their start values, relative to one sample at the texel's centre. It decides where
-/// samples constrain next to nothing: at the rim of a chart.
+/// Weight that pulls texels to their initial values, relative to one sample at the texel center. It matters where
+/// samples constrain almost nothing: at the rim of a chart.
 inline constexpr float kHold = 0.004F;
 
-/// Things in a ring, of which no two at the same time are beside each other: some(first, number) for every second one from
-/// `first` on, of the even ones, then the odd ones, then the last of an odd number. False as soon as some() says so.
+/// Visits elements of a ring such that no two adjacent ones are processed at the same time: some(first, number)
+/// processes `number` elements, every second one from `first` on: first the even elements, then the odd ones, then the
+/// last one of an odd count.
 template <class Some>
 void forApart(std::size_t count, const Some& some) {
     some(std::size_t{0}, count / 2);
@@ -115,7 +118,7 @@ void forApart(std::size_t count, const Some& some) {
     some(count - 1, count % 2);
 }
 
-/// row(y) for all rows of an image that repeats.
+/// Calls row(y) for all rows of an image that repeats; adjacent rows never run at the same time.
 template <class Row>
 void forRowsApart(Parallel& parallel, std::uint32_t height, const Row& row) {
     forApart(height, [&](std::size_t first, std::size_t number) {
@@ -128,37 +131,38 @@ void forRowsApart(Parallel& parallel, std::uint32_t height, const Row& row) {
 /// Called before step `done` of at most `total` steps; may throw, which ends the call.
 using TellStep = std::function<void(std::uint64_t done, std::uint64_t total)>;
 
-/// Moves the unknown ones of `texels` (width * height) to the least squares, by conjugate gradients. The same bits for any
-/// number of threads.
+/// Solves the unknown `texels` (width * height) by least squares, with conjugate gradients. The result does not depend
+/// on the number of threads.
 void solveLeastSquares(const TexelSystem& system, std::span<Vec3> texels, Parallel& parallel,
                        const Allocator* allocator, const TellStep& tell = {});
 
-/// Like the overload above, for vectors of at most unit length.
+/// Like solveLeastSquares, for vectors of at most unit length.
 void solveTexels(const TexelSystem& system, std::span<Vec3> texels, Parallel& parallel, const Allocator* allocator,
                  const TellStep& tell = {});
 
-/// The vectors that integers stand for: n from 0 to `most` is 2 n / most - 1.
+/// Vectors represented by integers: n from 0 to `most` stands for 2 n / most - 1.
 struct IntegerChoice {
     unsigned most = 255;
     float least_length = 0.7F, most_length = 1.1F;  ///< range of vector lengths; no component may exceed 1
-    bool is_two_channel = false;                    ///< z follows from x and y, whose vector is unit
-    bool keeps_lengths = false;                     ///< a vector that is not unit keeps its length, within a twentieth
+    bool is_two_channel = false;                    ///< z is reconstructed from x and y (unit vector)
+    bool keeps_lengths = false;                     ///< a vector that is not unit keeps its length within 5 %
 };
 
-/// Makes of `texels` vectors that integers stand for, one after the other, such that what the samples ask is met as well as
-/// it can be with those around; `rounds` times. Fixed ones stay. The same bits for any number of threads.
+/// Replaces unknown `texels`, one after the other, by vectors that integers represent and that minimize the error of
+/// the samples, given the surrounding texels; repeats this `rounds` times. Fixed texels are unchanged. The result does
+/// not depend on the number of threads.
 void chooseIntegers(const TexelSystem& system, const IntegerChoice& choice, std::span<Vec3> texels, unsigned rounds,
                     Parallel& parallel, const Allocator* allocator, const TellStep& tell = {});
 
 struct TexelRounding {
     unsigned most = 65535;
-    bool keeps_lengths = false;  ///< else vectors may become longer or shorter by half a hundredth, and point better
+    bool keeps_lengths = false;        ///< otherwise lengths may change by 0.5 % for better directions
     std::span<const bool> keeps = {};  ///< texels that must not change; empty: none
 };
 
-/// Makes of each component of `texels` a number that an integer from 0 to `most` stands for, such that those around make good
-/// under the filter what is rounded off: as chooseIntegers, where integers are so many that all count the same. The image
-/// repeats. The same bits for any number of threads.
+/// Rounds each component of `texels` to a value that an integer from 0 to `most` represents, such that neighboring
+/// texels compensate for rounding errors under filtering. Like chooseIntegers, but for so many integers that all errors
+/// have equal weight. The image repeats. The result does not depend on the number of threads.
 void roundTexels(std::span<Vec3> texels, std::uint32_t width, const TexelRounding& rounding, Parallel& parallel,
                  const Allocator* allocator);
 

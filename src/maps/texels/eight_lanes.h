@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Eight numbers side by side, which compilers turn into what the CPU has. Each operation is that of IEEE 754 by itself, so all CPUs
-// give the same bits.
+// Vectors of eight numbers, which compilers translate to SIMD instructions of the target CPU. Each operation conforms
+// to IEEE 754, so the result is identical on all CPUs.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +8,7 @@
 
 namespace tspace {
 
-/// A number of four lanes twice: vectors of 16 bytes are what every CPU with lanes has.
+/// Eight floats as two vectors of four: every CPU with SIMD has 16-byte vectors.
 struct Eight {
     using Four = float __attribute__((vector_size(16)));
     using FourInts = std::int32_t __attribute__((vector_size(16)));
@@ -16,7 +16,8 @@ struct Eight {
 
     Eight() = default;
     Eight(Four a, Four b) : low(a), high(b) {}
-    Eight(float all) : low{all, all, all, all}, high(low) {}  // NOLINT(google-explicit-constructor): as float is
+    // NOLINT(google-explicit-constructor): implicit, like float
+    Eight(float all) : low{all, all, all, all}, high(low) {}
 
     [[nodiscard]] float operator[](std::size_t lane) const { return lane < 4 ? low[lane] : high[lane - 4]; }
     void set(std::size_t lane, float value) {
@@ -40,7 +41,7 @@ inline Eight larger(const Eight& a, const Eight& b) {
 inline Eight whereLess(const Eight& a, const Eight& b, const Eight& x, const Eight& y) {
     return {a.low < b.low ? x.low : y.low, a.high < b.high ? x.high : y.high};
 }
-/// Towards zero; |a| is below 2^31.
+/// Truncates toward zero; |a| must be below 2^31.
 inline Eight whole(const Eight& a) {
     const auto of = [](Eight::Four four) {
         return __builtin_convertvector(__builtin_convertvector(four, Eight::FourInts), Eight::Four);
@@ -48,7 +49,7 @@ inline Eight whole(const Eight& a) {
     return {of(a.low), of(a.high)};
 }
 inline Eight between(const Eight& a, const Eight& least, const Eight& most) { return smaller(larger(a, least), most); }
-/// To the nearest whole number; none is below 0.
+/// Rounds to the nearest integer; a must not be negative.
 inline Eight nearestWhole(const Eight& a) { return whole(a + 0.5F); }
 
 }  // namespace tspace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Whether an image is grey, whatever its texels are stored as.
+// Detects gray images in any storage format.
 #pragma once
 
 #include <algorithm>
@@ -9,10 +9,11 @@
 
 namespace tspace {
 
-/// Correlations of red with green, green with blue, and blue with red; 0 where one of them is constant.
+/// Returns the correlations of red with green, green with blue, and blue with red; 0 if one of the channels is
+/// constant.
 template <class TexelAt>
 std::array<double, 3> channelCorrelations(std::size_t count, const TexelAt& texelAt) {
-    constexpr double kConstant = 2.5;  // root of the mean square, of 255: compression adds as much
+    constexpr double kConstant = 2.5;  // RMS deviation in units of 1/255: compression adds about as much
     std::array<double, 3> sum = {}, squares = {}, products = {};
     for (std::size_t i = 0; i < count; ++i) {
         const std::array<double, 3> texel = texelAt(i);
@@ -34,8 +35,9 @@ std::array<double, 3> channelCorrelations(std::size_t count, const TexelAt& texe
     return correlations;
 }
 
-/// Whether 98 % of the texels have equal channels but for what compressing adds; or a weak tint, where the channels go
-/// together besides. Two channels of a normal map beside a constant one do not. `texelAt(i)`: of 255.
+/// Returns whether 98 % of the texels have equal channels within compression errors, or a weak tint with correlated
+/// channels. This rejects normal maps with one constant channel, whose other two channels are not correlated.
+/// `texelAt(i)`: values from 0 to 255.
 template <class TexelAt>
 bool isGrey(std::size_t count, const TexelAt& texelAt) {
     constexpr double kApart = 4.5, kTintApart = 6.5, kMostTint = 0.1, kMost = 0.98, kLeastCorrelation = 0.95;

@@ -17,7 +17,7 @@ double nearestTo(double value, unsigned most) {
     return std::clamp(std::floor((value + 1) * 0.5 * most + 0.5), 0.0, static_cast<double>(most));
 }
 
-/// Squares of sines, of directions less than a right angle apart; 4 for others.
+/// Returns the squared sine of the angle for directions less than a right angle apart, and 4 for others.
 double distance(const DVec3& vector, const DVec3& direction) {
     const double along = dot(vector, direction), squared = dot(vector, vector);
     if (!(along > 0)) return 4;
@@ -64,14 +64,16 @@ DVec3 nearestIntegers(const IntegerVectors& numbers, const DVec3& direction) {
     for (std::size_t i = 1; i < 3; ++i) {
         if (std::fabs(d[i]) > std::fabs(d[main])) main = i;
     }
-    // For every integer of the largest component, the best of the others beside it. Longer ones win among equals.
+    // For every integer of the largest component, tries the best integers of the other components. Among equally good
+    // vectors the longest is chosen.
     const double first = d[main] < 0 ? 0 : most, toward = d[main] < 0 ? 1 : -1;
     const auto steps = static_cast<unsigned>((1 - numbers.least_length * std::fabs(d[main])) * 0.5 * most) + 1;
     DVec3 best{};
     double least = INFINITY;
     for (unsigned step = 0; step <= steps; ++step) {
         const double value = valueOf(first + toward * step, most), size = value / d[main];
-        // The two integers around each of the others: where they are large, the nearer one may point worse.
+        // Tries both integers around each of the other components: for long vectors the nearer integer may give a worse
+        // direction.
         for (unsigned sides = 0; sides < 4; ++sides) {
             Components vector{};
             vector[main] = value;

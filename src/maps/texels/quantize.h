@@ -1,25 +1,26 @@
 // SPDX-License-Identifier: MIT
-// Vectors as integers: with few bits, the length decides how well they point.
+// Vectors as integers: with few bits, the length determines the accuracy of the direction.
 #pragma once
 
 #include "core/base/vec_math.h"
 
 namespace tspace {
 
-/// The vectors that integers stand for: n from 0 to `most` is 2 n / most - 1.
+/// Vectors represented by integers: n from 0 to `most` stands for 2 n / most - 1.
 struct IntegerVectors {
     unsigned most = 255;
-    /// Shorter vectors lose weight under filters that make texels unit.
+    /// Minimum vector length. Shorter vectors lose weight under filters that mix texels.
     double least_length = 0.7;
-    bool is_two_channel = false;  ///< z follows from x and y, whose vector is unit
-    double scale = 1;             ///< readers multiply x and y by it
+    bool is_two_channel = false;  ///< z is reconstructed from x and y (unit vector)
+    double scale = 1;             ///< factor by which readers multiply x and y
 };
 
-/// Each component to the nearest that an integer stands for.
+/// Rounds each component to the nearest value that an integer represents.
 DVec3 roundedVector(unsigned most, const DVec3& vector);
 
-/// The vector of integers that points nearest to a direction as readers see it, of any length from the least to what fits. With
-/// two channels the length is 1 (z as close as it can be), and z must not be negative. `direction`, before the scale, is unit.
+/// Returns the integer vector whose decoded direction is closest to `direction`, with any length from the minimum to
+/// the longest that fits. With two channels the length is 1 (z as close as possible), and z must not be negative.
+/// `direction`: unit, before division by the scale.
 DVec3 nearestIntegers(const IntegerVectors& numbers, const DVec3& direction);
 
 }  // namespace tspace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The shading reference: from a texel and the frames of a triangle to the normal that a renderer shades, and back. In
-// double, so that measured errors are not its own rounding. See MapReading.
+// Shading reference: converts a texel and the frames of a triangle to the normal that a renderer shades, and back. In
+// double precision, so that its rounding does not affect measured errors. See MapReading.
 #pragma once
 
 #include <array>
@@ -17,23 +17,23 @@ struct CornerFrames {
     std::array<Vec4, 3> tangents = {};
 };
 
-/// T, B and N where a texel is applied: neither unit nor at right angles.
+/// T, B and N at a shaded point; neither unit nor orthogonal.
 struct ShadingFrame {
     DVec3 tangent, bitangent, normal;
 };
 
-/// At the point with these barycentric coordinates (their sum is 1; a point outside of the triangle goes on as its plane
-/// does).
+/// Interpolates the frame at barycentric coordinates, whose sum must be 1 (points outside the triangle are
+/// extrapolated).
 ShadingFrame shadingFrame(const CornerFrames& corners, const std::array<double, 3>& weights, const MapReading& reading);
 
 /// Decodes a texel, channels from 0 to 1, to a vector along T, B and N, with green, scale and the third channel
 /// applied. The length is not changed.
 DVec3 decodeTexel(const Vec3& texel, const MapReading& reading);
-/// The texel that is decoded to the vector, or nearly: channels beyond 0 to 1 are not clamped. With two channels the vector
-/// is made unit, and its z must not be negative.
+/// Returns the texel that decodes to the vector, approximately: channels outside 0 to 1 are not clamped. With two
+/// channels the vector is normalized first, and its z must not be negative.
 DVec3 encodeTexel(const DVec3& vector, const MapReading& reading);
 
-/// A direction in the coordinates of the meshes along the axes of a map, and back.
+/// Converts a direction from mesh coordinates to the axes of a map (alongAxes), and back (fromAxes).
 inline DVec3 alongAxes(const MapAxes& axes, const DVec3& direction) {
     return {dot(toDouble(axes.x), direction), dot(toDouble(axes.y), direction), dot(toDouble(axes.z), direction)};
 }
@@ -41,13 +41,14 @@ inline DVec3 fromAxes(const MapAxes& axes, const DVec3& vector) {
     return vector.x * toDouble(axes.x) + vector.y * toDouble(axes.y) + vector.z * toDouble(axes.z);
 }
 
-/// unit(x T + y B + z N); zero where that has no direction.
+/// Returns unit(x T + y B + z N), or zero if that has no direction.
 DVec3 shadedNormal(const ShadingFrame& frame, const DVec3& vector);
-/// The unit vector (x, y, z) for which shadedNormal gives the direction: the inverse of the frame, whatever it is, and not
-/// its transpose. Zero where the frame is singular or the direction has none.
+/// Returns the unit vector (x, y, z) for which shadedNormal returns the direction. Uses the inverse of the frame rather
+/// than its transpose. Returns zero if the frame is singular or the direction is zero.
 DVec3 vectorFor(const ShadingFrame& frame, const DVec3& direction);
 
-/// In degrees, exact for small angles too. Not finite where one of them is; 0 where one is zero.
+/// Returns the angle in degrees, accurate for small angles too. Not finite if an argument is not finite; 0 if one is
+/// zero.
 double degreesBetween(const DVec3& a, const DVec3& b);
 
 }  // namespace tspace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Bilinear filtering: which texels a point of a texture is made of. Texel centres lie at (i + 0.5) / size, as in every
-// graphics API; row 0 is v = 0.
+// Bilinear filtering: the texels and weights of a point of a texture. Texel centers are at (i + 0.5) / size, as in all
+// graphics APIs; row 0 is v = 0.
 #pragma once
 
 #include <array>
@@ -20,10 +20,10 @@ struct TextureShape {
     TextureWrap wrap_u = TextureWrap::repeat, wrap_v = TextureWrap::repeat;
 };
 
-/// The texel that stands at column (or row) `at` of a texture that goes on in all directions. Any number.
+/// Returns the texel at column (or row) `at` of a texture that continues infinitely in all directions.
 inline std::uint32_t wrappedTexel(std::int64_t at, std::uint32_t size, TextureWrap wrap) {
     const std::int64_t count = size;
-    // Nearly always, and a division takes longer than all else here.
+    // Fast path for nearly all calls: a division would dominate the time.
     if (at >= 0 && at < count) return static_cast<std::uint32_t>(at);
     if (wrap == TextureWrap::clamp) return static_cast<std::uint32_t>(at < 0 ? 0 : at < count ? at : count - 1);
     const std::int64_t period = wrap == TextureWrap::mirror ? 2 * count : count;
@@ -32,13 +32,13 @@ inline std::uint32_t wrappedTexel(std::int64_t at, std::uint32_t size, TextureWr
     return static_cast<std::uint32_t>(inside < count ? inside : period - 1 - inside);
 }
 
-/// Four texels (numbers y * width + x) and what each counts; the weights have the sum 1.
+/// Indices (y * width + x) and weights of four texels; the weights sum to 1.
 struct BilinearTaps {
     std::array<std::size_t, 4> texels = {};
     std::array<float, 4> weights = {};
 };
 
-/// UVs that are not finite, or lie 2^40 texels away or more, read the texel at (0, 0).
+/// Returns the four texels of a sample. UVs that are not finite, or 2^40 texels or more away, read the texel at (0, 0).
 inline BilinearTaps bilinearTaps(const TextureShape& shape, Vec2 uv) {
     const double x = static_cast<double>(uv.x) * shape.width - 0.5, y = static_cast<double>(uv.y) * shape.height - 0.5;
     constexpr double kFar = 1099511627776.0;
@@ -57,7 +57,7 @@ inline BilinearTaps bilinearTaps(const TextureShape& shape, Vec2 uv) {
             {(1 - right) * (1 - below), right * (1 - below), (1 - right) * below, right * below}};
 }
 
-/// `texels`: width * height.
+/// Samples `texels`, an array of width * height, with bilinear filtering.
 inline Vec3 sampleBilinear(const TextureShape& shape, std::span<const Vec3> texels, Vec2 uv) {
     const BilinearTaps taps = bilinearTaps(shape, uv);
     Vec3 sum{};
