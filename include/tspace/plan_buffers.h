@@ -24,15 +24,17 @@ struct PlanBufferOptions {
     /// The mesh of the plan, whose normals the shader computes from positions. Positions decide which corners share one.
     /// No vertices, the default: a pose brings its normals.
     MeshView mesh = {};
-    NormalOptions normals = {};  ///< with `mesh`: all weightings but `best`; `denoise` must be 0
+    /// How the normals of `mesh` are computed: every weighting but NormalWeighting::best. `denoise` must be 0, and only
+    /// lengyel reads the convention: other plans have theirs.
+    NormalOptions normals = {};
 };
 
-/// The words of a plan: a header, then the three arrays that it names. All numbers are 32-bit words in the byte order of
-/// the machine. docs/guides/gpu.md describes how a result is computed from them.
+/// The words of a plan: a header of 12 words, then the three arrays that it names. All numbers are 32-bit words in the byte
+/// order of the machine. docs/guides/gpu.md describes the header, and how a result is computed.
 ///
-/// Results, 3 words each: its first entry; the count of its entries (bits 0..27) with flags; its own corner as an entry, or
-/// kNoEntry. Corners that share a tangent and a normal have the same entries.
-/// Entries, 1 word each, in the order of summation: a corner of a triangle, 4 * triangle + corner, with flags. kNextPart
+/// Results, 3 words each: the first entry; the count of entries (bits 0..27) with flags; the own corner of the result as an
+/// entry, or 0xffffffff. Corners that share a tangent and a normal have the same entries.
+/// Entries, 1 word each, in the order of summation: a corner of a triangle, 4 * triangle + corner, with flags. 0xffffffff
 /// separates parts of a result that is the normalized mean of several.
 /// Triangles: three vertices, then UV coefficients as floats: (a, b) with dP/du along a * e1 - b * e2, where
 /// e1 = P1 - P0, e2 = P2 - P0; for `lengyel` (a, b, c, d) with dP/du = a * e1 - b * e2 and dP/dv = c * e2 - d * e1.

@@ -1030,6 +1030,64 @@ tspace_ErrorCode tspace_makeIndexedFrames(const tspace_Mesh* mesh, const tspace_
 /* Frees a result of tspace_makeIndexedFrames. Null is allowed. */
 void tspace_destroyIndexedFrames(tspace_IndexedFrames* frames) TSPACE_NOEXCEPT;
 
+/* == plan_buffers.h ==
+ * A tangent plan as one flat array of words, for compute shaders: shaders/tspace_evaluate.* read it. */
+
+/* What tspace_planBuffers writes beside the plan itself. */
+typedef struct tspace_PlanBufferOptions {
+    uint32_t struct_size;
+    uint32_t reserved;
+    /* The vertex of each corner in the arrays of a pose, as tspace_IndexedFrames.indices; empty: the indices of the
+     * plan's mesh. */
+    const uint32_t* indices;
+    size_t index_count;
+    /* The corner that each result belongs to, as tspace_IndexedFrames.source_corners; TSPACE_NO_CORNER: none. Empty:
+     * one result per output of tspace_evaluateTangents. */
+    const uint32_t* source_corners;
+    size_t source_corner_count;
+    /* The mesh of the plan, whose normals the shader computes from positions. Positions decide which corners share
+     * one. No vertices, the default: a pose brings its normals.
+     * In C: null: none. */
+    const tspace_Mesh* mesh;
+    /* How the normals of `mesh` are computed: every weighting but TSPACE_NORMAL_WEIGHTING_BEST. `denoise` must be 0,
+     * and only lengyel reads the convention: other plans have theirs.
+     * In C: null: the defaults. */
+    const tspace_NormalOptions* normals;
+} tspace_PlanBufferOptions;
+
+/* The words of a plan: a header of 12 words, then the three arrays that it names. All numbers are 32-bit words in
+ * the byte order of the machine. docs/guides/gpu.md describes the header, and how a result is computed.
+ *
+ * Results, 3 words each: the first entry; the count of entries (bits 0..27) with flags; the own corner of the result
+ * as an entry, or 0xffffffff. Corners that share a tangent and a normal have the same entries.
+ * Entries, 1 word each, in the order of summation: a corner of a triangle, 4 * triangle + corner, with flags.
+ * 0xffffffff separates parts of a result that is the normalized mean of several.
+ * Triangles: three vertices, then UV coefficients as floats: (a, b) with dP/du along a * e1 - b * e2, where e1 = P1
+ * - P0, e2 = P2 - P0; for TSPACE_METHOD_LENGYEL (a, b, c, d) with dP/du = a * e1 - b * e2 and dP/dv = c * e2 - d *
+ * e1.
+ * In C: made by the library; later versions may append fields. */
+typedef struct tspace_PlanBuffers {
+    const uint32_t* words;
+    size_t word_count;
+    size_t result_count; /* as in the header: the number of threads to dispatch */
+} tspace_PlanBuffers;
+
+/* Writes the plan as words. About 12 bytes per result and 32 per triangle of entries and triangles (40 for
+ * TSPACE_METHOD_LENGYEL).
+ *
+ * Errors: INVALID_OPTION for the methods flat, basis and best, for TSPACE_FRAME_SYMMETRIC, for normals that are
+ * `best` or denoised, and for a plan of several index lists without `indices`; COUNT_MISMATCH and INDEX_OUT_OF_RANGE
+ * for arrays of `options` that do not fit the plan; TOO_LARGE above 268,435,455 triangles; those of
+ * tspace_generateNormals; OUT_OF_MEMORY. O(n log n) in results, else linear, plus the size of groups that an angular
+ * threshold splits. Thread-safe.
+ * In C: options null: the defaults. *buffers is null after an error. Free it with tspace_destroyPlanBuffers. */
+tspace_ErrorCode tspace_planBuffers(const tspace_TangentPlan* plan, const tspace_PlanBufferOptions* options,
+                                    const tspace_Execution* execution, tspace_PlanBuffers** buffers,
+                                    tspace_Error* error) TSPACE_NOEXCEPT;
+
+/* Frees a result of tspace_planBuffers. Null is allowed. */
+void tspace_destroyPlanBuffers(tspace_PlanBuffers* buffers) TSPACE_NOEXCEPT;
+
 /* == pack.h ==
  * Whole frames (N, T and the sign) in 4 to 16 bytes, with a bound on the error that is never exceeded.
  * All functions are pure, allocate nothing, use one thread, and may be called from any thread at the same time.

@@ -30,7 +30,7 @@ def fields(headers):
         if owner.endswith(("Report", "Noise")):
             lines += ["", f"inline {owner} toReport(const {twin}& from) {{", f"    {owner} made;", "    TSPACE_INIT(made);",
                       *(f"    made.{field} = from.{_from_cpp(entity)};" for field, entity in members), "    return made;", "}"]
-        elif owner.endswith("Options"):
+        elif owner.endswith("Options") and owner != "tspace_PlanBufferOptions":  # arrays and structs alone
             kinds = [(field, kind) for field, entity in members for kind in [_kind(entity, largest)] if kind]
             lines += ["", f"inline void copyFields(const {owner}& from, {twin}& to) {{",
                       *(f"    to.{field} = {kind.format('from.' + field)};" for field, kind in kinds), "}",

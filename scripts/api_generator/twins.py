@@ -27,7 +27,9 @@ C_ALONE = {
     r"\w+\.(struct_size|reserved(_end)?)": "old programs with newer libraries",
     r"tspace_(Byte)?Span": "a StridedSpan of what is not const",
     r"tspace_(Mesh\.face|NormalOptions\.smoothing_group|IndexedFramesOptions\.keep_apart)_count": "a span has its length",
-    r"tspace_((SplitResult|IndexedFrames)\.corner|Triangulation\.triangle)_count": "a vector has its length",
+    r"tspace_((SplitResult|IndexedFrames)\.corner|Triangulation\.triangle|PlanBuffers\.word)_count": "a vector has its length",
+    r"tspace_PlanBufferOptions\.(index|source_corner)_count": "a span has its length",
+    r"tspace_PlanBuffers\.result_count": "PlanBuffers gives words of its header by their names",
     r"tspace_MeshJob\.(report|error)": "the results that C++ returns in a list",
     r"tspace_createArena|tspace_destroy(?!Bytes)\w+": "constructors and destructors",
     r"tspace_describeTangentPlan|tspace_TangentPlanInfo": "TangentPlan has a function for each field",
@@ -53,7 +55,7 @@ CPP_ALONE = {
     r"Cancelled": "C has no function that is told of progress",
     r"mapErrorFile": "`tspace map-error`, which is for C++ and the tool",
     r"MapLayout|MapComponent|readTexel": "of maps in arrays, which C does not have",
-    r"[pP]lanBuffer(s|Options)": "buffers for compute shaders, which C does not have yet",
+    r"PlanBuffers::kVersion": "the first word",
     r"allMaps": "the default of FinishOptions::bake",
 }
 

@@ -336,6 +336,27 @@ namespace Tspace
         }
 
         [StructLayout(LayoutKind.Sequential)]
+        internal partial struct PlanBufferOptions
+        {
+            public uint StructSize;
+            public uint Reserved;
+            public uint* Indices;
+            public UIntPtr IndexCount;
+            public uint* SourceCorners;
+            public UIntPtr SourceCornerCount;
+            public Mesh* Mesh;
+            public NormalOptions* Normals;
+        }
+
+        [StructLayout(LayoutKind.Sequential)]
+        internal partial struct PlanBuffers
+        {
+            public uint* Words;
+            public UIntPtr WordCount;
+            public UIntPtr ResultCount;
+        }
+
+        [StructLayout(LayoutKind.Sequential)]
         internal partial struct FrameErrorBound
         {
             public double NormalDeg;
@@ -441,6 +462,8 @@ namespace Tspace
         [DllImport(Library)] internal static extern uint tspace_initIndexedFramesOptions(IndexedFramesOptions* @options, uint @struct_size, Error* @error);
         [DllImport(Library)] internal static extern uint tspace_makeIndexedFrames(Mesh* @mesh, IndexedFramesOptions* @options, Execution* @execution, IndexedFrames** @frames, Error* @error);
         [DllImport(Library)] internal static extern void tspace_destroyIndexedFrames(IndexedFrames* @frames);
+        [DllImport(Library)] internal static extern uint tspace_planBuffers(IntPtr @plan, PlanBufferOptions* @options, Execution* @execution, PlanBuffers** @buffers, Error* @error);
+        [DllImport(Library)] internal static extern void tspace_destroyPlanBuffers(PlanBuffers* @buffers);
         [DllImport(Library)] internal static extern UIntPtr tspace_frameBytes(uint @format);
         [DllImport(Library)] internal static extern FrameErrorBound tspace_frameErrorBound(uint @format);
         [DllImport(Library)] internal static extern uint tspace_packFrames(Span @normals, Span @tangents, uint @format, void* @out, UIntPtr @out_bytes, PackReport* @report, Error* @error);

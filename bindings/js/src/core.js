@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The whole core, for the entries that load its module.
 import { givenMesh, ignoredOptions, makeCalls, meshOf, mikktspaceOptions, setMesh, tangentArguments, withIgnored, writeTangents } from "./calls.js";
-import { boolean, fail, failType, floats, isMissing, object, optionsOf } from "./check.js";
+import { boolean, fail, failType, floats, integers, isMissing, object, optionsOf } from "./check.js";
 import { TspaceError } from "./error.js";
 import { methodNames, ngonsNames, normalReportNames, sanitizeReportNames, tangentReportNames } from "./names.js";
 import { ignoredNormalOptions, normalArguments, normalOptions, normalsOf } from "./normal_calls.js";
@@ -87,7 +87,42 @@ export function makeIndexedFrames(mesh, options = {}) {
 
 const forgotten = new FinalizationRegistry((end) => end());
 
+/** A plan as words, and views of its arrays. */
+class PlanBuffers {
+  constructor(words) {
+    const array = (first, count) => words.subarray(words[first], words[first] + count);
+    this.words = words;
+    this.results = array(8, 3 * words[4]);
+    this.entries = array(9, words[5]);
+    this.triangles = array(10, words[6] * words[7]);
+    this.resultCount = words[4];
+    this.triangleCount = words[6];
+    this.makesNormals = (words[2] & 1) !== 0;
+  }
+}
+
+/** Set by the class, which alone knows where a plan lies. */
+export let planBuffers;
+
 export class Plan {
+  static {
+    planBuffers = (plan, options = {}) => {
+      if (!(#place in Object(plan))) failType(plan, "plan", "a Plan");
+      object(options, "options", ["indices", "sourceCorners", "mesh", "normals"]);
+      const lists = ["indices", "sourceCorners"].map((name) => integers(options[name], name));
+      const checked = isMissing(options.mesh) ? undefined : meshOf(options.mesh);
+      const normals = normalArguments(object(options.normals ?? {}, "normals", [...normalOptions, "convention"]), false);
+      plan.#held();
+      return wasm.run((call) => {
+        if (checked) setMesh(call, checked);
+        const arrays = lists.flatMap((list) => [call.put(list, Uint32Array), list?.length ?? 0]);
+        const result = call.allocate(8);
+        call.check(call.wasm.planBuffers(plan.#place, ...arrays, checked !== undefined, ...normals(call), result));
+        return new PlanBuffers(call.take(Uint32Array, ...call.get(Uint32Array, result, 2)));
+      });
+    };
+  }
+
   #instance;
   #place = 0;
   #end;

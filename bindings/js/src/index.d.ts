@@ -147,5 +147,35 @@ export class Plan {
   destroy(): void;
 }
 
+export interface PlanBufferOptions {
+  /** The vertex of each corner in the arrays of a pose, as `makeIndexedFrames(...).indices`; unless given, those of the plan's mesh. */
+  indices?: Indices | null;
+  /** The corner of each result, as `makeIndexedFrames(...).sourceCorners`; unless given, there is one result per corner. */
+  sourceCorners?: Uint32Array | null;
+  /** The plan's mesh: the shader then computes normals too. Unless given, a pose brings its normals. */
+  mesh?: Mesh | null;
+  /** How the normals of `mesh` are computed: every weighting but `best`, without `denoise`. */
+  normals?: Omit<NormalOptions, "report">;
+}
+
+/** A plan as 32-bit words for compute shaders. The arrays are views of `words`; docs/guides/gpu.md describes them. */
+export interface PlanBuffers {
+  /** A header of 12 words, then results, entries and triangles. */
+  readonly words: NewUint32Array;
+  /** Three words per result: the first entry, the count of entries with flags, the own corner. */
+  readonly results: NewUint32Array;
+  /** Corners of triangles in the order of summation, with flags. */
+  readonly entries: NewUint32Array;
+  /** Three vertices, then UV coefficients as bits of floats: 5 words per triangle, or 7 for `lengyel`. */
+  readonly triangles: NewUint32Array;
+  readonly resultCount: number;
+  readonly triangleCount: number;
+  /** Whether the shader computes normals from positions. */
+  readonly makesNormals: boolean;
+}
+
+/** Writes a plan as arrays, from which a compute shader evaluates each pose on a GPU: see "tspace/webgpu". */
+export function planBuffers(plan: Plan, options?: PlanBufferOptions): PlanBuffers;
+
 /** Memory of the module in bytes: it grows to what the largest call and all plans need, and is 0 after release(). */
 export function memoryBytes(): number;

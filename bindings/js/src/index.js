@@ -3,7 +3,7 @@
 import { source } from "#core";
 import { start } from "./core.js";
 
-export { generateNormals, generateTangents, generateTangentsOfMeshes, makeIndexedFrames, memoryBytes, Plan, release, sanitizeTangents, splitVertices, triangulate } from "./core.js";
+export { generateNormals, generateTangents, generateTangentsOfMeshes, makeIndexedFrames, memoryBytes, Plan, planBuffers, release, sanitizeTangents, splitVertices, triangulate } from "./core.js";
 export { conventions } from "./convention.js";
 export { TspaceError } from "./error.js";
 export const ready = start(source);

@@ -65,7 +65,7 @@ describe("the archive", { skip: !archive && "run scripts/js" }, () => {
   it("is as small as the documentation says", () => {
     const [whole, small, files, textures] = ["index.js", "mikktspace.js", "gltf.js", "textures.js"].map(sizeOf);
     console.log(`tspace ${whole} bytes gzipped, tspace/mikktspace ${small}, tspace/gltf ${files}, tspace/textures ${textures}`);
-    assert.ok(whole < 101_500 && small < 45_500 && files < 453_500 && textures < 65_800);
+    assert.ok(whole < 110_000 && small < 45_500 && files < 453_500 && textures < 65_800);
   });
 
   it("has modules that people can read: the sources", () => {

@@ -3,6 +3,7 @@
 #include "common.h"
 #include "normal_options.h"
 #include "tspace/indexed_frames.h"
+#include "tspace/plan_buffers.h"
 
 using namespace tspace;
 using namespace tspace::js;
@@ -62,6 +63,23 @@ TSPACE_JS_EXPORT(evaluatePlan) std::uint32_t evaluate(const TangentPlan* plan, f
 
 TSPACE_JS_EXPORT(planBytes) std::size_t planBytes(const TangentPlan* plan) { return plan->memoryBytes(); }
 TSPACE_JS_EXPORT(destroyPlan) void destroyPlan(TangentPlan* plan) { delete plan; }
+
+/// `makes_normals`: for the mesh that setMesh was given. `result`: gets a pointer and the count of words, to be released.
+TSPACE_JS_EXPORT(planBuffers)
+std::uint32_t buffers(const TangentPlan* plan, const std::uint32_t* indices, std::size_t index_count,
+                      const std::uint32_t* source_corners, std::size_t source_corner_count, bool makes_normals,
+                      std::uint32_t weighting, float crease_angle_deg, const std::uint32_t* groups,
+                      std::size_t group_count, bool groups_are_masks, bool weld_positions, std::uint32_t convention,
+                      std::uint32_t refine, float denoise, float weld_distance, std::uint32_t* result) {
+    PlanBufferOptions options{.indices = {indices, index_count}, .source_corners = {source_corners, source_corner_count}};
+    if (makes_normals) options.mesh = mesh();
+    options.normals = normalOptions(weighting, crease_angle_deg, groups, group_count, groups_are_masks, weld_positions,
+                                    convention, refine, denoise, weld_distance);
+    auto made = planBuffers(*plan, options);
+    if (!made) return codeOf(made);
+    giveArray(made->words, result);
+    return 0;
+}
 
 /// `result`: gets ten words, a pointer and a count for indices, source vertices, source corners, normals and tangents, to be
 /// released one by one. The report has the 9 numbers of tangents, then the 13 of sanitize and the 5 of normals.

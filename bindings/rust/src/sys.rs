@@ -417,6 +417,27 @@ pub struct IndexedFrames {
 
 #[repr(C)]
 #[derive(Clone, Copy)]
+pub struct PlanBufferOptions {
+    pub struct_size: u32,
+    pub reserved: u32,
+    pub indices: *const u32,
+    pub index_count: usize,
+    pub source_corners: *const u32,
+    pub source_corner_count: usize,
+    pub mesh: *const Mesh,
+    pub normals: *const NormalOptions,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct PlanBuffers {
+    pub words: *const u32,
+    pub word_count: usize,
+    pub result_count: usize,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy)]
 pub struct FrameErrorBound {
     pub normal_deg: f64,
     pub tangent_deg: f64,
@@ -630,6 +651,14 @@ extern "C" {
         error: *mut Error,
     ) -> u32;
     pub fn tspace_destroyIndexedFrames(frames: *mut IndexedFrames);
+    pub fn tspace_planBuffers(
+        plan: *const TangentPlan,
+        options: *const PlanBufferOptions,
+        execution: *const Execution,
+        buffers: *mut *mut PlanBuffers,
+        error: *mut Error,
+    ) -> u32;
+    pub fn tspace_destroyPlanBuffers(buffers: *mut PlanBuffers);
     pub fn tspace_frameBytes(format: u32) -> usize;
     pub fn tspace_frameErrorBound(format: u32) -> FrameErrorBound;
     pub fn tspace_packFrames(

@@ -8,6 +8,7 @@
 #include "tspace/indexed_frames.h"
 #include "tspace/normals.h"
 #include "tspace/pack.h"
+#include "tspace/plan_buffers.h"
 #include "tspace/tangents.h"
 #include "tspace/winding.h"
 

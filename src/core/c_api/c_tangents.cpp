@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// C API: tangents, plans and sanitize; an indexed mesh with frames in one call; split and triangulate.
+// C API: tangents, plans, their buffers, and sanitize; an indexed mesh with frames in one call; split and triangulate.
 #include "tspace/tangents.h"
 
 #include <memory>
@@ -10,6 +10,7 @@
 #include "core/c_api/c_fields.h"
 #include "tspace/indexed_frames.h"
 #include "tspace/mesh.h"
+#include "tspace/plan_buffers.h"
 #include "tspace/tangents.h"
 
 using namespace tspace;         // NOLINT: this file only forwards
@@ -344,3 +345,64 @@ tspace_ErrorCode tspace_triangulate(const tspace_Mesh* mesh, tspace_Triangulatio
 void tspace_destroyTriangulation(tspace_Triangulation* result) noexcept {
     delete static_cast<OwnedTriangulation*>(result);
 }
+
+namespace {
+
+// C API: a plan as words for compute shaders.
+
+/// The struct of the C API, as the first base, and the memory that its pointer points into.
+struct OwnedPlanBuffers : tspace_PlanBuffers {
+    PlanBuffers buffers;
+};
+
+/// An array of the C API, which may be null without entries.
+Result<std::span<const std::uint32_t>> toNumbers(const std::uint32_t* data, std::size_t count, const char* name) {
+    if (data == nullptr && count != 0)
+        return makeError(ErrorCode::nullData, kNoElement, "%s is null but its count is not 0", name);
+    return std::span{data, count};
+}
+
+Error checkBufferOptions(const tspace_PlanBufferOptions* given) {
+    if (Error error = checkSized(given, "options"); error.code != ErrorCode::ok) return error;
+    const tspace_PlanBufferOptions options = orDefault(given);
+    return firstError(
+        [&] {
+            return options.mesh == nullptr ? Error{ErrorCode::ok, {}} : checkMesh(options.mesh);
+        },
+        [&] { return c_api::checkOptions(options.normals); });
+}
+
+}  // namespace
+
+tspace_ErrorCode tspace_planBuffers(const tspace_TangentPlan* plan, const tspace_PlanBufferOptions* options,
+                                    const tspace_Execution* execution, tspace_PlanBuffers** buffers,
+                                    tspace_Error* error) noexcept {
+    return atCBorder(error, [&]() -> Result<Done> {
+        if (buffers == nullptr) return Error{ErrorCode::nullData, "buffers is null"};
+        *buffers = nullptr;
+        if (plan == nullptr) return Error{ErrorCode::nullData, "plan is null"};
+        const Error e =
+            firstError([&] { return checkBufferOptions(options); }, [&] { return checkExecution(execution); });
+        if (e.code != ErrorCode::ok) return e;
+        const tspace_PlanBufferOptions given = orDefault(options);
+        const auto indices = toNumbers(given.indices, given.index_count, "indices");
+        if (!indices) return indices.error();
+        const auto source_corners = toNumbers(given.source_corners, given.source_corner_count, "source_corners");
+        if (!source_corners) return source_corners.error();
+        PlanBufferOptions converted{.indices = *indices, .source_corners = *source_corners};
+        if (given.mesh != nullptr) converted.mesh = toMesh(*given.mesh);
+        converted.normals = toOptions(orDefault(given.normals));
+        const Hooks hooks(execution);
+        Result<PlanBuffers> made = planBuffers(*plan->plan, converted, hooks.execution());
+        if (!made) return made.error();
+        auto owned = std::make_unique<OwnedPlanBuffers>();
+        owned->buffers = std::move(*made);
+        owned->words = owned->buffers.words.data();
+        owned->word_count = owned->buffers.words.size();
+        owned->result_count = owned->buffers[PlanBuffers::result_count];
+        *buffers = owned.release();
+        return Done{};
+    });
+}
+
+void tspace_destroyPlanBuffers(tspace_PlanBuffers* buffers) noexcept { delete static_cast<OwnedPlanBuffers*>(buffers); }

@@ -39,6 +39,7 @@ Functions
     tangents_of_meshes   the same for many meshes (MeshJob) in one call
     normals         one normal per corner; crease angles, smoothing groups
     Plan            groups once, tangents for every pose
+    plan_buffers    a plan as arrays, for compute shaders
     mend_winding    turns faces that are wound the wrong way
     sanitize        mends broken tangents, leaves every other bit alone
     split           from corners back to an indexed mesh
@@ -102,6 +103,7 @@ from ._indexed import IndexedFrames, IndexedFramesReport, make_indexed_frames
 from ._normals import NormalResult, normals, position_noise
 from ._options import Convention
 from ._pack import PackResult, pack_frames, unpack_frames
+from ._plan_buffers import PlanBuffers, plan_buffers
 from ._reports import NormalReport, PackReport, PositionNoise, SanitizeReport, TangentReport, WindingReport
 from ._remedies import remedy_text
 from ._sanitize import SanitizeResult, sanitize
@@ -175,6 +177,7 @@ __all__ = [
     "PackReport",
     "PackResult",
     "Plan",
+    "PlanBuffers",
     "PositionNoise",
     "ReadWriteError",
     "Report",
@@ -205,6 +208,7 @@ __all__ = [
     "mend_winding",
     "normals",
     "pack_frames",
+    "plan_buffers",
     "position_noise",
     "remedy_text",
     "sanitize",

@@ -459,6 +459,27 @@ class IndexedFrames(Structure):
     ]
 
 
+class PlanBufferOptions(Structure):
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("reserved", c_uint32),
+        ("indices", c_void_p),
+        ("index_count", c_size_t),
+        ("source_corners", c_void_p),
+        ("source_corner_count", c_size_t),
+        ("mesh", POINTER(Mesh)),
+        ("normals", POINTER(NormalOptions)),
+    ]
+
+
+class PlanBuffers(Structure):
+    _fields_ = [
+        ("words", c_void_p),
+        ("word_count", c_size_t),
+        ("result_count", c_size_t),
+    ]
+
+
 class FrameErrorBound(Structure):
     _fields_ = [
         ("normal_deg", c_double),
@@ -823,6 +844,18 @@ SIGNATURES = {
     "tspace_destroyIndexedFrames": (
         None,
         POINTER(IndexedFrames),
+    ),
+    "tspace_planBuffers": (
+        c_uint32,
+        c_void_p,
+        POINTER(PlanBufferOptions),
+        POINTER(Execution),
+        POINTER(POINTER(PlanBuffers)),
+        POINTER(Error),
+    ),
+    "tspace_destroyPlanBuffers": (
+        None,
+        POINTER(PlanBuffers),
     ),
     "tspace_frameBytes": (
         c_size_t,
