@@ -112,9 +112,9 @@ Command bakeCommand() {
         .summary = "bake the normal map of a low poly from a high poly",
         .operands = "{LOW --high HIGH | --pairs TABLE} -o OUT",
         .description =
-            "Bakes a normal map that makes a low poly look like a high poly: correct for the tangent frames that the "
-            "low poly has in its file, optimized for texture filtering, and measured in degrees at the end. Models "
-            "with several meshes are matched by name (Body_low with Body_high); each material gets its own file.",
+            "Bakes a normal map that makes a low poly look like a high poly. The map is made for the tangents stored "
+            "in the low poly and is optimized for texture filtering; its error is reported in degrees. Models with "
+            "several meshes are matched by name (Body_low with Body_high); each material gets its own file.",
         .examples = {"tspace bake low.glb --high high.glb -o normal.png --size 2048",
                      "tspace bake low.glb --high scan.ply -o normal.png --size 1024 --bits 8 --convention unreal",
                      "tspace bake low.glb --high high.obj -o normal.png --misses misses.png --heat heat.png --report "
@@ -123,20 +123,20 @@ Command bakeCommand() {
         .finish = [&arguments](const Given& given) { return finish(given, arguments); },
     };
     const char* group = kInputAndOutput;
-    command.add(group, operand("LOW", arguments.low, "The low poly, which the map is for. It needs UVs.")).is_required =
-        false;
+    command.add(group, operand("LOW", arguments.low, "Low-poly model that receives the map. It needs UVs."))
+        .is_required = false;
     Option& high = command.add(group, text("--high", "HIGH", arguments.high,
-                                           "The high poly, which has the detail, in the same place. It needs no UVs."));
+                                           "High-poly model with the detail, aligned with LOW. It needs no UVs."));
     high.is_file = true;
     Option& output =
         command.add(group, text("-o, --output", "OUT", arguments.output,
-                                "Output file: .png, or .tga (8 bits); or .ktx2 or .dds: BC5 with all mip levels."));
+                                "Output file: .png or .tga (8 bits), or .ktx2 or .dds (BC5 with all mip levels)."));
     output.is_file = output.is_required = true;
     Option& pairs =
         command.add(group, text("--pairs", "TABLE", arguments.pairs,
                                 "Run many bakes: a text file of lines LOW = HIGH, or LOW = HIGH = NAME.png, with paths "
-                                "relative to the file; lines that begin with # are comments. OUT is then a folder of "
-                                "maps named after LOW, or NAME; --out-mesh is a folder too."));
+                                "relative to the file; lines that begin with # are comments. OUT is then a folder; "
+                                "each map is named after LOW, or NAME.png if given. --out-mesh is a folder too."));
     pairs.is_file = true;
     pairs.excludes = {"--high", "--misses", "--heat", "--cage", "--skew"};
     command.add(bakeOptions(arguments.options));

@@ -49,8 +49,8 @@ void addCheckReporting(Command& command, CheckArguments& arguments) {
                                        "Write a self-contained HTML report to this file, with pictures of each finding "
                                        "before and after its fix."));
     command.add(kReporting, choice("--color", "WHEN", kColors, arguments.color,
-                                   "Color severities: always, never, or auto: on a terminal, unless the environment "
-                                   "variable NO_COLOR is set."));
+                                   "Color the severities: always, never, or auto (on a terminal, unless the "
+                                   "environment variable NO_COLOR is set)."));
 }
 
 /// Whether a file is named as normal maps are: rock_normal.png, Rock-NRM.tga, rock_n.dds.
@@ -159,13 +159,13 @@ Command checkCommand() {
         .operands = "IN...",
         .description =
             "Compares tangents with the UVs that the material's textures use: signs, directions, seams, UV sets and "
-            "texture transforms. Also checks for values that are not finite or not unit, and checks normals, morph "
-            "targets, and normal maps whose green points down. Every finding states its fix. An error renders wrong "
-            "everywhere; a warning renders wrong in some renderers, in a small part, or only possibly; a note is worth "
-            "knowing. No input is changed. An image as input (PNG, JPEG, WebP, EXR, KTX2, DDS, TGA) is checked as a "
-            "normal map, without a model: direction of green, channels, encoding, lengths. A folder or pattern without "
-            "models is searched for images; images that neither look like a normal map nor are named like one get no "
-            "findings.",
+            "texture transforms. Also checks for values that are not finite or not of unit length, and checks normals, "
+            "morph targets, and normal maps whose green channel points down. Every finding states how to fix it. An "
+            "error causes wrong shading everywhere; a warning causes it in some renderers, in a small area, or only "
+            "possibly; a note does no harm. No input is changed. An image as input (PNG, JPEG, WebP, EXR, KTX2, DDS, "
+            "TGA) is checked as a normal map, without a model: direction of green, channels, encoding, lengths. A "
+            "folder or pattern without models is searched for images; images that neither look like a normal map nor "
+            "are named like one get no findings.",
         .examples = {"tspace check helmet.glb", "tspace check normal.png", "tspace check textures/",
                      "tspace check --fail-on warning --jobs 0 models/", "tspace check --json models/ > findings.json",
                      "tspace check --quiet --sarif findings.sarif models/",

@@ -59,10 +59,12 @@ Command helpCommand() {
     Command command{
         .summary = "print the help of a command",
         .operands = "[COMMAND]",
-        .description = "Prints the help page of a command, like its --help; without a command, the list of commands.",
+        .description =
+            "Prints the help page of a command, as its option --help does. Without a command, prints the list of "
+            "commands.",
         .examples = {"tspace help", "tspace help generate"},
     };
-    Option about = text("", "COMMAND", *topic, "The command to describe.");
+    Option about = text("", "COMMAND", *topic, "Name of the command.");
     for (const Entry& entry : kCommands) {
         if (entry.is_there) about.choices.emplace_back(entry.name);
     }

@@ -92,13 +92,13 @@ ExitCode readFileList(const std::string& list, std::vector<std::string>& inputs)
 void addInputs(Command& command, std::vector<std::string>& inputs) {
     Option& files = command.add(
         kInputAndOutput, operand("IN...", inputs,
-                                 "Model files (.glb, .vrm, .gltf, .obj; also .fbx, .ply, .stl, .dae, .3ds and more "
-                                 "where tspace-import is installed), folders, and quoted patterns ('models/**/*.glb'). "
-                                 "Folders are searched recursively for model files. '-': a GLB on stdin."));
+                                 "Model files (.glb, .vrm, .gltf, .obj; also .fbx, .ply, .stl, .dae, .3ds and more if "
+                                 "tspace-import is installed), folders, and quoted patterns ('models/**/*.glb'). "
+                                 "Folders are searched recursively for model files. '-': a GLB from stdin."));
     files.is_required = false;
     const auto list = std::make_shared<std::string>();
     Option& from = command.add(kManyFiles, text("--files-from", "FILE", *list,
-                                                "Also read input names from this file, one per line, or separated by "
+                                                "Also read input names from this file, one per line or separated by "
                                                 "NUL bytes; '-': from stdin. The list may be empty."));
     from.is_file = true;
     command.finish = [&inputs, list, finish = std::move(command.finish)](const Given& given) {
@@ -117,22 +117,23 @@ void addBatch(Command& command, BatchArguments& batch, bool with_manifest) {
     const auto take_shard = [&batch](const std::string& text) -> std::string {
         return parseShard(text, batch.shard) ? "" : "must be I/N with I from 1 to N, such as 2/8";
     };
-    command.add(group,
-                option("--shard", "I/N", take_shard,
-                       "Process only shard I of N (1-based), to split a batch across machines. The shard depends on "
-                       "the file's name below its input, so it does not change when other files come or go."));
+    command.add(
+        group,
+        option("--shard", "I/N", take_shard,
+               "Process only shard I of N (1-based), to split a batch across machines. The shard of a file depends "
+               "only on its path relative to the input folder, so adding or removing other files does not change it."));
     command.add(kReporting, flag("-v, --verbose", batch.verbose,
-                                 "Print details for every file. By default several files get one line each."));
+                                 "Print details for every file. By default, several files get one line each."));
     if (!with_manifest) return;
     Option& manifest =
         command.add(group, text("--manifest", "FILE", batch.manifest,
-                                "Append one line of JSON to this file per finished file: hashes of "
-                                "inputs and outputs, options, result and time (schema: docs/reference/json.md)."));
+                                "Append one line of JSON to this file for each finished input: hashes of inputs and "
+                                "outputs, options, result and time (schema: docs/reference/json.md)."));
     manifest.is_file = true;
     manifest.excludes = {"--dry-run"};
     command
         .add(group, flag("--resume", batch.resume,
-                         "Skip files that the manifest lists as done with these options, if neither they nor their "
+                         "Skip files that the manifest lists as done with the same options, if neither they nor their "
                          "outputs have changed since."))
         .needs = "--manifest";
 }

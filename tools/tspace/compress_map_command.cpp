@@ -53,17 +53,18 @@ Command compressMapCommand() {
         .description =
             "Packs a normal map in tangent space as BC5 or EAC RG11, one byte per texel: x in red, y in green; the "
             "reader reconstructs z. The encoder minimizes the error of the filtered texture and uses all bits of the "
-            "image, so 16-bit input gives better blocks than 8-bit input. All mip levels are computed from mean "
-            "directions; the levels of an optional roughness texture get rougher by the spread of the normals. The "
+            "image, so 16-bit input gives better blocks than 8-bit input. Mip levels are computed from mean "
+            "directions. The mip levels of an optional roughness texture get rougher by the spread of the normals. The "
             "report states the error of the texture.",
         .examples = {"tspace compress-map normal.png -o normal.ktx2", "tspace compress-map normal.exr -o normal.dds",
                      "tspace compress-map normal.png -o normal.ktx2 --roughness orm.png -o2 orm.ktx2"},
     };
     const char* group = kInputAndOutput;
-    command.add(group,
-                operand("IN", arguments.input, "An image: PNG, JPEG, WebP, EXR, KTX2, DDS or TGA; - for stdin."));
-    Option output = text("-o, --output", "OUT", arguments.output,
-                         "Output file: .ktx2 or .dds, or a folder of PNGs (ends in /); - for stdout, as KTX2.");
+    command.add(group, operand("IN", arguments.input,
+                               "A normal map: PNG, JPEG, WebP, EXR, KTX2, DDS or TGA; '-': from stdin."));
+    Option output =
+        text("-o, --output", "OUT", arguments.output,
+             "Output file: .ktx2 or .dds, or a folder of PNGs (a name that ends in /); '-': KTX2 to stdout.");
     output.is_file = output.is_required = true;
     command.add(group, output);
     command.add(compressMapOptions(arguments.options));

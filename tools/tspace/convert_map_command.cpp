@@ -50,18 +50,18 @@ Command convertMapCommand() {
         .description =
             "A normal map is correct only for the tangent frames that it was made with. This command rewrites it for "
             "the frames of another model with the same surface and UVs, for object space, or for another program, so "
-            "that the shading does not change. Texels outside all triangles stay unchanged.",
+            "that the shading does not change. Texels outside all triangles are not changed.",
         .examples = {"tspace convert-map normal.png --mesh baked.glb --to-mesh best.glb -o normal-best.png",
                      "tspace convert-map normal.png --mesh helmet.glb --to object -o normal-object.png",
                      "tspace convert-map normal.png --flip-green --bits 8 -o normal-dx.png"},
         .finish = [&arguments](const Given& given) { return finish(given, arguments.options); },
     };
     const char* group = kInputAndOutput;
-    command.add(group,
-                operand("IN", arguments.input, "An image: PNG, JPEG, WebP, EXR, KTX2, DDS or TGA; - for stdin."));
+    command.add(group, operand("IN", arguments.input,
+                               "A normal map: PNG, JPEG, WebP, EXR, KTX2, DDS or TGA; '-': from stdin."));
     Option output = text(
         "-o, --output", "OUT", arguments.output,
-        "Output file: .png, .exr or .tga (8 bits); or .ktx2 or .dds: BC5 with all mip levels; - for stdout, as PNG.");
+        "Output file: .png, .exr or .tga (8 bits), or .ktx2 or .dds (BC5 with all mip levels); '-': PNG to stdout.");
     output.is_file = output.is_required = true;
     command.add(group, output);
     command.add(convertMapOptions(arguments.options));

@@ -93,8 +93,8 @@ void addDepfile(Command& command) {
     const auto path = std::make_shared<std::string>();
     Option& depfile =
         command.add(kReporting, text("--depfile", "FILE", *path,
-                                     "Write a dependency file for make and ninja: the outputs, and every file that was "
-                                     "read, such as buffers, images and material libraries."));
+                                     "Write a dependency file for make and ninja. It lists the outputs, and every file "
+                                     "that was read, such as buffers, images and material libraries."));
     depfile.is_file = true;
     depfile.excludes = {"--in-place", "--dry-run"};
     command.finish = [path, finish = std::move(command.finish)](const Given& given) {

@@ -72,17 +72,17 @@ Command diffCommand() {
         .description =
             "Pairs the primitives and triangles of two models that show the same surface, even if vertices were split, "
             "merged or reordered. Prints the angles between their tangents (T), normals (N) and reconstructed "
-            "bitangents (B), differing signs, and the worst places. No input is changed.",
+            "bitangents (B), the number of different signs, and the vertices that differ most. No input is changed.",
         .examples = {"tspace diff before.glb after.glb",
                      "tspace diff mine.glb theirs.gltf --tolerance 0.5 --json > diff.json",
                      "tspace diff --html report.html before.glb after.glb"},
     };
-    command.add(kInputAndOutput, operand("A", arguments.a, "A model file."));
-    command.add(kInputAndOutput, operand("B", arguments.b, "Another one."));
+    command.add(kInputAndOutput, operand("A", arguments.a, "First model file."));
+    command.add(kInputAndOutput, operand("B", arguments.b, "Second model file, which is compared with A."));
     command.add(diffOptions(arguments.request));
     command.add(kReporting, htmlOutput("--html", "FILE", arguments.html,
                                        "Write a self-contained HTML report to this file, with a heat map of the angles "
-                                       "and pictures of the worst places."));
+                                       "and pictures of the largest differences."));
     addReporting(command, arguments.json, arguments.quiet);
     command.reads = Reads::models;
     command.run = [owned] {

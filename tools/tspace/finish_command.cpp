@@ -90,10 +90,10 @@ Command finishCommand() {
         .summary = "prepare a generated or scanned mesh: winding, normals, tangents, all maps",
         .operands = "IN -o OUT.glb",
         .description =
-            "Turns triangles with wrong winding, adds missing and replaces wrong normals (crease angle and noise are "
-            "measured), repairs tangents, and reports the findings of check before and after. With --low the result is "
-            "that low poly, with all maps baked from IN. Correct data are kept. Retopology and unwrapping are not "
-            "included: where UVs are missing, the report names tools that make them.",
+            "Fixes the winding, adds missing normals and recomputes wrong ones (the crease angle and the noise level "
+            "are estimated from the mesh), repairs tangents, and reports the findings of check before and after. With "
+            "--low, the output is that low poly, with all maps baked from IN. Correct data is kept. Retopology and "
+            "unwrapping are not included: if UVs are missing, the report names tools that create them.",
         .examples = {"tspace finish scan.ply -o scan.glb --html scan.html",
                      "tspace finish sculpt.glb --low retopo.glb -o asset.glb --size 2048 --html asset.html",
                      "tspace finish generated.obj -o generated.glb --normals all --report generated.json"},
@@ -102,7 +102,7 @@ Command finishCommand() {
     command.add(group, operand("IN", arguments.input, "A model of any format that generate reads."));
     Option& output = command.add(group, text("-o, --output", "OUT", arguments.output,
                                              "Output file: .glb or .vrm. Maps are written beside it (OUT_normal.png, "
-                                             "...); maps that glTF has a texture slot for are also embedded."));
+                                             "...); maps for which glTF has a texture slot are also embedded."));
     output.is_file = output.is_required = true;
     command.add(finishOptions(arguments.options));
     command.add(kReporting, text("--report", "JSON", arguments.report, "Also write the report as JSON to this file."))

@@ -51,23 +51,23 @@ Command flipGreenCommand() {
     FlipGreenArguments& arguments = *owned;
     Command command{
         .summary = "invert the green channel of a normal map",
-        .operands = "IN -o OUT",
+        .operands = "IN {-o OUT | --in-place}",
         .description =
-            "Converts a normal map from DirectX, where green points down, to OpenGL and glTF, where it points up; and "
-            "back. Every texel gets exactly 255 - G (65535 - G with 16 bits); other channels, bit depth, palettes and "
-            "chunks are preserved. A JPEG is recompressed unless the output is a PNG. For maps inside a model use "
-            "tspace generate --flip-green.",
+            "Converts a normal map between DirectX (green points down) and OpenGL or glTF (green points up). Every "
+            "texel gets exactly 255 - G (65535 - G with 16 bits); other channels, bit depth, palettes and chunks are "
+            "preserved. A JPEG is recompressed unless the output is a PNG. For maps inside a model use tspace generate "
+            "--flip-green.",
         .examples = {"tspace flip-green normal.png -o normal-gl.png", "tspace flip-green --in-place normal.png",
                      "tspace flip-green normal.jpg -o normal-gl.png"},
         .finish = [&arguments](const Given&) { return finish(arguments); },
     };
     const char* group = kInputAndOutput;
     command.add(group, operand("IN", arguments.input,
-                               "An image: PNG, JPEG, WebP, KTX2, DDS or TGA (which becomes a PNG); - for stdin."));
+                               "An image: PNG, JPEG, WebP, KTX2, DDS or TGA (which becomes a PNG); '-': from stdin."));
     command
         .add(group, text("-o, --output", "OUT", arguments.output,
-                         "Output file: .png, .jpg, .jpeg, .webp, .ktx2 or .dds, or - for stdout. The format is that of "
-                         "the input, or PNG."))
+                         "Output file: .png, .jpg, .jpeg, .webp, .ktx2 or .dds; '-': to stdout. The format must be "
+                         "that of the input, or PNG."))
         .is_file = true;
     Option& in_place = command.add(group, flag("--in-place", arguments.in_place,
                                                "Overwrite the input once the result is complete. Without this option, "

@@ -229,13 +229,13 @@ Command generateCommand() {
     arguments.options.execution.thread_count = kAllThreads;
     Command command{
         .summary = "add the tangents that normal maps need",
-        .operands = "IN... -o OUT",
+        .operands = "IN... {-o OUT | --in-place}",
         .description =
-            "Reads model files, adds missing tangents where a material needs them (a normal map, clearcoat normal map "
-            "or anisotropy), adds missing normals first, and writes glTF. Vertices are split where the tangents of "
-            "their corners differ, with all their attributes, skin weights and morph targets. Morph targets that move "
-            "the surface get tangent deltas. Everything else in the file is preserved. If a run fails, the old output "
-            "stays untouched.",
+            "Reads model files, adds missing tangents if a material needs them (a normal map, clearcoat normal map or "
+            "anisotropy), adds missing normals first, and writes glTF. Vertices are split where the tangents of their "
+            "corners differ, with all their attributes, skin weights and morph targets. Morph targets that move the "
+            "surface get tangent deltas. Everything else in the file is preserved. If a run fails, an existing output "
+            "file is not changed.",
         .examples = {"tspace generate helmet.glb -o out/helmet.glb",
                      "tspace generate --all --overwrite models/ -o out/",
                      "tspace generate scan.obj -o scan.glb --all --normals angle --crease 60",

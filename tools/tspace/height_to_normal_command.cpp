@@ -47,19 +47,17 @@ Command heightToNormalCommand() {
         .operands = "IN -o OUT",
         .description =
             "Computes a normal map from a gray image in which white is high and black is low (a bump map): the slopes "
-            "of the heights, times a strength that you provide. With the model that shows the map, the strength is in "
-            "model units, and slopes are those on its surface.",
+            "of the heights, times a strength that you provide. With --mesh, the strength is in model units, and "
+            "slopes are measured on the surface of the model.",
         .examples = {"tspace height-to-normal height.png -o normal.png --strength 4",
                      "tspace height-to-normal height.png -o normal.png --mesh wall.glb --strength 0.02",
                      "tspace height-to-normal height.png -o normal-dx.png --convention directx --bits 8"},
     };
     const char* group = kInputAndOutput;
-    command.add(
-        group,
-        operand(
-            "IN", arguments.input,
-            "A height map: PNG (8 or 16 bits), JPEG, WebP, EXR, KTX2, DDS or TGA; - for stdin. Colors are averaged."));
-    Option output = text("-o, --output", "OUT", arguments.output, "Output file: .png; - for stdout.");
+    command.add(group, operand("IN", arguments.input,
+                               "A height map: PNG (8 or 16 bits), JPEG, WebP, EXR, KTX2, DDS or TGA; '-': from stdin. "
+                               "The color channels are averaged."));
+    Option output = text("-o, --output", "OUT", arguments.output, "Output file: .png; '-': to stdout.");
     output.is_file = output.is_required = true;
     command.add(group, output);
     command.add(heightToNormalOptions(arguments.options));

@@ -29,10 +29,11 @@ std::string leftOut() {
 }
 
 const char* const kExitCodes =
-    "Exit codes:\n  0  success\n  1  findings: a comparing or checking command found something\n  2  wrong usage\n  3  "
-    "bad input: a file is broken, not supported, or leads outside its folder\n  4  cannot read or write a file\n  5  "
-    "out of memory, or an internal error\nWith several files the exit code is that of the most severe result. Every "
-    "error is one line on stderr.\n";
+    "Exit codes:\n  0  success\n  1  problems were found (check, bake, finish), or the models differ (diff)\n  2  "
+    "wrong usage: an option or argument is missing or invalid\n  3  invalid input: a file is damaged, not supported, "
+    "or references a path outside its folder\n  4  a file cannot be read or written\n  5  out of memory, or an "
+    "internal error\nWith several files, the exit code is that of the most severe result. Every error is one line on "
+    "stderr.\n";
 
 std::string usageLine(const Command& command) {
     return "tspace " + command.name + " " + command.operands + " [OPTION...]";

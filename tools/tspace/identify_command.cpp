@@ -52,9 +52,9 @@ Command identifyCommand() {
         .summary = "find out which method made the tangents of a model",
         .operands = "IN...",
         .description =
-            "Runs every method on the model's own positions, normals and UVs, along every UV set. Reports what share "
-            "of the stored tangents each method reproduces, and whether the signs are those of glTF or all inverted. "
-            "No input is changed.",
+            "Runs every method on the positions, normals and UVs of the model, for each UV set. Reports what share of "
+            "the stored tangents each method reproduces, and whether the signs follow glTF or are all inverted. No "
+            "input is changed.",
         .examples = {"tspace identify helmet.glb", "tspace identify --json models/ > methods.json"},
     };
     addInputs(command, arguments.inputs);

@@ -83,25 +83,25 @@ Command mapErrorCommand() {
     arguments.options.execution.thread_count = kAllThreads;
     Command command{
         .summary = "measure how far a normal map is from its high poly, and why",
-        .operands = "MAP LOW --high HIGH",
+        .operands = "{MAP LOW --high HIGH | MAP --source IMAGE}",
         .description =
             "Measures a normal map from any source: the angle, in degrees, between the normals that a renderer shades "
-            "with and those of the high poly. Then tries other interpretations (green down, tangents of other methods, "
-            "quads, a bitangent per vertex, object space) and reports which fits best. With --source it compares a "
-            "compressed texture with its original, both filtered. No input is changed.",
+            "with and those of the high poly. Then tries other interpretations of the map (green down, tangents of "
+            "other methods, quads, a bitangent per vertex, object space) and reports which fits best. With --source it "
+            "compares a compressed texture with its original, both filtered. No input is changed.",
         .examples = {"tspace map-error normal.png low.glb --high high.glb",
                      "tspace map-error normal.png low.fbx --high scan.ply --convention unreal --heat heat.png --json",
                      "tspace map-error normal.ktx2 --source normal.png"},
     };
     const char* group = kInputAndOutput;
     command.add(group, operand("MAP", arguments.map, "A normal map: PNG, JPEG, WebP, EXR, KTX2, DDS or TGA."));
-    Option& low = command.add(group, operand("LOW", arguments.low, "The low poly, which the map is for."));
+    Option& low = command.add(group, operand("LOW", arguments.low, "Low-poly model that uses the map."));
     low.is_required = false;
-    Option& high = command.add(group, text("--high", "HIGH", arguments.high, "The high poly, in the same place."));
+    Option& high = command.add(group, text("--high", "HIGH", arguments.high, "High-poly model, aligned with LOW."));
     high.is_file = true;
     Option source =
         text("--source", "IMAGE", arguments.source,
-             "The normal map that the texture MAP was made from; it is compared with this map instead of a high poly.");
+             "Normal map from which the texture MAP was made. MAP is compared with this image instead of a high poly.");
     source.is_file = true;
     const OptionList of_high = mapErrorOptions(arguments.options);
     source.excludes = onlyWithHigh(of_high);

@@ -55,10 +55,10 @@ Command renderCommand() {
         .summary = "draw a picture of a model or of its tangent frames",
         .operands = "IN -o OUT",
         .description =
-            "Draws a PNG of the model under one light, shaded with its normal maps and tangents, or of the data "
-            "themselves: normals, tangents, signs, the error of the tangents against a method, the UV map. It needs no "
-            "display, and the output is byte-identical on all systems. It visualizes the shading reference and is not "
-            "a renderer: no shadows, reflections or transparency.",
+            "Draws a PNG of the model under one light, shaded with its normal maps and tangents, or of its data: "
+            "normals, tangents, signs, the difference between its tangents and those of a method, or the UV map. It "
+            "needs no display, and the output is byte-identical on all systems. The shading is a reference for "
+            "comparing tangents and not a full renderer: there are no shadows, reflections or transparency.",
         .examples = {"tspace render helmet.glb -o helmet.png", "tspace render helmet.glb -o signs.png --show sign",
                      "tspace render helmet.glb -o error.png --show error --view front --size 512",
                      "tspace render helmet.glb -o right.png --frames computed"},
@@ -70,9 +70,9 @@ Command renderCommand() {
         },
     };
     const char* group = kInputAndOutput;
-    command.add(group, operand("IN", arguments.input, "A model file; '-': a GLB on stdin."));
+    command.add(group, operand("IN", arguments.input, "A model file; '-': a GLB from stdin."));
     Option& output =
-        command.add(group, text("-o, --output", "OUT", arguments.output, "Output file: .png, or - for stdout."));
+        command.add(group, text("-o, --output", "OUT", arguments.output, "Output file: .png; '-': to stdout."));
     output.is_file = output.is_required = true;
     command.add(renderOptions(arguments.options));
     addReporting(command, arguments.json, arguments.quiet);

@@ -82,9 +82,9 @@ Command viewCommand() {
         .summary = "write a web page that shows a model, its tangent frames and its findings",
         .operands = "IN -o OUT.html",
         .description =
-            "Writes one self-contained HTML file of the model: it opens from disk in any browser, needs no network, "
-            "shows the findings of tspace check, lights the model with its own and with correct frames, and repairs "
-            "it. The page itself is built by scripts/web and installed with the tool.",
+            "Writes one self-contained HTML file of the model. It opens from disk in any browser and needs no network. "
+            "It shows the findings of tspace check, lights the model with its own and with correct frames, and can "
+            "repair it. The page itself is built by scripts/web and installed with the tool.",
         .examples = {"tspace view helmet.glb -o helmet.html"},
         .finish =
             [&arguments](const Given&) {
@@ -94,7 +94,7 @@ Command viewCommand() {
     const char* group = kInputAndOutput;
     command.add(group, operand("IN", arguments.input,
                                "A model: .glb, .vrm, .gltf or .obj. The files that it references are embedded."));
-    command.add(group, htmlOutput("-o, --output", "OUT", arguments.output, "Output file of the page."));
+    command.add(group, htmlOutput("-o, --output", "OUT", arguments.output, "Output file: .html or .htm."));
     command.add(inspectOptions(arguments.file));
     addReporting(command, arguments.json, arguments.quiet);
     command.reads = Reads::models;

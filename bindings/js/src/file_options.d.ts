@@ -2,17 +2,17 @@
 // Options of calls on files, with the help of the tool. Written by scripts/api.
 
 export interface GenerateFileOptions {
-  /** Dry run: report what would be written and what is wrong, without writing. */
+  /** Report what would be written, and all problems, without writing anything. */
   dryRun?: boolean;
   /**
    * Geometry compression of the output. keep: the compression of the input; none: uncompressed; meshopt:
    * EXT_meshopt_compression, which is lossless; draco: KHR_draco_mesh_compression, which quantizes positions, normals
-   * and UVs that were not Draco data before. Default: keep.
+   * and UVs, except those that were Draco data before. Default: keep.
    */
   compress?: "keep" | "none" | "meshopt" | "draco";
   /**
-   * Write the coordinates of OBJ, PLY and STL files unchanged. By default an offset is subtracted from coordinates that
-   * are too far from the origin for the 32-bit floats of glTF, such as map coordinates in meters, and becomes the
+   * Write the coordinates of OBJ, PLY and STL files unchanged. By default, coordinates that are too far from the origin
+   * for the 32-bit floats of glTF (map coordinates in meters, for example) are moved by an offset, which becomes the
    * translation of the nodes.
    */
   keepCoordinates?: boolean;
@@ -23,11 +23,11 @@ export interface GenerateFileOptions {
   /** Recompute existing tangents. */
   overwrite?: boolean;
   /**
-   * Add missing tangents, keep good ones, and recompute wrong ones: not finite, not unit, not orthogonal to the normal,
-   * with a wrong sign, or not along the UVs.
+   * Add missing tangents, keep good ones, and recompute wrong ones: not finite, not of unit length, not orthogonal to
+   * the normal, with a wrong sign, or not aligned with the UVs.
    */
   repair?: boolean;
-  /** Remove tangents that no material needs, with their data. */
+  /** Remove tangents that no material needs, including their buffer data. */
   strip?: boolean;
   /**
    * Treatment of KHR_texture_transform. apply: tangents follow the transformed UVs, for viewers that use tangents
@@ -36,15 +36,15 @@ export interface GenerateFileOptions {
   textureTransform?: "apply" | "ignore";
   /**
    * Tangent method. mikktspace: bit-identical to what bakers and engines use; lengyel: one tangent per vertex, no
-   * splits; uniform, angle, area: weighted means; fast, best: more accurate, for maps that were not baked; flat: one per
-   * face; basis: from the normals alone, without UVs. Default: mikktspace.
+   * splits; uniform, angle, area: means with these weights; fast, best: more accurate, for maps that were not baked;
+   * flat: one per face; basis: from the normals alone, without UVs. Default: mikktspace.
    */
   method?: "mikktspace" | "lengyel" | "uniform" | "angle" | "area" | "flat" | "basis" | "fast" | "best";
   /**
-   * Faces that mikktspace works on. triangles: those of the file, for bakes of triangulated models; quads: pairs of
-   * consecutive triangles, as in Blender before export; auto: quads if the file's tangents show it, or if a file without
-   * tangents comes from Blender and its triangles are split quads. `repair` uses auto unless another value is given. See
-   * docs/concepts/quads.md. Default: triangles.
+   * Faces that mikktspace works on. triangles: the triangles of the file, for maps baked from triangulated models;
+   * quads: pairs of consecutive triangles are treated as quads, as in Blender before export; auto: quads if existing
+   * tangents match quads, or if a Blender file without tangents consists of split quads, otherwise triangles. See
+   * docs/concepts/quads.md. Default: triangles; with `repair`: auto.
    */
   faces?: "triangles" | "quads" | "auto";
   /**
@@ -53,23 +53,24 @@ export interface GenerateFileOptions {
    */
   pairing?: "reference" | "corrected";
   /**
-   * Angular threshold of mikktspace: faces whose tangents differ by this angle or more are not averaged. In degrees, 0
-   * to 360. Bakers use 180. Default: 180.
+   * Angular threshold of mikktspace: tangents of adjacent faces that differ by this angle or more are not averaged. In
+   * degrees, 0 to 360. Bakers use 180. Default: 180.
    */
   threshold?: number | string;
   /**
    * Tangent direction where UVs are sheared. gram-schmidt: along dP/du; symmetric: halfway between dP/du and the
-   * direction perpendicular to dP/dv. Not for mikktspace and basis. Default: gram-schmidt.
+   * direction perpendicular to dP/dv. symmetric is not available with `method` mikktspace and basis. Default: gram-
+   * schmidt.
    */
   frame?: "gram-schmidt" | "symmetric";
   /**
-   * Refinement steps of `method` best and `normals` best: 0, 1 or 2. Each step improves the fit of the interpolated
-   * vectors along edges. Without this option normals take 2 steps. Default: 1.
+   * Number of refinement steps of `method` best and `normals` best: 0, 1 or 2. Each step improves the fit of the
+   * interpolated vectors along edges. Default: 1 for tangents, 2 for normals.
    */
   refine?: number | string;
   /**
-   * Also write the direction of dP/dv as the attribute _BITANGENT, for shaders that read it; it differs from cross(N, T)
-   * where UVs are sheared. Written only where tangents are computed, and without morph target deltas.
+   * Also write the direction of dP/dv as the attribute _BITANGENT, for shaders that read it. It differs from cross(N, T)
+   * where UVs are sheared. It is written only where tangents are computed, and without morph target deltas.
    */
   bitangents?: boolean;
   /**
@@ -78,99 +79,105 @@ export interface GenerateFileOptions {
    */
   convention?: "gltf" | "opengl" | "directx" | "unreal" | "unity" | "blender" | "godot";
   /**
-   * Component type of the written tangents and normals: float, snorm16 (half the size) or snorm8 (a quarter). The sign
-   * stays exact. The last two declare KHR_mesh_quantization. Default: float.
+   * Component type of written tangents and normals: float, snorm16 (half the size) or snorm8 (a quarter of the size).
+   * snorm16 and snorm8 keep the sign exact and declare KHR_mesh_quantization. Default: float.
    */
   format?: "float" | "snorm16" | "snorm8";
   /**
-   * Also write the whole frame of each vertex (N, T and the sign) as one packed attribute, _FRAME32 for example, for
-   * engines that read it. Applies to every primitive that ends up with normals and tangents, existing ones included. See
+   * Also write the whole frame of each vertex (N, T and the sign) as one packed attribute such as _FRAME32, for engines
+   * that read it: frame32, frame48, frame64, oct32, qtangent64, snorm8_pair, snorm16_pair, gltf_snorm8 or gltf_snorm16.
+   * Applies to every primitive that has normals and tangents in the output, including existing ones. See
    * docs/concepts/pack.md.
    */
   pack?: "frame32" | "frame48" | "frame64" | "oct32" | "qtangent64" | "snorm8_pair" | "snorm16_pair" | "gltf_snorm8" | "gltf_snorm16";
   /**
-   * Attributes to remove where frames were packed.  tangents: TANGENT; all: NORMAL too, for engines that read only
-   * packed frames. Attributes that morph targets add to are kept. By default both are kept.
+   * Attributes to remove where frames were packed. tangents: TANGENT; all: TANGENT and NORMAL, for engines that read
+   * only packed frames. Attributes with morph target deltas are kept. By default both attributes are kept.
    */
   packDrop?: "tangents" | "all";
   /**
-   * Invert the green channel of normal maps whose green points down throughout (as in DirectX), as detected by check.
+   * Invert the green channel of normal maps in which check detects that green points down throughout (as in DirectX).
    * Images beside a .gltf are not changed; the output gets new files.
    */
   flipGreen?: boolean;
-  /** Invert the green channel of every normal map, whichever way it points. */
+  /** Invert the green channel of every normal map, whatever its direction. */
   flipGreenAll?: boolean;
   /**
    * Rewrite normal maps whose encoding is not that of glTF, as detected by check: two channels, exchanged channels, x in
-   * alpha, colors (sRGB), object space. They become PNGs, also from KTX2 and DDS. Height maps are kept, because their
-   * strength is unknown (see tspace height-to-normal).
+   * alpha, sRGB values, object space. Rewritten maps are PNG, even if the input is KTX2 or DDS. Height maps are kept,
+   * because their strength is unknown (see tspace height-to-normal).
    */
   fixMaps?: boolean;
   /** The name of fix-maps before 0.1. */
   mendMaps?: boolean;
   /**
-   * Do not read the pixels of normal maps; `repair` reads them where most signs are inverted. Inverted signs are then
-   * kept, since the maps may be inverted too.
+   * Do not read the pixels of normal maps. By default `repair` reads them if most tangent signs are inverted. With this
+   * option it keeps inverted signs, because the maps may be inverted too.
    */
   noImages?: boolean;
   /**
-   * keep: images are unchanged, including KTX2 and DDS, except normal maps that another option rewrites: those become
-   * PNGs. For engine textures see tspace compress-map. Default: keep.
+   * Texture compression of normal maps. keep, the only value: images are not changed, including KTX2 and DDS; normal
+   * maps that another option rewrites become PNG. For engine textures see tspace compress-map. Default: keep.
    */
   compressMaps?: "keep";
   /**
    * Method for missing normals (or all, with `overwriteNormals`): flat, uniform, area, angle, angle-area, max or best.
-   * Default: flat, as glTF specifies; the smoothing groups of an OBJ file, with angle weights, if it has any.
+   * Default: flat, as glTF specifies; for an OBJ file with smoothing groups, these groups with angle weights.
    */
   normals?: "flat" | "uniform" | "area" | "angle" | "max" | "angle-area" | "best";
   /**
-   * Crease angle for computed normals: sharper edges stay hard. In degrees, 0 to 180; 180: no hard edges. auto: an angle
-   * chosen per mesh, which the report states. Without `normals` it implies angle weights. Default: 180.
+   * Crease angle for computed normals: edges whose faces meet at a larger angle stay hard. In degrees, 0 to 180; 180: no
+   * hard edges; auto: an angle chosen per mesh, which the report states. Without `normals`, this option implies angle
+   * weights. Default: 180.
    */
   crease?: number | string;
   /**
-   * Denoising for `normals` best on noisy positions, such as scans: uses a larger neighborhood, so that noise is not
-   * shaded. Vertices do not move. auto: as much as is measured, and none where that is shape; 0 to 4: this multiple of
-   * the measured noise, even where it looks like shape. Default: 0.
+   * Denoising for `normals` best on noisy positions, such as scans: normals are computed from a larger neighborhood, so
+   * that noise is not shaded. Vertices do not move. auto: by the measured noise level, and not at all where the
+   * deviations look like real detail; 0 to 4: this multiple of the measured noise level, even where it looks like real
+   * detail. Default: 0.
    */
   denoise?: number | string;
   /**
    * Weld distance, in the unit of positions before node transforms: positions that differ by at most this in each
-   * coordinate count as one when normals are computed and triangles are turned. 0: only equal positions. auto: twice the
-   * float spacing at the largest coordinate of the mesh. Tangents are always computed on the unwelded positions.
-   * Default: auto.
+   * coordinate are welded when normals are computed and winding is fixed. 0: only equal positions; auto: twice the float
+   * spacing at the largest coordinate of the mesh. Tangents are always computed on the unwelded positions. Default:
+   * auto.
    */
   weldDistance?: number | string;
   /**
-   * Compute the normals of each primitive only from its own triangles. By default normals are smooth across the border
+   * Compute the normals of each primitive only from its own triangles. By default, normals are smooth across the border
    * of two primitives of a mesh that share edges; `crease` applies there too.
    */
   normalsPerPrimitive?: boolean;
   /**
-   * Recompute existing normals and add missing ones in every primitive, by `normals` and `crease`. Without `normals`:
-   * with angle weights. Existing tangents are recomputed too, because they would not fit the new normals.
+   * Recompute existing normals and add missing ones in every primitive, as set by `normals` and `crease`. Without
+   * `normals`: with angle weights. Existing tangents are recomputed too, because they would not fit the new normals.
    */
   overwriteNormals?: boolean;
   /**
    * Normal deltas of morph targets. keep: keep existing ones; missing: add them to targets without any; all: recompute
-   * them for all targets. The normal rotates as the surrounding surface does. Default: keep.
+   * them for all targets. Computed deltas rotate the normal as the target rotates the surrounding surface. Default:
+   * keep.
    */
   morphNormals?: "keep" | "missing" | "all";
   /**
-   * Turn triangles whose winding disagrees with their neighbors, and parts that are inside out, before anything else.
-   * The outside is given by existing normals where they agree; otherwise by the volume, the inside or the majority.
+   * Flip triangles whose winding disagrees with their neighbors, and connected components that are inside out, before
+   * any other step. The outside of a component is given by its existing normals if they agree; otherwise by its signed
+   * volume if it is closed, by its winding number if it is open, or else by the winding of most of its area. See
+   * docs/concepts/winding.md.
    */
   fixWinding?: boolean;
   /** The name of fix-winding before 0.1. */
   mendWinding?: boolean;
   /**
-   * Write the raw result of the method, even where it is not finite, zero, not unit, parallel to the normal, or of mixed
-   * sign within a face. By default such tangents are repaired and counted.
+   * Write the raw tangents of the method, even if they are not finite, zero, not of unit length, parallel to the normal,
+   * or of different signs within a face. By default such tangents are repaired and counted.
    */
   noSanitize?: boolean;
   /**
-   * Also make every valid tangent unit and orthogonal to its normal. The result then no longer matches bakes exactly
-   * where normals are not unit.
+   * Also give every valid tangent unit length and make it orthogonal to its normal. Where normals are not of unit
+   * length, the result then no longer matches bakes exactly.
    */
   orthogonalize?: boolean;
 }
@@ -196,15 +203,15 @@ export interface CheckFileOptions {
   /** Expected sign convention: gltf, opengl, directx, unreal, unity, blender or godot, as in generate. Default: gltf. */
   convention?: "gltf" | "opengl" | "directx" | "unreal" | "unity" | "blender" | "godot";
   /**
-   * Reference faces for tangents. auto: triangles, or quads where the tangents clearly fit those better, as Blender's
-   * do; triangles, quads: only those. Default: auto.
+   * Faces whose tangents are the reference. auto: quads where the stored tangents clearly fit quads better, as Blender's
+   * do, otherwise triangles; triangles or quads: always these. Default: auto.
    */
   faces?: "triangles" | "quads" | "auto";
   /**
    * Weld distance, in the unit of positions before node transforms: positions that differ by at most this in each
-   * coordinate count as one for winding, borders of primitives and noise. 0: only equal positions. auto: twice the float
-   * spacing at the largest coordinate of the mesh. Tangents are always computed on the unwelded positions. Default:
-   * auto.
+   * coordinate are welded for the checks of winding, primitive borders and noise. 0: only equal positions; auto: twice
+   * the float spacing at the largest coordinate of the mesh. Tangents are always computed on the unwelded positions.
+   * Default: auto.
    */
   weldDistance?: number | string;
   /** Do not examine the pixels of normal maps. */
@@ -213,20 +220,20 @@ export interface CheckFileOptions {
 
 export interface FileOptions {
   /**
-   * Also follow paths in a model that lead outside its own folder. By default absolute paths, paths with '..' and URLs
+   * Also follow paths in a model that lead outside its own folder. By default, absolute paths, paths with '..' and URLs
    * are rejected.
    */
   allowExternal?: boolean;
   /**
    * Approximate memory limit per file, e.g. 512M or 4G (at least 64M), or none. Memory use is estimated first, and a
    * file that would exceed the limit is rejected. Default: 64M plus 16 times the size of the file and the files it
-   * references, so that a small file that claims huge sizes does no harm.
+   * references, which protects against small files that declare huge sizes.
    */
   memoryLimit?: number | string;
 }
 
 export interface IdentifyFileOptions {
-  /** Tangents that differ by less than this count as equal. In degrees, 0 to 180. Default: 1. */
+  /** Tangents that differ by less than this angle are treated as equal. In degrees, 0 to 180. Default: 1. */
   tolerance?: number | string;
 }
 
@@ -236,6 +243,6 @@ export interface DiffFileOptions {
    * 180. Default: 1.
    */
   tolerance?: number | string;
-  /** Number of worst places to list. Default: 8. */
+  /** Number of vertices to list, those with the largest differences. Default: 8. */
   worst?: number | string;
 }

@@ -68,8 +68,9 @@ Option mapsOption(LayerOptions& layers) {
     };
     Option maps = option(
         "--maps", "LIST", take,
-        "Comma-separated list of maps to bake. normal is written to OUT, each other map beside it: OUT_ao.png. color, "
-        "orm (occlusion, roughness, metalness) and emission are transferred from the materials of the high poly.");
+        "Comma-separated list of maps to bake: normal, ao, bent, curvature, height, position, thickness, id, color, "
+        "orm (occlusion, roughness, metalness) and emission. The normal map is written to OUT, every other map beside "
+        "it: OUT_ao.png, ... color, orm and emission are transferred from the materials of the high poly.");
     maps.choices.emplace_back("normal");
     for (std::uint32_t i = 0; i < kMapLayerCount; ++i) maps.choices.emplace_back(layerName(static_cast<MapLayer>(i)));
     maps.default_text = layers.layers.empty() ? "normal" : "all of them";
@@ -97,7 +98,7 @@ void addLayerOptions(OptionList& list, LayerOptions& layers, BakeIds& ids) {
     add(list, group, samplesOption(layers.ray_count));
     add(list, group,
         lengthOption("--ao-distance", layers.sky_distance,
-                     "Maximum occlusion distance, in model units. Default: no limit."));
+                     "Maximum occlusion distance for ao and bent, in model units. Default: no limit."));
     add(list, group,
         lengthOption("--height-range", layers.height_range,
                      "Height mapped to white, in model units; its negative maps to black. Default: the largest "
@@ -112,8 +113,8 @@ void addLayerOptions(OptionList& list, LayerOptions& layers, BakeIds& ids) {
                      "report states."));
     add(list, group,
         choice("--id", "BY", kIds, ids,
-               "Content of the ID map: one color per material, object (node name), or each shell "
-               "(connected component by position)."));
+               "Content of the ID map: one color per material, per object (node name), or per shell (connected "
+               "component by position)."));
 }
 
 Option fileOption(const char* name, const char* value, std::string& target, const char* help) {
@@ -126,32 +127,32 @@ void addRayOptions(OptionList& list, double& reach, RayOptions& rays, std::strin
     const char* group = "Rays";
     add(list, group,
         choice("--rays", "WHICH", kTargets, rays.target,
-               "Hit on the high poly that is baked. outermost: the first front face from the cage inwards, which is "
-               "the visible one, or the first beyond the cage where there is none; nearest: the front face nearest to "
-               "the low poly on either side, for fingers and thin parts."));
+               "Hit of a ray on the high poly that is used. outermost: the first front face from the cage inwards, "
+               "which is the visible one, or, if there is none, the nearest one outside the cage; nearest: the front "
+               "face nearest to the low poly on either side, for fingers and thin parts."));
     add(list, group,
         choice("--directions", "HOW", kDirections, rays.directions,
                "Ray directions. averaged: along the mean of the normals at each position, which avoids gaps at hard "
-               "edges; auto: averaged near edges where faces meet at more than 30 degrees, and along the face normal "
-               "elsewhere, where averaged directions would skew detail; normals: along the stored normals."));
-    add(list, group,
-        lengthOption("--cage-offset", rays.cage_offset,
-                     "Cage distance: how far from the low poly rays start, in model units. Default: the reach; the "
-                     "report states it."));
+               "edges but skews detail on flat faces; auto: averaged near edges where faces meet at more than 30 "
+               "degrees, and along the face normal elsewhere; normals: along the stored normals."));
     add(list, group,
         lengthOption(
-            "--reach", reach,
-            "Maximum search distance from the low poly, outwards and inwards, in model units. Default: 5 % of the size "
-            "of the larger model, or more where the bounding boxes differ by more; the report states it."));
+            "--cage-offset", rays.cage_offset,
+            "Cage distance: how far from the low poly rays start, in model units. Default: the value of --reach."));
+    add(list, group,
+        lengthOption("--reach", reach,
+                     "Maximum search distance from the low poly, outwards and inwards, in model units. Default: 5% of "
+                     "the diagonal of the larger bounding box, or more if the two bounding boxes differ by more; the "
+                     "report states the value."));
     add(list, group,
         numberOrAuto("--weld-distance", "DISTANCE", "a distance", rays.weld_distance, NormalOptions::weld_auto,
                      1000000000,
-                     "Weld distance, in model units: positions that differ by at most this in each coordinate count as "
-                     "one point for ray directions, curvature, shells and generated normals. 0: only equal positions. "
+                     "Weld distance, in model units: positions that differ by at most this in each coordinate are "
+                     "welded for ray directions, curvature, shells and generated normals. 0: only equal positions; "
                      "auto: twice the float spacing at the largest coordinate of the mesh."));
     Option painted = fileOption("--skew", "IMAGE", skew,
-                                "Skew map, used instead of --directions: an image in the UVs of the map, black where "
-                                "rays are averaged and white where they follow the face normals.");
+                                "Skew map, used instead of --directions: an image in the UVs of the low poly. Rays are "
+                                "averaged where it is black and follow the face normals where it is white.");
     painted.excludes = {"--directions"};
     add(list, group, std::move(painted));
     Option own = fileOption("--cage", "MODEL", cage,
@@ -165,24 +166,25 @@ void addBakedMapOptions(OptionList& list, BakeFileOptions& options) {
     const char* group = "Map";
     BakeOptions& map = options.map;
     add(list, group, mapSizeOption(map));
-    add(list, group, choice("--bits", "8|16", kMapBits, map.bits, "Bits per channel of the PNG."));
+    add(list, group, choice("--bits", "8|16", kMapBits, map.bits, "Bits per channel of the PNG: 8 or 16."));
     add(list, group,
         choice("--space", "SPACE", kMapSpaces, map.space,
                "Space of the output normals. tangent: the tangent frames of the low poly; object: the axes of the "
                "scene."));
-    add(list, group, axesOption([&map](const MapAxes& axes) { map.axes = axes; })).default_text = "y-up";
+    add(list, group, axesOption([&map](const MapAxes& axes) { map.axes = axes; }));
     add(list, group,
         readingOption("--convention", map.reading,
-                      "Program whose shader will read the map. directx and unreal use green down; unity, unreal and "
-                      "godot read two channels, so all texels get length 1; godot and three interpolate bitangents."));
+                      "Program whose shader will read the map: gltf, opengl, directx, unreal, unity, blender, godot or "
+                      "three. directx and unreal use green down; unity, unreal and godot read two channels, so all "
+                      "texels have unit length; godot and three interpolate bitangents per vertex."));
     add(list, group,
         flag("--unit", options.unit,
-             "Give all texels length 1, so that z can be reconstructed from x and y: for two-channel formats (BC5, "
-             "DXT5nm). The reported error is that of such a reader."));
+             "Give all texels unit length, so that z can be reconstructed from x and y, for two-channel formats (BC5, "
+             "DXT5nm). The reported error then assumes a reader that reconstructs z."));
     add(list, group,
         choice("--fit", "HOW", kFits, map.fit,
-               "How texels are computed. solve: all texels together, so that the filtered map is also right between "
-               "texels; texel: each texel on its own, right at its center, which is faster."));
+               "Computation of the texels. solve: all texels together, so that the filtered map is also right between "
+               "texels; texel: each texel separately, right at its center, which is faster."));
     addLengths(list, group, map.lengths);
     add(list, group,
         number("--padding", map.padding, kMostPadding,
@@ -191,12 +193,12 @@ void addBakedMapOptions(OptionList& list, BakeFileOptions& options) {
     add(list, group,
         choice("--overlap", "HOW", kOverlaps, map.overlap,
                "Normal of texels where UVs overlap and the triangles need different normals, as on mirrored halves. "
-               "mean: the mean of all; first: the UV island that comes first in the file; larger: the UV island with "
-               "the larger surface. The report states how far they differ."));
+               "mean: the mean of all; first: that of the UV island that comes first in the file; larger: that of the "
+               "UV island with the larger surface. The report states how far they differ."));
     add(list, group, flag("--udim", options.udim, "Write one file per UDIM tile: NAME.1001.png, NAME.1002.png, ..."));
     Option wrap = flag("--wrap", options.wrap,
                        "Also bake triangles outside the 0-1 UV range, where the texture repeats. By default they are "
-                       "ignored, as offset copies.");
+                       "ignored, because they are assumed to be offset copies.");
     wrap.excludes = {"--udim"};
     add(list, group, std::move(wrap));
 }
@@ -204,26 +206,27 @@ void addBakedMapOptions(OptionList& list, BakeFileOptions& options) {
 void addHighMapOptions(OptionList& list, bool& ignore, std::optional<Green>& green) {
     const char* group = "High poly";
     add(list, group,
-        flag("--ignore-high-maps", ignore,
-             "Use only the vertex normals of the high poly. By default the normal maps of its materials are baked "
-             "through."));
+        flag(
+            "--ignore-high-maps", ignore,
+            "Use only the vertex normals of the high poly. By default the normal maps of its materials are included."));
     const auto take = [&green](const std::string& text) -> std::string {
         if (text != "up" && text != "down") return "must be up or down";
         green = text == "down" ? Green::down : Green::up;
         return {};
     };
     Option told = option("--high-green", "up|down", take,
-                         "Green direction of the high poly's normal maps. Default: as the file declares or the slopes "
-                         "of the map show; up where neither is known.");
+                         "Green direction of the high poly's normal maps: up or down. Default: as declared in the "
+                         "file, else as detected from the map, else up.");
     told.excludes = {"--ignore-high-maps"};
     add(list, group, std::move(told));
 }
 
 Option matchOption(std::string& target) {
-    Option match = text("--match", "HOW", target,
-                        "Pairing of low-poly with high-poly objects. names: Body_low from "
-                        "Body, Body_high, Body_hp, Body_high_001 and Body_high_buckle; objects without a partner from "
-                        "everything; all: each from everything; otherwise a file with lines LOW = HIGH.");
+    Option match =
+        text("--match", "HOW", target,
+             "Pairing of low-poly with high-poly objects. names: Body_low is paired with Body, Body_high, Body_hp, "
+             "Body_high_001 and Body_high_buckle, and an object without a match uses the whole high poly; all: every "
+             "object uses the whole high poly; any other value: a text file with lines LOW = HIGH.");
     match.default_text = "names";
     return match;
 }
@@ -234,16 +237,17 @@ OptionList bakeOptions(BakeFileOptions& options) {
     OptionList list;
     Option out_mesh = fileOption("--out-mesh", "OUT", options.out_mesh,
                                  "Also write the low poly to this .glb, .vrm or .gltf file, with the tangent frames "
-                                 "that were used and the map as its normal texture.");
+                                 "that were used and with the map as its normal texture.");
     out_mesh.excludes = {"--udim"};
     add(list, kInputAndOutput, std::move(out_mesh));
     add(list, kInputAndOutput,
         fileOption(
             "--misses", "PNG", options.misses,
-            "Write a picture of the texel states: green: baked, red: no hit, yellow: shared by several triangles."));
+            "Write a picture of the texel states. green: baked; red: no hit; yellow: shared by several triangles."));
     add(list, kInputAndOutput,
-        fileOption("--heat", "PNG", options.heat,
-                   "Write a heat map of the error, from black over red to white (the 99th percentile)."));
+        fileOption(
+            "--heat", "PNG", options.heat,
+            "Write a heat map of the error to this PNG, from black (0) through red to white (the 99th percentile)."));
     add(list, kInputAndOutput, matchOption(options.match));
     addAllowExternal(list, options.file);
     addLayerOptions(list, options.layers, options.ids);
@@ -255,10 +259,11 @@ OptionList bakeOptions(BakeFileOptions& options) {
                "Tangent method for a low poly without tangents, as in generate. Existing tangents are kept."));
     add(list, "High poly",
         numberOrAuto("--denoise", "FACTOR", "a number", options.denoise, NormalOptions::denoise_auto, 4,
-                     "Denoising for a high poly with noisy positions, such as a scan: recomputes its normals from a "
-                     "larger neighborhood, so that noise is not baked. auto: as much as is measured, and none where "
-                     "that is shape; 0 to 4: this multiple of the measured noise, even where it looks like shape."));
-    addRunning(list, options.execution, "Number of threads; 0: one per core. Every number gives identical output.",
+                     "Denoising for a high poly with noisy positions, such as a scan: its normals are recomputed from "
+                     "a larger neighborhood, so that noise is not baked. auto: by the measured noise level, and not at "
+                     "all where the deviations look like real detail; 0 to 4: this multiple of the measured noise "
+                     "level, even where it looks like real detail."));
+    addRunning(list, options.execution, "Number of threads; 0: one per core. The output is the same for every number.",
                options.file);
     return list;
 }
@@ -266,29 +271,33 @@ OptionList bakeOptions(BakeFileOptions& options) {
 OptionList mapErrorOptions(MapErrorFileOptions& options) {
     OptionList list;
     add(list, kInputAndOutput,
-        fileOption("--heat", "PNG", options.heat,
-                   "Write a heat map of the error, from black over red to white (the 99th percentile)."));
+        fileOption(
+            "--heat", "PNG", options.heat,
+            "Write a heat map of the error to this PNG, from black (0) through red to white (the 99th percentile)."));
     add(list, kInputAndOutput,
         text("--material", "NAME", options.material, "Measure only triangles of this material. Default: all."));
     add(list, kInputAndOutput,
         number("--tile", options.tile, 9999,
-               "Measure only triangles of this UDIM tile (1001, ...), whose file the map is. 0: all."));
+               "UDIM tile of the map (1001, ...): measure only the triangles in this tile. 0: all triangles."));
     add(list, kInputAndOutput, matchOption(options.match));
     addAllowExternal(list, options.file);
     const char* group = "Map";
     add(list, group,
         choice("--space", "SPACE", kMapSpaces, options.map.space,
-               "Space that the map is read in. tangent: the tangent frames of the low poly; object: the axes of the "
+               "Space of the vectors in the map. tangent: the tangent frames of the low poly; object: the axes of the "
                "scene."));
-    add(list, group, axesOption([&options](const MapAxes& axes) { options.map.axes = axes; })).default_text = "y-up";
-    add(list, group, readingOption("--convention", options.map.reading, "Program whose shader the map is read with."));
+    add(list, group, axesOption([&options](const MapAxes& axes) { options.map.axes = axes; }));
+    add(list, group,
+        readingOption("--convention", options.map.reading,
+                      "Program whose shading convention is assumed: gltf, opengl, directx, unreal, unity, blender, "
+                      "godot or three."));
     add(list, group,
         flag("--two-channels", options.two_channels,
-             "Reconstruct z from x and y, as for BC5 and DXT5nm; blue is ignored."));
+             "Reconstruct z from x and y, as for BC5 and DXT5nm, and ignore blue."));
     addHighMapOptions(list, options.ignore_high_maps, options.high_green);
     addRayOptions(list, options.map.reach, options.map.rays, options.cage, options.skew);
-    addRunning(list, options.execution, "Number of threads; 0: one per core. Every number gives identical results.",
-               options.file);
+    addRunning(list, options.execution,
+               "Number of threads; 0: one per core. The results are the same for every number.", options.file);
     return list;
 }
 

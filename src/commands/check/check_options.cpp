@@ -50,15 +50,15 @@ void addChecking(OptionList& list, CheckRequest& request) {
                "Expected sign convention: gltf, opengl, directx, unreal, unity, blender or godot, as in generate."));
     add(list, group,
         choice("--faces", "FACES", kFaces, options.faces,
-               "Reference faces for tangents. auto: triangles, or quads where the tangents clearly fit those better, "
-               "as Blender's do; triangles, quads: only those."));
+               "Faces whose tangents are the reference. auto: quads where the stored tangents clearly fit quads "
+               "better, as Blender's do, otherwise triangles; triangles or quads: always these."));
     add(list, group,
         numberOrAuto("--weld-distance", "DISTANCE", "a distance", options.weld_distance, NormalOptions::weld_auto,
                      1000000000,
                      "Weld distance, in the unit of positions before node transforms: positions that differ by at most "
-                     "this in each coordinate count as one for winding, borders of primitives and noise. 0: only equal "
-                     "positions. auto: twice the float spacing at the largest coordinate of the mesh. Tangents are "
-                     "always computed on the unwelded positions."));
+                     "this in each coordinate are welded for the checks of winding, primitive borders and noise. 0: "
+                     "only equal positions; auto: twice the float spacing at the largest coordinate of the mesh. "
+                     "Tangents are always computed on the unwelded positions."));
     add(list, group, setting("--no-images", options.images, false, "Do not examine the pixels of normal maps."));
 }
 

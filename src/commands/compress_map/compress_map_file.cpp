@@ -244,7 +244,7 @@ Option factorOption(double& factor) {
         return std::string();
     };
     Option option = options::option("--roughness-factor", "NUMBER", take,
-                                    "roughnessFactor of the material, which is multiplied into the texture; set it to "
+                                    "roughnessFactor of the material. It is multiplied into the texture, so set it to "
                                     "1 in the material afterwards.");
     option.default_text = std::string("1");  // GCC 12 warns of a literal here
     option.needs = "--roughness";
@@ -254,14 +254,14 @@ Option factorOption(double& factor) {
 void addRoughness(OptionList& list, CompressMapFileOptions& options) {
     Option texture = text("--roughness", "IMAGE", options.roughness,
                           "A glTF texture of occlusion, roughness and metalness. Its mip levels get rougher by the "
-                          "spread of the normals within each texel, so that distant surfaces do not sparkle. Its size "
-                          "is that of the normal map, or a power of two larger or smaller.");
+                          "spread of the normals within each texel, so that distant surfaces do not sparkle. Its width "
+                          "and height are those of the normal map, or larger or smaller by a power of two.");
     texture.is_file = true;
     texture.needs = "--roughness-output";
     add(list, "Roughness", texture);
-    Option output = text(
-        "-o2, --roughness-output", "OUT", options.roughness_output,
-        "Output file of the roughness texture: .ktx2, .dds, .png (first level only), or a folder of PNGs (ends in /).");
+    Option output = text("-o2, --roughness-output", "OUT", options.roughness_output,
+                         "Output file of the roughness texture: .ktx2, .dds, .png (first mip level only), or a folder "
+                         "of PNGs (a name that ends in /).");
     output.is_file = true;
     output.needs = "--roughness";
     add(list, "Roughness", output);
@@ -275,28 +275,30 @@ OptionList compressMapOptions(CompressMapFileOptions& options) {
     add(list, "Texture", formatOption(options.format));
     add(list, "Texture",
         choice("--quality", "QUALITY", kQualities, options.quality,
-               "Encoder quality. fast: minimizes the error of the filtered texture. best: 1 % less error, 2.5 times "
-               "the time. quick: each channel by itself, 20 % more error, 25 % of the time."));
+               "Encoder quality. quick: encodes each channel separately; fast: minimizes the error of the filtered "
+               "texture; best: as fast does, with more iterations. Compared with fast, quick has about 20% more error "
+               "and takes 25% of the time; best has about 1% less error and takes 2.5 times as long."));
     add(list, "Texture",
         flag("--signed", options.is_signed,
-             "Write signed channels (SNORM). Flat parts of maps with more than 8 bits are then exact; the engine must "
-             "expect SNORM."));
+             "Write signed channels (SNORM), for engines that expect them. Flat areas, whose normal is (0, 0, 1), are "
+             "then exact if the input has more than 8 bits."));
     addAlpha(list, "Texture", options.alpha);
     addDdsHeader(list, "Texture", options.dds_header);
     add(list, "Texture",
         setting("--mips", options.levels, true,
-                "Write all mip levels, each computed from the first. This is the default."));
-    Option no_levels = setting("--no-levels", options.levels, false, "Write only the first level.");
+                "Write all mip levels, each computed from the first one. This is the default."));
+    Option no_levels = setting("--no-levels", options.levels, false, "Write only the first mip level.");
     no_levels.excludes = {"--mips"};
     add(list, "Texture", no_levels);
     add(list, "Texture",
         number("--zstd", options.zstd_level, 22,
-               "Zstandard supercompression level of a .ktx2: 1 is fast, 19 small; 0: none. Blocks of detailed maps "
-               "hardly become smaller."));
-    add(list, "Texture", number("--bits", options.bits, 16, "Bits per channel of PNGs of normals: 8 or 16."));
+               "Zstandard supercompression level of a .ktx2, from 1 (fast) to 22 (smallest); 0: none. Textures of "
+               "detailed maps hardly become smaller."));
+    add(list, "Texture",
+        number("--bits", options.bits, 16, "Bits per channel of the PNGs of normals, if OUT is a folder: 8 or 16."));
     addRoughness(list, options);
-    add(list, kInputAndOutput, flag("--dry-run", options.dry_run, "Dry run: do everything except writing."));
-    addRunning(list, options.execution, "Number of threads; 0: one per core. Every number gives identical output.",
+    add(list, kInputAndOutput, flag("--dry-run", options.dry_run, "Do everything except writing the output."));
+    addRunning(list, options.execution, "Number of threads; 0: one per core. The output is the same for every number.",
                options.file);
     return list;
 }

@@ -386,26 +386,35 @@ OptionList convertMapOptions(ConvertMapFileOptions& options) {
     addMaterialOfMap(list, options.material);
     add(list, kInputAndOutput,
         number("--tile", options.tile, 9999,
-               "Use only the triangles of this UDIM tile (1001, ...), whose file the map is. 0: all."));
-    add(list, kInputAndOutput, flag("--dry-run", options.dry_run, "Dry run: do everything except writing."));
+               "UDIM tile of the map (1001, ...): use only the triangles in this tile. 0: all triangles."));
+    add(list, kInputAndOutput, flag("--dry-run", options.dry_run, "Do everything except writing the output."));
     addAllowExternal(list, options.file);
     const char* group = "Map";
     add(list, group,
         choice("--from", "SPACE", kSpaces, options.from,
-               "Space of the input vectors. object: the coordinates of the mesh; world: those of the scene, after the "
-               "node's transform."));
-    add(list, group, choice("--to", "SPACE", kSpaces, options.to, "Space of the output vectors."));
+               "Space of the input vectors: tangent, object (the coordinates of the mesh), or world (the coordinates "
+               "of the scene, after the node's transform)."));
+    add(list, group,
+        choice("--to", "SPACE", kSpaces, options.to,
+               "Space of the output vectors: tangent, object or world, as for --from."));
     add(list, group, axesOption([&options](const MapAxes& axes) { options.axes = axes; }));
-    add(list, group, readingOption("--from-convention", options.from_reading, "Program that the map was made for."));
-    add(list, group, readingOption("--to-convention", options.to_reading, "Program that will show the output."));
+    add(list, group,
+        readingOption(
+            "--from-convention", options.from_reading,
+            "Program that the map was made for: gltf, opengl, directx, unreal, unity, blender, godot or three."));
+    add(list, group,
+        readingOption(
+            "--to-convention", options.to_reading,
+            "Program that will show the output: gltf, opengl, directx, unreal, unity, blender, godot or three."));
     add(list, group,
         choice("--from-bitangent", "WHERE", kBitangents, options.from_reading.bitangent,
-               "Where that program computes bitangents: per vertex or per pixel. Default: as its convention does; "
-               "pixel for gltf."))
+               "Where the program of --from-convention computes bitangents: per vertex or per pixel. Default: as that "
+               "program does; pixel for gltf."))
         .default_text.clear();
     add(list, group,
         choice("--to-bitangent", "WHERE", kBitangents, options.to_reading.bitangent,
-               "Where the target program computes bitangents: per vertex or per pixel."))
+               "Where the program of --to-convention computes bitangents: per vertex or per pixel. Default: as that "
+               "program does; pixel for gltf."))
         .default_text.clear();
     add(list, group,
         option(
@@ -424,11 +433,11 @@ OptionList convertMapOptions(ConvertMapFileOptions& options) {
     add(list, group,
         option(
             "--flip-red", "", [](const std::string&) { return std::string(); },
-            "Invert red of the output: for maps with inverted x."));
+            "Invert the red channel of the output, for maps with inverted x."));
     add(list, group,
         option(
             "--flip-green", "", [](const std::string&) { return std::string(); },
-            "Invert green of the output relative to --to-convention."));
+            "Invert the green channel of the output, relative to --to-convention."));
     add(list, group,
         choice("--bits", "BITS", kBitCounts, options.bits,
                "Bits per channel of the output: 8 or 16 in a PNG; 16 (half) or 32 (float) in an EXR. Default: the most "
@@ -438,8 +447,8 @@ OptionList convertMapOptions(ConvertMapFileOptions& options) {
     addDdsHeader(list, group, options.dds_header);
     add(list, group,
         number("--padding", options.padding, 65536,
-               "Padding: texels around UV islands that are converted too. 0: only those that filtering reads. Texels "
-               "further away are background and stay unchanged."));
+               "Width of the padding around UV islands that is converted too, in texels. 0: only texels that filtering "
+               "reads. Texels farther away are background and are not changed."));
     addMakingAnImage(list, group, options.tangents.method, options.execution, options.file);
     return list;
 }

@@ -273,7 +273,9 @@ OptionList diffOptions(DiffRequest& request) {
         degrees("--tolerance", request.tolerance_deg, 180,
                 "Exit with code 1 if an angle exceeds this tolerance, a sign differs, or a triangle has no match. In "
                 "degrees, 0 to 180."));
-    add(list, group, number("--worst", request.options.worst_count, 10000, "Number of worst places to list."));
+    add(list, group,
+        number("--worst", request.options.worst_count, 10000,
+               "Number of vertices to list, those with the largest differences."));
     addLimits(list, request.options.file);
     return list;
 }
@@ -283,8 +285,9 @@ OptionList identifyOptions(IdentifyOptions& options) {
     addAllowExternal(list, options.file);
     add(list, "Comparing",
         degrees("--tolerance", options.tolerance_deg, 180,
-                "Tangents that differ by less than this count as equal. In degrees, 0 to 180."));
-    addThreads(list, options.execution, "Number of threads; 0: one per core. Every number gives identical results.");
+                "Tangents that differ by less than this angle are treated as equal. In degrees, 0 to 180."));
+    addThreads(list, options.execution,
+               "Number of threads; 0: one per core. The results are the same for every number.");
     addLimits(list, options.file);
     return list;
 }
@@ -298,7 +301,7 @@ OptionList inspectOptions(FileOptions& options) {
 
 OptionList flipGreenOptions(FlipGreenOptions& options) {
     OptionList list;
-    add(list, kInputAndOutput, flag("--dry-run", options.dry_run, "Dry run: do everything except writing."));
+    add(list, kInputAndOutput, flag("--dry-run", options.dry_run, "Do everything except writing the output."));
     addMemoryLimit(list, options.memory_limit_bytes);
     addSync(list, options.sync);
     return list;

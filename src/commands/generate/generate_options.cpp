@@ -58,12 +58,12 @@ void addOutput(OptionList& list, GenerateOptions& options) {
     const char* group = kInputAndOutput;
     add(list, group,
         flag("--dry-run", options.dry_run,
-             "Dry run: report what would be written and what is wrong, without writing."));
+             "Report what would be written, and all problems, without writing anything."));
     add(list, group,
         choice("--compress", "HOW", kCompressions, options.compression,
                "Geometry compression of the output. keep: the compression of the input; none: uncompressed; meshopt: "
                "EXT_meshopt_compression, which is lossless; draco: KHR_draco_mesh_compression, which quantizes "
-               "positions, normals and UVs that were not Draco data before."));
+               "positions, normals and UVs, except those that were Draco data before."));
     addKeepCoordinates(list, options.file);
     addAllowExternal(list, options.file);
 }
@@ -80,10 +80,11 @@ void addSelection(OptionList& list, GenerateOptions& options) {
         .excludes = {"--only-missing"};
     add(list, group,
         setting("--repair", options.existing, ExistingTangents::repair,
-                "Add missing tangents, keep good ones, and recompute wrong ones: not finite, not unit, not orthogonal "
-                "to the normal, with a wrong sign, or not along the UVs."))
+                "Add missing tangents, keep good ones, and recompute wrong ones: not finite, not of unit length, not "
+                "orthogonal to the normal, with a wrong sign, or not aligned with the UVs."))
         .excludes = {"--only-missing", "--overwrite"};
-    add(list, group, flag("--strip", options.strip, "Remove tangents that no material needs, with their data."))
+    add(list, group,
+        flag("--strip", options.strip, "Remove tangents that no material needs, including their buffer data."))
         .excludes = {"--all"};
 }
 
@@ -98,35 +99,38 @@ void addTangentOptions(OptionList& list, GenerateOptions& options) {
     add(list, group,
         choice("--method", "NAME", kMethods, tangents.method,
                "Tangent method. mikktspace: bit-identical to what bakers and engines use; lengyel: one tangent per "
-               "vertex, no splits; uniform, angle, area: weighted means; fast, best: more accurate, for maps that were "
-               "not baked; flat: one per face; basis: from the normals alone, without UVs."));
+               "vertex, no splits; uniform, angle, area: means with these weights; fast, best: more accurate, for maps "
+               "that were not baked; flat: one per face; basis: from the normals alone, without UVs."));
     add(list, group,
         choice("--faces", "FACES", kFaces, options.faces,
-               "Faces that mikktspace works on. triangles: those of the file, for bakes of triangulated models; quads: "
-               "pairs of consecutive triangles, as in Blender before export; auto: quads if the file's tangents show "
-               "it, or if a file without tangents comes from Blender and its triangles are split quads. --repair uses "
-               "auto unless another value is given. See docs/concepts/quads.md."));
+               "Faces that mikktspace works on. triangles: the triangles of the file, for maps baked from triangulated "
+               "models; quads: pairs of consecutive triangles are treated as quads, as in Blender before export; auto: "
+               "quads if existing tangents match quads, or if a Blender file without tangents consists of split quads, "
+               "otherwise triangles. See docs/concepts/quads.md. Default: triangles; with --repair: auto."))
+        .default_text.clear();
     add(list, group,
         choice("--pairing", "NAME", kPairings, tangents.pairing,
                "Neighbor search of mikktspace. reference: as in the reference implementation, including its known "
                "defect; corrected: without the defect, so that the result does not depend on face order."));
     add(list, group,
         degrees("--threshold", tangents.angular_threshold_deg, 360,
-                "Angular threshold of mikktspace: faces whose tangents differ by this angle or more are not averaged. "
-                "In degrees, 0 to 360. Bakers use 180."));
+                "Angular threshold of mikktspace: tangents of adjacent faces that differ by this angle or more are not "
+                "averaged. In degrees, 0 to 360. Bakers use 180."));
     add(list, group,
-        choice("--frame", "NAME", kFrames, tangents.frame,
-               "Tangent direction where UVs are sheared. gram-schmidt: along dP/du; symmetric: halfway between dP/du "
-               "and the direction perpendicular to dP/dv. Not for mikktspace and basis."));
+        choice(
+            "--frame", "NAME", kFrames, tangents.frame,
+            "Tangent direction where UVs are sheared. gram-schmidt: along dP/du; symmetric: halfway between dP/du and "
+            "the direction perpendicular to dP/dv. symmetric is not available with --method mikktspace and basis."));
     add(list, group,
         number("--refine", tangents.refine, 2,
-               "Refinement steps of --method best and --normals best: 0, 1 or 2. Each step improves the fit of the "
-               "interpolated vectors along edges. Without this option normals take 2 steps."));
+               "Number of refinement steps of --method best and --normals best: 0, 1 or 2. Each step improves the fit "
+               "of the interpolated vectors along edges. Default: 1 for tangents, 2 for normals."))
+        .default_text.clear();
     add(list, group,
         flag("--bitangents", options.bitangents,
-             "Also write the direction of dP/dv as the attribute _BITANGENT, for shaders that read it; it differs from "
-             "cross(N, T) where UVs are sheared. Written only where tangents are computed, and without morph target "
-             "deltas."));
+             "Also write the direction of dP/dv as the attribute _BITANGENT, for shaders that read it. It differs from "
+             "cross(N, T) where UVs are sheared. It is written only where tangents are computed, and without morph "
+             "target deltas."));
     add(list, group,
         choice(
             "--convention", "NAME", kConventions, tangents.convention,
@@ -134,36 +138,38 @@ void addTangentOptions(OptionList& list, GenerateOptions& options) {
             "Positions, UVs and normals are unchanged. Use a value other than gltf only for readers that expect it."));
     add(list, group,
         choice("--format", "NUMBERS", kVectorFormats, options.format,
-               "Component type of the written tangents and normals: float, snorm16 (half the size) or snorm8 (a "
-               "quarter). The sign stays exact. The last two declare KHR_mesh_quantization."));
+               "Component type of written tangents and normals: float, snorm16 (half the size) or snorm8 (a quarter of "
+               "the size). snorm16 and snorm8 keep the sign exact and declare KHR_mesh_quantization."));
 }
 
 void addPackOptions(OptionList& list, GenerateOptions& options) {
     const char* group = "Packed frames";
     add(list, group,
         choice("--pack", "FORMAT", kPackFormats, options.pack,
-               "Also write the whole frame of each vertex (N, T and the sign) as one packed attribute, _FRAME32 for "
-               "example, for engines that read it. Applies to every primitive that ends up with normals and tangents, "
-               "existing ones included. See docs/concepts/pack.md."));
+               "Also write the whole frame of each vertex (N, T and the sign) as one packed attribute such as "
+               "_FRAME32, for engines that read it: frame32, frame48, frame64, oct32, qtangent64, snorm8_pair, "
+               "snorm16_pair, gltf_snorm8 or gltf_snorm16. Applies to every primitive that has normals and tangents in "
+               "the output, including existing ones. See docs/concepts/pack.md."));
     add(list, group,
-        choice(
-            "--pack-drop", "WHAT", kPackDrops, options.pack_drop,
-            "Attributes to remove where frames were packed.  tangents: TANGENT; all: NORMAL too, for engines that read "
-            "only packed frames. Attributes that morph targets add to are kept. By default both are kept."))
+        choice("--pack-drop", "WHAT", kPackDrops, options.pack_drop,
+               "Attributes to remove where frames were packed. tangents: TANGENT; all: TANGENT and NORMAL, for engines "
+               "that read only packed frames. Attributes with morph target deltas are kept. By default both attributes "
+               "are kept."))
         .needs = "--pack";
 }
 
 /// There is one answer alone, and a sentence why.
 Option compressMapsOption() {
     const auto take = [](const std::string& how) {
-        return how == "uastc" ? std::string(
-                                    "tspace has no encoder of UASTC that is nearer than that of basisu, which is "
-                                    "there for it; PNG and WebP without loss are exact")
-                              : std::string();
+        return how == "uastc"
+                   ? std::string(
+                         "uastc is not supported; use basisu to encode UASTC, or PNG or WebP for a lossless map")
+                   : std::string();
     };
-    Option made = option("--compress-maps", "HOW", take,
-                         "keep: images are unchanged, including KTX2 and DDS, except normal maps that another "
-                         "option rewrites: those become PNGs. For engine textures see tspace compress-map.");
+    Option made = option(
+        "--compress-maps", "HOW", take,
+        "Texture compression of normal maps. keep, the only value: images are not changed, including KTX2 and DDS; "
+        "normal maps that another option rewrites become PNG. For engine textures see tspace compress-map.");
     made.choices = {"keep"};
     made.default_text = "keep";
     return made;
@@ -173,28 +179,28 @@ void addMapOptions(OptionList& list, GenerateOptions& options) {
     const char* group = "Normal maps";
     add(list, group,
         setting("--flip-green", options.flip_green, FlipGreen::down,
-                "Invert the green channel of normal maps whose green points down throughout (as in DirectX), as "
-                "detected by check. Images beside a .gltf are not changed; the output gets new files."));
+                "Invert the green channel of normal maps in which check detects that green points down throughout (as "
+                "in DirectX). Images beside a .gltf are not changed; the output gets new files."));
     add(list, group,
         setting("--flip-green-all", options.flip_green, FlipGreen::all,
-                "Invert the green channel of every normal map, whichever way it points."))
+                "Invert the green channel of every normal map, whatever its direction."))
         .excludes = {"--flip-green"};
     add(list, group,
         flag("--fix-maps", options.mend_maps,
              "Rewrite normal maps whose encoding is not that of glTF, as detected by check: two channels, exchanged "
-             "channels, x in alpha, colors (sRGB), object space. They become PNGs, also from KTX2 and DDS. Height maps "
-             "are kept, because their strength is unknown (see tspace height-to-normal)."))
+             "channels, x in alpha, sRGB values, object space. Rewritten maps are PNG, even if the input is KTX2 or "
+             "DDS. Height maps are kept, because their strength is unknown (see tspace height-to-normal)."))
         .old_names = {"--mend-maps"};
     add(list, group,
         flag("--convert-maps", options.convert_maps,
              "Rewrite normal maps for the computed tangents, so that the shading does not change. Maps and materials "
-             "shared by several primitives are copied where they need different ones. Images beside a .gltf are not "
-             "changed; the output gets new files."))
+             "shared by several primitives are copied if the primitives need different maps. Images beside a .gltf are "
+             "not changed; the output gets new files."))
         .excludes = {"--flip-green", "--flip-green-all", "--fix-maps", "--repair"};
     add(list, group,
         setting("--no-images", options.images, false,
-                "Do not read the pixels of normal maps; --repair reads them where most signs are inverted. Inverted "
-                "signs are then kept, since the maps may be inverted too."))
+                "Do not read the pixels of normal maps. By default --repair reads them if most tangent signs are "
+                "inverted. With this option it keeps inverted signs, because the maps may be inverted too."))
         .excludes = {"--flip-green", "--flip-green-all", "--fix-maps", "--convert-maps"};
     add(list, group, compressMapsOption());
 }
@@ -203,55 +209,60 @@ void addOtherOptions(OptionList& list, GenerateOptions& options) {
     Option& weighting = add(list, "Normals",
                             choice("--normals", "NAME", kWeightings, options.normals.weighting,
                                    "Method for missing normals (or all, with --overwrite-normals): flat, uniform, "
-                                   "area, angle, angle-area, max or best. Default: flat, as glTF specifies; the "
-                                   "smoothing groups of an OBJ file, with angle weights, if it has any."));
+                                   "area, angle, angle-area, max or best. Default: flat, as glTF specifies; for an OBJ "
+                                   "file with smoothing groups, these groups with angle weights."));
     weighting.default_text.clear();
     add(list, "Normals",
-        numberOrAuto(
-            "--crease", "DEG", "a number of degrees", options.normals.crease_angle_deg, NormalOptions::crease_auto, 180,
-            "Crease angle for computed normals: sharper edges stay hard. In degrees, 0 to 180; 180: no hard edges. "
-            "auto: an angle chosen per mesh, which the report states. Without --normals it implies angle weights."));
+        numberOrAuto("--crease", "DEG", "a number of degrees", options.normals.crease_angle_deg,
+                     NormalOptions::crease_auto, 180,
+                     "Crease angle for computed normals: edges whose faces meet at a larger angle stay hard. In "
+                     "degrees, 0 to 180; 180: no hard edges; auto: an angle chosen per mesh, which the report states. "
+                     "Without --normals, this option implies angle weights."));
     add(list, "Normals",
         numberOrAuto("--denoise", "FACTOR", "a number", options.normals.denoise, NormalOptions::denoise_auto, 4,
-                     "Denoising for --normals best on noisy positions, such as scans: uses a larger neighborhood, so "
-                     "that noise is not shaded. Vertices do not move. auto: as much as is measured, and none where "
-                     "that is shape; 0 to 4: this multiple of the measured noise, even where it looks like shape."));
+                     "Denoising for --normals best on noisy positions, such as scans: normals are computed from a "
+                     "larger neighborhood, so that noise is not shaded. Vertices do not move. auto: by the measured "
+                     "noise level, and not at all where the deviations look like real detail; 0 to 4: this multiple of "
+                     "the measured noise level, even where it looks like real detail."));
     add(list, "Normals",
         numberOrAuto("--weld-distance", "DISTANCE", "a distance", options.normals.weld_distance,
                      NormalOptions::weld_auto, 1000000000,
                      "Weld distance, in the unit of positions before node transforms: positions that differ by at most "
-                     "this in each coordinate count as one when normals are computed and triangles are turned. 0: only "
-                     "equal positions. auto: twice the float spacing at the largest coordinate of the mesh. Tangents "
-                     "are always computed on the unwelded positions."));
+                     "this in each coordinate are welded when normals are computed and winding is fixed. 0: only equal "
+                     "positions; auto: twice the float spacing at the largest coordinate of the mesh. Tangents are "
+                     "always computed on the unwelded positions."));
     add(list, "Normals",
         flag("--normals-per-primitive", options.normals_per_primitive,
-             "Compute the normals of each primitive only from its own triangles. By default normals are smooth across "
+             "Compute the normals of each primitive only from its own triangles. By default, normals are smooth across "
              "the border of two primitives of a mesh that share edges; --crease applies there too."));
     add(list, "Normals",
         flag("--overwrite-normals", options.overwrite_normals,
-             "Recompute existing normals and add missing ones in every primitive, by --normals and --crease. Without "
-             "--normals: with angle weights. Existing tangents are recomputed too, because they would not fit the new "
-             "normals."))
+             "Recompute existing normals and add missing ones in every primitive, as set by --normals and --crease. "
+             "Without --normals: with angle weights. Existing tangents are recomputed too, because they would not fit "
+             "the new normals."))
         .excludes = {"--convert-maps"};
     add(list, "Normals",
         choice("--morph-normals", "WHICH", kMorphNormals, options.morph_normals,
                "Normal deltas of morph targets. keep: keep existing ones; missing: add them to targets without any; "
-               "all: recompute them for all targets. The normal rotates as the surrounding surface does."));
+               "all: recompute them for all targets. Computed deltas rotate the normal as the target rotates the "
+               "surrounding surface."));
     add(list, "Repair",
         flag("--fix-winding", options.mend_winding,
-             "Turn triangles whose winding disagrees with their neighbors, and parts that are inside out, before "
-             "anything else. The outside is given by existing normals where they agree; otherwise by the volume, the "
-             "inside or the majority."))
+             "Flip triangles whose winding disagrees with their neighbors, and connected components that are inside "
+             "out, before any other step. The outside of a component is given by its existing normals if they agree; "
+             "otherwise by its signed volume if it is closed, by its winding number if it is open, or else by the "
+             "winding of most of its area. See docs/concepts/winding.md."))
         .old_names = {"--mend-winding"};
     add(list, "Repair",
-        setting("--no-sanitize", options.sanitize, false,
-                "Write the raw result of the method, even where it is not finite, zero, not unit, parallel to the "
-                "normal, or of mixed sign within a face. By default such tangents are repaired and counted."));
+        setting(
+            "--no-sanitize", options.sanitize, false,
+            "Write the raw tangents of the method, even if they are not finite, zero, not of unit length, parallel to "
+            "the normal, or of different signs within a face. By default such tangents are repaired and counted."));
     add(list, "Repair",
         flag("--orthogonalize", options.sanitize_options.orthogonalize_all,
-             "Also make every valid tangent unit and orthogonal to its normal. The result then no longer matches bakes "
-             "exactly where normals are not unit."));
-    addRunning(list, options.execution, "Number of threads; 0: one per core. Every number gives identical output.",
+             "Also give every valid tangent unit length and make it orthogonal to its normal. Where normals are not of "
+             "unit length, the result then no longer matches bakes exactly."));
+    addRunning(list, options.execution, "Number of threads; 0: one per core. The output is the same for every number.",
                options.file);
 }
 
@@ -271,11 +282,11 @@ OptionList generateOptions(GenerateOptions& options) {
 std::string finish(const Given& given, GenerateOptions& options) {
     const Method method = options.tangents.method;
     if (options.tangents.frame == FrameShape::symmetric && method == Method::mikktspace)
-        return "--frame symmetric is not for --method mikktspace";
+        return "--frame symmetric cannot be combined with --method mikktspace";
     if (options.tangents.frame == FrameShape::symmetric && method == Method::basis)
-        return "--frame symmetric is not for --method basis";
+        return "--frame symmetric cannot be combined with --method basis";
     if (options.faces == Faces::quads && method != Method::mikktspace)
-        return "--faces quads is only for --method mikktspace";
+        return "--faces quads can only be combined with --method mikktspace";
     if (options.existing == ExistingTangents::repair && !given.has("--faces")) options.faces = Faces::automatic;
     if (given.has("--normals")) {
         options.use_smoothing_groups = false;

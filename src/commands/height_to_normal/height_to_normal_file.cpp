@@ -150,8 +150,8 @@ OptionList heightToNormalOptions(HeightToNormalFileOptions& options) {
     add(list, "Map", strength);
     add(list, "Map",
         choice("--encoding", "NAME", kEncodings, options.encoding,
-               "Height encoding of the image. gray: black is low, white is high. terrain-rgb (Mapbox) and terrarium "
-               "(Mapzen): meters, in the bytes of red, green and blue."));
+               "Height encoding of the image. gray: black is low, white is high; terrain-rgb (Mapbox) and terrarium "
+               "(Mapzen): meters, encoded in red, green and blue."));
     Option texel_size = option(
         "--texel-size", "SIZE",
         [&options](const std::string& value) {
@@ -159,16 +159,16 @@ OptionList heightToNormalOptions(HeightToNormalFileOptions& options) {
                        ? std::string()
                        : std::string("must be a number above 0");
         },
-        "Width of a texel without --mesh, in the unit of the heights: meters for terrain.");
+        "Width of a texel in the unit of the heights (meters for the terrain encodings). Not used with --mesh.");
     texel_size.default_text = std::to_string(1);
     add(list, "Map", texel_size);
     add(list, kInputAndOutput,
         text("--mesh", "FILE", options.mesh,
-             "The model that shows the map. Slopes are then those on its surface, independent of the size of the image "
-             "and of the UVs, and the normals are written in its tangent frames; missing tangents are computed."))
+             "The model that shows the map. Slopes are then measured on its surface, independent of the image size and "
+             "of the UVs, and the normals are written in its tangent frames; missing tangents are computed."))
         .is_file = true;
     addMaterialOfMap(list, options.material);
-    add(list, kInputAndOutput, flag("--dry-run", options.dry_run, "Dry run: do everything except writing."));
+    add(list, kInputAndOutput, flag("--dry-run", options.dry_run, "Do everything except writing the output."));
     addAllowExternal(list, options.file);
     add(list, "Map",
         flag("--clamp", options.clamp,
@@ -179,11 +179,12 @@ OptionList heightToNormalOptions(HeightToNormalFileOptions& options) {
         return std::string();
     };
     Option convention = option("--convention", "NAME", take_convention,
-                               "Program that will show the output: green points up, or down for directx and unreal.");
+                               "Program that will show the output: gltf, opengl, directx, unreal, unity, blender, "
+                               "godot or three. Green points down for directx and unreal, and up for the others.");
     convention.choices = {"gltf", "opengl", "directx", "unreal", "unity", "blender", "godot", "three"};
     convention.default_text = "gltf";
     add(list, "Map", convention);
-    add(list, "Map", choice("--bits", "BITS", kPngBits, options.bits, "Bits per channel of the output."));
+    add(list, "Map", choice("--bits", "BITS", kPngBits, options.bits, "Bits per channel of the output: 8 or 16."));
     addMakingAnImage(list, "Map", options.tangents.method, options.execution, options.file);
     return list;
 }

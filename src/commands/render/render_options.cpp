@@ -87,7 +87,7 @@ Option lightOption(RenderOptions& options) {
     };
     Option made = option("--light", "DIRECTION", take,
                          "Direction to the light for lit and both, in camera space. X,Y,Z: right, up, and towards the "
-                         "camera; or YAW,PITCH in degrees, where 0,0 is the camera.");
+                         "camera; YAW,PITCH in degrees, where 0,0 is the direction to the camera.");
     made.default_text = "-0.45,0.65,0.8";
     return made;
 }
@@ -115,10 +115,10 @@ Option readingOption(RenderOptions& options) {
         if (const MapReading* reading = findMapReading(name.c_str())) options.reading = *reading;
         return std::string();
     };
-    Option made = option(
-        "--reading", "PROGRAM", take,
-        "How normal maps are read: gltf (green up; T and N as interpolated, which glTF does not specify), or as in "
-        "this program: opengl, directx, unreal, unity, blender, godot or three. Frames are always those of glTF.");
+    Option made = option("--reading", "PROGRAM", take,
+                         "Program whose interpretation of normal maps is used: gltf (green up; N and T are not "
+                         "normalized per pixel, which glTF leaves open), opengl, directx, unreal, unity, blender, "
+                         "godot or three. Tangents always follow the glTF convention.");
     for (const char* name : kReadings) made.choices.emplace_back(name);
     made.default_text = kReadings[0];
     return made;
@@ -129,15 +129,15 @@ Option readingOption(RenderOptions& options) {
 OptionList renderOptions(RenderOptions& options) {
     OptionList list;
     const char* picture = "Picture";
-    add(list, kInputAndOutput, flag("--dry-run", options.dry_run, "Dry run: do everything except writing."));
+    add(list, kInputAndOutput, flag("--dry-run", options.dry_run, "Do everything except writing the output."));
     addAllowExternal(list, options.file);
     add(list, picture,
         choice("--show", "WHAT", kShows, options.show,
-               "Content of the picture. lit:  the model under one light, with its normal maps; normals, tangents: N "
-               "and T as "
-               "colors; sign: w and mirrored parts of the UV map; error: angle between the tangents and those of "
-               "--method; uv: the UV map and its islands; mapped: the shaded normals of lit, as colors; both: lit, "
-               "with the file's tangents left of a line and those of --method right of it."));
+               "Content of the picture. lit: the model under one light, with its normal maps; normals: N as colors; "
+               "tangents: T as colors; sign: the tangent sign w, with stripes where UVs are mirrored; error: the angle "
+               "between the file's tangents and those of --method; uv: the UV map with its islands; mapped: the shaded "
+               "normals of lit, as colors; both: lit, divided by a line, with the file's tangents on its left and "
+               "those of --method on its right."));
     add(list, picture, viewOption(options));
     add(list, picture, lightOption(options));
     add(list, picture, sizeOption(options));
@@ -146,24 +146,25 @@ OptionList renderOptions(RenderOptions& options) {
                 "Field of view along the shorter side, in degrees, 0 to 120; 0: orthographic."));
     add(list, picture,
         number("--samples", options.samples, 4,
-               "Samples along each side of a pixel: 1 to 4. 1: only the pixel center, so that colors are exact."));
+               "Number of samples along each side of a pixel, 1 to 4. 1: only the pixel center, so that colors are "
+               "exact."));
     add(list, picture,
         number("--turntable", options.turntable, 999,
-               "Write N pictures of a turntable about the vertical axis: OUT_000.png, OUT_001.png, ...; the camera "
-               "keeps its distance."));
+               "Number of pictures of a turntable about the vertical axis: OUT_000.png, OUT_001.png, ... The camera "
+               "keeps its distance. 1: a single picture, OUT."));
     add(list, picture, setting("--no-legend", options.legend, false, "Omit the legend below the picture."));
     add(list, picture,
         setting("--no-pose", options.pose, false, "Ignore bones and morph targets: draw the model in its bind pose."));
     const char* frames = "Frames";
     add(list, frames,
-        choice("--frames", "WHOSE", kShownFrames, options.frames,
-               "Source of the tangents shown. auto: those of the file, or those of --method where the file has none; "
-               "stored, computed: only those. error always compares the two."));
+        choice("--frames", "SOURCE", kShownFrames, options.frames,
+               "Source of the tangents shown. auto: the file's tangents, or those of --method if the file has none; "
+               "stored: only the file's; computed: always those of --method. --show error always compares both."));
     add(list, frames,
         choice("--method", "NAME", kMethods, options.method, "Method of the computed tangents, as in generate."));
     add(list, frames, readingOption(options));
-    add(list, frames, setting("--no-textures", options.textures, false, "Ignore base colors and normal maps."));
-    addRunning(list, options.execution, "Number of threads; 0: one per core. Every number gives an identical picture.",
+    add(list, frames, setting("--no-textures", options.textures, false, "Ignore base color textures and normal maps."));
+    addRunning(list, options.execution, "Number of threads; 0: one per core. The picture is the same for every number.",
                options.file);
     return list;
 }

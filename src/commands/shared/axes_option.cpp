@@ -50,9 +50,12 @@ Option axesOption(std::function<void(const MapAxes&)> give) {
         give(*taken);
         return {};
     };
-    return option("--axes", "AXES", take,
-                  "Axes of a map in object or world space: the model axes that its x, y and z point along. y-up: the "
-                  "axes of glTF; z-up: those of Blender and 3ds Max, which are x,-z,y; or three signed axes.");
+    Option axes =
+        option("--axes", "AXES", take,
+               "Axes of a map in object or world space: the model axes that its x, y and z point along. y-up: the "
+               "axes of glTF; z-up: those of Blender and 3ds Max, which are x,-z,y; or three signed axes.");
+    axes.default_text = "y-up";
+    return axes;
 }
 
 }  // namespace tspace::options

@@ -39,16 +39,16 @@ Option readingOption(const char* names, MapReading& target, HelpText help) {
 void addAllowExternal(OptionList& list, FileOptions& file) {
     add(list, kInputAndOutput,
         flag("--allow-external", file.allow_external,
-             "Also follow paths in a model that lead outside its own folder. By default absolute paths, paths with "
+             "Also follow paths in a model that lead outside its own folder. By default, absolute paths, paths with "
              "'..' and URLs are rejected."));
 }
 
 void addKeepCoordinates(OptionList& list, FileOptions& file) {
     add(list, kInputAndOutput,
         flag("--keep-coordinates", file.keep_coordinates,
-             "Write the coordinates of OBJ, PLY and STL files unchanged. By default an offset is subtracted from "
-             "coordinates that are too far from the origin for the 32-bit floats of glTF, such as map coordinates in "
-             "meters, and becomes the translation of the nodes."));
+             "Write the coordinates of OBJ, PLY and STL files unchanged. By default, coordinates that are too far from "
+             "the origin for the 32-bit floats of glTF (map coordinates in meters, for example) are moved by an "
+             "offset, which becomes the translation of the nodes."));
 }
 
 void addThreads(OptionList& list, Execution& execution, HelpText help) {
@@ -68,7 +68,7 @@ void addMemoryLimit(OptionList& list, std::uint64_t& memory_limit_bytes) {
         option("--memory-limit", "SIZE", take,
                "Approximate memory limit per file, e.g. 512M or 4G (at least 64M), or none. Memory use is estimated "
                "first, and a file that would exceed the limit is rejected. Default: 64M plus 16 times the size of the "
-               "file and the files it references, so that a small file that claims huge sizes does no harm."));
+               "file and the files it references, which protects against small files that declare huge sizes."));
 }
 
 void addLimits(OptionList& list, FileOptions& file) {
@@ -94,9 +94,9 @@ void addAlpha(OptionList& list, const char* group, MapAlpha& alpha) {
         {"auto", MapAlpha::automatic}, {"coverage", MapAlpha::coverage}, {"data", MapAlpha::data}};
     add(list, group,
         choice("--alpha", "MEANING", kAlphas, alpha,
-               "Meaning of the alpha channel. coverage: fraction of the texel that is surface, as in sprites and "
-               "foliage; mip levels are alpha-weighted means. data: anything else; alpha is ignored. auto: coverage if "
-               "texels with alpha 0 hold no unit vectors and the others do."));
+               "Meaning of the alpha channel. coverage: covered fraction of the texel, as in sprites and foliage; mip "
+               "levels are alpha-weighted means. data: anything else; alpha is ignored. auto: coverage if texels with "
+               "alpha 0 hold no unit vectors and the others do."));
 }
 
 void addDdsHeader(OptionList& list, const char* group, DdsHeader& header) {
@@ -116,16 +116,17 @@ void addMaterialOfMap(OptionList& list, std::string& material) {
 }
 
 void addMakingAnImage(OptionList& list, const char* group, Method& method, Execution& execution, FileOptions& file) {
-    add(list, group, choice("--method", "NAME", kMethods, method, "Tangent method for a model without tangents."));
-    addRunning(list, execution, "Number of threads; 0: one per core. Every number gives identical output.", file);
+    add(list, group,
+        choice("--method", "NAME", kMethods, method, "Tangent method for a model without tangents, as in generate."));
+    addRunning(list, execution, "Number of threads; 0: one per core. The output is the same for every number.", file);
 }
 
 void addSync(OptionList& list, bool& sync) {
     add(list, kRunning,
         setting("--no-sync", sync, false,
                 "Do not wait until outputs are flushed to disk. By default they are flushed before they replace old "
-                "files, so that a power failure leaves either the old or the new file complete; this makes many small "
-                "files slower."));
+                "files, so that after a power failure either the old or the new file is complete. Flushing slows down "
+                "runs on many small files."));
 }
 
 void addRunning(OptionList& list, Execution& execution, HelpText threads_help, FileOptions& file) {
